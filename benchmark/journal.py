@@ -84,17 +84,20 @@ def _digest(patterns: Iterable[str]) -> str:
     return found.hexdigest()
 
 
-def run_units(kind: str, work: Callable[..., Any], units: Sequence[Unit], tell: Tell) -> list[Any]:
+def run_units(
+    kind: str, work: Callable[..., Any], units: Sequence[Unit], tell: Tell, workers: int | None = None
+) -> list[Any]:
     """The results of all units, in order, as JSON-able data; those in the journal are not worked out again.
 
     work: a function of a module, called with the unit. A unit that raises ends the run; what was done stays kept.
+    workers: processes, None for one a processor.
     """
     path = JOURNALS / f"{digest(work.__module__)}-{kind}.jsonl"
     known = dict(_read(path))
     missing = [unit for unit in units if _key(unit) not in known]
     if missing:
         path.parent.mkdir(parents=True, exist_ok=True)
-        with path.open("a", encoding="utf-8") as journal, ProcessPoolExecutor(os.cpu_count()) as pool:
+        with path.open("a", encoding="utf-8") as journal, ProcessPoolExecutor(workers or os.cpu_count()) as pool:
             journal.write("\n" if journal.tell() else "")  # after a line that was cut off
             for count, (unit, result) in enumerate(_finished(pool, work, missing), 1):
                 known[_key(unit)] = result

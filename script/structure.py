@@ -15,6 +15,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
+from script.callers import find_uncalled
+
 SOURCE = Path(__file__).resolve().parents[1] / "src"
 ROOT = "meshforge"
 FILES, LINES, IMPORT_SHARE, PARAMETERS = 520, 79_300, 0.081, 8
@@ -95,9 +97,10 @@ class Module:
         folders = len(self.path.relative_to(SOURCE / ROOT).parts) - 1
         return folders
 
-    def imports(self) -> Iterator[ast.Import | ast.ImportFrom]:
+    @cached_property
+    def imports(self) -> list[ast.Import | ast.ImportFrom]:
         """All import statements, lazy and type-only ones among them."""
-        return (node for node in ast.walk(self.tree) if isinstance(node, ast.Import | ast.ImportFrom))
+        return [node for node in ast.walk(self.tree) if isinstance(node, ast.Import | ast.ImportFrom)]
 
     def functions(self) -> Iterator[tuple[str, ast.FunctionDef | ast.AsyncFunctionDef]]:
         """Functions and methods with their qualified names; not those within functions."""
@@ -126,7 +129,7 @@ def import_graph(modules: dict[str, Module]) -> dict[str, set[str]]:
     """Which modules each module imports, lazy and type-only imports counted."""
     graph: dict[str, set[str]] = {name: set() for name in modules}
     for name, module in modules.items():
-        for node in module.imports():
+        for node in module.imports:
             names = [alias.name for alias in node.names]
             if isinstance(node, ast.ImportFrom):
                 base = node.module or ""
@@ -245,10 +248,11 @@ def find_silent_lazy_imports(modules: dict[str, Module]) -> list[str]:
 def main(words: list[str]) -> int:
     """Print the figures where they are asked for, and every limit that does not hold; 1 where one does not."""
     modules = read_modules()
-    tools = read_modules(SOURCE.parent, "benchmark") | read_modules(SOURCE.parent, "script")
+    scripts = read_modules(SOURCE.parent, "script")
+    tools = read_modules(SOURCE.parent, "benchmark") | scripts
     sizes = {name: len(module.text.splitlines()) for name, module in modules.items()}
     lines = sum(sizes.values())
-    imports = sum((node.end_lineno or 0) - node.lineno + 1 for module in modules.values() for node in module.imports())
+    imports = sum((node.end_lineno or 0) - node.lineno + 1 for module in modules.values() for node in module.imports)
     cycles = [f"cycle of {len(own)}: {', '.join(own)}" for own in find_cycles(import_graph(modules))]
     deep = [name for name, module in modules.items() if module.depth > DEPTH.get(module.package.split(".")[-1], 2)]
     found = {
@@ -258,6 +262,7 @@ def main(words: list[str]) -> int:
         "public classes of one name in several packages": find_homonyms(modules),
         "participles as names": find_participles(modules | tools),
         "lazy imports without a reason": find_silent_lazy_imports(modules),
+        "names that only tests and benchmarks call": find_uncalled(modules, scripts, SOURCE.parent),
     }
     broken = [line for own in found.values() for line in own]
     limits = ((len(modules), FILES, "files"), (lines, LINES, "lines"), (imports / lines, IMPORT_SHARE, "import share"))

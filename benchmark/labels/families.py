@@ -22,7 +22,7 @@ from benchmark.tasks import task
 from meshforge.common import UsageError, write_atomically
 from meshforge.formats import save
 from meshforge.label_model import FamilyModel
-from meshforge.symbolic import SymbolicMesh
+from meshforge.symbolic import Label, SymbolicMesh
 
 LABELLED = 3
 """Meshes of each family that are labelled by hand at most, as advised."""
@@ -60,8 +60,8 @@ class Family:
         """The meshes that a person labels who always takes the one that is advised, in this order."""
         return _advise(self.name, self.setting)
 
-    def labels_of(self, meshes: Sequence[int]) -> list[str | None]:
-        """The labels of all hulls of some meshes, None for all others."""
+    def labels_of(self, meshes: Sequence[int]) -> list[Label | None]:
+        """The labels of all hulls of some meshes as a person gives them, None for all others."""
         return _labels_of(self.samples, meshes)
 
     @property
@@ -97,13 +97,13 @@ def _relatives(name: str, setting: str) -> FamilyModel:
 def _advise(name: str, setting: str) -> tuple[int, ...]:
     chosen, relatives = list[int](), _relatives(name, setting)
     while len(chosen) < LABELLED:
-        chosen += relatives.propagate(_labels_of(family(name, setting), chosen)).next_to_label()
+        chosen += relatives.infer(_labels_of(family(name, setting), chosen)).next_to_label()
     return tuple(chosen)
 
 
-def _labels_of(samples: Sequence[Sample], meshes: Sequence[int]) -> list[str | None]:
-    rows = enumerate(sample.mesh for sample in samples)
-    return [hull.label if place in meshes else None for place, mesh in rows for hull in mesh.hulls]
+def _labels_of(samples: Sequence[Sample], meshes: Sequence[int]) -> list[Label | None]:
+    rows = [(place in meshes, hull.label) for place, sample in enumerate(samples) for hull in sample.mesh.hulls]
+    return [Label(name) if known and name is not None else None for known, name in rows]
 
 
 def main(arguments: list[str] | None = None) -> None:

@@ -60,7 +60,7 @@ def offline(folders: Sequence[Path]) -> list[Method]:
 def _propagate(count: int, family: Family, repeat: int) -> LabellerOutput:
     labelled = family.labels_of(family.advised[:count])
     started = perf_counter()
-    found = family.relatives.propagate(labelled)
+    found = family.relatives.infer(labelled)
     seconds = perf_counter() - started
     return LabellerOutput(tuple(tuple(map(_name, found.labels(place))) for place in family.drawn), seconds)
 

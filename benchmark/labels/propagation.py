@@ -59,7 +59,7 @@ class FamilyDescription:
         """The meshes that are labelled by somebody who always takes the one that is advised, in this order."""
         meshes: list[int] = []
         while len(meshes) < max(COUNTS):
-            meshes += self.relatives.propagate(self.labels_of(meshes)).next_to_label()
+            meshes += self.relatives.infer(_to_labels(self.labels_of(meshes))).next_to_label()
         return tuple(meshes)
 
     def draw(self, count: int, seed: int) -> list[int]:
@@ -131,7 +131,7 @@ def _describe(rows: Sequence[Sample], tell: Tell, turns: Sequence[Pose] = ()) ->
 def _guess_by(metric: Floats | None = None) -> Guess:
     def guess(known: FamilyDescription, told: Told) -> tuple[Strings, Floats]:
         model = known.relatives if metric is None else FamilyModel(known.meshes, metric)
-        return _likeliest(model.propagate(told))
+        return _likeliest(model.infer(_to_labels(told)))
 
     return guess
 
@@ -157,6 +157,11 @@ def _nearest(known: FamilyDescription, told: Told) -> tuple[Strings, Floats]:
 def _majority(known: FamilyDescription, told: Told) -> tuple[Strings, Floats]:
     names, counts = np.unique(known.truth[_places(told)], return_counts=True)
     return np.full(len(known.truth), names[counts.argmax()]), np.full(len(known.truth), counts.max() / counts.sum())
+
+
+def _to_labels(told: Told) -> list[Label | None]:
+    """The same as labels that a person gave."""
+    return [None if name is None else Label(name) for name in told]
 
 
 def _places(told: Told) -> npt.NDArray[np.int64]:

@@ -16,7 +16,7 @@ from typing import Any
 from benchmark.journal import ROOT, run_units
 from benchmark.report import Tell
 from benchmark.signoff.conditions import ASKED, ON_REAL, list_benches, list_real_tasks, list_tasks
-from benchmark.signoff.judge import Judge
+from benchmark.signoff.judge import Judge, run_on_desk
 from benchmark.signoff.ledger import price_of_hand, price_of_mend
 from benchmark.signoff.point import Point
 from benchmark.study import CONDITIONS, Condition
@@ -93,12 +93,13 @@ def _mend_all(
     seconds, anew, right = 0.0, 0.0, 0
     for name in judge.bench.samples:
         seconds, anew = seconds + GLANCE, anew + GLANCE
-        as_seen = judge.looks_right(desk, program, name) != (draw.random() < errs)
+        output = run_on_desk(desk, program, name)
+        as_seen = judge.looks_right(name, output) != (draw.random() < errs)
         wanted = judge.bench.truth.reference[name]
         if as_seen or wanted is None:
-            right += judge.is_right(desk, program, name)
+            right += judge.is_right(name, output)
             continue
-        done = desk.select(program, name) if program else None
+        done = output.selections if output else None
         seconds += price_of_mend(None if done == wanted else done, wanted)
         anew += price_of_hand(wanted)
         right += name in judge.possible and not any(draw.random() < errs for _ in range(sum(map(len, wanted))))

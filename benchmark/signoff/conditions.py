@@ -47,15 +47,24 @@ def list_benches(
 
     Of a real family one for each decomposition at which there are enough meshes.
     """
+    for seed in list_people(name, condition, folder)[: 1 if few else None]:
+        bench = open_bench_of(name, condition, seed, folder)
+        if not name.startswith(_REAL) or len(bench.samples) >= LEAST:
+            yield seed, bench
+
+
+def list_people(name: str, condition: Condition, folder: str | None = None) -> Sequence[int]:
+    """The seeds of those who sign a task's families off, one for each decomposition."""
     if name.startswith(_REAL):
-        for seed, setting in [*zip(REPORTED, ALL_SETTINGS, strict=False)][: 1 if few else None]:
-            bench = open_real_family(name, setting)
-            if len(bench.samples) >= LEAST:
-                yield seed, bench
-        return
-    people: Sequence[int] = REPORTED if folder is None else TUNING
-    for seed in condition.seeds(people)[: 1 if few else PEOPLE]:
-        yield seed, open_family(name, condition.setting(seed), folder)
+        return REPORTED[: len(ALL_SETTINGS)]
+    return condition.seeds(REPORTED if folder is None else TUNING)[:PEOPLE]
+
+
+def open_bench_of(name: str, condition: Condition, seed: int, folder: str | None = None) -> Bench:
+    """A task with the family that a person gets."""
+    if name.startswith(_REAL):
+        return open_real_family(name, ALL_SETTINGS[REPORTED.index(seed)])
+    return open_family(name, condition.setting(seed), folder)
 
 
 @lru_cache(maxsize=2 * len(SEPARATE))

@@ -15,20 +15,24 @@ from scipy.optimize import minimize
 from benchmark.journal import run_units
 from benchmark.report import Tell
 from benchmark.signoff.calibration import calibrate
+from benchmark.signoff.client import Client, FamilyStatus
 from benchmark.signoff.conditions import open_family
 from benchmark.signoff.judge import Judge
 from benchmark.signoff.opening import open_review
-from benchmark.signoff.queue import ReviewCourse
-from benchmark.signoff.tool import Tool
+from benchmark.signoff.project import name_by_files
+from benchmark.signoff.queue import sign_off
 from benchmark.study import CONDITIONS, FLAT, TRUE
-from benchmark.study.condition import PROPAGATED, SYSTEMATIC, Condition
-from benchmark.study.desk import Bench, Desk
+from benchmark.study.condition import PROPAGATED, SYSTEMATIC
 from benchmark.tasks import task, tasks
+from meshforge.batch import IN_PROCESS
 from meshforge.common import write_atomically
 from meshforge.geometry import Floats
-from meshforge.signoff import BAR, Assessment, ReviewState, confidence
+from meshforge.label_model import model_family
+from meshforge.project import Project, ProjectReview, measure_results
+from meshforge.project.sign_offs import find_inputs
+from meshforge.signoff import BAR, confidence, describe_odd_results
 from meshforge.signoff.family import FamilyTrial
-from meshforge.synthesis import Ambiguous, Found, LearningOutcome
+from meshforge.synthesis import Ambiguous, Found
 
 LABELS = (FLAT, TRUE, SYSTEMATIC, PROPAGATED[2])
 """Under which the sessions are."""
@@ -41,68 +45,58 @@ _STRAY = 1e-3  # cost of the squares of the weights
 _SIGNS = (0, 1, -1, -1, -1)  # of the weights: what speaks for an edit never speaks against it
 
 
-class _Observer(Tool):
-    """A tool that keeps what speaks for each edit that it judges."""
+class _Observer(Client):
+    """Keeps what speaks for each edit whenever a person looks. looks: the rows of each look, as of `_list_rows`."""
 
-    def __init__(self, bench: Bench, condition: Condition) -> None:
-        super().__init__(bench, condition)
-        self.trial: FamilyTrial | None = None
-        self.desk: Desk | None = None
-        self._judge = Judge(bench)
+    def __init__(self, judge: Judge, looks: list[list[list[float]]], project: Project) -> None:
+        super().__init__(project)
+        self._judge, self._looks = judge, looks
 
-    def review(self, desk: Desk, state: ReviewState, outcome: LearningOutcome | None) -> Assessment:
-        self.trial, self.desk = None, desk
-        if isinstance(outcome, Found | Ambiguous):
-            said = [hull.annotation for mesh in state.meshes.values() for hull in mesh.hulls]
-            posterior = self._family.infer(said)
-            self.trial = FamilyTrial.of(
-                state, outcome.program, outcome.readings, posterior, self.find_alarms(desk, outcome)
-            )
-        return super().review(desk, state, outcome)
+    def review(self) -> FamilyStatus:
+        status = super().review()
+        self._looks.append(self._list_rows(self.found) if self.found else [])
+        return status
 
-    def list_rows(self) -> list[list[float]]:
+    def _list_rows(self, found: ProjectReview) -> list[list[float]]:
         """The features of each edit that was judged, how far its program is trusted, and whether it is right, where
         nobody has looked at it."""
-        if self.trial is None or self.desk is None:
+        state, outcome = found.state, found.outcome
+        if not isinstance(outcome, Found | Ambiguous):
             return []
-        state, judge, program = self.trial.state, self._judge, self.trial.program
-        looked_at = {*state.demos, *state.accepted, *state.mended}
+        posterior = model_family(list(state.meshes.values())).infer(
+            [hull.annotation for mesh in state.meshes.values() for hull in mesh.hulls]
+        )
+        inputs = find_inputs(self.project, IN_PROCESS)
+        alarms = describe_odd_results(measure_results(self.project, outcome.program, state.meshes, inputs))
+        family = FamilyTrial.of(state, outcome.program, outcome.readings, posterior, alarms)
+        looked_at = {*state.demos, *state.accepted}
         return [
-            [*evidence.features.tolist(), evidence.program, float(judge.is_right(self.desk, program, one.asset))]
-            for one, evidence in zip(self.trial.trials, self.trial.evidence, strict=True)
-            if not one.error and one.asset in judge.possible and one.asset not in looked_at
+            [
+                *evidence.features.tolist(),
+                evidence.program,
+                float(self._judge.is_right(one.asset, self.read_output(one.asset))),
+            ]
+            for one, evidence in zip(family.trials, family.evidence, strict=True)
+            if not one.error and one.asset in self._judge.possible and one.asset not in looked_at
         ]
 
 
-class _FitCourse(ReviewCourse):
-    """A session of which each judgement is kept: features, and whether the edit is right."""
-
-    rows: list[list[float]]
-
-    def _note(self, assessment: Assessment) -> None:
-        super()._note(assessment)
-        assert isinstance(self.tool, _Observer)
-        self.rows += self.tool.list_rows()
-
-
 def observe(name: str, condition: str, folder: str) -> list[list[float]]:
-    """The rows of one session of the queue."""
-    one = CONDITIONS[condition]
+    """The rows of all looks of one session of the queue."""
+    one, looks = CONDITIONS[condition], list[list[list[float]]]()
     bench = open_family(name, one.setting(SEED), folder)
-    course = _FitCourse(bench, one, SEED, _Observer(bench, one))
-    course.rows = []
-    course.run(_CAP)
-    return course.rows
+    sign_off(bench, one, SEED, partial(_Observer, Judge(name_by_files(bench)), looks), _CAP)
+    return [row for look in looks for row in look]
 
 
 def observe_taught(name: str, condition: str, folder: str) -> list[list[float]]:
     """The rows of a family that was taught as before there was a queue; trust in the program is a column of its own, so
     none of its edits has to be told as right."""
-    one = CONDITIONS[condition]
+    one, looks = CONDITIONS[condition], list[list[list[float]]]()
     bench = open_family(name, one.setting(SEED), folder)
-    tool = _Observer(bench, one)
-    open_review(bench, one, SEED, tool, tells_looks=False)
-    return tool.list_rows()
+    observer = partial(_Observer, Judge(name_by_files(bench)), looks)
+    open_review(bench, one, SEED, observer, tells_looks=False)
+    return looks[-1] if looks else []
 
 
 def fit(folder: Path, tell: Tell) -> None:
@@ -132,7 +126,7 @@ def fit(folder: Path, tell: Tell) -> None:
 
 
 def fit_weights(tables: Sequence[npt.NDArray[np.float64]]) -> Floats:
-    """Logistic regression on rows as of `_Observer.list_rows`, each task counting alike."""
+    """Logistic regression on rows as of `_Observer`, each task counting alike."""
     parts = [(rows, 1 / len(rows)) for rows in tables if len(rows)]
     low = [0.0 if sign > 0 else None for sign in _SIGNS]
     high = [0.0 if sign < 0 else None for sign in _SIGNS]

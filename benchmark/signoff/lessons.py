@@ -9,7 +9,7 @@ from benchmark.evaluation.figures import by_task, count_solved
 from benchmark.journal import run_units
 from benchmark.report import Cell, Goal, Result, Table, Tell
 from benchmark.signoff.conditions import list_tasks, open_family
-from benchmark.signoff.tool import Tool
+from benchmark.signoff.project import take_labels
 from benchmark.study import CONDITIONS, FLAT, REPORTED, TRUE, Session
 from benchmark.study.course import Course
 from benchmark.study.instances import instance, mend
@@ -44,7 +44,7 @@ def teach(name: str, condition: str, quick: bool) -> list[dict[str, Any]]:
     for seed in REPORTED[: 1 if quick else None]:
         bench = open_family(name, one.setting(seed))
         course = Course(bench, one, seed)
-        course.desk = Tool(bench, one).take_labels(course.desk)
+        course.desk = take_labels(course.desk)
         found.append(course.session(()).to_json())
     return found
 
@@ -54,8 +54,7 @@ def mend_near_miss(name: str) -> list[dict[str, Any]]:
     found = instance(name)
     if found is None:
         return []
-    taken = Tool(found.bench, FLAT).take_labels(found.desk)
-    return [mend(found, "ABI").to_json(), mend(found, "ABI", taken).to_json()]
+    return [mend(found, "ABI").to_json(), mend(found, "ABI", take_labels(found.desk)).to_json()]
 
 
 def _list_goals(rows: Sequence[Session], near: Sequence[list[dict[str, Any]]]) -> Iterator[Goal]:

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+from benchmark.signoff.client import Client, FamilyStatus
 from benchmark.signoff.judge import Judge
-from benchmark.signoff.tool import Tool, program_of
+from benchmark.signoff.project import name_by_files, open_project, take_labels
 from benchmark.study.condition import Condition
 from benchmark.study.course import Course
 from benchmark.study.desk import Bench
 from meshforge.common import MeshForgeError
+from meshforge.project import Project
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,27 +34,49 @@ class FirstLook:
 
 
 def open_review(
-    bench: Bench, condition: Condition, seed: int, tool: Tool | None = None, tells_looks: bool = True
+    bench: Bench,
+    condition: Condition,
+    seed: int,
+    client: Callable[[Project], Client] = Client,
+    tells_looks: bool = True,
 ) -> FirstLook:
-    """Teach a task as before, on labels as the tool takes them now, and look how the family stands then.
+    """Teach a task as before, on labels as the product takes them now, and look how the family stands then in a project
+    that is told of it.
 
-    tool: another than the product. tells_looks: whether the person tells which results they found right in the end.
+    client: what it is told with. tells_looks: whether the person tells which results they found right in the end.
     """
-    judge, tool = Judge(bench), tool or Tool(bench, condition)
-    course = Course(bench, condition, seed)
-    course.desk = tool.take_labels(course.desk)
+    bench = name_by_files(bench)
+    judge, course = Judge(bench), Course(bench, condition, seed)
+    course.desk = take_labels(course.desk)
     course.session(())
-    desk = tool.take_labels(course.desk)
-    outcome = None if isinstance(course.outcome, MeshForgeError) else course.outcome
-    demos = {name: course.person.shows(desk, name, rules) for name, rules in course.given.items()}
-    program = program_of(outcome)
-    told = sorted(course.found_right) if tells_looks else ()
-    seen = {name: course.desk.select(program, name) for name in told if program}
-    accepted = {name: done for name, done in seen.items() if done is not None}
-    state = tool.begin(desk, demos, course.answers, {**course.accepted, **accepted})
-    assessment = tool.review(desk, state, outcome)
-    right = {name for name in bench.samples if judge.is_right(desk, program, name)}
-    known = {*course.log.shown, *state.accepted}
+    with open_project(course.desk) as project:
+        person = client(project)
+        status = _tell(course, person, sorted(course.found_right) if tells_looks else [])
+        right = {name for name in bench.samples if judge.is_right(name, person.read_output(name))}
+        looked_at = {name for name, some in project.feedback().verdicts.items() if some[-1].verdict == "accepted"}
+    known = {*course.log.shown, *looked_at}
     rest = [name for name in bench.samples if name in judge.possible and name not in known]
-    pairs = tuple((round(assessment.assets[name].probability, 4), name in right) for name in rest if program)
+    shares = status.probabilities if status and status.has_program else {}
+    pairs = tuple((round(shares[name], 4), name in right) for name in rest if name in shares)
     return FirstLook(bench.task.name, condition.name, seed, len(judge.possible), len(right), pairs)
+
+
+def _tell(course: Course, client: Client, found_right: list[str]) -> FamilyStatus | None:
+    """Tell a project all that was shown, answered and accepted, and look at it; None where it refuses that.
+
+    found_right: results that are accepted now, besides those that were before and are as they were.
+    """
+    client.take_labels()
+    for name, rules in course.given.items():
+        client.demonstrate(name, course.person.shows(course.desk, name, rules).steps)
+    for answer in course.answers:
+        client.project.add_answer(answer)
+    try:
+        status = client.review()
+        outputs = {name: client.read_output(name) for name in course.accepted}
+        same = [name for name, one in outputs.items() if one and one.selections == course.accepted[name]]
+        for name in dict.fromkeys([*same, *found_right]):
+            client.accept(name)
+        return client.review() if same or found_right else status
+    except MeshForgeError:
+        return None

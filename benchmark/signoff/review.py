@@ -10,7 +10,7 @@ from benchmark.journal import run_units
 from benchmark.report import Goal, Result, Tell
 from benchmark.signoff.before import read_before
 from benchmark.signoff.calibration import calibrate
-from benchmark.signoff.conditions import ASKED, ERRS, MAKE, NONE, PEOPLE, list_benches, list_tasks
+from benchmark.signoff.conditions import ASKED, ERRS, MAKE, NONE, PEOPLE, list_benches, list_tasks, open_bench_of
 from benchmark.signoff.opening import FirstLook, open_review
 from benchmark.signoff.outcomes import (
     Group,
@@ -22,7 +22,8 @@ from benchmark.signoff.outcomes import (
     share_signed_off,
     wrong_when_done,
 )
-from benchmark.signoff.queue import CAP, Review, sign_off
+from benchmark.signoff.queue import CAP, Review
+from benchmark.signoff.sessions import Unit, read_reviews, run_sessions
 from benchmark.signoff.tables import list_tables, pairs_of
 from benchmark.study import CONDITIONS, FLAT, TRUE, Condition
 from benchmark.study.condition import PROPAGATED, SYSTEMATIC, TELLING
@@ -45,18 +46,20 @@ def run(
 
     few: by one of them.
     """
-    units = [(name, one.name, folder, few) for name in names for one in conditions]
-    rows = [row for unit in run_units("signoff", teach, units, tell) for row in unit]
-    return [Review.of_json(row["review"]) for row in rows], [FirstLook.of_json(row["opening"]) for row in rows]
-
-
-def teach(name: str, condition: str, folder: str | None = None, few: bool = False) -> list[dict[str, Any]]:
-    """One task under one condition, by each person: how it stands before any question, and signed off."""
-    one = CONDITIONS[condition]
-    return [
-        {"opening": asdict(open_review(bench, one, seed)), "review": asdict(sign_off(bench, one, seed))}
-        for seed, bench in list_benches(name, one, folder, few)
+    units = [
+        Unit(name, one.name, seed, folder)
+        for name in names
+        for one in conditions
+        for seed, _ in list_benches(name, one, folder, few)
     ]
+    openings = run_units("signoff-opening", open_family_of, [unit[:4] for unit in units], tell)
+    return read_reviews(run_sessions(units, tell)), list(map(FirstLook.of_json, openings))
+
+
+def open_family_of(name: str, condition: str, seed: int, folder: str | None) -> dict[str, Any]:
+    """How a family stands before any question."""
+    one = CONDITIONS[condition]
+    return asdict(open_review(open_bench_of(name, one, seed, folder), one, seed))
 
 
 def summarize(
@@ -134,11 +137,12 @@ _NOTES = (
     "conditions together.",
     "A change of protocol: until this run the tool was not told of that dozen, and as it trusts no program of which "
     "nobody has seen a result (decision 0034), it could not say more than 92% of any asset.",
-    "The person of the queue shows an asset, and another one while a rule has had nothing to do, replies to each "
-    "question by what is true, and mends a result that is wrong by hand: it then counts as it was left. Where a mesh "
-    "is turned wrongly, or no program fits what was shown on it, the person looks through its labels one by one, and "
-    "paints those that are wrong; where that does not help, the demonstration is taken back, and the asset set aside. "
-    "Where no label is there at the start, the hulls of a mesh that is shown are named by hand.",
+    "The person of the queue does all in a project on disk, by the methods of `Project`: shows an asset, and another "
+    "one while a rule has had nothing to do, replies to each question by what is true, says which results are wrong, "
+    "and shows the edit there. Where a mesh is turned wrongly, or no program fits what was shown on it, the person "
+    "looks through its labels one by one, and corrects those that are wrong; where that does not help, the "
+    "demonstration is taken back. What is set aside or flagged counts as not right. Where no label is there at the "
+    "start, the hulls of a mesh that is shown are named by hand; after labels by hand come those by consensus.",
     "What would make these figures fail: labels that are wrong alike on look-alike hulls of most assets, which no vote "
     "finds; a rule about parts that few assets have, which no demonstration shows; a criterion that a right selection "
     "does not meet, which the tool cannot know of.",

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
-from benchmark.signoff.judge import Judge
+from benchmark.signoff.judge import Judge, Output
 from benchmark.signoff.ledger import Ledger, price_of_hand, price_of_mend
 from benchmark.study.condition import Condition
 from benchmark.study.desk import Bench, Desk, Selections
@@ -13,9 +13,17 @@ from benchmark.study.keystrokes import ANSWER, APPROVAL, CONFIRMATION, GLANCE, S
 from benchmark.study.person import Person
 from benchmark.study.propagation import HandLabels
 from meshforge.language import Program
-from meshforge.signoff import HullPlace, ReviewQuestion, ReviewReply
-from meshforge.signoff.question import ASIDE, CORRECT, RIGHT, WRONG
-from meshforge.symbolic import Label
+from meshforge.signoff import (
+    GroupQuestion,
+    HullPlace,
+    OrientationQuestion,
+    ReadingQuestion,
+    ResultQuestion,
+    ReviewQuestion,
+    ReviewReply,
+    SlipQuestion,
+)
+from meshforge.signoff.question import NO, RIGHT, WRONG
 from meshforge.synthesis import Demonstration, Step
 
 
@@ -28,17 +36,21 @@ class Reviewer:
         self._looked_at = set[HullPlace]()
         self._truth = bench.truth
 
-    def reply(self, question: ReviewQuestion, desk: Desk, program: Program | None) -> ReviewReply:
-        """What they say to a question that needs no demonstration."""
-        if question.kind == "group":
-            return self._name_group(question)
-        if question.kind in ("reading", "label") and all(choice.select is not None for choice in question.choices):
-            return self._pick(question, desk, program)
-        if question.kind == "selection":
-            return self._check_selection(question)
-        if question.kind == "result":
-            return self._look(question, desk, program)
-        return self._confirm(question)
+    def reply(
+        self, question: ReviewQuestion, desk: Desk, program: Program | None, output: Output | None
+    ) -> ReviewReply:
+        """What they say to a question that needs no demonstration; output: of the asset that it is about."""
+        match question:
+            case GroupQuestion():
+                return self._name_group(question)
+            case ReadingQuestion():
+                return self._pick(question, desk, program)
+            case SlipQuestion():
+                return self._check_selection(question)
+            case ResultQuestion():
+                return self._look(question, output)
+            case _:
+                return self._confirm(question)
 
     def _name_group(self, question: ReviewQuestion) -> ReviewReply:
         """The label of most of the hulls, and each exception."""
@@ -50,7 +62,7 @@ class Reviewer:
         odd = {place: self._label_of(place) for place in question.hulls if self._label_of(place) != told}
         self.ledger.add("group", price_group(len(question.hulls), len(odd)) + STROKE * len(set(odd.values())))
         seen = {place: label for place, label in odd.items() if not self.person.errs_now()}
-        return ReviewReply(question.id, self.person.slips_from(right, len(labels)), seen)
+        return ReviewReply(question.id, self._slip(question, right), seen)
 
     def _pick(self, question: ReviewQuestion, desk: Desk, program: Program | None) -> ReviewReply:
         """One of several selections, or none of them."""
@@ -58,7 +70,7 @@ class Reviewer:
         where = (question.asset, question.rule or 1)
         right = self.person.picks(desk, where, choices, program) if program else None
         self.ledger.add(question.kind, ANSWER)
-        return ReviewReply(question.id, self.person.slips_from(right, len(choices)))
+        return ReviewReply(question.id, self._slip(question, right))
 
     def _check_selection(self, question: ReviewQuestion) -> ReviewReply:
         """Whether hulls were left out of a demonstration by mistake: what is nearer to what is wanted."""
@@ -66,72 +78,69 @@ class Reviewer:
         meant = wanted[rule - 1] if wanted else frozenset[str]()
         gaps = [len(meant ^ frozenset(choice.select or ())) for choice in question.choices]
         self.ledger.add(question.kind, CONFIRMATION)
-        return ReviewReply(question.id, self.person.slips_from(gaps.index(min(gaps)), len(gaps)))
+        return ReviewReply(question.id, self._slip(question, gaps.index(min(gaps))))
 
     def _confirm(self, question: ReviewQuestion) -> ReviewReply:
-        """The label of one hull; what is asked besides is declined."""
+        """The label of one hull; an orientation is theirs already, so that another one is declined."""
+        if isinstance(question, OrientationQuestion):
+            self.ledger.add(question.kind, CONFIRMATION)
+            return ReviewReply(question.id, self._slip(question, [one.id for one in question.choices].index(NO)))
         labels = [choice.label for choice in question.choices]
         true = self._label_of(question.hulls[0]) if question.hulls else None
         right = labels.index(true) if true is not None and true in labels else None
         self.ledger.add(question.kind, CONFIRMATION)
-        return ReviewReply(question.id, self.person.slips_from(right, len(labels)))
+        return ReviewReply(question.id, self._slip(question, right))
 
-    def _look(self, question: ReviewQuestion, desk: Desk, program: Program | None) -> ReviewReply:
+    def _slip(self, question: ReviewQuestion, right: int | None) -> str | None:
+        """The id of the right choice, of another one where they slip."""
+        place = self.person.slips_from(right, len(question.choices))
+        return None if place is None else question.choices[place].id
+
+    def _look(self, question: ResultQuestion, output: Output | None) -> ReviewReply:
         """Whether a result is right; set aside what nobody could show."""
-        there = any(choice.text == RIGHT for choice in question.choices)  # else the program cannot run
-        right = (self.judge.looks_right(desk, program, question.asset) != self.person.errs_now()) and there
-        said = RIGHT if right else WRONG if self._truth.reference[question.asset] is not None else ASIDE
+        there = question.choice(RIGHT) is not None  # else the program cannot run, or it was called wrong before
+        right = (self.judge.looks_right(question.asset, output) != self.person.errs_now()) and there
         self.ledger.add("result", GLANCE + APPROVAL)
-        place = place_of(question, CORRECT if said == WRONG and not there else said)
-        return ReviewReply(
-            question.id, place, mended=self._mends(desk, program, question.asset) if said == WRONG else None
-        )
+        given_up = self._truth.reference[question.asset] is None
+        return ReviewReply(question.id, RIGHT if right else "not-solved" if given_up else WRONG)
 
-    def _mends(self, desk: Desk, program: Program | None, name: str) -> Selections | None:
-        """What each rule should have selected; None where the mesh is not turned as it should be."""
-        done, wanted = desk.select(program, name) if program else None, self._truth.reference[name]
-        if wanted is None or done is None or done == wanted:
-            return None
-        self.ledger.add("mend", price_of_mend(done, wanted))
-        slips = [
-            frozenset(hull for hull in one ^ other if self.person.errs_now())
-            for one, other in zip(done, wanted, strict=True)
-        ]
-        return tuple(one ^ slip for one, slip in zip(wanted, slips, strict=True))
+    def correct_selections(self, done: Selections, wanted: Selections) -> dict[int, frozenset[str]]:
+        """What rules should have selected, by their numbers, of those that selected something else."""
+        self.ledger.add("correction", price_of_mend(done, wanted))
+        found = dict[int, frozenset[str]]()
+        for rule, (one, other) in enumerate(zip(done, wanted, strict=True), 1):
+            slip = frozenset(hull for hull in sorted(one ^ other) if self.person.errs_now())
+            if one != other:
+                found[rule] = other ^ slip
+        return found
 
-    def shows(self, desk: Desk, name: str) -> Demonstration:
-        """All of an edit by hand; each hull is left out where they slip."""
+    def shows(self, desk: Desk, name: str, act: str = "demonstration") -> Demonstration:
+        """All of an edit by hand; each hull is left out where they slip. act: what it is noted as."""
         meant = self.person.shows(desk, name)
         steps = [Step(step.rule, self._select(step), step.action, step.label) for step in meant.steps]
         selections = [step.select or () for step in steps]
         self.slipped.discard(name)
         if any(made.select != step.select for made, step in zip(steps, meant.steps, strict=True)):
             self.slipped.add(name)
-        self.ledger.add("demonstration", price_of_hand(selections))
+        self.ledger.add(act, price_of_hand(selections))
         return Demonstration(meant.mesh, steps, name)
 
     def _select(self, step: Step) -> list[str] | None:
         return None if step.select is None else [name for name in sorted(step.select) if not self.person.errs_now()]
 
-    def paints(self, desk: Desk, name: str, hulls: Sequence[str], inspected: int = 0) -> Desk:
-        """The desk when some hulls of a mesh got their true labels by hand; inspected: hulls looked at before."""
-        labels = {hull: Label(self._label_of(HullPlace(name, hull))) for hull in hulls}
-        self.ledger.add_labels(HandLabels(inspected, len(labels), len({label.name for label in labels.values()})))
-        return desk.with_meshes({**desk.meshes, name: desk.meshes[name].with_labels({**labels})}) if labels else desk
+    def name_hulls(self, name: str, hulls: Iterable[str], inspected: int = 0) -> dict[str, str]:
+        """The true labels of some hulls of a mesh, given by hand; inspected: hulls looked at before."""
+        labels = {hull: self._label_of(HullPlace(name, hull)) for hull in hulls}
+        self.ledger.add_labels(HandLabels(inspected, len(labels), len(set(labels.values()))))
+        return labels
 
-    def looks_through(self, desk: Desk, name: str, hulls: Sequence[str]) -> Desk:
-        """The desk when some labels of a mesh were looked at, one by one, and the wrong ones painted; each once."""
+    def inspect_labels(self, desk: Desk, name: str, hulls: Sequence[str]) -> dict[str, str]:
+        """The labels that were found wrong when some were looked at, one by one; each hull is looked at once."""
         left = [hull for hull in hulls if HullPlace(name, hull) not in self._looked_at]
         self._looked_at.update(HullPlace(name, hull) for hull in left)
         mesh = desk.meshes[name]
         wrong = [hull for hull in left if mesh.hull_of(hull).label != self._label_of(HullPlace(name, hull))]
-        return self.paints(desk, name, [hull for hull in wrong if not self.person.errs_now()], len(left))
+        return self.name_hulls(name, [hull for hull in wrong if not self.person.errs_now()], len(left))
 
     def _label_of(self, place: HullPlace) -> str:
         return str(self._truth.meshes[place.asset].hull_of(place.hull).label)
-
-
-def place_of(question: ReviewQuestion, text: str) -> int:
-    """Where a choice stands that says so."""
-    texts = [choice.text for choice in question.choices] or [RIGHT, WRONG, ASIDE]
-    return texts.index(text)

@@ -40,7 +40,7 @@ def begin_by_hand(bench: Bench, count: int) -> tuple[Desk, frozenset[str], HandL
         if start.by_hand:
             name = start.by_hand[place]
         else:
-            (advised,) = bench.relatives.propagate(_labels_of(desk)).next_to_label()
+            (advised,) = bench.relatives.infer(_labels_of(desk)).next_to_label()
             name = names[advised]
         done.append(name)
         desk, more = label_by_hand(desk, name)
@@ -63,12 +63,14 @@ def label_by_hand(desk: Desk, name: str) -> tuple[Desk, HandLabels]:
 
 def carry_over(desk: Desk) -> Desk:
     """The meshes when what a person said of some hulls was carried over to the others."""
-    found, rows = desk.bench.relatives.propagate(_labels_of(desk)), enumerate(desk.meshes.items())
+    found, rows = desk.bench.relatives.infer(_labels_of(desk)), enumerate(desk.meshes.items())
     return Desk(desk.bench, {name: _with(mesh, found.labels(place)) for place, (name, mesh) in rows})
 
 
-def _labels_of(desk: Desk) -> list[str | None]:
-    return [reference_label(hull.annotation) for mesh in desk.meshes.values() for hull in mesh.hulls]
+def _labels_of(desk: Desk) -> list[Label | None]:
+    """The labels that people and files gave, as a person gives them."""
+    names = (reference_label(hull.annotation) for mesh in desk.meshes.values() for hull in mesh.hulls)
+    return [None if name is None else Label(name) for name in names]
 
 
 def _with(mesh: SymbolicMesh, found: list[Label | None]) -> SymbolicMesh:

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 from manifold3d import CrossSection, JoinType, Manifold, OpType
 
-from meshforge.samples import pieces
+from script.families import pieces
 
 Point = pieces.Point
 

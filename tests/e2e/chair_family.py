@@ -10,8 +10,8 @@ import numpy as np
 
 from meshforge.geometry import Polytope
 from meshforge.project import Project
-from meshforge.samples.parts import SampleHull, format_hulls
-from meshforge.samples.pieces import Cut, X, Y, Z, bar_points, block, hull_of, post_points, slice_all
+from script.families.parts import SampleHull, format_hulls
+from script.families.pieces import Cut, X, Y, Z, bar_points, block, hull_of, post_points, slice_all
 
 WORDS = ("seat", "leg", "stretcher", "post", "slat", "crest", "arm", "support")
 """The parts of these chairs."""

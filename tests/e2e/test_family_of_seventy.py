@@ -11,7 +11,7 @@ from benchmark.learning.repairs import Noise, spoilt
 from meshforge.formats import load
 from meshforge.language import Program
 from meshforge.project import Project
-from meshforge.samples.parts import format_labels
+from script.families.parts import format_labels
 from tests.e2e.chair_family import FIVE, draw_shapes, write_chairs
 from tests.e2e.expert import Expert, volumes_of
 from tests.e2e.hand import Hand, chromium, hand

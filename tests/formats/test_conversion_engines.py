@@ -13,6 +13,7 @@ import pytest
 from meshforge.formats import read, save
 from meshforge.formats.visuals import VisualSurfaces
 from meshforge.symbolic import Asset, Joint
+from tests.asset_bounds import bounds_of
 from tests.conversion_samples import SAMPLES, block, crowd, doors, foreign, inertial
 from tests.corpus_path import corpus
 from tests.mjcf_engines import assert_as_in_mujoco
@@ -256,8 +257,7 @@ def test_trimesh_finds_the_volume_of_all_hulls_in_a_plain_mesh(suffix: str, tmp_
     wanted = sum(geom.shape.tessellate().volume for geom in asset.geoms)
     assert float(mesh.volume) == pytest.approx(wanted, rel=1e-5)
     low, high = mesh.bounds
-    bounds = asset.aabb
-    assert bounds is not None
+    bounds = bounds_of(asset)
     if suffix != ".glb":
         np.testing.assert_allclose(low, bounds.min, atol=0.01)
         np.testing.assert_allclose(high, bounds.max, atol=0.01)
@@ -304,12 +304,9 @@ def test_a_real_cup_goes_through_glb_to_mjcf_and_stands_upright(tmp_path: Path) 
     mjcf = save(read(glb.path), tmp_path / "x" / "cup.xml")
     after = read(mjcf.path)
     assert len(after.geoms) == len(before.geoms)
-    assert before.aabb is not None
-    assert after.aabb is not None
-    np.testing.assert_allclose(after.aabb.min, before.aabb.min, atol=1e-5)
-    np.testing.assert_allclose(after.aabb.max, before.aabb.max, atol=1e-5)
-    middle = read(glb.path).aabb
-    assert middle is not None
-    np.testing.assert_allclose(middle.size, before.aabb.size[[0, 2, 1]], atol=1e-5)
+    np.testing.assert_allclose(bounds_of(after).min, bounds_of(before).min, atol=1e-5)
+    np.testing.assert_allclose(bounds_of(after).max, bounds_of(before).max, atol=1e-5)
+    middle = bounds_of(read(glb.path))
+    np.testing.assert_allclose(middle.size, bounds_of(before).size[[0, 2, 1]], atol=1e-5)
     assert at_rest(mjcf.path)[0].ngeom >= len(before.geoms)
     assert mujoco_model(mjcf.path).nbody == len(before.bodies) + 1

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from meshforge.common import AssetError
+from tests.asset_bounds import bounds_of
 from tests.corpus_path import corpus
 from tests.sdf_sample import read, write
 from tests.urdf_sample import assert_reads_back, put, without
@@ -49,5 +50,4 @@ def test_every_real_file_is_read_or_refused_for_its_own_fault(tmp_path: Path) ->
 
 def test_a_chair_whose_meshes_are_in_centimetres_is_as_tall_as_a_chair() -> None:
     asset = read(corpus("chairs", "aws-small-house", "aws_robomaker_residential_ChairA_01", "model.sdf"))
-    assert asset.aabb is not None
-    assert 0.7 < asset.aabb.size[2] < 1.2
+    assert 0.7 < bounds_of(asset).size[2] < 1.2

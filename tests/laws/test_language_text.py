@@ -18,12 +18,11 @@ from meshforge.language import (
     Program,
     Rule,
     Scale,
-    parse_action,
     parse_extractor,
-    parse_orient,
     show,
 )
 from tests.examples import examples
+from tests.program_parts import parse_action, parse_orient
 from tests.strategies import VOCABULARY, actions, extractors, orients, programs, rules
 
 LABELS = st.text(st.characters(exclude_categories=["Cs"]), min_size=1, max_size=6) | st.sampled_from(

@@ -43,8 +43,7 @@ def label_of(asset: str, hull: str) -> str:
 
 
 def reply_to(question: dict[str, Any], project: Project) -> dict[str, Any]:
-    """What a person says who knows every label and what each rule means; nothing, once the labels of a wrong result are
-    mended."""
+    """What a person says who knows every label and what each rule means; of a wrong result its right labels."""
     kind, choices = question["kind"], question["choices"]
     if kind in ("group", "repair"):
         true = {(one["asset"], one["hull"]): label_of(one["asset"], one["hull"]) for one in question["hulls"]}
@@ -52,7 +51,7 @@ def reply_to(question: dict[str, Any], project: Project) -> dict[str, Any]:
         counts = Counter(label for label in true.values() if label in labels)
         best = counts.most_common(1)[0][0] if counts else None
         odd = {f"{asset}#{hull}": label for (asset, hull), label in true.items() if label != best}
-        said: dict[str, Any] = {"choice": None if best is None else labels.index(best)}
+        said: dict[str, Any] = {"choice": best}
         return said | ({"exceptions": odd} if odd else {})
     if kind == "result":
         asset = question["asset"]
@@ -61,14 +60,13 @@ def reply_to(question: dict[str, Any], project: Project) -> dict[str, Any]:
         assert program
         made = program.run(project.mesh(asset), project.templates(program.templates)).mesh
         if made.index.keys() == right.index.keys():
-            return {"choice": 0}
+            return {"choice": "right"}
         hulls = project.mesh(asset).hulls
         wrong = {h.name: label_of(asset, h.name) for h in hulls if h.label != label_of(asset, h.name)}
         assert wrong, f"the program is wrong on {asset}, not its labels"
-        project.set_labels(asset, wrong)
-        return {}
+        return {"choice": "wrong", "labels": wrong}
     assert kind in ("reading", "label")
     trace = MEANT.run(load(TABLES / question["asset"]), project.templates(MEANT.templates)).trace
     wanted = set(trace[question["rule"] - 1].selected)
-    rows = [place for place, choice in enumerate(choices) if set(choice["select"]) == wanted]
-    return {"choice": rows[0] if rows else None}
+    ids = [choice["id"] for choice in choices if set(choice["select"]) == wanted]
+    return {"choice": ids[0] if ids else None}

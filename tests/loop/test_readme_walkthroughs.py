@@ -194,4 +194,4 @@ def test_nothing_was_written_into_the_samples(folder: Path) -> None:
     for name in SHOWN:
         place = folder / "assets" / name
         kept = {path.relative_to(place).as_posix(): path.read_bytes() for path in place.rglob("*") if path.is_file()}
-        assert kept == family_of(name).build()
+        assert kept == family_of(name).read()

@@ -74,7 +74,7 @@ def test_fingers_close_on_the_handle_of_a_coarse_knife_after_the_split(
     fingers, width = place_fingers(whole.vertices, whole.faces, float(np.quantile(HANDLES[coarse], NEAR_BLADE)))
     assert fingers.count_contacts(source) > 0, "the hull fills what is beside the handle"
 
-    told = meshforge("prepare", "knives", f"{coarse}.urdf", way, "--sure", "0.5")
+    told = meshforge("prepare", "knives", f"{coarse}.urdf", way, "--min-confidence", "0.5")
     assert "handle" in told.out
     meshforge("label", "knives", "--with", "propagate")
     (tmp_path / "knives/program.mf").write_text(PROGRAM)

@@ -82,7 +82,7 @@ def test_a_coarse_mug_can_be_grasped_by_its_handle_after_the_split(folder: Path)
     project.set_labels("mug.urdf", {name: labels.get(k, "wall") for k, name in enumerate(names)})
     assert count_contacts(folder / "assets/other.urdf", at, across) > 0, "a hull fills the handle"
 
-    told = meshforge("prepare", "mugs", "other.urdf", "--split-spanning", "--sure", "0.5")
+    told = meshforge("prepare", "mugs", "other.urdf", "--split-spanning", "--min-confidence", "0.5")
     assert "handle" in told.out
     meshforge("label", "mugs", "--with", "propagate")
     (folder / "mugs/program.mf").write_text("labels base, wall, handle\n\nIs(base) => Merge\n")

@@ -58,7 +58,7 @@ def make_texts() -> Iterator[tuple[str, str]]:
         said.write_text(json.dumps([{"id": question.id, **reply_to(question.to_json(), project)}]))
         words = ["review", "tables", "--answers", "said.json"]
     yield "not_asked_any_more", run(*words)
-    yield "a_higher_bar", run("review", "tables", "--sure", "0.9999")
+    yield "a_higher_bar", run("review", "tables", "--min-confidence", "0.9999")
     run("apply", "tables", "--workers", "1")
     run("review", "tables")
     project.set_labels(CHANGED, {load(TABLES / CHANGED).hulls[0].name: "misc"}, source="name")

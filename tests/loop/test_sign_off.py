@@ -37,7 +37,7 @@ def sign_off(run: Run, folder: str, reply: Callable[[dict[str, Any]], dict[str, 
         done = run("review", folder, "--json", "--answers", "said.json")
     assert done.code == 0 and done.json["held"] == [], done.json
     assert run("status", folder, "--signed-off").code == 1  # sure, but not written yet
-    assert run("apply", folder, "--sure", "0.95", "--workers", "1").code == 0
+    assert run("apply", folder, "--min-confidence", "0.95", "--workers", "1").code == 0
     status = run("status", folder, "--json", "--signed-off")
     assert status.code == 0
     return int(status.json["signed_off"])

@@ -18,10 +18,10 @@ from meshforge.batch.engine_trial import engine_version, examine_file
 from meshforge.batch.execution import execute
 from meshforge.batch.jobs import AssetJob
 from meshforge.batch.lock import hold_lock
-from meshforge.batch.provenance import are_unchanged, file_digest, software_version, source_files, text_digest
+from meshforge.batch.provenance import are_unchanged, software_version, source_files, text_digest
 from meshforge.batch.workers import ExecutionOptions, WorkerFailure
 from meshforge.checks import CHECKS, CheckOptions, Examination, FixResult, draw_examination, fix
-from meshforge.common import AssetError, MeshForgeError, UsageError, describe_error, plain_path
+from meshforge.common import AssetError, MeshForgeError, UsageError, describe_error, file_digest, plain_path
 from meshforge.engines import find_engine
 from meshforge.formats import labels_beside, load, output_path_of, plugin_of_suffix, save
 from meshforge.rendering import write_png

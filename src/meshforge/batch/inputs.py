@@ -15,14 +15,15 @@ from meshforge.language import plugin_of
 
 def inputs_of(task: ApplyTask, job: AssetJob, files: dict[str, str]) -> provenance.OutputInputs:
     """The digests of all that decides the output of a job; files: those of the asset."""
-    options = task.options
+    options, edits = task.options, (one.action for one in job.corrections)
+    names = {*task.program.templates, *(name for action in edits for name in action.templates)}
     written = {"to": options.to, "names": options.names, "collision": options.collision}
     return provenance.OutputInputs(
         asset=files,
         preparation=record_digest(job.preparation) if job.preparation else None,
-        labels=provenance.file_digest(job.labels) if job.labels else None,
+        labels=provenance.content_digest(job.labels) if job.labels else None,
         program=provenance.program_digest(task.program),
-        templates=provenance.template_digests(task.templates),
+        templates=provenance.template_digests({name: one for name, one in task.templates.items() if name in names}),
         corrections=corrections_digest(job.corrections),
         selections=selections_digest(job.selections),
         settings=" ".join([f"mass={options.mass}", *(f"{key}={value}" for key, value in written.items() if value)]),

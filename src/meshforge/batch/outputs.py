@@ -15,7 +15,7 @@ from meshforge.batch import provenance
 from meshforge.batch.discovery import STATE
 from meshforge.batch.jobs import ApplyOptions, ApplyTask, AssetJob
 from meshforge.batch.outcome import AssetOutcome, Failed
-from meshforge.common import AssetError, MeshForgeError
+from meshforge.common import AssetError, MeshForgeError, file_digest
 from meshforge.formats import labels_beside, output_path_of, read, save
 from meshforge.symbolic import Asset, SymbolicMesh, write_labels
 
@@ -70,7 +70,7 @@ def write_draft(
     if written.labels:
         write_labels(labels_beside(main), written, vocabulary)
     files = sorted(path for path in plan.folder.rglob("*") if path.is_file())
-    digests = {path.relative_to(plan.folder).as_posix(): provenance.file_digest(path) for path in files}
+    digests = {path.relative_to(plan.folder).as_posix(): file_digest(path) for path in files}
     labels = tuple(written.hull_of(name).label for name in order)
     return provenance.OutputDraft(plan.folder, plan.main, digests, saved.notes, labels)
 
@@ -172,7 +172,7 @@ class OutputFolder:
             if (
                 name not in self._writers
                 and target.exists()
-                and not (target.is_file() and provenance.file_digest(target) == digest)
+                and not (target.is_file() and file_digest(target) == digest)
             ):
                 return f"{target}: this is there, and no earlier run wrote it\n  Move it away, or choose another --out."
         return None
@@ -218,7 +218,7 @@ class OutputFolder:
             digest = self._files[asset].pop(name)
             del self._writers[name][asset]
             path = self._out / name
-            if not self._writers[name] and path.is_file() and provenance.file_digest(path) == digest:
+            if not self._writers[name] and path.is_file() and file_digest(path) == digest:
                 path.unlink()
                 _remove_empty_folders(path.parent, self._out)
 

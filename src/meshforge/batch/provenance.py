@@ -4,22 +4,26 @@ the outputs by which runs are resumed."""
 from __future__ import annotations
 
 import hashlib
+import json
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from dataclasses import fields as dataclass_fields
 from importlib.metadata import version
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from meshforge.batch.discovery import STATE
 from meshforge.batch.outcome import Edited, Failed, RuleEffect, Skipped, Unchanged
-from meshforge.common import Plugin, relative_name, write_atomically
+from meshforge.common import Plugin, file_digest, relative_name, write_atomically
 from meshforge.formats import MESH_SUFFIXES
 from meshforge.geometry import digest as shape_digest
 from meshforge.language import Comments, HeaderComments, Program, Template
 from meshforge.signoff import EditMeasures
+
+_LOOKS = (".mtl", ".png", ".jpg", ".jpeg", ".bmp", ".tga", ".tif", ".tiff", ".webp", ".dds", ".ktx2", ".hdr", ".exr")
+"""The suffixes of pictures and materials."""
 
 
 class OutputInputs(BaseModel):
@@ -93,19 +97,8 @@ class Stamp(BaseModel):
 
     def to_skipped(self, folder: Path) -> Skipped:
         """The outcome of finding this output up to date."""
-        out = str(folder / self.out)
-        return Skipped(
-            self.asset,
-            out,
-            self.rules,
-            self.before,
-            self.after,
-            0.0,
-            self.notes,
-            self.flags,
-            self.measures,
-            self.labels_before,
-        )
+        out, counts, measures = str(folder / self.out), (self.before, self.after), self.measures
+        return Skipped(self.asset, out, self.rules, *counts, 0.0, self.notes, self.flags, measures, self.labels_before)
 
     def to_outcome(self, folder: Path) -> Edited | Unchanged | Failed:
         """What the run that wrote this output made of the asset."""
@@ -114,6 +107,11 @@ class Stamp(BaseModel):
         kept = self.to_skipped(folder)
         fields = {field.name: getattr(kept, field.name) for field in dataclass_fields(kept)}
         return Edited(**fields) if self.status == "edited" else Unchanged(**fields)
+
+    @property
+    def essential(self) -> dict[str, str]:
+        """The digests of the files that geometry, masses or labels are read from: of all but pictures and materials."""
+        return {name: known for name, known in self.outputs.items() if not name.lower().endswith(_LOOKS)}
 
     def is_whole(self, folder: Path) -> bool:
         """Whether all files of this output are there, as they were written."""
@@ -150,15 +148,25 @@ def read_stamp_file(path: Path) -> Stamp | None:
         return None
 
 
-def file_digest(path: Path) -> str:
-    """Thirty-two hexadecimal digits of the contents of a file."""
-    with path.open("rb") as stream:
-        return hashlib.file_digest(stream, _new_hash).hexdigest()
-
-
 def text_digest(text: str) -> str:
     """Thirty-two hexadecimal digits of a text."""
-    return _new_hash(text.encode()).hexdigest()
+    return hashlib.blake2b(text.encode(), digest_size=16).hexdigest()
+
+
+def value_digest(value: Any) -> str:
+    """The digest of what JSON can hold, whatever the order of its keys."""
+    return text_digest(json.dumps(value, sort_keys=True))
+
+
+def content_digest(path: Path) -> str:
+    """The digest of what a JSON file says, however it is laid out; of a file that is no JSON that of its bytes.
+
+    Raises OSError where it cannot be read.
+    """
+    try:
+        return value_digest(json.loads(path.read_text(encoding="utf-8-sig"), parse_int=float))
+    except (ValueError, RecursionError):
+        return file_digest(path)
 
 
 def program_digest(program: Program) -> str:
@@ -201,10 +209,6 @@ def software_version(plugins: Iterable[Plugin | None] = ()) -> str:
     """The version of this program and of the plug-ins that are used, since others may write other files."""
     own = sorted({f"{plugin.package} {plugin.version}" for plugin in plugins if plugin})
     return ", ".join([version("meshforge"), *own])
-
-
-def _new_hash(data: bytes = b"") -> hashlib.blake2b:
-    return hashlib.blake2b(data, digest_size=16)
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,14 +11,7 @@ from typing import Annotated
 
 import typer
 
-from meshforge.batch import (
-    ExecutionOptions,
-    ReportAsset,
-    ReportHeader,
-    ReportOptions,
-    compare_outcomes,
-    write_report,
-)
+from meshforge.batch import ExecutionOptions, ReportAsset, ReportHeader, ReportOptions, compare_outcomes, write_report
 from meshforge.checks import check
 from meshforge.cli.console import progress
 from meshforge.cli.options import Browser, Port, Workers
@@ -38,8 +31,7 @@ TABLE_ORIENT = "+Z: Is(leg) -> Is(panel)"
 
 def demo(
     out: Annotated[
-        Path | None,
-        typer.Option("-o", "--out", help=f"Folder to make; {_OUT}, with --studio {_STUDIO}, unless given."),
+        Path | None, typer.Option("-o", "--out", help=f"Folder to make; {_OUT}, with --studio {_STUDIO}, unless given.")
     ] = None,
     workers: Workers = None,
     studio: Annotated[

@@ -34,10 +34,6 @@ class MeshPictures:
         """An asset as a rule of a program meets it. Raises MeshForgeError where the rules before it fail."""
         return self._project.mesh_before_rule(asset, rule, program, self._meshes())
 
-    def upright_mesh(self, asset: str) -> SymbolicMesh:
-        """An asset turned by the project's orientation. Raises MeshForgeError where it cannot be turned."""
-        return self.mesh_before_rule(asset, 1, Program(orient=self._project.orientation))
-
     def draw(self, mesh: SymbolicMesh, chosen: frozenset[str], name: str, title: str) -> Path:
         """Draw an asset that stands upright, some hulls in colour; the path of the picture, as one types it here."""
         picture = render(mesh, highlight=chosen, size=PICTURE_SIZE, title=title, up=self._up(self._project.orientation))

@@ -22,6 +22,9 @@ def status(
     allow_excluded: Annotated[
         bool, typer.Option("--allow-excluded", help="With --signed-off: assets that are not solved do not count.")
     ] = False,
+    verify: Annotated[
+        bool, typer.Option("--verify", help="Read every file anew, even where its size and times are what they were.")
+    ] = False,
     json: Json = False,
 ) -> None:
     """Show what is labelled, demonstrated, learned, applied, stale and flagged, and the next sensible step.
@@ -30,7 +33,7 @@ def status(
     """
     opened = Project.open(project)
     with progress(len(opened.assets()), "reading") as advance:
-        found = opened.status(progress=advance)
+        found = opened.status(progress=advance, verify=verify)
     if json:
         print_json(found.to_json())
     else:

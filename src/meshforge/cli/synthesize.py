@@ -19,6 +19,7 @@ from meshforge.cli.terminal import print_json, remark
 from meshforge.common import UsageError, join_names, pluralize
 from meshforge.language import Program
 from meshforge.project import Project, select_assets
+from meshforge.signoff import BAR, ReadingQuestion, RepairQuestion, SlipQuestion
 from meshforge.store import AnswerEvent, LabelFixEvent
 from meshforge.synthesis import LearningOutcome, Options, outcome_to_json
 
@@ -86,22 +87,28 @@ def synthesize(given: SynthesizeArguments) -> None:
         budget=given.budget,
         follow=Program.read(given.follow) if given.follow else None,
     )
-    session = LearningSession(project, options, keep=not given.dry_run)
+    session = LearningSession(project.with_cache(), options, keep=not given.dry_run)
     answers = read_answers(given.answers, project) if given.answers else None
     verdict = given.accept_repairs if given.accept_repairs or given.reject_repairs else None
     asks = _is_interactive() and not (given.json or given.dry_run) and answers is None and verdict is None
-    if asks:
-        from meshforge.cli.synthesize_dialog import Conversation  # lazy: 50 modules of rich that a script does not need
-
-        outcome = Conversation(session, input, typer.echo).run()
-    else:
-        outcome = run_script(session, answers, verdict)
+    outcome = run_script(session, answers, verdict)
+    if asks and not session.stopped and options == Options():
+        outcome = _converse(session.project) or outcome
     if given.json:
         print_json(outcome_to_json(outcome))
     else:
         _print_outcome(outcome, session, given.project, asks)
     check_all_asked(project, answers, outcome)
     raise typer.Exit(int(outcome.program is None))
+
+
+def _converse(project: Project) -> LearningOutcome | None:
+    """Ask what the demonstrations leave open, as a review does; the outcome after the last reply."""
+    from meshforge.cli.review_session import ReviewSession  # lazy: 50 modules of rich that a script does not need
+
+    review = ReviewSession(project, BAR)
+    review.converse(kinds=(ReadingQuestion, RepairQuestion, SlipQuestion))
+    return review.found.outcome
 
 
 def _is_interactive() -> bool:

@@ -7,17 +7,14 @@ from __future__ import annotations
 import json
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from functools import cached_property
 from pathlib import Path
 from types import NoneType
 from typing import Any
 
-from meshforge.cli.mesh_pictures import MeshPictures
 from meshforge.cli.synthesize_text import describe_change
 from meshforge.cli.terminal import catch_interrupt, remark
-from meshforge.common import MeshForgeError, UsageError
-from meshforge.language import Program
-from meshforge.project import FamilyMeshes, Project
+from meshforge.common import UsageError
+from meshforge.project import Project, select_assets
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Ambiguous, Answer, LearningOutcome, Options, Question, Repair
 
@@ -58,50 +55,9 @@ class LearningSession:
         else:
             self.given[answer.rule, answer.asset] = answer
 
-    @cached_property
-    def family(self) -> FamilyMeshes:
-        return FamilyMeshes(self.project)
-
     def meshes(self) -> dict[str, SymbolicMesh]:
         """The assets that can be read."""
-        return self.family.meshes()
-
-
-class QuestionPictures:
-    """Draws into `.meshforge/questions` of a project; every new card takes away the pictures of the one before."""
-
-    def __init__(self, session: LearningSession) -> None:
-        self._pictures = MeshPictures(session.project, session.meshes, session.project.layout.questions)
-
-    def of_question(self, question: Question, program: Program) -> list[Path]:
-        """A picture of each choice, on the asset as the rule meets it; none where it cannot be drawn."""
-        self.clear()
-        name = f"rule-{question.rule}-{Path(question.asset).stem}"
-        try:
-            mesh = self._pictures.mesh_before_rule(question.asset, question.rule, program)
-            return [
-                self._pictures.draw(
-                    mesh, frozenset(choice.select), f"{name}-choice-{k}", f"choice {k} on {question.asset}"
-                )
-                for k, choice in enumerate(question.choices, 1)
-            ]
-        except MeshForgeError:
-            return []
-
-    def of_repair(self, repair: Repair) -> Path | None:
-        """A picture of the hull that may have a wrong label; None where it cannot be drawn."""
-        self.clear()
-        wrong = repair.correction
-        try:
-            mesh = self._pictures.upright_mesh(wrong.asset)
-            name = f"label-{Path(wrong.asset).stem}"
-            return self._pictures.draw(mesh, frozenset({wrong.hull}), name, describe_change(repair))
-        except MeshForgeError:
-            return None
-
-    def clear(self) -> None:
-        """Take all pictures away."""
-        self._pictures.clear()
+        return dict(self.project.meshes_by_id(select_assets(self.project)))
 
 
 ANSWERS_FORM = (

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import json
 import shlex
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import assert_never
 
 from meshforge import synthesis
 from meshforge.common import join_names, pluralize
-from meshforge.language import Program, explain, show
+from meshforge.language import show
 from meshforge.store import orientation_text, toml_value
 
 
@@ -164,19 +164,11 @@ def _describe_repairs(outcome: synthesis.NeedsRepair, about: LearningContext) ->
     yield f"To keep the labels as they are: {command} --reject-repairs"
 
 
-def format_question(question: synthesis.Question, program: Program, pictures: Sequence[Path] = ()) -> str:
-    """What a rule does as it stands, and what else it may be meant to select."""
-    rule = program.rules[question.rule - 1]
-    lines = [f"Rule {question.rule} can be read in more than one way.", f"  now: {rule}", f"       {explain(rule)}"]
-    return "\n".join([*lines, format_choices(question, pictures)])
-
-
-def format_choices(question: synthesis.Question, pictures: Sequence[Path] = ()) -> str:
+def format_choices(question: synthesis.Question) -> str:
     """The choices alone, numbered from 1."""
     lines = [f"What should rule {question.rule} take on {question.asset}?"]
     for number, choice in enumerate(question.choices, 1):
         lines.append(f"  {number}  {_describe_choice(choice, number, question.choices[0])}")
-        lines += [f"     {pictures[number - 1]}"] if pictures else []
     return "\n".join(lines)
 
 
@@ -191,13 +183,6 @@ def _describe_choice(choice: synthesis.Choice, number: int, first: synthesis.Cho
         return f"{count}: {join_names(choice.select)}"
     parts = [f"and {join_names(more)}"] * bool(more) + [f"without {join_names(less)}"] * bool(less)
     return f"{count}: those of 1, {', '.join(parts)}"
-
-
-def format_repair(repair: synthesis.Repair, picture: Path | None = None) -> str:
-    """A label that may be wrong, and why."""
-    lines = ["A label may be wrong.", f"  {describe_change(repair)}", f"  why: {repair.why}"]
-    lines += [f"  how sure: {format_belief(repair)}"] if format_belief(repair) else []
-    return "\n".join([*lines, f"  picture: {picture}"] if picture else lines)
 
 
 def describe_change(repair: synthesis.Repair) -> str:

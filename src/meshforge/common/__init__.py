@@ -2,6 +2,7 @@
 
 from meshforge.common.extras import import_extra, require_mujoco
 from meshforge.common.files import (
+    FileState,
     FileStates,
     confine_reading,
     do_at_once,
@@ -50,7 +51,6 @@ from meshforge.common.plugins import (
     blame,
     collect_plugins,
     find_plugins,
-    forget_plugins,
 )
 from meshforge.common.validation import describe_invalid_field, first_validation_error
 
@@ -58,6 +58,7 @@ __all__ = [
     "PLUGIN_KINDS",
     "AssetError",
     "DemonstrationError",
+    "FileState",
     "FileStates",
     "GeometryError",
     "HullNotFoundError",
@@ -84,7 +85,6 @@ __all__ = [
     "find_drafts",
     "find_plugins",
     "first_validation_error",
-    "forget_plugins",
     "format_share",
     "import_extra",
     "is_beyond_reach",

@@ -21,8 +21,10 @@ _AT_ONCE = 32  # files that wait for the disk at the same time
 Item = TypeVar("Item")
 Result = TypeVar("Result")
 
-FileStates = dict[Path, tuple[int, int] | None]
-"""Of files, what `file_state` gives: where it is the same, they most likely hold the same."""
+FileState = tuple[int, int, int, int]
+"""Size [bytes], when contents and anything else of a file were changed last [ns], and its inode: where these are the
+same, it most likely holds the same, even where somebody set its time back."""
+FileStates = dict[Path, FileState | None]
 
 
 def write_atomically(path: Path, content: str | bytes) -> None:
@@ -81,17 +83,17 @@ def _draft_prefix(path: Path) -> str:
     return f".{path.name[:80]}."
 
 
-def file_state(path: Path) -> tuple[int, int] | None:
-    """When a file was changed last [ns] and its size [bytes], None where it is not there."""
+def file_state(path: Path) -> FileState | None:
+    """The state of a file, None where it is not there."""
     try:
         stat = path.stat()
     except OSError:
         return None
-    return stat.st_mtime_ns, stat.st_size
+    return stat.st_size, stat.st_mtime_ns, stat.st_ctime_ns, stat.st_ino
 
 
 def file_states(paths: Iterable[Path]) -> FileStates:
-    """When files were changed last, with their sizes."""
+    """The states of files."""
     return {path: file_state(path) for path in paths}
 
 

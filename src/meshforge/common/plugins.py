@@ -105,13 +105,6 @@ def adopt_plugins(known: Mapping[PluginKind, tuple[Plugin, ...]]) -> None:
     _adopted.update(known)
 
 
-def forget_plugins() -> None:
-    """Look for plug-ins anew, as after a package was installed."""
-    _adopted.clear()
-    _find.cache_clear()
-    _read_mentions.cache_clear()
-
-
 @cache
 def _find(kind: PluginKind) -> tuple[Plugin, ...]:
     if f"[{_GROUP}{kind}]" not in _read_mentions():

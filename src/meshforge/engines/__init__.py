@@ -4,13 +4,4 @@ from meshforge.engines.limits import Engine, Finding, Limit, Severity, check_lim
 from meshforge.engines.notes import note_limits
 from meshforge.engines.table import ENGINES, find_engine
 
-__all__ = [
-    "ENGINES",
-    "Engine",
-    "Finding",
-    "Limit",
-    "Severity",
-    "check_limits",
-    "find_engine",
-    "note_limits",
-]
+__all__ = ["ENGINES", "Engine", "Finding", "Limit", "Severity", "check_limits", "find_engine", "note_limits"]

@@ -9,7 +9,7 @@ from meshforge.common.exports import export_lazily
 if TYPE_CHECKING:
     from meshforge.formats.base import Collision, Format, Loss, Mass, Output, ReadOptions
     from meshforge.formats.convert_asset import convert, to_mjspec
-    from meshforge.formats.decompose_mesh import DecomposeBy, decompose, label_surface, name_hulls, read_surface
+    from meshforge.formats.decompose_mesh import DecomposeBy, decompose, label_surface, read_surface
     from meshforge.formats.engine_names.conventions import EngineName, MarkName
     from meshforge.formats.mesh_reader import read_triangles, split_into_pieces
     from meshforge.formats.meshfile.surface import RawSurface
@@ -18,7 +18,6 @@ if TYPE_CHECKING:
     from meshforge.formats.plain.obj_text import format_obj
     from meshforge.formats.plain.parts import MeshPart
     from meshforge.formats.registry import (
-        DESCRIPTION_SUFFIXES,
         FORMATS,
         MARKED_FORMATS,
         MESH_SUFFIXES,
@@ -49,7 +48,6 @@ if TYPE_CHECKING:
         class_files,
         find_class_names,
         points_beside,
-        read_class_names,
         read_semantics,
     )
     from meshforge.formats.segmentation.parts import SegmentationFile, read_parts
@@ -62,7 +60,6 @@ else:
     __getattr__ = export_lazily(__name__)
 
 __all__ = [
-    "DESCRIPTION_SUFFIXES",
     "FORMATS",
     "MARKED_FORMATS",
     "MESH_SUFFIXES",
@@ -109,14 +106,12 @@ __all__ = [
     "labels_beside",
     "load",
     "load_many",
-    "name_hulls",
     "output_path_of",
     "path_of",
     "plain_part_name",
     "plugin_of_suffix",
     "points_beside",
     "read",
-    "read_class_names",
     "read_parts",
     "read_segmentation",
     "read_semantics",

@@ -72,13 +72,7 @@ def decompose(
         hulls, names = [one.hull for one in found], name_hulls([known.names[one.part] for one in found])
     else:
         hulls = geometry.decompose(
-            surface.vertices,
-            surface.faces,
-            engine,
-            close=not hollow,
-            cache=folder,
-            note=notes.append,
-            control=control,
+            surface.vertices, surface.faces, engine, close=not hollow, cache=folder, note=notes.append, control=control
         )
         names = _number(["hull"] * len(hulls))
         notes += _describe_parts(known, by)

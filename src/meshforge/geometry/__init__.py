@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     )
     from meshforge.geometry.connectivity import component_roots, components_by_vertices, weld
     from meshforge.geometry.convex import FLATNESS, convex_hull, measure_extents, principal_extents, spans_volume
-    from meshforge.geometry.decomposition.by_parts import PartHull, decompose_by_parts
+    from meshforge.geometry.decomposition.by_parts import decompose_by_parts
     from meshforge.geometry.decomposition.engines import CoacdSettings, DecomposeSettings, EngineControl, VhacdSettings
     from meshforge.geometry.decomposition.fine import FINE_SETTINGS, PieceEngine, decompose_finely
     from meshforge.geometry.decomposition.parts import SurfaceParts, separate_parts, stack_parts
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from meshforge.geometry.fill import aabb_box, aabb_capsule, aabb_cylinder, aabb_sphere, longest_axis, map_to_box
     from meshforge.geometry.fit import tight_box, tight_capsule, tight_cylinder
     from meshforge.geometry.native import native_capsule, native_cylinder, native_sphere
-    from meshforge.geometry.piece_groups import PieceGroup, merge_pieces
+    from meshforge.geometry.piece_groups import merge_pieces
     from meshforge.geometry.pieces import Piece, split_pieces
     from meshforge.geometry.pose import (
         Pose,
@@ -84,10 +84,8 @@ __all__ = [
     "HullFault",
     "HullPart",
     "Ints",
-    "PartHull",
     "Piece",
     "PieceEngine",
-    "PieceGroup",
     "Polytope",
     "Pose",
     "Shape",

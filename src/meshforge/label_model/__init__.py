@@ -8,11 +8,11 @@ from meshforge.common.exports import export_lazily
 
 if TYPE_CHECKING:
     from meshforge.label_model.asset_pieces import AssetPieces, SurfacePieces, piece_mesh
-    from meshforge.label_model.cells import AssetCells, CellModel, CellPosterior, cut_into_cells
-    from meshforge.label_model.consensus import EVIDENCE, consensus_weights
+    from meshforge.label_model.cells import AssetCells, CellModel, cut_into_cells
+    from meshforge.label_model.consensus import EVIDENCE
     from meshforge.label_model.describe import MeshDescriber, ShapeDescriptor, remember_descriptor
     from meshforge.label_model.odds import LabelBeliefs, LabelOdds, is_human
-    from meshforge.label_model.posterior import FamilyModel, FamilyPosterior, infer_labels, model_family
+    from meshforge.label_model.posterior import FamilyModel, FamilyPosterior, model_family
     from meshforge.label_model.sides import correct_upright, find_doubtful_sides
     from meshforge.label_model.similar import find_similar
     from meshforge.label_model.spans import WHOLE, SpanModel, SpanPosterior
@@ -33,7 +33,6 @@ __all__ = [
     "AssetCells",
     "AssetPieces",
     "CellModel",
-    "CellPosterior",
     "FamilyModel",
     "FamilyPosterior",
     "FamilyTable",
@@ -45,14 +44,12 @@ __all__ = [
     "SpanModel",
     "SpanPosterior",
     "SurfacePieces",
-    "consensus_weights",
     "correct_upright",
     "cut_into_cells",
     "evidence_beside_splits",
     "evidence_of",
     "find_doubtful_sides",
     "find_similar",
-    "infer_labels",
     "is_human",
     "metric_weights",
     "model_family",

@@ -200,10 +200,6 @@ class FamilyModel:
             self._inferred = {key: FamilyPosterior.of(self._set_upright(seen), seen)}
         return self._inferred[key]
 
-    def propagate(self, labels: Sequence[str | None]) -> FamilyPosterior:
-        """The same of labels that a person gave."""
-        return self.infer([None if name is None else Label(name) for name in labels])
-
     def _set_upright(self, seen: Observations) -> FamilyTable:
         """The table with fallen meshes turned; the one made last is kept, with the look-alikes found in it."""
         found = find_doubtful_sides(self.table, seen, self._sides.__getitem__)
@@ -234,8 +230,3 @@ def model_family(meshes: Sequence[SymbolicMesh]) -> FamilyModel:
 
 _FAMILIES = 4  # whose models are kept
 _models: dict[tuple[bytes, ...], FamilyModel] = {}
-
-
-def infer_labels(meshes: Sequence[SymbolicMesh]) -> FamilyPosterior:
-    """What the labels of some meshes say about all their hulls."""
-    return model_family(meshes).infer([hull.annotation for mesh in meshes for hull in mesh.hulls])

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from meshforge.labels.family_comparison import ignore_stage
     from meshforge.labels.from_files.points import PointsOptions
     from meshforge.labels.from_files.read import LabelFileOptions, label_file_beside
-    from meshforge.labels.label_by_consensus import ConsensusResult, LabelChange, SourceRestoration
+    from meshforge.labels.label_by_consensus import LabelChange
     from meshforge.labels.label_by_plugin import LABELERS, AssetLabeler, check_labeler
     from meshforge.labels.label_by_propagation import PropagationResult
     from meshforge.labels.label_store import LabelStore
@@ -32,7 +32,6 @@ __all__ = [
     "LABELERS",
     "NEW",
     "AssetLabeler",
-    "ConsensusResult",
     "HullSpan",
     "LabelChange",
     "LabelFileOptions",
@@ -47,7 +46,6 @@ __all__ = [
     "Proposal",
     "Proposals",
     "ReferenceFamily",
-    "SourceRestoration",
     "SourceTally",
     "SpanReport",
     "Tally",

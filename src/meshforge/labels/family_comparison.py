@@ -11,13 +11,7 @@ from functools import cached_property
 from meshforge.batch import ExecutionOptions, WorkerFailure, raise_if_stopped, run_isolated
 from meshforge.common import AssetError, MeshForgeError, ProjectError
 from meshforge.geometry import Floats, Ints
-from meshforge.label_model import (
-    FamilyPosterior,
-    FamilyTable,
-    Observations,
-    correct_upright,
-    find_doubtful_sides,
-)
+from meshforge.label_model import FamilyPosterior, FamilyTable, Observations, correct_upright, find_doubtful_sides
 from meshforge.labels.by_hand import label_command
 from meshforge.labels.descriptor_cache import DescriptorCache
 from meshforge.labels.merge import LabelOutcome, LabelWriter, OutcomeCallback, ReplacePolicy, infer_over

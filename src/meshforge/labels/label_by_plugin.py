@@ -11,15 +11,7 @@ from inspect import isabstract
 from typing import Any
 
 from meshforge.batch import ExecutionOptions, WorkerFailure, execute
-from meshforge.common import (
-    Plugin,
-    ProjectError,
-    Registry,
-    UsageError,
-    blame,
-    describe_error,
-    suggest_among,
-)
+from meshforge.common import Plugin, ProjectError, Registry, UsageError, blame, describe_error, suggest_among
 from meshforge.labels.merge import LabelOutcome, LabelWriter, OutcomeCallback, can_replace_less_certain, merge_labels
 from meshforge.labels.summary import LabelEvidence, Proposals, group_evidence
 from meshforge.store import AssetFiles, Store, hull_digests

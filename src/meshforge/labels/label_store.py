@@ -14,7 +14,6 @@ from meshforge.labels.label_by_consensus import ConsensusResult, SourceRestorati
 from meshforge.labels.label_by_plugin import label_by_plugin, propose_by_plugin
 from meshforge.labels.label_by_propagation import PropagationResult
 from meshforge.labels.merge import LabelOutcome, OutcomeCallback, ignore_report, set_labels, set_labels_of
-from meshforge.labels.offers import LabelOffers, OfferCache
 from meshforge.labels.summary import Proposals, Tally, describe_label_plan, tally, write_contact_sheets
 from meshforge.store import Store, VlmSettings
 from meshforge.symbolic import LabelSource
@@ -34,11 +33,7 @@ class LabelStore(Store):
         return set_labels(self, asset, labels, source, confidence)
 
     def set_labels_of(
-        self,
-        labels: Mapping[str, Mapping[str, str | None]],
-        *,
-        source: LabelSource = "user",
-        confidence: float = 1.0,
+        self, labels: Mapping[str, Mapping[str, str | None]], *, source: LabelSource = "user", confidence: float = 1.0
     ) -> tuple[LabelOutcome, ...]:
         """Label hulls of several assets as `set_labels` does, all or none. labels: by asset and hull."""
         return set_labels_of(self, labels, source, confidence)
@@ -73,10 +68,6 @@ class LabelStore(Store):
         return from_files.propose_from_files(
             self, source, options or from_files.LabelFileOptions(), vocabulary, execution
         )
-
-    def label_offers(self) -> LabelOffers:
-        """What `label_from_files` and `label_from_names` would give. To ask often, use an `OfferCache`."""
-        return OfferCache().of(self)
 
     def label_from_names(
         self,

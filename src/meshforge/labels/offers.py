@@ -46,7 +46,7 @@ class OfferCache:
         for asset, facts in survey(store.found, store.layout, only).items():
             file, labels = label_file_beside(store.path(asset)), store.layout.labels(asset)
             times = (file_state(labels), file, file_state(file) if file else None)
-            state = (vocabulary, meanings, facts.times, facts.preparation, *times)
+            state = (vocabulary, meanings, facts.files, facts.preparation, *times)
             before, rows[asset] = self._known.get(asset, (None, _AssetOffer()))
             if before != state:
                 rows[asset] = _find_offer(store, asset, facts, vocabulary, patterns)

@@ -14,14 +14,7 @@ import numpy as np
 from meshforge import batch
 from meshforge.common import MeshForgeError, ProjectError, describe_error, format_share, join_and
 from meshforge.formats import VisualSurfaces, read
-from meshforge.geometry import (
-    FinePiece,
-    Floats,
-    HullPart,
-    PieceEngine,
-    cache_folder,
-    decompose_finely,
-)
+from meshforge.geometry import FinePiece, Floats, HullPart, PieceEngine, cache_folder, decompose_finely
 from meshforge.label_model import (
     AssetCells,
     AssetPieces,

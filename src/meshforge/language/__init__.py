@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     )
     from meshforge.language.labels import check_declared, show_label
     from meshforge.language.orient import find_rotation, orient_mesh
-    from meshforge.language.parse import parse_action, parse_extractor, parse_orient
+    from meshforge.language.parse import parse_extractor
     from meshforge.language.print import Comments, Rule, explain, show
     from meshforge.language.program import HeaderComments, Program, RunResult, rename_in_program
     from meshforge.language.syntax import (
@@ -118,9 +118,7 @@ __all__ = [
     "labels_of",
     "make_action",
     "orient_mesh",
-    "parse_action",
     "parse_extractor",
-    "parse_orient",
     "plugin_of",
     "reference_length",
     "rename_in_orient",

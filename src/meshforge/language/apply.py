@@ -6,7 +6,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Hashable, Iterable, Mapping
 from dataclasses import dataclass, replace
-from typing import Any, Protocol, TypeVar
+from typing import Protocol, TypeVar
 
 import numpy as np
 
@@ -179,16 +179,6 @@ class RuleTrace:
     made: tuple[str, ...] = ()
     note: str | None = None
     sources: tuple[tuple[str, ...], ...] = ()
-
-    def to_json(self) -> dict[str, Any]:
-        """The trace as JSON-able data: rule, selected, made, note, and sources by made name."""
-        return {
-            "rule": self.rule,
-            "selected": list(self.selected),
-            "made": list(self.made),
-            "note": self.note,
-            "sources": {name: list(names) for name, names in zip(self.made, self.sources, strict=True)},
-        }
 
 
 def to_canonical_frame(

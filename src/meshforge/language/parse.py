@@ -41,18 +41,6 @@ def parse_extractor(text: str, name: str = "extractor") -> syntax.Extractor:
     return build_extractor(TreeReader(source), _only_child(parse_tree(source, "only_extractor")))
 
 
-def parse_action(text: str, name: str = "action") -> base.Action:
-    """The action in a text. Raises ProgramError at `name:line:column`."""
-    source = ProgramText(text.strip(), name)
-    return build_action(TreeReader(source), _only_child(parse_tree(source, "only_action")))
-
-
-def parse_orient(text: str, name: str = "orient") -> syntax.Orient:
-    """The orientation directive in a text, `orient ...` as in a program. Raises ProgramError at `name:line:column`."""
-    source = ProgramText(text.strip(), name)
-    return build_orient(TreeReader(source), _only_child(parse_tree(source, "only_orient")))
-
-
 @cache
 def _grammar() -> Lark:
     from lark import Lark  # lazy: most runs parse no program
@@ -60,7 +48,7 @@ def _grammar() -> Lark:
     return Lark(
         Path(__file__).with_name("grammar.lark").read_text(encoding="utf-8"),
         parser="lalr",
-        start=["program", "only_extractor", "only_action", "only_orient"],
+        start=["program", "only_extractor"],
         propagate_positions=True,
         maybe_placeholders=True,
     )

@@ -168,10 +168,7 @@ def select(extractor: Extractor, mesh: SymbolicMesh, extremity: float = EXTREMIT
 
 
 def select_mask(
-    extractor: Extractor,
-    mesh: SymbolicMesh,
-    extremity: float = EXTREMITY,
-    labels: Sequence[str | None] | None = None,
+    extractor: Extractor, mesh: SymbolicMesh, extremity: float = EXTREMITY, labels: Sequence[str | None] | None = None
 ) -> int:
     """The selection as a bit set. labels: of the hulls, in place of those that they have."""
     names = [hull.label for hull in mesh.hulls] if labels is None else labels

@@ -9,7 +9,6 @@ from meshforge.common.exports import export_lazily
 if TYPE_CHECKING:
     from meshforge.project.alarms import measure_results
     from meshforge.project.learn import (
-        FamilyMeshes,
         ProgramState,
         sees_whole_family,
         select_assets,
@@ -45,7 +44,6 @@ __all__ = [
     "SPLIT_DEFAULTS",
     "AssessmentBasis",
     "AssetStatus",
-    "FamilyMeshes",
     "NewAsset",
     "NewAssetOptions",
     "NewAssetResult",

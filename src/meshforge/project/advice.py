@@ -125,8 +125,9 @@ class Adviser:
 
     @property
     def _behind(self) -> list[AssetStatus]:
-        """The assets whose output is not up to date."""
-        return [asset for asset in self.assets if not asset.is_done and (asset.output != "failed" or asset.stale)]
+        """The assets whose output is not up to date, but for those that are given up."""
+        some = (asset for asset in self.assets if not asset.is_done and not asset.excluded)
+        return [asset for asset in some if asset.output != "failed" or asset.stale]
 
     def _advise_output(self) -> Advice | None:
         behind = self._behind
@@ -141,12 +142,12 @@ class Adviser:
         return Advice(f"The program fails on {some}: fix what is named, then apply it again.", self._type("apply"))
 
     def _advise_review(self) -> Advice:
-        """A look at what is not sure, then at what somebody flagged, then the checks."""
+        """A look at what is not sure, then at what is flagged, then the checks."""
         held = [asset for asset in self.assets if asset.sign_off in ("held", "void", "unknown")]
         if held:
             which = f"{held[0].id} is" if len(held) == 1 else f"{len(held)} of them, first {held[0].id}, are"
             return Advice(f"All assets are edited; {which} not signed off: review them.", self._type("review"))
-        odd = [asset.id for asset in self.assets if asset.flags or asset.review == "wrong"]
+        odd = [asset.id for asset in self.assets if asset.flags]
         if odd:
             say = f"All assets are edited; {len(odd)} of them want a look, first {odd[0]}: edit them by hand."
             return Advice(say, self._type("studio"))

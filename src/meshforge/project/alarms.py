@@ -78,7 +78,7 @@ class _Plan:
 
     def measure(self, asset: str, mesh: SymbolicMesh) -> EditMeasures:
         """The measures of an edit with what was done by hand after it; cached with the mesh."""
-        corrections, meant = self.store.corrections(asset), run.meant_selections(self.feedback, asset)
+        corrections, meant = self.store.corrections(asset), run.find_selections(self.feedback, asset)
         program, templates = self.task.program, self.task.templates
 
         def make() -> EditMeasures:

@@ -12,9 +12,9 @@ from meshforge.batch import action_text_without_each
 from meshforge.common import MeshForgeError, ProjectError, UsageError, suggest_among, suggest_name
 from meshforge.labels import merge
 from meshforge.project.preparation_journal import confirm_selections
-from meshforge.store import UNASKED, Said, Store
+from meshforge.store import NO_ORIGIN, Origin, Store
 from meshforge.symbolic import Label, SymbolicMesh
-from meshforge.synthesis import Answer, Demonstration, LabelCorrection, Question, Step
+from meshforge.synthesis import Answer, Demonstration, LabelCorrection, Step
 
 
 def demonstrate(store: Store, asset: str, steps: Iterable[Step]) -> None:
@@ -32,11 +32,15 @@ def demonstrate(store: Store, asset: str, steps: Iterable[Step]) -> None:
     for rule, name in find_unknown_hulls(Demonstration(mesh, steps, asset).steps, mesh.index):
         remedy = suggest_name(name, mesh.index)
         raise ProjectError(f"rule {rule}: there is no hull {name!r}", where=asset, remedy=remedy)
-    store.write_steps(asset, steps)
-    confirm_selections(store, asset)
+    with store.lock():
+        said = store.feedback().verdict_on(asset)
+        if steps and said and said.meant:  # what is shown now counts, no more what was said of a result before
+            store.add_events(said.model_copy(update={"meant": ()}))
+        store.write_steps(asset, steps)
+        confirm_selections(store, asset)
 
 
-def correct_selection(store: Store, asset: str, rule: int, select: Sequence[str], said: Said = UNASKED) -> None:
+def correct_selection(store: Store, asset: str, rule: int, select: Sequence[str], said: Origin = NO_ORIGIN) -> None:
     """Select other hulls in a step of a demonstration after a slip; on an asset that is not demonstrated by an answer,
     and what was accepted there counts no more. Raises ProjectError where there is no such step, and as `demonstrate`
     and `add_answer` do."""
@@ -161,16 +165,6 @@ def add_answer(store: Store, answer: Answer) -> str:
     return event.id
 
 
-def answer(store: Store, question: Question, choice: int | None) -> str:
-    """Answer a question by a choice, counted from 0, or by None for neither; give the answer's id `RULE:ASSET`.
-
-    Raises UsageError where there is no such choice.
-    """
-    if choice is not None and not 0 <= choice < len(question.choices):
-        raise UsageError(f"the question {question.id} has {len(question.choices)} choices, none at place {choice}")
-    return add_answer(store, question.answer_with(choice))
-
-
 def check_answer(store: Store, given: Answer) -> files.AnswerEvent:
     """An answer as it is kept. Raises ProjectError: no such asset, or no such rule. Its hulls may be made by a rule."""
     store.path(given.asset)
@@ -193,7 +187,7 @@ def actions_of(demonstrations: Iterable[Iterable[Step]]) -> dict[int, str]:
     return dict(sorted(found.items()))
 
 
-def confirm(store: Store, right: LabelCorrection, said: Said = UNASKED) -> str:
+def confirm(store: Store, right: LabelCorrection, said: Origin = NO_ORIGIN) -> str:
     """Repair a label, as a `Repair` proposes it or not, remembering the one before; give the repair's id
     `ASSET#HULL=LABEL`.
 
@@ -214,7 +208,7 @@ def confirm(store: Store, right: LabelCorrection, said: Said = UNASKED) -> str:
     return event.id
 
 
-def reject(store: Store, wrong: LabelCorrection, said: Said = UNASKED) -> str:
+def reject(store: Store, wrong: LabelCorrection, said: Origin = NO_ORIGIN) -> str:
     """Refuse a repair, so that it is not proposed again; give its id."""
     store.path(wrong.asset)
     event = files.LabelFixEvent(asset=wrong.asset, hull=wrong.hull, was=wrong.was, to=wrong.to, accepted=False)

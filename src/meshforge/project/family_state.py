@@ -17,7 +17,7 @@ from meshforge.signoff import ReviewState
 from meshforge.signoff.question import Selections
 from meshforge.store import Store, VerdictEvent
 from meshforge.symbolic import SymbolicMesh
-from meshforge.synthesis import memoize
+from meshforge.synthesis import Demonstration, memoize
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -42,12 +42,20 @@ class FamilyStateReader:
             for asset, demo in store.demonstrations().items()
             if asset in self.meshes
         }
+        every = {asset: some for asset, some in feedback.verdicts.items() if asset in self.meshes}
         found = _Verdicts(
-            {asset: some for asset, some in feedback.verdicts.items() if asset in self.meshes and asset not in demos}
+            {
+                asset: some
+                for asset, some in every.items()
+                if asset not in demos or _is_wrong_as_shown(demos[asset], some)
+            }
         )
+        shown = _Verdicts({asset: some for asset, some in every.items() if asset in demos})
         actions = actions_of(demo.steps for demo in demos.values())
         program = self.program or store.program()
-        given_up = {asset: one.reason for asset, one in feedback.exclusions.items() if one.reason}
+        given_up = {
+            asset: one.reason for asset, one in feedback.exclusions.items() if one.reason and asset in store.found.ids
+        }
         return ReviewState(
             self.meshes,
             self._read_frame(),
@@ -57,8 +65,10 @@ class FamilyStateReader:
             tuple(line.answer for line in feedback.answers.values() if line.fits(actions)),
             meant=found.list_meant(program),
             failed=found.list_failed(program),
-            accepted=frozenset(asset for asset, one in found.accepted() if self._stands(asset, one, program)),
-            corrected=found.list_corrected(program),
+            accepted=frozenset(
+                asset for asset, one in _Verdicts(every).list_accepted() if self._stands(asset, one, program)
+            ),
+            corrected=found.list_corrected(program) | shown.list_corrected(program),
             wrong=found.list_wrong(program),
             excluded=given_up,
             snoozed=frozenset(feedback.snoozed),
@@ -103,7 +113,7 @@ class _Verdicts:
 
     by_asset: Mapping[str, Sequence[VerdictEvent]]
 
-    def accepted(self) -> Iterator[tuple[str, VerdictEvent]]:
+    def list_accepted(self) -> Iterator[tuple[str, VerdictEvent]]:
         """Those that are accepted now."""
         yield from ((asset, some[-1]) for asset, some in self.by_asset.items() if some[-1].verdict == "accepted")
 
@@ -126,6 +136,15 @@ class _Verdicts:
         """The assets of which the last word is that the result is wrong."""
         wrong = (asset for asset, some in self.by_asset.items() if some[-1].verdict == "wrong")
         return frozenset(wrong) - self.list_corrected(program)
+
+
+def _is_wrong_as_shown(demo: Demonstration, verdicts: Sequence[VerdictEvent]) -> bool:
+    """Whether the last word is that a result is wrong which is just what the demonstration shows."""
+    last = verdicts[-1]
+    seen, shown = {one.rule: frozenset(one.select) for one in last.seen}, demo.steps
+    if last.verdict != "wrong" or last.meant or not seen:
+        return False
+    return all(step.select is None or seen.get(step.rule) == step.select for step in shown)
 
 
 def _fit(rows: Iterable[tuple[str, Sequence[RuleSelection]]], program: Program | None) -> dict[str, Selections]:

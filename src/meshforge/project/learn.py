@@ -8,8 +8,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from meshforge import synthesis
-from meshforge.batch import RECORD_FILE, file_digest, program_digest, text_digest
-from meshforge.common import MeshForgeError, ProgramError, ProjectError, write_atomically
+from meshforge.batch import content_digest, program_digest, record_digest, value_digest
+from meshforge.common import MeshForgeError, ProgramError, ProjectError, file_digest, write_atomically
 from meshforge.labels import pick_evenly
 from meshforge.language import Program
 from meshforge.project import demonstrations
@@ -24,25 +24,6 @@ times."""
 
 MOST_COMPARED = 100
 """Of more assets so many are looked at, evenly over all: each has to be read."""
-
-
-class FamilyMeshes:
-    """Reads every asset once; labels are looked at anew each time, as answers change them."""
-
-    def __init__(self, store: Store) -> None:
-        self._store = store
-        self._kept: dict[str, tuple[bytes, SymbolicMesh]] = {}
-
-    def meshes(self) -> dict[str, SymbolicMesh]:
-        """The assets to learn from that can be read, by id, with the labels they have now."""
-        if not self._kept:
-            rows = self._store.meshes_by_id(select_assets(self._store))
-            self._kept = {asset: (self._store.label_bytes(asset), mesh) for asset, mesh in rows}
-        for asset, (before, mesh) in self._kept.items():
-            now = self._store.label_bytes(asset)
-            if now != before:
-                self._kept[asset] = now, self._store.relabel(asset, mesh)
-        return {asset: mesh for asset, (_, mesh) in self._kept.items()}
 
 
 def select_assets(store: Store) -> tuple[str, ...]:
@@ -142,17 +123,29 @@ def digest_learning_inputs(store: Store, settings: Settings | None = None) -> st
     """The digest of all that is learned from: settings, what a person said, and all about the assets of which they said
     something: steps, labels and files. settings: in place of those that are written.
     """
-    layout, settings = store.layout, settings or store.settings
-    words = [settings.orient, str(settings.vocabulary), str(settings.thresholds)]
-    feedback = store.feedback()
-    words += [line.model_dump_json() for line in feedback.said.values()]
-    words += [f"{some[-1].asset} {some[-1].meant}" for some in feedback.verdicts.values() if some[-1].meant]
+    layout, feedback = store.layout, store.feedback()
+    words: list[object] = [digest_settings(settings or store.settings), digest_demonstrations(store)]
+    words += [line.model_dump(mode="json") for line in feedback.said.values()]
+    words += [str(some[-1].meant) for some in feedback.verdicts.values() if some[-1].meant]
     concerned = {line.asset for line in feedback.answers.values()} | set(store.demonstration_ids())
     for asset, path in store.found.ids.items():
         if asset in concerned:
-            files = [layout.demonstration(asset), layout.labels(asset), layout.preparation(asset) / RECORD_FILE, path]
-            words += [asset, *(file_digest(file) for file in files if file.is_file())]
-    return text_digest("\n".join(words))
+            labels = content_digest(layout.labels(asset)) if layout.labels(asset).exists() else None
+            asset_file = file_digest(path) if path.is_file() else None
+            words.append([asset, labels, record_digest(layout.preparation(asset)), asset_file])
+    return value_digest(words)
+
+
+def digest_settings(settings: Settings) -> str:
+    """The digest of the settings that decide labels and program."""
+    return value_digest([settings.orient, settings.vocabulary, settings.thresholds.model_dump()])
+
+
+def digest_demonstrations(store: Store) -> str:
+    """The digest of all steps that people showed."""
+    return value_digest(
+        {asset: content_digest(store.layout.demonstration(asset)) for asset in store.demonstration_ids()}
+    )
 
 
 Confirm = Callable[[synthesis.Repair], bool]
@@ -172,10 +165,10 @@ def learn_program(
 
     accept: what is found becomes the project's program, and what `confirm` says about repairs is kept at once.
     confirm, stop: as of `meshforge.synthesize`; answers: for this run, before those that are kept.
-    meshes: the assets by id, where they are in memory already (`FamilyMeshes`); else they are read, of very many some.
+    meshes: the assets by id, where they are in memory already; else they are read, of very many some.
     Raises ProjectError where nothing is demonstrated.
     """
-    meshes = FamilyMeshes(store).meshes() if meshes is None else meshes
+    meshes = dict(store.meshes_by_id(select_assets(store))) if meshes is None else meshes
     demos = _read_demonstrations(store, meshes)
     inputs = digest_learning_inputs(store)
     said = store.feedback()

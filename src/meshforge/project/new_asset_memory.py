@@ -10,7 +10,7 @@ from pathlib import Path
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from meshforge import batch
-from meshforge.common import write_atomically
+from meshforge.common import file_digest, write_atomically
 from meshforge.project.new_asset_result import NewAssetResult
 from meshforge.project.preparation_plan import PreparationPlan
 
@@ -68,7 +68,7 @@ class NewAssetFolder:
         self._kept.unlink(missing_ok=True)
 
     def _digest(self) -> tuple[str | None, str | None]:
-        labels = batch.file_digest(self.labels) if self.labels.exists() else None
+        labels = file_digest(self.labels) if self.labels.exists() else None
         return batch.record_digest(self.preparation), labels
 
 
@@ -77,6 +77,6 @@ def digest_basis(
 ) -> str:
     """A digest of all that a new asset is prepared from but its files. labels, preparation: what it has of these
     before, None for nothing; rest: what is the same for all."""
-    own = batch.file_digest(labels) if labels and labels.exists() else None
+    own = file_digest(labels) if labels and labels.exists() else None
     before = batch.record_digest(preparation) if preparation else None
     return batch.text_digest(json.dumps([asdict(plan), own, before, rest, batch.software_version()]))

@@ -6,7 +6,7 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 
-from meshforge.batch import ApplyTask, AssetJob, ExecutionOptions, Stamp, inputs_of, read_stamp
+from meshforge.batch import ApplyTask, AssetJob, ExecutionOptions, OutputInputs, inputs_of
 from meshforge.common import MeshForgeError
 from meshforge.labels import OfferCache
 from meshforge.language import Program
@@ -15,12 +15,21 @@ from meshforge.project.demonstrations import find_unknown_hulls
 from meshforge.project.learn import program_state_of, suggest_first_demonstration
 from meshforge.project.preparation_journal import describe_carried
 from meshforge.project.run import build_jobs, build_task, output_digest
-from meshforge.project.sign_offs import digest_lesson
+from meshforge.project.sign_offs import digest_lesson, find_bases
 from meshforge.project.span_splits import likely_spans, read_spans
 from meshforge.project.standings import Standings
 from meshforge.project.status import AssetStatus, Status
 from meshforge.signoff import BAR
-from meshforge.store import AssetFacts, SpansFile, Store, VerdictEvent, geometry_digest, survey
+from meshforge.store import (
+    AssetFacts,
+    AssetOutput,
+    SpansFile,
+    Store,
+    VerdictEvent,
+    find_outputs,
+    geometry_digest,
+    survey,
+)
 from meshforge.symbolic import LabelFile, match_labels
 
 
@@ -32,26 +41,31 @@ def compute_status(
     workers: int | None = None,
     progress: Callable[[], None] | None = None,
     stop: Callable[[], bool] | None = None,
+    verify: bool = False,
 ) -> Status:
     """How far everything is, what is stale, and the next sensible step.
 
     only: ids; then the status holds these assets alone, and its next step counts besides them `others`, which are
-    known already. workers, progress, stop: as of `meshforge.batch.run_isolated`, for assets that have to be read.
+    known already. workers, progress, stop: as of `meshforge.batch.run_isolated`, for assets that have to be read;
+    verify: hash every file of assets and outputs, also those that do not seem to have changed.
     Raises ProjectError for an asset that is not there, and for a file of the project that cannot be read.
     """
     for asset in only or ():
         store.path(asset)
     settings, ids, work, said = store.settings, store.found.ids, build_jobs(store, only), store.feedback()
     execution = ExecutionOptions(workers=workers, stop=stop)
-    facts = survey(store.found, store.layout, only, execution=execution, progress=progress)
+    facts = survey(store.found, store.layout, only, execution=execution, progress=progress, verify=verify)
+    outputs = find_outputs(store.layout, facts, verify=verify)
     program, task, problem = _read_program(store)
-    rows = [_asset_status(store, job, facts[job.id], task, said.verdict_on(job.id)) for job in work]
-    now = {job.id: inputs_of(task, job, dict(facts[job.id].files)) for job in work if task and not facts[job.id].error}
-    last, spans = store.assessment(), read_spans(store)
-    standings = Standings(
-        now, said, store.sign_offs(), last if last and last.holds(digest_lesson(store), now) else None
-    )
-    rows = [replace(row, spans=_list_spans(spans, row.id, facts[row.id])) for row in rows]
+    edits, rows, spans = dict[str, OutputInputs](), list[AssetStatus](), read_spans(store)
+    for job in work:
+        one, edit = facts[job.id], inputs_of(task, job, facts[job.id].digests) if task else None
+        edits |= {job.id: edit} if edit and not one.error else {}
+        row = _asset_status(store, job, one, outputs[job.id], edit, said.verdict_on(job.id))
+        rows.append(replace(row, spans=_list_spans(spans, row.id, one)))
+    last, lacks = store.assessment(), "asset" if task else "templates" if program else "program"
+    current = last if last and last.holds(digest_lesson(store), edits) else None
+    standings = Standings(find_bases(store, edits, outputs), lacks, said, store.sign_offs(), current)
     assets = tuple(map(standings.add_to, rows))
     state = program_state_of(store, program)
     rules = len(program.rules) if program else None
@@ -94,9 +108,14 @@ def _read_program(store: Store) -> tuple[Program | None, ApplyTask | None, str |
 
 
 def _asset_status(
-    store: Store, job: AssetJob, facts: AssetFacts, task: ApplyTask | None, review: VerdictEvent | None
+    store: Store,
+    job: AssetJob,
+    facts: AssetFacts,
+    output: AssetOutput,
+    edit: OutputInputs | None,
+    review: VerdictEvent | None,
 ) -> AssetStatus:
-    stamp = read_stamp(store.layout.edited, job.id)
+    stamp = output.stamp
     failed = stamp.error if stamp and stamp.status == "failed" else None
     file, unreadable = _read_labels(store, job)
     homes = match_labels(LabelFile() if facts.error else file, facts.hulls)
@@ -109,7 +128,7 @@ def _asset_status(
         doubtful=tuple(sorted((*homes.changed, *homes.gone), key=list(file.labels).index)),
         demonstrated=store.layout.demonstration(job.id).exists(),
         output=stamp.status if stamp else "none",
-        stale=_find_changes(stamp, job, facts, task),
+        stale=_find_changes(output, edit),
         error=facts.error or unreadable or failed,
         flags=tuple(
             dict.fromkeys(
@@ -168,13 +187,15 @@ def _read_labels(store: Store, job: AssetJob) -> tuple[LabelFile, str | None]:
         return LabelFile(), error.message
 
 
-def _find_changes(stamp: Stamp | None, job: AssetJob, facts: AssetFacts, task: ApplyTask | None) -> tuple[str, ...]:
-    """What changed since the output was made; of written files only whether they are there."""
-    if not stamp or not stamp.inputs or not task:
+def _find_changes(output: AssetOutput, edit: OutputInputs | None) -> tuple[str, ...]:
+    """What changed since the output was made, and of it. edit: all that decides what it would be now."""
+    stamp = output.stamp
+    if not stamp:
         return ()
-    gone = not all((task.out / name).is_file() for name in stamp.outputs)
-    now = inputs_of(task, job, facts.files).model_copy(update={"settings": stamp.inputs.settings})
-    return (*now.changes(stamp.inputs), *(["output"] if gone else []))
+    own = () if output.is_whole or stamp.status == "failed" else ("output",)
+    if not stamp.inputs or not edit:
+        return own
+    return (*edit.model_copy(update={"settings": stamp.inputs.settings}).changes(stamp.inputs), *own)
 
 
 def _find_lost_ids(store: Store) -> tuple[str, ...]:

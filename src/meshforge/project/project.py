@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Self
 
 from meshforge import batch
 from meshforge.labels import LabelStore
@@ -23,7 +24,7 @@ from meshforge.project import (
 )
 from meshforge.project.replies import reply_to
 from meshforge.project.review import build_review_state, review_project
-from meshforge.store import add_assets, create_folder, find_assets
+from meshforge.store import MeshCache, add_assets, create_folder, find_assets
 
 
 @dataclass(frozen=True)
@@ -52,6 +53,10 @@ class Project(LabelStore):
         """The project in a folder. Raises ProjectError: none there, its settings do not fit, or an asset is gone."""
         folder = Path(folder).absolute()
         return Project(folder, find_assets(folder))
+
+    def with_cache(self, cache: MeshCache | None = None) -> Self:
+        """The same project, whose meshes stay in memory as long as their files do not change."""
+        return replace(self, cache=cache or MeshCache())
 
     def add_assets(self, paths: Iterable[str | Path]) -> Project:
         """The project with more assets: files below the folder that ids count from. Raises ProjectError for others."""
@@ -108,7 +113,6 @@ class Project(LabelStore):
 
     # What a person said while it was learned
 
-    answer = demonstrations.answer
     add_answer = demonstrations.add_answer
     confirm = demonstrations.confirm
     reject = demonstrations.reject

@@ -26,7 +26,7 @@ from meshforge.signoff import (
     SpanQuestion,
 )
 from meshforge.signoff.question import EXCLUDE, NO, RIGHT, WRONG
-from meshforge.store import ExclusionEvent, LabelsEvent, Said, SnoozeEvent, Store
+from meshforge.store import ExclusionEvent, LabelsEvent, Origin, SnoozeEvent, Store
 from meshforge.synthesis import Answer, LabelCorrection
 
 
@@ -35,7 +35,7 @@ def reply_to(store: Store, question: ReviewQuestion, reply: ReviewReply) -> None
 
     Raises ProjectError, with nothing kept, where the reply does not fit.
     """
-    choice, said = find_choice(question, reply), Said(question.id, reply.by)
+    choice, said = find_choice(question, reply), Origin(question.id, reply.by)
     if reply.later:
         _snooze(store, said)
         return
@@ -87,13 +87,13 @@ def find_choice(question: ReviewQuestion, reply: ReviewReply) -> ReviewChoice | 
     return choice
 
 
-def _snooze(store: Store, said: Said) -> None:
+def _snooze(store: Store, said: Origin) -> None:
     store.add_events(SnoozeEvent(question=said.question, by=said.by))
 
 
 def _judge(store: Store, question: ResultQuestion, choice: ReviewChoice | None, reply: ReviewReply) -> None:
     """Keep a verdict on the result as the program makes it now, or why an asset is given up."""
-    asset, said = question.asset, Said(question.id, reply.by)
+    asset, said = question.asset, Origin(question.id, reply.by)
     if choice is None:
         _snooze(store, said)
     elif choice.id in EXCLUDE:
@@ -125,7 +125,7 @@ def _label(store: Store, question: GroupQuestion, choice: ReviewChoice | None, r
     for place, label in sorted({**given, **reply.exceptions}.items()):
         labels.setdefault(place.asset, {})[place.hull] = str(label)
     if not labels:
-        _snooze(store, Said(question.id, reply.by))
+        _snooze(store, Origin(question.id, reply.by))
         return
     with store.lock():
         set_labels_of(store, labels, "user", 1.0)
@@ -135,7 +135,7 @@ def _label(store: Store, question: GroupQuestion, choice: ReviewChoice | None, r
 
 def _repair(store: Store, question: RepairQuestion, choice: ReviewChoice | None, reply: ReviewReply) -> None:
     """Fix the label of a hull, so that it can be withdrawn, or keep it; what was refused is not proposed again."""
-    (place,), said = question.hulls, Said(question.id, reply.by)
+    (place,), said = question.hulls, Origin(question.id, reply.by)
     label = reply.exceptions.get(place) or (choice.label if choice else None)
     if label is None:
         _snooze(store, said)

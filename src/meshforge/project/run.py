@@ -17,7 +17,7 @@ from meshforge.geometry import digest
 from meshforge.labels import pick_evenly
 from meshforge.labels.merge import set_labels
 from meshforge.language import Action, Program, RunResult, Template
-from meshforge.store import UNASKED, ExclusionEvent, Feedback, Said, Store, Verdict, VerdictEvent
+from meshforge.store import NO_ORIGIN, ExclusionEvent, Feedback, Origin, Store, Verdict, VerdictEvent
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Demonstration, advance, begin_replay, memoize
 
@@ -33,7 +33,7 @@ def build_jobs(store: Store, only: Collection[str] | None = None) -> tuple[batch
             layout.labels(asset) if layout.labels(asset).exists() else None,
             store.corrections(asset),
             layout.preparation(asset) if (layout.preparation(asset) / batch.RECORD_FILE).exists() else None,
-            meant_selections(feedback, asset),
+            find_selections(feedback, asset),
         )
         for asset, path in store.found.choose(only).items()
     )
@@ -60,9 +60,7 @@ def build_work(
     program = store.program()
     if program is None:
         raise ProjectError(
-            "there is no program yet",
-            where=str(store.folder),
-            remedy=f"Learn it: meshforge synthesize {store.folder}",
+            "there is no program yet", where=str(store.folder), remedy=f"Learn it: meshforge synthesize {store.folder}"
         )
     return program, build_jobs(store, only), build_task(store, program).templates
 
@@ -95,7 +93,8 @@ def correct(store: Store, asset: str, select: Iterable[str], action: Action, lab
         added = make_correction(before.mesh, asset, sorted(set(select)), action, label)
         if not before.corrections:
             seen = number_selections(before.program, {line.rule: line.selected for line in before.run.trace})
-            store.add_events(VerdictEvent(asset=asset, verdict="wrong", note="edited by hand", seen=seen))
+            meant = find_selections(store.feedback(), asset)  # what was edited by hand was made with these
+            store.add_events(VerdictEvent(asset=asset, verdict="wrong", note="edited by hand", seen=seen, meant=meant))
         store.write_corrections(asset, (*before.corrections, added))
 
 
@@ -117,7 +116,7 @@ def run_with_corrections(store: Store, asset: str, mesh: SymbolicMesh, program: 
     corrections = store.corrections(asset)
     names = [*plan.templates, *(name for one in corrections for name in one.action.templates)]
     templates = store.templates(dict.fromkeys(names))
-    run = plan.run(mesh, templates, selections=batch.selections_of(meant_selections(store.feedback(), asset), plan))
+    run = plan.run(mesh, templates, selections=batch.selections_of(find_selections(store.feedback(), asset), plan))
     after, flags = batch.replay_corrections(corrections, mesh, run.mesh, plan, templates)
     return RunWithCorrections(plan, templates, run, corrections, after, flags)
 
@@ -137,7 +136,7 @@ MOST_ACCEPTED = 100
 """Of more accepted results so many are learned from: each is one more mesh on which every rule must be right."""
 
 
-def meant_selections(feedback: Feedback, asset: str) -> tuple[batch.RuleSelection, ...]:
+def find_selections(feedback: Feedback, asset: str) -> tuple[batch.RuleSelection, ...]:
     """What a person said that rules select on an asset, when they called its result wrong."""
     verdict = feedback.verdict_on(asset)
     return verdict.meant if verdict else ()
@@ -151,7 +150,7 @@ def review_assets(
     *,
     selections: Mapping[int, Collection[str]] = MappingProxyType({}),
     labels: Mapping[str, str] = MappingProxyType({}),
-    said: Said = UNASKED,
+    said: Origin = NO_ORIGIN,
 ) -> None:
     """Accept the result of one or several assets, or call it wrong; None takes back what was said, an exclusion too.
 
@@ -176,7 +175,7 @@ def _judge(
     verdict: Verdict | None,
     note: str | None,
     selections: Mapping[int, Collection[str]],
-    said: Said,
+    said: Origin,
     *,
     alone: bool,
 ) -> VerdictEvent:
@@ -187,7 +186,7 @@ def _judge(
         remedy = f"Make it: meshforge apply {store.folder}"
         raise ProjectError(f"{asset} has no output to be accepted", where=str(store.folder), remedy=remedy)
     seen = (_read_selections(store, stamp) or _run_for_selections(store, asset, verdict)) if verdict and alone else ()
-    before = meant_selections(store.feedback(), asset) if verdict == "accepted" else ()  # it is made with these
+    before = find_selections(store.feedback(), asset) if verdict == "accepted" else ()  # it is made with these
     meant = _replace_selections(store, asset, seen, selections) if selections else before
     by, question = said.by, said.question
     return VerdictEvent(

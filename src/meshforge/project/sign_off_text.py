@@ -57,7 +57,8 @@ def format_status(found: Status, folder: Path) -> str:
     if waits:
         lines.append(f"  {waits} of them will be signed off when their outputs are up to date (meshforge apply)")
     lines += _format_held([_hold_of_status(asset) for asset in found.open_assets], folder, MOST_HELD)
-    return "\n".join(lines)
+    doubted = [_AssetDoubt(one.id, None, format_standing(one)) for one in found.assets if one.found_since]
+    return "\n".join([*lines, *_format_held(doubted, folder, MOST_HELD)])
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,4 +112,5 @@ def format_standing(asset: AssetStatus) -> str:
     if asset.sign_off == "sure":
         return f"{share}signed off when its output is up to date (meshforge apply)"
     who = {"tool": " by MeshForge", "person": " by a person", None: ""}[asset.signed_by]
-    return f"{share}{asset.sign_off}{who}"
+    since = f"; found since: {'; '.join(asset.found_since)}" if asset.found_since else ""
+    return f"{share}{asset.sign_off}{who}{since}"

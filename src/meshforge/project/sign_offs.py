@@ -16,23 +16,26 @@ from meshforge.batch import (
     ExecutionOptions,
     OutputInputs,
     Stamp,
-    file_digest,
+    content_digest,
     inputs_of,
     program_digest,
-    read_stamp,
     template_digests,
-    text_digest,
+    value_digest,
 )
 from meshforge.language import Program
 from meshforge.project import run
-from meshforge.project.learn import digest_learning_inputs
+from meshforge.project.learn import digest_demonstrations, digest_learning_inputs, digest_settings
 from meshforge.signoff import Assessment, EditMeasures
 from meshforge.store import (
+    SAID,
     AssessmentFile,
+    AssetOutput,
     ConfidenceLine,
     SignOff,
+    SignOffBasis,
     Store,
     find_changes,
+    find_outputs,
     survey,
 )
 
@@ -53,28 +56,34 @@ def find_inputs(store: Store, execution: ExecutionOptions = EXECUTION_DEFAULTS) 
 def _digest_edits(store: Store, task: ApplyTask, execution: ExecutionOptions) -> dict[str, OutputInputs]:
     facts = survey(store.found, store.layout, execution=execution)
     return {
-        job.id: inputs_of(task, job, dict(facts[job.id].files))
-        for job in run.build_jobs(store)
-        if not facts[job.id].error
+        job.id: inputs_of(task, job, facts[job.id].digests) for job in run.build_jobs(store) if not facts[job.id].error
     }
 
 
 def digest_lesson(store: Store) -> str:
     """The digest of all that probabilities rest on beside the assets: what is learned from, what a person said, and
     which hulls were found to span parts."""
-    layout = store.layout
-    files = [layout.spans, layout.single_parts]
-    files += map(layout.preparation_journal, store.demonstration_ids())  # whether a person looked at what was carried
-    kept = (file_digest(file) if file.exists() else "" for file in files)
-    return text_digest(" ".join((digest_learning_inputs(store), digest_said(store), *kept)))
+    journals = map(store.layout.preparation_journal, store.demonstration_ids())  # whether a person saw what was carried
+    kept = (content_digest(file) if file.exists() else None for file in (store.layout.spans, *journals))
+    return value_digest([digest_learning_inputs(store), digest_said(store), *kept])
 
 
 def digest_said(store: Store) -> str:
-    """The digest of what people said of results, and of the questions that they snoozed."""
-    said = store.feedback()
-    words = [one.model_dump_json(exclude={"by"}) for some in said.verdicts.values() for one in some]
-    words += [f"{asset} {one.reason}" for asset, one in said.exclusions.items()]
-    return text_digest("\n".join(words))
+    """The digest of what people said: answers and fixes, verdicts without notes, exclusions, and hulls that are one
+    part."""
+    feedback = store.feedback()
+    lines = [*feedback.said.values(), *(one for some in feedback.verdicts.values() for one in some)]
+    said = [one.model_dump(mode="json", exclude={"note", "by", "question"}) for one in lines]
+    away = {asset: one.reason for asset, one in feedback.exclusions.items()}
+    return value_digest([said, away, store.single_parts().model_dump(mode="json")])
+
+
+def find_bases(
+    store: Store, edits: Mapping[str, OutputInputs], outputs: Mapping[str, AssetOutput]
+) -> dict[str, SignOffBasis]:
+    """What a sign-off of each asset would rest on now. edits: the digests of all that decides its edit."""
+    settings, said = digest_settings(store.settings), value_digest([digest_demonstrations(store), digest_said(store)])
+    return {asset: SignOffBasis.of(edit, settings, said, outputs[asset].digest) for asset, edit in edits.items()}
 
 
 @dataclass(frozen=True)
@@ -89,16 +98,17 @@ class AssessmentBasis:
     @staticmethod
     def take(store: Store, execution: ExecutionOptions = EXECUTION_DEFAULTS) -> AssessmentBasis:
         """The digests as they are, of edits by an empty program: which it will be is often learned since."""
-        nothing = ApplyTask(Program(), {}, store.layout.edited)
-        return AssessmentBasis(digest_lesson(store), _digest_edits(store, nothing, execution))
+        return AssessmentBasis(digest_lesson(store), _digest_edits(store, run.build_task(store, Program()), execution))
 
     def under(self, store: Store, program: Program | None) -> AssessmentBasis:
         """The same of edits by a program; without one there are none."""
         if program is None:
             return AssessmentBasis(self.lesson, {})
-        task = run.build_task(store, program)
-        of_program = {"program": program_digest(program), "templates": template_digests(task.templates)}
-        edits = {asset: now.model_copy(update=of_program) for asset, now in self.inputs.items()}
+        digest, templates = program_digest(program), template_digests(store.templates(program.templates))
+        edits = {
+            asset: now.model_copy(update={"program": digest, "templates": {**now.templates, **templates}})
+            for asset, now in self.inputs.items()
+        }
         return AssessmentBasis(self.lesson, edits)
 
 
@@ -139,34 +149,38 @@ def renew_sign_offs(
 ) -> dict[str, str]:
     """Sign off what may be by the last review, as far as that holds; take back what may not, and say why, by asset.
 
-    alarms: sentences on outputs that stand out of those just written, by asset: the tool signs off none that has more
-    of them than the review knew. keep_persons: those of a person stay where something changed of what they rest on;
-    they are void then, and named so.
+    Where nothing changed of what a sign-off rests on, it stays whatever was found since. alarms: sentences on outputs
+    that stand out of those just written, by asset: the tool signs off none that has more of them than the review knew.
+    keep_persons: those of a person stay where something but what was said changed; they are void then, and named so.
     """
-    last, inputs = store.assessment(), find_inputs(store, execution)
-    if last is None or not last.holds(digest_lesson(store), inputs):
+    last, edits = store.assessment(), find_inputs(store, execution)
+    if last is None or not last.holds(digest_lesson(store), edits):
         return {}
     when = clock().astimezone(UTC).isoformat(timespec="seconds")
+    outputs = find_outputs(store.layout, edits)
+    bases = find_bases(store, edits, outputs)
     with store.lock():
         if alarms:
             last = last.with_alarms(alarms)
             store.write_assessment(last)
         before, away = store.sign_offs(), {*last.wrong, *store.feedback().exclusions}
-        kept = {name: one for name, one in before.items() if name in store.found.ids}
-        lost = dict[str, str]()
-        for name, line in last.assets.items():
-            old, now = before.get(name), inputs.get(name)
-            if now is None:  # it cannot be read now, so that its sign-off is void
+        kept, lost = dict[str, SignOff](), dict[str, str]()
+        for name in [*last.assets, *(before.keys() & store.found.ids.keys() - last.assets.keys())]:
+            old, now, line = before.get(name), bases.get(name), last.assets.get(name)
+            if line is None or now is None:  # it cannot be read now, so that its sign-off is void
+                kept |= {name: old} if old else {}
                 continue
-            changed = find_changes(now, old.rests_on) if old else ()
-            good = line.passes(last.bar) and name not in away
-            if good and (old is None or changed):
-                if is_written(read_stamp(store.layout.edited, name), now):
-                    by: Literal["person", "tool"] = "person" if line.looked_at else "tool"
-                    kept[name] = SignOff(asset=name, by=by, when=when, probability=line.probability, rests_on=now)
-            elif old and not good and not (keep_persons and old.by == "person" and changed):
-                lost[name] = _describe_loss(old, line, changed, name in away)
-                del kept[name]
+            changes, is_away = now.changes(old.rests_on) if old else (), name in away
+            good = line.passes(last.bar) and not is_away
+            if old and not changes and old.meets(last.bar) and not is_away:
+                kept[name] = old
+            elif good and outputs[name].is_whole and is_written(outputs[name].stamp, edits[name]):
+                by: Literal["person", "tool"] = "person" if line.looked_at else "tool"
+                kept[name] = SignOff(asset=name, by=by, when=when, probability=line.probability, rests_on=now)
+            elif old and (good or (keep_persons and old.by == "person" and {*changes} - {SAID})):
+                kept[name] = old  # where something changed void, and named so, until its output is there again
+            elif old:
+                lost[name] = _describe_loss(old, line, changes, is_away)
         store.write_sign_offs(kept)
     return lost
 
@@ -176,7 +190,7 @@ def _describe_loss(old: SignOff, line: ConfidenceLine, changes: tuple[str, ...],
         return "a person called it wrong, or excluded it"
     if line.stands_out:
         return f"its output stands out: {line.doubts[0].text}"
-    why = f", {' and '.join(changes)} changed" if changes else ", by what is known of the family now"
+    why = f", {' and '.join(changes)} changed" if changes else ", and more is asked for now"
     return f"it was {old.probability:.1%} sure, and is {line.probability:.1%} sure{why}"
 
 

@@ -170,11 +170,7 @@ class AssetSpans:
 
 
 def search_spans(
-    store: Store,
-    assets: Sequence[str],
-    how: SplitSettings,
-    execution: batch.ExecutionOptions,
-    stage: Stage,
+    store: Store, assets: Sequence[str], how: SplitSettings, execution: batch.ExecutionOptions, stage: Stage
 ) -> Iterator[tuple[str, AssetSpans | str]]:
     """What was found of each asset, or why it could not be looked at. Raises ProjectError where no hull has a label."""
     if len(store.assets()) <= MOST_TOGETHER:
@@ -195,11 +191,7 @@ def search_spans(
 
 
 def _search_together(
-    store: Store,
-    assets: Iterable[str],
-    how: SplitSettings,
-    execution: batch.ExecutionOptions,
-    stage: Stage,
+    store: Store, assets: Iterable[str], how: SplitSettings, execution: batch.ExecutionOptions, stage: Stage
 ) -> Iterator[tuple[str, AssetSpans | str]]:
     seen = {asset: _Steps.of(store.layout.preparation(asset)) for asset in assets}
     report, single = find_spans(store, execution, stage, how.pieces), store.single_parts().assets

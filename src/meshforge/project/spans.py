@@ -66,7 +66,7 @@ def choose_assets(store: Store, assets: Iterable[str] | None, sure: float) -> tu
     Raises UsageError for a probability that is none, ProjectError for an asset that the project does not have.
     """
     if not 0 < sure <= 1:
-        raise UsageError(f"--sure {sure:g}: a probability is needed, above 0 and at most 1")
+        raise UsageError(f"--min-confidence {sure:g}: a probability is needed, above 0 and at most 1")
     ids = store.assets() if assets is None else tuple(dict.fromkeys(assets))
     for asset in ids:
         store.path(asset)
@@ -103,10 +103,7 @@ def _write_likely(store: Store, likely: Mapping[str, dict[str, SpanLine]]) -> No
 
 
 def list_spans(
-    store: Store,
-    *,
-    execution: batch.ExecutionOptions = batch.EXECUTION_DEFAULTS,
-    stage: Stage = ignore_stage,
+    store: Store, *, execution: batch.ExecutionOptions = batch.EXECUTION_DEFAULTS, stage: Stage = ignore_stage
 ) -> tuple[PreparationResult, ...]:
     """Find anew which hulls span parts, for `spans`, the status and the review; of each asset why it could not be
     looked at, and what of it was not.

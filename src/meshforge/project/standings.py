@@ -5,18 +5,20 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from meshforge.batch import OutputInputs
+from meshforge.common import format_share
 from meshforge.project.status import AssetStatus, SignOffState
-from meshforge.store import AssessmentFile, ConfidenceLine, Feedback, SignOff, find_changes
+from meshforge.store import AssessmentFile, ConfidenceLine, Feedback, SignOff, SignOffBasis
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Standings:
-    """What is kept of a review. inputs: of the edits as they are now, of assets that can be read; said: by
-    people; signed: what is signed off, by asset; last: what the last review found, None where something changed since.
+    """What is kept of a review. bases: what sign-offs would rest on now, of assets that can be edited; lacks: what is
+    not there of the others; said: by people; signed: what is signed off, by asset; last: what the last review found,
+    None where something changed since.
     """
 
-    inputs: Mapping[str, OutputInputs]
+    bases: Mapping[str, SignOffBasis]
+    lacks: str
     said: Feedback
     signed: Mapping[str, SignOff]
     last: AssessmentFile | None
@@ -24,48 +26,60 @@ class Standings:
     def add_to(self, asset: AssetStatus) -> AssetStatus:
         """An asset with how it stands."""
         line = self.last.assets.get(asset.id) if self.last else None
-        sign_off, now = self.signed.get(asset.id), self.inputs.get(asset.id)
-        void = _find_void(sign_off, now, bool(asset.spans))
+        sign_off, excluded = self.signed.get(asset.id), self.said.exclusions.get(asset.id)
+        void = self._find_void(asset, sign_off)
+        state = self._find_state(asset, line, bool(sign_off), bool(void))
+        by = sign_off.by if sign_off and not _is_accepted(asset) else "person"
         found = line.to_confidence(asset.id) if line else None
-        state, accepted = self._find_state(asset, line, sign_off, void), asset.review == "accepted" and not asset.stale
-        by = "person" if accepted or not sign_off else sign_off.by
-        excluded = self.said.exclusions.get(asset.id)
         return replace(
             asset,
             sign_off=state,
             signed_by=by if state == "signed off" else None,
-            void=void,
+            void=void if state == "void" else (),
+            found_since=self._find_news(asset, line, by == "tool") if state == "signed off" else (),
             excluded=excluded.reason if excluded else None,
             probability=found.probability if found else None,
             doubts=found.doubts if found else (),
         )
 
+    def _find_void(self, asset: AssetStatus, sign_off: SignOff | None) -> tuple[str, ...]:
+        """What changed of all that a sign-off rests on, or, where there is none, since a person accepted the result."""
+        if _is_accepted(asset) or (not sign_off and asset.review == "accepted"):
+            return _list_changes(asset)
+        now = self.bases.get(asset.id)
+        return () if not sign_off else now.changes(sign_off.rests_on) if now else (self.lacks,)
+
     def _find_state(
-        self, asset: AssetStatus, line: ConfidenceLine | None, sign_off: SignOff | None, void: tuple[str, ...]
+        self, asset: AssetStatus, line: ConfidenceLine | None, is_signed: bool, is_void: bool
     ) -> SignOffState:
         if asset.id in self.said.exclusions:
             return "excluded"
-        if (asset.review == "wrong" and not self._is_corrected(asset.id)) or (
-            self.last and asset.id in self.last.wrong
-        ):
+        verdict = self.said.verdict_on(asset.id)
+        is_wrong = asset.review == "wrong" and not (verdict and verdict.meant) and not asset.demonstrated
+        if asset.id in self.last.wrong if self.last else is_wrong:
             return "held"
-        if asset.review == "accepted" and not asset.stale:
-            return "signed off"
-        if sign_off:
-            return "void" if void else "signed off"
+        if is_signed or asset.review == "accepted":
+            return "void" if is_void else "signed off"
         if not line or not self.last:
             return "unknown"
         return "sure" if line.passes(self.last.bar) else "held"
 
-    def _is_corrected(self, asset: str) -> bool:
-        verdict = self.said.verdict_on(asset)
-        return bool(verdict and verdict.meant)
+    def _find_news(self, asset: AssetStatus, line: ConfidenceLine | None, by_tool: bool) -> tuple[str, ...]:
+        """What was found after an asset was signed off, and no person has answered."""
+        if not line or not self.last:
+            return tuple(asset.spans.values()) if by_tool else ()
+        if line.passes(self.last.bar):
+            return ()
+        sure = f"it is {format_share(line.probability)} sure now"
+        weighty = (one.text for one in line.doubts if one.kind == "alarm" or one.share > 1 - self.last.bar)
+        return tuple(weighty) or (line.doubts[0].text if line.doubts else sure,)
 
 
-def _find_void(sign_off: SignOff | None, now: OutputInputs | None, spans: bool) -> tuple[str, ...]:
-    """What changed of all that a sign-off rests on. spans: whether hulls of the asset likely span parts; the tool signs
-    no such asset off, so that they were found since."""
-    if not sign_off:
-        return ()
-    known = ("what is known of its hulls",) if spans and sign_off.by == "tool" else ()
-    return (*find_changes(now, sign_off.rests_on), *known) if now else ("asset",)
+def _is_accepted(asset: AssetStatus) -> bool:
+    """Whether a person accepted the result as it is now."""
+    return asset.review == "accepted" and not _list_changes(asset)
+
+
+def _list_changes(asset: AssetStatus) -> tuple[str, ...]:
+    """What changed since the output was made, but for the version of this software."""
+    return tuple(one for one in asset.stale if one != "software")

@@ -21,7 +21,7 @@ class AssetStatus:
     """One asset. hulls: how many, None where it cannot be read; labelled: how many of them have a label.
 
     output: what the last `apply` made; stale: what changed since then (`asset`, `labels`, `program`, ...), or `output`
-    where written files are gone. error: why it cannot be read, or why it failed.
+    where written files changed or are gone. error: why it cannot be read, or why it failed.
     doubtful: labelled hulls that are gone, or have another geometry than was labelled.
     prepared: what was done to it before the program; sources: pieces and bodies without hulls that can be decomposed.
     flags: edits by hand that were left out, demonstrated hulls that are no more; review, review_note: what a person
@@ -30,9 +30,10 @@ class AssetStatus:
     where it cannot be read. after, after_labels, output_digest: hulls of the output, the label of each where that is
     known, and its files; corrections: edits by hand, a number.
     sign_off: whether it is signed off; signed_by: by whom; void: what changed since it was; excluded: why it is given
-    up; probability, doubts: of its edit, as of the last review where nothing changed since, else None. spans: hulls
-    that likely hold more than one part, by name, in words, as `prepare --split-spanning` found them, or as they look
-    like one that a person split.
+    up; probability, doubts: of its edit, as of the last review where nothing changed since, else None; found_since:
+    doubts that were found after it was signed off, which stays so until a person answers. spans: hulls that likely hold
+    more than one part, by name, in words, as `prepare --split-spanning` found them, or as they look like one that a
+    person split.
     """
 
     id: str
@@ -59,6 +60,7 @@ class AssetStatus:
     signed_by: Literal["tool", "person"] | None = None
     void: tuple[str, ...] = ()
     excluded: ExclusionReason | None = None
+    found_since: tuple[str, ...] = ()
     probability: float | None = None
     doubts: tuple[Doubt, ...] = ()
     spans: Mapping[str, str] = field(default_factory=dict)
@@ -155,6 +157,7 @@ def _asset_json(asset: AssetStatus) -> dict[str, Any]:
         "signed_by": asset.signed_by,
         "void": list(asset.void),
         "excluded": asset.excluded,
+        "found_since": list(asset.found_since),
         **asset.confidence_to_json(),
     }
 

@@ -38,8 +38,6 @@ if TYPE_CHECKING:
     )
     from meshforge.rendering.id_buffer import (
         ThumbnailPixels,
-        count_visible_pixels,
-        render_id_buffer,
         render_thumbnail,
         renumber,
     )
@@ -68,7 +66,6 @@ __all__ = [
     "check_picture_path",
     "color_hulls",
     "compare",
-    "count_visible_pixels",
     "draw_before_after",
     "draw_changes",
     "draw_difference",
@@ -86,7 +83,6 @@ __all__ = [
     "make_contact_sheet",
     "render",
     "render_division",
-    "render_id_buffer",
     "render_revealing",
     "render_thumbnail",
     "renumber",

@@ -1,20 +1,18 @@
-"""Which hull each pixel shows, as numbers: id buffers, counts of visible pixels, and thumbnails to be coloured by
-who shows them."""
+"""Which hull each pixel shows, as numbers: thumbnails to be coloured by who shows them."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Sequence
 from typing import TypeVar
 
 import numpy as np
 import numpy.typing as npt
 
 from meshforge.geometry import Aabb, Floats, Ints, Pose
-from meshforge.rendering.annotation import count_pixels
-from meshforge.rendering.camera import Camera, Floats32, Up, View, aim_camera
+from meshforge.rendering.camera import Camera, Floats32, View, aim_camera
 from meshforge.rendering.light import shade
 from meshforge.rendering.paint import BORDER, CREASE, SILHOUETTE, trace_lines
-from meshforge.rendering.picture import points_to_frame, render_meshes_of, up_axis
+from meshforge.rendering.picture import points_to_frame, render_meshes_of
 from meshforge.rendering.raycast import DrawLayer, RayHits, ViewFrame, cast_layer, up_vector
 from meshforge.rendering.scene import RenderMesh, to_render_mesh
 from meshforge.symbolic import SymbolicMesh
@@ -25,34 +23,6 @@ Number = TypeVar("Number", np.int64, np.float32)
 _LARGE = 100_000  # pixels, from which on each is seen by fewer rays
 _GREY, _FULL = 0.72, 0.80  # a surface before light falls on it, and what then counts as full light
 _DARKER = {CREASE: 0.16, BORDER: 0.62, SILHOUETTE: 0.62}  # by how much lines take light away
-
-
-def render_id_buffer(
-    mesh: SymbolicMesh,
-    *,
-    view: View = "iso",
-    size: tuple[int, int] = (400, 300),
-    bounds: Aabb | None = None,
-    up: Up | None = None,
-) -> Ints:
-    """The index of the hull that each pixel (height, width) shows, -1 for none; framed as `render` frames a picture
-    without words."""
-    held = bounds or mesh.aabb
-    if held is None or not mesh.hulls:
-        return np.full((size[1], size[0]), -1, dtype=np.int64)
-    layer = DrawLayer(render_meshes_of(mesh.hulls), np.zeros((len(mesh.hulls), 3)))
-    axis = up_axis(mesh, up)
-    frame = ViewFrame(held, up_vector(axis))
-    points = bounds.corners if bounds else np.concatenate([s.vertices for s in layer.render_meshes])
-    return cast_layer(layer, frame, aim_camera(view, axis, size, frame.to_unit(points))).item
-
-
-def count_visible_pixels(
-    mesh: SymbolicMesh, *, view: View = "iso", size: tuple[int, int] = (400, 300), up: Up | None = None
-) -> Mapping[str, int]:
-    """How many pixels of a picture show each hull, by name; hulls that are hidden have 0."""
-    counts = count_pixels(render_id_buffer(mesh, view=view, size=size, up=up), len(mesh.hulls))
-    return {hull.name: int(n) for hull, n in zip(mesh.hulls, counts, strict=True)}
 
 
 def render_thumbnail(

@@ -75,12 +75,7 @@ def render(
 
 
 def _draw_view(
-    canvas: Canvas,
-    what: Subject,
-    bounds: Aabb | None,
-    view: View,
-    box: tuple[int, int, int, int],
-    named: bool,
+    canvas: Canvas, what: Subject, bounds: Aabb | None, view: View, box: tuple[int, int, int, int], named: bool
 ) -> Ints:
     """Draws one view into a box; what each of its pixels (h, w) shows. named: whether its name stands there."""
     items = draw_on_canvas(canvas, what, bounds, view, box)

@@ -2,23 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
 from meshforge.common import UsageError, find_drafts, suggest_among, write_atomically
-from meshforge.samples.bottles import build_bottles
-from meshforge.samples.chairs import build_chairs
-from meshforge.samples.cups import build_cups
-from meshforge.samples.parts import Files
 
 TABLES = Path(__file__).parent / "tables"
 """Fourteen tables as OBJ files with their labels beside them; `tables.mf`, `templates/` and `demonstrations/`."""
 
 
-def _read_tables() -> Files:
-    """The bundled tables with their labels."""
-    return {path.name: path.read_bytes() for path in sorted(TABLES.glob("table_*"))}
+Files = dict[str, bytes]
+"""What each file of a family holds, by its path within the folder of the family."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,14 +20,24 @@ class SampleFamily:
     """A family of assets that MeshForge writes.
 
     about: what they are, in a line; pattern: a glob that finds them in their folder; vocabulary: of their labels;
-    build: makes what the files hold.
+    files: a glob of what is written.
     """
 
     name: str
     about: str
     pattern: str
     vocabulary: tuple[str, ...]
-    build: Callable[[], Files]
+    files: str = "**/*"
+
+    @property
+    def folder(self) -> Path:
+        """Where its files lie."""
+        return Path(__file__).parent / self.name
+
+    def read(self) -> Files:
+        """What its files hold."""
+        paths = (path for path in sorted(self.folder.glob(self.files)) if path.is_file())
+        return {path.relative_to(self.folder).as_posix(): path.read_bytes() for path in paths}
 
 
 FAMILIES = (
@@ -42,28 +46,25 @@ FAMILIES = (
         "12 bottles as OBJ, 1 to 17 hulls each: bodies in slices, caps, a pump, a trigger",
         "*.obj",
         ("body", "cap"),
-        build_bottles,
     ),
     SampleFamily(
         "cups",
         "12 cups as URDF, 10 to 41 hulls each: walls of tiles, none to three handles",
         "**/*.urdf",
         ("base", "wall", "handle", "lid"),
-        build_cups,
     ),
     SampleFamily(
         "chairs",
         "10 chairs as GLB and glTF, 6 to 25 hulls each: colliders as KHR, Unreal, Godot and Unity have them",
         "*.gl*",
         ("seat", "leg", "back", "arm", "rail"),
-        build_chairs,
     ),
     SampleFamily(
         "tables",
         "14 tables as OBJ, 26 to 66 hulls each, decomposed by CoACD: those of `meshforge demo`",
         "*.obj",
         ("panel", "leg", "handle", "drawer", "misc"),
-        _read_tables,
+        "table_*",
     ),
 )
 """Every family, with its assets in the order of their names."""
@@ -85,7 +86,7 @@ def write_family(family: SampleFamily, folder: Path) -> int:
     """
     if folder.exists() and not folder.is_dir():
         raise UsageError("this is a file", where=str(folder), remedy="Name a folder.")
-    files = family.build()
+    files = family.read()
     missing = []
     for path, content in files.items():
         target = folder / path

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from meshforge.common.exports import export_lazily
 
 if TYPE_CHECKING:
-    from meshforge.signoff.alarms import Alarm, AlarmKind, describe_odd_results, find_alarms
+    from meshforge.signoff.alarms import describe_odd_results
     from meshforge.signoff.assessment import BAR, Assessment, AssetConfidence, Doubt, DoubtKind
     from meshforge.signoff.measures import EditMeasures, measure_edit
     from meshforge.signoff.question import (
@@ -16,7 +16,6 @@ if TYPE_CHECKING:
         GroupQuestion,
         HullPlace,
         OrientationQuestion,
-        QuestionKind,
         ReadingQuestion,
         RepairQuestion,
         ResultQuestion,
@@ -35,8 +34,6 @@ else:
 
 __all__ = [
     "BAR",
-    "Alarm",
-    "AlarmKind",
     "Assessment",
     "AssetConfidence",
     "DemonstrationQuestion",
@@ -47,7 +44,6 @@ __all__ = [
     "GroupQuestion",
     "HullPlace",
     "OrientationQuestion",
-    "QuestionKind",
     "ReadingQuestion",
     "RepairQuestion",
     "ResultQuestion",
@@ -60,7 +56,6 @@ __all__ = [
     "UnseenLabelQuestion",
     "assess_asset",
     "describe_odd_results",
-    "find_alarms",
     "measure_edit",
     "question_of",
     "review_family",

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from math import expm1, log
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 
@@ -32,9 +32,6 @@ class Alarm:
     kind: AlarmKind
     text: str
     excess: float
-
-    def to_json(self) -> dict[str, Any]:
-        return {"kind": self.kind, "text": self.text}
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,13 +6,14 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
-from meshforge.signoff.question import NOT_OF_FAMILY, NOT_SOLVED, ExclusionReason, ReviewQuestion
+from meshforge.signoff.question import ExclusionReason, ReviewQuestion
 
 BAR = 0.95
 """The probability from which on an asset is signed off without being looked at."""
 NO_LOOK = "nobody has looked at a result of this program yet"
 """The doubt of all edits by a program of which no result was looked at."""
 CALLED_WRONG = "a person said that this result is wrong"
+CALLED_WRONG_BEFORE = "a person said that a result here was wrong, and nobody has looked at it since"
 CONTRADICTED = "the program does something else than was shown here"
 """The doubts of such an asset."""
 
@@ -79,16 +80,6 @@ class Assessment:
     def question(self) -> ReviewQuestion | None:
         """The one that is worth most now, None where nothing is left to ask."""
         return next(iter(self.questions), None)
-
-    @property
-    def not_solved(self) -> tuple[str, ...]:
-        """The assets that a person gave up."""
-        return tuple(name for name, reason in self.excluded.items() if reason == NOT_SOLVED)
-
-    @property
-    def foreign(self) -> tuple[str, ...]:
-        """The assets of which a person said that they are not of this family."""
-        return tuple(name for name, reason in self.excluded.items() if reason == NOT_OF_FAMILY)
 
     @property
     def signed_off(self) -> tuple[str, ...]:

@@ -15,6 +15,7 @@ from meshforge.label_model import FamilyPosterior
 from meshforge.language import EXTREMITY, Program, show
 from meshforge.signoff.assessment import (
     CALLED_WRONG,
+    CALLED_WRONG_BEFORE,
     CONTRADICTED,
     MOST_DOUBTS,
     NO_LOOK,
@@ -121,9 +122,11 @@ class FamilyTrial:
 
     @cached_property
     def contradicted(self) -> frozenset[str]:
-        """The demonstrated assets on which the program, written by hand, does something else than was shown."""
+        """The demonstrated assets on which the program, written by hand, does something else than was shown, and
+        nobody said of the result whether that is meant."""
         found = set()
-        for name, demo in self.state.demos.items():
+        seen = self.state.accepted | self.state.corrected
+        for name, demo in ((name, demo) for name, demo in self.state.demos.items() if name not in seen):
             done = self.trials[self.places[name]].selected if name in self.places else ()
             shown = {step.rule: step.select for step in demo.steps if step.select is not None}
             if any(rule > len(done) or done[rule - 1] != select for rule, select in shown.items()):
@@ -165,13 +168,15 @@ class FamilyTrial:
             return AssetConfidence(trial.asset, NO_EDIT, (self._doubt_of_error(place),))
         if trial.asset in self.contradicted:
             return AssetConfidence(trial.asset, NO_EDIT, (Doubt("reading", CONTRADICTED, share=1.0),))
-        if trial.asset in state.reviewed_assets:
-            return AssetConfidence(trial.asset, SURE_OF_DEMONSTRATED)
         if trial.asset in state.wrong and trial.selected == state.failed.get(trial.asset):
             return AssetConfidence(trial.asset, NO_EDIT, (Doubt("reading", CALLED_WRONG, share=1.0),))
+        if trial.asset in state.reviewed_assets:
+            return AssetConfidence(trial.asset, SURE_OF_DEMONSTRATED)
         doubts = [*self._reading_doubts(place), *self._label_doubts(place), *self._odd_doubts(place)]
         doubts += self._program_doubts
         weightiest = sorted(doubts, key=lambda one: -one.share)[:MOST_DOUBTS]
+        if trial.asset in state.wrong:  # it needs review for this, however probable it is now
+            weightiest = [Doubt("reading", CALLED_WRONG_BEFORE), *weightiest[: MOST_DOUBTS - 1]]
         return AssetConfidence(trial.asset, evidence.probability, tuple(weightiest))
 
     def _doubt_of_error(self, place: int) -> Doubt:

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from functools import cache
 from math import isfinite
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -44,9 +43,6 @@ class EditMeasures:
     free: float
     filled: float
     freed: float
-
-    def to_json(self) -> dict[str, Any]:
-        return {name: list(value) if isinstance(value, tuple) else value for name, value in asdict(self).items()}
 
 
 def measure_edit(before: SymbolicMesh, after: SymbolicMesh) -> EditMeasures:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from hashlib import blake2b
 from typing import Any, ClassVar, Literal, NamedTuple, TypeVar
 
-from meshforge.language import Orient, parse_orient
+from meshforge.language import Orient, Program
 
 QuestionKind = Literal[
     "group", "repair", "reading", "label", "selection", "orientation", "result", "demonstrate", "span"
@@ -192,7 +192,7 @@ def question_of(asked: Mapping[str, Any]) -> ReviewQuestion:
             one["text"],
             one["label"],
             None if one["select"] is None else tuple(one["select"]),
-            parse_orient(f"orient {one['orient']}") if one.get("orient") else None,
+            Program.parse(f"orient {one['orient']}\n").orient if one.get("orient") else None,
         )
         for one in asked["choices"]
     )

@@ -76,7 +76,7 @@ def review_family(
     trial = _try_family(state, outcome, family, alarms)
     assets = {one.asset: trial.confidence_of(place) for place, one in enumerate(trial.trials)}
     stopped = {one.asset for one in trial.trials if one.error} - state.accepted
-    looked_at = (seen | state.demos.keys()) - stopped - trial.contradicted
+    looked_at = (seen | state.demos.keys()) - stopped - trial.contradicted - state.wrong
     found = Assessment(assets, bar, looked_at, state.wrong, state.excluded)
     if found.is_done:
         looks = list(_ask_last_looks(trial))
@@ -276,11 +276,11 @@ def _ask_last_looks(family: FamilyTrial) -> Iterator[ReviewQuestion]:
 EXCLUDE_CHOICES = tuple(ReviewChoice(choice, f"exclude it: {reason}") for choice, reason in EXCLUDE.items())
 _GIVE_UP = (ReviewChoice(WRONG, "say what is right, or later"), *EXCLUDE_CHOICES)
 _CORRECT = (ReviewChoice(WRONG, "correct it"), *EXCLUDE_CHOICES)
-_JUDGE = (ReviewChoice(RIGHT, "right"), ReviewChoice(WRONG, "wrong"), *EXCLUDE_CHOICES)
+JUDGE_CHOICES = (ReviewChoice(RIGHT, "right"), ReviewChoice(WRONG, "wrong"), *EXCLUDE_CHOICES)
 
 
 def _ask_result(
-    trial: Trial, gain: float, seconds: float, text: str = "", choices: tuple[ReviewChoice, ...] = _JUDGE
+    trial: Trial, gain: float, seconds: float, text: str = "", choices: tuple[ReviewChoice, ...] = JUDGE_CHOICES
 ) -> ResultQuestion:
     """Whether a result is right; where the program cannot run there is none that could be."""
     if trial.error:

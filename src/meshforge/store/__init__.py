@@ -10,14 +10,14 @@ from meshforge.common.exports import export_lazily
 if TYPE_CHECKING:
     from meshforge.store.event_log import load_events
     from meshforge.store.events import (
-        UNASKED,
+        NO_ORIGIN,
         AnswerEvent,
         Event,
         ExclusionEvent,
         LabelBefore,
         LabelFixEvent,
         LabelsEvent,
-        Said,
+        Origin,
         SnoozeEvent,
         Verdict,
         VerdictEvent,
@@ -26,7 +26,9 @@ if TYPE_CHECKING:
     )
     from meshforge.store.feedback import Feedback
     from meshforge.store.layout import JsonFile, json_text, read_json, write_json
+    from meshforge.store.mesh_cache import MeshCache
     from meshforge.store.meshes import AssetFacts, AssetFiles, geometry_digest, hull_digests, iterate_survey, survey
+    from meshforge.store.outputs import AssetOutput, find_outputs
     from meshforge.store.preparation_plan import PreparationPlanFile
     from meshforge.store.program import (
         CorrectionsFile,
@@ -44,31 +46,24 @@ if TYPE_CHECKING:
         find_assets,
         orientation,
         orientation_text,
-        read_settings,
         set_value,
         toml_value,
     )
-    from meshforge.store.sign_off import AssessmentFile, ConfidenceLine, SignOff, find_changes
-    from meshforge.store.spans import (
-        MOST_TOLD,
-        SinglePartsFile,
-        SpanLine,
-        SpanPart,
-        SpansFile,
-        SplitHull,
-        describe_parts,
-    )
+    from meshforge.store.sign_off import SAID, AssessmentFile, ConfidenceLine, SignOff, SignOffBasis, find_changes
+    from meshforge.store.spans import MOST_TOLD, SpanLine, SpanPart, SpansFile, SplitHull, describe_parts
     from meshforge.store.store import Store
 else:
     __getattr__ = export_lazily(__name__)
 
 __all__ = [
     "MOST_TOLD",
-    "UNASKED",
+    "NO_ORIGIN",
+    "SAID",
     "AnswerEvent",
     "AssessmentFile",
     "AssetFacts",
     "AssetFiles",
+    "AssetOutput",
     "ConfidenceLine",
     "CorrectionsFile",
     "DemonstrationFile",
@@ -79,12 +74,13 @@ __all__ = [
     "LabelBefore",
     "LabelFixEvent",
     "LabelsEvent",
+    "MeshCache",
+    "Origin",
     "PreparationPlanFile",
     "ProgramRecord",
-    "Said",
     "Settings",
     "SignOff",
-    "SinglePartsFile",
+    "SignOffBasis",
     "SnoozeEvent",
     "SpanLine",
     "SpanPart",
@@ -102,6 +98,7 @@ __all__ = [
     "edit_settings",
     "find_assets",
     "find_changes",
+    "find_outputs",
     "format_lines",
     "geometry_digest",
     "hull_digests",
@@ -112,7 +109,6 @@ __all__ = [
     "orientation_text",
     "parse_action_text",
     "read_json",
-    "read_settings",
     "set_value",
     "survey",
     "toml_value",

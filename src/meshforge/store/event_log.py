@@ -6,7 +6,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from pydantic import ValidationError
 
@@ -24,6 +24,8 @@ from meshforge.store.feedback import Feedback, read_events, read_feedback
 from meshforge.store.layout import Layout
 from meshforge.store.sign_off import SignOff, parse_sign_offs
 
+Line = TypeVar("Line")
+_BY_HAND = "Correct the file by hand, or remove it."
 _SET_ASIDE = "set aside"  # the note of verdicts by which assets were given up
 
 
@@ -41,13 +43,12 @@ def load_feedback(layout: Layout) -> Feedback:
 
 def save_events(layout: Layout, events: Iterable[Event]) -> None:
     """Write all events, under the lock that the caller holds; files of before there were events stay as `*.old`."""
-    signed = load_sign_offs(layout)
+    before = [path for path in layout.files_before_events if path.exists()]
+    if before:  # first, since the old ones count no more once there are events
+        save_sign_offs(layout, load_sign_offs(layout))
     write_atomically(layout.events, format_lines(events))
-    if any(path.exists() for path in layout.files_before_events):
-        save_sign_offs(layout, signed)
-        for path in layout.files_before_events:
-            if path.exists():
-                path.replace(path.with_name(f"{path.name}.old"))
+    for path in before:
+        path.replace(path.with_name(f"{path.name}.old"))
 
 
 def load_sign_offs(layout: Layout) -> dict[str, SignOff]:
@@ -55,8 +56,9 @@ def load_sign_offs(layout: Layout) -> dict[str, SignOff]:
     text = _read_text(layout.sign_offs)
     if text is not None:
         return parse_sign_offs(text, str(layout.sign_offs))
-    kept = {} if layout.events.exists() else _read_old(layout.files_before_events[2])
-    return {asset: SignOff(**line, asset=asset) for asset, line in kept.get("assets", {}).items()}
+    if layout.events.exists():
+        return {}
+    return dict(_read_from(layout.files_before_events[2], _migrate_sign_offs))
 
 
 def save_sign_offs(layout: Layout, signed: Mapping[str, SignOff]) -> None:
@@ -70,7 +72,7 @@ def _read_text(path: Path) -> str | None:
     except FileNotFoundError:
         return None
     except (OSError, UnicodeDecodeError) as error:
-        raise ProjectError("cannot be read", where=str(path)) from error
+        raise ProjectError("cannot be read", where=str(path), remedy=_BY_HAND) from error
 
 
 def _migrate(layout: Layout) -> Iterator[Event]:
@@ -82,12 +84,17 @@ def _migrate(layout: Layout) -> Iterator[Event]:
         _migrate_snoozes,
     )
     for path, read in zip(layout.files_before_events, readers, strict=True):
-        try:
-            yield from read(_read_old(path))
-        except ValidationError as error:
-            raise ProjectError(first_validation_error(error), where=str(path)) from error
-        except (KeyError, TypeError, AttributeError) as error:
-            raise _invalid(path, error) from error
+        yield from _read_from(path, read)
+
+
+def _read_from(path: Path, read: Callable[[Mapping[str, Any]], Iterator[Line]]) -> Iterator[Line]:
+    """What a file of before there were events says. Raises ProjectError, naming it, where it is not what it was."""
+    try:
+        yield from read(_read_old(path))
+    except ValidationError as error:
+        raise ProjectError(first_validation_error(error), where=str(path), remedy=_BY_HAND) from error
+    except (KeyError, TypeError, AttributeError) as error:
+        raise _invalid(path, error) from error
 
 
 def _read_old(path: Path) -> Mapping[str, Any]:
@@ -102,7 +109,7 @@ def _read_old(path: Path) -> Mapping[str, Any]:
 
 
 def _invalid(path: Path, error: Exception) -> ProjectError:
-    return ProjectError(f"cannot be read: {error}", where=str(path), remedy="Correct the file by hand, or remove it.")
+    return ProjectError(f"cannot be read: {error}", where=str(path), remedy=_BY_HAND)
 
 
 def _migrate_answers(kept: Mapping[str, Any]) -> Iterator[Event]:
@@ -122,6 +129,10 @@ def _migrate_verdicts(kept: Mapping[str, Any]) -> Iterator[Event]:
         yield VerdictEvent(**{**line, "asset": asset, "verdict": verdict})
         if is_given_up:
             yield ExclusionEvent(asset=asset, reason="not solved")
+
+
+def _migrate_sign_offs(kept: Mapping[str, Any]) -> Iterator[tuple[str, SignOff]]:
+    yield from ((asset, SignOff(**{**line, "asset": asset})) for asset, line in kept.get("assets", {}).items())
 
 
 def _migrate_exclusions(kept: Mapping[str, Any]) -> Iterator[Event]:

@@ -20,14 +20,14 @@ Verdict = Literal["accepted", "wrong"]
 Probability = Annotated[float, Field(ge=0, le=1)]
 
 
-class Said(NamedTuple):
-    """What something was said to: the id of a question, if any; and the name that the person gave."""
+class Origin(NamedTuple):
+    """Where an event comes from: the id of the question that it replies to, and the name that the person gave."""
 
     question: str | None = None
     by: str | None = None
 
 
-UNASKED = Said()
+NO_ORIGIN = Origin()
 
 
 class _Line(JsonFile):
@@ -48,7 +48,7 @@ class _Line(JsonFile):
         return {"event": found["event"], **{name: value for name, value in found.items() if name not in empty}}
 
 
-class _Said(_Line):
+class _Withdrawable(_Line):
     """What can be withdrawn by its id."""
 
     @property
@@ -61,7 +61,7 @@ class _Said(_Line):
         return self.model_copy(update={"question": question, "by": by})
 
 
-class AnswerEvent(_Said):
+class AnswerEvent(_Withdrawable):
     """An answer `RULE:ASSET`. select: names of the hulls that the rule selects there; None for none of the choices,
     which are in `refused`.
 
@@ -97,6 +97,11 @@ class LabelBefore(JsonFile):
     confidence: Probability
     given: LabelBefore | None = None
 
+    @model_serializer(mode="wrap")
+    def _leave_out_given(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        found: dict[str, Any] = write(self)
+        return {name: value for name, value in found.items() if name != "given" or value is not None}
+
     @staticmethod
     def of(label: Label | None) -> LabelBefore | None:
         if label is None:
@@ -114,7 +119,7 @@ class LabelBefore(JsonFile):
         return self.model_copy(update={"label": new if self.label == old else self.label, "given": given})
 
 
-class LabelFixEvent(_Said):
+class LabelFixEvent(_Withdrawable):
     """A fix of a label `ASSET#HULL=LABEL`. was, `from` in the file: the label before, None for none; accepted: whether
     it was made, else refused; before: all about the label before, so that the fix can be withdrawn."""
 

@@ -77,11 +77,6 @@ class Layout:
         return tuple(self.folder / name for name in names)
 
     @property
-    def questions(self) -> Path:
-        """Pictures of the question that is being asked."""
-        return self.folder / STATE / "questions"
-
-    @property
     def learned(self) -> Path:
         """What the program was learned from; it belongs beside the program, in git too."""
         return self.folder / "learned.json"
@@ -113,6 +108,11 @@ class Layout:
     def survey(self) -> Path:
         """What is known of the asset files, so that they are not read again for a status."""
         return self.folder / STATE / "survey.json"
+
+    @property
+    def outputs(self) -> Path:
+        """What is known of the files of outputs, so that they are not hashed again for a status."""
+        return self.folder / STATE / "outputs.json"
 
     @property
     def spans(self) -> Path:

@@ -4,7 +4,8 @@ kept on disk, so that a status need not read hundreds of files again.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Generator, Mapping
+from collections.abc import Callable, Collection, Generator, Iterable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
@@ -14,7 +15,7 @@ from typing import Literal
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from meshforge import batch, symbolic
-from meshforge.common import describe_error, relative_name, write_atomically
+from meshforge.common import FileState, describe_error, file_digest, file_state, relative_name, write_atomically
 from meshforge.formats import plugin_of_suffix, read
 from meshforge.geometry import digest
 from meshforge.store.layout import Layout
@@ -23,14 +24,36 @@ _OFTEN = 20.0  # seconds of reading after which what was read is kept, so that a
 _SHARE = 20  # and as many times as long as keeping it took
 
 
+class FileRecord(BaseModel):
+    """A file and the digest that it had in a state."""
+
+    model_config = ConfigDict(frozen=True)
+
+    state: FileState
+    digest: str
+
+
+def look_at_files(folder: Path, names: Iterable[str], known: Mapping[str, FileRecord]) -> dict[str, FileRecord]:
+    """Files by their paths from a folder as they are now, without those that cannot be read. known: as they were; one
+    that is in the same state is not hashed again."""
+    found = dict[str, FileRecord]()
+    for name in names:
+        state, old = file_state(folder / name), known.get(name)
+        if old and old.state == state:
+            found[name] = old
+        elif state:
+            with suppress(OSError):
+                found[name] = FileRecord(state=state, digest=file_digest(folder / name))
+    return found
+
+
 class AssetFacts(BaseModel):
-    """What one asset holds. hulls: the digest of each by its name; files: the digest of each by its path from the base.
+    """What one asset holds. hulls: the digest of each by its name; files: all of it by their paths from the base.
 
     bodies, mentions: the name of the body of each hull, in order, and what else its file calls it; sources: how many
     pieces and bodies have no hulls but could be decomposed; preparation: the digest of what was done to the asset
     before; prepared: that in words; replaced: what each hull that was split has become.
-    times: modification time [ns] and size of each file, by which a change is guessed without reading it; only the
-    digests decide what is stale. error: why the asset cannot be read.
+    error: why the asset cannot be read.
     """
 
     model_config = ConfigDict(frozen=True)
@@ -42,15 +65,19 @@ class AssetFacts(BaseModel):
     preparation: str | None = None
     prepared: tuple[str, ...] = ()
     replaced: dict[str, tuple[str, ...]] = {}
-    files: dict[str, str] = {}
-    times: dict[str, tuple[int, int]] = {}
+    files: dict[str, FileRecord] = {}
     error: str | None = None
+
+    @property
+    def digests(self) -> dict[str, str]:
+        """The digest of each file by its path from the base."""
+        return {name: file.digest for name, file in self.files.items()}
 
 
 class _SurveyFile(BaseModel):
     """form: counts the forms that this file had, as facts were added."""
 
-    form: Literal[3]
+    form: Literal[4]
     software: str
     assets: dict[str, AssetFacts]
 
@@ -62,9 +89,10 @@ def survey(
     *,
     execution: batch.ExecutionOptions | None = None,
     progress: Callable[[], None] | None = None,
+    verify: bool = False,
 ) -> dict[str, AssetFacts]:
     """The facts of all assets, or of some, by id; see `iterate_survey`."""
-    return dict(iterate_survey(found, layout, only, execution=execution, progress=progress))
+    return dict(iterate_survey(found, layout, only, execution=execution, progress=progress, verify=verify))
 
 
 def iterate_survey(
@@ -74,16 +102,17 @@ def iterate_survey(
     *,
     execution: batch.ExecutionOptions | None = None,
     progress: Callable[[], None] | None = None,
+    verify: bool = False,
 ) -> Generator[tuple[str, AssetFacts], None, None]:
     """The ids of all assets in order, or of some, with their facts, as soon as these are known.
 
     Those whose files changed since are read; what was read is kept now and then, and at the end. layout: where the
-    project keeps preparations, and these facts; progress: called for each that had to be read.
+    project keeps preparations, and these facts; progress: called for each that had to be read; verify: hash every file.
     """
     known = _FactsMemory(layout.survey, found)
     wanted = found.choose(only).items()
     work = {key: _AssetPaths(path, found.base_of(path), layout.preparation(key)) for key, path in wanted}
-    fresh = {key for key, own in work.items() if key in known.facts and _is_current(known.facts[key], own)}
+    fresh = {key for key, own in work.items() if key in known.facts and known.confirm(key, own, verify)}
     todo = tuple(own for key, own in work.items() if key not in fresh)
     results = batch.execute(_read_facts, todo, replace(execution or batch.ExecutionOptions(), progress=progress))
     try:
@@ -113,6 +142,20 @@ class _FactsMemory:
         self._has_news = len(self.facts) < len(kept)
         self._kept_at, self._pause = monotonic(), _OFTEN
 
+    def confirm(self, key: str, work: _AssetPaths, verify: bool) -> bool:
+        """Whether the files and the preparation of an asset hold what they did."""
+        facts = self.facts[key]
+        try:
+            main = {relative_name(file, work.base) for file in batch.source_files(work.path)}
+        except OSError:
+            return False
+        files = look_at_files(work.base, facts.files, {} if verify else facts.files)
+        now = facts if files == facts.files else facts.model_copy(update={"files": files})
+        same = main <= files.keys() and now.digests == facts.digests
+        if same and now is not facts:  # touched, or copied
+            self.add(key, now)
+        return same and batch.record_digest(work.preparation) == facts.preparation
+
     def add(self, key: str, facts: AssetFacts) -> None:
         """Take up the facts of an asset."""
         self.facts[key] = facts
@@ -126,7 +169,7 @@ class _FactsMemory:
             return
         began = monotonic()
         every = {key: self.facts[key] for key in self._ids if key in self.facts and not self.facts[key].error}
-        write_atomically(self._file, _SurveyFile(form=3, software=self._software, assets=every).model_dump_json())
+        write_atomically(self._file, _SurveyFile(form=4, software=self._software, assets=every).model_dump_json())
         self._has_news, self._kept_at = False, monotonic()
         self._pause = max(_OFTEN, (self._kept_at - began) * _SHARE)
 
@@ -139,14 +182,14 @@ def geometry_digest(hulls: Mapping[str, str]) -> str:
 def _read_memory(memory: Path, software: str) -> Mapping[str, AssetFacts]:
     """The facts that were kept; none of them where the file is damaged or from another version."""
     try:
-        kept = _parse_memory(memory, _time_and_size(memory))
+        kept = _parse_memory(memory, file_state(memory))
     except (OSError, ValidationError):
         return {}
     return kept.assets if kept.software == software else {}
 
 
 @lru_cache(maxsize=1)
-def _parse_memory(memory: Path, time_and_size: tuple[int, int]) -> _SurveyFile:
+def _parse_memory(memory: Path, state: FileState | None) -> _SurveyFile:
     """The file as it was at that time: the studio looks at the same one for each portion of a large family."""
     return _SurveyFile.model_validate_json(memory.read_bytes())
 
@@ -160,24 +203,11 @@ class _AssetPaths:
     preparation: Path
 
 
-def _is_current(facts: AssetFacts, work: _AssetPaths) -> bool:
-    """Whether every file still has the time and size it had, and the preparation is what it was."""
-    base = work.base
-    try:
-        main = {relative_name(file, base) for file in batch.source_files(work.path)}
-        same = main <= facts.times.keys() and all(
-            _time_and_size(base / name) == time for name, time in facts.times.items()
-        )
-        return same and batch.record_digest(work.preparation) == facts.preparation
-    except OSError:
-        return False
-
-
 def _read_facts(work: _AssetPaths) -> AssetFacts:
     path, base = work.path, work.base
     try:
         source = read(path)
-        times = {relative_name(file, base): _time_and_size(file) for file in (*batch.source_files(path), *source.files)}
+        names = sorted(relative_name(file, base) for file in {*batch.source_files(path), *source.files})
         preparation = batch.read_preparation(work.preparation) or batch.Preparation()
         asset = batch.apply_preparation(source, preparation)
         entries = [entry for step in preparation.steps for entry in step.replaced]
@@ -189,16 +219,10 @@ def _read_facts(work: _AssetPaths) -> AssetFacts:
             preparation=batch.record_digest(work.preparation),
             prepared=tuple(map(str, preparation.steps)),
             replaced={entry.what: tuple(entry.made) for entry in entries if entry.kind == "hull"},
-            files=batch.asset_digests(path, source.files, base),
-            times=times,
+            files=look_at_files(base, names, {}),
         )
     except Exception as error:  # one asset never hides the others
         return AssetFacts(error=describe_error(error, str(path)))
-
-
-def _time_and_size(path: Path) -> tuple[int, int]:
-    stat = path.stat()
-    return stat.st_mtime_ns, stat.st_size
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,17 +13,45 @@ from meshforge.signoff import AssetConfidence, Doubt, DoubtKind, EditMeasures
 from meshforge.store.events import Probability, list_lines, parse_line
 from meshforge.store.layout import JsonFile
 
+SAID = "what people showed and said"
+"""How demonstrations, answers and verdicts are called where they changed."""
+
+
+class SignOffBasis(OutputInputs):
+    """Digests of all that a sign-off rests on: of all that decides the edit, where `settings` are those of the project
+    that decide labels and program.
+
+    said: what people showed and said, None in sign-offs of earlier versions; output: the files that were written, None
+    where they are not there as they were.
+    """
+
+    said: str | None = None
+    output: str | None = None
+
+    @staticmethod
+    def of(edit: OutputInputs, settings: str, said: str, output: str | None) -> SignOffBasis:
+        fields = dict(edit) | {"settings": settings, "software": "", "said": said, "output": output}
+        return SignOffBasis.model_construct(**fields)
+
+    def changes(self, other: OutputInputs) -> tuple[str, ...]:
+        """What differs between the two, in words."""
+        if isinstance(other, SignOffBasis) and other.said is None:
+            return ("how sign-offs are kept",)
+        return tuple(SAID if one == "said" else one for one in super().changes(other))
+
 
 class SignOff(JsonFile):
-    """One asset that is signed off. by: the tool, for its probability, or a person; when: ISO 8601, UTC; rests_on: the
-    digests of all that decides its edit.
-    """
+    """One asset that is signed off. by: the tool, for its probability, or a person; when: ISO 8601, UTC."""
 
     asset: str
     by: Literal["tool", "person"]
     when: str
     probability: Probability
-    rests_on: OutputInputs
+    rests_on: SignOffBasis
+
+    def meets(self, bar: float) -> bool:
+        """Whether a person signed it off, or the tool at this probability at least."""
+        return self.by == "person" or self.probability >= bar
 
 
 def parse_sign_offs(text: str, where: str) -> dict[str, SignOff]:
@@ -43,9 +71,9 @@ class DoubtLine(JsonFile):
 
 
 class ConfidenceLine(JsonFile):
-    """How an asset stood when the family was looked at last; rests_on: as of `SignOff`; looked_at: whether a
-    person showed its edit, or accepted it; stands_out: whether its output has alarms that the probability lacks;
-    measures: of its edit, None where it has none."""
+    """How an asset stood when the family was looked at last; rests_on: digests of all that decides its edit; looked_at:
+    whether a person showed its edit, or accepted it; stands_out: whether its output has alarms that the probability
+    does not know; measures: of its edit, None where it has none."""
 
     probability: Probability
     doubts: tuple[DoubtLine, ...] = ()

@@ -26,11 +26,12 @@ from meshforge.store.event_log import load_events, load_feedback, load_sign_offs
 from meshforge.store.events import Event, SnoozeEvent, VerdictEvent
 from meshforge.store.feedback import Feedback
 from meshforge.store.layout import Layout, read_derived, read_json, write_json
+from meshforge.store.mesh_cache import MeshCache
 from meshforge.store.meshes import AssetFiles, read_labels_file
 from meshforge.store.preparation_plan import forget_assets
 from meshforge.store.sign_off import AssessmentFile, SignOff
 from meshforge.store.spans import SinglePartsFile, SpansFile
-from meshforge.symbolic import Label, LabelFile, SymbolicMesh, format_labels, match_labels, transfer_labels
+from meshforge.symbolic import Label, LabelFile, SymbolicMesh, format_labels, match_labels
 from meshforge.synthesis import Demonstration, Step
 
 
@@ -38,11 +39,12 @@ from meshforge.synthesis import Demonstration, Step
 class Store:
     """A project folder. It holds nothing but paths in memory: what is asked for is read, what is set is written.
 
-    found: the assets, as they were when the project was opened.
+    found: the assets, as they were when the project was opened; cache: of meshes, so that they are not read again.
     """
 
     folder: Path
     found: AssetSet = field(repr=False)
+    cache: MeshCache | None = field(default=None, repr=False, compare=False)
 
     @property
     def layout(self) -> Layout:
@@ -107,18 +109,13 @@ class Store:
     def mesh(self, asset: str) -> SymbolicMesh:
         """An asset as it is prepared, with its labels. Raises AssetError where it cannot be read."""
         (files,) = self.asset_files([asset])
-        return files.read_mesh()
-
-    def meshes(self) -> Iterator[SymbolicMesh]:
-        """All assets with their labels, one after the other; those that cannot be read are left out."""
-        return (mesh for _, mesh in self.meshes_by_id())
+        return self.cache.get(files) if self.cache else files.read_mesh()
 
     def meshes_by_id(self, assets: Iterable[str] | None = None) -> Iterator[tuple[str, SymbolicMesh]]:
         """All assets, or some, with their ids and labels; those that cannot be read are left out."""
-        ids = self.assets() if assets is None else tuple(assets)
-        for asset, files in zip(ids, self.asset_files(ids), strict=True):
+        for asset in self.assets() if assets is None else assets:
             try:
-                yield asset, files.read_mesh()
+                yield asset, self.mesh(asset)
             except MeshForgeError:
                 continue
 
@@ -170,10 +167,6 @@ class Store:
         path = self.layout.labels(asset)
         return path.read_bytes() if path.exists() else b""
 
-    def relabel(self, asset: str, mesh: SymbolicMesh) -> SymbolicMesh:
-        """The mesh of an asset with the labels that it has now; what was measured between its hulls stays known."""
-        return transfer_labels(self.labels(asset), mesh.with_labels(dict.fromkeys(mesh.index))).mesh
-
     def write_labels(
         self,
         asset: str,
@@ -218,7 +211,8 @@ class Store:
 
     def demonstration_ids(self) -> tuple[str, ...]:
         """The ids of the assets that have a demonstration."""
-        return tuple(asset for asset in self.assets() if self.layout.demonstration(asset).exists())
+        shown = set(self.layout.ids_with("demonstrations"))
+        return tuple(asset for asset in self.assets() if asset in shown)
 
     def demonstrations(self) -> dict[str, Demonstration]:
         """All demonstrations, by asset."""

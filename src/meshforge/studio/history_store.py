@@ -11,8 +11,15 @@ from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict
 
-from meshforge.batch import file_digest
-from meshforge.common import ProjectError, do_at_once, file_state, relative_name, replace_atomically, write_atomically
+from meshforge.common import (
+    ProjectError,
+    do_at_once,
+    file_digest,
+    file_state,
+    relative_name,
+    replace_atomically,
+    write_atomically,
+)
 
 FileState = dict[str, str | None]
 """The digest of each file by its path from the project's folder, None for a file that is not there."""

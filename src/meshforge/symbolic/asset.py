@@ -10,7 +10,7 @@ from typing import Literal
 
 import numpy as np
 
-from meshforge.geometry import Aabb, Floats, Ints, Pose, Shape, SurfaceParts, freeze_floats
+from meshforge.geometry import Floats, Ints, Pose, Shape, SurfaceParts, freeze_floats
 
 JointKind = Literal["fixed", "revolute", "prismatic", "ball", "floating", "planar"]
 Mentions = tuple[tuple[str, str], ...]
@@ -210,11 +210,6 @@ class Asset:
     @property
     def body_poses(self) -> dict[str, Pose]:
         return {body.name: body.pose for body in self.bodies}
-
-    @property
-    def aabb(self) -> Aabb | None:
-        """The box around all geoms, None where there is none."""
-        return Aabb.union(g.shape.aabb for g in self.geoms) if self.geoms else None
 
     def with_geoms(self, geoms: Iterable[Geom]) -> Asset:
         return replace(self, geoms=tuple(geoms))

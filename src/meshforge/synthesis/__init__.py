@@ -8,7 +8,7 @@ from meshforge.common.exports import export_lazily
 
 if TYPE_CHECKING:
     from meshforge.synthesis.asset_selection import choose_first_demonstration
-    from meshforge.synthesis.demonstration import Demonstration, Example, Step, merge_steps, strip_each
+    from meshforge.synthesis.demonstration import Demonstration, Example, Step, strip_each
     from meshforge.synthesis.learn import synthesize
     from meshforge.synthesis.options import LAYERS, Layers, Options
     from meshforge.synthesis.orientation.suggest import OrientationSuggestion
@@ -59,7 +59,6 @@ __all__ = [
     "choose_first_demonstration",
     "find_slip",
     "memoize",
-    "merge_steps",
     "outcome_to_json",
     "strip_each",
     "synthesize",

@@ -6,8 +6,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from meshforge.common import DemonstrationError
-from meshforge.language import Action, Delete, Each
-from meshforge.symbolic import SymbolicMesh, mask_of, split_by_contact
+from meshforge.language import Action, Each
+from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis.questions import LabelCorrection
 
 
@@ -161,45 +161,3 @@ def _check_same_rule(number: int, one: tuple[str, Step], other: tuple[str, Step]
 
 def _describe_step(step: Step) -> str:
     return f"{step.action} as {step.label}" if step.label else str(step.action)
-
-
-def merge_steps(steps: Sequence[Step], mesh: SymbolicMesh) -> tuple[Step, ...]:
-    """The steps with like neighbours put together, numbered anew; steps that cannot be are left as they are.
-
-    mesh: the one the steps were done on, for its names and contacts. Two steps are put together where both are
-    shown, do the same under the same label, and either delete or act on different connected components of what
-    they select together. Hulls that a step made are not in the mesh; steps on them stay apart.
-    """
-    done: list[Step] = []
-    for step in steps:
-        both = _merge_pair(done[-1], step, mesh) if done else None
-        if both:
-            done[-1] = both
-        else:
-            done.append(step)
-    return tuple(Step(number, step.select, step.action, step.label) for number, step in enumerate(done, 1))
-
-
-def _merge_pair(one: Step, other: Step, mesh: SymbolicMesh) -> Step | None:
-    """One step that does what two do, None where there is none."""
-    if not one.select or not other.select or one.select & other.select:
-        return None
-    both = one.select | other.select
-    if (strip_each(one.action), one.label) != (strip_each(other.action), other.label) or not both <= mesh.index.keys():
-        return None
-    if isinstance(strip_each(one.action), Delete):
-        return Step(one.rule, both, Delete(), one.label)
-    parts = _parts_of(one, mesh) + _parts_of(other, mesh)
-    if sorted(parts) != sorted(split_by_contact(mesh, _mask_of_names(both, mesh))):
-        return None
-    return Step(one.rule, both, Each(strip_each(one.action)), one.label)
-
-
-def _parts_of(step: Step, mesh: SymbolicMesh) -> list[int]:
-    """What the step acts on one by one; without `Each` that is all of its selection."""
-    mask = _mask_of_names(step.select or frozenset(), mesh)
-    return split_by_contact(mesh, mask) if isinstance(step.action, Each) else [mask]
-
-
-def _mask_of_names(names: frozenset[str], mesh: SymbolicMesh) -> int:
-    return mask_of(mesh.index[name] for name in names)

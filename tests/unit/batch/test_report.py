@@ -159,7 +159,7 @@ def test_of_a_project_what_is_held_or_failed_comes_first_then_alarms_the_least_s
 
     shown = [
         asset("surest", "signed off", 0.99),
-        asset("aside", "set aside", 0.2),
+        asset("given up", "excluded", 0.2),
         asset("odd", "signed off", 0.98, alarms=("volume +480%",)),
         asset("held", "held", 0.94),
         asset("unwritten", "sure", 0.97, error="no room on the disk", status="failed"),
@@ -167,17 +167,17 @@ def test_of_a_project_what_is_held_or_failed_comes_first_then_alarms_the_least_s
         asset("unknown", "held", None),
     ]
     page: Any = lxml.html.document_fromstring(written(tmp_path, shown, pictured=0))
-    names = ["unknown", "least", "held", "unwritten", "odd", "aside", "surest"]
+    names = ["unknown", "least", "held", "unwritten", "odd", "given up", "surest"]
     assert texts(page, "//article//bdi") == names
     assert page.xpath("//article/@data-kind")[3:] == [
         "failed sure",
         "edited signed-off doubtful",
-        "edited set-aside",
+        "edited excluded",
         "edited signed-off",
     ]
     assert texts(page, "//article/p[@class='standing held']") == ["held <now>"] * 3
     assert texts(page, "//ul[@class='doubts']/li") == ["rule 1 may mean <b>"] * 7
-    assert page.xpath("//div[@class='bar']/i/@class") == ["held", "sure", "signed-off", "set-aside"]
+    assert page.xpath("//div[@class='bar']/i/@class") == ["held", "sure", "signed-off", "excluded"]
 
 
 def test_without_labels_the_legend_says_so(tmp_path: Path) -> None:

@@ -3,68 +3,66 @@
 from __future__ import annotations
 
 import json
-from dataclasses import asdict
+from dataclasses import asdict, replace
 
 import pytest
 
 from benchmark.assets import family
 from benchmark.signoff.before import Before, teach_before
 from benchmark.signoff.calibration import calibrate
+from benchmark.signoff.client import Client, FamilyStatus
 from benchmark.signoff.conditions import ERRS
-from benchmark.signoff.judge import Judge
+from benchmark.signoff.judge import Judge, run_on_desk
 from benchmark.signoff.opening import FirstLook, open_review
 from benchmark.signoff.outcomes import group
 from benchmark.signoff.point import right_at
 from benchmark.signoff.queue import BROKEN, DONE, Review, sign_off
 from benchmark.signoff.reviewer import Reviewer
 from benchmark.signoff.tables import CURVES, list_tables
-from benchmark.signoff.tool import Tool, program_of
 from benchmark.study import FLAT, TRUE, Bench
 from benchmark.study.condition import PROPAGATED
-from benchmark.study.desk import Desk
 from benchmark.study.keystrokes import APPROVAL, GLANCE, STROKE, price_group
 from benchmark.study.person import Person
 from benchmark.tasks import task
 from meshforge.signoff import (
-    Assessment,
-    AssetConfidence,
+    DemonstrationQuestion,
+    GroupQuestion,
     HullPlace,
+    ResultQuestion,
     ReviewChoice,
     ReviewQuestion,
-    ReviewState,
-    apply_reply,
 )
-from meshforge.signoff.question import ASIDE, RIGHT, WRONG
-from meshforge.synthesis import LearningOutcome
+from meshforge.signoff.review import JUDGE_CHOICES
 
 GROUP = 3
 
 
-class FakeTool(Tool):
+class FakeClient(Client):
     """Asks for a demonstration, about one group of hulls, then about each result in turn."""
 
-    def review(self, desk: Desk, state: ReviewState, outcome: LearningOutcome | None) -> Assessment:
-        open_ones = [n for n in state.meshes if n not in {*state.accepted, *state.aside, *state.demos}]
-        sure = {name: AssetConfidence(name, 0.5 if name in open_ones else 0.99) for name in state.meshes}
-        looked_at = frozenset(state.accepted)
-        if program_of(outcome) is None and state.demos:
-            return Assessment(sure, looked_at=looked_at, aside=state.aside)
-        return Assessment(sure, looked_at=looked_at, aside=state.aside, question=self.ask(state, open_ones))
+    def review(self) -> FamilyStatus:
+        status = super().review()
+        known = {*self.project.feedback().verdicts, *self.project.demonstration_ids()}
+        held = [name for name in self.project.assets() if name not in known]
+        signed = [name for name in self.project.assets() if name in known]
+        if not status.has_program and self.project.demonstration_ids():
+            return replace(status, question=None, signed_off=[], held=list(self.project.assets()))
+        return replace(status, question=self.ask(held), signed_off=signed, held=held)
 
-    def ask(self, state: ReviewState, open_ones: list[str]) -> ReviewQuestion | None:
-        first = next(iter(state.meshes))
-        hulls = state.meshes[first].hulls[:GROUP]
-        if not state.demos:
-            return ReviewQuestion(f"show {first}", "demonstrate", "", 1.0, 1.0, first)
+    def ask(self, held: list[str]) -> ReviewQuestion | None:
+        meshes = self.read_meshes()
+        first = next(iter(meshes))
+        hulls = meshes[first].hulls[:GROUP]
+        if not self.project.demonstration_ids():
+            return DemonstrationQuestion("", 1.0, 1.0, first, id=f"show {first}")
         if any(hull.source != "user" for hull in hulls):
-            labels = sorted({str(h.label) for mesh in state.meshes.values() for h in mesh.hulls})
+            labels = sorted({str(h.label) for mesh in meshes.values() for h in mesh.hulls})
             places = tuple(HullPlace(first, hull.name) for hull in hulls)
-            choices = tuple(ReviewChoice(label, label) for label in labels)
-            return ReviewQuestion("group", "group", "", 1.0, 1.0, first, hulls=places, choices=choices)
-        if not open_ones:
+            choices = tuple(map(ReviewChoice.of_label, labels))
+            return GroupQuestion("", 1.0, 1.0, first, hulls=places, choices=choices, id="group")
+        if not held:
             return None
-        choices = tuple(map(ReviewChoice, (RIGHT, WRONG, ASIDE)))
-        return ReviewQuestion(f"result {open_ones[0]}", "result", "", 1.0, 1.0, open_ones[0], choices=choices)
+        return ResultQuestion("", 1.0, 1.0, held[0], choices=JUDGE_CHOICES, id=f"result {held[0]}")
 
 
 @pytest.fixture(scope="module")
@@ -77,7 +75,7 @@ def bench() -> Bench:
     "condition", [TRUE, PROPAGATED[1], *(pytest.param(one, marks=pytest.mark.slow) for one in (FLAT, ERRS))]
 )
 def test_time_only_goes_on_and_the_same_seed_does_the_same(bench: Bench, condition: object) -> None:
-    one, other = (sign_off(bench, condition, 1, FakeTool(bench, condition)) for _ in range(2))  # type: ignore[arg-type]
+    one, other = (sign_off(bench, condition, 1, FakeClient) for _ in range(2))  # type: ignore[arg-type]
     assert one == other == Review.of_json(json.loads(json.dumps(asdict(one))))
     seconds = [point.seconds for point in one.points]
     assert seconds == sorted(seconds)
@@ -90,7 +88,7 @@ def test_time_only_goes_on_and_the_same_seed_does_the_same(bench: Bench, conditi
 
 
 def test_each_question_is_paid_for_once(bench: Bench) -> None:
-    review = sign_off(bench, TRUE, 1, FakeTool(bench, TRUE))
+    review = sign_off(bench, TRUE, 1, FakeClient)
     assert review.ended == DONE
     assert review.acts["group"] == 1
     first = next(iter(bench.samples.values()))
@@ -106,14 +104,14 @@ def test_each_question_is_paid_for_once(bench: Bench) -> None:
 
 
 def test_a_session_is_broken_off_at_the_cap(bench: Bench) -> None:
-    review = sign_off(bench, TRUE, 1, FakeTool(bench, TRUE), cap=20.0)
+    review = sign_off(bench, TRUE, 1, FakeClient, cap=20.0)
     assert review.ended == BROKEN
     assert review.points[-1].held
     assert sum(review.seconds.values()) < 60
 
 
 def test_who_never_slips_signs_off_nothing_wrong_where_every_result_is_looked_at(bench: Bench) -> None:
-    review = sign_off(bench, FLAT, 2, FakeTool(bench, FLAT), cap=10_000.0)
+    review = sign_off(bench, FLAT, 2, FakeClient, cap=10_000.0)
     assert review.wrong == []
     assert review.points[-1].held == 0
 
@@ -122,10 +120,10 @@ def test_who_never_slips_signs_off_nothing_wrong_where_every_result_is_looked_at
 def test_an_asset_that_the_reference_cannot_mend_is_never_right() -> None:
     one = task("cup-hard")
     judge = Judge(Bench(one, family(one.category, "coarse")[:5]))
-    impossible = set(judge.bench.samples) - judge.possible
-    assert judge.count_right(judge.bench.truth, judge.bench.task.program) == len(judge.possible)
-    assert not any(judge.is_right(judge.bench.truth, judge.bench.task.program, name) for name in impossible)
-    assert all(judge.looks_right(judge.bench.truth, judge.bench.task.program, name) for name in judge.possible)
+    impossible, truth, reference = set(judge.bench.samples) - judge.possible, judge.bench.truth, one.program
+    assert judge.count_right(truth, reference) == len(judge.possible)
+    assert not any(judge.is_right(name, run_on_desk(truth, reference, name)) for name in impossible)
+    assert all(judge.looks_right(name, run_on_desk(truth, reference, name)) for name in judge.possible)
 
 
 def test_who_glances_at_all_and_mends_by_hand_has_all_right_but_for_slips(bench: Bench) -> None:
@@ -143,23 +141,21 @@ def test_each_exception_of_a_group_is_named_and_paid_for(bench: Bench) -> None:
     alike = [hull.name for hull in sample.mesh.hulls if hull.label == labels[0]]
     other = next(hull.name for hull in sample.mesh.hulls if hull.label == labels[1])
     hulls = tuple(HullPlace(name, hull) for hull in (*alike, other))
-    question = ReviewQuestion("group", "group", "", 1.0, 1.0, name, None, hulls, (ReviewChoice("", labels[0]),))
-    reply = reviewer.reply(question, bench.truth, None)
-    assert (reply.choice, reply.exceptions) == (0, {HullPlace(name, other): labels[1]})
+    question = GroupQuestion("", 1.0, 1.0, name, None, hulls, (ReviewChoice.of_label(labels[0]),), "group")
+    reply = reviewer.reply(question, bench.truth, None, None)
+    assert (reply.choice, reply.exceptions) == (labels[0], {HullPlace(name, other): labels[1]})
     assert reviewer.ledger.total == pytest.approx(price_group(len(hulls), 1) + STROKE)
-    state = apply_reply(FakeTool(bench, TRUE).begin(bench.truth), question, reply)
-    assert all(state.meshes[name].hull_of(hull.hull).source == "user" for hull in hulls)
 
 
 def test_before_any_question_all_that_nobody_showed_or_looked_at_has_a_probability(
     bench: Bench, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(Person, "looks_at", lambda _, names: names[:1])
-    opening = open_review(bench, TRUE, 1, FakeTool(bench, TRUE))
+    opening = open_review(bench, TRUE, 1, FakeClient)
     assert opening.right == opening.possible
     assert 0 < len(opening.pairs) < opening.possible
     monkeypatch.undo()
-    assert not open_review(bench, TRUE, 1, FakeTool(bench, TRUE)).pairs  # a dozen looks are all that there is
+    assert not open_review(bench, TRUE, 1, FakeClient).pairs  # a dozen looks are all that there is
     assert FirstLook.of_json(json.loads(json.dumps(asdict(opening)))) == opening
 
 
@@ -183,8 +179,8 @@ def test_few_in_a_bin_are_judged_with_the_next() -> None:
 
 
 def test_one_page_tells_all_conditions_and_who_is_sooner(bench: Bench) -> None:
-    reviews = [sign_off(bench, TRUE, 1, FakeTool(bench, TRUE))]
-    groups = group([TRUE.name, FLAT.name], reviews, [open_review(bench, TRUE, 1, FakeTool(bench, TRUE))], [])
+    reviews = [sign_off(bench, TRUE, 1, FakeClient)]
+    groups = group([TRUE.name, FLAT.name], reviews, [open_review(bench, TRUE, 1, FakeClient)], [])
     assert [one.condition for one in groups] == [TRUE.name]
     tables = list_tables(groups)
     assert all(len(row) == len(table.columns) for table in tables for row in table.rows)

@@ -120,10 +120,12 @@ def test_the_projects_own_assets_are_taken_as_they_are_there(run: Run) -> None:
 
 @pytest.mark.slow
 def test_what_is_less_sure_than_asked_is_held_and_reported(run: Run) -> None:
-    told = run("apply", "p", "new", "--out", "out", "--workers", "1", "--sure", "0.999")
+    told = run("apply", "p", "new", "--out", "out", "--workers", "1", "--min-confidence", "0.999")
     assert told.code == 1 and not Path("out/c.urdf").exists()
     assert "held       c.urdf: " in told.out and "% sure; " in told.out
-    told = run("apply", "p", "new", "--out", "out", "--workers", "1", "--sure", "0.5", "--json", "--report", "r.html")
+    told = run(
+        "apply", "p", "new", "--out", "out", "--workers", "1", "--min-confidence", "0.5", "--json", "--report", "r.html"
+    )
     line = json.loads(told.out)
     assert 0.5 <= line["probability"] <= line["split"][0]["chance"] + 0.001, "the chance has three digits"
     assert any("%: into " in doubt["text"] for doubt in line["doubts"])

@@ -76,18 +76,18 @@ def test_the_head_says_what_status_says(run_doubtful: Run) -> None:
 
 @pytest.mark.slow
 def test_what_is_signed_off_says_by_whom(run: Run) -> None:
-    run("review", "tables", "--sure", "0.5")
+    run("review", "tables", "--min-confidence", "0.5")
     run("apply", "tables", "--report", "r.html")
     page = opened("r.html")
     told = dict(zip(names(page), texts(page, "//article/p[@class='standing signed-off']"), strict=True))
     assert told[THIRD].endswith("% sure, signed off by MeshForge")
     assert told[FIRST] == told[SECOND] == "99% sure, signed off by a person"
     Project.open("tables").set_verdict(THIRD, "accepted")
-    Project.open("tables").set_verdict(SECOND, "flagged")
+    Project.open("tables").set_verdict(SECOND, "wrong")
     run("apply", "tables", "--report", "r.html")
     page = opened("r.html")
     told = dict(zip(names(page), texts(page, "//article/p[contains(@class, 'standing')]"), strict=True))
-    assert told[THIRD].endswith("signed off by a person") and told[SECOND].endswith("set aside")
+    assert told[THIRD].endswith("signed off by a person") and told[SECOND].endswith("held")
 
 
 @pytest.mark.slow
@@ -101,7 +101,7 @@ def test_what_was_not_reviewed_is_held(run: Run) -> None:
 @pytest.mark.slow
 def test_what_was_held_back_is_shown_as_it_would_be(run: Run) -> None:
     Path("tables/edited", THIRD).unlink()
-    run("apply", "tables", "--sure", "1", "--report", "r.html")
+    run("apply", "tables", "--min-confidence", "1", "--report", "r.html")
     page = opened("r.html")
     assert (names(page), kinds(page)) == ([THIRD, FIRST, SECOND], ["held-back", "skipped", "skipped"])
     assert figures(page) | {"hulls": ""} == {
@@ -121,7 +121,7 @@ def test_what_was_held_back_is_shown_as_it_would_be(run: Run) -> None:
 def test_of_very_many_what_is_held_is_shown_though_it_came_last(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     for module in ("meshforge.batch.report.outcomes", "meshforge.batch.outcome"):
         monkeypatch.setattr(f"{module}.MOST_SHOWN", 1)
-    run("review", "tables", "--sure", "1")
+    run("review", "tables", "--min-confidence", "1")
     run("apply", "tables", "--report", "r.html")
     page = opened("r.html")
     assert names(page) == [THIRD]

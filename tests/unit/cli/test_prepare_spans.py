@@ -29,11 +29,11 @@ def _stools(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_dry_run_then_split_then_undo(run: Run) -> None:
-    told = run("prepare", "p", "--split-spanning", "--sure", "0.7", "--dry-run", "--workers", "1")
+    told = run("prepare", "p", "--split-spanning", "--min-confidence", "0.7", "--dry-run", "--workers", "1")
     assert told.code == 0
     assert "c.urdf: nothing written; would turn 1 piece into 2 hulls\n    base/h0 holds seat and leg, " in told.out
     assert "a.urdf: nothing new\n" in told.out
-    told = run("prepare", "p", "--split-spanning", "--sure", "0.7", "--workers", "1")
+    told = run("prepare", "p", "--split-spanning", "--min-confidence", "0.7", "--workers", "1")
     assert told.code == 0
     assert "c.urdf: 1 piece into 2 hulls\n    base/h0 holds seat and leg, " in told.out
     told = run("status", "p")
@@ -52,7 +52,7 @@ def test_dry_run_then_split_then_undo(run: Run) -> None:
 @pytest.mark.slow
 def test_review_asks_about_it_and_a_reply_splits_it_or_keeps_it(run: Run, tmp_path: Path) -> None:
     assert "demonstrate" in run("review", "p").out, "nobody has looked for such hulls"
-    run("prepare", "p", "--split-spanning", "--sure", "0.7", "--dry-run", "--workers", "1")
+    run("prepare", "p", "--split-spanning", "--min-confidence", "0.7", "--dry-run", "--workers", "1")
     told = run("review", "p", "--json")
     question = json.loads(told.out)["question"]
     assert question["kind"] == "span" and question["hulls"] == [{"asset": "c.urdf", "hull": "base/h0"}]
@@ -68,12 +68,12 @@ def test_review_asks_about_it_and_a_reply_splits_it_or_keeps_it(run: Run, tmp_pa
         assert (tmp_path / "p/prepared/c.urdf").exists() == (choice == 0)
         if choice == 0:
             run("prepare", "p", "c.urdf", "--undo")
-    told = run("prepare", "p", "--split-spanning", "--sure", "0.7", "--workers", "1")
+    told = run("prepare", "p", "--split-spanning", "--min-confidence", "0.7", "--workers", "1")
     assert "left as it is, since a person said that it is one part" in told.out and "into 2 hulls" not in told.out
 
 
 def test_another_engine_makes_the_fine_pieces(run: Run, tmp_path: Path) -> None:
-    told = run("prepare", "p", "--split-spanning", "--sure", "0.7", "--workers", "1", "--decompose", "vhacd")
+    told = run("prepare", "p", "--split-spanning", "--min-confidence", "0.7", "--workers", "1", "--decompose", "vhacd")
     assert told.code == 0 and "c.urdf: 1 piece into 2 hulls\n" in told.out
     kept = json.loads((tmp_path / "p/prepared/c.urdf/preparation.json").read_text())
     assert kept["steps"][0]["settings"]["pieces"] == "vhacd"
@@ -90,7 +90,7 @@ def test_settings_of_a_decomposition_do_not_go_with_fine_pieces(run: Run, what: 
 
 
 def test_as_json(run: Run) -> None:
-    told = run("prepare", "p", "--split-spanning", "--sure", "0.7", "--workers", "1", "--json")
+    told = run("prepare", "p", "--split-spanning", "--min-confidence", "0.7", "--workers", "1", "--json")
     rows = [json.loads(line) for line in told.out.splitlines()]
     assert [row["asset"] for row in rows] == ["a.urdf", "b.urdf", "c.urdf"]
     assert rows[2]["hulls"] == ["base/h0#0", "base/h0#1"]
@@ -100,10 +100,10 @@ def test_as_json(run: Run) -> None:
     ("words", "problem"),
     [
         (["--split-spanning", "--undo"], "say what to do"),
-        (["--decompose", "coacd", "--sure", "0.5"], "--sure"),
+        (["--decompose", "coacd", "--min-confidence", "0.5"], "--min-confidence"),
         (["--decompose", "coacd", "--dry-run"], "--dry-run"),
         (["--decompose", "coacd", "--limits", "mujoco"], "--limits"),
-        (["--split-spanning", "--sure", "0"], "--sure 0: a probability is needed"),
+        (["--split-spanning", "--min-confidence", "0"], "--min-confidence 0: a probability is needed"),
         (["--split-spanning", "--hollow"], "--hollow"),
         (["nope.urdf", "--split-spanning"], "nope.urdf"),
     ],

@@ -1,4 +1,4 @@
-"""`meshforge review`, `status --signed-off` and `apply --sure`."""
+"""`meshforge review`, `status --signed-off` and `apply --min-confidence`."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp
 
 
 def test_a_family_that_is_sure_is_signed_off(run: Run) -> None:
-    told = run("review", "tables", "--sure", "0.5")
+    told = run("review", "tables", "--min-confidence", "0.5")
     assert told.code == 0
-    assert told.out.strip() == "3 of 3 are at least 50% sure, or were looked at: signed off."
+    assert told.out.strip() == "3 of 3 are at least 50% sure, or were looked at."
     assert run("status", "tables", "--signed-off").code == 0
 
 
 def test_what_is_held_is_named_with_a_question_and_a_picture(run: Run) -> None:
-    told = run("review", "tables", "--sure", "1")
+    told = run("review", "tables", "--min-confidence", "1")
     assert told.code == 1
     assert told.out.startswith("2 of 3 are at least 100% sure, or were looked at; look at this one:\n  " + THIRD)
     picture = next(line.split("picture: ")[1] for line in told.out.splitlines() if "picture: " in line)
@@ -38,7 +38,7 @@ def test_what_is_held_is_named_with_a_question_and_a_picture(run: Run) -> None:
 
 
 def test_json_has_the_contract_and_a_reply_signs_off(run: Run) -> None:
-    found = json.loads(run("review", "tables", "--sure", "1", "--json").out)
+    found = json.loads(run("review", "tables", "--min-confidence", "1", "--json").out)
     assert found["signed_off"] == 2
     assert [one["asset"] for one in found["held"]] == [THIRD]
     assert set(found["held"][0]) == {"asset", "probability", "doubts"}
@@ -46,7 +46,7 @@ def test_json_has_the_contract_and_a_reply_signs_off(run: Run) -> None:
     assert set(question) >= {"id", "kind", "seconds", "gain", "asset", "rule", "hulls", "choices", "pictures"}
     for _ in range(12):
         Path("said.json").write_text(json.dumps([{"id": question["id"], "choice": 0}]))
-        told = run("review", "tables", "--sure", "1", "--json", "--answers", "said.json")
+        told = run("review", "tables", "--min-confidence", "1", "--json", "--answers", "said.json")
         question = json.loads(told.out)["question"]
         if question is None:
             break
@@ -56,7 +56,7 @@ def test_json_has_the_contract_and_a_reply_signs_off(run: Run) -> None:
 
 def test_a_reply_to_a_question_that_does_not_stand_is_named_and_skipped(run: Run) -> None:
     Path("said.json").write_text('[{"id": "group-of-old", "choice": 0}]')
-    told = run("review", "tables", "--sure", "0.5", "--answers", "said.json")
+    told = run("review", "tables", "--min-confidence", "0.5", "--answers", "said.json")
     assert told.code == 1
     assert "group-of-old: this question is not asked any more, so the reply is skipped" in told.err
 
@@ -70,7 +70,7 @@ def test_a_file_that_holds_no_replies_is_one_clear_message(run: Run, text: str, 
 
 
 def test_status_says_what_is_void_and_why(run: Run) -> None:
-    run("review", "tables", "--sure", "0.5")
+    run("review", "tables", "--min-confidence", "0.5")
     Project.open("tables").set_labels(THIRD, {"crumb": "leg"})
     told = run("status", "tables")
     assert f"{THIRD}: void, labels changed since it was signed off" in told.out
@@ -80,7 +80,7 @@ def test_status_says_what_is_void_and_why(run: Run) -> None:
 
 
 def test_apply_writes_what_is_sure_and_names_what_is_held(run: Run) -> None:
-    told = run("apply", "tables", "--sure", "1", "--json")
+    told = run("apply", "tables", "--min-confidence", "1", "--json")
     rows = [json.loads(line) for line in told.out.splitlines()]
     assert told.code == 1
     assert {row["asset"]: row["status"] for row in rows}[THIRD] == "held"
@@ -89,53 +89,61 @@ def test_apply_writes_what_is_sure_and_names_what_is_held(run: Run) -> None:
     sure = {one.id: one.probability for one in Project.open("tables").status().assets}
     assert all(row["probability"] == pytest.approx(sure[row["asset"]], abs=1e-4) for row in rows)
     assert held["out"].endswith("model.obj")
-    assert "held" in run("apply", "tables", "--sure", "1").out
-    assert run("apply", "tables", "--sure", "0.5").code == 0
+    assert "held" in run("apply", "tables", "--min-confidence", "1").out
+    assert run("apply", "tables", "--min-confidence", "0.5").code == 0
 
 
 def test_a_program_alone_does_not_say_how_sure_it_is(run: Run) -> None:
-    told = run("apply", "tables/program.mf", "assets", "--out", "out", "--sure", "0.9")
+    told = run("apply", "tables/program.mf", "assets", "--out", "out", "--min-confidence", "0.9")
     assert told.code == 2
-    assert "--sure needs a project" in told.err
+    assert "--min-confidence needs a project" in told.err
     assert not Path("out").exists()
 
 
-def test_a_flagged_result_is_held(run: Run) -> None:
-    Project.open("tables").set_verdict(SECOND, "flagged")
-    rows = [json.loads(line) for line in run("apply", "tables", "--sure", "0.5", "--json").out.splitlines()]
+def test_an_option_by_its_old_name_is_an_error_that_names_the_new(run: Run) -> None:
+    for words in (["review", "tables"], ["apply", "tables"]):
+        told = run(*words, "--sure", "0.5")
+        assert told.code == 2 and "--min-confidence" in told.err
+
+
+def test_a_wrong_result_is_held(run: Run) -> None:
+    Project.open("tables").set_verdict(SECOND, "wrong")
+    rows = [json.loads(line) for line in run("apply", "tables", "--min-confidence", "0.5", "--json").out.splitlines()]
     assert {row["asset"]: row["status"] for row in rows}[SECOND] == "held"
 
 
 def test_outputs_in_another_folder_sign_nothing_off(run: Run) -> None:
-    run("review", "tables", "--sure", "0.5")
-    Path("tables/signoff.json").unlink()
+    run("review", "tables", "--min-confidence", "0.5")
+    Path("tables/signoffs.jsonl").unlink()
     assert run("apply", "tables", "--out", "elsewhere").code == 0
-    assert not Path("tables/signoff.json").exists()
+    assert not Path("tables/signoffs.jsonl").exists()
     assert run("apply", "tables").code == 0
-    assert Path("tables/signoff.json").exists()
+    assert Path("tables/signoffs.jsonl").exists()
 
 
-def test_replies_are_given_in_the_order_in_which_they_are_asked(run: Run) -> None:
-    question = json.loads(run("review", "tables", "--sure", "1", "--json").out)["question"]
+def test_a_reply_is_taken_whatever_stands_before_it(run: Run) -> None:
+    question = json.loads(run("review", "tables", "--min-confidence", "1", "--json").out)["question"]
     Path("said.json").write_text(json.dumps([{"id": "of-old", "choice": 0}, {"id": question["id"], "choice": 0}]))
-    told = run("review", "tables", "--sure", "1", "--json", "--answers", "said.json")
+    told = run("review", "tables", "--min-confidence", "1", "--json", "--answers", "said.json")
     assert told.code == 1 and "of-old" in told.err and question["id"] not in told.err
 
 
 def test_info_says_how_sure_an_edit_is_while_that_holds(run: Run) -> None:
-    run("review", "tables", "--sure", "0.5")
+    run("review", "tables", "--min-confidence", "0.5")
     assert json.loads(run("info", THIRD, "--project", "tables", "--json").out)["probability"] > 0.5
     Project.open("tables").set_labels(THIRD, {"crumb": "leg"})
     assert json.loads(run("info", THIRD, "--project", "tables", "--json").out)["probability"] is None
 
 
 def test_what_was_put_off_is_asked_again_on_request(run: Run) -> None:
-    question = run("review", "tables", "--sure", "1", "--json").json["question"]
+    question = run("review", "tables", "--min-confidence", "1", "--json").json["question"]
     Path("said.json").write_text(json.dumps([{"id": question["id"], "later": True}]))
-    told = run("review", "tables", "--sure", "1", "--json", "--answers", "said.json")
+    told = run("review", "tables", "--min-confidence", "1", "--json", "--answers", "said.json")
     assert told.code == 1
     assert (told.json["question"] or {}).get("id") != question["id"]
-    assert run("review", "tables", "--sure", "1", "--json", "--again").json["question"]["id"] == question["id"]
+    assert (
+        run("review", "tables", "--min-confidence", "1", "--json", "--again").json["question"]["id"] == question["id"]
+    )
 
 
 @pytest.fixture
@@ -150,12 +158,12 @@ def racks(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], t
 def test_a_result_that_would_be_a_block_is_held_though_nothing_was_written_before(racks: Run) -> None:
     find_right(Project.open("racks"), PLAIN[2])
     assert f"{BLOCK} (49%): nearly one solid block" in racks("review", "racks").out
-    told = racks("apply", "racks", "--sure", "0.95", "--workers", "1")
+    told = racks("apply", "racks", "--min-confidence", "0.95", "--workers", "1")
     assert told.code == 1
     assert f"held       {BLOCK}: 49% sure; nearly one solid block" in told.out
     project = Project.open("racks")
     assert not (project.layout.edited / BLOCK).exists()
-    assert set(project.sign_offs().assets) == set(PLAIN)
+    assert set(project.sign_offs()) == set(PLAIN)
 
 
 @pytest.mark.slow
@@ -167,13 +175,13 @@ def test_a_result_that_stands_out_in_a_run_alone_is_not_signed_off_by_it(
         earlier.setattr("meshforge.project.review.measure_results", lambda *_: {})  # as a version before did
         assert racks("review", "racks").code == 0
     assert f"1 result stands out: {BLOCK}" in racks("apply", "racks", "--workers", "1").out
-    assert set(Project.open("racks").sign_offs().assets) == set(PLAIN)
+    assert set(Project.open("racks").sign_offs()) == set(PLAIN)
     told = racks("status", "racks", "--signed-off")
     assert told.code == 1 and f"{BLOCK} (97%): nearly one solid block" in told.out
 
 
 @pytest.mark.slow
 def test_a_result_that_stands_out_is_held_at_any_bar(racks: Run) -> None:
-    assert racks("review", "racks", "--sure", "0.5").code == 1
+    assert racks("review", "racks", "--min-confidence", "0.5").code == 1
     assert f"1 result stands out: {BLOCK}" in racks("apply", "racks", "--workers", "1").out
-    assert BLOCK not in Project.open("racks").sign_offs().assets
+    assert BLOCK not in Project.open("racks").sign_offs()

@@ -8,41 +8,45 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.cli.review_answers import find_contradictions, parse_reply, read_replies
+from meshforge.cli.review_answers import ScriptReply, find_contradictions, parse_reply, read_replies
 from meshforge.cli.review_text import format_prompt, format_question, format_reply_help, letter_of
 from meshforge.common import UsageError
 from meshforge.geometry import Box, Pose
 from meshforge.language import Program
-from meshforge.signoff import HullPlace, ReviewChoice, ReviewQuestion, ReviewReply, ReviewState
+from meshforge.signoff import (
+    DemonstrationQuestion,
+    GroupQuestion,
+    HullPlace,
+    ReadingQuestion,
+    ResultQuestion,
+    ReviewChoice,
+    ReviewReply,
+    ReviewState,
+    SpanQuestion,
+)
+from meshforge.signoff.question import EXCLUDE, NO, WRONG, YES
 from meshforge.symbolic import Hull, Label, SymbolicMesh
 
 LEFT, RIGHT = HullPlace("a.obj", "left"), HullPlace("b.obj", "right")
-GROUP = ReviewQuestion(
-    "group-1", "group", "All legs?", 4.0, 1.0, "a.obj", None, (LEFT, RIGHT), (ReviewChoice("leg", "leg"),)
-)
-READING = ReviewQuestion(
-    "reading-1",
-    "reading",
-    "What does rule 1 mean on a.obj?",
-    4.0,
-    1.0,
-    "a.obj",
-    1,
-    (),
-    (ReviewChoice("Is(leg)", select=("left",)), ReviewChoice("All", select=())),
-)
-DEMONSTRATE = ReviewQuestion("demonstrate-1", "demonstrate", "Show the edit on a.obj.", 20.0, 1.0, "a.obj")
+LEG = ReviewChoice.of_label("leg")
+GROUP = GroupQuestion("All legs?", 4.0, 1.0, "a.obj", None, (LEFT, RIGHT), (LEG,), "group-1")
+READINGS = (ReviewChoice("a", "Is(leg)", select=("left",)), ReviewChoice("b", "All", select=()))
+READING = ReadingQuestion("What does rule 1 mean on a.obj?", 4.0, 1.0, "a.obj", 1, (), READINGS, "reading-1")
+VERDICTS = tuple(ReviewChoice(one, one) for one in ("right", WRONG, *EXCLUDE))
+RESULT = ResultQuestion("Is the result of a.obj right?", 4.0, 1.0, "a.obj", choices=VERDICTS, id="result-1")
+DEMONSTRATE = DemonstrationQuestion("Show the edit on a.obj.", 20.0, 1.0, "a.obj", id="demonstrate-1")
 
 
 @pytest.mark.parametrize(
     ("line", "reply"),
     [
-        ("", ReviewReply("group-1", 0)),
-        ("1", ReviewReply("group-1", 0)),
+        ("", ReviewReply("group-1", "leg")),
+        ("1", ReviewReply("group-1", "leg")),
+        ("leg", ReviewReply("group-1", "leg")),
         ("n", ReviewReply("group-1", None)),
         ("l", ReviewReply("group-1", later=True)),
-        ("1 b=panel", ReviewReply("group-1", 0, {RIGHT: "panel"})),
-        ("a=panel, b=door", ReviewReply("group-1", 0, {LEFT: "panel", RIGHT: "door"})),
+        ("1 b=panel", ReviewReply("group-1", "leg", {RIGHT: "panel"})),
+        ("a=panel, b=door", ReviewReply("group-1", "leg", {LEFT: "panel", RIGHT: "door"})),
     ],
 )
 def test_a_line_is_a_reply(line: str, reply: ReviewReply) -> None:
@@ -51,13 +55,35 @@ def test_a_line_is_a_reply(line: str, reply: ReviewReply) -> None:
 
 @pytest.mark.parametrize(
     ("line", "choice", "later"),
-    [("", 0, False), ("y", 0, False), ("1", 0, False), ("n", 1, False), ("2", 1, False), ("l", None, True)],
+    [("", NO, False), ("y", YES, False), ("yes", YES, False), ("2", YES, False), ("n", NO, False), ("l", None, True)],
 )
-def test_whether_to_split_a_hull_is_a_yes_or_no(line: str, choice: int | None, later: bool) -> None:
-    choices = (ReviewChoice("split so: wall (98%), handle (93%)"), ReviewChoice("no, it is one part"))
-    span = ReviewQuestion("span-1", "span", "split so?", 3.0, 0.9, "a.obj", None, (LEFT,), choices)
+def test_whether_to_split_a_hull_is_a_yes_or_no(line: str, choice: str | None, later: bool) -> None:
+    choices = (ReviewChoice(NO, "no, it is one part"), ReviewChoice(YES, "split so: wall (98%), handle (93%)"))
+    span = SpanQuestion("split so?", 3.0, 0.9, "a.obj", None, (LEFT,), choices, "span-1")
     assert parse_reply(line, span) == ReviewReply("span-1", choice, later=later)
-    assert format_prompt(span).startswith("y split so, n it is one part, l later")
+    assert format_prompt(span) == "1, 2, l later, q stop; Enter: 1: "
+
+
+@pytest.mark.parametrize(
+    ("line", "reply"),
+    [
+        ("", ReviewReply("result-1", "right")),
+        ("2", ReviewReply("result-1", WRONG)),
+        ("not-solved", ReviewReply("result-1", "not-solved")),
+        (
+            "2 1:left,right 2: left=leg",
+            ReviewReply(
+                "result-1",
+                WRONG,
+                selections={1: frozenset({"left", "right"}), 2: frozenset()},
+                labels={"left": "leg"},
+            ),
+        ),
+    ],
+)
+def test_what_is_right_is_typed_after_wrong(line: str, reply: ReviewReply) -> None:
+    assert parse_reply(line, RESULT) == reply
+    assert "(what is right after it: 2 RULE:HULL,HULL HULL=LABEL)" in format_prompt(RESULT)
 
 
 @pytest.mark.parametrize("line", ["2", "0", "maybe", "1 c=panel", "1 a=", "1 a"])
@@ -72,13 +98,23 @@ def test_replies_are_read_from_a_file(tmp_path: Path) -> None:
         {"id": "group-1", "choice": 0, "exceptions": {"b.obj#right": "panel"}},
         {"id": "x", "choice": None},
         {"id": "y", "later": True},
+        {"id": "z", "choice": "wrong", "selections": {"2": ["left"]}, "labels": {"left": "leg"}},
     ]
     path.write_text(json.dumps(rows))
     assert read_replies(path) == [
-        ReviewReply("group-1", 0, {RIGHT: "panel"}),
-        ReviewReply("x", None),
-        ReviewReply("y", later=True),
+        ScriptReply(1, "group-1", 0, {RIGHT: "panel"}),
+        ScriptReply(2, "x", None),
+        ScriptReply(3, "y", later=True),
+        ScriptReply(4, "z", WRONG, selections={2: frozenset({"left"})}, labels={"left": "leg"}),
     ]
+
+
+def test_a_choice_is_an_id_or_a_number_from_0() -> None:
+    assert ScriptReply(1, "reading-1", 1).to_reply(READING) == ReviewReply("reading-1", "b")
+    assert ScriptReply(1, "reading-1", "b").to_reply(READING) == ReviewReply("reading-1", "b")
+    assert ScriptReply(1, "reading-1", None).to_reply(READING) == ReviewReply("reading-1", None)
+    with pytest.raises(UsageError, match="reply 3: question reading-1 has 2 choices"):
+        ScriptReply(3, "reading-1", 2).to_reply(READING)
 
 
 @pytest.mark.parametrize(
@@ -86,8 +122,14 @@ def test_replies_are_read_from_a_file(tmp_path: Path) -> None:
     [
         ({"choice": 0}, "reply 2 has no id"),
         ("a", "reply 2 has no id"),
-        ({"id": "a", "choice": True}, "reply 2: the choice True is no number from 0"),
-        ({"id": "a", "choice": "x"}, "reply 2: the choice 'x' is no number from 0"),
+        ({"id": "a", "choice": True}, "reply 2: the choice True is no id, and no number from 0"),
+        ({"id": "a", "choice": ["x"]}, "reply 2: the choice ['x'] is no id, and no number from 0"),
+        ({"id": "a", "selections": {"a": []}}, "reply 2: its selections are no lists of hulls by the numbers of rules"),
+        (
+            {"id": "a", "selections": {"1": "b"}},
+            "reply 2: its selections are no lists of hulls by the numbers of rules",
+        ),
+        ({"id": "a", "labels": {"b": 1}}, "reply 2: its labels are no labels by hull"),
         ({"id": "a", "later": "yes"}, "reply 2: 'yes' for later is not true or false"),
         ({"id": "a", "pick": 1}, "reply 2 has a field 'pick', which is none of a reply"),
         ({"id": "a", "exceptions": ["b"]}, "reply 2: its exceptions are no labels by ASSET#HULL"),
@@ -118,9 +160,9 @@ def state_of(label: Label) -> ReviewState:
 
 
 def test_what_a_person_said_before_is_told_and_the_last_word_counts() -> None:
-    told = list(find_contradictions(state_of(Label("panel")), GROUP, ReviewReply("group-1", 0, {RIGHT: "panel"})))
+    told = list(find_contradictions(state_of(Label("panel")), GROUP, ReviewReply("group-1", "leg", {RIGHT: "panel"})))
     assert told == ["left of a.obj was called panel by a person before, and is leg now: the last word counts"]
-    assert not list(find_contradictions(state_of(Label("panel", 0.5, "vlm")), GROUP, ReviewReply("group-1", 0)))
+    assert not list(find_contradictions(state_of(Label("panel", 0.5, "vlm")), GROUP, ReviewReply("group-1", "leg")))
     assert not list(find_contradictions(state_of(Label("panel")), GROUP, ReviewReply("group-1", later=True)))
 
 
@@ -153,5 +195,4 @@ def test_a_demonstration_is_asked_for_with_its_command() -> None:
     assert format_reply_help(DEMONSTRATE, "tables") == (
         "Show it: meshforge demonstrate tables a.obj 'HULLS => ACTION' ..."
     )
-    with pytest.raises(UsageError, match="there is no choice 1"):
-        parse_reply("", DEMONSTRATE)
+    assert parse_reply("", DEMONSTRATE) == ReviewReply("demonstrate-1", later=True)

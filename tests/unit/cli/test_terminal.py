@@ -25,7 +25,7 @@ def test_a_person_answers_and_an_interrupt_loses_nothing(tmp_path: Path) -> None
         assert terminal.end() == 0  # there is a program, if an open one
     assert "stopped; what you said so far is kept" in terminal.text
     assert "ambiguous: it is open what rule 1 does on rack2.obj" in terminal.text
-    assert project.answers().ids == ("1:rack2.obj",)
+    assert tuple(project.feedback().said) == ("1:rack2.obj",)
 
 
 @pytest.mark.slow

@@ -11,6 +11,7 @@ import pytest
 from meshforge.formats import read, save
 from meshforge.geometry import Floats
 from meshforge.symbolic import Asset
+from tests.asset_bounds import bounds_of
 from tests.conversion_samples import SAMPLES
 from tests.gltf_files import KHR, SceneFile
 from tests.soups import box
@@ -32,8 +33,7 @@ def assert_same_hulls(before: Asset, after: Asset, names: dict[str, str], linear
     """The hulls of two assets have the same places and sizes."""
     by_name = {geom.name: geom.shape for geom in after.geoms}
     assert len(by_name) == len(before.geoms)
-    assert before.aabb is not None
-    slack = SINGLE * before.aabb.diagonal
+    slack = SINGLE * bounds_of(before).diagonal
     for geom in before.geoms:
         now = by_name[names.get(geom.name, geom.name)]
         was = (geom.shape if now.kind == geom.shape.kind else geom.shape.tessellate()).transform(linear, np.zeros(3))

@@ -13,6 +13,7 @@ from meshforge.formats.conversion import turn_asset, turn_upright
 from meshforge.formats.visuals import Visual, VisualSurfaces
 from meshforge.geometry import Pose
 from meshforge.symbolic import Surface
+from tests.asset_bounds import bounds_of
 from tests.conversion_samples import TURNED, doors, opaque
 from tests.urdf_sample import boxes_obj
 
@@ -34,9 +35,7 @@ BY_NAME: dict[str, Format] = {known.name: known for known in FORMATS}
 def test_the_report_says_what_was_done_about_up(source: str | None, target: str, said: str | None) -> None:
     standing, notes = turn_upright(doors(), BY_NAME[source] if source else None, BY_NAME[target])
     assert notes == ((said,) if said else ())
-    before, after = doors().aabb, standing.aabb
-    assert before is not None
-    assert after is not None
+    before, after = bounds_of(doors()), bounds_of(standing)
     is_turned = said is not None and said.startswith("the asset")
     np.testing.assert_allclose(after.size, before.size[[0, 2, 1]] if is_turned else before.size)
 

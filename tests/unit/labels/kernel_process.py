@@ -8,7 +8,7 @@ from meshforge.batch import text_digest
 from meshforge.formats import read
 from meshforge.label_model import FamilyModel
 from meshforge.samples import TABLES
-from meshforge.symbolic import SymbolicMesh, read_labels
+from meshforge.symbolic import Label, SymbolicMesh, read_labels
 
 
 def main() -> None:
@@ -21,11 +21,11 @@ def main() -> None:
     relatives, advised, labels = FamilyModel(meshes), list[int](), list[list[object]]()
     for _ in range(3):
         told = [
-            known[place][hull.name].name if place in advised else None
+            Label(known[place][hull.name].name) if place in advised else None
             for place, mesh in enumerate(meshes)
             for hull in mesh.hulls
         ]
-        found = relatives.propagate(told)
+        found = relatives.infer(told)
         labels += [[(label.name, label.confidence) for label in found.labels(k) if label] for k in range(len(meshes))]
         advised += found.next_to_label()
     print(json.dumps({"shapes": shapes, "advised": advised, "labels": labels}))

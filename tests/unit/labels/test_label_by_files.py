@@ -315,7 +315,7 @@ def test_points_and_semantics_are_offered_until_something_was_taken(tmp_path: Pa
 def test_they_are_not_offered_where_a_person_said_everything(tmp_path: Path) -> None:
     project = partnet(tmp_path)
     project.set_labels(ASSET, dict.fromkeys(HULLS, "frame"))
-    assert project.label_offers().files == ()
+    assert OfferCache().of(project).files == ()
 
 
 def test_status_advises_to_take_them(tmp_path: Path) -> None:

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -32,7 +33,7 @@ def named(folder: Path, *vocabulary: str, **bodies: tuple[str, ...]) -> Project:
 
 
 def found(project: Project) -> dict[str, str]:
-    return dict(project.label_offers().names.get("robot.urdf", {}))
+    return dict(OfferCache().of(project).names.get("robot.urdf", {}))
 
 
 @pytest.mark.parametrize(
@@ -65,7 +66,7 @@ def test_the_body_of_a_format_without_bodies_says_nothing(tmp_path: Path) -> Non
     (tmp_path / "assets").mkdir()
     (tmp_path / "assets/cup.obj").write_text(obj({"wall": BOX, "other": BOX}))
     project = Project.create(tmp_path / "p", [tmp_path / "assets"], vocabulary=["body", "wall"])
-    assert project.label_offers().names == {"cup.obj": {"wall": "wall"}}
+    assert OfferCache().of(project).names == {"cup.obj": {"wall": "wall"}}
 
 
 def test_labels_are_taken_where_there_are_none(tmp_path: Path) -> None:
@@ -85,7 +86,7 @@ def test_an_asset_that_cannot_be_read_is_told_and_does_not_hide_the_others(tmp_p
         write_table(tmp_path / f"assets/{name}.obj", labels=False)
     project = Project.create(tmp_path / "p", [tmp_path / "assets"], vocabulary=["crumb"])
     (tmp_path / "assets/a.obj").write_text("nothing of use")
-    assert project.label_offers().names == {"b.obj": {"crumb": "crumb"}}
+    assert OfferCache().of(project).names == {"b.obj": {"crumb": "crumb"}}
     bad, good = project.label_from_names()
     assert bad.asset == "a.obj" and "a.obj" in bad.problems[0]
     assert good.taken == 1
@@ -93,7 +94,7 @@ def test_an_asset_that_cannot_be_read_is_told_and_does_not_hide_the_others(tmp_p
 
 def test_without_a_vocabulary_nothing_can_be_taken(tmp_path: Path) -> None:
     project = named(tmp_path, base=("door",))
-    assert project.label_offers().names == {}
+    assert OfferCache().of(project).names == {}
     with pytest.raises(ProjectError, match="the vocabulary is empty"):
         project.label_from_names()
 
@@ -144,7 +145,7 @@ def test_offers_follow_the_patterns(tmp_path: Path) -> None:
 )
 def test_a_pattern_that_makes_no_sense_is_told_with_its_file(tmp_path: Path, table: str, message: str) -> None:
     project = with_names(named(tmp_path, "door", base=("strut",)), table)
-    for ask in (project.label_from_names, project.propose_from_names, project.label_offers):
+    for ask in (project.label_from_names, project.propose_from_names, partial(OfferCache().of, project)):
         with pytest.raises(UsageError) as told:
             ask()
         assert told.value.message == f"{project.layout.settings}: {message}"

@@ -13,9 +13,9 @@ from tests.unit.project.tables import FIRST, SECOND, THIRD, fresh, labelled
 
 def test_labels_files_are_offered_until_they_are_taken(tmp_path: Path) -> None:
     project = fresh(tmp_path)
-    assert project.label_offers().files == (FIRST, SECOND, THIRD)
+    assert OfferCache().of(project).files == (FIRST, SECOND, THIRD)
     project.label_from_files()
-    assert project.label_offers().files == ()
+    assert OfferCache().of(project).files == ()
 
 
 def test_a_file_is_offered_again_when_it_says_something_else(tmp_path: Path) -> None:
@@ -37,7 +37,7 @@ def test_what_a_person_said_is_not_offered_to_be_overwritten(tmp_path: Path) -> 
 def test_a_labels_file_that_is_damaged_is_offered_and_says_so_when_it_is_taken(tmp_path: Path) -> None:
     project = labelled(tmp_path)
     (tmp_path / "assets" / FIRST.replace(".obj", ".labels.json")).write_text("{")
-    assert project.label_offers().files == (FIRST,)
+    assert OfferCache().of(project).files == (FIRST,)
 
 
 def test_only_the_assets_that_are_asked_for_count(tmp_path: Path) -> None:
@@ -55,11 +55,11 @@ def test_offers_follow_labels_and_vocabulary(tmp_path: Path) -> None:
 
 def test_assets_are_not_read_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     made = fresh(tmp_path)
-    before = made.label_offers()
+    before = OfferCache().of(made)
 
     def read(*_: object) -> SymbolicMesh:
         raise AssertionError("an asset was read")
 
     monkeypatch.setattr("meshforge.store.meshes.read", read)
     monkeypatch.setattr("meshforge.batch.read_prepared", read)
-    assert made.label_offers() == before
+    assert OfferCache().of(made) == before

@@ -10,8 +10,8 @@ import pytest
 from meshforge.geometry import Ints
 from meshforge.label_model import FamilyTable, MeshDescriber, find_similar
 from meshforge.label_model.similar import OTHER_STEPS, OWN_STEPS
-from meshforge.samples.chairs import _list_chairs
 from meshforge.symbolic import Hull, SymbolicMesh
+from script.families.chairs import _list_chairs
 
 PARTS = ("seat", "legs", "back", "arms", "rails")
 

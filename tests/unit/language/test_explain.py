@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from meshforge.language import ACTIONS, Program, explain, parse_action, parse_extractor, parse_orient
+from meshforge.language import ACTIONS, Program, explain, parse_extractor
 from meshforge.language.print import Rule
+from tests.program_parts import parse_action, parse_orient
 
 _SENTENCES = [
     ("Is(misc) => Delete", "The misc hulls are deleted."),

@@ -8,9 +8,10 @@ from scipy.spatial import ConvexHull
 
 from meshforge.common import ProgramError
 from meshforge.geometry import Floats, Pose
-from meshforge.language import orient_mesh, parse_orient
+from meshforge.language import orient_mesh
 from meshforge.language.orient import _find_outline, square_up_angle
 from meshforge.symbolic import SymbolicMesh
+from tests.program_parts import parse_orient
 from tests.unit.language.scenes import box, hull, mesh, table
 
 UPRIGHT = parse_orient("orient +Z: Is(leg) -> Is(panel)")

@@ -21,11 +21,12 @@ from meshforge.batch import (
     read_stamp,
 )
 from meshforge.checks import CheckOptions, check, examine_mesh
-from meshforge.common import PluginError, ProgramError, UsageError, forget_plugins
+from meshforge.common import PluginError, ProgramError, UsageError, plugins
 from meshforge.formats import is_asset, labels_beside, load, read
-from meshforge.language import All, Each, Program, Rule, parse_action, show_label
+from meshforge.language import All, Each, Program, Rule, show_label
 from meshforge.project import Project
 from tests.plugin_packages import build_wheel, unpack
+from tests.program_parts import parse_action
 from tests.unit.batch.families import write_table
 from tests.unit.cli.in_process import Run, runner
 from tests.unit.plugins import broken
@@ -66,6 +67,13 @@ def install(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Install
     yield put
     monkeypatch.undo()
     forget_plugins()
+
+
+def forget_plugins() -> None:
+    """Look for plug-ins anew, as after a package was installed."""
+    plugins._adopted.clear()
+    plugins._find.cache_clear()
+    plugins._read_mentions.cache_clear()
 
 
 def format_code(body: str) -> str:

@@ -10,6 +10,7 @@ import pytest
 from meshforge.batch import IN_PROCESS
 from meshforge.language import Delete, Program
 from meshforge.project import Project
+from meshforge.store import VerdictEvent
 from meshforge.synthesis import Ambiguous, Found, Options, Step
 from tests.unit.project.shelves import ambiguous
 
@@ -26,11 +27,17 @@ def applied(folder: Path) -> Project:
     return project
 
 
+def last_word(project: Project) -> VerdictEvent:
+    found = project.feedback().verdict_on(SHELVED)
+    assert found is not None
+    return found
+
+
 @pytest.mark.slow
 def test_what_was_accepted_by_itself_settles_what_was_open(tmp_path: Path) -> None:
     project = applied(tmp_path)
     project.set_verdict(SHELVED, "accepted")
-    (seen,) = json.loads((project.folder / "review.json").read_text())["assets"][SHELVED]["seen"]
+    (seen,) = json.loads(project.layout.events.read_text())["seen"]
     assert seen == {"rule": 1, "action": "Delete", "select": ["shelf", "top"]}
     outcome = project.synthesize()
     assert isinstance(outcome, Found) and outcome.settled
@@ -41,12 +48,12 @@ def test_what_was_accepted_by_itself_settles_what_was_open(tmp_path: Path) -> No
 
 
 @pytest.mark.slow
-def test_who_accepts_many_at_once_or_flags_says_nothing_of_each(tmp_path: Path) -> None:
+def test_who_accepts_many_at_once_or_calls_one_wrong_says_not_what_is_right(tmp_path: Path) -> None:
     project = applied(tmp_path)
     project.set_verdict([SHELVED, ALSO], "accepted")
-    assert not any(said.seen for said in project.reviews().values())
+    assert not any(said.seen for some in project.feedback().verdicts.values() for said in some)
     assert isinstance(project.synthesize(), Ambiguous)
-    project.set_verdict(SHELVED, "flagged")
+    project.set_verdict(SHELVED, "wrong")
     assert isinstance(project.synthesize(), Ambiguous)
 
 
@@ -55,7 +62,7 @@ def test_an_edit_by_hand_is_not_what_the_program_did(tmp_path: Path) -> None:
     project.correct(SHELVED, ["knob"], Delete())
     list(project.apply(execution=IN_PROCESS))
     project.set_verdict(SHELVED, "accepted")
-    assert not project.reviews()[SHELVED].seen
+    assert not last_word(project).seen
     assert isinstance(project.synthesize(), Ambiguous)
 
 
@@ -63,7 +70,7 @@ def test_nor_is_what_another_program_did(tmp_path: Path) -> None:
     project = applied(tmp_path)
     project.accept(Program.parse("labels board, leg, knob\nIs(knob) => Delete\n"))
     project.set_verdict(SHELVED, "accepted")
-    assert not project.reviews()[SHELVED].seen
+    assert not last_word(project).seen
 
 
 def test_a_demonstration_counts_more_than_an_accepted_result(tmp_path: Path) -> None:

@@ -24,21 +24,17 @@ def knob(project: Project) -> Label | None:
 
 def test_an_answer_is_kept_as_one_can_read_it(tmp_path: Path) -> None:
     project = ambiguous(tmp_path)
-    assert project.answer(QUESTION, 1) == "1:rack2.obj"
-    assert json.loads((project.folder / "answers.json").read_text()) == {
-        "answers": [
-            {"id": "1:rack2.obj", "rule": 1, "asset": SHELVED, "select": ["top"], "action": "Delete", "refused": []}
-        ],
-        "confirmed": [],
-        "rejected": [],
-    }
-    assert [line.answer for line in project.answers().answers] == [Answer(1, SHELVED, ["top"])]
+    assert project.add_answer(QUESTION.answer_with(1)) == "1:rack2.obj"
+    assert project.layout.events.read_text() == (
+        '{"event":"answer","rule":1,"asset":"rack2.obj","select":["top"],"action":"Delete"}\n'
+    )
+    assert [line.answer for line in project.feedback().answers.values()] == [Answer(1, SHELVED, ["top"])]
 
 
 def test_neither_keeps_what_was_refused(tmp_path: Path) -> None:
     project = ambiguous(tmp_path)
-    project.answer(QUESTION, None)
-    (line,) = project.answers().answers
+    project.add_answer(QUESTION.answer_with(None))
+    (line,) = project.feedback().answers.values()
     assert line.answer == QUESTION.answer_with(None)
     assert set(line.answer.refused) == {frozenset(choice.select) for choice in QUESTION.choices}
 
@@ -59,43 +55,40 @@ def test_of_very_many_assets_some_are_learned_from_and_all_of_which_something_wa
 def test_the_last_answer_to_a_question_counts_and_the_order_is_stable(tmp_path: Path) -> None:
     project = ambiguous(tmp_path)
     project.add_answer(Answer(1, "rack4.obj", ()))
-    project.answer(QUESTION, 0)
-    project.answer(QUESTION, None)
-    said = [(line.asset, line.select) for line in project.answers().answers]
+    project.add_answer(QUESTION.answer_with(0))
+    project.add_answer(QUESTION.answer_with(None))
+    said = [(line.asset, line.select) for line in project.feedback().answers.values()]
     assert said == [(SHELVED, None), ("rack4.obj", ())]
 
 
 def test_fields_that_this_version_does_not_know_are_kept(tmp_path: Path) -> None:
     project = ambiguous(tmp_path)
-    project.answer(QUESTION, 0)
-    path = project.folder / "answers.json"
-    data = json.loads(path.read_text())
-    data["author"] = "me"
-    data["answers"][0]["when"] = "today"
-    path.write_text(json.dumps(data))
+    project.add_answer(QUESTION.answer_with(0))
+    path = project.layout.events
+    path.write_text(json.dumps(json.loads(path.read_text()) | {"when": "today"}) + "\n")
     project.add_answer(Answer(1, "rack4.obj", None))
-    data = json.loads(path.read_text())
-    assert data["author"] == "me" and data["answers"][0]["when"] == "today"
     project.forget_answers()
-    assert json.loads(path.read_text())["author"] == "me"
+    first, *others = map(json.loads, path.read_text().splitlines())
+    assert first["when"] == "today"
+    assert [one["event"] for one in others] == ["answer", "withdrawal", "withdrawal"]
 
 
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ('{"answers": [{"id": "1:a", "rule": 1, "asset": "b", "select": null}]}', "the id of this entry is '1:b'"),
-        ('{"answers": [{"id": "0:a", "rule": 0, "asset": "a", "select": null}]}', r"answers\[0\]\.rule"),
-        ('{"answers": [{"id": "1:a", "rule": 1, "asset": "a"}]}', r"answers\[0\]\.select"),
-        ('{"rejected": [{"id": "a#h=x", "asset": "a", "hull": "h", "to": "x"}]}', r"rejected\[0\]\.from"),
-        ("[", "JSON"),
+        ('{"event": "answer", "rule": 0, "asset": "a"}', r"line 1: the field (answer\.)?rule"),
+        ('\n{"event": "answer", "rule": 1}', r"line 2: the field (answer\.)?asset"),
+        ('{"event": "label fix", "asset": "a", "hull": "h", "to": "x"}', r"line 1: the field (label fix\.)?accepted"),
+        ('{"event": "advice"}', "line 1: .*advice"),
+        ("[", "line 1: .*JSON"),
     ],
 )
-def test_a_damaged_file_is_named_with_the_field(tmp_path: Path, text: str, message: str) -> None:
+def test_a_damaged_file_is_named_with_the_line_and_the_field(tmp_path: Path, text: str, message: str) -> None:
     project = ambiguous(tmp_path)
-    (project.folder / "answers.json").write_text(text)
+    project.layout.events.write_text(text)
     with pytest.raises(ProjectError, match=message) as caught:
-        project.answers()
-    assert "answers.json" in caught.value.message
+        project.feedback()
+    assert "events.jsonl" in caught.value.message
 
 
 def test_answers_that_cannot_be_are_refused(tmp_path: Path) -> None:
@@ -105,21 +98,21 @@ def test_answers_that_cannot_be_are_refused(tmp_path: Path) -> None:
     with pytest.raises(ProjectError, match="no rule 2 to answer for: only rules 1 to 1 are demonstrated"):
         project.add_answer(Answer(2, SHELVED, None))
     with pytest.raises(UsageError, match="2 choices, none at place 2"):
-        project.answer(QUESTION, 2)
-    assert not (project.folder / "answers.json").exists()
+        project.add_answer(QUESTION.answer_with(2))
+    assert not project.layout.events.exists()
 
 
 def test_a_confirmed_repair_becomes_the_label_and_remembers_the_one_before(tmp_path: Path) -> None:
     project = mislabelled(tmp_path)
     assert project.confirm(WRONG) == "rack0.obj#knob=knob"
     assert knob(project) == Label("knob", 1.0, "repair")
-    (line,) = json.loads((project.folder / "answers.json").read_text())["confirmed"]
+    line = json.loads(project.layout.events.read_text())
     assert (line["from"], line["to"]) == ("leg", "knob")
     assert line["before"] == {"label": "leg", "source": "vlm", "confidence": 0.75}
     project.confirm(WRONG)
     assert project.take_back("rack0.obj#knob=knob") is None
     assert knob(project) == MACHINE
-    assert not (project.folder / "answers.json").exists()
+    assert not project.feedback().said
 
 
 def test_a_missing_label_that_was_filled_in_is_missing_again(tmp_path: Path) -> None:
@@ -146,7 +139,7 @@ def test_a_repair_of_an_asset_that_is_gone_can_be_taken_back(tmp_path: Path) -> 
     (tmp_path / "assets" / PLAIN).unlink()
     project = Project.open(project.folder)
     assert "there is no asset" in (project.take_back(said) or "")
-    assert not project.answers().ids
+    assert not project.feedback().said
 
 
 def test_a_repair_that_no_longer_fits_is_refused(tmp_path: Path) -> None:
@@ -158,30 +151,30 @@ def test_a_repair_that_no_longer_fits_is_refused(tmp_path: Path) -> None:
     project.set_labels(PLAIN, {"knob": "board"})
     with pytest.raises(ProjectError, match="knob is labelled board now, no longer leg"):
         project.confirm(WRONG)
-    assert not project.answers().ids
+    assert not project.feedback().said
 
 
 def test_what_was_said_last_about_a_repair_counts(tmp_path: Path) -> None:
     project = mislabelled(tmp_path)
     project.reject(WRONG)
     project.confirm(WRONG)
-    assert project.answers().ids == ("rack0.obj#knob=knob",)
-    assert len(project.answers().confirmed) == 1
+    (line,) = project.feedback().fixes.values()
+    assert (line.id, line.accepted) == ("rack0.obj#knob=knob", True)
 
 
 def test_an_unknown_id_names_the_nearest(tmp_path: Path) -> None:
     project = ambiguous(tmp_path)
     with pytest.raises(ProjectError, match="--list-answers"):
         project.take_back("1:rack2.obj")
-    project.answer(QUESTION, 0)
+    project.add_answer(QUESTION.answer_with(0))
     with pytest.raises(ProjectError, match=r"Did you mean '1:rack2\.obj'"):
         project.take_back("1:rack2.ob")
 
 
 def test_everything_can_be_forgotten(tmp_path: Path) -> None:
     project = mislabelled(tmp_path)
-    project.answer(QUESTION, 0)
+    project.add_answer(QUESTION.answer_with(0))
     project.confirm(WRONG)
     project.reject(LabelCorrection(OTHER, "left", "leg", "knob"))
     assert project.forget_answers() == ()
-    assert project.answers().ids == () and knob(project) == MACHINE
+    assert not project.feedback().said and knob(project) == MACHINE

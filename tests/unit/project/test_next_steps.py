@@ -215,12 +215,12 @@ def test_without_any_demonstration_left_one_is_to_be_shown(tmp_path: Path) -> No
     assert "meshforge demonstrate" in str(of(project).next.command)
 
 
-def test_flagged_results_are_opened_in_the_studio_once_the_others_are_signed_off(tmp_path: Path) -> None:
+def test_a_wrong_result_is_reviewed_again(tmp_path: Path) -> None:
     project = signed_off(tmp_path)
-    project.set_verdict(SECOND, "flagged")
+    project.set_verdict(SECOND, "wrong")
     advice = of(project).next
-    assert advice.command == f"meshforge studio {project.folder}"
-    assert advice.say == f"All assets are edited; 1 of them want a look, first {SECOND}: edit them by hand."
+    assert advice.command == f"meshforge review {project.folder}"
+    assert advice.say == f"All assets are edited; {SECOND} is not signed off: review them."
 
 
 def test_a_program_without_labels_asks_for_none(tmp_path: Path) -> None:

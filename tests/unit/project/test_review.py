@@ -12,9 +12,16 @@ from meshforge.batch import IN_PROCESS
 from meshforge.common import ProjectError
 from meshforge.language import Delete, Program
 from meshforge.project import Project, ProjectReview
-from meshforge.signoff import HullPlace, ReviewChoice, ReviewQuestion, ReviewReply
-from meshforge.signoff.question import ASIDE, RIGHT, WRONG
-from meshforge.signoff.slips import BY_MISTAKE, ON_PURPOSE
+from meshforge.signoff import (
+    GroupQuestion,
+    HullPlace,
+    RepairQuestion,
+    ResultQuestion,
+    ReviewChoice,
+    ReviewReply,
+    SlipQuestion,
+)
+from meshforge.signoff.question import EXCLUDE, NO, NOT_SOLVED, RIGHT, WRONG, YES
 from meshforge.store import SpanLine, SpansFile, hull_digests
 from meshforge.symbolic import Label
 from meshforge.synthesis import Answer, Step
@@ -31,17 +38,16 @@ def sign_off_of(project: Project, asset: str) -> str:
     return next(one.sign_off for one in project.status().assets if one.id == asset)
 
 
-def result_of(asset: str) -> ReviewQuestion:
-    return ReviewQuestion(
-        "r", "result", "?", 2.65, 0.5, asset, None, (), tuple(map(ReviewChoice, (RIGHT, WRONG, ASIDE)))
-    )
+def result_of(asset: str) -> ResultQuestion:
+    choices = tuple(ReviewChoice(one, one) for one in (RIGHT, WRONG, *EXCLUDE))
+    return ResultQuestion("?", 2.65, 0.5, asset, choices=choices, id="r")
 
 
 def test_a_demonstrated_asset_is_signed_off_by_a_person_and_a_sure_one_by_the_tool(tmp_path: Path) -> None:
     project = applied(tmp_path)
     found = review(project)
     assert set(found.assessment.signed_off) == {FIRST, SECOND, THIRD}
-    signed = project.sign_offs().assets
+    signed = project.sign_offs()
     assert {asset: one.by for asset, one in signed.items()} == {FIRST: "person", SECOND: "person", THIRD: "tool"}
     assert {one.when for one in signed.values()} == {"2026-11-25T12:00:00+00:00"}
     assert project.status().is_signed_off
@@ -109,52 +115,70 @@ def test_a_person_who_wrote_the_program_gets_it_reviewed_as_it_is(tmp_path: Path
 
 def test_a_result_that_is_right_is_accepted_and_its_output_made(tmp_path: Path) -> None:
     project = learned(tmp_path)
-    found = review(project, 0.9999)
-    project.reply(found, result_of(THIRD), ReviewReply("r", 0))
-    assert project.reviews()[THIRD].verdict == "accepted"
+    review(project, 0.9999)
+    project.reply(result_of(THIRD), ReviewReply("r", RIGHT, by="Ada"))
+    said = project.feedback().verdict_on(THIRD)
+    assert said is not None and (said.verdict, said.question, said.by) == ("accepted", "r", "Ada")
     assert THIRD in review(project, 0.9999).assessment.looked_at
     assert sign_off_of(project, THIRD) == "signed off"
 
 
-@pytest.mark.parametrize("choice", [1, 2])
-def test_a_result_that_is_wrong_or_set_aside_is_not_signed_off(tmp_path: Path, choice: int) -> None:
+def test_a_result_that_is_wrong_needs_review(tmp_path: Path) -> None:
     project = learned(tmp_path)
-    found = review(project)
-    project.reply(found, result_of(THIRD), ReviewReply("r", choice))
-    assert project.reviews()[THIRD].verdict == "flagged"
+    review(project)
+    project.reply(result_of(THIRD), ReviewReply("r", WRONG))
+    said = project.feedback().verdict_on(THIRD)
+    assert said is not None and said.verdict == "wrong"
     after = review(project).assessment
-    assert THIRD in after.aside and THIRD not in after.signed_off
-    assert sign_off_of(project, THIRD) == "set aside"
+    assert THIRD in after.wrong and after.held == (THIRD,)
+    assert sign_off_of(project, THIRD) == "held"
+
+
+@pytest.mark.parametrize("choice", EXCLUDE)
+def test_an_asset_that_is_given_up_is_excluded_with_the_reason(tmp_path: Path, choice: str) -> None:
+    project = applied(tmp_path)
+    review(project)
+    project.reply(result_of(THIRD), ReviewReply("r", choice))
+    after = review(project).assessment
+    assert after.excluded == {THIRD: EXCLUDE[choice]}
+    counts = choice == "not-solved"
+    assert THIRD not in (*after.signed_off, *after.held) and (THIRD in after.assets) == counts
+    assert sign_off_of(project, THIRD) == "excluded"
+    status = project.status()
+    assert (status.is_signed_off, status.is_signed_off_but_unsolved) == (not counts, True)
 
 
 def test_labels_of_a_group_are_a_persons(tmp_path: Path) -> None:
     project = learned(tmp_path)
     hull = sorted(LEGS)[0]
-    question = ReviewQuestion(
-        "g", "group", "?", 3.0, 1.0, THIRD, None, (HullPlace(THIRD, hull),), (ReviewChoice("leg", "leg"),)
-    )
-    project.reply(review(project), question, ReviewReply("g", 0))
+    choices = (ReviewChoice.of_label("leg"),)
+    question = GroupQuestion("?", 3.0, 1.0, THIRD, None, (HullPlace(THIRD, hull),), choices, "g")
+    project.reply(question, ReviewReply("g", "leg"))
     assert project.mesh(THIRD).hull_of(hull).annotation == Label("leg", 1.0, "user")
 
 
 def test_a_question_that_is_put_off_stays_so(tmp_path: Path) -> None:
     project = learned(tmp_path)
-    found = review(project)
-    project.reply(found, result_of(THIRD), ReviewReply("r", later=True))
-    assert project.put_off_ids() == ("r",)
-    assert review(project).state.later == {"r"}
+    project.reply(result_of(THIRD), ReviewReply("r", later=True))
+    assert project.feedback().snoozed == ("r",)
+    assert review(project).state.snoozed == {"r"}
+    project.ask_again()
+    assert review(project).state.snoozed == frozenset()
 
 
 def test_a_choice_that_is_not_there_is_one_clear_message(tmp_path: Path) -> None:
     project = learned(tmp_path)
-    with pytest.raises(ProjectError, match="has 3 choices"):
-        project.reply(review(project), result_of(THIRD), ReviewReply("r", 7))
+    with pytest.raises(ProjectError, match=r"question r has no choice 'rigth'(.|\n)*[Dd]id you mean 'right'"):
+        project.reply(result_of(THIRD), ReviewReply("r", "rigth"))
+    with pytest.raises(ProjectError, match='They go with the choice "wrong"'):
+        project.reply(result_of(THIRD), ReviewReply("r", RIGHT, labels={"crumb": "leg"}))
+    assert not project.layout.events.exists()
 
 
 def test_a_damaged_file_of_sign_offs_is_named(tmp_path: Path) -> None:
     project = learned(tmp_path)
-    (project.folder / "signoff.json").write_text('{"assets": {"a": {"by": "nobody"}}}')
-    with pytest.raises(ProjectError, match=r"signoff\.json"):
+    project.layout.sign_offs.write_text('\n{"asset": "a", "by": "nobody"}\n')
+    with pytest.raises(ProjectError, match=r"signoffs\.jsonl: line 2: the field by: "):
         review(project)
 
 
@@ -170,10 +194,10 @@ def test_a_damaged_assessment_is_made_again(tmp_path: Path) -> None:
 def test_the_same_review_writes_the_same_files(tmp_path: Path) -> None:
     project = applied(tmp_path)
     review(project)
-    before = {name: (project.folder / name).read_bytes() for name in ("signoff.json", ".meshforge/assessment.json")}
+    before = {name: (project.folder / name).read_bytes() for name in ("signoffs.jsonl", ".meshforge/assessment.json")}
     review(project)
     assert before == {name: (project.folder / name).read_bytes() for name in before}
-    json.loads(before["signoff.json"])
+    assert [json.loads(line)["asset"] for line in before["signoffs.jsonl"].splitlines()] == [FIRST, SECOND, THIRD]
 
 
 def test_a_project_without_labels_is_no_error(tmp_path: Path) -> None:
@@ -210,70 +234,69 @@ def test_what_is_signed_off_no_longer_is_named(tmp_path: Path) -> None:
     review(project)
     project.set_labels(THIRD, {"crumb": "leg"})
     assert set(review(project, 0.9999).taken_back) == {THIRD}
-    assert THIRD not in project.sign_offs().assets
+    assert THIRD not in project.sign_offs()
 
 
 @pytest.mark.slow
-def test_what_cannot_be_read_is_held_until_it_is_set_aside(tmp_path: Path) -> None:
+def test_what_cannot_be_read_is_held_until_it_is_excluded(tmp_path: Path) -> None:
     project = learned(tmp_path)
     project.path(THIRD).write_text("no mesh at all")
     found = review(project)
     assert found.assessment.held == (THIRD,) and found.assessment.question is not None
-    project.reply(found, found.assessment.question, ReviewReply(found.assessment.question.id, 0))
+    project.reply(found.assessment.question, ReviewReply(found.assessment.question.id, "not-solved"))
     assert review(project).assessment.is_done
-    assert sign_off_of(project, THIRD) == "set aside"
+    assert review(project).assessment.excluded == {THIRD: NOT_SOLVED}
+    assert sign_off_of(project, THIRD) == "excluded"
     project.set_verdict(THIRD, None)
     assert review(project).assessment.held == (THIRD,)
 
 
-def selection_of(asset: str) -> ReviewQuestion:
+def selection_of(asset: str) -> SlipQuestion:
     """The question whether the first rule was shown on an asset with a slip."""
-    choices = (ReviewChoice(BY_MISTAKE, select=("crumb", "left_low")), ReviewChoice(ON_PURPOSE, select=("crumb",)))
-    return ReviewQuestion("s", "selection", "?", 2.65, 0.5, asset, 1, (), choices)
+    choices = (ReviewChoice(NO, "no", select=("crumb",)), ReviewChoice(YES, "yes", select=("crumb", "left_low")))
+    return SlipQuestion("?", 2.65, 0.5, asset, 1, (), choices, "s")
 
 
 def test_a_slip_that_is_admitted_corrects_the_demonstration_and_what_was_meant_stays(tmp_path: Path) -> None:
     project = demonstrated(tmp_path)
-    found = review(project)
-    project.reply(found, selection_of(FIRST), ReviewReply("s", 1))
+    project.reply(selection_of(FIRST), ReviewReply("s", NO))
     assert project.steps(FIRST)[0].select == frozenset({"crumb"})
-    assert "s" in project.put_off_ids()
-    project.reply(found, selection_of(FIRST), ReviewReply("s", 0))
+    assert "s" in project.feedback().snoozed
+    project.reply(selection_of(FIRST), ReviewReply("s", YES))
     assert project.steps(FIRST)[0].select == frozenset({"crumb", "left_low"})
     assert project.steps(SECOND)[0].select == frozenset({"crumb"})
 
 
 def test_a_slip_in_a_step_that_is_gone_is_an_error_and_changes_nothing(tmp_path: Path) -> None:
     project = demonstrated(tmp_path)
-    found = review(project)
     with pytest.raises(ProjectError, match="rule 1 is not demonstrated here any more"):
-        project.reply(found, selection_of(THIRD), ReviewReply("s", 0))
+        project.reply(selection_of(THIRD), ReviewReply("s", YES))
     assert project.steps(THIRD) == ()
 
 
 def test_a_repair_that_a_person_did_not_want_is_not_proposed_again(tmp_path: Path) -> None:
     project = demonstrated(tmp_path)
-    found, place = review(project), HullPlace(FIRST, "crumb")
-    was = found.state.meshes[FIRST].hull_of("crumb").label
+    was = project.mesh(FIRST).hull_of("crumb").label
     assert was
-    choices = (ReviewChoice("leg", "leg"), ReviewChoice(was, was))
-    question = ReviewQuestion("r", "repair", "?", 2.65, 0.5, FIRST, 1, (place,), choices)
-    project.reply(found, question, ReviewReply("r", 1))
-    assert [(line.hull, line.was, line.to) for line in project.answers().rejected] == [("crumb", was, "leg")]
+    choices = tuple(map(ReviewChoice.of_label, ("leg", was)))
+    question = RepairQuestion("?", 2.65, 0.5, FIRST, 1, (HullPlace(FIRST, "crumb"),), choices, "r")
+    project.reply(question, ReviewReply("r", was))
+    (line,) = project.feedback().fixes.values()
+    assert (line.hull, line.was, line.to, line.accepted) == ("crumb", was, "leg", False)
     assert project.mesh(FIRST).hull_of("crumb").annotation == Label(was, 1.0, "user")
 
 
 def test_a_slip_in_an_answer_is_replaced_and_a_verdict_that_was_one_is_taken_back(tmp_path: Path) -> None:
     project = applied(tmp_path)
-    found = review(project)
     project.add_answer(Answer(1, SECOND, ["crumb"]))
     project.demonstrate(SECOND, ())
     project.set_verdict(THIRD, "accepted")
     for asset in (SECOND, THIRD):
-        project.reply(found, selection_of(asset), ReviewReply("s", 0))
+        project.reply(selection_of(asset), ReviewReply("s", YES))
     meant = frozenset({"crumb", "left_low"})
-    assert {line.asset: line.answer.select for line in project.answers().answers} == {SECOND: meant, THIRD: meant}
-    assert THIRD not in project.reviews()
+    said = project.feedback()
+    assert {line.asset: line.answer.select for line in said.answers.values()} == {SECOND: meant, THIRD: meant}
+    assert THIRD not in said.verdicts
 
 
 def test_an_output_that_stands_out_though_the_review_did_not_know_is_signed_off_by_no_tool(tmp_path: Path) -> None:
@@ -282,8 +305,8 @@ def test_an_output_that_stands_out_though_the_review_did_not_know_is_signed_off_
     odd = dict.fromkeys((SECOND, THIRD), ("volume +300%, the family +0%",))
     lost = project.renew_sign_offs(odd, clock=lambda: NOON)
     assert lost == {THIRD: "its output stands out: volume +300%, the family +0%"}
-    assert {asset: one.by for asset, one in project.sign_offs().assets.items()} == {FIRST: "person", SECOND: "person"}
-    assert project.renew_sign_offs(clock=lambda: NOON) == {} and THIRD not in project.sign_offs().assets
+    assert {asset: one.by for asset, one in project.sign_offs().items()} == {FIRST: "person", SECOND: "person"}
+    assert project.renew_sign_offs(clock=lambda: NOON) == {} and THIRD not in project.sign_offs()
     status = next(one for one in project.status().assets if one.id == THIRD)
     assert (status.sign_off, [doubt.kind for doubt in status.doubts]) == ("held", ["alarm", "reading"])
     review(project)
@@ -300,7 +323,7 @@ def test_while_nothing_fits_what_was_shown_is_signed_off_no_longer_and_what_was_
     assert found.outcome is not None and found.outcome.program is None
     assert found.assessment.looked_at == {THIRD}
     assert found.taken_back.keys() == {FIRST, SECOND}
-    assert project.sign_offs().assets.keys() == {THIRD}
+    assert project.sign_offs().keys() == {THIRD}
 
 
 @pytest.mark.slow
@@ -310,7 +333,7 @@ def test_a_sign_off_of_what_cannot_be_read_now_is_void_and_stays(tmp_path: Path)
     text = project.path(THIRD).read_text()
     project.path(THIRD).write_text("no mesh at all")
     assert review(project).assessment.held == (THIRD,)
-    assert THIRD in project.sign_offs().assets and sign_off_of(project, THIRD) == "void"
+    assert THIRD in project.sign_offs() and sign_off_of(project, THIRD) == "void"
     project.path(THIRD).write_text(text)
     review(project)
     assert sign_off_of(project, THIRD) == "signed off"

@@ -75,14 +75,14 @@ def test_answers_go_with_their_rules(tmp_path: Path) -> None:
     for rule in (1, 2, 3):
         project.add_answer(Answer(rule, THIRD, LEGS))
     project.move_rule(3, 1)
-    actions = {line.id: line.action for line in project.answers().answers}
+    actions = {line.id: line.action for line in project.feedback().answers.values()}
     assert actions == {f"1:{THIRD}": str(ACTIONS[2]), f"2:{THIRD}": "Delete", f"3:{THIRD}": "Merge"}
     project.delete_rule(2)
-    actions = {line.id: line.action for line in project.answers().answers}
+    actions = {line.id: line.action for line in project.feedback().answers.values()}
     assert actions == {f"1:{THIRD}": str(ACTIONS[2]), f"2:{THIRD}": "Merge"}
     project.delete_rule(1)
     project.delete_rule(1)
-    assert not project.layout.answers.exists()
+    assert not project.feedback().answers
 
 
 @pytest.mark.parametrize(("rule", "to"), [(0, 1), (4, 1), (1, 0), (1, 4), (-1, 2)])

@@ -22,7 +22,7 @@ from tests.unit.batch.families import tree
 from tests.unit.deaths import deaths, needs_fork
 from tests.unit.project.tables import FIRST, LEGS, applied
 
-KEPT = ("labels/", "demonstrations/", "corrections/", "answers.json", "prepared/")
+KEPT = ("labels/", "demonstrations/", "corrections/", "events.jsonl", "prepared/")
 PARTS = {"crumb#0", "crumb#1"}
 PLANE = ((5.05, 5.05, 5.05), (0, 0, 1))
 
@@ -48,10 +48,10 @@ def test_selections_of_a_split_hull_name_its_parts_and_come_back_bit_for_bit(tmp
     project.cut(FIRST, "crumb", *PLANE)
     assert project.steps(FIRST)[0].select == frozenset(PARTS)
     assert project.steps(FIRST)[1].select == frozenset(LEGS)
-    (line,) = project.answers().answers
+    (line,) = project.feedback().answers.values()
     assert (line.select, line.refused) == (("crumb#0", "crumb#1"), (("crumb#0", "crumb#1", "top"),))
-    assert {one.hull for one in project.answers().confirmed} == PARTS
-    assert {one.hull for one in project.answers().rejected} == PARTS
+    fixes = project.feedback().fixes.values()
+    assert {(one.hull, one.accepted) for one in fixes} == {(part, word) for part in PARTS for word in (False, True)}
     flag = "crumb, which is demonstrated for rule 1, was split into crumb#0, crumb#1: look whether all parts are meant"
     assert flag in project.status(workers=0).assets[0].flags
     project.unprepare(FIRST)
@@ -92,7 +92,7 @@ def test_what_a_person_changed_since_the_split_is_not_overwritten(tmp_path: Path
     assert not any("demonstrated" in flag for flag in project.status(workers=0).assets[0].flags)
     project.unprepare(FIRST)
     assert project.steps(FIRST)[0].select == frozenset({"crumb", "top"})
-    assert project.answers().answers[0].select == ("top",)
+    assert project.feedback().answers[f"1:{FIRST}"].select == ("top",)
 
 
 def test_parts_get_the_labels_of_what_split_their_hull_and_a_persons_comes_back(tmp_path: Path) -> None:
@@ -228,14 +228,15 @@ BROKEN = {"no json": b"{", "no text": b"\xff", "a list": b"[]", "no fields": b'{
 def test_a_broken_file_is_named_and_nothing_is_written(tmp_path: Path, kind: str, content: str) -> None:
     project = said(tmp_path)
     layout = project.layout
-    path = layout.answers if kind == "answers" else getattr(layout, kind)(FIRST)
+    path = layout.events if kind == "answers" else getattr(layout, kind)(FIRST)
     good = path.read_bytes()
     path.write_bytes(BROKEN[content])
     before = kept(project)
     with pytest.raises(ProjectError, match=path.name) as caught:
         project.cut(FIRST, "crumb", *PLANE)
     assert caught.value.where == str(path)
-    assert caught.value.remedy == "Correct the file by hand, or remove it."
+    assert caught.value.remedy and caught.value.remedy.startswith("Correct ")
+    assert "by hand, or remove it" in caught.value.remedy
     assert kept(project) == before
     path.write_bytes(good)
     project.cut(FIRST, "crumb", *PLANE)
@@ -268,7 +269,7 @@ def test_a_broken_journal_is_named(tmp_path: Path) -> None:
 
 def test_files_with_other_line_ends_come_back_bit_for_bit(tmp_path: Path) -> None:
     project = said(tmp_path)
-    for path in (project.layout.answers, project.layout.demonstration(FIRST)):
+    for path in (project.layout.events, project.layout.demonstration(FIRST)):
         path.write_bytes(b"\xef\xbb\xbf" + path.read_bytes().replace(b"\n", b"\r\n"))
     before = kept(project)
     project.cut(FIRST, "crumb", *PLANE)

@@ -11,8 +11,9 @@ import pytest
 from meshforge.batch import IN_PROCESS
 from meshforge.common import ProjectError, StoppedError
 from meshforge.labels import SpanReport
-from meshforge.project import Project, ProjectReview, add_span_doubts, ask_about_spans, choose_span_question
-from meshforge.signoff import Assessment, AssetConfidence, ReviewQuestion, ReviewReply
+from meshforge.project import Project, add_span_doubts, ask_about_spans, list_span_questions
+from meshforge.signoff import Assessment, AssetConfidence, GroupQuestion, ReviewReply, SpanQuestion
+from meshforge.signoff.question import NO, NOT_SOLVED, YES, ExclusionReason
 from meshforge.store import SpanPart, SpansFile
 from tests.unit.project.stools import create_stools
 from tests.unit.project.test_spans import files, split
@@ -39,21 +40,20 @@ def project(made: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Proj
     return Project.open(tmp_path / "p")
 
 
-def asked(project: Project) -> ReviewQuestion | None:
-    return choose_span_question(project, dict(project.meshes_by_id()))
+def asked(project: Project) -> SpanQuestion | None:
+    return next(iter(list_span_questions(project, dict(project.meshes_by_id()))), None)
 
 
-def ask(project: Project) -> ReviewQuestion:
+def ask(project: Project) -> SpanQuestion:
     question = asked(project)
     assert question
     return question
 
 
-def answer(project: Project, choice: int | None, later: bool = False) -> ReviewQuestion:
+def answer(project: Project, choice: str | None, later: bool = False) -> SpanQuestion:
     """Reply to the question that is asked now, and give it."""
     question = ask(project)
-    review = ProjectReview(Assessment({}), None, project.build_review_state({}, {}), {})
-    project.reply(review, question, ReviewReply(question.id, choice, later=later))
+    project.reply(question, ReviewReply(question.id, choice, later=later))
     return question
 
 
@@ -62,8 +62,9 @@ def test_it_is_asked_what_a_hull_holds_how_sure_that_is_and_which_parts_it_would
     assert question.kind == "span" and question.hulls == ((question.asset, HULL),)
     assert question.text.startswith(f"{HULL} of {question.asset} holds seat and leg, 9")
     assert question.text.endswith("%: split so?")
-    assert [choice.text.split(" (")[0] for choice in question.choices] == ["split so: leg", "no, it is one part"]
-    assert "seat (" in question.choices[0].text
+    texts = {choice.id: choice.text.split(" (")[0] for choice in question.choices}
+    assert list(texts.items()) == [(NO, "no, it is one part"), (YES, "split so: leg")], "things stay by default"
+    assert "seat (" in question.choices[1].text
 
 
 def test_parts_of_one_label_are_told_together(project: Project) -> None:
@@ -72,7 +73,7 @@ def test_parts_of_one_label_are_told_together(project: Project) -> None:
     rows = [("wall", 0.92), ("handle", 0.93), ("wall", 0.754), ("wall", 0.8)]
     parts = tuple(SpanPart(label=label, share=share) for label, share in rows)
     project.write_spans(SpansFile(assets={C: {HULL: line.model_copy(update={"parts": parts})}}))
-    assert ask(project).choices[0].text == "split so: 3 wall (75% to 92%), handle (93%)"
+    assert ask(project).choices[1].text == "split so: 3 wall (75% to 92%), handle (93%)"
 
 
 def test_a_hull_that_no_plane_divides_is_named_and_not_asked_about(
@@ -104,7 +105,7 @@ def test_yes_does_what_the_command_does_for_that_hull_and_is_undone_to_the_last_
 ) -> None:
     shutil.copytree(tmp_path / "p", tmp_path / "q")
     before = files(project)
-    first = answer(project, 0).asset
+    first = answer(project, YES).asset
     assert ask(project).asset != first
     split(other := Project.open(tmp_path / "q"), first)
     own, theirs = files(project), files(other)
@@ -119,7 +120,7 @@ def test_yes_does_what_the_command_does_for_that_hull_and_is_undone_to_the_last_
 
 @pytest.mark.slow
 def test_a_hull_that_a_person_calls_one_part_is_neither_asked_about_nor_named_nor_split(project: Project) -> None:
-    first, second = answer(project, 1).asset, answer(project, 1).asset
+    first, second = answer(project, NO).asset, answer(project, NO).asset
     assert {first, second} == {C, D} and asked(project) is None
     assert not project.preparation(first).steps
     assert [row.spans for row in project.status().assets] == [{}, {}, {}, {}]
@@ -132,7 +133,7 @@ def test_a_hull_that_a_person_calls_one_part_is_neither_asked_about_nor_named_no
 
 
 def test_it_is_asked_again_once_the_geometry_is_another(project: Project) -> None:
-    first = answer(project, 1).asset
+    first = answer(project, NO).asset
     assert first not in project.spans().assets
     said = project.layout.single_parts.read_text()
     project.layout.single_parts.write_text(said.replace('": "', '": "0'))
@@ -153,11 +154,10 @@ def test_a_hull_that_is_another_now_is_not_asked_about_and_cannot_be_split_so(pr
     project.cut(question.asset, HULL, ((box.min + box.max) / 2).tolist(), (0, 0, 1))
     assert ask(project).asset != question.asset
     before = files(project)
-    review = ProjectReview(Assessment({}), None, project.build_review_state({}, {}), {})
     with pytest.raises(ProjectError, match="nothing is known of parts of this hull as it is now"):
-        project.reply(review, question, ReviewReply(question.id, 0))
+        project.reply(question, ReviewReply(question.id, YES))
     with pytest.raises(ProjectError, match=f"there is no hull '{HULL}'"):
-        project.reply(review, question, ReviewReply(question.id, 1))
+        project.reply(question, ReviewReply(question.id, NO))
     assert files(project) == before
 
 
@@ -187,18 +187,20 @@ def test_before_there_is_a_program_it_is_asked_first_then_by_what_an_answer_is_w
     meshes = dict(project.meshes_by_id())
     own = ask(project)
 
-    def kind(gain: float, has_program: bool, aside: frozenset[str] = frozenset()) -> str:
-        other = ReviewQuestion("group-1", "group", "?", own.seconds, gain, "a.urdf")
-        found = Assessment({name: AssetConfidence(name, 0.5) for name in meshes}, aside=aside, question=other)
+    def kind(gain: float, has_program: bool, *excluded: str) -> str:
+        other = GroupQuestion("?", own.seconds, gain, "a.urdf", id="group-1")
+        away: dict[str, ExclusionReason] = dict.fromkeys(excluded, NOT_SOLVED)
+        sure = {name: AssetConfidence(name, 0.5) for name in meshes}
+        found = Assessment(sure, excluded=away, questions=(other,))
         question = ask_about_spans(project, meshes, found, has_program).question
         assert question
         return question.kind
 
-    assert kind(own.gain + 1, has_program=False) == "span"
-    assert kind(own.gain + 1, has_program=True) == "group"
-    assert kind(own.gain / 2, has_program=True) == "span"
-    assert kind(own.gain / 2, has_program=True, aside=frozenset({C, D})) == "group"
-    nothing = ask_about_spans(project, meshes, replace(Assessment({}), question=None), has_program=True)
+    assert kind(own.gain + 1, False) == "span"
+    assert kind(own.gain + 1, True) == "group"
+    assert kind(own.gain / 2, True) == "span"
+    assert kind(own.gain / 2, True, C, D) == "group"
+    nothing = ask_about_spans(project, meshes, Assessment({}), True)
     assert nothing.question == own
 
 
@@ -218,6 +220,6 @@ def test_an_edit_is_no_surer_than_that_no_hull_spans_parts(project: Project) -> 
 def test_a_review_asks_it_while_nothing_is_demonstrated(project: Project) -> None:
     found = project.review()
     assert found.assessment.question and found.assessment.question.kind == "span"
-    project.reply(found, found.assessment.question, ReviewReply(found.assessment.question.id, 0))
+    project.reply(found.assessment.question, ReviewReply(found.assessment.question.id, YES))
     again = project.review().assessment.question
     assert again and again.kind == "span" and again.asset != found.assessment.question.asset

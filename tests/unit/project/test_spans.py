@@ -170,7 +170,7 @@ def test_only_named_assets_are_split(project: Project) -> None:
 
 
 def test_bad_input_is_named(project: Project, tmp_path: Path) -> None:
-    with pytest.raises(UsageError, match=r"--sure 1\.5: a probability is needed"):
+    with pytest.raises(UsageError, match=r"--min-confidence 1\.5: a probability is needed"):
         split(project, sure=1.5)
     with pytest.raises(ProjectError, match="nope"):
         split(project, "nope")

@@ -199,18 +199,18 @@ def test_what_is_kept_for_assets_that_are_gone_is_named(tmp_path: Path) -> None:
 def test_a_review_counts_until_the_output_changes(tmp_path: Path) -> None:
     project = applied(tmp_path)
     project.set_verdict(FIRST, "accepted")
-    project.set_verdict(SECOND, "flagged", "left leg")
-    assert [a.review for a in of(project).assets] == ["accepted", "flagged", None]
+    project.set_verdict(SECOND, "wrong", "left leg")
+    assert [a.review for a in of(project).assets] == ["accepted", "wrong", None]
     project.set_verdict(THIRD, "accepted")
-    assert "first table1/model.obj" in of(project).next.say
+    assert "table1/model.obj is not signed off" in of(project).next.say
     project.set_verdict(THIRD, None)
-    kept = json.loads((project.folder / "review.json").read_text())["assets"]
-    assert kept[SECOND]["verdict"] == "flagged" and kept[SECOND]["note"] == "left leg"
+    kept = project.feedback().verdict_on(SECOND)
+    assert kept is not None and (kept.verdict, kept.note) == ("wrong", "left leg")
     project.set_labels(FIRST, {"crumb": "leg"})
     list(project.apply(execution=IN_PROCESS))
-    assert [a.review for a in of(project).assets] == [None, "flagged", None]
+    assert [a.review for a in of(project).assets] == [None, "wrong", None]
     project.set_verdict(SECOND, None)
-    assert project.reviews().keys() == {FIRST}
+    assert project.feedback().verdicts.keys() == {FIRST}
 
 
 def test_only_an_output_can_be_reviewed(tmp_path: Path) -> None:
@@ -225,14 +225,14 @@ def test_several_outputs_are_reviewed_in_one_go_or_none_is(tmp_path: Path) -> No
     assert [a.review_note for a in of(project).assets] == ["fine", None, "fine"]
     (project.folder / "labels" / f"{SECOND}.json").unlink()
     list(project.apply(execution=IN_PROCESS))
-    before = (project.folder / "review.json").read_bytes()
-    with pytest.raises(ProjectError, match=f"{SECOND} has no output to be flagged"):
-        project.set_verdict([FIRST, SECOND], "flagged")
+    before = project.layout.events.read_bytes()
+    with pytest.raises(ProjectError, match=f"{SECOND} has no output to be accepted"):
+        project.set_verdict([FIRST, SECOND], "accepted")
     with pytest.raises(ProjectError, match="there is no asset"):
         project.set_verdict([FIRST, "nobody"], None)
-    assert (project.folder / "review.json").read_bytes() == before
+    assert project.layout.events.read_bytes() == before
     project.set_verdict([FIRST, SECOND, THIRD], None)
-    assert project.reviews() == {}
+    assert project.feedback().verdicts == {}
 
 
 def test_the_status_of_some_assets_is_theirs_in_the_status_of_all(tmp_path: Path) -> None:
@@ -242,7 +242,7 @@ def test_the_status_of_some_assets_is_theirs_in_the_status_of_all(tmp_path: Path
     write_table(project.folder / "templates/slab.obj")
     list(project.apply(execution=IN_PROCESS))
     project.set_labels(THIRD, {"crumb": "leg"})
-    project.set_verdict(FIRST, "flagged")
+    project.set_verdict(FIRST, "wrong")
     every = of(project)
     some = project.status([THIRD, FIRST], workers=0, others=every.assets)
     assert some == replace(every, assets=(every.assets[0], every.assets[2]))
@@ -369,9 +369,11 @@ def test_the_status_is_plain_data_for_scripts(tmp_path: Path) -> None:
         "error": None,
         "flags": [],
         "review": None,
+        "excluded": None,
         "sign_off": "unknown",
         "signed_by": None,
         "void": [],
+        "found_since": [],
         "probability": None,
         "doubts": [],
     }

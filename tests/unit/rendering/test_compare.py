@@ -18,11 +18,11 @@ from meshforge.rendering import (
     label_colors,
     make_contact_sheet,
     render,
-    render_id_buffer,
 )
 from meshforge.rendering.colors import CHANGED, KEPT, MADE, REMOVED, rgb
 from meshforge.rendering.compare import joint_bounds
 from meshforge.symbolic import SymbolicMesh
+from tests.id_buffer import render_id_buffer
 from tests.unit.rendering.scenes import box, edited, hull, near, pixels, table
 
 SIZE = (200, 150)

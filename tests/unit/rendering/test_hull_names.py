@@ -10,8 +10,9 @@ from unittest.mock import patch
 import numpy as np
 from PIL import ImageDraw
 
-from meshforge.rendering import encode_png, render, render_id_buffer
+from meshforge.rendering import encode_png, render
 from meshforge.symbolic import SymbolicMesh
+from tests.id_buffer import render_id_buffer
 from tests.unit.rendering.scenes import box, hull, pixels, table
 
 SIZE = (640, 360)

@@ -11,9 +11,10 @@ from PIL import Image
 
 from meshforge.common import UsageError
 from meshforge.geometry import Aabb, Pose
-from meshforge.rendering import VIEWS, View, encode_png, label_colors, render, render_id_buffer
+from meshforge.rendering import VIEWS, View, encode_png, label_colors, render
 from meshforge.rendering.colors import COLOR_BY, SELECTED, rgb
 from meshforge.symbolic import Asset, Document, Surface, SymbolicMesh
+from tests.id_buffer import render_id_buffer
 from tests.unit.rendering.scenes import box, hull, near, pixels, table
 
 SMALL = (200, 150)

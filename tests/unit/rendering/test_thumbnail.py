@@ -7,9 +7,10 @@ from pathlib import Path
 import numpy as np
 
 from meshforge.geometry import Ints, Pose
-from meshforge.rendering import render_id_buffer, render_thumbnail
+from meshforge.rendering import render_thumbnail
 from meshforge.rendering.id_buffer import ThumbnailPixels
 from meshforge.symbolic import Asset, Document, Opaque, Surface, SymbolicMesh
+from tests.id_buffer import render_id_buffer
 from tests.unit.rendering.scenes import box, hull, table
 
 

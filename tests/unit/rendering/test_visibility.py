@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from meshforge.geometry import Capsule, Cylinder, Ellipsoid, Pose, Shape, Sphere
-from meshforge.rendering import VIEWS, View, count_visible_pixels, render_id_buffer
+from meshforge.rendering import VIEWS, View
 from meshforge.symbolic import SymbolicMesh
+from tests.id_buffer import count_visible_pixels, render_id_buffer
 from tests.unit.rendering.scenes import box, hull, table
 
 

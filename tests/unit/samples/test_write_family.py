@@ -13,11 +13,11 @@ TABLES = family_of("tables")
 
 
 def test_files_that_are_missing_are_written_again(tmp_path: Path) -> None:
-    assert write_family(TABLES, tmp_path / "new" / "tables") == len(TABLES.build())
+    assert write_family(TABLES, tmp_path / "new" / "tables") == len(TABLES.read())
     assert write_family(TABLES, tmp_path / "new" / "tables") == 0
     (tmp_path / "new" / "tables" / "table_05.obj").unlink()
     assert write_family(TABLES, tmp_path / "new" / "tables") == 1
-    assert (tmp_path / "new" / "tables" / "table_05.obj").read_bytes() == TABLES.build()["table_05.obj"]
+    assert (tmp_path / "new" / "tables" / "table_05.obj").read_bytes() == TABLES.read()["table_05.obj"]
 
 
 def test_a_file_of_the_user_is_never_replaced(tmp_path: Path) -> None:

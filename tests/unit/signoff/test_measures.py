@@ -1,6 +1,5 @@
 from __future__ import annotations
 
-import json
 from math import isfinite
 
 import numpy as np
@@ -70,9 +69,3 @@ def test_flat_hulls_cover_nothing() -> None:
 def test_the_edit_of_no_hulls() -> None:
     found = measure_edit(mesh(), mesh())
     assert found == EditMeasures(0, 0, 0.0, 0.0, 0.0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), 0.0, 0.0, 0.0)
-
-
-def test_measures_are_plain_json() -> None:
-    found = measure_edit(table(), mesh(top=brick((0, 0, 0.9), (2, 1, 1)))).to_json()
-    assert json.loads(json.dumps(found)) == found
-    assert found["extents_before"] == [2, 1, 1]

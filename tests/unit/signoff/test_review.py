@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import pytest
 
@@ -11,18 +12,21 @@ from meshforge.language import Delete, Program
 from meshforge.signoff import (
     BAR,
     Assessment,
-    HullPlace,
-    ReviewChoice,
+    ExclusionReason,
+    GroupQuestion,
+    OrientationQuestion,
+    ReadingQuestion,
+    RepairQuestion,
+    ResultQuestion,
     ReviewQuestion,
-    ReviewReply,
     ReviewState,
-    apply_reply,
-    list_answers,
+    SlipQuestion,
     review_family,
 )
-from meshforge.signoff.question import ASIDE, CORRECT, RIGHT, WRONG
+from meshforge.signoff.confidence import NO_EDIT
+from meshforge.signoff.question import EXCLUDE, NO, NOT_OF_FAMILY, NOT_SOLVED, RIGHT, WRONG
 from meshforge.symbolic import Label, SymbolicMesh
-from meshforge.synthesis import Demonstration, LearningOutcome, Step, synthesize
+from meshforge.synthesis import Answer, Demonstration, LearningOutcome, Step, synthesize
 from tests.synthesis_boxes import table
 
 LABELS = ("drawer", "handle", "leg", "misc", "panel")
@@ -53,16 +57,26 @@ def shown(meshes: Mapping[str, SymbolicMesh], *names: str) -> dict[str, Demonstr
 
 
 def learn(state: ReviewState) -> LearningOutcome | None:
+    """What a program is learned from: demonstrations, answers, and what a person said of results."""
     if not state.demos:
         return None
-    said_of = [hull.annotation for mesh in state.meshes.values() for hull in mesh.hulls]
-    posterior = model_family(list(state.meshes.values())).infer(said_of)
     demos = [Demonstration(state.meshes[name], one.steps, name) for name, one in state.demos.items()]
-    return synthesize(demos, state.meshes, None, {}, LABELS, answers=list(list_answers(state, posterior)))
+    meant = [Answer(rule, name, some) for name, done in state.meant.items() for rule, some in enumerate(done, 1)]
+    return synthesize(demos, state.meshes, None, {}, LABELS, answers=[*state.answers, *meant])
 
 
 def review(state: ReviewState, bar: float = BAR) -> Assessment:
     return review_family(state, learn(state), model_family(list(state.meshes.values())), bar)
+
+
+def snooze(state: ReviewState, question: ReviewQuestion) -> ReviewState:
+    """What is known when a question was put off."""
+    return replace(state, snoozed=state.snoozed | {question.id})
+
+
+def accept(state: ReviewState, asset: str, *done: frozenset[str]) -> ReviewState:
+    """What is known when a person found a result right."""
+    return replace(state, accepted=state.accepted | {asset}, meant={**state.meant, asset: done})
 
 
 def test_before_anything_is_shown_a_demonstration_is_asked_for_and_nothing_is_sure() -> None:
@@ -92,8 +106,7 @@ def test_a_wrong_label_that_changes_nothing_is_no_doubt() -> None:
 
 def test_a_demonstrated_and_an_accepted_asset_are_signed_off_by_a_person() -> None:
     meshes = tables()
-    done = (legs_of("t5"),)
-    found = review(ReviewState(meshes, FRAME, demos=shown(meshes, "t0"), accepted={"t5": done}))
+    found = review(accept(ReviewState(meshes, FRAME, demos=shown(meshes, "t0")), "t5", legs_of("t5")))
     assert {"t0", "t5"} <= found.looked_at
     assert {"t0", "t5"} <= set(found.signed_off)
 
@@ -103,16 +116,37 @@ def test_a_demonstrated_asset_is_not_signed_off_while_no_program_fits_and_an_acc
     hulls = sorted(legs_of("t0"))
     odd = {"t0": Demonstration(meshes["t0"], [Step(1, frozenset(hulls[:1]), Delete())], "t0")}
     opposite = {"t3": Demonstration(meshes["t3"], [Step(1, frozenset(hulls[1:2]), Delete())], "t3")}
-    found = review(ReviewState(meshes, FRAME, demos=odd | opposite, accepted={"t5": (legs_of("t5"),)}))
+    found = review(accept(ReviewState(meshes, FRAME, demos=odd | opposite), "t5", legs_of("t5")))
     assert found.question is not None and found.question.kind in ("demonstrate", "selection")
     assert found.looked_at == {"t5"} and found.signed_off == ("t5",)
     assert {"t0", "t3"} <= set(found.held)
 
 
-def test_an_asset_set_aside_is_neither_signed_off_nor_held() -> None:
+@pytest.mark.parametrize("reason", [NOT_OF_FAMILY, NOT_SOLVED])
+def test_an_asset_that_is_excluded_is_neither_signed_off_nor_held(reason: ExclusionReason) -> None:
     meshes = tables(leg2_low="panel")
-    found = review(ReviewState(meshes, FRAME, demos=shown(meshes, "t0"), aside=frozenset({"t5"})))
+    found = review(ReviewState(meshes, FRAME, demos=shown(meshes, "t0"), excluded={"t5": reason}))
     assert "t5" not in (*found.signed_off, *found.held)
+    assert (found.not_solved, found.foreign) == ((("t5",), ()) if reason == NOT_SOLVED else ((), ("t5",)))
+
+
+def test_a_result_that_was_called_wrong_is_held_and_improbable_while_it_stays() -> None:
+    meshes = tables()
+    state = ReviewState(meshes, FRAME, demos=shown(meshes, "t0"), wrong=frozenset({"t5"}))
+    found = review(replace(state, failed={"t5": (legs_of("t5"),)}))
+    assert "t5" in found.held
+    assert found.assets["t5"].probability <= NO_EDIT
+    assert found.assets["t5"].doubts[0].text == "a person said that this result is wrong"
+    other = review(replace(state, failed={"t5": (frozenset(),)}))
+    assert "t5" in other.held, "nobody looked at the one that is there now"
+    assert other.assets["t5"].probability > 0.5
+
+
+def test_a_result_that_was_corrected_is_signed_off_by_a_person() -> None:
+    meshes = tables()
+    state = ReviewState(meshes, FRAME, demos=shown(meshes, "t0"), corrected=frozenset({"t5"}))
+    found = review(replace(state, meant={"t5": (legs_of("t5"),)}))
+    assert "t5" in found.looked_at and "t5" in found.signed_off
 
 
 def test_the_queue_ends_whatever_is_said() -> None:
@@ -123,15 +157,31 @@ def test_the_queue_ends_whatever_is_said() -> None:
         if question is None:
             break
         asked.append(question.id)
-        state = apply_reply(state, question, reply_to(question), ())
+        state = take_first(state, question)
     else:
         pytest.fail(f"asked {asked}")
     assert len(asked) == len(set(asked))
 
 
-def reply_to(question: ReviewQuestion) -> ReviewReply:
-    """The first choice; a result is right."""
-    return ReviewReply(question.id, 0)
+def take_first(state: ReviewState, question: ReviewQuestion) -> ReviewState:
+    """What is known after the first choice of a question; a result is right."""
+    first = next(iter(question.choices), None)
+    match question:
+        case GroupQuestion() | RepairQuestion():
+            meshes = dict(state.meshes)
+            for place in question.hulls:
+                label = Label(first.label, 1.0, "user") if first and first.label else None
+                meshes[place.asset] = meshes[place.asset].with_labels({place.hull: label})
+            return snooze(replace(state, meshes=meshes), question)
+        case ReadingQuestion():
+            assert first and first.select is not None and question.rule
+            answer = Answer(question.rule, question.asset, first.select)
+            return replace(state, answers=(*state.answers, answer))
+        case ResultQuestion() if first and first.id == RIGHT:
+            return accept(state, question.asset, legs_of(question.asset))
+        case SlipQuestion() | OrientationQuestion():
+            assert first and first.id == NO
+    return snooze(state, question)
 
 
 def test_what_is_put_off_is_not_asked_again() -> None:
@@ -139,43 +189,26 @@ def test_what_is_put_off_is_not_asked_again() -> None:
     state = ReviewState(meshes, FRAME, demos=shown(meshes, "t0"))
     first = review(state).question
     assert first is not None
-    second = review(apply_reply(state, first, ReviewReply(first.id, later=True))).question
+    second = review(snooze(state, first)).question
     assert second is None or second.id != first.id
 
 
-def test_a_label_that_is_told_is_a_persons_and_the_doubt_is_gone() -> None:
+def test_all_questions_are_listed_what_is_worth_most_first() -> None:
+    meshes = tables(leg2_low="panel")
+    found = review(ReviewState(meshes, FRAME, demos=shown(meshes, "t0")), bar=0.999)
+    worths = [one.worth for one in found.questions]
+    assert found.question is found.questions[0]
+    assert worths == sorted(worths, reverse=True)
+    assert len({one.id for one in found.questions}) == len(worths) > 1
+
+
+def test_with_a_label_that_is_told_the_doubt_is_gone() -> None:
     meshes = tables(leg2_low="panel")
     state = ReviewState(meshes, FRAME, demos=shown(meshes, "t0"))
-    place = HullPlace("t5", "leg2_low")
-    question = ReviewQuestion("q", "group", "?", 3.0, 1.0, "t5", None, (place,), ())
-    after = apply_reply(state, question, ReviewReply("q", None, {place: "leg"}))
-    assert after.meshes["t5"].hull_of("leg2_low").annotation == Label("leg", 1.0, "user")
-    found = review(after)
+    told = {**meshes, "t5": meshes["t5"].with_labels({"leg2_low": Label("leg", 1.0, "user")})}
+    found = review(replace(state, meshes=told))
     assert not [doubt for doubt in found.assets["t5"].doubts if "leg2_low" in doubt.hulls]
     assert found.assets["t5"].probability > review(state).assets["t5"].probability
-
-
-def test_a_mended_result_teaches_only_where_labels_are_trusted() -> None:
-    meshes = tables(leg2_low="panel")
-    wanted = (legs_of("t5"),)
-    state = ReviewState(meshes, FRAME, demos=shown(meshes, "t0"), mended={"t5": wanted, "t4": wanted})
-    said_of = [hull.annotation for mesh in meshes.values() for hull in mesh.hulls]
-    posterior = model_family(list(meshes.values())).infer(said_of)
-    assert "t5" not in {answer.asset for answer in list_answers(state, posterior)}
-
-
-@pytest.mark.parametrize(("said_word", "kept"), [(RIGHT, "accepted"), (WRONG, "mended"), (ASIDE, "aside")])
-def test_a_verdict_is_kept_where_it_belongs(said_word: str, kept: str) -> None:
-    meshes = tables()
-    state = ReviewState(meshes, FRAME, demos=shown(meshes, "t0"))
-    held = review(state, bar=1.0)
-    question = next(one for one in [held.question] if one)
-    words = (RIGHT, WRONG, ASIDE)
-    result = ReviewQuestion("r", "result", "?", 2.65, 0.5, "t5", None, (), tuple(map(ReviewChoice, words)))
-    place = words.index(said_word)
-    after = apply_reply(state, result, ReviewReply("r", place, mended=(frozenset(),)), (frozenset(),))
-    assert "t5" in getattr(after, kept)
-    assert question.seconds > 0
 
 
 def test_a_program_that_cannot_run_on_an_asset_is_said_so() -> None:
@@ -191,11 +224,12 @@ def test_nobody_is_asked_whether_a_result_is_right_that_cannot_be() -> None:
     asked = []
     while question := review(state, bar=1.0).question:
         asked += [question] if question.kind == "result" else []
-        state = apply_reply(state, question, ReviewReply(question.id, later=True))
+        state = snooze(state, question)
     bare = [one for one in asked if one.asset == "bare"]
-    assert [choice.text for one in bare for choice in one.choices] == [CORRECT, ASIDE]
+    assert [choice.id for one in bare for choice in one.choices] == [WRONG, *EXCLUDE]
     assert bare[0].text.startswith("The program cannot run on bare: no hull has a label. ")
-    assert {choice.text for one in asked if one.asset != "bare" for choice in one.choices} == {RIGHT, WRONG, ASIDE}
+    others = {choice.id for one in asked if one.asset != "bare" for choice in one.choices}
+    assert others == {RIGHT, WRONG, *EXCLUDE}
 
 
 def test_the_same_family_gives_the_same() -> None:

@@ -8,13 +8,13 @@ import pytest
 
 from meshforge.label_model import model_family
 from meshforge.language import Attach, Delete, Geo, Is, Rule, Union
-from meshforge.signoff import Assessment, ReviewQuestion, ReviewReply, ReviewState, apply_reply, review_family
-from meshforge.signoff.reply import list_answers
-from meshforge.signoff.slips import BY_MISTAKE, ON_PURPOSE, ask_about_kept_label, ask_about_nearest, find_slips
+from meshforge.signoff import Assessment, ReviewQuestion, ReviewState, review_family
+from meshforge.signoff.question import NO, YES
+from meshforge.signoff.slips import ask_about_kept_label, ask_about_nearest, find_slips
 from meshforge.signoff.trial import try_program
 from meshforge.symbolic import Label, SymbolicMesh
 from meshforge.synthesis import Answer, Demonstration, LabelCorrection, Nearest, NeedsRepair, Repair, Step
-from tests.unit.signoff.test_review import FRAME, legs_of, review, shown, tables
+from tests.unit.signoff.test_review import FRAME, accept, legs_of, review, shown, snooze, tables
 
 FORGOTTEN = "leg2_low"
 
@@ -32,8 +32,15 @@ def ask_about_slip(state: ReviewState) -> ReviewQuestion | None:
         question = review(state).question
         if question is None or question.kind == "selection":
             return question
-        state = apply_reply(state, question, ReviewReply(question.id, later=True))
+        state = snooze(state, question)
     return None
+
+
+def meant_by(question: ReviewQuestion) -> frozenset[str]:
+    """What was to be selected, if it was a slip."""
+    choice = question.choice(YES)
+    assert choice is not None and choice.select is not None
+    return frozenset(choice.select)
 
 
 def probability(found: Assessment, asset: str) -> float:
@@ -47,8 +54,8 @@ def test_a_hull_that_was_forgotten_is_asked_about() -> None:
     assert (question.asset, question.rule) == ("t0", 1)
     assert f"With {FORGOTTEN} rule 1" in question.text
     assert "was it left out on t0 by mistake?" in question.text
-    assert [choice.text for choice in question.choices] == [BY_MISTAKE, ON_PURPOSE]
-    assert set(question.choices[0].select or ()) == legs_of("t0")
+    assert [choice.id for choice in question.choices] == [NO, YES], "things stay as they are by default"
+    assert meant_by(question) == legs_of("t0")
 
 
 def test_a_hull_that_is_too_much_is_asked_about_in_words_of_its_own() -> None:
@@ -57,19 +64,7 @@ def test_a_hull_that_is_too_much_is_asked_about_in_words_of_its_own() -> None:
     question = ask_about_nearest(state, nearest, 6.0)
     assert question is not None
     assert question.text == f"Without {FORGOTTEN} rule 1 could be Is(leg): was it selected on t0 by mistake?"
-    assert set(question.choices[0].select or ()) == legs_of("t0") - {FORGOTTEN}
-
-
-def test_a_slip_that_is_admitted_is_corrected() -> None:
-    meshes, state = show_without(FORGOTTEN)
-    question = ask_about_slip(state)
-    assert question is not None
-    after = apply_reply(state, question, ReviewReply(question.id, 0))
-    step = after.demos["t0"].step(1)
-    assert step is not None
-    assert step.select == legs_of("t0")
-    whole = review(ReviewState(meshes, FRAME, demos=shown(meshes, "t0")))
-    assert review(after).assets == whole.assets
+    assert meant_by(question) == legs_of("t0") - {FORGOTTEN}
 
 
 @pytest.mark.slow
@@ -77,10 +72,7 @@ def test_what_was_meant_as_shown_is_not_asked_about_again() -> None:
     _, state = show_without(FORGOTTEN)
     question = ask_about_slip(state)
     assert question is not None
-    after = apply_reply(state, question, ReviewReply(question.id, 1))
-    assert after.demos == state.demos
-    assert question.id in after.later
-    assert ask_about_slip(after) is None
+    assert ask_about_slip(snooze(state, question)) is None
 
 
 def test_a_simple_demonstration_has_no_slip() -> None:
@@ -93,31 +85,49 @@ def test_a_program_that_nobody_demonstrated_has_no_slips() -> None:
     parts = Union(Is("leg"), Union(Geo(Is("drawer"), "-Z"), Attach(Is("handle"), Is("drawer"))))
     program = replace(FRAME, rules=(Rule(parts, Delete()),))
     trials = [try_program(name, mesh, program, {}) for name, mesh in meshes.items()]
-    seen = {"t1": (frozenset(trials[1].names(1, trials[1].selections[0])),)}
-    assert list(find_slips(ReviewState(meshes, FRAME, accepted=seen), program, trials)) == []
+    seen = accept(ReviewState(meshes, FRAME), "t1", *trials[1].selected)
+    assert list(find_slips(seen, program, trials)) == []
 
 
 @pytest.mark.slow
-def test_a_mended_result_is_no_slip() -> None:
+def test_a_corrected_result_is_no_slip() -> None:
     state = answer_wrongly()
-    mended = replace(state, mended={"t1": (legs_of("t1") | {"drawer0_bottom", "handle0"},)})
-    assert ask_about_slip(mended) is None
+    meant = {"t1": (legs_of("t1") | {"drawer0_bottom", "handle0"},)}
+    assert ask_about_slip(replace(state, corrected=frozenset(meant), meant=meant)) is None
 
 
-def test_results_that_are_all_wrong_hold_the_rest() -> None:
+def test_results_that_are_all_wrong_lower_the_rest() -> None:
     _, state = show_without()
-    before, wrong = review(state), {f"t{k}": (frozenset[str](),) for k in range(1, 5)}
-    after = review(replace(state, mended=wrong, failed={name: (legs_of(name),) for name in wrong}))
-    assert probability(after, "t5") < probability(before, "t5")
+    wrong = {f"t{k}": (legs_of(f"t{k}"),) for k in range(1, 5)}
+    after = review(replace(state, wrong=frozenset(wrong), failed=wrong))
+    assert probability(after, "t5") < probability(review(state), "t5")
+    assert {"t1", "t2", "t3", "t4"} <= set(after.held)
 
 
-def test_a_mend_is_learned_from_where_the_labels_of_its_hulls_are_sure() -> None:
-    meshes, state = show_without()
-    done = legs_of("t5")
-    mended = replace(state, mended={"t5": (done - {FORGOTTEN},)}, failed={"t5": (done,)})
-    said = [hull.annotation for mesh in meshes.values() for hull in mesh.hulls]
-    posterior = model_family(list(meshes.values())).infer(said)
-    assert [one.asset for one in list_answers(mended, posterior)] == ["t5"]
+def test_results_of_a_program_that_is_no_more_do_not_count_against_the_one_there_is() -> None:
+    _, state = show_without()
+    wrong = {f"t{k}": (frozenset(),) for k in range(1, 5)}
+    after = review(replace(state, wrong=frozenset(wrong), failed=wrong))
+    assert probability(after, "t5") == probability(review(state), "t5")
+
+
+def test_a_wrong_result_costs_the_more_the_less_it_was_expected() -> None:
+    meshes = tables(leg2_low="panel")
+    state = ReviewState(meshes, FRAME, demos=shown(meshes, "t0"))
+    done = {"t4": legs_of("t4"), "t5": legs_of("t5") - {"leg2_low"}}
+    before = review(state)
+    assert probability(before, "t5") < probability(before, "t4")
+    left = {
+        name: probability(review(replace(state, wrong=frozenset({name}), failed={name: (hulls,)})), "t3")
+        for name, hulls in done.items()
+    }
+    assert left["t4"] < left["t5"] < probability(before, "t3")
+
+
+def test_a_corrected_result_speaks_for_the_program_that_does_what_was_meant() -> None:
+    _, state = show_without()
+    right = replace(state, corrected=frozenset({"t1"}), meant={"t1": (legs_of("t1"),)}, failed={"t1": (frozenset(),)})
+    assert probability(review(right), "t5") > probability(review(state), "t5")
 
 
 def test_before_the_end_one_result_is_looked_at_of_a_rule_that_answers_shaped() -> None:
@@ -128,14 +138,14 @@ def test_before_the_end_one_result_is_looked_at_of_a_rule_that_answers_shaped() 
     assert question.kind == "result"
     assert question.asset not in ("t0", "t3")
     assert question.text.startswith("One last look")
-    seen = replace(answered, accepted={"t2": (legs_of("t2"),)})
+    seen = accept(answered, "t2", legs_of("t2"))
     assert review(seen, bar=0.0).question is None
     assert review(ReviewState(meshes, FRAME, demos=shown(meshes, "t0")), bar=0.0).question is None
 
 
 def test_before_the_end_a_result_is_looked_at_where_an_answer_was_about_a_label_that_nobody_showed() -> None:
     _, state = show_without()
-    answered = replace(state, answers=(Answer(1, "t1", legs_of("t1")),), accepted={"t2": (legs_of("t2"),)})
+    answered = accept(replace(state, answers=(Answer(1, "t1", legs_of("t1")),)), "t2", legs_of("t2"))
     question = review(answered, bar=0.0).question
     assert question is not None
     assert question.asset == "t1"
@@ -147,7 +157,7 @@ def test_who_puts_one_last_look_off_is_asked_for_no_other() -> None:
     answered = replace(state, answers=(Answer(1, "t3", legs_of("t3")),))
     question = review(answered, bar=0.0).question
     assert question is not None
-    assert review(apply_reply(answered, question, ReviewReply(question.id, later=True)), bar=0.0).question is None
+    assert review(snooze(answered, question), bar=0.0).question is None
 
 
 def answer_wrongly() -> ReviewState:
@@ -163,23 +173,13 @@ def test_an_answer_that_alone_makes_a_rule_complicated_is_asked_about() -> None:
     assert "rule 1 would just be Is(leg): were they selected on t1 by mistake?" in question.text
 
 
-def test_an_answer_that_was_a_slip_is_replaced() -> None:
-    state = answer_wrongly()
-    question = ask_about_slip(state)
-    assert question is not None
-    after = apply_reply(state, question, ReviewReply(question.id, 0))
-    assert after.answers == (Answer(1, "t1", legs_of("t1")),)
-    assert after.demos == state.demos
-
-
 @pytest.mark.slow
 def test_an_answer_that_was_meant_so_is_kept() -> None:
     state = answer_wrongly()
     question = ask_about_slip(state)
     assert question is not None
-    after = apply_reply(state, question, ReviewReply(question.id, 1))
-    assert after.answers == state.answers
-    assert ask_about_slip(after) is None
+    assert meant_by(question) == legs_of("t1")
+    assert ask_about_slip(snooze(state, question)) is None
 
 
 def keep_label(state: ReviewState, hull: str) -> tuple[ReviewState, NeedsRepair]:
@@ -192,7 +192,7 @@ def keep_label(state: ReviewState, hull: str) -> tuple[ReviewState, NeedsRepair]
     family = model_family(list(after.meshes.values()))
     question = review_family(after, outcome, family).question
     assert question is not None and question.kind == "repair"
-    return apply_reply(after, question, ReviewReply(question.id, 1)), outcome
+    return snooze(after, question), outcome
 
 
 def test_where_a_label_is_kept_that_nothing_fits_the_selection_is_asked_about() -> None:
@@ -202,10 +202,8 @@ def test_where_a_label_is_kept_that_nothing_fits_the_selection_is_asked_about() 
     question = review_family(state, outcome, model_family(list(state.meshes.values()))).question
     assert question is not None
     assert question.text == "handle0 is handle, and rule 1 selects it: was it selected on t1 by mistake?"
-    after = apply_reply(state, question, ReviewReply(question.id, 0))
-    assert after.answers == (Answer(1, "t1", legs_of("t1")),)
-    on_purpose = apply_reply(state, question, ReviewReply(question.id, 1))
-    assert on_purpose.answers == (said,)
+    assert meant_by(question) == legs_of("t1")
+    on_purpose = snooze(state, question)
     assert review_family(on_purpose, outcome, model_family(list(state.meshes.values()))).question is None
 
 

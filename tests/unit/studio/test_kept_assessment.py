@@ -15,7 +15,9 @@ from meshforge.language import Delete
 from meshforge.project import Project
 from meshforge.signoff import Assessment, review_family
 from meshforge.store import (
+    SAID,
     AnswerEvent,
+    AssessmentFile,
     ExclusionEvent,
     SnoozeEvent,
     SpanLine,
@@ -45,10 +47,19 @@ def assess(project: Project, flag: CancelFlag, number: int = 1) -> None:
     assert process.assess(project.folder, flag.make_token("assess"), number) is not None
 
 
+BAR = 0.9
+
+
+def judged(project: Project) -> Project:
+    """The same with a bar that a person chose, and its second result accepted."""
+    project.write_assessment(AssessmentFile(bar=BAR, lesson=""))
+    project.set_verdict(SECOND, "accepted")
+    return project
+
+
 def assessed(folder: Path, flag: CancelFlag) -> Project:
     """A project whose second result a person accepted, as the studio assesses it."""
-    project = applied(folder)
-    project.set_verdict(SECOND, "accepted")
+    project = judged(applied(folder))
     learn(project, flag)
     assess(project, flag)
     return project
@@ -72,17 +83,24 @@ def test_what_was_assessed_is_known_to_the_status_and_signs_off_what_is_written(
     before = files_of(project)
     assess(project, flag)
     assert files_of(project) == before
-    project.review(execution=IN_PROCESS)
+    project.review(BAR, execution=IN_PROCESS)
     assert files_of(project) == before
 
 
 def test_what_is_not_written_is_sure_and_not_signed_off(tmp_path: Path, flag: CancelFlag) -> None:
     project = learned(tmp_path)
     list(project.apply([SECOND], execution=IN_PROCESS))
-    project.set_verdict(SECOND, "accepted")
+    judged(project)
     learn(project, flag)
     assess(project, flag)
     assert [one.sign_off for one in project.status().assets] == ["sure", "signed off", "sure"]
+
+
+def found_since(project: Project) -> tuple[str, ...]:
+    """What was found of the third asset since it was signed off, which it still is."""
+    third = next(one for one in project.status().assets if one.id == THIRD)
+    assert third.sign_off == "signed off"
+    return third.found_since
 
 
 def find_span(project: Project, asset: str, chance: float = 0.6) -> str:
@@ -95,35 +113,34 @@ def find_span(project: Project, asset: str, chance: float = 0.6) -> str:
 def test_an_asset_with_a_hull_that_likely_spans_parts_is_held_as_a_review_holds_it(
     tmp_path: Path, flag: CancelFlag
 ) -> None:
-    project = applied(tmp_path)
-    project.set_verdict(SECOND, "accepted")
+    project = judged(applied(tmp_path))
     find_span(project, THIRD)
     learn(project, flag)
     assess(project, flag)
     assert signers_of(project) == {FIRST: "person", SECOND: "person"}
     before = files_of(project)
-    project.review(execution=IN_PROCESS)
+    project.review(BAR, execution=IN_PROCESS)
     assert files_of(project) == before
 
 
-def test_what_was_signed_off_is_taken_back_once_a_hull_is_found_to_span_parts(tmp_path: Path, flag: CancelFlag) -> None:
+def test_what_is_signed_off_stays_so_when_a_hull_is_found_to_span_parts(tmp_path: Path, flag: CancelFlag) -> None:
     project = assessed(tmp_path, flag)
     assert THIRD in signers_of(project)
     hull = find_span(project, THIRD)
     learn(project, flag, 2)
     assess(project, flag, 2)
-    assert THIRD not in signers_of(project)
+    assert found_since(project) == ("two parts",)
     project.mark_as_one_part(THIRD, hull)
     learn(project, flag, 3)
     assess(project, flag, 3)
+    assert found_since(project) == ()
     assert signers_of(project)[THIRD] == "tool"
 
 
 def test_nothing_rests_unseen_on_a_demonstration_that_was_carried_to_the_parts_of_a_hull(
     tmp_path: Path, flag: CancelFlag
 ) -> None:
-    project = applied(tmp_path)
-    project.set_verdict(SECOND, "accepted")
+    project = judged(applied(tmp_path))
     project.cut(FIRST, "crumb", (5.05, 5.05, 5.05), (0, 0, 1))
     list(project.apply(execution=IN_PROCESS))
     learn(project, flag)
@@ -226,7 +243,7 @@ def test_a_persons_sign_off_is_void_and_not_lost_when_the_program_changes(tmp_pa
     learn(project, flag)
     assess(project, flag)
     assert signers_of(project)[THIRD] == "person"
-    assert next(one for one in project.status().assets if one.id == THIRD).void == ("program",)
+    assert next(one for one in project.status().assets if one.id == THIRD).void == ("program", SAID)
 
 
 def test_what_was_said_is_learned_from_what_is_snoozed_is_only_asked_anew_and_sign_offs_are_neither(

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from meshforge.language import ACTIONS, OPERATORS, parse_action, parse_extractor
+from meshforge.language import ACTIONS, OPERATORS, parse_extractor
 from meshforge.studio.queries.programs import build_language_view
 from meshforge.studio.wire.program import ActionForm
+from tests.program_parts import parse_action
 
 VIEW = build_language_view()
 VALUES = {"file": '"part.obj"', "factor": "2", "shape": "capsule"}

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from meshforge.common import MeshForgeError, ProgramError
-from meshforge.language import Program, parse_action, parse_extractor, select
+from meshforge.language import Program, parse_extractor, select
 from meshforge.project import Project, select_assets
 from meshforge.samples import TABLES
 from meshforge.studio.learning import process
@@ -21,6 +21,7 @@ from meshforge.studio.learning.scheduler import Learner
 from meshforge.studio.workers import Workers
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Step
+from tests.program_parts import parse_action
 from tests.studio_project import demo_project
 
 BUNDLED = (TABLES / "tables.mf").read_text()

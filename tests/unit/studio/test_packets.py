@@ -10,12 +10,13 @@ import pytest
 
 from meshforge.batch import IN_PROCESS
 from meshforge.common import DemonstrationError, MeshForgeError, ProjectError
-from meshforge.language import Program, parse_action
+from meshforge.language import Program
 from meshforge.project import Project
 from meshforge.studio.queries import packets, programs
 from meshforge.studio.wire.requests import PreviewRequest, SelectRequest
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Step
+from tests.program_parts import parse_action
 from tests.studio_project import demo_project
 from tests.unit.studio.packets import read_packet
 

@@ -9,12 +9,13 @@ import numpy as np
 import pytest
 
 from meshforge.geometry import Cylinder, Pose, Shape, Sphere, convex_hull
-from meshforge.language import parse_action, to_canonical_frame
+from meshforge.language import to_canonical_frame
 from meshforge.project import Project
 from meshforge.studio.queries.assets import build_asset_view, compute_upright
 from meshforge.studio.queries.packets import hull_view, pack_asset, pack_visual
 from meshforge.symbolic import Asset, Body, Document, Geom, Opaque, Surface, SymbolicMesh
 from meshforge.synthesis import Step
+from tests.program_parts import parse_action
 from tests.studio_project import demo_project
 from tests.unit.studio.packets import read_packet
 

@@ -13,7 +13,7 @@ from pydantic import TypeAdapter
 
 from meshforge.batch import IN_PROCESS
 from meshforge.common import ProjectError
-from meshforge.language import parse_orient
+from meshforge.language import Program
 from meshforge.project import Project
 from meshforge.signoff import (
     Assessment,
@@ -44,7 +44,7 @@ LEG_OR_TOP = (ReviewChoice.of_label("leg"), ReviewChoice.of_label("top"))
 JUDGE = tuple(ReviewChoice(one, one) for one in ("right", "wrong", "not-of-family", "not-solved"))
 YES_OR_NO = (ReviewChoice("no", "no", select=("crumb",)), ReviewChoice("yes", "yes", select=("crumb", "top")))
 READINGS = (ReviewChoice("a", "Is(crumb)", select=("crumb",)), ReviewChoice("b", "All", select=("crumb", "top")))
-TURN = parse_orient("orient +Z: Is(leg) -> Is(top)")
+TURN = Program.parse("orient +Z: Is(leg) -> Is(top)\n").orient
 TURNS = (ReviewChoice("no", "no"), ReviewChoice("yes", "yes", orient=TURN))
 MISC_OR_LEG = (ReviewChoice.of_label("leg"), ReviewChoice.of_label("misc"))
 SPLIT = (ReviewChoice("no", "no"), ReviewChoice("yes", "yes"))

@@ -7,12 +7,13 @@ from collections.abc import Mapping
 import numpy as np
 import pytest
 
-from meshforge.language import Delete, Is, LandmarkPair, Replace, parse_action, parse_extractor, show
+from meshforge.language import Delete, Is, LandmarkPair, Replace, parse_extractor, show
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Demonstration, Found, LearningOutcome, Options, Step, outcome_to_json, synthesize
 from meshforge.synthesis.demonstration import collect_rule_specs
 from meshforge.synthesis.orientation.alternatives import FrameDoubts, cost_extractor
 from meshforge.synthesis.orientation.landmarks import Landmarks
+from tests.program_parts import parse_action
 from tests.synthesis_boxes import posed, rack
 
 LABELS = ("panel", "leg")

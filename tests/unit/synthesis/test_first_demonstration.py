@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from meshforge.language import parse_orient
 from meshforge.symbolic import Label
 from meshforge.synthesis import choose_first_demonstration
+from tests.program_parts import parse_orient
 from tests.synthesis_boxes import boxes
 from tests.synthesis_cupboards import cupboard, cupboards
 

@@ -16,7 +16,6 @@ from meshforge.language import (
     Orient,
     Program,
     Replace,
-    parse_orient,
     show,
     size_of,
     to_canonical_frame,
@@ -27,6 +26,7 @@ from meshforge.synthesis.demonstration import collect_rule_specs
 from meshforge.synthesis.options import OutOfTime, TimeBudget
 from meshforge.synthesis.orientation.attempts import MeshTurner
 from meshforge.synthesis.orientation.suggest import Directives, OrientationSuggestion, suggest_orientation
+from tests.program_parts import parse_orient
 from tests.synthesis_boxes import Piece, posed, rack, table, turned
 
 LABELS = ("panel", "leg", "handle", "drawer", "misc")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping
 
-from meshforge.language import Delete, parse_orient, show
+from meshforge.language import Delete, show
 from meshforge.symbolic import Label, SymbolicMesh
 from meshforge.synthesis import (
     Demonstration,
@@ -17,6 +17,7 @@ from meshforge.synthesis import (
     Step,
     synthesize,
 )
+from tests.program_parts import parse_orient
 from tests.synthesis_boxes import rack
 
 LABELS = ("panel", "leg", "misc")

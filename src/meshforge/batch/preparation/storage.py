@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import codecs
-import hashlib
 import json
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass
@@ -13,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from meshforge.batch.preparation.record import Preparation, PreparationStep, apply_preparation, hull_digest
+from meshforge.batch.provenance import content_digest
 from meshforge.common import AssetError, first_validation_error, write_atomically
 from meshforge.formats import MeshPart, format_obj, read, read_triangles
 from meshforge.geometry import Polytope
@@ -72,7 +72,7 @@ def read_steps(folder: Path) -> tuple[PreparationStep, ...] | None:
 def record_digest(folder: Path) -> str | None:
     """The digest of what was done, hulls included, None where nothing was; an empty text where it cannot be read."""
     try:
-        return hashlib.blake2b((folder / RECORD_FILE).read_bytes(), digest_size=16).hexdigest()
+        return content_digest(folder / RECORD_FILE)
     except (FileNotFoundError, NotADirectoryError):
         return None
     except OSError:

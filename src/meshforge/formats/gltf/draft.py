@@ -102,12 +102,7 @@ class SceneDraft:
         return self.add_surface_mesh(polytope.vertices, polytope.faces, name, material)
 
     def add_surface_mesh(
-        self,
-        points: Floats,
-        faces: Ints,
-        name: str,
-        material: int | None = None,
-        texture: Texture | None = None,
+        self, points: Floats, faces: Ints, name: str, material: int | None = None, texture: Texture | None = None
     ) -> tuple[int, Floats]:
         """A new mesh of vertices (n, 3) and faces (m, 3), about the middle (3,) of their box; and that middle."""
         middle = (points.min(axis=0) + points.max(axis=0)) / 2

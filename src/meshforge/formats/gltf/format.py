@@ -9,15 +9,7 @@ from typing import Any, ClassVar
 
 from meshforge.common import AssetError
 from meshforge.engines import ENGINES
-from meshforge.formats.base import (
-    BODY_FEATURES,
-    SCENE_FEATURES,
-    Mass,
-    Output,
-    ReadOptions,
-    SceneFormat,
-    feature_of,
-)
+from meshforge.formats.base import BODY_FEATURES, SCENE_FEATURES, Mass, Output, ReadOptions, SceneFormat, feature_of
 from meshforge.formats.collision_pieces import is_edited
 from meshforge.formats.engine_names.conventions import CollisionNames, GodotNames, UnityNames, UnrealNames, fallbacks_of
 from meshforge.formats.gltf.document import GltfDocument

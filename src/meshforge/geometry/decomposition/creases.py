@@ -58,10 +58,7 @@ def find_creases(vertices: Floats, faces: Ints) -> Creases:
     normal, areas = _find_normals(corners)
     pairs = neighbour_faces(faces)
     diagonal = float(np.linalg.norm(np.ptp(vertices, axis=0)))
-    rows = [
-        *_find_patches(vertices, faces, normal, areas, pairs),
-        *_find_loops(vertices, faces, corners, pairs),
-    ]
+    rows = [*_find_patches(vertices, faces, normal, areas, pairs), *_find_loops(vertices, faces, corners, pairs)]
     points = np.array([row[0] for row in rows]).reshape(-1, _SAMPLES, 3)
     normals = np.array([row[2] for row in rows]).reshape(-1, 3)
     loops = np.array([row[3] for row in rows], dtype=np.bool_)

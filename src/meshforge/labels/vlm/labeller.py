@@ -140,10 +140,6 @@ class Labeller:
         """A question as it is sent, behind the examples."""
         return hull_question.show_examples(self._examples) if self._examples else hull_question
 
-    def label(self, mesh: SymbolicMesh, wanted: Collection[str] | None = None, name: str = "") -> VlmAnswers:
-        """Ask about a mesh and wait for all that the model says."""
-        return self.begin(mesh, wanted, name).result()
-
     def _ask_about(self, hull_question: HullQuestion) -> _Response:
         """The votes of one question; what its answer leaves open is asked once more."""
         endpoint = self._client.endpoint

@@ -217,11 +217,7 @@ def build_questions(
 
 
 def _ask_in_repeats(
-    mesh: SymbolicMesh,
-    shots: tuple[LabelingPicture, ...],
-    group: Collection[str],
-    config: PromptConfig,
-    name: str,
+    mesh: SymbolicMesh, shots: tuple[LabelingPicture, ...], group: Collection[str], config: PromptConfig, name: str
 ) -> Iterator[HullQuestion]:
     """One question about what some pictures show, in all its repeats."""
     shown = frozenset[str]().union(*(shot.numbered for shot in shots))

@@ -71,10 +71,7 @@ def _find_misfit(name: str, kind: Any) -> str | None:
 
 
 ACTIONS: Registry[type[Action]] = Registry(
-    "actions",
-    {kind.__name__: kind for kind in (Delete, Replace, Add, Merge, Scale, Each)},
-    _adopt,
-    reserved=OPERATORS,
+    "actions", {kind.__name__: kind for kind in (Delete, Replace, Add, Merge, Scale, Each)}, _adopt, reserved=OPERATORS
 )
 
 

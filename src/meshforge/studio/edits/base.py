@@ -7,7 +7,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import ClassVar
 
-from meshforge.batch import STATE, file_digest
+from meshforge.batch import STATE
+from meshforge.common import file_digest
 from meshforge.project import Project
 from meshforge.studio.wire import Wire
 

@@ -39,7 +39,7 @@ class SetSteps(Edit):
     """Set the steps of an asset, one a rule, in order. version: of the steps that were changed."""
 
     kind: Literal["steps"] = "steps"
-    touches = ("demonstrations/{asset}.json",)
+    touches = ("demonstrations/{asset}.json", EVENTS_FILE)
     asset: str
     version: str
     steps: tuple[StepText, ...]

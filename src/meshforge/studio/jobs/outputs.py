@@ -11,6 +11,7 @@ from meshforge import batch
 from meshforge.common import (
     ProjectError,
     UsageError,
+    file_digest,
     join_names,
     plain_path,
     pluralize,
@@ -152,7 +153,7 @@ def _export_asset(edited: Path, folder: Path, asset: str, known: dict[str, None]
 
 
 def _copy_file(source: Path, target: Path) -> None:
-    if target.is_file() and batch.file_digest(target) == batch.file_digest(source):
+    if target.is_file() and file_digest(target) == file_digest(source):
         return
     with replace_atomically(target) as draft:
         shutil.copyfile(source, draft)

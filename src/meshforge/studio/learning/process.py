@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 from time import perf_counter
 
-from meshforge.batch import RECORD_FILE, source_files
-from meshforge.common import FileStates, MeshForgeError, file_states
+from meshforge.common import MeshForgeError
 from meshforge.language import Program, parse_extractor
 from meshforge.project import AssessmentBasis, Project, can_ask_about_spans, digest_lesson, select_assets
+from meshforge.store import MeshCache
 from meshforge.studio.learning.assessment import assess_project, view_assessment, view_first_question
 from meshforge.studio.learning.queue import CancelToken
 from meshforge.studio.learning.results import ProgramWithTemplates, RuleSelector, build_outcome_view, measure_reach
@@ -155,67 +156,26 @@ class ReadInterrupted(Exception):  # noqa: N818 (not an error)
     """Reading meshes was interrupted: nobody waits for the result."""
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class _CacheEntry:
-    """An asset as it was read. times: of its files; contact: the threshold that was set [m]; labels: what their file
-    holds; mesh: None where it cannot be read."""
-
-    times: FileStates
-    contact: float | None
-    labels: bytes
-    mesh: SymbolicMesh | None
-
-
 class FamilyCache:
     """The assets of a project, with the labels they have when they are asked for."""
 
     def __init__(self) -> None:
-        self._entries: dict[str, _CacheEntry] = {}
+        self._meshes = MeshCache(most=sys.maxsize)
         self._runs = 0
 
     def read_meshes(
         self, project: Project, assets: Iterable[str], stop: Callable[[], bool]
     ) -> Iterator[tuple[str, SymbolicMesh]]:
         """The ids and meshes of those assets that can be read. Raises ReadInterrupted when `stop` says so."""
-        contact = project.settings.thresholds.contact
+        cached = project.with_cache(self._meshes)
         for asset in assets:
             if stop():
                 raise ReadInterrupted
-            entry = self._entries[asset] = self._update(project, asset, contact)
-            if entry.mesh is not None:
-                yield asset, entry.mesh
+            with suppress(MeshForgeError):
+                yield asset, cached.mesh(asset)
 
     def count_run(self) -> None:
         """Count a learning run. After many of them, what was worked out about the assets meanwhile is forgotten."""
         self._runs += 1
         if self._runs % RENEW_AFTER == 0:
-            self._entries = {asset: _renew(entry) for asset, entry in self._entries.items()}
-
-    def _update(self, project: Project, asset: str, contact: float | None) -> _CacheEntry:
-        cached, labels = self._entries.get(asset), project.label_bytes(asset)
-        if cached is None or cached.contact != contact or file_states(cached.times) != cached.times:
-            return _read(project, asset, contact, labels)
-        if cached.labels == labels:
-            return cached
-        if cached.mesh is None:
-            return _read(project, asset, contact, labels)
-        try:
-            return replace(cached, labels=labels, mesh=project.relabel(asset, cached.mesh))
-        except MeshForgeError:
-            return replace(cached, labels=labels, mesh=None)
-
-
-def _read(project: Project, asset: str, contact: float | None, labels: bytes) -> _CacheEntry:
-    path = project.path(asset)
-    times = file_states([path, *source_files(path), project.layout.preparation(asset) / RECORD_FILE])
-    try:
-        mesh = project.mesh(asset)
-    except MeshForgeError:
-        return _CacheEntry(times, contact, labels, None)
-    referred = mesh.asset.files if mesh.asset else ()
-    return _CacheEntry(file_states(referred) | times, contact, labels, mesh)
-
-
-def _renew(entry: _CacheEntry) -> _CacheEntry:
-    """The entry with a new mesh object; what was worked out about the old one goes with it."""
-    return entry if entry.mesh is None else replace(entry, mesh=entry.mesh.with_hulls(entry.mesh.hulls))
+            self._meshes.renew()

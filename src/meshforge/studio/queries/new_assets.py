@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from meshforge.common import MeshForgeError, file_state
+from meshforge.common import FileState, MeshForgeError, file_state
 from meshforge.project import Project, list_new
 from meshforge.studio.wire.family import Card, NewAssetsView
 
-_Basis = tuple[tuple[int, int] | None, tuple[str, ...], tuple[tuple[str, tuple[str, ...]], ...]]
+_Basis = tuple[FileState | None, tuple[str, ...], tuple[tuple[str, tuple[str, ...]], ...]]
 
 
 class NewAssetsQuery:

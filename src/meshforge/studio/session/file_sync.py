@@ -21,7 +21,6 @@ from meshforge.studio.queries.programs import read_program_view
 from meshforge.studio.queries.project import vocabulary_view
 from meshforge.studio.session.refresh import RefreshQueue
 from meshforge.studio.wire.program import ProgramView
-from meshforge.studio.workers import ProjectWithCache
 
 _LOG = logging.getLogger(__name__)
 
@@ -54,9 +53,7 @@ class FileSync:
     project: the project with the assets that it has now.
     """
 
-    def __init__(
-        self, project: ProjectWithCache, pages: PageState, learning: LearningScheduler, queue: RefreshQueue
-    ) -> None:
+    def __init__(self, project: Project, pages: PageState, learning: LearningScheduler, queue: RefreshQueue) -> None:
         self.project = project
         self._pages, self._learning, self._queue = pages, learning, queue
         self._stamps = read_stamps(project)
@@ -94,7 +91,7 @@ class FileSync:
 
     def reopen(self) -> None:
         """Look for assets that came or went; the vocabulary is shown at once, as keys have a meaning by it."""
-        self.project = self.project.with_assets(Project.open(self.project.folder).found)
+        self.project = replace(self.project, found=Project.open(self.project.folder).found)
         self._pages.set_vocabulary(vocabulary_view(self.project.settings.vocabulary, self._pages.cards))
         self._queue.add(self._pages.set_assets(self.project.assets()), later=True)
 

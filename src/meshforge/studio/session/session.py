@@ -10,10 +10,11 @@ from pathlib import Path
 from threading import RLock
 from typing import Literal
 
-from meshforge.batch import STATE, stamp_path
+from meshforge.batch import STATE, read_prepared, stamp_path
 from meshforge.common import UsageError, relative_name
 from meshforge.labels import OfferCache
 from meshforge.project import Project, can_ask_about_spans
+from meshforge.store import MeshCache
 from meshforge.studio.downloads import Downloads
 from meshforge.studio.edits.base import LEARNED_BEFORE, LEARNED_FILE, PREVIOUS_FILE, PROGRAM_FILE, Edit
 from meshforge.studio.edits.program import TakeLearned
@@ -35,11 +36,13 @@ from meshforge.studio.uploads import Uploads
 from meshforge.studio.wire.events import HistoryChanged
 from meshforge.studio.wire.program import OutcomeView
 from meshforge.studio.wire.requests import EditReceipt
-from meshforge.studio.workers import MeshCache, ProjectWithCache, Workers
+from meshforge.studio.workers import Workers
 from meshforge.symbolic import SymbolicMesh
 
 READERS = 2
 """Processes that read assets which a page waits for."""
+
+_MESHES = 80  # in memory
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,7 +62,9 @@ class Session:
         self.options = options
         self._mutex = RLock()
         self.readers, self._drawers, self._checkers = Workers(READERS), Workers(), Workers(1)
-        project = ProjectWithCache.of(Project.open(folder), MeshCache(self.readers))
+        project = Project.open(folder).with_cache(
+            MeshCache(lambda path, prepared: self.readers.run(read_prepared, path, prepared), _MESHES)
+        )
         own = project.folder / STATE / "studio"
         self.history = History(project, _list_learned_files)
         self.label_changes = LabelChanges(self.history)
@@ -91,7 +96,7 @@ class Session:
         self._take_learned = False
 
     @property
-    def project(self) -> ProjectWithCache:
+    def project(self) -> Project:
         """The project with the assets that it has now."""
         return self._file_sync.project
 

@@ -1,0 +1,129 @@
+"""What a person does with a project who signs its family off: reviews, replies, demonstrates, labels, takes back."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Mapping
+from dataclasses import dataclass, field
+
+from benchmark.signoff.judge import Output
+from benchmark.tasks import EditResult
+from meshforge.batch import IN_PROCESS
+from meshforge.common import MeshForgeError
+from meshforge.language import Program
+from meshforge.project import Project, ProjectReview, run_with_corrections
+from meshforge.signoff import Assessment, ReviewQuestion, ReviewReply
+from meshforge.symbolic import SymbolicMesh
+from meshforge.synthesis import Answer, Nearest, NoProgram, Step
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class FamilyStatus:
+    """How a family stands, as a person is told.
+
+    question: the one that is asked; has_program: whether a program fits all that was shown and said; signed_off, held,
+    excluded: ids of assets; probabilities: by id, as far as they are told; nearest: what came nearest if nothing fits.
+    """
+
+    question: ReviewQuestion | None
+    has_program: bool
+    signed_off: Collection[str]
+    held: Collection[str]
+    excluded: Collection[str]
+    probabilities: Mapping[str, float] = field(default_factory=dict)
+    nearest: Nearest | None = None
+
+
+class Client:
+    """By the public methods of `Project`. found: by the last look; program: of the project then."""
+
+    name = "Project"
+
+    def __init__(self, project: Project) -> None:
+        self.project, self.program = project.with_cache(), project.program()
+        self.found: ProjectReview | None = None
+        self._outputs = dict[tuple[str, str, bytes, str], Output]()
+
+    # What a person does
+
+    def review(self) -> FamilyStatus:
+        """Look how the family stands. Raises MeshForgeError where the product refuses what was shown."""
+        try:
+            self.found = found = self.project.review(execution=IN_PROCESS)
+        finally:
+            self.program = self.project.program()
+        outcome = found.outcome
+        nearest = outcome.nearest if isinstance(outcome, NoProgram) else None
+        return _build_status(found.assessment, outcome is not None and outcome.program is not None, nearest)
+
+    def reply(self, question: ReviewQuestion, reply: ReviewReply) -> None:
+        """Reply to the question that the last look asked."""
+        self.project.reply(question, reply)
+
+    def demonstrate(self, asset: str, steps: Iterable[Step]) -> None:
+        """Show the edit on an asset."""
+        self.project.demonstrate(asset, steps)
+
+    def take_demonstration_back(self, asset: str) -> None:
+        """Take the demonstration of an asset back, and what was answered about it."""
+        self.project.demonstrate(asset, ())
+        for name, answer in self.project.feedback().answers.items():
+            if answer.asset == asset:
+                self.project.take_back(name)
+
+    def accept(self, asset: str) -> None:
+        """Find the result of an asset right, once it is written."""
+        for _ in self.project.apply([asset], execution=IN_PROCESS):
+            pass
+        self.project.set_verdict(asset, "accepted")
+
+    def refuse_choices(self, answer: Answer) -> None:
+        """Say in place of an answer that none of the choices was meant."""
+        self.project.add_answer(Answer(answer.rule, answer.asset, None))
+
+    def set_labels(self, asset: str, labels: Mapping[str, str]) -> None:
+        """Label hulls by hand, then let the product weigh all labels again."""
+        self.project.set_labels(asset, labels)
+        self.take_labels()
+
+    def take_labels(self) -> None:
+        """Take the labels that all sources together speak for, where any hull has one."""
+        if any(mesh.labels for mesh in self.read_meshes().values()):
+            self.project.label_by_consensus()
+
+    # What a person sees
+
+    @property
+    def answers(self) -> tuple[Answer, ...]:
+        """What was answered so far."""
+        return tuple(line.answer for line in self.project.feedback().answers.values())
+
+    def read_meshes(self) -> dict[str, SymbolicMesh]:
+        """All assets with their labels; those whose labels stay are the same objects."""
+        return dict(self.project.meshes_by_id())
+
+    def read_output(self, asset: str) -> Output | None:
+        """What the project would write of an asset: by its program, then by hand; None while there is no program."""
+        program, project = self.program, self.project
+        if program is None:
+            return None
+        by_hand, meant = project.corrections(asset), project.feedback().verdict_on(asset)
+        key = (asset, str(program), project.label_bytes(asset), f"{by_hand} {meant and meant.meant}")
+        if key not in self._outputs:
+            self._outputs[key] = Output(self._edit(asset, program), bool(by_hand))
+        return self._outputs[key]
+
+    def _edit(self, asset: str, program: Program) -> EditResult:
+        try:
+            done = run_with_corrections(self.project, asset, self.read_meshes()[asset], program)
+        except MeshForgeError as error:
+            return EditResult(None, error=str(error))
+        rules = zip(program.rules, done.run.trace, strict=True)
+        named = {name for rule, line in rules if rule.label for name in line.made}
+        if any(one.label for one in done.corrections):
+            named |= done.mesh.index.keys() - done.run.mesh.index.keys()
+        return EditResult(done.mesh, done.run.trace, frozenset(named))
+
+
+def _build_status(found: Assessment, has_program: bool, nearest: Nearest | None) -> FamilyStatus:
+    shares = {name: one.probability for name, one in found.assets.items()}
+    return FamilyStatus(found.question, has_program, found.signed_off, found.held, found.excluded, shares, nearest)

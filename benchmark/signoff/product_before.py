@@ -1,0 +1,177 @@
+"""What people got through the product before anything was changed for them, kept in `unchanged.json` as it was then.
+
+A reply had two implementations until then: one that the benchmark called, and the one that people use.
+"""
+
+from __future__ import annotations
+
+import json
+import subprocess
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import asdict
+from functools import cache
+from pathlib import Path
+from statistics import mean
+from typing import Any
+
+from benchmark.journal import ROOT
+from benchmark.report import Cell, Result, Table, Tell
+from benchmark.signoff.calibration import calibrate
+from benchmark.signoff.conditions import ERRS, NONE, list_tasks
+from benchmark.signoff.outcomes import last, mean_over_tasks, person_time, right_when_done, share, wrong_when_done
+from benchmark.signoff.queue import DONE, Review
+from benchmark.signoff.sessions import Unit, run_sessions
+from benchmark.study import FLAT, REPORTED, TRUE
+from benchmark.study.condition import PROPAGATED, SYSTEMATIC
+from benchmark.tasks import DIFFICULTIES
+from meshforge.common import write_atomically
+
+FROZEN = Path(__file__).resolve().parent / "unchanged.json"
+COMMAND = "python -m benchmark.signoff unchanged"
+CONDITIONS = {"Project": (TRUE, FLAT, SYSTEMATIC, PROPAGATED[2], NONE, ERRS), "terminal": (FLAT, NONE)}
+"""Under which labels, by what a person does it with."""
+MANY = 8
+"""Results corrected one by one, from which on a session counts as one that goes the long way."""
+TITLE = "Through the product, before anything was changed"
+
+
+def list_units() -> list[Unit]:
+    """One person a task and condition; those through `Project` first, and the tasks in an order in which the first
+    third has each category, and each level about as often."""
+    levels, every = len(DIFFICULTIES), list_tasks()
+    turns = [every[k : k + levels] for k in range(0, len(every), levels)]
+    names = [turn[(place + shift) % levels] for shift in range(levels) for place, turn in enumerate(turns)]
+    rows = ((client, name, one) for client, some in CONDITIONS.items() for name in names for one in some)
+    return [Unit(name, one.name, REPORTED[0], None, client) for client, name, one in rows]
+
+
+def freeze(tell: Tell, path: Path = FROZEN) -> None:
+    """Measure the product as it is, and write that with the commit that it is at."""
+    units = list_units()
+    write(path, zip(units, run_sessions(units, tell, workers=1), strict=True))
+
+
+def write(path: Path, sessions: Iterable[tuple[Unit, dict[str, Any]]]) -> None:
+    """Write sessions, of each but the last point of its curve."""
+    commit = subprocess.run(["git", "rev-parse", "HEAD"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    rows = []
+    for unit, found in sessions:
+        review = asdict(Review.of_json(found["review"]))
+        rows.append({"client": unit.client, "computer": found["computer"], **review, "points": review["points"][-1:]})
+    lines = ",\n".join(json.dumps(row, separators=(",", ":")) for row in rows)
+    head = f'"command": {json.dumps(COMMAND)},\n"commit": {json.dumps(commit.strip())}'
+    write_atomically(path, f'{{\n{head},\n"sessions": [\n{lines}\n]\n}}\n')
+
+
+@cache
+def read(path: Path = FROZEN) -> tuple[str, tuple[tuple[str, Review], ...]]:
+    """The commit that was measured, and what a person did it with, for each session."""
+    data = json.loads(path.read_text("utf-8"))
+    rows = [(row.pop("client"), row.pop("computer"), row) for row in data["sessions"]]
+    return data["commit"], tuple((client, Review.of_json(row)) for client, _, row in rows)
+
+
+def measure(tell: Tell, quick: bool) -> Result:
+    """The figures that were kept; nothing is measured again."""
+    commit, sessions = read()
+    groups = dict[tuple[str, str], list[Review]]()
+    for client, review in sessions:
+        groups.setdefault((review.condition, client), []).append(review)
+    tables = (_tell_figures(groups), _tell_probabilities(groups), _tell_long(sessions))
+    return Result("product_before", TITLE, tables, (), tuple(_list_notes(commit)))
+
+
+_Groups = dict[tuple[str, str], list[Review]]
+
+
+def _tell_figures(groups: _Groups) -> Table:
+    columns = (
+        "condition",
+        "by",
+        "sessions",
+        "right and signed off when done, %",
+        "signed off, yet wrong, %",
+        "set aside, %",
+        "held, %",
+        "until done, s",
+        "not ended as done",
+        "results corrected one by one",
+        f"sessions with {MANY} or more, %",
+    )
+    return Table("When done", columns, tuple(_row(*key, rows) for key, rows in groups.items()))
+
+
+def _row(condition: str, client: str, rows: Sequence[Review]) -> tuple[Cell, ...]:
+    return (
+        condition,
+        client,
+        len(rows),
+        mean_over_tasks(rows, right_when_done),
+        mean_over_tasks(rows, wrong_when_done),
+        mean_over_tasks(rows, lambda row: share(len(row.aside), row.assets)),
+        mean_over_tasks(rows, lambda row: share(last(row).held, row.assets)),
+        mean_over_tasks(rows, person_time),
+        sum(row.ended != DONE for row in rows),
+        mean(map(_count_corrected, rows)),
+        share(sum(_count_corrected(row) >= MANY for row in rows), len(rows)),
+    )
+
+
+def _count_corrected(row: Review) -> int:
+    return row.acts.get("correction", 0)
+
+
+def _tell_probabilities(groups: _Groups) -> Table:
+    columns = ("condition", "by", "assets", "right, %", "calibration error", "AUROC",
+               "signed off before any look, %", "of these wrong")  # fmt: skip
+    named = [(*key, rows) for key, rows in groups.items() if key[1] == "Project"]
+    every = [row for *_, rows in named for row in rows]
+    lines = tuple(_probability_row(*one) for one in [*named, ("all", "Project", every)])
+    return Table("The first program: assets that nobody demonstrated", columns, lines)
+
+
+def _probability_row(condition: str, client: str, rows: Sequence[Review]) -> tuple[Cell, ...]:
+    found = calibrate([pair for row in rows for pair in row.first])
+    early = share(sum(row.early for row in rows), sum(row.unseen for row in rows))
+    wrong = sum(row.early_wrong for row in rows)
+    return condition, client, found.count, 100 * found.right, found.error, found.order, early, wrong
+
+
+def _tell_long(sessions: Sequence[tuple[str, Review]]) -> Table:
+    """Sessions that did not end as done, or with more than a twentieth signed off wrong."""
+    columns = ("task", "condition", "by", "ended", "s", "right, %", "wrong, %", "set aside", "corrected")
+    rows = [
+        (one.task, one.condition, client, one.ended, person_time(one), right_when_done(one), wrong_when_done(one),
+         len(one.aside), _count_corrected(one))
+        for client, one in sessions
+        if one.ended != DONE or wrong_when_done(one) > 5
+    ]  # fmt: skip
+    return Table("Sessions not done, or with more than 5% signed off wrong", columns, tuple(rows))
+
+
+def _list_notes(commit: str) -> Iterator[str]:
+    yield (
+        f"Frozen: measured once by `{COMMAND}` at commit {commit[:12]}, kept in `benchmark/signoff/unchanged.json`. "
+        "`src` was as it was before anything of it was changed; this part is not measured again."
+    )
+    yield (
+        "Each session is a project on disk that a person works with: by the methods of `Project`, or by the commands "
+        "`review --answers`, `demonstrate`, `label` and `synthesize --forget` alone. The family is that of the first "
+        "reported person, 25 assets at one decomposition. What is right is judged on what the project would write: its "
+        "program, then its edits by hand."
+    )
+    yield (
+        "The person says that a result is wrong, which flags it, and then does what the command proposes: demonstrates "
+        "that asset. Where no program fits that, they reply to what is asked, look through the labels there, and "
+        "otherwise take the demonstration back. What is flagged or set aside is not right. After labels by hand come "
+        "those by consensus."
+    )
+    yield (
+        "The sessions of *A family signed off* and *Real families signed off* on this page, as far as they are older "
+        "than this part, went through another implementation of replies, which no command and no page of the studio "
+        "used: a result that was wrong was corrected hull by hull there, and counted as it was left."
+    )
+    yield (
+        "*Corrected one by one*: edits shown after a result was called wrong. *Before any look*: when there is the "
+        "first program. Means over tasks; of the probabilities over assets on which a right edit is possible."
+    )

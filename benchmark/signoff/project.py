@@ -1,0 +1,132 @@
+"""A family of the benchmark as a project on disk: assets that read back with the very same hulls, and their labels."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import replace
+from functools import lru_cache
+from pathlib import Path
+
+import numpy as np
+
+from benchmark.study.desk import Bench, Desk, Start
+from meshforge.formats import read
+from meshforge.geometry import Shape
+from meshforge.project import Project
+from meshforge.symbolic import SymbolicMesh, write_labels
+
+_SUFFIX = ".obj"
+_MEMORY = Path("/dev/shm")  # a disk in memory, where there is one
+
+
+@lru_cache(maxsize=8)
+def name_by_files(bench: Bench) -> Bench:
+    """The same bench with its meshes as they read back from files, under the ids that they have in a project: the
+    product orders the vertices of a hull in its own way. What it remembers stays with it."""
+
+    def rename(name: str) -> str:
+        return f"{name}{_SUFFIX}"
+
+    start = bench.start
+    parts = {rename(name): labels for name, labels in start.parts.items()}
+    with _open_folder() as folder:
+        samples = [
+            replace(sample, name=rename(name), mesh=_read_back(sample.mesh, folder / rename(name)))
+            for name, sample in bench.samples.items()
+        ]
+    return Bench(bench.task, samples, Start(tuple(map(rename, start.by_hand)), parts))
+
+
+def _read_back(mesh: SymbolicMesh, file: Path) -> SymbolicMesh:
+    """A mesh with its shapes as they are read from a file; all else is as it was."""
+    file.write_text(_format_obj((hull.shape for hull in mesh.hulls), mesh.index), encoding="utf-8")
+    rows = zip(mesh.hulls, read(file).geoms, strict=True)
+    return SymbolicMesh(tuple(replace(hull, shape=geom.shape) for hull, geom in rows))
+
+
+@contextmanager
+def _open_folder() -> Iterator[Path]:
+    """A folder in memory, where there is such a disk, that goes away afterwards."""
+    with tempfile.TemporaryDirectory(dir=_MEMORY if _MEMORY.is_dir() else None) as folder:
+        yield Path(folder)
+
+
+@contextmanager
+def open_project(desk: Desk) -> Iterator[Project]:
+    """A new project of the meshes of a desk, with their labels, in a folder that goes away afterwards.
+
+    The meshes have the names that `name_by_files` gives.
+    """
+    with _open_folder() as folder:
+        yield write_project(desk, folder)
+
+
+def write_project(desk: Desk, folder: Path) -> Project:
+    """Write the meshes of a desk as files of assets into a folder, and a project of them beside these."""
+    one, assets = desk.bench.task, folder / "assets"
+    assets.mkdir()
+    for name, mesh in desk.meshes.items():
+        shapes = (hull.shape for hull in mesh.hulls)
+        (assets / name).write_text(_format_obj(shapes, mesh.index), encoding="utf-8")
+    files = [assets / name for name in desk.meshes]
+    frame = one.program
+    project = Project.create(folder / "project", files, name=one.name, vocabulary=frame.labels, orient=frame.orient)
+    _write_thresholds(project, frame.contact, frame.extremity)
+    for name, template in one.templates.items():
+        project.add_template(name, _format_obj(template.shapes).encode())
+    for name, mesh in desk.meshes.items():
+        if mesh.labels:
+            write_labels(project.layout.labels(name), mesh, project.vocabulary)
+    _check_meshes(project, desk.meshes)
+    return project
+
+
+def take_labels(desk: Desk) -> Desk:
+    """The meshes with the labels that the product gives them by consensus of all that is said; a person's stay."""
+    if not any(mesh.labels for mesh in desk.meshes.values()):
+        return desk
+    bench = name_by_files(desk.bench)
+    pairs = zip(bench.truth.meshes.items(), desk.meshes.values(), strict=True)
+    named = Desk(
+        bench, {name: own.with_labels({**dict.fromkeys(own.index), **mesh.labels}) for (name, own), mesh in pairs}
+    )
+    with open_project(named) as project:
+        project.label_by_consensus()
+        found = {name: project.mesh(f"{name}{_SUFFIX}") for name in desk.meshes}
+    meshes = {name: mesh.with_labels(dict(found[name].labels)) for name, mesh in desk.meshes.items()}
+    same = {
+        name: desk.meshes[name] if mesh.labels == desk.meshes[name].labels else mesh for name, mesh in meshes.items()
+    }
+    return desk.with_meshes(same)
+
+
+def _format_obj(shapes: Iterable[Shape], names: Iterable[str] = ()) -> str:
+    """Shapes as the objects of an OBJ file, coordinates in full precision; names: of all, else they are numbered."""
+    lines, first, known = list[str](), 1, iter(names)
+    for number, shape in enumerate(shapes):
+        lines.append(f"o {next(known, number)}")
+        lines += [f"v {x!r} {y!r} {z!r}" for x, y, z in shape.vertices.tolist()]
+        lines += [f"f {a} {b} {c}" for a, b, c in (shape.faces + first).tolist()]
+        first += len(shape.vertices)
+    return "\n".join(lines) + "\n"
+
+
+def _write_thresholds(project: Project, contact: float | None, extremity: float | None) -> None:
+    """Thresholds have no method of their own: people write them into the settings."""
+    lines = [f"{name} = {value!r}" for name, value in (("contact", contact), ("extremity", extremity)) if value]
+    if lines:
+        path = project.folder / "meshforge.toml"
+        path.write_text("\n".join([path.read_text("utf-8"), "[thresholds]", *lines, ""]), encoding="utf-8")
+
+
+def _check_meshes(project: Project, meshes: Mapping[str, SymbolicMesh]) -> None:
+    """Each asset reads back with the same hulls in the same order, and the same labels."""
+    assert list(project.assets()) == list(meshes)
+    for name, mesh in meshes.items():
+        found = project.mesh(name)
+        rows = zip(found.hulls, mesh.hulls, strict=True)
+        same = all(a.name == b.name and np.array_equal(a.vertices, b.vertices) for a, b in rows)
+        assert same, f"{name} does not read back as it was written"
+        assert dict(found.labels) == dict(mesh.labels), f"the labels of {name} do not read back as they were written"

@@ -1,0 +1,116 @@
+"""The same person at a terminal: the commands `review --answers`, `demonstrate`, `label` and `synthesize --forget`,
+called in this process."""
+
+from __future__ import annotations
+
+import io
+import json
+from collections.abc import Iterable, Mapping
+from contextlib import redirect_stderr, redirect_stdout
+from typing import Any, get_args
+from unittest.mock import patch
+
+from benchmark.signoff.client import Client, FamilyStatus
+from meshforge.cli.demonstrate import demonstrate
+from meshforge.cli.label import label
+from meshforge.cli.main import load_command
+from meshforge.cli.review import review
+from meshforge.cli.synthesize import synthesize
+from meshforge.project import Project
+from meshforge.signoff import HullPlace, ReviewChoice, ReviewQuestion, ReviewReply, UnseenLabelQuestion
+from meshforge.synthesis import Answer, Step
+
+_PICTURES = "meshforge.cli.review.draw_question"  # nobody looks at them here, and they take half of the time
+_KINDS: dict[str, type[ReviewQuestion]] = {kind.kind: kind for kind in get_args(ReviewQuestion)}
+_KINDS["label"] = UnseenLabelQuestion
+_COMMANDS = {one.__name__: load_command(one.__name__) for one in (demonstrate, label, review, synthesize)}
+
+
+class TerminalClient(Client):
+    """By commands alone; what their outputs do not tell is not known."""
+
+    name = "terminal"
+
+    def __init__(self, project: Project) -> None:
+        super().__init__(project)
+        self._told: str | None = None
+        self._refused = set[tuple[int, str]]()
+
+    def review(self) -> FamilyStatus:
+        try:
+            told = self._told or self._call("review", "--json")
+        finally:
+            self._told, self.program = None, self.project.program()
+        return _read_status(json.loads(told), self.project.assets())
+
+    def reply(self, question: ReviewQuestion, reply: ReviewReply) -> None:
+        if (question.rule, question.asset) in self._refused:
+            reply = ReviewReply(question.id)
+        file = self.project.folder.parent / "answers.json"
+        file.write_text(json.dumps([_format_reply(reply)]), encoding="utf-8")
+        self._told = self._call("review", "--answers", str(file), "--json")
+
+    def demonstrate(self, asset: str, steps: Iterable[Step]) -> None:
+        self._call("demonstrate", asset, *map(_format_step, steps))
+
+    def take_demonstration_back(self, asset: str) -> None:
+        self._call("demonstrate", asset, "--clear")
+        for answer in self.answers:
+            if answer.asset == asset:
+                self._call("synthesize", "--forget", f"{answer.rule}:{asset}")
+
+    def refuse_choices(self, answer: Answer) -> None:
+        """Take the answer back; when the question is asked again, none of the choices is meant."""
+        self._call("synthesize", "--forget", f"{answer.rule}:{answer.asset}")
+        self._refused.add((answer.rule, answer.asset))
+
+    def set_labels(self, asset: str, labels: Mapping[str, str]) -> None:
+        self._call("label", asset, *(f"{hull}={label}" for hull, label in labels.items()))
+        self.take_labels()
+
+    def take_labels(self) -> None:
+        if any(mesh.labels for mesh in self.read_meshes().values()):
+            self._call("label", "--with", "consensus")
+
+    def _call(self, command: str, *words: str) -> str:
+        """What a command prints. Raises MeshForgeError as the command does."""
+        self._told, out = None, io.StringIO()
+        with redirect_stdout(out), redirect_stderr(io.StringIO()), patch(_PICTURES, return_value=[]):
+            _COMMANDS[command].main([str(self.project.folder), *words], command, standalone_mode=False)
+        return out.getvalue()
+
+
+def _format_reply(reply: ReviewReply) -> dict[str, Any]:
+    """One entry of the file of replies."""
+    exceptions = {f"{place.asset}#{place.hull}": label for place, label in reply.exceptions.items()}
+    selections = {str(rule): sorted(hulls) for rule, hulls in reply.selections.items()}
+    labels = dict(reply.labels)
+    row = {"id": reply.question, "choice": reply.choice, "exceptions": exceptions, "later": reply.later}
+    return {**row, "selections": selections, "labels": labels}
+
+
+def _format_step(step: Step) -> str:
+    """One step as it is typed."""
+    hulls = "open" if step.select is None else ",".join(sorted(step.select)) or "nothing"
+    return f"{hulls} => {step.action}{f' as {step.label}' if step.label else ''}"
+
+
+def _read_status(told: Mapping[str, Any], assets: Iterable[str]) -> FamilyStatus:
+    """How the family stands by what the command printed."""
+    held = {one["asset"]: float(one["probability"]) for one in told["held"]}
+    excluded = frozenset(told["excluded"])
+    signed = [name for name in assets if name not in held and name not in excluded]
+    assert len(signed) == told["signed_off"]
+    question = _read_question(told["question"]) if told["question"] else None
+    return FamilyStatus(question, bool(signed) or any(held.values()), signed, list(held), excluded, held)
+
+
+def _read_question(told: Mapping[str, Any]) -> ReviewQuestion:
+    choices = tuple(
+        ReviewChoice(one["id"], one["text"], one["label"], None if one["select"] is None else tuple(one["select"]))
+        for one in told["choices"]
+    )
+    hulls = tuple(HullPlace(one["asset"], one["hull"]) for one in told["hulls"])
+    figures = float(told["seconds"]), float(told["gain"])
+    kind = _KINDS[told["kind"]]
+    return kind(told["text"], *figures, told["asset"], told["rule"], hulls, choices, told["id"])

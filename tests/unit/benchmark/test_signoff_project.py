@@ -1,0 +1,134 @@
+"""Families signed off in a project on disk: what is written reads back, and each client of a person does the same."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict, replace
+from pathlib import Path
+
+import pytest
+
+from benchmark.assets import family
+from benchmark.signoff.client import Client
+from benchmark.signoff.judge import Judge, Output, run_on_desk
+from benchmark.signoff.product_before import FROZEN, list_units, measure, read, write
+from benchmark.signoff.project import name_by_files, open_project, take_labels
+from benchmark.signoff.queue import DONE, ReviewCourse, sign_off
+from benchmark.signoff.reviewer import Reviewer
+from benchmark.signoff.sessions import Unit
+from benchmark.signoff.terminal import TerminalClient
+from benchmark.study import TRUE, Bench
+from benchmark.study.condition import PROPAGATED
+from benchmark.tasks import task
+from meshforge.geometry import digest
+from meshforge.language import Merge
+from meshforge.signoff import ReviewReply
+
+
+def open_few(name: str, count: int) -> Bench:
+    one = task(name)
+    return name_by_files(Bench(one, family(one.category, "coarse")[:count]))
+
+
+@pytest.fixture(scope="module")
+def bench() -> Bench:
+    return open_few("cup-easy", 4)
+
+
+def test_a_project_holds_the_hulls_labels_orientation_and_templates_of_its_family() -> None:
+    bench = open_few("cup-hard", 3)
+    desk = bench.desk("telling", 1)
+    with open_project(desk) as project:
+        assert project.orientation == bench.task.program.orient
+        assert project.vocabulary == bench.task.program.labels
+        templates = project.templates(bench.task.templates)
+        for name, template in bench.task.templates.items():
+            assert list(map(digest, templates[name].shapes)) == list(map(digest, template.shapes))
+        for name, mesh in desk.meshes.items():
+            read = project.mesh(name)
+            assert [digest(hull.shape) for hull in read.hulls] == [digest(hull.shape) for hull in mesh.hulls]
+            assert dict(read.labels) == dict(mesh.labels)
+            assert read.contacts == mesh.contacts
+    assert not project.folder.exists()
+
+
+def test_labels_taken_by_the_product_are_those_of_its_model_of_the_family(bench: Bench) -> None:
+    desk = bench.desk("flat", 1)
+    said = [hull.annotation for mesh in desk.meshes.values() for hull in mesh.hulls]
+    agreed = [label and label.name for label in bench.relatives.infer(said).agree(said)]
+    taken = take_labels(desk)
+    assert [hull.label for mesh in taken.meshes.values() for hull in mesh.hulls] == agreed
+    nothing = desk.with_meshes(
+        {name: mesh.with_labels(dict.fromkeys(mesh.index)) for name, mesh in desk.meshes.items()}
+    )
+    assert take_labels(nothing) is nothing
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("condition", [TRUE, PROPAGATED[0]])
+def test_commands_alone_come_to_the_same_as_methods(bench: Bench, condition: object) -> None:
+    one, other = (sign_off(bench, condition, 1, client) for client in (Client, TerminalClient))  # type: ignore[arg-type]
+    assert one.ended == DONE
+    assert replace(other, first=one.first) == one
+
+
+@pytest.mark.slow
+def test_who_says_wrong_says_which_hulls_are_right(bench: Bench) -> None:
+    reviewer = Reviewer(bench, 1, TRUE)
+    with open_project(bench.truth) as project:
+        client = Client(project)
+        course = ReviewCourse(bench.truth, TRUE, 1, reviewer, client)
+        first, second, *_ = bench.samples
+        client.demonstrate(first, reviewer.shows(course.desk, first).steps)
+        course.shown.append(first)
+        while (question := client.review().question) and question.kind != "result":
+            client.reply(question, ReviewReply(question.id, later=True))
+        assert question
+        output = client.read_output(question.asset)
+        assert output and output.selections
+        trace = [replace(line, selected=()) for line in output.edited.trace]
+        odd = replace(output, edited=replace(output.edited, trace=tuple(trace)))
+        course._correct(question, ReviewReply(question.id, "wrong"), odd)
+        (verdict,) = project.feedback().verdicts[question.asset]
+        assert tuple(frozenset(one.select) for one in verdict.meant) == bench.truth.reference[question.asset]
+        assert reviewer.ledger.acts["correction"] == 1
+        assert second in project.assets()
+
+
+def test_an_edit_by_hand_is_right_where_its_hulls_are_those_that_are_wanted(bench: Bench) -> None:
+    judge, name = Judge(bench), next(iter(Judge(bench).possible))
+    right = run_on_desk(bench.truth, bench.task.program, name)
+    nothing = run_on_desk(bench.truth, replace(bench.task.program, rules=()), name)
+    assert right and nothing
+    assert judge.is_right(name, right)
+    assert judge.is_right(name, Output(right.edited, by_hand=True))
+    assert not judge.is_right(name, nothing)
+    assert not judge.is_right(name, Output(nothing.edited, by_hand=True))
+
+
+def test_what_the_project_writes_has_its_edits_by_hand(bench: Bench) -> None:
+    with open_project(bench.truth) as project:
+        name = next(iter(bench.samples))
+        project.accept(bench.task.program)
+        before = Client(project).read_output(name)
+        assert before and before.edited.mesh
+        project.correct(name, list(before.edited.mesh.index), Merge())
+        after = Client(project).read_output(name)
+        assert after and after.edited.mesh and after.by_hand
+        assert len(after.edited.mesh.hulls) == 1
+        assert after.selections == before.selections
+
+
+def test_frozen_sessions_read_back_and_have_a_page(bench: Bench, tmp_path: Path) -> None:
+    review = sign_off(bench, TRUE, 1)
+    found = {"review": json.loads(json.dumps(asdict(review))), "computer": 1.0}
+    write(tmp_path / "frozen.json", [(Unit("cup-easy", TRUE.name, 1), found)])
+    _, ((client, kept),) = read(tmp_path / "frozen.json")
+    assert client == Client.name
+    assert kept == replace(review, points=review.points[-1:])
+    assert {unit.condition for unit in list_units() if unit.client == TerminalClient.name} <= {
+        unit.condition for unit in list_units() if unit.client == Client.name
+    }
+    if FROZEN.exists():
+        result = measure(lambda _: None, quick=True)
+        assert all(len(row) == len(table.columns) for table in result.tables for row in table.rows)
