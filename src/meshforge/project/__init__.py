@@ -8,12 +8,7 @@ from meshforge.common.exports import export_lazily
 
 if TYPE_CHECKING:
     from meshforge.project.alarms import measure_results
-    from meshforge.project.learn import (
-        ProgramState,
-        sees_whole_family,
-        select_assets,
-        suggest_first_demonstration,
-    )
+    from meshforge.project.learn import ProgramState, sees_whole_family, select_assets, suggest_first_demonstration
     from meshforge.project.new_asset_result import NewAssetResult, assess_new_assets, describe_new
     from meshforge.project.new_assets import NewAsset, NewAssetOptions, list_new, prepare_aside
     from meshforge.project.preparation_plan import SPLIT_DEFAULTS, SplitSettings, forget_plan, read_preparation_plan

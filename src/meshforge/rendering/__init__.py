@@ -36,11 +36,7 @@ if TYPE_CHECKING:
         label_color,
         label_colors,
     )
-    from meshforge.rendering.id_buffer import (
-        ThumbnailPixels,
-        render_thumbnail,
-        renumber,
-    )
+    from meshforge.rendering.id_buffer import ThumbnailPixels, render_thumbnail, renumber
     from meshforge.rendering.labeling.picture import LabelingPicture
     from meshforge.rendering.labeling.series import draw_labeling_pictures, hull_numbers
     from meshforge.rendering.picture import render, up_axis

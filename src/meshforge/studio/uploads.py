@@ -10,14 +10,7 @@ from threading import Lock
 from uuid import uuid4
 
 from meshforge.batch import find_assets_in
-from meshforge.common import (
-    MeshForgeError,
-    ProjectError,
-    UsageError,
-    confine_reading,
-    join_names,
-    replace_atomically,
-)
+from meshforge.common import MeshForgeError, ProjectError, UsageError, confine_reading, join_names, replace_atomically
 from meshforge.formats import read
 from meshforge.studio.errors import TooLargeError
 from meshforge.studio.workers import Workers

@@ -15,15 +15,7 @@ from meshforge.project import AssetStatus, Project
 from meshforge.rendering import UNSURE, label_color
 from meshforge.studio.queries.assets import output_picture_digest, picture_digest
 from meshforge.studio.wire.asset import Fault
-from meshforge.studio.wire.family import (
-    AnswerView,
-    Card,
-    NewAssetsView,
-    Next,
-    ProjectView,
-    RuleLine,
-    VocabularyLabel,
-)
+from meshforge.studio.wire.family import AnswerView, Card, NewAssetsView, Next, ProjectView, RuleLine, VocabularyLabel
 from meshforge.studio.wire.jobs import Model, PropagationState
 from meshforge.studio.wire.program import OutcomeView
 from meshforge.studio.wire.signoff import AssessmentView
