@@ -56,6 +56,12 @@ def _program(studio: Studio) -> dict[str, Any]:
     return {"text": "labels panel, leg, handle, drawer, misc\nIs(misc) => Delete\n", "version": version}
 
 
+REPAIR = {
+    "id": "repair-1", "kind": "repair", "text": "?", "seconds": 3, "gain": 1, "asset": FIRST, "rule": 1,
+    "hulls": [{"asset": FIRST, "hull": "convex_00", "place": 0}],
+    "choices": [{"id": label, "text": label, "label": label} for label in ("leg", "panel")],
+}  # fmt: skip
+
 EDITS: dict[str, Fields] = {
     "label": lambda _: {"asset": FIRST, "hulls": ["convex_00", "convex_01"], "label": "drawer"},
     "label-names": lambda _: {},
@@ -67,7 +73,8 @@ EDITS: dict[str, Fields] = {
     "delete-rule": lambda _: {"rule": 5},
     "orient": lambda _: {"text": ""},
     "answer": lambda _: {"rule": 1, "asset": THIRD, "select": ["convex_30"]},
-    "repair": lambda _: {"asset": FIRST, "hull": "convex_00", "was": "panel", "to": "leg", "accept": True},
+    "reply": lambda _: {"question": REPAIR, "choice": "leg"},
+    "exclude": lambda _: {"ids": [THIRD], "reason": "not solved"},
     "program": _program,
     "cut": lambda _: {"asset": FIRST, "hull": "convex_00", "at": [0, 0, 0], "across": [1, 0, 0]},
     "review": lambda _: {"ids": [FIRST, THIRD], "verdict": "accepted", "note": "fine"},

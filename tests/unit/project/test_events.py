@@ -13,6 +13,7 @@ import pytest
 from meshforge.batch import IN_PROCESS
 from meshforge.common import ProjectError
 from meshforge.project import Project
+from meshforge.store import SnoozeEvent
 from meshforge.store.events import parse_events
 from meshforge.store.feedback import Feedback
 from meshforge.symbolic import Label
