@@ -46,6 +46,10 @@ def kept(studio: Studio) -> dict[str, bytes]:
     return {name: data for name, data in files.items() if not name.startswith(".meshforge/") and "previous" not in name}
 
 
+def without_events(files: dict[str, bytes]) -> dict[str, bytes]:
+    return {name: data for name, data in files.items() if name != "events.jsonl"}
+
+
 def _step(studio: Studio) -> dict[str, Any]:
     steps = studio.steps(THIRD)
     return steps | {"steps": [{"select": ["convex_30"], "action": "Delete"}]}
@@ -115,7 +119,7 @@ def test_an_edit_that_takes_another_back_is_undone_as_well(studio: Studio, kind:
     studio.edit(first, **EDITS[first](studio))
     before = kept(studio)
     studio.edit(kind, **fields(studio))
-    assert kept(studio) == begin
+    assert without_events(kept(studio)) == without_events(begin), "events are taken back by further events"
     ok(studio.post("/api/undo"))
     assert kept(studio) == before
     ok(studio.post("/api/undo"))
