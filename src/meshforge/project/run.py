@@ -51,7 +51,7 @@ def build_task(store: Store, program: Program) -> batch.ApplyTask:
 def build_work(
     store: Store, only: Collection[str] | None = None
 ) -> tuple[Program, tuple[batch.AssetJob, ...], Mapping[str, Template]]:
-    """What `apply` runs on all assets or those of some ids: the program, a job for each, and the templates.
+    """What `apply` runs on all assets that are not excluded, or on some: the program, a job for each, and the templates.
 
     Raises ProjectError: no program yet, or no such asset.
     """
@@ -62,7 +62,9 @@ def build_work(
         raise ProjectError(
             "there is no program yet", where=str(store.folder), remedy=f"Learn it: meshforge synthesize {store.folder}"
         )
-    return program, build_jobs(store, only), build_task(store, program).templates
+    away = store.feedback().exclusions.keys() - set(only or ())
+    jobs = tuple(job for job in build_jobs(store, only) if job.id not in away)
+    return program, jobs, build_task(store, program).templates
 
 
 def mesh_before_rule(
