@@ -51,7 +51,7 @@ def build_task(store: Store, program: Program) -> batch.ApplyTask:
 def build_work(
     store: Store, only: Collection[str] | None = None
 ) -> tuple[Program, tuple[batch.AssetJob, ...], Mapping[str, Template]]:
-    """What `apply` runs on all assets that are not excluded, or on some: the program, a job for each, and the templates.
+    """What `apply` runs on all assets that are not excluded, or on some: the program, their jobs, and the templates.
 
     Raises ProjectError: no program yet, or no such asset.
     """
