@@ -13,6 +13,7 @@ from meshforge.store.events import (
     ExclusionEvent,
     LabelFixEvent,
     LabelsEvent,
+    ReplyEvent,
     SnoozeEvent,
     VerdictEvent,
     WithdrawalEvent,
@@ -64,7 +65,7 @@ class Feedback:
                     exclusions[event.asset] = event
                 case SnoozeEvent():
                     snoozed = {**snoozed, event.question: None} if event.question else {}
-                case LabelsEvent():
+                case LabelsEvent() | ReplyEvent():
                     pass
                 case _:
                     assert_never(event)
