@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import assert_never
 
 from meshforge import batch, signoff
@@ -14,7 +15,7 @@ from meshforge.project import demonstrations, run
 from meshforge.project.span_questions import answer_span
 from meshforge.signoff import ReviewChoice, ReviewQuestion, ReviewReply
 from meshforge.signoff.question import EXCLUDE, NO, RIGHT, WRONG
-from meshforge.store import ExclusionEvent, LabelsEvent, Origin, SnoozeEvent, Store
+from meshforge.store import ExclusionEvent, LabelsEvent, Origin, ReplyEvent, SnoozeEvent, Store
 from meshforge.synthesis import Answer, LabelCorrection
 
 
@@ -43,16 +44,20 @@ def reply_to(store: Store, question: ReviewQuestion, reply: ReviewReply) -> None
             if choice is None or choice.id == NO:
                 _snooze(store, said)
             else:
-                demonstrations.correct_selection(store, question.asset, question.rule or 1, choice.select or (), said)
+                place, select = (question.asset, question.rule or 1), choice.select or ()
+                _do(store, said, lambda: demonstrations.correct_selection(store, *place, select, said))
         case signoff.OrientationQuestion():
-            _snooze(store, said)
-            if choice is not None and choice.orient is not None:
-                store.set_orientation(choice.orient)
+            if choice is None or choice.orient is None:
+                _snooze(store, said)
+            else:
+                turned = choice.orient
+                _do(store, said, lambda: store.set_orientation(turned))
         case signoff.SpanQuestion():
             if choice is None:
                 _snooze(store, said)
             else:
-                answer_span(store, question, choice)
+                split = choice
+                _do(store, said, lambda: answer_span(store, question, split))
         case signoff.DemonstrationQuestion():
             _snooze(store, said)
         case _:
@@ -79,6 +84,11 @@ def find_choice(question: ReviewQuestion, reply: ReviewReply) -> ReviewChoice | 
 
 def _snooze(store: Store, said: Origin) -> None:
     store.add_events(SnoozeEvent(question=said.question, by=said.by))
+
+
+def _do(store: Store, said: Origin, effect: Callable[[], object]) -> None:
+    """Keep that there was a reply, and do what it says."""
+    store.add_events_before(effect, ReplyEvent(question=said.question, by=said.by))
 
 
 def _judge(store: Store, question: signoff.ResultQuestion, choice: ReviewChoice | None, reply: ReviewReply) -> None:
@@ -117,9 +127,8 @@ def _label(store: Store, question: signoff.GroupQuestion, choice: ReviewChoice |
     if not labels:
         _snooze(store, Origin(question.id, reply.by))
         return
-    with store.lock():
-        set_labels_of(store, labels, "user", 1.0)
-        store.add_events(LabelsEvent(labels=labels, question=question.id, by=reply.by))
+    event = LabelsEvent(labels=labels, question=question.id, by=reply.by)
+    store.add_events_before(lambda: set_labels_of(store, labels, "user", 1.0), event)
     _agree_again(store)
 
 

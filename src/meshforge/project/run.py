@@ -15,7 +15,7 @@ from meshforge import batch
 from meshforge.common import MeshForgeError, ProjectError, suggest_name
 from meshforge.geometry import digest
 from meshforge.labels import pick_evenly
-from meshforge.labels.merge import set_labels
+from meshforge.labels.merge import set_labels_of
 from meshforge.language import Action, Program, RunResult, Template
 from meshforge.store import NO_ORIGIN, ExclusionEvent, Feedback, Origin, Store, Verdict, VerdictEvent
 from meshforge.symbolic import SymbolicMesh
@@ -166,9 +166,8 @@ def review_assets(
         events = [_judge(store, asset, verdict, note, selections, said, alone=len(names) == 1) for asset in names]
         away = store.feedback().exclusions
         more = [ExclusionEvent(asset=asset) for asset in names if asset in away]
-        for asset in names if labels else ():
-            set_labels(store, asset, labels, "user", 1.0)
-        store.add_events(*events, *more)
+        given = dict.fromkeys(names, labels) if labels else {}
+        store.add_events_before(lambda: set_labels_of(store, given, "user", 1.0), *events, *more)
 
 
 def _judge(

@@ -231,7 +231,8 @@ def _ask_results(family: FamilyTrial, found: Assessment) -> Iterator[ReviewQuest
         others[place] = 0.0
         gain = doubt + float(others.sum()) * trust
         seconds = YES_OR_NO + doubt * mend
-        if name in found.wrong and trial.selected == family.state.failed.get(name):
+        is_same = trial.selected == family.state.failed.get(name) and name not in family.state.edited
+        if name in found.wrong and is_same:
             text = f"The result of {name} was called wrong: what is right there?"
             yield _ask_result(trial, 1.0, YES_OR_NO + mend, text, _GIVE_UP)
         else:
@@ -266,12 +267,15 @@ JUDGE_CHOICES = (ReviewChoice(RIGHT, "right"), ReviewChoice(WRONG, "wrong"), *EX
 def _ask_result(
     trial: Trial, gain: float, seconds: float, text: str = "", choices: tuple[ReviewChoice, ...] = JUDGE_CHOICES
 ) -> kinds.ResultQuestion:
-    """Whether a result is right; where the program cannot run there is none that could be."""
+    """Whether a result is right; where the program cannot run there is none that could be. What is right where it was
+    called wrong is the same question, so that a reply which was given before is known."""
     if trial.error:
         text, choices = f"The program cannot run on {trial.asset}: {trial.error}. Correct it, or exclude it?", _CORRECT
     text = text or f"Is the result of {trial.asset} right?"
-    draft = kinds.ResultQuestion(text, seconds, gain, trial.asset, choices=choices)
-    return identify(draft, [f"{bits:x}" for bits in trial.selections])
+    draft = kinds.ResultQuestion(
+        text, seconds, gain, trial.asset, choices=JUDGE_CHOICES if choices is _GIVE_UP else choices
+    )
+    return replace(identify(draft, [f"{bits:x}" for bits in trial.selections]), choices=choices)
 
 
 def _ask_demonstration(state: ReviewState, asset: str, gain: float, text: str) -> kinds.DemonstrationQuestion:

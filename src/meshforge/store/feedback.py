@@ -55,7 +55,7 @@ class Feedback:
                     exclusions[event.asset] = event
                 case kinds.SnoozeEvent():
                     snoozed = {**snoozed, event.question: None} if event.question else {}
-                case kinds.LabelsEvent():
+                case kinds.LabelsEvent() | kinds.ReplyEvent():
                     pass
                 case _:
                     assert_never(event)
