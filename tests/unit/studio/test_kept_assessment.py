@@ -10,10 +10,20 @@ from typing import Any, cast
 import pytest
 
 from meshforge.batch import IN_PROCESS
+from meshforge.common import relative_name
 from meshforge.language import Delete
 from meshforge.project import Project
 from meshforge.signoff import Assessment, review_family
-from meshforge.store import SAID, SpanLine, SpansFile, hull_digests
+from meshforge.store import (
+    SAID,
+    AnswerEvent,
+    ExclusionEvent,
+    SnoozeEvent,
+    SpanLine,
+    SpansFile,
+    VerdictEvent,
+    hull_digests,
+)
 from meshforge.studio.learning import process
 from meshforge.studio.learning.queue import CancelFlag
 from meshforge.studio.session.file_sync import FileSync
@@ -46,11 +56,11 @@ def assessed(folder: Path, flag: CancelFlag) -> Project:
 
 
 def signers_of(project: Project) -> dict[str, str]:
-    return {asset: one.by for asset, one in project.sign_offs().assets.items()}
+    return {asset: one.by for asset, one in project.sign_offs().items()}
 
 
 def files_of(project: Project) -> list[bytes | None]:
-    paths = (project.layout.assessment, project.layout.sign_off)
+    paths = (project.layout.assessment, project.layout.sign_offs)
     return [path.read_bytes() if path.exists() else None for path in paths]
 
 
@@ -228,18 +238,26 @@ def test_a_persons_sign_off_is_void_and_not_lost_when_the_program_changes(tmp_pa
     assert next(one for one in project.status().assets if one.id == THIRD).void == ("program", SAID)
 
 
-def test_new_sign_offs_are_not_assessed_again_and_what_is_set_aside_is(tmp_path: Path) -> None:
+def test_what_was_said_is_learned_from_what_is_snoozed_is_only_asked_anew_and_sign_offs_are_neither(
+    tmp_path: Path,
+) -> None:
     project = applied(tmp_path)
-    asked = list[str]()
-    learning = SimpleNamespace(assess=lambda: asked.append("assess"))
+    done = list[str]()
+    learning = SimpleNamespace(assess=lambda: done.append("assess"), restart=lambda: done.append("learn"))
     pages = SimpleNamespace(announce_assets=lambda *_: None)
     queue = SimpleNamespace(add=lambda *_, **__: None)
     sync = FileSync(cast(Any, project), cast(Any, pages), cast(Any, learning), cast(Any, queue))
     project.review(execution=IN_PROCESS)
-    sync.update(["signoff.json"])
-    assert asked == []
-    project.write_sign_offs(project.sign_offs().with_aside(THIRD))
-    sync.update(["signoff.json"])
-    assert asked == ["assess"]
-    sync.update(["later.json"])
-    assert asked == ["assess", "assess"]
+    assert project.layout.sign_offs.exists()
+    for path in (project.layout.sign_offs, project.layout.assessment):
+        sync.update([relative_name(path, project.folder)])
+    assert done == []
+    for event, follows in (
+        (SnoozeEvent(question="group-1"), "assess"),
+        (VerdictEvent(asset=THIRD, verdict="wrong"), "learn"),
+        (ExclusionEvent(asset=THIRD, reason="not solved"), "learn"),
+        (AnswerEvent(rule=1, asset=THIRD, select=("crumb",)), "learn"),
+    ):
+        project.add_events(event)
+        sync.update(["events.jsonl"])
+        assert done.pop() == follows and not done

@@ -152,7 +152,7 @@ def test_a_changed_label_and_a_new_demonstration_are_noticed(fresh: tuple[Projec
     project.set_labels("table_03.obj", {"convex_00": "leg"})
     outcome = learner.learn(2, take=False).result()
     assert outcome.status == "repair"
-    assert [repair.id for repair in outcome.repairs] == ["table_03.obj#convex_00=panel"]
+    assert outcome.repairs == 1
     project.set_labels("table_03.obj", {"convex_00": "panel"})
     project.demonstrate("table_03.obj", project.steps("table_03.obj")[:1])
     project.demonstrate("table_08.obj", project.steps("table_08.obj")[:1])
@@ -294,14 +294,14 @@ def test_a_question_tells_what_each_choice_reads(fresh: tuple[Project, Learner])
     project.demonstrate("table_03.obj", [])
     outcome = learner.learn(1, take=False).result()
     assert outcome.status == "ambiguous"
-    assert outcome.question
-    asked, program = outcome.question, Program.parse(outcome.program or "")
+    asked, program = learner.assess(1).result().question, Program.parse(outcome.program or "")
+    assert asked and asked.kind == "reading" and asked.rule
     met = project.mesh_before_rule(asked.asset, asked.rule, program)
     for choice in asked.choices:
-        found = select(parse_extractor(choice.extractor), met)
-        assert [met.hulls[k].name for k in sorted(found)] == list(choice.select)
+        found = select(parse_extractor(choice.text), met)
+        assert [met.hulls[k].name for k in sorted(found)] == list(choice.select or ())
         assert choice.sentence
-    assert {choice.reading for choice in asked.choices} <= {reading.id for reading in outcome.readings}
+    assert {choice.text for choice in asked.choices} <= {reading.extractor for reading in outcome.readings}
 
 
 @pytest.mark.slow

@@ -8,22 +8,25 @@ import pytest
 
 from meshforge.common import ProjectError
 from meshforge.project import Project
-from meshforge.studio.edits.program import CorrectSelection
+from meshforge.signoff import ReviewChoice, SlipQuestion
 from meshforge.studio.history import History
 from meshforge.synthesis import Answer
 from tests.unit.project.tables import FIRST, THIRD, applied
+from tests.unit.studio_server.test_replies import edit_of
 
 MEANT = ("crumb", "left_low")
 
 
-def correct(asset: str) -> CorrectSelection:
-    return CorrectSelection(asset=asset, rule=1, select=MEANT)
-
-
 def kept(project: Project) -> list[bytes | None]:
     """What a person said, as it is on disk."""
-    paths = [project.folder / name for name in (f"demonstrations/{FIRST}.json", "answers.json", "review.json")]
+    paths = [project.folder / name for name in (f"demonstrations/{FIRST}.json", "events.jsonl")]
     return [path.read_bytes() if path.exists() else None for path in paths]
+
+
+def correct(project: Project, history: History, asset: str) -> bool:
+    choices = (ReviewChoice("no", "no", select=("crumb",)), ReviewChoice("yes", "yes", select=MEANT))
+    question = SlipQuestion("?", 3.0, 1.0, asset, 1, (), choices, "selection-1")
+    return history.do(project, edit_of(question, project, {"choice": "yes"})) is not None
 
 
 def test_undo_brings_a_demonstration_an_answer_and_a_verdict_back(tmp_path: Path) -> None:
@@ -31,11 +34,12 @@ def test_undo_brings_a_demonstration_an_answer_and_a_verdict_back(tmp_path: Path
     project.set_verdict(THIRD, "accepted")
     history, states = History(project), [kept(project)]
     for asset in (FIRST, THIRD):
-        assert history.do(project, correct(asset))
+        assert correct(project, history, asset)
         states.append(kept(project))
     assert project.steps(FIRST)[0].select == frozenset(MEANT)
-    assert [line.answer for line in project.answers().answers] == [Answer(1, THIRD, MEANT)]
-    assert THIRD not in project.reviews()
+    said = project.feedback()
+    assert [one.answer for one in said.answers.values()] == [Answer(1, THIRD, MEANT)]
+    assert said.verdict_on(THIRD) is None
     for before in reversed(states[:-1]):
         assert history.undo(project)
         assert kept(project) == before
@@ -45,5 +49,5 @@ def test_what_nobody_said_cannot_be_corrected(tmp_path: Path) -> None:
     project = applied(tmp_path)
     before = kept(project)
     with pytest.raises(ProjectError, match="rule 1 is not demonstrated here any more"):
-        History(project).do(project, correct(THIRD))
+        correct(project, History(project), THIRD)
     assert kept(project) == before

@@ -130,11 +130,11 @@ class Person:
 
 @pytest.fixture
 def person(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Person]:
-    """Somebody at three tables: one is accepted, one flagged, one has no output."""
+    """Somebody at three tables: one is accepted, one wrong, one has no output."""
     monkeypatch.setenv("MESHFORGE_STATE", str(tmp_path / "state"))
     project = applied(tmp_path)
     project.set_verdict([FIRST], "accepted")
-    project.set_verdict([SECOND], "flagged")
+    project.set_verdict([SECOND], "wrong")
     for path in (project.folder / "edited").rglob("*"):
         if THIRD.split("/")[0] in path.parts and path.is_file():
             path.unlink()
@@ -157,7 +157,7 @@ def person(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Person]:
 
 def _is_reviewed(host: Host) -> bool:
     verdicts = {card.asset: card.review for card in host.session.pages.cards}
-    return (verdicts.get(FIRST), verdicts.get(SECOND)) == ("accepted", "flagged")
+    return (verdicts.get(FIRST), verdicts.get(SECOND)) == ("accepted", "wrong")
 
 
 @pytest.mark.slow
@@ -179,7 +179,7 @@ def test_a_zip_has_what_apply_writes_and_says_what_is_not_in_it(person: Person, 
     assert person.fetch(again).content == answer.content
     assert person.client.get(str(answer.url)).status_code == 404, "a ticket is good once"
     some = person.make(what="results")
-    assert some["message"] == "1 of 3 results; not in it: 1 without output, 1 flagged."
+    assert some["message"] == "1 of 3 results; not in it: 1 without output, 1 wrong."
 
 
 @pytest.mark.slow

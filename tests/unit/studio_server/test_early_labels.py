@@ -2,10 +2,11 @@ from __future__ import annotations
 
 import pytest
 
-from meshforge.studio.edits.assets import GroupHull, LabelGroup
+from meshforge.studio.edits.assets import LabelGroup
 from meshforge.studio.pages import PageHub, PageState
 from meshforge.studio.session.early_labels import EarlyLabels
 from meshforge.studio.wire.family import Card, HistoryView, Next, ProjectView, VocabularyLabel
+from meshforge.studio.wire.requests import HullOfAsset
 
 WORDS = tuple(VocabularyLabel(name=name, color="#000000") for name in ("leg", "panel"))
 PROJECT = ProjectView(name="p", folder="/p", vocabulary=WORDS, next=Next(stage="label", say="Label."))
@@ -25,23 +26,23 @@ def pages() -> PageState:
 
 
 def group(label: str | None) -> LabelGroup:
-    """Labels of hulls of all assets, one an exception, one that is not there."""
-    hulls = [("a", "two", None), ("b", "one", "leg"), ("b", "three", None), ("c", "one", None)]
-    return LabelGroup(label=label, hulls=tuple(GroupHull(asset=a, hull=hull, label=own) for a, hull, own in hulls))
+    """Labels of hulls of all assets, one that is not there."""
+    hulls = [("a", "two"), ("b", "one"), ("b", "three"), ("c", "one")]
+    return LabelGroup(label=label, hulls=tuple(HullOfAsset(asset=a, hull=hull) for a, hull in hulls))
 
 
 def test_labels_are_on_the_cards_before_they_are_written() -> None:
     shown = pages()
     with EarlyLabels(shown, lambda: NAMES).show(group("panel")):
         within = shown.cards
-    assert [card.labels for card in within] == [(0, 1), (0,), ()]
+    assert [card.labels for card in within] == [(0, 1), (1,), ()]
     assert within[0].unsure == (0,) and shown.cards == within
 
 
 def test_a_label_is_taken_away() -> None:
     shown = pages()
     with EarlyLabels(shown, lambda: NAMES).show(group(None)):
-        assert [card.labels for card in shown.cards] == [(0, -1), (0,), ()]
+        assert [card.labels for card in shown.cards] == [(0, -1), (-1,), ()]
 
 
 def test_an_edit_that_is_refused_leaves_the_cards_as_they_were() -> None:
@@ -54,4 +55,4 @@ def test_an_edit_that_is_refused_leaves_the_cards_as_they_were() -> None:
 def test_a_label_outside_of_the_vocabulary_is_not_shown() -> None:
     shown = pages()
     with EarlyLabels(shown, lambda: NAMES).show(group("door")):
-        assert [card.labels for card in shown.cards] == [(0, 0), (0,), ()]
+        assert [card.labels for card in shown.cards] == [(0, 0), (-1,), ()]

@@ -8,7 +8,7 @@ from meshforge.labels import LabelOffers
 from meshforge.studio.queries.project import Lookups, choose_next_step
 from meshforge.studio.wire.family import Card, Next
 from meshforge.studio.wire.jobs import PropagationState
-from meshforge.studio.wire.program import NearestView, OutcomeView, QuestionView, RepairView
+from meshforge.studio.wire.program import NearestView, OutcomeView
 from meshforge.studio.wire.signoff import AssessmentView, ConfidenceView, QuestionKind, ReviewQuestionView
 
 BARE = Card(asset="a", hulls=2, labels=(-1, -1))
@@ -17,10 +17,6 @@ LABELLED = Card(asset="a", hulls=2, labels=(0, 0))
 SHOWN = LABELLED.model_copy(update={"demonstrated": True})
 DONE = SHOWN.model_copy(update={"output": "edited"})
 FOUND = OutcomeView(number=1, status="found", program="labels leg\nIs(leg) => Delete\n")
-ASKING = FOUND.model_copy(
-    update={"question": QuestionView(id="1:b", rule=1, asset="b", choices=(), harm=0.5, left=0.5)}
-)
-REPAIR = RepairView(id="c#h=leg", rule=1, asset="c", hull="h", was=None, to="leg", belief=0.9, why="it looks like one")
 
 
 def suggest_last(assets: Sequence[str]) -> str | None:
@@ -72,11 +68,11 @@ def test_labels_that_are_there_already_are_taken_first() -> None:
 def test_the_step_names_the_asset_to_go_to() -> None:
     begun = BEGUN.model_copy(update={"asset": "b"})
     assert choose_next_step([BARE, begun], ("leg",), False, None, None, last).asset == "b"
-    assert choose_next_step([SHOWN], ("leg",), True, ASKING, None, last).asset == "b"
-    repairing = ASKING.model_copy(update={"repairs": (REPAIR,)})
-    assert choose_next_step([SHOWN], ("leg",), True, repairing, None, last).asset == "c"
-    flagged = DONE.model_copy(update={"asset": "d", "review": "flagged"})
-    assert choose_next_step([DONE, flagged], ("leg",), True, FOUND, None, last).asset == "d"
+    repairing = OutcomeView(number=1, status="repair", repairs=2)
+    step = choose_next_step([SHOWN], ("leg",), True, repairing, None, last)
+    assert (step.stage, step.say) == ("learn", "2 labels may be wrong: answer the question.")
+    wrong = DONE.model_copy(update={"asset": "d", "review": "wrong"})
+    assert choose_next_step([DONE, wrong], ("leg",), True, FOUND, None, last).asset == "d"
     assert choose_next_step([DONE], ("leg",), True, FOUND, None, last).asset == "a"
 
 
@@ -104,14 +100,14 @@ def test_the_results_that_tell_most_are_looked_at_first_as_far_as_nobody_reviewe
     step = step_with("d", "b")
     assert (step.asset, step.say) == ("c", "Look at 1 result that shows best whether the program is right: c.")
     step = step_with("d", "b", "c")
-    assert (step.asset, step.say) == ("a", "Look through the results: 1 asset to accept or flag.")
+    assert (step.asset, step.say) == ("a", "Look through the results: 1 asset to judge.")
     assert "export" in step_with(*cards).say
 
 
-def test_a_flagged_result_comes_before_those_that_tell_most() -> None:
-    flagged = DONE.model_copy(update={"asset": "b", "review": "flagged"})
+def test_a_wrong_result_comes_before_those_that_tell_most() -> None:
+    wrong = DONE.model_copy(update={"asset": "b", "review": "wrong"})
     telling = FOUND.model_copy(update={"sample": ("a", "b")})
-    assert choose_next_step([DONE, flagged], ("leg",), True, telling, None, last).asset == "b"
+    assert choose_next_step([DONE, wrong], ("leg",), True, telling, None, last).asset == "b"
 
 
 def test_at_the_end_there_is_only_the_export() -> None:
@@ -200,7 +196,7 @@ def signed_off(probabilities: Sequence[float], *, asked: QuestionKind | None = N
         (signed_off([0.1, 0.4], asked="result"), ("review", "2 of 2 held: look at one result.", "b")),
         (signed_off([0.6, 0.4, 0.99]), ("review", "2 of 3 held: look at them, first b.", "b")),
         (signed_off([0.99, 0.98], asked="group"), ("review", "2 results signed off: export.", None)),
-        (signed_off([0.99], unseen=3), ("review", "Look through the results: 1 asset to accept or flag.", "a")),
+        (signed_off([0.99], unseen=3), ("review", "Look through the results: 1 asset to judge.", "a")),
     ],
 )
 def test_nothing_is_exported_before_all_is_signed_off(
@@ -210,9 +206,9 @@ def test_nothing_is_exported_before_all_is_signed_off(
     assert (found.stage, found.say, found.asset) == step
 
 
-def test_what_is_asked_comes_before_results_are_written_and_what_was_flagged_before_the_end() -> None:
+def test_what_is_asked_comes_before_results_are_written_and_what_is_wrong_before_the_end() -> None:
     held, done = signed_off([0.1, 0.99], asked="reading"), signed_off([0.99, 0.99])
     assert choose_next_step([SHOWN], ("leg",), True, FOUND, None, last, None, held).say.startswith("1 of 2 held")
     assert choose_next_step([SHOWN], ("leg",), True, FOUND, None, last, None, done).say.startswith("Apply the program")
-    flagged = DONE.model_copy(update={"asset": "d", "review": "flagged"})
-    assert choose_next_step([DONE, flagged], ("leg",), True, FOUND, None, last, None, done).asset == "d"
+    wrong = DONE.model_copy(update={"asset": "d", "review": "wrong"})
+    assert choose_next_step([DONE, wrong], ("leg",), True, FOUND, None, last, None, done).asset == "d"

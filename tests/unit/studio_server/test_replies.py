@@ -1,0 +1,177 @@
+"""Every kind of reply as the page sends it: it writes what `Project.reply` writes, undo takes it back, and which way it
+moves how sure an edit is."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from pathlib import Path
+from typing import Any
+
+import pytest
+from pydantic import TypeAdapter
+
+from meshforge.batch import IN_PROCESS
+from meshforge.common import ProjectError
+from meshforge.language import parse_orient
+from meshforge.project import Project
+from meshforge.signoff import (
+    Assessment,
+    GroupQuestion,
+    HullPlace,
+    OrientationQuestion,
+    ReadingQuestion,
+    RepairQuestion,
+    ResultQuestion,
+    ReviewChoice,
+    ReviewQuestion,
+    ReviewReply,
+    ReviewState,
+    SlipQuestion,
+    SpanQuestion,
+    question_of,
+)
+from meshforge.store import SpanLine, SpansFile, hull_digests
+from meshforge.studio.edits import AnyEdit
+from meshforge.studio.edits.replies import Reply
+from meshforge.studio.history import History
+from meshforge.studio.learning.assessment import view_assessment
+from tests.unit.project.tables import FIRST, SECOND, THIRD, applied
+
+LEG, OTHER_LEG = HullPlace(THIRD, "left_low"), HullPlace(SECOND, "left_low")
+CRUMB = HullPlace(THIRD, "crumb")
+LEG_OR_TOP = (ReviewChoice.of_label("leg"), ReviewChoice.of_label("top"))
+JUDGE = tuple(ReviewChoice(one, one) for one in ("right", "wrong", "not-of-family", "not-solved"))
+YES_OR_NO = (ReviewChoice("no", "no", select=("crumb",)), ReviewChoice("yes", "yes", select=("crumb", "top")))
+READINGS = (ReviewChoice("a", "Is(crumb)", select=("crumb",)), ReviewChoice("b", "All", select=("crumb", "top")))
+TURN = parse_orient("orient +Z: Is(leg) -> Is(top)")
+TURNS = (ReviewChoice("no", "no"), ReviewChoice("yes", "yes", orient=TURN))
+MISC_OR_LEG = (ReviewChoice.of_label("leg"), ReviewChoice.of_label("misc"))
+SPLIT = (ReviewChoice("no", "no"), ReviewChoice("yes", "yes"))
+ASKED: dict[str, ReviewQuestion] = {
+    "group": GroupQuestion("?", 4.0, 1.2, THIRD, None, (LEG, OTHER_LEG), LEG_OR_TOP, "group-1"),
+    "repair": RepairQuestion("?", 3.0, 1.0, THIRD, 2, (CRUMB,), MISC_OR_LEG, "repair-1"),
+    "reading": ReadingQuestion("?", 4.0, 1.0, THIRD, 1, (), READINGS, "reading-1"),
+    "selection": SlipQuestion("?", 3.0, 1.0, FIRST, 1, (HullPlace(FIRST, "top"),), YES_OR_NO, "selection-1"),
+    "orientation": OrientationQuestion("?", 3.0, 1.0, FIRST, choices=TURNS, id="orientation-1"),
+    "result": ResultQuestion("?", 3.0, 1.0, THIRD, choices=JUDGE, id="result-1"),
+    "span": SpanQuestion("?", 3.0, 0.8, THIRD, hulls=(CRUMB,), choices=SPLIT, id="span-1"),
+}
+
+REPLIES: dict[str, tuple[str, dict[str, Any], str]] = {
+    "a group is one label": ("group", {"choice": "leg"}, "="),
+    "one of a group is something else": (
+        "group",
+        {"choice": "leg", "exceptions": [{"asset": THIRD, "hull": "left_low", "label": "top"}]},
+        "<",
+    ),
+    "a group is none of these": ("group", {}, "="),
+    "a label is wrong": ("repair", {"choice": "leg"}, "<"),
+    "a label is right": ("repair", {"choice": "misc"}, "="),
+    "a reading": ("reading", {"choice": "a"}, "="),
+    "no reading": ("reading", {}, "="),
+    "on purpose": ("selection", {"choice": "no"}, "="),
+    "by mistake": ("selection", {"choice": "yes"}, "<"),
+    "not turned": ("orientation", {"choice": "no"}, "="),
+    "turned": ("orientation", {"choice": "yes"}, "="),
+    "right": ("result", {"choice": "right"}, ">"),
+    "wrong": ("result", {"choice": "wrong"}, "<"),
+    "other hulls": ("result", {"choice": "wrong", "selections": {"1": ["crumb", "top"]}}, ">"),
+    "other labels": ("result", {"choice": "wrong", "labels": {"left_low": "top"}}, "<"),
+    "not of this family": ("result", {"choice": "not-of-family"}, "gone"),
+    "not solved": ("result", {"choice": "not-solved"}, "="),
+    "one part": ("span", {"choice": "no"}, ">"),
+    **{f"{kind} later": (kind, {"later": True}, "=") for kind in ASKED},
+}
+
+
+@pytest.fixture(scope="module")
+def begun(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with a project that has outputs."""
+    folder = tmp_path_factory.mktemp("begun")
+    applied(folder)
+    return folder
+
+
+def copied(begun: Path, to: Path, kind: str = "result") -> Project:
+    """A project of its own, with what a question of that kind is about."""
+    project = Project.open(shutil.copytree(begun, to) / "tables")
+    if kind == "span":
+        crumb = hull_digests(project.mesh(THIRD))["crumb"]
+        line = SpanLine(geometry=crumb, chance=0.6, told="two parts")
+        project.write_spans(SpansFile(assets={THIRD: {"crumb": line}}))
+    return project
+
+
+def view(question: ReviewQuestion, project: Project) -> dict[str, Any]:
+    """A question as a page is asked it."""
+    meshes = {asset: project.mesh(asset) for asset in project.assets()}
+    state = ReviewState(meshes, project.program() or pytest.fail())
+    asked = view_assessment(Assessment({}, questions=(question,)), state, 1).question
+    assert asked
+    return asked.model_dump(mode="json")
+
+
+def edit_of(question: ReviewQuestion, project: Project, said: dict[str, Any]) -> Reply:
+    text = json.dumps({"kind": "reply", "question": view(question, project), **said})
+    edit: Reply = TypeAdapter[Any](AnyEdit).validate_json(text)
+    return edit
+
+
+def reply_of(question: ReviewQuestion, said: dict[str, Any]) -> ReviewReply:
+    return ReviewReply(
+        question.id,
+        said.get("choice"),
+        {HullPlace(one["asset"], one["hull"]): one["label"] for one in said.get("exceptions", ())},
+        {int(rule): frozenset(hulls) for rule, hulls in said.get("selections", {}).items()},
+        said.get("labels", {}),
+        said.get("later", False),
+    )
+
+
+def probability(project: Project) -> float | None:
+    found = project.review(execution=IN_PROCESS).assessment.assets.get(THIRD)
+    return found.probability if found else None
+
+
+def kept(project: Project) -> dict[str, bytes]:
+    """What a person said and set, as it is on disk."""
+    names = ("events.jsonl", "meshforge.toml", "single_parts.json", "labels", "demonstrations", "prepared")
+    paths = [file for name in names for file in (project.folder / name, *(project.folder / name).rglob("*"))]
+    return {str(path.relative_to(project.folder)): path.read_bytes() for path in paths if path.is_file()}
+
+
+@pytest.mark.parametrize("kind", ASKED)
+def test_a_question_is_the_same_after_the_page_has_seen_it(begun: Path, kind: str) -> None:
+    project = Project.open(begun / "tables")
+    assert question_of(view(ASKED[kind], project)) == ASKED[kind]
+
+
+@pytest.mark.parametrize("name", REPLIES)
+def test_a_reply_of_the_page_writes_what_a_reply_of_the_project_writes(begun: Path, tmp_path: Path, name: str) -> None:
+    kind, said, moves = REPLIES[name]
+    page, twin = copied(begun, tmp_path / "page", kind), copied(begun, tmp_path / "twin", kind)
+    before, was = kept(page), probability(page)
+    twin.reply(ASKED[kind], reply_of(ASKED[kind], said))
+    history = History(page)
+    assert history.do(page, edit_of(ASKED[kind], page, said))
+    assert kept(page) == kept(twin) != before
+    now = probability(page)
+    if was is None or now is None:
+        assert moves == "gone"
+    else:
+        assert ("=" if abs(now - was) < 1e-3 else "<" if now < was else ">") == moves, (was, now)
+    assert history.undo(page) and kept(page) == before
+
+
+def test_a_reply_that_does_not_fit_writes_nothing(begun: Path, tmp_path: Path) -> None:
+    project = copied(begun, tmp_path / "page")
+    before = kept(project)
+    for said in (
+        {"choice": "splendid"},
+        {"choice": "right", "labels": {"left_low": "top"}},
+        {"choice": "wrong", "selections": {"9": []}},
+    ):
+        with pytest.raises(ProjectError):
+            History(project).do(project, edit_of(ASKED["result"], project, said))
+        assert kept(project) == before
