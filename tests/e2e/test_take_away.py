@@ -20,7 +20,7 @@ from tests.unit.project.tables import FIRST, SECOND, THIRD, applied
 def test_results_report_and_turntable_are_saved_by_the_browser_and_can_be_opened(tmp_path: Path) -> None:
     project = applied(tmp_path)
     project.set_verdict([FIRST, SECOND], "accepted")
-    project.set_verdict([THIRD], "flagged")
+    project.set_verdict([THIRD], "wrong")
     with opened(tmp_path, project.folder, "--page", str(PAGE)) as studio, chromium() as browser:
         studio.settled()
         person = hand(browser)

@@ -4,7 +4,7 @@ four files of before."""
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -146,7 +146,7 @@ def test_a_damaged_file_of_before_is_named_and_kept(tmp_path: Path, name: str, t
     assert (project.folder / name).read_text() == text and not project.layout.events.exists()
 
 
-def lines(*rows: dict[str, object]) -> str:
+def lines(*rows: Mapping[str, object]) -> str:
     return "".join(f"{json.dumps(row)}\n" for row in rows)
 
 

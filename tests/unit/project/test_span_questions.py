@@ -11,7 +11,8 @@ import pytest
 from meshforge.batch import IN_PROCESS
 from meshforge.common import ProjectError, StoppedError
 from meshforge.labels import SpanReport
-from meshforge.project import Project, add_span_doubts, ask_about_spans, list_span_questions
+from meshforge.project import Project
+from meshforge.project.span_questions import add_span_doubts, ask_about_spans, list_span_questions
 from meshforge.signoff import Assessment, AssetConfidence, GroupQuestion, ReviewReply, SpanQuestion
 from meshforge.signoff.question import NO, NOT_SOLVED, YES, ExclusionReason
 from meshforge.store import SpanPart, SpansFile
@@ -194,7 +195,7 @@ def test_before_there_is_a_program_it_is_asked_first_then_by_what_an_answer_is_w
         found = Assessment(sure, excluded=away, questions=(other,))
         question = ask_about_spans(project, meshes, found, has_program).question
         assert question
-        return question.kind
+        return str(question.kind)
 
     assert kind(own.gain + 1, False) == "span"
     assert kind(own.gain + 1, True) == "group"

@@ -16,8 +16,9 @@ from meshforge.cli.review_answers import read_replies
 from meshforge.formats import load
 from meshforge.language import Delete, Each, Merge, Program
 from meshforge.project import Project, ProjectReview
-from meshforge.signoff import QuestionKind, ReviewQuestion
+from meshforge.signoff import ReviewQuestion
 from meshforge.signoff.assessment import CALLED_WRONG_BEFORE, CONTRADICTED
+from meshforge.signoff.question import QuestionKind
 from meshforge.symbolic import Label
 from meshforge.synthesis import Step
 from tests.unit.cli.in_process import Run, runner

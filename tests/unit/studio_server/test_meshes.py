@@ -5,10 +5,12 @@ from pathlib import Path
 
 import pytest
 
+from meshforge.batch import read_prepared
 from meshforge.common import AssetError, ProjectError
+from meshforge.store import MeshCache
 from meshforge.studio.queries.project import build_card
 from meshforge.studio.thumbnails import Thumbnails
-from meshforge.studio.workers import MeshCache, ProjectWithCache, Workers
+from meshforge.studio.workers import Workers
 from tests.unit.project.tables import FIRST, SECOND, labelled
 
 
@@ -19,9 +21,13 @@ def workers() -> Iterator[Workers]:
     made.close()
 
 
+def cache(workers: Workers) -> MeshCache:
+    return MeshCache(lambda path, prepared: workers.run(read_prepared, path, prepared))
+
+
 def test_an_asset_is_read_once_and_its_labels_are_followed(tmp_path: Path, workers: Workers) -> None:
     bare = labelled(tmp_path)
-    project = ProjectWithCache.of(bare, MeshCache(workers))
+    project = bare.with_cache(cache(workers))
     first = project.mesh(FIRST)
     assert first.contacts == bare.mesh(FIRST).contacts
     assert project.mesh(FIRST) is first
@@ -32,7 +38,7 @@ def test_an_asset_is_read_once_and_its_labels_are_followed(tmp_path: Path, worke
 
 
 def test_a_file_that_changed_is_read_again(tmp_path: Path, workers: Workers) -> None:
-    project = ProjectWithCache.of(labelled(tmp_path), MeshCache(workers))
+    project = labelled(tmp_path).with_cache(cache(workers))
     before = len(project.mesh(FIRST).hulls)
     text = project.path(FIRST).read_text()
     project.path(FIRST).write_text(text[: text.index("o crumb")])

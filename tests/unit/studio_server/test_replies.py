@@ -13,7 +13,6 @@ from pydantic import TypeAdapter
 
 from meshforge.batch import IN_PROCESS
 from meshforge.common import ProjectError
-from meshforge.language import parse_orient
 from meshforge.project import Project
 from meshforge.signoff import (
     Assessment,
@@ -36,6 +35,7 @@ from meshforge.studio.edits import AnyEdit
 from meshforge.studio.edits.replies import Reply
 from meshforge.studio.history import History
 from meshforge.studio.learning.assessment import view_assessment
+from tests.program_parts import parse_orient
 from tests.unit.project.tables import FIRST, SECOND, THIRD, applied
 
 LEG, OTHER_LEG = HullPlace(THIRD, "left_low"), HullPlace(SECOND, "left_low")
