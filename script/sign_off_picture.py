@@ -17,7 +17,7 @@ from meshforge.language import Program, Template, select, to_canonical_frame
 from meshforge.project import Project, ProjectReview, run_with_corrections
 from meshforge.rendering import make_contact_sheet, render, write_png
 from meshforge.samples import TABLES
-from meshforge.signoff import ReviewQuestion, ReviewReply
+from meshforge.signoff import DemonstrationQuestion, ResultQuestion, ReviewQuestion, ReviewReply
 from meshforge.signoff.question import RIGHT
 from meshforge.synthesis import Step
 
@@ -39,7 +39,7 @@ def draw_sign_off(path: Path) -> None:
         for _ in range(_MOST_QUESTIONS):
             if not (question := found.assessment.question):
                 break
-            family.answer(found, question)
+            family.answer(question)
             found = family.review()
         rows += [family.draw(name) for name in names]
         signed = set(found.assessment.signed_off)
@@ -69,7 +69,7 @@ class _Family:
         list(self.project.apply(execution=IN_PROCESS))
         return self.project.review()
 
-    def answer(self, found: ProjectReview, question: ReviewQuestion) -> None:
+    def answer(self, question: ReviewQuestion) -> None:
         """ReviewReply as who knows what is meant; a result that is wrong is demonstrated instead."""
         asset, program = question.asset, self.project.program()
         assert program

@@ -11,7 +11,7 @@ export type AnyEdit =
   | MoveRule
   | DeleteRule
   | SetOrientation
-  | Reply
+  | ReplyToQuestion
   | AnswerForRule
   | TakeBack
   | WriteProgram
@@ -94,6 +94,7 @@ export interface Everything {
   HintView: HintView;
   HistoryChanged: HistoryChanged;
   HistoryView: HistoryView;
+  HullLabel: HullLabel;
   HullOfAsset: HullOfAsset;
   HullRef: HullRef;
   HullView: HullView;
@@ -110,7 +111,6 @@ export interface Everything {
   LabelSources: LabelSources;
   LabelUpdate: LabelUpdate;
   LabelUpdateChanged: LabelUpdateChanged;
-  LabelledHull: LabelledHull;
   LanguageView: LanguageView;
   LeaveOut: LeaveOut;
   Mark: Mark;
@@ -145,7 +145,7 @@ export interface Everything {
   RecentProject: RecentProject;
   RemoveAssets: RemoveAssets;
   RenameLabel: RenameLabel;
-  Reply: Reply;
+  ReplyToQuestion: ReplyToQuestion;
   ReviewAssets: ReviewAssets;
   ReviewChoiceView: ReviewChoiceView;
   ReviewQuestionView: ReviewQuestionView;
@@ -308,11 +308,11 @@ export interface SetOrientation {
  * selections, labels: where a result is wrong, the hulls that rules should have selected, by their numbers, and labels
  * that hulls should have; later: the question is snoozed.
  */
-export interface Reply {
+export interface ReplyToQuestion {
   kind: "reply";
   question: ReviewQuestionView;
   choice?: string | null;
-  exceptions?: LabelledHull[];
+  exceptions?: HullLabel[];
   selections?: {
     [k: string]: string[];
   };
@@ -359,7 +359,7 @@ export interface ReviewChoiceView {
 /**
  * A hull and the label that it gets.
  */
-export interface LabelledHull {
+export interface HullLabel {
   asset: string;
   hull: string;
   label: string;

@@ -76,13 +76,10 @@ class Project(LabelStore):
     list_spans = spans.list_spans
     prepare_new = new_assets.prepare_new
     find_split = span_splits.find_split
-    split_as_found = span_splits.split_as_found
-    mark_as_one_part = span_splits.mark_as_one_part
 
     # Demonstrations
 
     demonstrate = demonstrations.demonstrate
-    correct_selection = demonstrations.correct_selection
     move_rule = demonstrations.move_rule
     delete_rule = demonstrations.delete_rule
 
@@ -115,7 +112,6 @@ class Project(LabelStore):
 
     add_answer = demonstrations.add_answer
     confirm = demonstrations.confirm
-    reject = demonstrations.reject
     take_back = demonstrations.take_back
     forget_answers = demonstrations.forget_answers
 

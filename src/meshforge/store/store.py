@@ -303,10 +303,6 @@ class Store:
                     self.layout.events.unlink()
                 raise
 
-    def snooze(self, question: str) -> None:
-        """Ask a question of a review no more, as long as what it is about stays."""
-        self.add_events(SnoozeEvent(question=question))
-
     def ask_again(self) -> None:
         """Ask all questions that were snoozed."""
         if self.feedback().snoozed:

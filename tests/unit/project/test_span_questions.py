@@ -11,7 +11,7 @@ import pytest
 from meshforge.batch import IN_PROCESS
 from meshforge.common import ProjectError, StoppedError
 from meshforge.labels import SpanReport
-from meshforge.project import Project
+from meshforge.project import Project, span_splits
 from meshforge.project.span_questions import add_span_doubts, ask_about_spans, list_span_questions
 from meshforge.signoff import Assessment, AssetConfidence, GroupQuestion, ReviewReply, SpanQuestion
 from meshforge.signoff.question import NO, NOT_SOLVED, YES, ExclusionReason
@@ -86,7 +86,7 @@ def test_a_hull_that_no_plane_divides_is_named_and_not_asked_about(
     assert asked(project) is None
     assert [len(row.spans) for row in project.status().assets] == [0, 0, 1, 1]
     with pytest.raises(ProjectError, match="no plane divides this hull"):
-        project.split_as_found(C, HULL)
+        span_splits.split_as_found(project, C, HULL)
 
 
 def test_nothing_is_asked_where_nobody_has_looked(project: Project) -> None:
@@ -175,7 +175,7 @@ def test_parts_that_are_not_kept_any_more_are_named_and_nothing_is_written(proje
         project.layout.spans.write_text(found.replace("seat and leg", "leg and seat"))
     before = files(project)
     with pytest.raises(ProjectError, match=r"the parts of this hull are not kept any more(.|\n)*--split-spanning"):
-        project.split_as_found(question.asset, HULL)
+        span_splits.split_as_found(project, question.asset, HULL)
     assert files(project) == before
 
 
@@ -213,7 +213,7 @@ def test_an_edit_is_no_surer_than_that_no_hull_spans_parts(project: Project) -> 
     assert found.assets[C].probability == pytest.approx(1 - chance) and C in found.held
     assert [doubt.text for doubt in found.assets[C].doubts] == [project.last_spans().assets[C][HULL].told]
     assert {found.assets[name].probability for name in meshes if name != C} == {0.99}, "a person saw that of d"
-    project.mark_as_one_part(C, HULL)
+    span_splits.mark_as_one_part(project, C, HULL)
     assert add_span_doubts(project, meshes, sure, ()).assets[C].probability == 0.99
 
 

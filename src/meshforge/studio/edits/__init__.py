@@ -19,7 +19,7 @@ AnyEdit = Annotated[
     | program.MoveRule
     | program.DeleteRule
     | program.SetOrientation
-    | replies.Reply
+    | replies.ReplyToQuestion
     | program.AnswerForRule
     | program.TakeBack
     | program.WriteProgram
