@@ -17,6 +17,7 @@ from meshforge.signoff import Assessment, review_family
 from meshforge.store import (
     SAID,
     AnswerEvent,
+    AssessmentFile,
     ExclusionEvent,
     SnoozeEvent,
     SpanLine,
@@ -46,10 +47,19 @@ def assess(project: Project, flag: CancelFlag, number: int = 1) -> None:
     assert process.assess(project.folder, flag.make_token("assess"), number) is not None
 
 
+BAR = 0.9
+
+
+def judged(project: Project) -> Project:
+    """The same with a bar that a person chose, and its second result accepted."""
+    project.write_assessment(AssessmentFile(bar=BAR, lesson=""))
+    project.set_verdict(SECOND, "accepted")
+    return project
+
+
 def assessed(folder: Path, flag: CancelFlag) -> Project:
     """A project whose second result a person accepted, as the studio assesses it."""
-    project = applied(folder)
-    project.set_verdict(SECOND, "accepted")
+    project = judged(applied(folder))
     learn(project, flag)
     assess(project, flag)
     return project
@@ -73,14 +83,14 @@ def test_what_was_assessed_is_known_to_the_status_and_signs_off_what_is_written(
     before = files_of(project)
     assess(project, flag)
     assert files_of(project) == before
-    project.review(execution=IN_PROCESS)
+    project.review(BAR, execution=IN_PROCESS)
     assert files_of(project) == before
 
 
 def test_what_is_not_written_is_sure_and_not_signed_off(tmp_path: Path, flag: CancelFlag) -> None:
     project = learned(tmp_path)
     list(project.apply([SECOND], execution=IN_PROCESS))
-    project.set_verdict(SECOND, "accepted")
+    judged(project)
     learn(project, flag)
     assess(project, flag)
     assert [one.sign_off for one in project.status().assets] == ["sure", "signed off", "sure"]
@@ -103,14 +113,13 @@ def find_span(project: Project, asset: str, chance: float = 0.6) -> str:
 def test_an_asset_with_a_hull_that_likely_spans_parts_is_held_as_a_review_holds_it(
     tmp_path: Path, flag: CancelFlag
 ) -> None:
-    project = applied(tmp_path)
-    project.set_verdict(SECOND, "accepted")
+    project = judged(applied(tmp_path))
     find_span(project, THIRD)
     learn(project, flag)
     assess(project, flag)
     assert signers_of(project) == {FIRST: "person", SECOND: "person"}
     before = files_of(project)
-    project.review(execution=IN_PROCESS)
+    project.review(BAR, execution=IN_PROCESS)
     assert files_of(project) == before
 
 
@@ -131,8 +140,7 @@ def test_what_is_signed_off_stays_so_when_a_hull_is_found_to_span_parts(tmp_path
 def test_nothing_rests_unseen_on_a_demonstration_that_was_carried_to_the_parts_of_a_hull(
     tmp_path: Path, flag: CancelFlag
 ) -> None:
-    project = applied(tmp_path)
-    project.set_verdict(SECOND, "accepted")
+    project = judged(applied(tmp_path))
     project.cut(FIRST, "crumb", (5.05, 5.05, 5.05), (0, 0, 1))
     list(project.apply(execution=IN_PROCESS))
     learn(project, flag)

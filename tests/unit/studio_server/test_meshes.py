@@ -7,6 +7,7 @@ import pytest
 
 from meshforge.batch import read_prepared
 from meshforge.common import AssetError, ProjectError
+from meshforge.project import Project
 from meshforge.store import MeshCache
 from meshforge.studio.queries.project import build_card
 from meshforge.studio.thumbnails import Thumbnails
@@ -21,13 +22,13 @@ def workers() -> Iterator[Workers]:
     made.close()
 
 
-def cache(workers: Workers) -> MeshCache:
-    return MeshCache(lambda path, prepared: workers.run(read_prepared, path, prepared))
+def cached(project: Project, workers: Workers) -> Project:
+    return project.with_cache(MeshCache(lambda path, prepared: workers.run(read_prepared, path, prepared), 4))
 
 
 def test_an_asset_is_read_once_and_its_labels_are_followed(tmp_path: Path, workers: Workers) -> None:
     bare = labelled(tmp_path)
-    project = bare.with_cache(cache(workers))
+    project = cached(bare, workers)
     first = project.mesh(FIRST)
     assert first.contacts == bare.mesh(FIRST).contacts
     assert project.mesh(FIRST) is first
@@ -38,7 +39,7 @@ def test_an_asset_is_read_once_and_its_labels_are_followed(tmp_path: Path, worke
 
 
 def test_a_file_that_changed_is_read_again(tmp_path: Path, workers: Workers) -> None:
-    project = labelled(tmp_path).with_cache(cache(workers))
+    project = cached(labelled(tmp_path), workers)
     before = len(project.mesh(FIRST).hulls)
     text = project.path(FIRST).read_text()
     project.path(FIRST).write_text(text[: text.index("o crumb")])

@@ -13,6 +13,7 @@ from pydantic import TypeAdapter
 
 from meshforge.batch import IN_PROCESS
 from meshforge.common import ProjectError
+from meshforge.language import Program
 from meshforge.project import Project
 from meshforge.signoff import (
     Assessment,
@@ -32,10 +33,9 @@ from meshforge.signoff import (
 )
 from meshforge.store import SpanLine, SpansFile, hull_digests
 from meshforge.studio.edits import AnyEdit
-from meshforge.studio.edits.replies import ReplyToQuestion
+from meshforge.studio.edits.replies import Reply
 from meshforge.studio.history import History
 from meshforge.studio.learning.assessment import view_assessment
-from tests.program_parts import parse_orient
 from tests.unit.project.tables import FIRST, SECOND, THIRD, applied
 
 LEG, OTHER_LEG = HullPlace(THIRD, "left_low"), HullPlace(SECOND, "left_low")
@@ -44,7 +44,7 @@ LEG_OR_TOP = (ReviewChoice.of_label("leg"), ReviewChoice.of_label("top"))
 JUDGE = tuple(ReviewChoice(one, one) for one in ("right", "wrong", "not-of-family", "not-solved"))
 YES_OR_NO = (ReviewChoice("no", "no", select=("crumb",)), ReviewChoice("yes", "yes", select=("crumb", "top")))
 READINGS = (ReviewChoice("a", "Is(crumb)", select=("crumb",)), ReviewChoice("b", "All", select=("crumb", "top")))
-TURN = parse_orient("orient +Z: Is(leg) -> Is(top)")
+TURN = Program.parse("orient +Z: Is(leg) -> Is(top)\n").orient
 TURNS = (ReviewChoice("no", "no"), ReviewChoice("yes", "yes", orient=TURN))
 MISC_OR_LEG = (ReviewChoice.of_label("leg"), ReviewChoice.of_label("misc"))
 SPLIT = (ReviewChoice("no", "no"), ReviewChoice("yes", "yes"))
@@ -112,9 +112,9 @@ def view(question: ReviewQuestion, project: Project) -> dict[str, Any]:
     return asked.model_dump(mode="json")
 
 
-def edit_of(question: ReviewQuestion, project: Project, said: dict[str, Any]) -> ReplyToQuestion:
+def edit_of(question: ReviewQuestion, project: Project, said: dict[str, Any]) -> Reply:
     text = json.dumps({"kind": "reply", "question": view(question, project), **said})
-    edit: ReplyToQuestion = TypeAdapter[Any](AnyEdit).validate_json(text)
+    edit: Reply = TypeAdapter[Any](AnyEdit).validate_json(text)
     return edit
 
 
