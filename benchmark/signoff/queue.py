@@ -180,6 +180,8 @@ class ReviewCourse:
         before, or took back, stays flagged."""
         name = question.asset
         self._reply(question, reply)
+        if not self.client.shows_corrections:
+            return
         done = output and output.selections
         is_turned_wrongly = done == self.bench.truth.reference[name] and not self.judge.looks_right(name, output)
         if (done is None or is_turned_wrongly) and self._look_through(name):
