@@ -33,7 +33,7 @@ from meshforge.signoff import (
 )
 from meshforge.store import SpanLine, SpansFile, hull_digests
 from meshforge.studio.edits import AnyEdit
-from meshforge.studio.edits.replies import Reply
+from meshforge.studio.edits.replies import ReplyToQuestion as Reply
 from meshforge.studio.history import History
 from meshforge.studio.learning.assessment import view_assessment
 from tests.unit.project.tables import FIRST, SECOND, THIRD, applied
