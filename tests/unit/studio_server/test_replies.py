@@ -33,7 +33,7 @@ from meshforge.signoff import (
 )
 from meshforge.store import SpanLine, SpansFile, hull_digests
 from meshforge.studio.edits import AnyEdit
-from meshforge.studio.edits.replies import ReplyToQuestion as Reply
+from meshforge.studio.edits.replies import ReplyToQuestion
 from meshforge.studio.history import History
 from meshforge.studio.learning.assessment import view_assessment
 from tests.unit.project.tables import FIRST, SECOND, THIRD, applied
@@ -112,9 +112,9 @@ def view(question: ReviewQuestion, project: Project) -> dict[str, Any]:
     return asked.model_dump(mode="json")
 
 
-def edit_of(question: ReviewQuestion, project: Project, said: dict[str, Any]) -> Reply:
+def edit_of(question: ReviewQuestion, project: Project, said: dict[str, Any]) -> ReplyToQuestion:
     text = json.dumps({"kind": "reply", "question": view(question, project), **said})
-    edit: Reply = TypeAdapter[Any](AnyEdit).validate_json(text)
+    edit: ReplyToQuestion = TypeAdapter[Any](AnyEdit).validate_json(text)
     return edit
 
 
