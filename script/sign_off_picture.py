@@ -17,8 +17,8 @@ from meshforge.language import Program, Template, select, to_canonical_frame
 from meshforge.project import Project, ProjectReview, run_with_corrections
 from meshforge.rendering import make_contact_sheet, render, write_png
 from meshforge.samples import TABLES
-from meshforge.signoff import ReviewQuestion, ReviewReply
-from meshforge.signoff.question import RIGHT, WRONG
+from meshforge.signoff import DemonstrationQuestion, ResultQuestion, ReviewQuestion, ReviewReply
+from meshforge.signoff.question import RIGHT
 from meshforge.synthesis import Step
 
 SHOWN_FIRST = "table_08.obj"
@@ -39,7 +39,7 @@ def draw_sign_off(path: Path) -> None:
         for _ in range(_MOST_QUESTIONS):
             if not (question := found.assessment.question):
                 break
-            family.answer(found, question)
+            family.answer(question)
             found = family.review()
         rows += [family.draw(name) for name in names]
         signed = set(found.assessment.signed_off)
@@ -69,30 +69,28 @@ class _Family:
         list(self.project.apply(execution=IN_PROCESS))
         return self.project.review()
 
-    def answer(self, found: ProjectReview, question: ReviewQuestion) -> None:
+    def answer(self, question: ReviewQuestion) -> None:
         """ReviewReply as who knows what is meant; a result that is wrong is demonstrated instead."""
         asset, program = question.asset, self.project.program()
         assert program
-        if question.kind == "demonstrate":
+        if isinstance(question, DemonstrationQuestion):
             self.demonstrate(asset)
         elif question.rule is not None and all(choice.select is not None for choice in question.choices):
             mesh = self.project.mesh_before_rule(asset, question.rule, program)
             places = select(self.meant.rules[question.rule - 1].extractor, mesh)
             wanted = {mesh.hulls[place].name for place in places}
-            right = [k for k, choice in enumerate(question.choices) if set(choice.select or ()) == wanted]
-            self.project.reply(found, question, ReviewReply(question.id, right[0] if right else None))
-        elif question.kind == "result":
+            right = [choice.id for choice in question.choices if set(choice.select or ()) == wanted]
+            self.project.reply(question, ReviewReply(question.id, right[0] if right else None))
+        elif isinstance(question, ResultQuestion):
             mesh = self.project.mesh(asset)
             done, wanted_trace = program.run(mesh, self.templates).trace, self.meant.run(mesh, self.templates).trace
             is_right = [set(one.selected) for one in done] == [set(one.selected) for one in wanted_trace]
-            texts = [choice.text for choice in question.choices]
             if is_right:
-                self.project.reply(found, question, ReviewReply(question.id, texts.index(RIGHT)))
+                self.project.reply(question, ReviewReply(question.id, RIGHT))
             else:
-                assert WRONG in texts
                 self.demonstrate(asset)
         else:
-            self.project.reply(found, question, ReviewReply(question.id, 0))
+            self.project.reply(question, ReviewReply(question.id, question.choices[0].id))
 
     def draw(self, asset: str) -> Image:
         """The table as it is edited now, upright."""

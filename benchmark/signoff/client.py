@@ -37,6 +37,8 @@ class Client:
     """By the public methods of `Project`. found: by the last look; program: of the project then."""
 
     name = "Project"
+    shows_corrections = True
+    """Whether the person shows the edit where a result is wrong, or says no more than that it is."""
 
     def __init__(self, project: Project) -> None:
         self.project, self.program = project.with_cache(), project.program()

@@ -28,7 +28,8 @@ from meshforge.batch import IN_PROCESS
 from meshforge.common import write_atomically
 from meshforge.geometry import Floats
 from meshforge.label_model import model_family
-from meshforge.project import Project, ProjectReview, measure_results
+from meshforge.project import Project, ProjectReview
+from meshforge.project.alarms import measure_results
 from meshforge.project.sign_offs import find_inputs
 from meshforge.signoff import BAR, confidence, describe_odd_results
 from meshforge.signoff.family import FamilyTrial

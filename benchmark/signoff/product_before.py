@@ -17,10 +17,12 @@ from typing import Any
 from benchmark.journal import ROOT
 from benchmark.report import Cell, Result, Table, Tell
 from benchmark.signoff.calibration import calibrate
+from benchmark.signoff.client import Client
 from benchmark.signoff.conditions import ERRS, NONE, list_tasks
 from benchmark.signoff.outcomes import last, mean_over_tasks, person_time, right_when_done, share, wrong_when_done
 from benchmark.signoff.queue import DONE, Review
 from benchmark.signoff.sessions import Unit, run_sessions
+from benchmark.signoff.terminal import AnswersClient
 from benchmark.study import FLAT, REPORTED, TRUE
 from benchmark.study.condition import PROPAGATED, SYSTEMATIC
 from benchmark.tasks import DIFFICULTIES
@@ -28,7 +30,10 @@ from meshforge.common import write_atomically
 
 FROZEN = Path(__file__).resolve().parent / "unchanged.json"
 COMMAND = "python -m benchmark.signoff unchanged"
-CONDITIONS = {"Project": (TRUE, FLAT, SYSTEMATIC, PROPAGATED[2], NONE, ERRS), "terminal": (FLAT, NONE)}
+CONDITIONS = {
+    Client.name: (TRUE, FLAT, SYSTEMATIC, PROPAGATED[2], NONE, ERRS),
+    AnswersClient.name: (FLAT, NONE),
+}
 """Under which labels, by what a person does it with."""
 MANY = 8
 """Results corrected one by one, from which on a session counts as one that goes the long way."""
@@ -124,9 +129,9 @@ def _count_corrected(row: Review) -> int:
 def _tell_probabilities(groups: _Groups) -> Table:
     columns = ("condition", "by", "assets", "right, %", "calibration error", "AUROC",
                "signed off before any look, %", "of these wrong")  # fmt: skip
-    named = [(*key, rows) for key, rows in groups.items() if key[1] == "Project"]
+    named = [(*key, rows) for key, rows in groups.items() if key[1] == Client.name]
     every = [row for *_, rows in named for row in rows]
-    lines = tuple(_probability_row(*one) for one in [*named, ("all", "Project", every)])
+    lines = tuple(_probability_row(*one) for one in [*named, ("all", Client.name, every)])
     return Table("The first program: assets that nobody demonstrated", columns, lines)
 
 
@@ -155,10 +160,14 @@ def _list_notes(commit: str) -> Iterator[str]:
         "`src` was as it was before anything of it was changed; this part is not measured again."
     )
     yield (
-        "Each session is a project on disk that a person works with: by the methods of `Project`, or by the commands "
-        "`review --answers`, `demonstrate`, `label` and `synthesize --forget` alone. The family is that of the first "
-        "reported person, 25 assets at one decomposition. What is right is judged on what the project would write: its "
-        "program, then its edits by hand."
+        "Each session is a project on disk that a person works with by the methods of `Project`. The family is that of "
+        "the first reported person, 25 assets at one decomposition. What is right is judged on what the project would "
+        "write: its program, then its edits by hand. By the commands `review --answers`, `demonstrate` and `label` "
+        "alone the same person comes to the same, act by act (a test), so that this is not measured by itself."
+    )
+    yield (
+        "*Answers alone*: a person, or a script, that demonstrates where the product asks for it, replies by `review "
+        "--answers FILE --json`, and says of a wrong result no more than that it is wrong."
     )
     yield (
         "The person says that a result is wrong, which flags it, and then does what the command proposes: demonstrates "

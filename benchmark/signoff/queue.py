@@ -177,6 +177,9 @@ class ReviewCourse:
         """Say what is right of a result that is wrong: which hulls, or which labels where the mesh is turned wrongly or
         the program cannot run; where no label helps, show the whole edit."""
         name = question.asset
+        if not self.client.shows_corrections:
+            self._reply(question, reply)
+            return
         done, wanted = output.selections if output else None, self.bench.truth.reference[name]
         if done is not None and wanted is not None and done != wanted:
             selections = self.reviewer.correct_selections(done, wanted)

@@ -80,6 +80,13 @@ class TerminalClient(Client):
         return out.getvalue()
 
 
+class AnswersClient(TerminalClient):
+    """By files of answers alone, once the edit was shown where the product asks for that."""
+
+    name = "answers alone"
+    shows_corrections = False
+
+
 def _format_reply(reply: ReviewReply) -> dict[str, Any]:
     """One entry of the file of replies."""
     exceptions = {f"{place.asset}#{place.hull}": label for place, label in reply.exceptions.items()}

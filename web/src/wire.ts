@@ -94,10 +94,10 @@ export interface Everything {
   HintView: HintView;
   HistoryChanged: HistoryChanged;
   HistoryView: HistoryView;
+  HullLabel: HullLabel;
   HullOfAsset: HullOfAsset;
   HullRef: HullRef;
   HullView: HullView;
-  HullWithLabel: HullWithLabel;
   HullsOfAsset: HullsOfAsset;
   Job: Job;
   JobCancel: JobCancel;
@@ -312,7 +312,7 @@ export interface ReplyToQuestion {
   kind: "reply";
   question: ReviewQuestionView;
   choice?: string | null;
-  exceptions?: HullWithLabel[];
+  exceptions?: HullLabel[];
   selections?: {
     [k: string]: string[];
   };
@@ -359,7 +359,7 @@ export interface ReviewChoiceView {
 /**
  * A hull and the label that it gets.
  */
-export interface HullWithLabel {
+export interface HullLabel {
   asset: string;
   hull: string;
   label: string;

@@ -7,26 +7,25 @@ from typing import TYPE_CHECKING
 from meshforge.common.exports import export_lazily
 
 if TYPE_CHECKING:
-    from meshforge.project.alarms import measure_results
-    from meshforge.project.learn import ProgramState, sees_whole_family, select_assets, suggest_first_demonstration
+    from meshforge.project.learn import (
+        ProgramState,
+        program_by_hand,
+        sees_whole_family,
+        select_assets,
+        suggest_first_demonstration,
+    )
     from meshforge.project.new_asset_result import NewAssetResult, assess_new_assets, describe_new
     from meshforge.project.new_assets import NewAsset, NewAssetOptions, list_new, prepare_aside
     from meshforge.project.preparation_plan import SPLIT_DEFAULTS, SplitSettings, forget_plan, read_preparation_plan
     from meshforge.project.prepare import PreparationResult
     from meshforge.project.project import Project
     from meshforge.project.replies import has_agreed_labels
-    from meshforge.project.review import ProjectReview
+    from meshforge.project.review import FamilyAssessment, ProjectReview, assess_family
     from meshforge.project.run import make_correction, output_digest, run_with_corrections
     from meshforge.project.run_report import add_standings, build_run_report, summarize_outputs
     from meshforge.project.sign_off_text import format_review, format_standing, format_status
-    from meshforge.project.sign_offs import AssessmentBasis, digest_lesson, keep_assessment
-    from meshforge.project.span_questions import (
-        add_demonstration_doubts,
-        add_span_doubts,
-        ask_about_spans,
-        can_ask_about_spans,
-        list_span_questions,
-    )
+    from meshforge.project.sign_offs import AssessmentBasis, digest_lesson
+    from meshforge.project.span_questions import can_ask_about_spans, list_span_questions
     from meshforge.project.span_search import MADE_ANEW
     from meshforge.project.span_splits import LIKELY, Split, read_spans
     from meshforge.project.status import AssetStatus, Status
@@ -39,6 +38,7 @@ __all__ = [
     "SPLIT_DEFAULTS",
     "AssessmentBasis",
     "AssetStatus",
+    "FamilyAssessment",
     "NewAsset",
     "NewAssetOptions",
     "NewAssetResult",
@@ -49,10 +49,8 @@ __all__ = [
     "Split",
     "SplitSettings",
     "Status",
-    "add_demonstration_doubts",
-    "add_span_doubts",
     "add_standings",
-    "ask_about_spans",
+    "assess_family",
     "assess_new_assets",
     "build_run_report",
     "can_ask_about_spans",
@@ -63,13 +61,12 @@ __all__ = [
     "format_standing",
     "format_status",
     "has_agreed_labels",
-    "keep_assessment",
     "list_new",
     "list_span_questions",
     "make_correction",
-    "measure_results",
     "output_digest",
     "prepare_aside",
+    "program_by_hand",
     "read_preparation_plan",
     "read_spans",
     "run_with_corrections",

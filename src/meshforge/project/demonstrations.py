@@ -8,7 +8,7 @@ from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 
 from meshforge import store as files
-from meshforge.batch import action_text_without_each
+from meshforge.batch import RuleSelection, action_text_without_each
 from meshforge.common import MeshForgeError, ProjectError, UsageError, suggest_among, suggest_name
 from meshforge.labels import merge
 from meshforge.project.preparation_journal import confirm_selections
@@ -34,10 +34,19 @@ def demonstrate(store: Store, asset: str, steps: Iterable[Step]) -> None:
         raise ProjectError(f"rule {rule}: there is no hull {name!r}", where=asset, remedy=remedy)
     with store.lock():
         said = store.feedback().verdict_on(asset)
-        if steps and said and said.meant:  # what is shown now counts, no more what was said of a result before
-            store.add_events(said.model_copy(update={"meant": ()}))
+        if steps and said:  # what is shown now counts, no more what was said of a result before
+            if said.verdict == "wrong" and shows(steps, said.seen):
+                store.add_events(files.VerdictEvent(asset=asset))
+            elif said.meant:
+                store.add_events(said.model_copy(update={"meant": ()}))
         store.write_steps(asset, steps)
         confirm_selections(store, asset)
+
+
+def shows(steps: Iterable[Step], done: Iterable[RuleSelection]) -> bool:
+    """Whether steps select just what rules did, as far as they are not open."""
+    selected = {one.rule: frozenset(one.select) for one in done}
+    return bool(selected) and all(step.select is None or selected.get(step.rule) == step.select for step in steps)
 
 
 def correct_selection(store: Store, asset: str, rule: int, select: Sequence[str], said: Origin = NO_ORIGIN) -> None:

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from meshforge.batch import OutputInputs, RuleSelection, read_stamp, selections_of
 from meshforge.common import MeshForgeError
 from meshforge.language import Program, Template
-from meshforge.project.demonstrations import actions_of
+from meshforge.project.demonstrations import actions_of, shows
 from meshforge.project.run import number_selections, output_digest
 from meshforge.project.sign_offs import is_written
 from meshforge.signoff import ReviewState
@@ -70,6 +70,7 @@ class FamilyStateReader:
             ),
             corrected=found.list_corrected(program) | shown.list_corrected(program),
             wrong=found.list_wrong(program),
+            edited=frozenset(self.meshes.keys() & store.layout.ids_with("corrections")),
             excluded=given_up,
             snoozed=frozenset(feedback.snoozed),
         )
@@ -141,10 +142,7 @@ class _Verdicts:
 def _is_wrong_as_shown(demo: Demonstration, verdicts: Sequence[VerdictEvent]) -> bool:
     """Whether the last word is that a result is wrong which is just what the demonstration shows."""
     last = verdicts[-1]
-    seen, shown = {one.rule: frozenset(one.select) for one in last.seen}, demo.steps
-    if last.verdict != "wrong" or last.meant or not seen:
-        return False
-    return all(step.select is None or seen.get(step.rule) == step.select for step in shown)
+    return last.verdict == "wrong" and not last.meant and shows(demo.steps, last.seen)
 
 
 def _fit(rows: Iterable[tuple[str, Sequence[RuleSelection]]], program: Program | None) -> dict[str, Selections]:

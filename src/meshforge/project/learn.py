@@ -14,6 +14,7 @@ from meshforge.labels import pick_evenly
 from meshforge.language import Program
 from meshforge.project import demonstrations
 from meshforge.project.evidence import list_accepted, list_corrected, list_rejections, sort_answers
+from meshforge.signoff.question import NOT_OF_FAMILY
 from meshforge.store import ProgramRecord, Settings, Store
 from meshforge.symbolic import SymbolicMesh
 
@@ -28,10 +29,11 @@ MOST_COMPARED = 100
 
 def select_assets(store: Store) -> tuple[str, ...]:
     """The assets to learn from: all, or of very many those that a person said something about, and some evenly."""
-    every = store.assets()
+    feedback = store.feedback()
+    foreign = {asset for asset, one in feedback.exclusions.items() if one.reason == NOT_OF_FAMILY}
+    every = tuple(asset for asset in store.assets() if asset not in foreign)
     if len(every) <= MOST_ASSETS:
         return every
-    feedback = store.feedback()
     known = {line.asset for line in feedback.answers.values()} | feedback.verdicts.keys()
     known.update(store.demonstration_ids())
     known.update(pick_evenly(every, MOST_ASSETS))
@@ -40,7 +42,7 @@ def select_assets(store: Store) -> tuple[str, ...]:
 
 def sees_whole_family(store: Store) -> bool:
     """Whether learning looks at all assets."""
-    return len(select_assets(store)) == len(store.assets())
+    return len(store.assets()) <= MOST_ASSETS
 
 
 def suggest_first_demonstration(store: Store, assets: Sequence[str]) -> str | None:
@@ -84,6 +86,14 @@ def accept_outcome(store: Store, outcome: synthesis.Found | synthesis.Ambiguous,
         program=program_digest(outcome.program), lesson=inputs, status=outcome.status, question=question
     )
     store.write_program_record(record)
+
+
+def program_by_hand(store: Store) -> synthesis.Found | None:
+    """The program that a person wrote, as if it were learned; None where there is none."""
+    program = store.program()
+    if program is None or not program_state_of(store, program).by_hand:
+        return None
+    return synthesis.Found(rules=program.rules, readings=(), tried=(), seconds={}, program=program)
 
 
 def read_program_state(store: Store) -> ProgramState:

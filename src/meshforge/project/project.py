@@ -23,7 +23,7 @@ from meshforge.project import (
     spans,
 )
 from meshforge.project.replies import reply_to
-from meshforge.project.review import build_review_state, review_project
+from meshforge.project.review import review_project
 from meshforge.store import MeshCache, add_assets, create_folder, find_assets
 
 
@@ -120,7 +120,6 @@ class Project(LabelStore):
     correct = run.correct
     set_verdict = run.review_assets
     review = review_project
-    build_review_state = build_review_state
     reply = reply_to
     renew_sign_offs = sign_offs.renew_sign_offs
     status = overview.compute_status

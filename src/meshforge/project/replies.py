@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import assert_never
 
-from meshforge import batch
+from meshforge import batch, signoff
 from meshforge.batch import IN_PROCESS, Failed
 from meshforge.common import ProjectError, join_names, suggest_name
 from meshforge.labels.family_comparison import ignore_stage
@@ -13,9 +14,8 @@ from meshforge.labels.merge import ignore_report, set_labels_of
 from meshforge.project import demonstrations, run
 from meshforge.project.span_questions import answer_span
 from meshforge.signoff import ReviewChoice, ReviewQuestion, ReviewReply
-from meshforge.signoff import question as ask
 from meshforge.signoff.question import EXCLUDE, NO, RIGHT, WRONG
-from meshforge.store import ExclusionEvent, LabelsEvent, Origin, SnoozeEvent, Store
+from meshforge.store import ExclusionEvent, LabelsEvent, Origin, ReplyEvent, SnoozeEvent, Store
 from meshforge.synthesis import Answer, LabelCorrection
 
 
@@ -29,32 +29,36 @@ def reply_to(store: Store, question: ReviewQuestion, reply: ReviewReply) -> None
         _snooze(store, said)
         return
     match question:
-        case ask.ReadingQuestion():
+        case signoff.ReadingQuestion():
             refused = [one.select or () for one in question.choices] if choice is None else []
             select = None if choice is None else choice.select
             answer = Answer(question.rule or 1, question.asset, select, refused)
             store.add_events(demonstrations.check_answer(store, answer).with_question(*said))
-        case ask.GroupQuestion():
+        case signoff.GroupQuestion():
             _label(store, question, choice, reply)
-        case ask.RepairQuestion():
+        case signoff.RepairQuestion():
             _repair(store, question, choice, reply)
-        case ask.ResultQuestion():
+        case signoff.ResultQuestion():
             _judge(store, question, choice, reply)
-        case ask.SlipQuestion():
+        case signoff.SlipQuestion():
             if choice is None or choice.id == NO:
                 _snooze(store, said)
             else:
-                demonstrations.correct_selection(store, question.asset, question.rule or 1, choice.select or (), said)
-        case ask.OrientationQuestion():
-            _snooze(store, said)
-            if choice is not None and choice.orient is not None:
-                store.set_orientation(choice.orient)
-        case ask.SpanQuestion():
+                place, select = (question.asset, question.rule or 1), choice.select or ()
+                _do(store, said, lambda: demonstrations.correct_selection(store, *place, select, said))
+        case signoff.OrientationQuestion():
+            if choice is None or choice.orient is None:
+                _snooze(store, said)
+            else:
+                turned = choice.orient
+                _do(store, said, lambda: store.set_orientation(turned))
+        case signoff.SpanQuestion():
             if choice is None:
                 _snooze(store, said)
             else:
-                answer_span(store, question, choice)
-        case ask.DemonstrationQuestion():
+                split = choice
+                _do(store, said, lambda: answer_span(store, question, split))
+        case signoff.DemonstrationQuestion():
             _snooze(store, said)
         case _:
             assert_never(question)
@@ -68,7 +72,9 @@ def find_choice(question: ReviewQuestion, reply: ReviewReply) -> ReviewChoice | 
     if reply.choice is not None and choice is None:
         remedy = suggest_name(reply.choice, ids, f"Its choices are: {join_names(ids) or 'none'}.")
         raise ProjectError(f"question {question.id} has no choice {reply.choice!r}", remedy=remedy)
-    if (reply.selections or reply.labels) and (not isinstance(question, ask.ResultQuestion) or reply.choice != WRONG):
+    if (reply.selections or reply.labels) and (
+        not isinstance(question, signoff.ResultQuestion) or reply.choice != WRONG
+    ):
         remedy = f'They go with the choice "{WRONG}" of a question whether a result is right.'
         raise ProjectError(f"question {question.id} takes no selections and labels with that reply", remedy=remedy)
     if odd := [place for place in reply.exceptions if place not in question.hulls]:
@@ -80,7 +86,12 @@ def _snooze(store: Store, said: Origin) -> None:
     store.add_events(SnoozeEvent(question=said.question, by=said.by))
 
 
-def _judge(store: Store, question: ask.ResultQuestion, choice: ReviewChoice | None, reply: ReviewReply) -> None:
+def _do(store: Store, said: Origin, effect: Callable[[], object]) -> None:
+    """Keep that there was a reply, and do what it says."""
+    store.add_events_before(effect, ReplyEvent(question=said.question, by=said.by))
+
+
+def _judge(store: Store, question: signoff.ResultQuestion, choice: ReviewChoice | None, reply: ReviewReply) -> None:
     """Keep a verdict on the result as the program makes it now, or why an asset is given up."""
     asset, said = question.asset, Origin(question.id, reply.by)
     if choice is None:
@@ -107,7 +118,7 @@ def _make_output(store: Store, asset: str) -> None:
             raise ProjectError(f"{asset} cannot be edited: {outcome.error}", where=str(store.folder))
 
 
-def _label(store: Store, question: ask.GroupQuestion, choice: ReviewChoice | None, reply: ReviewReply) -> None:
+def _label(store: Store, question: signoff.GroupQuestion, choice: ReviewChoice | None, reply: ReviewReply) -> None:
     """Give labels to a group of hulls."""
     given = dict.fromkeys(question.hulls, choice.label) if choice and choice.label else {}
     labels = dict[str, dict[str, str]]()
@@ -116,13 +127,12 @@ def _label(store: Store, question: ask.GroupQuestion, choice: ReviewChoice | Non
     if not labels:
         _snooze(store, Origin(question.id, reply.by))
         return
-    with store.lock():
-        set_labels_of(store, labels, "user", 1.0)
-        store.add_events(LabelsEvent(labels=labels, question=question.id, by=reply.by))
+    event = LabelsEvent(labels=labels, question=question.id, by=reply.by)
+    store.add_events_before(lambda: set_labels_of(store, labels, "user", 1.0), event)
     _agree_again(store)
 
 
-def _repair(store: Store, question: ask.RepairQuestion, choice: ReviewChoice | None, reply: ReviewReply) -> None:
+def _repair(store: Store, question: signoff.RepairQuestion, choice: ReviewChoice | None, reply: ReviewReply) -> None:
     """Fix the label of a hull, so that it can be withdrawn, or keep it; what was refused is not proposed again."""
     (place,), said = question.hulls, Origin(question.id, reply.by)
     label = reply.exceptions.get(place) or (choice.label if choice else None)

@@ -5,31 +5,25 @@ A sign-off rests on the digests of all that decides an edit: it is void when one
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
+from types import MappingProxyType
 
-from meshforge.batch import EXECUTION_DEFAULTS, ExecutionOptions, OutputInputs, program_digest
+from meshforge.batch import EXECUTION_DEFAULTS, ExecutionOptions, program_digest
 from meshforge.common import MeshForgeError, ProjectError
 from meshforge.label_model import model_family
 from meshforge.labels.descriptor_cache import recall_descriptors
+from meshforge.language import Program
 from meshforge.project import learn
 from meshforge.project.alarms import measure_results
 from meshforge.project.family_state import FamilyStateReader
 from meshforge.project.sign_offs import AssessmentBasis, Clock, keep_assessment, now_utc, renew_sign_offs
 from meshforge.project.span_questions import add_demonstration_doubts, add_span_doubts, ask_about_spans
-from meshforge.signoff import (
-    BAR,
-    Assessment,
-    AssetConfidence,
-    Doubt,
-    ResultQuestion,
-    ReviewState,
-    describe_odd_results,
-    review_family,
-)
+from meshforge.signoff import BAR, Assessment, AssetConfidence, Doubt, EditMeasures, ResultQuestion, ReviewState
+from meshforge.signoff.alarms import describe_odd_results
 from meshforge.signoff.prices import YES_OR_NO
 from meshforge.signoff.question import NOT_OF_FAMILY, identify
-from meshforge.signoff.review import EXCLUDE_CHOICES
+from meshforge.signoff.review import EXCLUDE_CHOICES, review_family
 from meshforge.store import Store
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Ambiguous, Found, LearningOutcome
@@ -61,31 +55,57 @@ def review_project(
         raise ProjectError("there is no asset that can be read", where=str(store.folder))
     recall_descriptors(store, meshes, execution)
     outcome, by_hand = _learn(store, meshes)
+    made = assess_family(store, meshes, outcome, before, bar, by_hand=by_hand, lost=lost)
+    assert made, "nobody stops it"
+    made.keep(store, execution)
+    taken_back = renew_sign_offs(store, clock=clock, execution=execution)
+    return ProjectReview(made.found, outcome, made.state, lost, taken_back)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class FamilyAssessment:
+    """How sure the edits of a project are. program: the one that makes them, None where there is none; basis: what all
+    that was computed from; measures: of the edits, by asset."""
+
+    found: Assessment
+    state: ReviewState
+    program: Program | None
+    basis: AssessmentBasis
+    measures: Mapping[str, EditMeasures]
+
+    def keep(self, store: Store, execution: ExecutionOptions = EXECUTION_DEFAULTS) -> bool:
+        """Keep it, so that a status need not learn anything; whether that was done, as nothing changed meanwhile."""
+        return keep_assessment(store, self.found, self.basis, self.measures, execution)
+
+
+def assess_family(
+    store: Store,
+    meshes: Mapping[str, SymbolicMesh],
+    outcome: LearningOutcome | None,
+    before: AssessmentBasis,
+    bar: float,
+    *,
+    by_hand: bool = False,
+    lost: Mapping[str, str] = MappingProxyType({}),
+    stop: Callable[[], bool] = lambda: False,
+) -> FamilyAssessment | None:
+    """How sure the edits of a family are; None once `stop` says so.
+
+    meshes: of its assets that can be read, by id; outcome: what was learned, or by hand the program that a person
+    wrote; before: taken before the meshes were read; lost: why others cannot be read.
+    """
     program = outcome.program if outcome else None
     basis = before.under(store, program or store.program())
     state = FamilyStateReader(store, meshes, program, by_hand, basis.inputs).read()
-    measures = measure_results(store, program, meshes, basis.inputs) if program else {}
-    alarms = describe_odd_results(measures)
-    found = review_family(state, outcome, model_family(list(meshes.values())), bar, alarms)
+    measures = measure_results(store, program, meshes, basis.inputs, stop) if program else {}
+    family = model_family(list(meshes.values()))
+    if stop():
+        return None
+    found = review_family(state, outcome, family, bar, describe_odd_results(measures))
     found = add_span_doubts(store, meshes, _add_unreadable(store, found, state, lost), state.reviewed_assets)
     if not by_hand:
         found = add_demonstration_doubts(store, found, state.accepted | state.corrected)
-    found = ask_about_spans(store, meshes, found, program is not None)
-    keep_assessment(store, found, basis, measures, execution)
-    taken_back = renew_sign_offs(store, clock=clock, execution=execution)
-    return ProjectReview(found, outcome, state, lost, taken_back)
-
-
-def build_review_state(
-    store: Store, meshes: Mapping[str, SymbolicMesh], inputs: Mapping[str, OutputInputs]
-) -> ReviewState:
-    """All that is known of a family under the project's program.
-
-    meshes: of all or some of its assets, by id; inputs: the digests of their edits.
-    """
-    program = store.program()
-    by_hand = program is not None and learn.program_state_of(store, program).by_hand
-    return FamilyStateReader(store, meshes, program, by_hand, inputs).read()
+    return FamilyAssessment(ask_about_spans(store, meshes, found, program is not None), state, program, basis, measures)
 
 
 def _read_meshes(store: Store) -> tuple[dict[str, SymbolicMesh], dict[str, str]]:
@@ -103,8 +123,8 @@ def _read_meshes(store: Store) -> tuple[dict[str, SymbolicMesh], dict[str, str]]
 def _learn(store: Store, meshes: Mapping[str, SymbolicMesh]) -> tuple[LearningOutcome | None, bool]:
     """What is learned, which becomes the project's program, or what a person wrote in its place; and whether so."""
     program = store.program()
-    if program is not None and learn.program_state_of(store, program).by_hand:
-        return Found(rules=program.rules, readings=(), tried=(), seconds={}, program=program), True
+    if by_hand := learn.program_by_hand(store):
+        return by_hand, True
     if not store.demonstration_ids():
         return None, False
     some = set(learn.select_assets(store))

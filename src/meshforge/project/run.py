@@ -15,7 +15,7 @@ from meshforge import batch
 from meshforge.common import MeshForgeError, ProjectError, suggest_name
 from meshforge.geometry import digest
 from meshforge.labels import pick_evenly
-from meshforge.labels.merge import set_labels
+from meshforge.labels.merge import set_labels_of
 from meshforge.language import Action, Program, RunResult, Template
 from meshforge.store import NO_ORIGIN, ExclusionEvent, Feedback, Origin, Store, Verdict, VerdictEvent
 from meshforge.symbolic import SymbolicMesh
@@ -51,7 +51,7 @@ def build_task(store: Store, program: Program) -> batch.ApplyTask:
 def build_work(
     store: Store, only: Collection[str] | None = None
 ) -> tuple[Program, tuple[batch.AssetJob, ...], Mapping[str, Template]]:
-    """What `apply` runs on all assets or those of some ids: the program, a job for each, and the templates.
+    """What `apply` runs on all assets that are not excluded, or on some: the program, their jobs, and the templates.
 
     Raises ProjectError: no program yet, or no such asset.
     """
@@ -62,7 +62,9 @@ def build_work(
         raise ProjectError(
             "there is no program yet", where=str(store.folder), remedy=f"Learn it: meshforge synthesize {store.folder}"
         )
-    return program, build_jobs(store, only), build_task(store, program).templates
+    away = store.feedback().exclusions.keys() - set(only or ())
+    jobs = tuple(job for job in build_jobs(store, only) if job.id not in away)
+    return program, jobs, build_task(store, program).templates
 
 
 def mesh_before_rule(
@@ -164,9 +166,8 @@ def review_assets(
         events = [_judge(store, asset, verdict, note, selections, said, alone=len(names) == 1) for asset in names]
         away = store.feedback().exclusions
         more = [ExclusionEvent(asset=asset) for asset in names if asset in away]
-        for asset in names if labels else ():
-            set_labels(store, asset, labels, "user", 1.0)
-        store.add_events(*events, *more)
+        given = dict.fromkeys(names, labels) if labels else {}
+        store.add_events_before(lambda: set_labels_of(store, given, "user", 1.0), *events, *more)
 
 
 def _judge(

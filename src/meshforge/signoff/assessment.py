@@ -14,6 +14,7 @@ NO_LOOK = "nobody has looked at a result of this program yet"
 """The doubt of all edits by a program of which no result was looked at."""
 CALLED_WRONG = "a person said that this result is wrong"
 CALLED_WRONG_BEFORE = "a person said that a result here was wrong, and nobody has looked at it since"
+EDITED_SINCE = "it was edited by hand, and nobody has accepted that"
 CONTRADICTED = "the program does something else than was shown here"
 """The doubts of such an asset."""
 

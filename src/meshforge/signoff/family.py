@@ -17,6 +17,7 @@ from meshforge.signoff.assessment import (
     CALLED_WRONG,
     CALLED_WRONG_BEFORE,
     CONTRADICTED,
+    EDITED_SINCE,
     MOST_DOUBTS,
     NO_LOOK,
     AssetConfidence,
@@ -169,7 +170,8 @@ class FamilyTrial:
         if trial.asset in self.contradicted:
             return AssetConfidence(trial.asset, NO_EDIT, (Doubt("reading", CONTRADICTED, share=1.0),))
         if trial.asset in state.wrong and trial.selected == state.failed.get(trial.asset):
-            return AssetConfidence(trial.asset, NO_EDIT, (Doubt("reading", CALLED_WRONG, share=1.0),))
+            why = EDITED_SINCE if trial.asset in state.edited else CALLED_WRONG
+            return AssetConfidence(trial.asset, NO_EDIT, (Doubt("reading", why, share=1.0),))
         if trial.asset in state.reviewed_assets:
             return AssetConfidence(trial.asset, SURE_OF_DEMONSTRATED)
         doubts = [*self._reading_doubts(place), *self._label_doubts(place), *self._odd_doubts(place)]

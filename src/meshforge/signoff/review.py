@@ -12,28 +12,12 @@ import numpy as np
 from meshforge.geometry import Floats
 from meshforge.label_model import FamilyModel
 from meshforge.language import show
+from meshforge.signoff import question as kinds
 from meshforge.signoff.assessment import BAR, Assessment, AssetConfidence, Doubt
 from meshforge.signoff.family import FamilyTrial
 from meshforge.signoff.groups import LookalikeGroup, find_groups, find_other_label, labels_of_group
 from meshforge.signoff.prices import READING, YES_OR_NO, price_demonstration
-from meshforge.signoff.question import (
-    EXCLUDE,
-    NO,
-    RIGHT,
-    WRONG,
-    YES,
-    DemonstrationQuestion,
-    GroupQuestion,
-    HullPlace,
-    OrientationQuestion,
-    ReadingQuestion,
-    RepairQuestion,
-    ResultQuestion,
-    ReviewChoice,
-    ReviewQuestion,
-    UnseenLabelQuestion,
-    identify,
-)
+from meshforge.signoff.question import EXCLUDE, NO, RIGHT, WRONG, YES, HullPlace, ReviewChoice, ReviewQuestion, identify
 from meshforge.signoff.readings import ReadingSplit, split_readings
 from meshforge.signoff.slips import ask_about_kept_label, ask_about_nearest, ask_about_slip
 from meshforge.signoff.state import ReviewState
@@ -137,22 +121,22 @@ def _questions_before(state: ReviewState, outcome: LearningOutcome | None) -> It
             return
 
 
-def _ask_repairs(state: ReviewState, outcome: NeedsRepair, everyone: float) -> Iterator[RepairQuestion]:
+def _ask_repairs(state: ReviewState, outcome: NeedsRepair, everyone: float) -> Iterator[kinds.RepairQuestion]:
     for repair in outcome.repairs:
         wrong, place = repair.correction, HullPlace(repair.correction.asset, repair.correction.hull)
         text = f"{wrong.hull} of {wrong.asset} is called {wrong.was or 'nothing'}: is it {wrong.to}? {repair.why}."
         choices = tuple(map(ReviewChoice.of_label, [wrong.to, *([wrong.was] if wrong.was else [])]))
         gain = everyone * repair.belief
-        question = identify(RepairQuestion(text, YES_OR_NO, gain, wrong.asset, repair.rule, (place,), choices))
+        question = identify(kinds.RepairQuestion(text, YES_OR_NO, gain, wrong.asset, repair.rule, (place,), choices))
         if question.id not in state.snoozed:
             yield question
 
 
-def _ask_orientation(suggested: OrientationSuggestion, state: ReviewState, gain: float) -> OrientationQuestion:
+def _ask_orientation(suggested: OrientationSuggestion, state: ReviewState, gain: float) -> kinds.OrientationQuestion:
     text = f"Are assets to be turned first, by {show(suggested.orient)}? {suggested.why}."
     choices = (ReviewChoice(NO, "no"), ReviewChoice(YES, "yes", orient=suggested.orient))
     asset = next(iter([*suggested.differs_on, *state.meshes]))
-    return identify(OrientationQuestion(text, YES_OR_NO, gain, asset, choices=choices))
+    return identify(kinds.OrientationQuestion(text, YES_OR_NO, gain, asset, choices=choices))
 
 
 def _questions(
@@ -176,7 +160,7 @@ def _sort(questions: Iterable[ReviewQuestion], state: ReviewState) -> tuple[Revi
     return tuple(sorted(asked, key=lambda one: (-one.worth, one.id)))
 
 
-def _ask_group(family: FamilyTrial, group: LookalikeGroup) -> GroupQuestion:
+def _ask_group(family: FamilyTrial, group: LookalikeGroup) -> kinds.GroupQuestion:
     counts = labels_of_group(family, group)
     called = ", ".join(f"{count} {'is' if count == 1 else 'are'} called {name}" for name, count in counts.items())
     labels = list(dict.fromkeys([group.label, *(name for name in counts if name != "nothing")]))
@@ -186,7 +170,7 @@ def _ask_group(family: FamilyTrial, group: LookalikeGroup) -> GroupQuestion:
         text = f"{first.hull} of {first.asset} is called {next(iter(counts))}: is it {group.label}?"
     else:
         text = f"These {len(group.hulls)} hulls look alike; {called}: are all of them {group.label}?"
-    question = identify(GroupQuestion(text, group.seconds, group.gain, first.asset, None, group.hulls, choices))
+    question = identify(kinds.GroupQuestion(text, group.seconds, group.gain, first.asset, None, group.hulls, choices))
     other = find_other_label(family, group) if len(labels) == 1 else None  # no part of what the question is about
     return replace(question, choices=(*choices, ReviewChoice.of_label(other))) if other else question
 
@@ -209,14 +193,14 @@ def _ask_readings(family: FamilyTrial, found: Assessment) -> Iterator[ReviewQues
             yield _ask_reading(family, rule.rule, split)
 
 
-def _ask_reading(family: FamilyTrial, rule: int, split: ReadingSplit) -> ReadingQuestion:
+def _ask_reading(family: FamilyTrial, rule: int, split: ReadingSplit) -> kinds.ReadingQuestion:
     known, trial = family.readings[rule - 1], family.trials[split.asset]
     choices = []
     for letter, head in zip("abc", split.heads, strict=False):
         selected = trial.names(rule, family.select(known, head, split.asset))
         choices.append(ReviewChoice(letter, show(known.extractors[head]), select=selected))
     gain = float(_gains_of(family, [split]).sum()) * family.evidence[split.asset].labels ** _TRUST
-    kind = UnseenLabelQuestion if trial.asset in family.foreign else ReadingQuestion
+    kind = kinds.UnseenLabelQuestion if trial.asset in family.foreign else kinds.ReadingQuestion
     text = f"What does rule {rule} mean on {trial.asset}?"
     return identify(kind(text, READING, gain, trial.asset, rule, (), tuple(choices)))
 
@@ -247,7 +231,8 @@ def _ask_results(family: FamilyTrial, found: Assessment) -> Iterator[ReviewQuest
         others[place] = 0.0
         gain = doubt + float(others.sum()) * trust
         seconds = YES_OR_NO + doubt * mend
-        if name in found.wrong and trial.selected == family.state.failed.get(name):
+        is_same = trial.selected == family.state.failed.get(name) and name not in family.state.edited
+        if name in found.wrong and is_same:
             text = f"The result of {name} was called wrong: what is right there?"
             yield _ask_result(trial, 1.0, YES_OR_NO + mend, text, _GIVE_UP)
         else:
@@ -281,15 +266,18 @@ JUDGE_CHOICES = (ReviewChoice(RIGHT, "right"), ReviewChoice(WRONG, "wrong"), *EX
 
 def _ask_result(
     trial: Trial, gain: float, seconds: float, text: str = "", choices: tuple[ReviewChoice, ...] = JUDGE_CHOICES
-) -> ResultQuestion:
-    """Whether a result is right; where the program cannot run there is none that could be."""
+) -> kinds.ResultQuestion:
+    """Whether a result is right; where the program cannot run there is none that could be. What is right where it was
+    called wrong is the same question, so that a reply which was given before is known."""
     if trial.error:
         text, choices = f"The program cannot run on {trial.asset}: {trial.error}. Correct it, or exclude it?", _CORRECT
     text = text or f"Is the result of {trial.asset} right?"
-    draft = ResultQuestion(text, seconds, gain, trial.asset, choices=choices)
-    return identify(draft, [f"{bits:x}" for bits in trial.selections])
+    draft = kinds.ResultQuestion(
+        text, seconds, gain, trial.asset, choices=JUDGE_CHOICES if choices is _GIVE_UP else choices
+    )
+    return replace(identify(draft, [f"{bits:x}" for bits in trial.selections]), choices=choices)
 
 
-def _ask_demonstration(state: ReviewState, asset: str, gain: float, text: str) -> DemonstrationQuestion:
+def _ask_demonstration(state: ReviewState, asset: str, gain: float, text: str) -> kinds.DemonstrationQuestion:
     seconds = price_demonstration(state.demos.values())
-    return identify(DemonstrationQuestion(text.format(asset), seconds, gain, asset))
+    return identify(kinds.DemonstrationQuestion(text.format(asset), seconds, gain, asset))

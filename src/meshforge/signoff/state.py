@@ -19,8 +19,9 @@ class ReviewState:
     the paths that actions name; demos: of some of the meshes, by name; by_hand: whether a person wrote the program;
     answers: to questions of learning; meant: what each rule is to select by what a person said of results, by asset;
     failed: what it did select on results that they called wrong; accepted, corrected: assets whose result they accepted
-    as it is now, or said what it is to be; wrong: those of which they only said that it is wrong; excluded: those that
-    are given up; snoozed: ids of questions that are not asked again.
+    as it is now, or said what it is to be; wrong: those of which they only said that it is wrong; edited: those with
+    edits by hand after the program; excluded: those that are given up; snoozed: ids of questions that are not asked
+    again.
     """
 
     meshes: Mapping[str, SymbolicMesh]
@@ -34,6 +35,7 @@ class ReviewState:
     corrected: frozenset[str] = frozenset()
     failed: Mapping[str, Selections] = field(default_factory=dict)
     wrong: frozenset[str] = frozenset()
+    edited: frozenset[str] = frozenset()
     excluded: Mapping[str, ExclusionReason] = field(default_factory=dict)
     snoozed: frozenset[str] = frozenset()
 

@@ -176,6 +176,12 @@ class LabelsEvent(_Line):
     labels: dict[str, dict[str, str]]
 
 
+class ReplyEvent(_Line):
+    """A reply of which the effect is in other files: a demonstration, the settings, or how an asset is prepared."""
+
+    event: Literal["reply"] = "reply"
+
+
 class ExclusionEvent(_Line):
     """An asset that is given up; reason: None includes it again."""
 
@@ -190,7 +196,16 @@ class SnoozeEvent(_Line):
     event: Literal["snooze"] = "snooze"
 
 
-Event = AnswerEvent | LabelFixEvent | WithdrawalEvent | VerdictEvent | LabelsEvent | ExclusionEvent | SnoozeEvent
+Event = (
+    AnswerEvent
+    | LabelFixEvent
+    | WithdrawalEvent
+    | VerdictEvent
+    | LabelsEvent
+    | ReplyEvent
+    | ExclusionEvent
+    | SnoozeEvent
+)
 _ADAPTER: TypeAdapter[Event] = TypeAdapter(Annotated[Event, Field(discriminator="event")])
 
 

@@ -7,17 +7,8 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import assert_never
 
-from meshforge.store.events import (
-    AnswerEvent,
-    Event,
-    ExclusionEvent,
-    LabelFixEvent,
-    LabelsEvent,
-    SnoozeEvent,
-    VerdictEvent,
-    WithdrawalEvent,
-    parse_events,
-)
+from meshforge.store import events as kinds
+from meshforge.store.events import Event, parse_events
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,19 +17,19 @@ class Feedback:
     was taken back; exclusions: by asset; snoozed, replied: ids of questions.
     """
 
-    answers: Mapping[str, AnswerEvent] = field(default_factory=dict)
-    fixes: Mapping[str, LabelFixEvent] = field(default_factory=dict)
-    verdicts: Mapping[str, tuple[VerdictEvent, ...]] = field(default_factory=dict)
-    exclusions: Mapping[str, ExclusionEvent] = field(default_factory=dict)
+    answers: Mapping[str, kinds.AnswerEvent] = field(default_factory=dict)
+    fixes: Mapping[str, kinds.LabelFixEvent] = field(default_factory=dict)
+    verdicts: Mapping[str, tuple[kinds.VerdictEvent, ...]] = field(default_factory=dict)
+    exclusions: Mapping[str, kinds.ExclusionEvent] = field(default_factory=dict)
     snoozed: tuple[str, ...] = ()
     replied: frozenset[str] = frozenset()
 
     @property
-    def said(self) -> Mapping[str, AnswerEvent | LabelFixEvent]:
+    def said(self) -> Mapping[str, kinds.AnswerEvent | kinds.LabelFixEvent]:
         """The answers and fixes, which can be withdrawn by their ids."""
         return {**self.answers, **self.fixes}
 
-    def verdict_on(self, asset: str) -> VerdictEvent | None:
+    def verdict_on(self, asset: str) -> kinds.VerdictEvent | None:
         """The last verdict on an asset."""
         every = self.verdicts.get(asset, ())
         return every[-1] if every else None
@@ -46,25 +37,25 @@ class Feedback:
     @staticmethod
     def of(events: Iterable[Event]) -> Feedback:
         """What events come to; of several on one thing the last counts."""
-        answers, fixes = dict[str, AnswerEvent](), dict[str, LabelFixEvent]()
-        verdicts, exclusions = dict[str, tuple[VerdictEvent, ...]](), dict[str, ExclusionEvent]()
+        answers, fixes = dict[str, kinds.AnswerEvent](), dict[str, kinds.LabelFixEvent]()
+        verdicts, exclusions = dict[str, tuple[kinds.VerdictEvent, ...]](), dict[str, kinds.ExclusionEvent]()
         snoozed, replied = dict[str, None](), set[str]()
         for event in events:
             match event:
-                case AnswerEvent():
+                case kinds.AnswerEvent():
                     answers[event.id] = event
-                case LabelFixEvent():
+                case kinds.LabelFixEvent():
                     fixes[event.id] = event
-                case WithdrawalEvent():
+                case kinds.WithdrawalEvent():
                     answers.pop(event.id, None)
                     fixes.pop(event.id, None)
-                case VerdictEvent():
+                case kinds.VerdictEvent():
                     verdicts[event.asset] = (*verdicts.get(event.asset, ()), event) if event.verdict else ()
-                case ExclusionEvent():
+                case kinds.ExclusionEvent():
                     exclusions[event.asset] = event
-                case SnoozeEvent():
+                case kinds.SnoozeEvent():
                     snoozed = {**snoozed, event.question: None} if event.question else {}
-                case LabelsEvent():
+                case kinds.LabelsEvent() | kinds.ReplyEvent():
                     pass
                 case _:
                     assert_never(event)

@@ -288,6 +288,21 @@ class Store:
         with self.lock():
             save_events(self.layout, [*load_events(self.layout), *events])
 
+    def add_events_before(self, effect: Callable[[], object], *events: Event) -> None:
+        """Keep what a person said, then do what follows from it; where that fails, nothing is kept.
+
+        In this order: killed in between, the question is asked still, and the same reply does the rest.
+        """
+        with self.lock():
+            self.add_events(*events)
+            try:
+                effect()
+            except MeshForgeError:
+                self.change_events(lambda every: every[: -len(events)])
+                if not self.layout.events.stat().st_size:
+                    self.layout.events.unlink()
+                raise
+
     def ask_again(self) -> None:
         """Ask all questions that were snoozed."""
         if self.feedback().snoozed:

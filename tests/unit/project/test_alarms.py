@@ -8,7 +8,8 @@ import pytest
 
 from meshforge.batch import IN_PROCESS
 from meshforge.language import Delete, Program
-from meshforge.project import Project, measure_results
+from meshforge.project import Project
+from meshforge.project.alarms import measure_results
 from meshforge.project.sign_offs import find_inputs
 from meshforge.signoff import EditMeasures, describe_odd_results, measure_edit
 from meshforge.symbolic import SymbolicMesh

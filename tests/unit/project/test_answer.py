@@ -8,8 +8,7 @@ from pathlib import Path
 import pytest
 
 from meshforge.common import ProjectError, UsageError
-from meshforge.project import Project, learn, select_assets
-from meshforge.project.demonstrations import reject
+from meshforge.project import Project, demonstrations, learn, select_assets
 from meshforge.symbolic import Label
 from meshforge.synthesis import Answer, Choice, LabelCorrection, Question
 from tests.unit.project.shelves import OTHER, PLAIN, SHELVED, ambiguous, mislabelled
@@ -157,7 +156,7 @@ def test_a_repair_that_no_longer_fits_is_refused(tmp_path: Path) -> None:
 
 def test_what_was_said_last_about_a_repair_counts(tmp_path: Path) -> None:
     project = mislabelled(tmp_path)
-    reject(project, WRONG)
+    demonstrations.reject(project, WRONG)
     project.confirm(WRONG)
     (line,) = project.feedback().fixes.values()
     assert (line.id, line.accepted) == ("rack0.obj#knob=knob", True)
@@ -176,6 +175,6 @@ def test_everything_can_be_forgotten(tmp_path: Path) -> None:
     project = mislabelled(tmp_path)
     project.add_answer(QUESTION.answer_with(0))
     project.confirm(WRONG)
-    reject(project, LabelCorrection(OTHER, "left", "leg", "knob"))
+    demonstrations.reject(project, LabelCorrection(OTHER, "left", "leg", "knob"))
     assert project.forget_answers() == ()
     assert not project.feedback().said and knob(project) == MACHINE

@@ -4,7 +4,7 @@ four files of before."""
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -104,12 +104,8 @@ def test_a_project_of_before_is_understood_and_reading_it_changes_nothing(tmp_pa
     assert tree(project.folder) == before
 
 
-def snooze(project: Project, question: str) -> None:
-    project.add_events(SnoozeEvent(question=question))
-
-
 WRITES: dict[str, Callable[[Project], object]] = {
-    "a snooze": lambda project: snooze(project, "span-3"),
+    "a snooze": lambda project: project.add_events(SnoozeEvent(question="span-3")),
     "a review": lambda project: project.review(0.5, execution=IN_PROCESS),
     "a vocabulary": lambda project: project.rename_label("top", "board"),
 }
@@ -133,7 +129,7 @@ def test_the_first_write_makes_events_of_it_and_the_old_files_stay_beside(tmp_pa
 def test_a_killed_migration_loses_nothing(tmp_path: Path) -> None:
     project = in_the_old_format(tmp_path)
     died = 0
-    for _ in deaths(lambda: snooze(project, "group-1")):
+    for _ in deaths(lambda: project.add_events(SnoozeEvent(question="group-1"))):
         check_all_is_understood(Project.open(project.folder))
         died += 1
     assert died > len(OLD)
@@ -146,12 +142,12 @@ def test_a_damaged_file_of_before_is_named_and_kept(tmp_path: Path, name: str, t
     project = learned(tmp_path)
     (project.folder / name).write_text(text)
     with pytest.raises(ProjectError, match=name.replace(".", r"\.")):
-        snooze(project, "group-1")
+        project.add_events(SnoozeEvent(question="group-1"))
         project.sign_offs()
     assert (project.folder / name).read_text() == text and not project.layout.events.exists()
 
 
-def lines(*rows: dict[str, object]) -> str:
+def lines(*rows: Mapping[str, object]) -> str:
     return "".join(f"{json.dumps(row)}\n" for row in rows)
 
 
@@ -177,7 +173,7 @@ def test_a_cut_line_and_a_conflict_marker_are_named_with_their_line(tmp_path: Pa
     project.layout.events.write_text(f"{lines(RIGHT)}\n{damage}\n{lines(SNOOZE)}")
     before = project.layout.events.read_bytes()
     with pytest.raises(ProjectError, match="line 3: ") as raised:
-        snooze(project, "span-1")
+        project.add_events(SnoozeEvent(question="span-1"))
     assert raised.value.where == str(project.layout.events)
     assert raised.value.remedy == "Correct that line by hand, or remove it: each line is one JSON object."
     assert project.layout.events.read_bytes() == before
@@ -195,7 +191,9 @@ def test_the_lines_of_two_branches_are_merged_in_either_order(tmp_path: Path) ->
             change(project)
         return project.layout.events.read_text().removeprefix(base)
 
-    ours = branch(lambda p: p.add_answer(Answer(2, THIRD, LEGS)), lambda p: snooze(p, "group-1"))
+    ours = branch(
+        lambda p: p.add_answer(Answer(2, THIRD, LEGS)), lambda p: p.add_events(SnoozeEvent(question="group-1"))
+    )
     theirs = branch(lambda p: p.set_verdict(THIRD, "wrong"), lambda p: p.take_back(f"1:{FIRST}"))
     for merged in (base + ours + theirs, base + theirs + ours):
         project.layout.events.write_text(merged)
@@ -227,7 +225,7 @@ def test_fields_that_are_not_known_and_line_ends_stay(tmp_path: Path) -> None:
     project = learned(tmp_path)
     odd = {**RIGHT, "mood": {"good": [1, None]}, "verdict": "accepted"}
     project.layout.events.write_bytes(f"\ufeff{lines(odd)}\n{lines(SNOOZE)}".replace("\n", "\r\n").encode())
-    snooze(project, "span-1")
+    project.add_events(SnoozeEvent(question="span-1"))
     rows = [json.loads(line) for line in project.layout.events.read_text().splitlines()]
     assert rows == [odd, SNOOZE, {"event": "snooze", "question": "span-1"}]
 
@@ -236,7 +234,7 @@ def test_what_is_taken_back_is_as_if_it_had_never_been_said(tmp_path: Path) -> N
     project = applied(tmp_path)
     project.set_verdict(THIRD, "accepted")
     project.set_verdict(THIRD, None)
-    snooze(project, "group-1")
+    project.add_events(SnoozeEvent(question="group-1"))
     project.ask_again()
     said = project.feedback()
     assert not said.verdicts and not said.snoozed

@@ -9,8 +9,7 @@ from pathlib import Path
 import pytest
 
 from meshforge.language import Delete, Merge, Program
-from meshforge.project import Project
-from meshforge.project.demonstrations import reject
+from meshforge.project import Project, demonstrations
 from meshforge.synthesis import Answer, LabelCorrection, Step
 from tests.unit.batch.families import tree
 from tests.unit.deaths import deaths, needs_fork
@@ -23,7 +22,7 @@ CHANGES: dict[str, Callable[[Project], object]] = {
     "demonstration": lambda p: p.demonstrate(FIRST, [Step(1, {"crumb"}, Delete())]),
     "correction": lambda p: p.correct(FIRST, ["top"], Delete()),
     "answer": lambda p: p.add_answer(Answer(1, THIRD, ["crumb"])),
-    "refused repair": lambda p: reject(p, REPAIR),
+    "refused repair": lambda p: demonstrations.reject(p, REPAIR),
     "review": lambda p: p.set_verdict(FIRST, "accepted"),
     "program": lambda p: p.accept(Program.parse("labels top\nAll => Merge\n")),
 }

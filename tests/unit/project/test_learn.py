@@ -8,7 +8,7 @@ import pytest
 
 from meshforge.batch import IN_PROCESS
 from meshforge.language import Delete, Merge, Program
-from meshforge.project import FamilyMeshes, Project
+from meshforge.project import Project
 from meshforge.symbolic import Label
 from meshforge.synthesis import Ambiguous, Answer, Found, NeedsRepair, NoProgram, Repair, Step, TimedOut
 from tests.unit.project.shelves import OTHER, PLAIN, SHELVED, ambiguous, mislabelled
@@ -141,10 +141,10 @@ def test_an_answer_that_fits_nothing_leaves_the_program_as_it_was(tmp_path: Path
 
 def test_a_family_reads_assets_once_and_labels_anew(tmp_path: Path) -> None:
     project = ambiguous(tmp_path)
-    family = FamilyMeshes(project)
-    before = family.meshes()
+    family = project.with_cache()
+    before = dict(family.meshes_by_id())
     project.set_labels(SHELVED, {"shelf": None, "knob": "leg"})
-    after = family.meshes()
+    after = dict(family.meshes_by_id())
     assert [name for name in before if before[name] is not after[name]] == [SHELVED]
     assert after[SHELVED].labels == project.mesh(SHELVED).labels
     assert [a.shape for a in before[SHELVED].hulls] == [b.shape for b in after[SHELVED].hulls]

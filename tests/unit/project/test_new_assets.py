@@ -22,8 +22,8 @@ from meshforge.project import (
     new_assets,
     prepare_aside,
     read_preparation_plan,
+    span_splits,
 )
-from meshforge.project.span_splits import mark_as_one_part
 from meshforge.symbolic import Label, LabelFile, read_labels
 from tests.unit.batch.families import tree
 from tests.unit.project.stools import PARTS, boxes, coarse, write_stool
@@ -224,7 +224,7 @@ def test_a_hull_that_a_person_said_to_be_one_part_is_left(folder: Path) -> None:
     for path in (folder / "new").glob("c*"):
         shutil.copy(path, folder / "assets")
     project = Project.open(folder / "p")
-    mark_as_one_part(project, "c.urdf", "base/h0")
+    span_splits.mark_as_one_part(project, "c.urdf", "base/h0")
     (found,) = project.prepare_new(NewAssetOptions(execution=IN_PROCESS))
     assert found.splits == () and found.spanning == ()
     assert [note.partition(": ")[2] for note in found.notes] == [

@@ -7,8 +7,7 @@ import pytest
 
 from meshforge.common import MeshForgeError, ProjectError
 from meshforge.language import Delete, Merge, Program
-from meshforge.project import Project
-from meshforge.project.demonstrations import reject
+from meshforge.project import Project, demonstrations
 from meshforge.symbolic import Label
 from meshforge.synthesis import Answer, LabelCorrection, Step
 from tests.unit.batch.families import tree
@@ -26,7 +25,7 @@ def saying(folder: Path) -> Project:
     project.correct(SECOND, ["top"], Merge(), "leg")
     project.add_answer(Answer(2, THIRD, LEGS))
     project.confirm(LabelCorrection(FIRST, "crumb", "misc", "leg"))
-    reject(project, LabelCorrection(SECOND, "top", "top", "leg"))
+    demonstrations.reject(project, LabelCorrection(SECOND, "top", "top", "leg"))
     return project
 
 

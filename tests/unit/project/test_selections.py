@@ -12,8 +12,7 @@ from meshforge import batch
 from meshforge.common import ProjectError
 from meshforge.formats import read
 from meshforge.language import Merge
-from meshforge.project import Project
-from meshforge.project.demonstrations import correct_selection, reject
+from meshforge.project import Project, demonstrations
 from meshforge.project.preparation_journal import read_journal
 from meshforge.project.prepare import exchange_preparation
 from meshforge.project.selections import Successors
@@ -38,7 +37,7 @@ def said(folder: Path) -> Project:
     project = applied(folder)
     project.correct(FIRST, ["left_low~1"], Merge())
     project.add_answer(Answer(1, FIRST, ["crumb"], [["crumb", "top"]]))
-    reject(project, LabelCorrection(FIRST, "crumb", "misc", "leg"))
+    demonstrations.reject(project, LabelCorrection(FIRST, "crumb", "misc", "leg"))
     project.confirm(LabelCorrection(FIRST, "crumb", project.mesh(FIRST).hull_of("crumb").label, "top"))
     return project
 
@@ -89,7 +88,7 @@ def test_what_a_person_changed_since_the_split_is_not_overwritten(tmp_path: Path
     project = said(tmp_path)
     project.cut(FIRST, "crumb", *PLANE)
     project.add_answer(Answer(1, FIRST, ["top"]))
-    correct_selection(project, FIRST, 1, ["crumb#0", "crumb#1", "top"])
+    demonstrations.correct_selection(project, FIRST, 1, ["crumb#0", "crumb#1", "top"])
     assert not any("demonstrated" in flag for flag in project.status(workers=0).assets[0].flags)
     project.unprepare(FIRST)
     assert project.steps(FIRST)[0].select == frozenset({"crumb", "top"})

@@ -21,8 +21,7 @@ from meshforge.geometry import (
 )
 from meshforge.label_model import SpanPosterior
 from meshforge.labels import spans
-from meshforge.project import PreparationResult, Project, SplitSettings, span_search
-from meshforge.project.span_splits import mark_as_one_part, split_as_found
+from meshforge.project import PreparationResult, Project, SplitSettings, span_search, span_splits
 from meshforge.symbolic import Label
 from tests.unit.project.stools import PARTS, boxes, coarse, write_stool
 
@@ -160,7 +159,7 @@ def test_a_dry_run_by_another_engine_is_kept_for_the_review_alone(project: Proje
     assert files(project) == before
     ((hull, line),) = project.spans().assets["c.urdf"].items()
     assert line.pieces == "vhacd"
-    split_as_found(project, "c.urdf", hull)
+    span_splits.split_as_found(project, "c.urdf", hull)
     (step,) = project.preparation("c.urdf").steps
     assert (step.settings["asked"], step.settings["pieces"]) == (True, "vhacd") and "vhacdx" in step.software
 
@@ -294,7 +293,7 @@ def test_rebuilding_says_first_what_it_would_do_and_leaves_what_a_person_said_is
     assert (len(result.planned), sum(len(entry.made) for entry in result.planned)) == (4, 5)
     assert result.planned[1].told.startswith("base/h1, made anew with its body: "), "it spans no parts"
     assert files(project) == before
-    mark_as_one_part(project, "c.urdf", project.mesh("c.urdf").hulls[0].name)
+    span_splits.mark_as_one_part(project, "c.urdf", project.mesh("c.urdf").hulls[0].name)
     assert rebuild(project, "c.urdf")[0].made == ()
 
 

@@ -12,8 +12,7 @@ import pytest
 from meshforge.batch import IN_PROCESS
 from meshforge.common import relative_name
 from meshforge.language import Delete
-from meshforge.project import Project
-from meshforge.project.span_splits import mark_as_one_part
+from meshforge.project import Project, span_splits
 from meshforge.signoff import Assessment, review_family
 from meshforge.store import (
     SAID,
@@ -131,7 +130,7 @@ def test_what_is_signed_off_stays_so_when_a_hull_is_found_to_span_parts(tmp_path
     learn(project, flag, 2)
     assess(project, flag, 2)
     assert found_since(project) == ("two parts",)
-    mark_as_one_part(project, THIRD, hull)
+    span_splits.mark_as_one_part(project, THIRD, hull)
     learn(project, flag, 3)
     assess(project, flag, 3)
     assert found_since(project) == ()

@@ -10,17 +10,17 @@ from typing import Literal, assert_never
 
 from pydantic import Field
 
+from meshforge import signoff
 from meshforge.common import pluralize
 from meshforge.project import Project, has_agreed_labels
 from meshforge.signoff import HullPlace, ReviewChoice, ReviewQuestion, ReviewReply, question_of
-from meshforge.signoff import question as ask
 from meshforge.signoff.question import NO
 from meshforge.studio.edits.base import EVENTS_FILE, PREPARATION_FILES, Edit, LabelsByAsset
 from meshforge.studio.wire.requests import HullOfAsset
 from meshforge.studio.wire.signoff import ReviewQuestionView
 
 
-class HullWithLabel(HullOfAsset):
+class HullLabel(HullOfAsset):
     """A hull and the label that it gets."""
 
     label: str
@@ -38,7 +38,7 @@ class ReplyToQuestion(Edit):
     touches = (EVENTS_FILE,)
     question: ReviewQuestionView
     choice: str | None = None
-    exceptions: tuple[HullWithLabel, ...] = ()
+    exceptions: tuple[HullLabel, ...] = ()
     selections: dict[int, tuple[str, ...]] = Field(default_factory=dict)
     labels: dict[str, str] = Field(default_factory=dict)
     later: bool = False
@@ -60,21 +60,21 @@ class ReplyToQuestion(Edit):
             return "question put off"
         question, choice, asset = self._asked, self._choice, self._asked.asset
         match question:
-            case ask.ReadingQuestion():
+            case signoff.ReadingQuestion():
                 return f"rule {question.rule} on {asset} answered"
-            case ask.GroupQuestion() | ask.RepairQuestion():
+            case signoff.GroupQuestion() | signoff.RepairQuestion():
                 counts = Counter(self._labels.values()).items()
                 return ", ".join(f"{pluralize(count, 'hull')} labelled {label}" for label, count in counts)
-            case ask.ResultQuestion():
+            case signoff.ResultQuestion():
                 return f"result of {asset}: {choice.text if choice else 'none'}"
-            case ask.SlipQuestion():
+            case signoff.SlipQuestion():
                 return f"what rule {question.rule} selects on {asset} corrected"
-            case ask.OrientationQuestion():
+            case signoff.OrientationQuestion():
                 return "assets are turned first"
-            case ask.SpanQuestion():
+            case signoff.SpanQuestion():
                 how = "is one part" if self.choice == NO else "split into its parts"
                 return f"{question.hulls[0].hull} of {asset} {how}"
-            case ask.DemonstrationQuestion():
+            case signoff.DemonstrationQuestion():
                 return "question put off"
             case _:
                 assert_never(question)
@@ -110,11 +110,11 @@ class ReplyToQuestion(Edit):
 
     @property
     def _is_put_off(self) -> bool:
-        if self.later or isinstance(self._asked, ask.DemonstrationQuestion):
+        if self.later or isinstance(self._asked, signoff.DemonstrationQuestion):
             return True
-        if isinstance(self._asked, ask.SlipQuestion | ask.OrientationQuestion):
+        if isinstance(self._asked, signoff.SlipQuestion | signoff.OrientationQuestion):
             return self.choice is None or self.choice == NO
-        return self.choice is None and not self._labels and not isinstance(self._asked, ask.ReadingQuestion)
+        return self.choice is None and not self._labels and not isinstance(self._asked, signoff.ReadingQuestion)
 
     def _list_more_paths(self, project: Project) -> Iterator[Path]:
         """The files and folders beside the events that the reply may change."""
@@ -122,18 +122,18 @@ class ReplyToQuestion(Edit):
             return
         layout = project.layout
         match self._asked:
-            case ask.GroupQuestion() | ask.RepairQuestion() | ask.ResultQuestion():
+            case signoff.GroupQuestion() | signoff.RepairQuestion() | signoff.ResultQuestion():
                 assets = self.list_labels()
                 everywhere = bool(assets) and has_agreed_labels(project)
                 yield from [project.folder / "labels"] if everywhere else map(layout.labels, assets)
-            case ask.SlipQuestion():
+            case signoff.SlipQuestion():
                 yield layout.demonstration(self._asked.asset)
-            case ask.OrientationQuestion():
+            case signoff.OrientationQuestion():
                 yield layout.settings
-            case ask.SpanQuestion():
+            case signoff.SpanQuestion():
                 names = (name.format(asset=self._asked.asset) for name in PREPARATION_FILES)
                 yield from (layout.single_parts, *(project.folder / name for name in names))
-            case ask.ReadingQuestion() | ask.DemonstrationQuestion():
+            case signoff.ReadingQuestion() | signoff.DemonstrationQuestion():
                 return
             case other:
                 assert_never(other)

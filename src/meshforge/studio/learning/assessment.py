@@ -3,55 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 
 from meshforge.common import MeshForgeError
-from meshforge.label_model import model_family
-from meshforge.language import Program, explain, parse_extractor, show
+from meshforge.language import explain, parse_extractor, show
 from meshforge.project import (
     AssessmentBasis,
+    FamilyAssessment,
     Project,
-    add_demonstration_doubts,
-    add_span_doubts,
-    ask_about_spans,
-    keep_assessment,
+    assess_family,
     list_span_questions,
-    measure_results,
+    program_by_hand,
     sees_whole_family,
 )
-from meshforge.signoff import (
-    BAR,
-    Assessment,
-    EditMeasures,
-    ReviewChoice,
-    ReviewQuestion,
-    ReviewState,
-    describe_odd_results,
-    review_family,
-)
+from meshforge.signoff import BAR, Assessment, ReviewChoice, ReviewQuestion, ReviewState
 from meshforge.studio.wire import signoff as wire
 from meshforge.symbolic import SymbolicMesh
-from meshforge.synthesis import Found, LearningOutcome
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class ProjectAssessment:
-    """How sure the edits of a project are. program: the one that makes them, None where there is none; basis: what all
-    that was computed from; measures: of the edits, by asset."""
-
-    found: Assessment
-    state: ReviewState
-    program: Program | None
-    basis: AssessmentBasis
-    measures: Mapping[str, EditMeasures]
-
-    def keep(self, project: Project) -> None:
-        """Keep it as a review does, and renew sign-offs; nothing where something changed meanwhile, where there is no
-        program, or where the studio looks at some assets only."""
-        if self.program is None or not sees_whole_family(project):
-            return
-        if keep_assessment(project, self.found, self.basis.under(project, self.program), self.measures):
-            project.renew_sign_offs(keep_persons=True)
+from meshforge.synthesis import LearningOutcome
 
 
 def assess_project(
@@ -60,32 +27,22 @@ def assess_project(
     outcome: LearningOutcome | None,
     basis: AssessmentBasis,
     stop: Callable[[], bool] = lambda: False,
-) -> ProjectAssessment | None:
+) -> FamilyAssessment | None:
     """How sure the edits of a project are under its program, None where that was interrupted.
 
     meshes: those that were learned from; outcome: what that came to, which does not matter where a person wrote the
     program; basis: taken before the meshes were read.
     """
-    accepted = project.program() if project.program_state().by_hand else None
-    judged = (
-        outcome
-        if accepted is None
-        else Found(rules=accepted.rules, readings=(), tried=(), seconds={}, program=accepted)
-    )
-    program = judged.program if judged else None
-    inputs = basis.under(project, program or project.program()).inputs
-    state = project.build_review_state(meshes, inputs)
-    measures = measure_results(project, program, meshes, inputs, stop) if program else {}
-    model = model_family(list(meshes.values()))
-    if stop():
-        return None
-    last = project.assessment()
-    found = review_family(state, judged, model, last.bar if last else BAR, describe_odd_results(measures))
-    found = add_span_doubts(project, meshes, found, state.reviewed_assets)
-    if accepted is None:
-        found = add_demonstration_doubts(project, found, state.accepted | state.corrected)
-    found = ask_about_spans(project, meshes, found, program is not None)
-    return ProjectAssessment(found, state, program, basis, measures)
+    by_hand, last = program_by_hand(project), project.assessment()
+    bar = last.bar if last else BAR
+    return assess_family(project, meshes, by_hand or outcome, basis, bar, by_hand=by_hand is not None, stop=stop)
+
+
+def keep_assessment(project: Project, made: FamilyAssessment) -> None:
+    """Keep it as a review does, and renew sign-offs; nothing where there is no program, or where the studio looks at
+    some assets only."""
+    if made.program is not None and sees_whole_family(project) and made.keep(project):
+        project.renew_sign_offs(keep_persons=True)
 
 
 def view_first_question(project: Project, meshes: Mapping[str, SymbolicMesh], number: int) -> wire.AssessmentView:

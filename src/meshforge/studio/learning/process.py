@@ -14,7 +14,7 @@ from meshforge.common import MeshForgeError
 from meshforge.language import Program, parse_extractor
 from meshforge.project import AssessmentBasis, Project, can_ask_about_spans, digest_lesson, select_assets
 from meshforge.store import MeshCache
-from meshforge.studio.learning.assessment import assess_project, view_assessment, view_first_question
+from meshforge.studio.learning.assessment import assess_project, keep_assessment, view_assessment, view_first_question
 from meshforge.studio.learning.queue import CancelToken
 from meshforge.studio.learning.results import ProgramWithTemplates, RuleSelector, build_outcome_view, measure_reach
 from meshforge.studio.wire.program import CoverageView, OutcomeView, Reach
@@ -98,7 +98,7 @@ def assess(folder: Path, token: CancelToken, number: int) -> AssessmentView | No
         return None
     if lesson.holds(meshes, basis.lesson):
         with suppress(MeshForgeError, OSError):  # pages show it all the same
-            made.keep(project)
+            keep_assessment(project, made)
     unseen = len(project.assets()) - len(meshes)
     return view_assessment(made.found, made.state, number, made.program is not None, unseen)
 

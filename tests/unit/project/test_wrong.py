@@ -1,0 +1,328 @@
+"""What every kind of reply does to the probabilities of a family, and what becomes of a result that is called wrong."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal
+
+import pytest
+
+from meshforge.batch import IN_PROCESS
+from meshforge.cli.review_answers import read_replies
+from meshforge.formats import load
+from meshforge.language import Delete, Each, Merge, Program
+from meshforge.project import Project, ProjectReview
+from meshforge.signoff import ReviewQuestion
+from meshforge.signoff.assessment import CALLED_WRONG_BEFORE, CONTRADICTED
+from meshforge.signoff.question import QuestionKind
+from meshforge.symbolic import Label
+from meshforge.synthesis import Step
+from tests.unit.cli.in_process import Run, runner
+from tests.unit.project.racks import BLOCK, LEGS, PLAIN, shown_racks
+from tests.unit.project.shelves import PLAIN as MISLABELLED
+from tests.unit.project.shelves import SHELVED, ambiguous, mislabelled
+
+SHOWN, ALSO, ASKED, OTHER, LAST = PLAIN
+THREE = sorted(LEGS)[:3]
+Direction = Literal["up", "down", "same", "any"]
+
+
+def forgetful(folder: Path) -> Project:
+    """One rack is shown, of which a leg is left out."""
+    project = shown_racks(folder)
+    project.demonstrate(ALSO, ())
+    project.demonstrate(SHOWN, [Step(1, LEGS - {"left_low"}, Each(Merge()))])
+    return project
+
+
+MAKERS: Mapping[str, Callable[[Path], Project]] = {
+    "plain": shown_racks,
+    "slip": forgetful,
+    "ambiguous": ambiguous,
+    "mislabelled": mislabelled,
+}
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
+    """The folder of a family that was reviewed once, made where it is asked for."""
+    folders = dict[str, Path]()
+
+    def make(name: str) -> Path:
+        if name not in folders:
+            folders[name] = tmp_path_factory.mktemp(name)
+            look(MAKERS[name](folders[name]))
+        return folders[name]
+
+    return make
+
+
+@pytest.fixture
+def project(made: Callable[[str], Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Project:
+    """Six racks of which two are demonstrated and one becomes a block."""
+    return copy(made("plain"), tmp_path, monkeypatch)
+
+
+def copy(source: Path, folder: Path, monkeypatch: pytest.MonkeyPatch) -> Project:
+    shutil.copytree(source, folder, dirs_exist_ok=True)
+    monkeypatch.chdir(folder)
+    return Project.open(folder / "racks")
+
+
+def look(project: Project) -> ProjectReview:
+    return project.review(execution=IN_PROCESS)
+
+
+def write(project: Project, *assets: str) -> None:
+    list(project.apply(assets or None, execution=IN_PROCESS))
+
+
+def find_question(found: ProjectReview, kind: QuestionKind, asset: str) -> ReviewQuestion:
+    return next(one for one in found.assessment.questions if (one.kind, one.asset) == (kind, asset))
+
+
+def probabilities(found: ProjectReview) -> dict[str, float]:
+    return {name: one.probability for name, one in found.assessment.assets.items()}
+
+
+def say(project: Project, choice: str, asset: str = ASKED, **more: Any) -> ProjectReview:
+    """Reply to the question whether a result is right."""
+    reply_by_method(project, find_question(look(project), "result", asset), {"choice": choice, **more})
+    return look(project)
+
+
+def reply_by_method(project: Project, question: ReviewQuestion, fields: Mapping[str, Any]) -> None:
+    path = project.folder.parent / "said.json"
+    path.write_text(json.dumps([{"id": question.id, **fields}]))
+    (reply,) = read_replies(path)
+    project.reply(question, reply.to_reply(question))
+
+
+@dataclass(frozen=True)
+class Case:
+    """A reply. others: where probabilities go of assets that nobody has seen; own: that of the asset asked about."""
+
+    kind: QuestionKind
+    asset: str
+    reply: Mapping[str, Any]
+    others: Direction
+    own: Direction
+    family: str = "plain"
+
+
+CASES = {
+    "right": Case("result", ASKED, {"choice": "right"}, "up", "up"),
+    "wrong": Case("result", ASKED, {"choice": "wrong"}, "down", "down"),
+    "wrong, other hulls": Case("result", ASKED, {"choice": "wrong", "selections": {"1": THREE}}, "down", "up"),
+    "wrong, other labels": Case("result", ASKED, {"choice": "wrong", "labels": {"rail": "leg"}}, "down", "down"),
+    "not of this family": Case("result", ASKED, {"choice": "not-of-family"}, "any", "any"),
+    "not solved": Case("result", ASKED, {"choice": "not-solved"}, "same", "same"),
+    "later": Case("result", ASKED, {"later": True}, "same", "same"),
+    "a group is what it is called": Case("group", OTHER, {"choice": "rail"}, "any", "up"),
+    "a group is something else": Case("group", OTHER, {"choice": "leg"}, "down", "down"),
+    "one of a group is something else": Case(
+        "group", OTHER, {"choice": "rail", "exceptions": {f"{LAST}#rail": "leg"}}, "any", "up"
+    ),
+    "a reading": Case("reading", SHELVED, {"choice": "a"}, "any", "up", "ambiguous"),
+    "none of the readings": Case("reading", SHELVED, {"choice": None}, "any", "any", "ambiguous"),
+    "a label is repaired": Case("repair", MISLABELLED, {"choice": "knob"}, "up", "up", "mislabelled"),
+    "a label is right": Case("repair", MISLABELLED, {"choice": "leg"}, "any", "any", "mislabelled"),
+    "a slip": Case("selection", SHOWN, {"choice": "yes"}, "up", "any", "slip"),
+    "no slip": Case("selection", SHOWN, {"choice": "no"}, "up", "any", "slip"),
+}
+
+
+@pytest.mark.parametrize("road", ["Project.reply", "review --answers"])
+@pytest.mark.parametrize("name", CASES)
+def test_a_reply_moves_probabilities_as_it_should(
+    made: Callable[[str], Path],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    name: str,
+    road: str,
+) -> None:
+    case = CASES[name]
+    project = copy(made(case.family), tmp_path, monkeypatch)
+    before = look(project)
+    question = find_question(before, case.kind, case.asset)
+    if road == "Project.reply":
+        reply_by_method(project, question, case.reply)
+    else:
+        Path("said.json").write_text(json.dumps([{"id": question.id, **case.reply}]))
+        told = runner(monkeypatch, capsys)("review", "racks", "--answers", "said.json", "--by", "Ada")
+        assert "is not asked any more" not in told.err
+        assert all('"by":"Ada"' in line for line in project.layout.events.read_text().splitlines())
+    after = look(project)
+    assert question.id in project.feedback().replied
+    was, now = probabilities(before), probabilities(after)
+    seen = {*before.state.reviewed_assets, *after.state.reviewed_assets, case.asset, BLOCK}
+    check(case.others, [(was[one], now[one]) for one in now if one not in seen])
+    check(case.own, [(was[case.asset], now.get(case.asset, 0.0))])
+    assert question.id not in {one.id for one in after.assessment.questions} or name.startswith("wrong")
+
+
+def check(direction: Direction, pairs: list[tuple[float, float]]) -> None:
+    assert pairs
+    for was, now in pairs:
+        assert {"up": now > was, "down": now < was, "same": now == was, "any": True}[direction], (was, now)
+
+
+def test_where_other_hulls_are_meant_the_output_is_made_with_these_and_signed_off_by_a_person(project: Project) -> None:
+    found = say(project, "wrong", selections={"1": THREE})
+    assert found.state.corrected == {ASKED} and ASKED in found.assessment.signed_off
+    write(project, ASKED)
+    project.renew_sign_offs()
+    program = project.program()
+    assert program is not None
+    made = load(project.layout.edited / ASKED).hulls
+    own = program.run(project.mesh(ASKED)).mesh.hulls
+    assert (len(made), len(own)) == (5, 4), "the leg that is left out stays by itself"
+    assert project.sign_offs()[ASKED].by == "person"
+    status = next(one for one in project.status().assets if one.id == ASKED)
+    assert (status.sign_off, status.stale) == ("signed off", ())
+
+
+def test_a_corrected_result_counts_for_a_program_from_when_on_it_does_what_was_meant(project: Project) -> None:
+    before = probabilities(look(project))
+    during = probabilities(say(project, "wrong", selections={"1": THREE}))
+    assert during[OTHER] < before[OTHER]
+    (project.folder / "program.mf").write_text("labels top, leg, rail\n\nDiff(Is(leg), Geo(Is(leg), +X)) => Delete\n")
+    other = look(project)
+    assert ASKED not in other.state.corrected, "it was said of rules that did something else"
+    (project.folder / "program.mf").unlink()
+    project.set_verdict(ASKED, None)
+    again = say(project, "wrong", selections={"1": sorted(LEGS)})
+    assert probabilities(again)[OTHER] > before[OTHER]
+
+
+def test_labels_of_a_wrong_result_are_a_persons_and_it_needs_another_look(project: Project) -> None:
+    found = say(project, "wrong", labels={"left_low": "rail"})
+    assert project.mesh(ASKED).hull_of("left_low").annotation == Label("rail", 1.0, "user")
+    assert ASKED in found.assessment.held
+    assert found.assessment.assets[ASKED].doubts[0].text == CALLED_WRONG_BEFORE
+    question = find_question(found, "result", ASKED)
+    assert question.choice("right") is not None
+    reply_by_method(project, question, {"choice": "right"})
+    assert ASKED in look(project).assessment.signed_off
+
+
+def test_what_cannot_be_said_of_a_wrong_result_is_refused_with_nothing_kept(project: Project) -> None:
+    question = find_question(look(project), "result", ASKED)
+    for fields, problem in (
+        ({"selections": {"1": ["nobody"]}}, "nobody"),
+        ({"selections": {"7": THREE}}, "there is no rule 7"),
+        ({"labels": {"rail": "lek"}}, "lek"),
+        ({"labels": {"nobody": "leg"}}, "nobody"),
+    ):
+        with pytest.raises(Exception, match=problem):
+            reply_by_method(project, question, {"choice": "wrong", **fields})
+        assert not project.layout.events.exists()
+    assert project.mesh(ASKED).hull_of("rail").label == "rail"
+
+
+def test_a_result_that_was_called_wrong_is_never_signed_off_without_another_look(project: Project) -> None:
+    wrong = say(project, "wrong", OTHER)
+    say(project, "right")
+    project.set_labels(OTHER, {"left_low": "rail"})
+    risen = say(project, "right", LAST)
+    assert probabilities(risen)[OTHER] > probabilities(wrong)[OTHER]
+    write(project)
+    project.renew_sign_offs()
+    assert OTHER in look(project).assessment.held and OTHER not in project.sign_offs()
+
+
+def test_an_edit_by_hand_counts_as_a_wrong_result_also_once_it_is_accepted(project: Project) -> None:
+    write(project)
+    before = probabilities(look(project))
+    project.correct(ASKED, ["top"], Delete())
+    edited = look(project)
+    assert ASKED in edited.assessment.held and probabilities(edited)[OTHER] < before[OTHER]
+    accepted = say(project, "right")
+    assert ASKED in accepted.assessment.signed_off
+    assert "top" not in {hull.name for hull in load(project.layout.edited / ASKED).hulls}
+    assert probabilities(accepted)[OTHER] == probabilities(edited)[OTHER]
+
+
+def test_an_edit_by_hand_of_a_corrected_result_leaves_what_was_meant(project: Project) -> None:
+    say(project, "wrong", selections={"1": THREE})
+    project.correct(ASKED, ["top"], Delete())
+    write(project, ASKED)
+    assert len(load(project.layout.edited / ASKED).hulls) == 4
+    assert ASKED in look(project).assessment.signed_off
+
+
+def test_a_demonstration_counts_more_than_what_was_said_of_a_result_before(project: Project) -> None:
+    say(project, "wrong", selections={"1": THREE})
+    project.demonstrate(ASKED, [Step(1, LEGS, Each(Merge()))])
+    found = look(project)
+    assert ASKED in found.assessment.signed_off
+    write(project, ASKED)
+    assert len(load(project.layout.edited / ASKED).hulls) == 4
+
+
+def test_a_wrong_result_of_a_demonstrated_asset_needs_review_until_something_else_is_shown(project: Project) -> None:
+    write(project)
+    project.set_verdict(SHOWN, "wrong")
+    assert SHOWN in look(project).assessment.held
+    project.demonstrate(SHOWN, [Step(1, LEGS | {"rail"}, Each(Merge()))])
+    project.set_labels(SHOWN, {"rail": "leg"})
+    assert SHOWN in look(project).assessment.signed_off
+
+
+def test_a_program_by_hand_that_contradicts_a_demonstration_is_the_first_reason_there(project: Project) -> None:
+    before = probabilities(look(project))
+    (project.folder / "program.mf").write_text("labels top, leg, rail\n\nGeo(Is(leg), +X) => Each(Merge)\n")
+    found = look(project)
+    assert {SHOWN, ALSO} <= set(found.assessment.held)
+    assert found.assessment.assets[SHOWN].doubts[0].text == CONTRADICTED
+    assert probabilities(found)[OTHER] < before[OTHER]
+    accepted = say(project, "right", SHOWN)
+    assert SHOWN in accepted.assessment.signed_off and ALSO in accepted.assessment.held
+
+
+def test_a_program_by_hand_that_does_what_was_shown_contradicts_nothing(project: Project) -> None:
+    before = look(project)
+    project.accept(Program.parse("labels top, leg, rail\n\nDiff(All, Union(Is(top), Is(rail))) => Each(Merge)\n"))
+    found = look(project)
+    assert {SHOWN, ALSO} <= set(found.assessment.signed_off)
+    assert probabilities(found)[SHOWN] == probabilities(before)[SHOWN]
+
+
+@pytest.fixture
+def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Run:
+    return runner(monkeypatch, capsys)
+
+
+def test_what_is_not_solved_counts_and_what_is_not_of_the_family_does_not(project: Project, run: Run) -> None:
+    write(project)
+    for asset in (BLOCK, ASKED):
+        say(project, "not-of-family", asset)
+    say(project, "right", OTHER)
+    told = run("review", "racks")
+    assert told.code == 0
+    assert told.out.startswith("4 of 4 are at least 95% sure, or were looked at, 2 excluded: not of this family.")
+    assert run("status", "racks", "--signed-off").code == 0
+    project.set_verdict(BLOCK, None)
+    say(project, "not-solved", BLOCK)
+    told = run("status", "racks", "--signed-off")
+    assert told.code == 1
+    assert "4 of 5 are at least 95% sure, or were looked at, 1 excluded: not solved, 1 excluded: not of" in told.out
+    assert run("status", "racks", "--signed-off", "--allow-excluded").code == 0
+
+
+@pytest.mark.parametrize("choice", ["not-of-family", "not-solved"])
+def test_where_all_are_excluded_nothing_is_signed_off(project: Project, run: Run, choice: str) -> None:
+    write(project)
+    for asset in (SHOWN, ALSO):
+        project.demonstrate(asset, ())
+    project.accept(Program.parse("labels top, leg, rail\n\nDiff(Is(leg), Is(rail)) => Each(Merge)\n"))
+    for asset in project.assets():
+        found = look(project)
+        reply_by_method(project, find_question(found, "result", asset), {"choice": choice})
+    told = run("status", "racks", "--signed-off", "--allow-excluded")
+    assert told.code == 1 and "Nothing is signed off" in told.out
