@@ -167,7 +167,7 @@ def test_what_changed_while_it_was_assessed_is_not_kept(
         return review_family(*given)
 
     with monkeypatch.context() as meanwhile:
-        meanwhile.setattr("meshforge.studio.learning.assessment.review_family", change_a_label)
+        meanwhile.setattr("meshforge.project.review.review_family", change_a_label)
         assess(project, flag)
     assert files_of(project) == [None, None]
 
@@ -180,7 +180,7 @@ def test_where_it_cannot_be_kept_it_is_shown_all_the_same(
 
     project = applied(tmp_path)
     learn(project, flag)
-    monkeypatch.setattr("meshforge.studio.learning.assessment.keep_assessment", fill_up)
+    monkeypatch.setattr("meshforge.studio.learning.process.keep_assessment", fill_up)
     assess(project, flag)
     assert files_of(project) == [None, None]
 

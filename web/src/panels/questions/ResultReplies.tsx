@@ -72,7 +72,7 @@ function WhatIsRight({ question, tell }: { question: ReviewQuestionView; tell: (
           onClick={isOpen ? () => void correctSelection(question, rule) : () => visit(asset, { kind: "source" })}
         >
           Select other hulls for rule {rule}
-          {isOpen && <span className={css.facts}>{countText(count, "hull")}</span>}
+          {isOpen && <span className={css.facts}>{count ? countText(count, "hull") : "no hull"}</span>}
         </Reply>
       ))}
       <Reply icon={Tag} tip="Opens the asset, to label its hulls" onClick={() => tell(label)}>
