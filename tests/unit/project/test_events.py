@@ -4,7 +4,7 @@ four files of before."""
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -146,7 +146,7 @@ def test_a_damaged_file_of_before_is_named_and_kept(tmp_path: Path, name: str, t
     assert (project.folder / name).read_text() == text and not project.layout.events.exists()
 
 
-def lines(*rows: dict[str, object]) -> str:
+def lines(*rows: Mapping[str, object]) -> str:
     return "".join(f"{json.dumps(row)}\n" for row in rows)
 
 
@@ -202,7 +202,7 @@ def test_the_lines_of_two_branches_are_merged_in_either_order(tmp_path: Path) ->
 
 @pytest.mark.parametrize(("first", "last"), [(RIGHT, WRONG), (WRONG, RIGHT)])
 def test_of_two_people_who_contradict_each_other_the_last_counts(
-    tmp_path: Path, first: dict[str, object], last: dict[str, object]
+    tmp_path: Path, first: Mapping[str, object], last: Mapping[str, object]
 ) -> None:
     project = learned(tmp_path)
     project.layout.events.write_text(lines(first, SNOOZE, last))
