@@ -131,8 +131,9 @@ def keep_assessment(
         for name, one in found.assets.items()
         if name in basis.inputs
     }
-    wrong = tuple(sorted(found.wrong))
-    store.write_assessment(AssessmentFile(bar=found.bar, lesson=basis.lesson, wrong=wrong, assets=lines))
+    wrong, foreign = tuple(sorted(found.wrong)), tuple(sorted(found.foreign))
+    kept = AssessmentFile(bar=found.bar, lesson=basis.lesson, wrong=wrong, foreign=foreign, assets=lines)
+    store.write_assessment(kept)
     return True
 
 
