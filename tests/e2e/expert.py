@@ -60,18 +60,14 @@ class Expert:
             if last is None:
                 return
             self.answered[last["kind"]] += 1
-            if last["kind"] == "proposal":
-                self._judge_proposal(last)
-            else:
-                self.person.press("u")
-                self._wait_for_card(last)
-                self._answer(last)
+            self.person.press("u")
+            self._wait_for_card(last)
+            self._answer(last)
         raise AssertionError("the studio asks without end")
 
     def _wait_for_card(self, question: dict[str, Any]) -> None:
         card = self.person.page.locator(f'[id="question-{question["id"]}"]')
-        if question["text"]:
-            card = card.or_(self.person.page.get_by_role("heading", name=question["text"], exact=True))
+        card = card.or_(self.person.page.get_by_role("heading", name=question["text"], exact=True))
         card.first.wait_for()
 
     def _answer(self, question: dict[str, Any]) -> None:
@@ -92,20 +88,14 @@ class Expert:
                 self.person.press("y")
             else:
                 self.person.press("n")
+                self.person.button("Show it").wait_for()
+                self.person.press("n")
                 self.show(asset)
         elif kind == "demonstrate":
             self.person.press("y")
             self.show(asset)
         else:
             self.person.press("l")
-
-    def _judge_proposal(self, repair: dict[str, Any]) -> None:
-        """Accept or reject that learning thinks a label wrong."""
-        right = self.truth[repair["asset"]][repair["hull"]] == repair["to"]
-        self.person.press("u")
-        card = self.person.page.get_by_role("article", name=f"{repair['hull']} of {repair['asset']}")
-        card.get_by_role("button", name="Accept").locator("kbd").wait_for()
-        self.person.press("y" if right else "n")
 
     def is_right(self, asset: str) -> bool:
         """Whether what the program makes of an asset now is what is wanted."""
@@ -177,26 +167,14 @@ class Expert:
 def _asks_another(last: dict[str, Any] | None, hello: dict[str, Any]) -> bool:
     """Whether all is worked out, and something else is asked than before."""
     over = not hello["learning"] and not hello["assessing"]
-    known = (hello["outcome"] or {}).get("question") or (hello["outcome"] and hello["assessment"] is not None)
+    known = hello["outcome"] and hello["assessment"] is not None
     return bool(over and known) and open_question(hello) != last
 
 
 def open_question(hello: dict[str, Any]) -> dict[str, Any] | None:
-    """What is asked: by learning itself, as a reading; by the assessment; or a label that learning thinks wrong."""
-    outcome = hello["outcome"] or {}
-    if own := outcome.get("question"):
-        return {"kind": "reading", "text": None, "hulls": [], **own}
+    """What is asked."""
     found: dict[str, Any] | None = (hello["assessment"] or {}).get("question")
-    repairs = outcome.get("repairs") or []
-    if repairs and (found is None or _is_among(found, repairs)):
-        return {"kind": "proposal", **repairs[0]}
     return found
-
-
-def _is_among(question: dict[str, Any], repairs: list[dict[str, Any]]) -> bool:
-    """Whether learning proposes the same, which the page then shows once."""
-    places = [(hull["asset"], hull["hull"]) for hull in question["hulls"]]
-    return question["kind"] in ("group", "repair") and places in [[(one["asset"], one["hull"])] for one in repairs]
 
 
 def volumes_of(mesh: SymbolicMesh) -> list[float]:

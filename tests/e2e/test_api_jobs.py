@@ -51,9 +51,9 @@ def test_apply_review_and_export_and_what_is_told_of_it(studio: Studio) -> None:
     picture = studio.get("/api/thumbnail", asset=FIRST, of="output", v=cards[FIRST]["edited_picture"])
     assert picture.content.startswith(b"\x89PNG")
     assert studio.get("/api/result", asset=FIRST, of="output").status_code == 200
-    studio.edit("review", ids=[FIRST], verdict="flagged")
+    studio.edit("review", ids=[FIRST], verdict="wrong")
     studio.edit("review", ids=[THIRD], verdict="accepted")
-    studio.cards(lambda cards: cards[THIRD]["review"] == "accepted" and cards[FIRST]["review"] == "flagged")
+    studio.cards(lambda cards: cards[THIRD]["review"] == "accepted" and cards[FIRST]["review"] == "wrong")
     job = run(studio, kind="export", folder="out/first")
     assert job["message"] == "1 asset exported."
     exported = home(studio) / "out" / "first"
@@ -110,7 +110,8 @@ def test_a_job_that_is_cancelled_stops_and_leaves_whole_outputs(studio: Studio) 
 def test_what_is_sure_is_signed_off_once_it_is_written_and_an_undo_of_a_question_put_off_keeps_that(
     studio: Studio,
 ) -> None:
-    studio.until(lambda hello: hello["assessment"] is not None and not hello["assessing"])
+    hello = studio.until(lambda hello: hello["assessment"] is not None and not hello["assessing"])
+    question = hello["assessment"]["question"]
     project = Project.open(home(studio))
     waits = [one.id for one in project.status().assets if one.sign_off == "sure"]
     assert waits and not project.sign_offs()

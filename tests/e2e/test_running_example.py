@@ -78,7 +78,7 @@ def test_from_files_to_exported_assets_with_accidents_on_the_way(tmp_path: Path)
         assert not other.complaints
     exported = sorted(path.name for path in (project / "export").rglob("*.obj"))
     assert "table_01.obj" in exported
-    assert "table_02.obj" not in exported, "it is flagged"
+    assert "table_02.obj" not in exported, "it is wrong"
     assert len(load(project / "export" / "table_01.obj").hulls) < len(load(TABLES / "table_01.obj").hulls)
 
 
@@ -129,13 +129,18 @@ def _answer(person: Hand, studio: Studio) -> int:
     """Take the choice that is meant, of everything that is asked; gives how many questions there were."""
     person.press("Alt+3")
     answered = 0
-    while question := studio.settled()["outcome"]["question"]:
-        place = [choice["extractor"] for choice in question["choices"]].index(MEANT[question["rule"] - 1])
+    while (question := _assessed(studio)["question"]) and question["kind"] in ("reading", "label"):
+        place = [choice["text"] for choice in question["choices"]].index(MEANT[question["rule"] - 1])
         card = person.page.get_by_role("region", name=re.compile(f"which hulls should rule {question['rule']} take"))
         person.click(card.get_by_role("button").nth(place))
         answered += 1
         studio.until(partial(_has_said, answered))
     return answered
+
+
+def _assessed(studio: Studio) -> dict[str, Any]:
+    found = studio.until(lambda hello: not hello["assessing"] and hello["assessment"] is not None)["assessment"]
+    return dict(found)
 
 
 def _has_said(answers: int, hello: dict[str, Any]) -> bool:
@@ -160,14 +165,14 @@ def _repair(person: Hand, studio: Studio) -> None:
     """Accept that the label is wrong."""
     studio.until(lambda hello: bool(hello["outcome"] and hello["outcome"]["repairs"]))
     person.press("Alt+3")
-    card = person.page.get_by_role("article", name=f"{MISLABELLED} of {SECOND}")
-    person.click(card.get_by_role("button", name="Accept"))
-    person.sees(f"{MISLABELLED} of {SECOND} is now labelled misc")
+    card = person.page.get_by_role("region", name=f"{MISLABELLED} of {SECOND} is called")
+    person.click(card.get_by_role("button", name="It is misc"))
+    person.sees("1 hull labelled misc")
     studio.until(lambda hello: not hello["learning"] and hello["outcome"]["status"] in ("found", "ambiguous"))
 
 
 def _review(person: Hand, other: Hand, studio: Studio) -> None:
-    """Apply to all, accept one, flag one, which the other page shows; export what is signed off."""
+    """Apply to all, accept one, call one wrong, which the other page shows; export what is signed off."""
     person.press("Alt+4")
     person.click("Apply to all")
     studio.cards(lambda cards: all(card["output"] in ("edited", "unchanged", "failed") for card in cards.values()))
@@ -176,8 +181,8 @@ def _review(person: Hand, other: Hand, studio: Studio) -> None:
     studio.cards(lambda cards: cards["table_01.obj"]["review"] == "accepted")
     go_to(person, "table_02.obj")
     person.press("f")
-    studio.cards(lambda cards: cards["table_02.obj"]["review"] == "flagged")
-    other.page.get_by_role("option", name=re.compile("table_02.obj.*flagged", re.IGNORECASE)).wait_for()
+    studio.cards(lambda cards: cards["table_02.obj"]["review"] == "wrong")
+    other.page.get_by_role("option", name=re.compile("table_02.obj.*wrong", re.IGNORECASE)).wait_for()
     person.click(person.page.get_by_role("radio", name="Export"))
     person.click(person.page.get_by_role("button", name=re.compile("^Export [1-9][0-9]* asset")))
     person.sees("The last export")

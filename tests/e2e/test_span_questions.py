@@ -66,7 +66,7 @@ def test_a_card_asks_about_each_hull_that_spans_parts_and_yes_splits_it(project:
         assert not person.complaints
 
 
-def test_an_asset_on_which_the_program_cannot_run_is_corrected_or_set_aside(project: Project, tmp_path: Path) -> None:
+def test_an_asset_on_which_the_program_cannot_run_is_corrected_or_excluded(project: Project, tmp_path: Path) -> None:
     with opened(tmp_path, project.folder, "--page", str(PAGE)) as studio, chromium() as browser:
         studio.settled()
         legs = [hull.name for hull in project.mesh("a.urdf").hulls if hull.label == "leg"]
@@ -77,8 +77,8 @@ def test_an_asset_on_which_the_program_cannot_run_is_corrected_or_set_aside(proj
         person.page.locator("#asked", has_text="The program cannot run on ").wait_for()
         person.press("u")
         assert not person.page.get_by_role("button", name="Right").count()
-        person.page.get_by_role("button", name="Correct it").wait_for()
-        person.page.get_by_role("button", name="Set aside").wait_for()
+        person.page.get_by_role("button", name="Show it").wait_for()
+        person.page.get_by_role("button", name="Exclude").wait_for()
         person.press("s", "n")
         person.sees("What to do with the selected hulls")
         assert not person.complaints, "no result was asked for that there cannot be"
@@ -112,9 +112,10 @@ def test_a_cut_whose_parts_are_labelled_is_proposed_on_a_look_alike(project: Pro
         assert question["text"].startswith("base/h0 of d.urdf looks like base/h0 of c.urdf, ")
         parts = _header(studio.get("/api/parts", asset="d.urdf", hull="base/h0").content)
         assert parts["like"] == {"asset": "c.urdf", "hull": "base/h0", "parts": [0, 1]}
-        assert question["choices"][0]["text"] == "split so: leg, seat", "nothing is known of each part"
+        texts = {choice["id"]: choice["text"] for choice in question["choices"]}
+        assert texts == {"no": "no, it is one part", "yes": "split so: leg, seat"}, "nothing is known of each part"
         _is_beside_its_parts(studio.get("/api/parts/picture", asset="d.urdf", hull="base/h0").content)
-        studio.edit("split-span", asset="d.urdf", hull="base/h0")
+        studio.edit("reply", question=question, choice="yes")
         assert [hull.label for hull in project.mesh("d.urdf").hulls[:2]] == ["leg", "seat"]
         hello = studio.until(lambda hello: not hello["assessing"])
         assert hello["assessment"]["question"] is None, "nothing more is asked, and nobody waits for it"

@@ -98,6 +98,7 @@ export interface Everything {
   HullOfAsset: HullOfAsset;
   HullRef: HullRef;
   HullView: HullView;
+  HullWithLabel: HullWithLabel;
   HullsOfAsset: HullsOfAsset;
   Job: Job;
   JobCancel: JobCancel;

@@ -104,6 +104,10 @@ def test_a_project_of_before_is_understood_and_reading_it_changes_nothing(tmp_pa
     assert tree(project.folder) == before
 
 
+def snooze(project: Project, question: str) -> None:
+    project.add_events(SnoozeEvent(question=question))
+
+
 WRITES: dict[str, Callable[[Project], object]] = {
     "a snooze": lambda project: project.add_events(SnoozeEvent(question="span-3")),
     "a review": lambda project: project.review(0.5, execution=IN_PROCESS),

@@ -5,11 +5,11 @@ import { perform } from "../store/edits";
 import { useProject } from "../store/project";
 import { differing } from "../store/readings";
 import { openStage, setFilters, setHighlight, setLayout, useWorkspace, visit } from "../store/workspace";
-import type { DoubtView, Reply, ReviewQuestionView } from "../wire";
+import type { DoubtView, ReplyToQuestion, ReviewQuestionView } from "../wire";
 import type { Command } from "./command";
 
 /** What is said to a question; nothing: none of its choices. */
-export type Said = Omit<Reply, "kind" | "question">;
+export type Said = Omit<ReplyToQuestion, "kind" | "question">;
 
 /** The question that was replied to last. */
 let replied: ReviewQuestionView | null = null;

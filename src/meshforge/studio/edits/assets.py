@@ -252,7 +252,7 @@ class ExcludeAssets(Edit):
 
 
 class _CorrectionEdit(Edit):
-    touches = ("corrections/{asset}.json",)
+    touches = ("corrections/{asset}.json", EVENTS_FILE)
     asset: str
 
 

@@ -18,8 +18,11 @@ export function ResultReplies({ question }: { question: ReviewQuestionView }) {
   const has = (id: string) => choices.some((choice) => choice.id === id);
   const [wrong, setWrong] = useState(!asks);
   const right = () => void reply(question, { choice: "right" });
+  const tell = async (next: () => void) => {
+    if (!asks || (await reply(question, { choice: "wrong" }))) next(); // it was told before where it is asked again
+  };
   const reject = () => {
-    if (wrong) return void (asks && reply(question, { choice: "wrong" }));
+    if (wrong) return void tell(() => demonstrate(asset));
     setWrong(true);
     visit(asset, { kind: "source" }); // where hulls can be selected that a rule should have taken
   };
@@ -27,7 +30,7 @@ export function ResultReplies({ question }: { question: ReviewQuestionView }) {
   const doing = useCardKeys({ later, show, ...(asks && { choices: [right, reject], accept: right }), ...(has("wrong") && { reject }) });
   return (
     <>
-      {wrong && has("wrong") && <WhatIsRight question={question} />}
+      {wrong && has("wrong") && <WhatIsRight question={question} tell={(next) => void tell(next)} />}
       <div className={css.row}>
         {asks && (
           <Reply keyName="Y" look={wrong ? "plain" : "primary"} icon={Check} onClick={doing(right)}>
@@ -48,23 +51,20 @@ export function ResultReplies({ question }: { question: ReviewQuestionView }) {
 }
 
 /** The ways to say what is right: other hulls for a rule, other labels, a demonstration; or nothing more. */
-function WhatIsRight({ question }: { question: ReviewQuestionView }) {
+function WhatIsRight({ question, tell }: { question: ReviewQuestionView; tell: (next: () => void) => void }) {
   const { asset } = question;
+  const runs = useProject((state) => state.reach[asset]?.error == null);
   const rules = useProject((state) => state.program.rules);
   const isOpen = useWorkspace((state) => state.asset === asset && state.showing.kind === "source");
   const count = useWorkspace((state) => state.selection.size);
-  const isNew = canBeRight(question);
-  const tell = async (next: () => void) => {
-    if (!isNew || (await reply(question, { choice: "wrong" }))) next();
-  };
   const label = () => {
     openAsset(asset);
     openStage("label");
   };
   return (
     <div className={css.ways} role="group" aria-label="What is right">
-      <p>What is right? Select the hulls that a rule should take, or:</p>
-      {rules.map(({ rule, sentence }) => (
+      <p>What is right?{runs && " Select the hulls that a rule should take, or:"}</p>
+      {(runs ? rules : []).map(({ rule, sentence }) => (
         <Reply
           key={rule}
           icon={MousePointer2}
@@ -75,14 +75,14 @@ function WhatIsRight({ question }: { question: ReviewQuestionView }) {
           {isOpen && <span className={css.facts}>{countText(count, "hull")}</span>}
         </Reply>
       ))}
-      <Reply icon={Tag} tip="Opens the asset, to label its hulls" onClick={() => void tell(label)}>
+      <Reply icon={Tag} tip="Opens the asset, to label its hulls" onClick={() => tell(label)}>
         Labels are wrong
       </Reply>
-      <Reply icon={CircleDot} tip="Opens the asset, to demonstrate the edit on it" onClick={() => void tell(() => demonstrate(asset))}>
+      <Reply keyName="N" icon={CircleDot} tip="Opens the asset, to demonstrate the edit on it" onClick={() => tell(() => demonstrate(asset))}>
         Show it
       </Reply>
-      {isNew && (
-        <Reply keyName="N" icon={X} tip="It needs review until somebody says what is right" onClick={() => void tell(() => undefined)}>
+      {canBeRight(question) && (
+        <Reply icon={X} tip="It needs review until somebody says what is right" onClick={() => tell(() => undefined)}>
           Just wrong
         </Reply>
       )}
