@@ -115,7 +115,7 @@ def test_what_is_sure_is_signed_off_once_it_is_written_and_an_undo_of_a_question
     project = Project.open(home(studio))
     waits = [one.id for one in project.status().assets if one.sign_off == "sure"]
     assert waits and not project.sign_offs()
-    studio.edit("put-off", id="group-1")
+    studio.edit("reply", question=question, later=True)
     assert run(studio, kind="apply")["state"] == "done"
     assert set(waits) <= set(project.sign_offs())
     ok(studio.post("/api/undo"))

@@ -98,7 +98,6 @@ export interface Everything {
   HullOfAsset: HullOfAsset;
   HullRef: HullRef;
   HullView: HullView;
-  HullWithLabel: HullWithLabel;
   HullsOfAsset: HullsOfAsset;
   Job: Job;
   JobCancel: JobCancel;

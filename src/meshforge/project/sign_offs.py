@@ -26,6 +26,7 @@ from meshforge.language import Program
 from meshforge.project import run
 from meshforge.project.learn import digest_demonstrations, digest_learning_inputs, digest_settings
 from meshforge.signoff import Assessment, EditMeasures
+from meshforge.signoff.question import NOT_OF_FAMILY
 from meshforge.store import (
     SAID,
     AssessmentFile,
@@ -131,7 +132,8 @@ def keep_assessment(
         for name, one in found.assets.items()
         if name in basis.inputs
     }
-    wrong, foreign = tuple(sorted(found.wrong)), tuple(sorted(found.foreign))
+    wrong = tuple(sorted(found.wrong))
+    foreign = tuple(sorted(name for name, why in found.excluded.items() if why == NOT_OF_FAMILY))
     kept = AssessmentFile(bar=found.bar, lesson=basis.lesson, wrong=wrong, foreign=foreign, assets=lines)
     store.write_assessment(kept)
     return True

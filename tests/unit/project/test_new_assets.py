@@ -24,7 +24,6 @@ from meshforge.project import (
     read_preparation_plan,
     span_splits,
 )
-from meshforge.project.span_splits import mark_as_one_part
 from meshforge.symbolic import Label, LabelFile, read_labels
 from tests.unit.batch.families import tree
 from tests.unit.project.stools import PARTS, boxes, coarse, write_stool
