@@ -53,6 +53,7 @@ def test_a_reply_moves_probabilities_as_it_should(
     if road == "Project.reply":
         reply_by_method(project, question, case.reply)
     else:
+        monkeypatch.setattr("meshforge.cli.review.draw_question", lambda *_: [])  # pictures are slow
         Path("said.json").write_text(json.dumps([{"id": question.id, **case.reply}]))
         told = runner(monkeypatch, capsys)("review", "racks", "--answers", "said.json", "--by", "Ada")
         assert "is not asked any more" not in told.err
