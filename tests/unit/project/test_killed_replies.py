@@ -13,8 +13,8 @@ from meshforge.project import Project
 from tests.unit.batch.families import tree
 from tests.unit.cli.in_process import runner
 from tests.unit.deaths import deaths, needs_fork
+from tests.unit.project.replying import CASES, MAKERS, find_question, look, reply_by_method
 from tests.unit.project.tables import LEGS, THIRD, applied
-from tests.unit.project.test_wrong import CASES, MAKERS, find_question, look, reply_by_method
 
 SAME = ("labels/", "demonstrations/", "meshforge.toml", "program.mf", "edited/")
 SURE = ("--min-confidence", "0.9999", "--answers", "said.json")
