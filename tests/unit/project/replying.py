@@ -15,7 +15,8 @@ from meshforge.batch import IN_PROCESS
 from meshforge.cli.review_answers import read_replies
 from meshforge.language import Each, Merge
 from meshforge.project import Project, ProjectReview
-from meshforge.signoff import QuestionKind, ReviewQuestion
+from meshforge.signoff import ReviewQuestion
+from meshforge.signoff.question import QuestionKind
 from meshforge.synthesis import Step
 from tests.unit.project.racks import LEGS, PLAIN, shown_racks
 from tests.unit.project.shelves import PLAIN as MISLABELLED

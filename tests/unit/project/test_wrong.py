@@ -8,10 +8,8 @@ import pytest
 
 from meshforge.formats import load
 from meshforge.language import Delete, Each, Merge, Program
-from meshforge.project import Project, ProjectReview
-from meshforge.signoff import ReviewQuestion
+from meshforge.project import Project
 from meshforge.signoff.assessment import CALLED_WRONG_BEFORE, CONTRADICTED
-from meshforge.signoff.question import QuestionKind
 from meshforge.symbolic import Label
 from meshforge.synthesis import Step
 from tests.unit.cli.in_process import Run, runner
