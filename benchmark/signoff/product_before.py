@@ -53,18 +53,19 @@ def list_units() -> list[Unit]:
 def freeze(tell: Tell, path: Path = FROZEN) -> None:
     """Measure the product as it is, and write that with the commit that it is at."""
     units = list_units()
-    write(path, zip(units, run_sessions(units, tell, workers=1), strict=True))
-
-
-def write(path: Path, sessions: Iterable[tuple[Unit, dict[str, Any]]]) -> None:
-    """Write sessions, of each but the last point of its curve."""
+    found = run_sessions(units, tell, workers=1)
     commit = subprocess.run(["git", "rev-parse", "HEAD"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    write(path, zip(units, found, strict=True), commit.strip())
+
+
+def write(path: Path, sessions: Iterable[tuple[Unit, dict[str, Any]]], commit: str) -> None:
+    """Write sessions, of each but the last point of its curve."""
     rows = []
     for unit, found in sessions:
         review = asdict(Review.of_json(found["review"]))
         rows.append({"client": unit.client, "computer": found["computer"], **review, "points": review["points"][-1:]})
     lines = ",\n".join(json.dumps(row, separators=(",", ":")) for row in rows)
-    head = f'"command": {json.dumps(COMMAND)},\n"commit": {json.dumps(commit.strip())}'
+    head = f'"command": {json.dumps(COMMAND)},\n"commit": {json.dumps(commit)}'
     write_atomically(path, f'{{\n{head},\n"sessions": [\n{lines}\n]\n}}\n')
 
 
@@ -83,7 +84,7 @@ def measure(tell: Tell, quick: bool) -> Result:
     for client, review in sessions:
         groups.setdefault((review.condition, client), []).append(review)
     tables = (_tell_figures(groups), _tell_probabilities(groups), _tell_long(sessions))
-    return Result("product_before", TITLE, tables, (), tuple(_list_notes(commit)))
+    return Result("product_before", TITLE, tables, (), tuple(_list_notes(commit, [one for _, one in sessions])))
 
 
 _Groups = dict[tuple[str, str], list[Review]]
@@ -154,11 +155,17 @@ def _tell_long(sessions: Sequence[tuple[str, Review]]) -> Table:
     return Table("Sessions not done, or with more than 5% signed off wrong", columns, tuple(rows))
 
 
-def _list_notes(commit: str) -> Iterator[str]:
+def _list_notes(commit: str, reviews: Sequence[Review]) -> Iterator[str]:
+    names = dict.fromkeys(one.task for one in reviews)
     yield (
         f"Frozen: measured once by `{COMMAND}` at commit {commit[:12]}, kept in `benchmark/signoff/unchanged.json`. "
         "`src` was as it was before anything of it was changed; this part is not measured again."
     )
+    if len(names) < len(list_tasks()):
+        yield (
+            f"{len(names)} of the {len(list_tasks())} tasks, as time was short: {', '.join(names)}; of "
+            "answers alone fewer, as the table says."
+        )
     yield (
         "Each session is a project on disk that a person works with by the methods of `Project`. The family is that of "
         "the first reported person, 25 assets at one decomposition. What is right is judged on what the project would "

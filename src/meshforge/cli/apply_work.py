@@ -16,7 +16,7 @@ from meshforge import batch
 from meshforge.cli import options
 from meshforge.cli.apply_new import hold, hold_new, prepare_given, prepare_later
 from meshforge.cli.terminal import remark
-from meshforge.common import UsageError
+from meshforge.common import UsageError, join_names
 from meshforge.language import Program, Template
 
 if TYPE_CHECKING:
@@ -136,6 +136,7 @@ def _work_of_project(given: ApplyArguments, stack: ExitStack) -> ApplyWork:
     new = prepare_later(project, folder, new_options)
     held = _hold_back(project, out, given.min_confidence) if given.min_confidence is not None else ()
     program, jobs, templates = project.work()
+    _name_excluded(project)
     names = {one.asset for one in held}
     rest = [job for job in new.update(jobs) if job.id not in names]
     finish = project.renew_sign_offs if out.absolute() == project.layout.edited else _sign_nothing_off
@@ -190,11 +191,13 @@ def _review(project: Project, bar: float) -> ProjectReview:
 def _hold_back(project: Project, out: Path, bar: float) -> tuple[batch.Held, ...]:
     """The assets of a project whose edits are less sure than a bar, the least sure first."""
     assessment = _review(project, bar).assessment
-    held = (hold(name, assessment.assets.get(name), out) for name in assessment.held)
-    away = (
-        hold(name, assessment.assets.get(name), out, f"excluded: {why}") for name, why in assessment.excluded.items()
-    )
-    return (*held, *away)
+    return tuple(hold(name, assessment.assets.get(name), out) for name in assessment.held)
+
+
+def _name_excluded(project: Project) -> None:
+    away = [f"{asset} ({one.reason})" for asset, one in project.feedback().exclusions.items()]
+    if away:
+        remark(f"excluded, and not edited: {join_names(away)}")
 
 
 def _work_of_program(given: ApplyArguments) -> ApplyWork:

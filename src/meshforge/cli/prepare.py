@@ -84,7 +84,9 @@ def prepare(given: PrepareArguments) -> None:
         what = "--decompose METHOD, --split-spanning, --rebuild-spanning, --undo or --remove"
         raise UsageError(f"say what to do, one of these: {what}")
     if not spanning:
-        options.refuse_options(given.context, ("sure", "dry_run", "limits"), "--split-spanning or --rebuild-spanning")
+        options.refuse_options(
+            given.context, ("min_confidence", "dry_run", "limits"), "--split-spanning or --rebuild-spanning"
+        )
     if given.undo and not given.assets:
         raise UsageError("--undo of which asset?", remedy="Name it; --remove takes back everything, of all assets too.")
     project = Project.open(given.project)

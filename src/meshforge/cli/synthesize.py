@@ -5,10 +5,10 @@ from __future__ import annotations
 
 import shlex
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import typer
 
@@ -148,7 +148,7 @@ def _print_answers(project: Project, folder: Path, json: bool) -> None:
     """List all answers and repairs by their ids."""
     said = project.feedback().said
     if json:
-        print_json([{"id": name, **event.model_dump(mode="json", by_alias=True)} for name, event in said.items()])
+        print_json(_to_json(said))
         return
     for name, event in said.items():
         typer.echo(f"{name}  {_describe(event)}")
@@ -157,6 +157,18 @@ def _print_answers(project: Project, folder: Path, json: bool) -> None:
         remark(f"To take one back: {command}")
     else:
         remark("nothing was answered, repaired or refused yet")
+
+
+def _to_json(said: Mapping[str, AnswerEvent | LabelFixEvent]) -> dict[str, list[dict[str, Any]]]:
+    """Answers, repairs that were made and those that were refused, each with its id."""
+    found: dict[str, list[dict[str, Any]]] = {"answers": [], "confirmed": [], "rejected": []}
+    for name, event in said.items():
+        line = event.model_dump(mode="json", by_alias=True, exclude={"event", "accepted"})
+        if isinstance(event, LabelFixEvent):
+            found["confirmed" if event.accepted else "rejected"].append({"id": name, "from": None, **line})
+        else:
+            found["answers"].append({"id": name, "select": None, "action": None, "refused": [], **line})
+    return found
 
 
 def _describe(event: AnswerEvent | LabelFixEvent) -> str:

@@ -51,6 +51,8 @@ def review_project(
     """
     before = AssessmentBasis.take(store, execution)
     meshes, lost = _read_meshes(store)
+    if not meshes and not lost:
+        raise ProjectError("there is nothing to review: no asset is of this family", where=str(store.folder))
     if not meshes:
         raise ProjectError("there is no asset that can be read", where=str(store.folder))
     recall_descriptors(store, meshes, execution)

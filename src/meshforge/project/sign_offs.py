@@ -26,6 +26,7 @@ from meshforge.language import Program
 from meshforge.project import run
 from meshforge.project.learn import digest_demonstrations, digest_learning_inputs, digest_settings
 from meshforge.signoff import Assessment, EditMeasures
+from meshforge.signoff.question import NOT_OF_FAMILY
 from meshforge.store import (
     SAID,
     AssessmentFile,
@@ -132,7 +133,9 @@ def keep_assessment(
         if name in basis.inputs
     }
     wrong = tuple(sorted(found.wrong))
-    store.write_assessment(AssessmentFile(bar=found.bar, lesson=basis.lesson, wrong=wrong, assets=lines))
+    foreign = tuple(sorted(name for name, why in found.excluded.items() if why == NOT_OF_FAMILY))
+    kept = AssessmentFile(bar=found.bar, lesson=basis.lesson, wrong=wrong, foreign=foreign, assets=lines)
+    store.write_assessment(kept)
     return True
 
 

@@ -45,7 +45,8 @@ class _Line(JsonFile):
             fields[name].serialization_alias or name for name in fields if getattr(self, name) == fields[name].default
         }
         found: dict[str, Any] = write(self)
-        return {"event": found["event"], **{name: value for name, value in found.items() if name not in empty}}
+        kind = {"event": found["event"]} if "event" in found else {}
+        return {**kind, **{name: value for name, value in found.items() if name not in empty}}
 
 
 class _Withdrawable(_Line):

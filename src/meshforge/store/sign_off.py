@@ -114,12 +114,14 @@ class ConfidenceLine(JsonFile):
 
 class AssessmentFile(JsonFile):
     """What was found last. bar: the probability from which on an asset is signed off; lesson: the digest of what was
-    learned from and of all verdicts; wrong: assets of which a person said that the result is wrong.
+    learned from and of all verdicts; wrong: assets of which a person said that the result is wrong; foreign: those of
+    which they said that they are not of the family.
     """
 
     bar: float
     lesson: str
     wrong: tuple[str, ...] = ()
+    foreign: tuple[str, ...] = ()
     assets: dict[str, ConfidenceLine] = Field(default_factory=dict)
 
     def with_alarms(self, alarms: Mapping[str, Sequence[str]]) -> AssessmentFile:
@@ -130,7 +132,9 @@ class AssessmentFile(JsonFile):
     def holds(self, lesson: str, inputs: Mapping[str, OutputInputs]) -> bool:
         """Whether nothing changed since; inputs: of the edits of all assets that can be read, or of some."""
         return lesson == self.lesson and all(
-            name in self.assets and not find_changes(now, self.assets[name].rests_on) for name, now in inputs.items()
+            name in self.assets and not find_changes(now, self.assets[name].rests_on)
+            for name, now in inputs.items()
+            if name not in self.foreign
         )
 
 

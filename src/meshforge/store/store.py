@@ -23,7 +23,7 @@ from meshforge.store import membership
 from meshforge.store import program as program_files
 from meshforge.store import settings as settings_file
 from meshforge.store.event_log import load_events, load_feedback, load_sign_offs, save_events, save_sign_offs
-from meshforge.store.events import Event, SnoozeEvent, VerdictEvent
+from meshforge.store.events import Event, ExclusionEvent, SnoozeEvent, VerdictEvent
 from meshforge.store.feedback import Feedback
 from meshforge.store.layout import Layout, read_derived, read_json, write_json
 from meshforge.store.mesh_cache import MeshCache
@@ -153,7 +153,11 @@ class Store:
                 ):
                     path.unlink(missing_ok=True)
                 remove_preparation(self.layout.preparation(asset))
-            self.add_events(*(VerdictEvent(asset=asset) for asset in assets if self.feedback().verdict_on(asset)))
+            said = self.feedback()
+            verdicts = [VerdictEvent(asset=asset) for asset in assets if said.verdict_on(asset)]
+            exclusions = [ExclusionEvent(asset=asset) for asset in assets if asset in said.exclusions]
+            if verdicts or exclusions:
+                self.add_events(*verdicts, *exclusions)
             forget_assets(self.layout, assets)
 
     # Labels

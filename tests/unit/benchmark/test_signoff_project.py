@@ -129,8 +129,9 @@ def test_what_the_project_writes_has_its_edits_by_hand(bench: Bench) -> None:
 def test_frozen_sessions_read_back_and_have_a_page(bench: Bench, tmp_path: Path) -> None:
     review = sign_off(bench, TRUE, 1)
     found = {"review": json.loads(json.dumps(asdict(review))), "computer": 1.0}
-    write(tmp_path / "frozen.json", [(Unit("cup-easy", TRUE.name, 1), found)])
-    _, ((client, kept),) = read(tmp_path / "frozen.json")
+    write(tmp_path / "frozen.json", [(Unit("cup-easy", TRUE.name, 1), found)], "abc")
+    commit, ((client, kept),) = read(tmp_path / "frozen.json")
+    assert commit == "abc"
     assert client == Client.name
     assert kept == replace(review, points=review.points[-1:])
     assert len(set(list_units())) == len(list_units())

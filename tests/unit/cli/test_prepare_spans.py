@@ -56,17 +56,17 @@ def test_review_asks_about_it_and_a_reply_splits_it_or_keeps_it(run: Run, tmp_pa
     told = run("review", "p", "--json")
     question = json.loads(told.out)["question"]
     assert question["kind"] == "span" and question["hulls"] == [{"asset": "c.urdf", "hull": "base/h0"}]
-    assert [choice["text"].split(":")[0] for choice in question["choices"]] == ["split so", "no, it is one part"]
+    assert [choice["text"].split(":")[0] for choice in question["choices"]] == ["no, it is one part", "split so"]
     (picture,) = question["pictures"]
     assert Path(picture).read_bytes().startswith(b"\x89PNG")
     told = run("review", "p")
     assert "base/h0 of c.urdf holds seat and leg, " in told.out and "%: split so?  [span-" in told.out
     replies = tmp_path / "replies.json"
-    for choice in (0, 1):
+    for choice in ("yes", "no"):
         replies.write_text(json.dumps([{"id": question["id"], "choice": choice}]))
         assert "[span-" not in run("review", "p", "--answers", str(replies)).out
-        assert (tmp_path / "p/prepared/c.urdf").exists() == (choice == 0)
-        if choice == 0:
+        assert (tmp_path / "p/prepared/c.urdf").exists() == (choice == "yes")
+        if choice == "yes":
             run("prepare", "p", "c.urdf", "--undo")
     told = run("prepare", "p", "--split-spanning", "--min-confidence", "0.7", "--workers", "1")
     assert "left as it is, since a person said that it is one part" in told.out and "into 2 hulls" not in told.out

@@ -205,7 +205,7 @@ def test_the_lines_of_two_branches_are_merged_in_either_order(tmp_path: Path) ->
 
 @pytest.mark.parametrize(("first", "last"), [(RIGHT, WRONG), (WRONG, RIGHT)])
 def test_of_two_people_who_contradict_each_other_the_last_counts(
-    tmp_path: Path, first: dict[str, object], last: dict[str, object]
+    tmp_path: Path, first: Mapping[str, object], last: Mapping[str, object]
 ) -> None:
     project = learned(tmp_path)
     project.layout.events.write_text(lines(first, SNOOZE, last))

@@ -8,7 +8,8 @@ from pathlib import Path
 import pytest
 
 from meshforge.project import Project, list_span_questions
-from meshforge.signoff import ReviewQuestion
+from meshforge.signoff import SpanQuestion
+from meshforge.signoff.question import NO, YES
 from tests.unit.project.stools import create_stools
 from tests.unit.project.test_span_questions import HULL, answer, ask, asked
 from tests.unit.project.test_spans import files
@@ -36,8 +37,8 @@ def label(project: Project, below: str = "leg", above: str = "seat") -> None:
     project.set_labels(SHOWN, {f"{HULL}#0": below, f"{HULL}#1": above})
 
 
-def ask_until_done(project: Project, choice: str) -> list[ReviewQuestion]:
-    found = list[ReviewQuestion]()
+def ask_until_done(project: Project, choice: str) -> list[SpanQuestion]:
+    found = list[SpanQuestion]()
     while asked(project):
         found.append(answer(project, choice))
         assert len(found) <= len(OTHERS), "it is asked again"
@@ -58,7 +59,7 @@ def test_nothing_is_asked_before_the_parts_have_labels_of_which_two_differ(proje
 
 def test_yes_splits_each_look_alike_by_the_plane_carried_over_once(project: Project) -> None:
     label(project)
-    answered = ask_until_done(project, "yes")
+    answered = ask_until_done(project, YES)
     assert {question.asset for question in answered} == OTHERS
     for asset, height in (("a.urdf", 0.44), ("b.urdf", 0.49), ("d.urdf", 0.46)):
         below, above = (project.mesh(asset).hull_of(f"{HULL}#{k}") for k in range(2))
@@ -71,10 +72,10 @@ def test_yes_splits_each_look_alike_by_the_plane_carried_over_once(project: Proj
 def test_an_answer_is_undone_to_the_last_byte_and_no_is_remembered(project: Project) -> None:
     label(project)
     before = files(project)
-    first = answer(project, "yes").asset
+    first = answer(project, YES).asset
     project.unprepare(first)
-    assert files(project) == before
-    assert {question.asset for question in ask_until_done(project, "no")} == OTHERS
+    assert {name: data for name, data in files(project).items() if name != "events.jsonl"} == before
+    assert {question.asset for question in ask_until_done(project, NO)} == OTHERS
     assert set(project.single_parts().assets) == OTHERS
 
 

@@ -1,175 +1,48 @@
-"""What every kind of reply does to the probabilities of a family, and what becomes of a result that is called wrong."""
+"""What becomes of a result that is called wrong, and of assets that are given up."""
 
 from __future__ import annotations
 
-import json
-import shutil
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal
 
 import pytest
 
-from meshforge.batch import IN_PROCESS
-from meshforge.cli.review_answers import read_replies
 from meshforge.formats import load
 from meshforge.language import Delete, Each, Merge, Program
-from meshforge.project import Project, ProjectReview
-from meshforge.signoff import ReviewQuestion
+from meshforge.project import Project
 from meshforge.signoff.assessment import CALLED_WRONG_BEFORE, CONTRADICTED
-from meshforge.signoff.question import QuestionKind
 from meshforge.symbolic import Label
 from meshforge.synthesis import Step
 from tests.unit.cli.in_process import Run, runner
-from tests.unit.project.racks import BLOCK, LEGS, PLAIN, shown_racks
-from tests.unit.project.shelves import PLAIN as MISLABELLED
-from tests.unit.project.shelves import SHELVED, ambiguous, mislabelled
-
-SHOWN, ALSO, ASKED, OTHER, LAST = PLAIN
-THREE = sorted(LEGS)[:3]
-Direction = Literal["up", "down", "same", "any"]
-
-
-def forgetful(folder: Path) -> Project:
-    """One rack is shown, of which a leg is left out."""
-    project = shown_racks(folder)
-    project.demonstrate(ALSO, ())
-    project.demonstrate(SHOWN, [Step(1, LEGS - {"left_low"}, Each(Merge()))])
-    return project
-
-
-MAKERS: Mapping[str, Callable[[Path], Project]] = {
-    "plain": shown_racks,
-    "slip": forgetful,
-    "ambiguous": ambiguous,
-    "mislabelled": mislabelled,
-}
+from tests.unit.project.racks import BLOCK, LEGS, shown_racks
+from tests.unit.project.replying import (
+    ALSO,
+    ASKED,
+    LAST,
+    OTHER,
+    SHOWN,
+    THREE,
+    copy,
+    find_question,
+    look,
+    probabilities,
+    reply_by_method,
+    say,
+    write,
+)
 
 
 @pytest.fixture(scope="module")
-def made(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
-    """The folder of a family that was reviewed once, made where it is asked for."""
-    folders = dict[str, Path]()
-
-    def make(name: str) -> Path:
-        if name not in folders:
-            folders[name] = tmp_path_factory.mktemp(name)
-            look(MAKERS[name](folders[name]))
-        return folders[name]
-
-    return make
+def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of the family, reviewed once."""
+    folder = tmp_path_factory.mktemp("plain")
+    look(shown_racks(folder))
+    return folder
 
 
 @pytest.fixture
-def project(made: Callable[[str], Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Project:
+def project(made: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Project:
     """Six racks of which two are demonstrated and one becomes a block."""
-    return copy(made("plain"), tmp_path, monkeypatch)
-
-
-def copy(source: Path, folder: Path, monkeypatch: pytest.MonkeyPatch) -> Project:
-    shutil.copytree(source, folder, dirs_exist_ok=True)
-    monkeypatch.chdir(folder)
-    return Project.open(folder / "racks")
-
-
-def look(project: Project) -> ProjectReview:
-    return project.review(execution=IN_PROCESS)
-
-
-def write(project: Project, *assets: str) -> None:
-    list(project.apply(assets or None, execution=IN_PROCESS))
-
-
-def find_question(found: ProjectReview, kind: QuestionKind, asset: str) -> ReviewQuestion:
-    return next(one for one in found.assessment.questions if (one.kind, one.asset) == (kind, asset))
-
-
-def probabilities(found: ProjectReview) -> dict[str, float]:
-    return {name: one.probability for name, one in found.assessment.assets.items()}
-
-
-def say(project: Project, choice: str, asset: str = ASKED, **more: Any) -> ProjectReview:
-    """Reply to the question whether a result is right."""
-    reply_by_method(project, find_question(look(project), "result", asset), {"choice": choice, **more})
-    return look(project)
-
-
-def reply_by_method(project: Project, question: ReviewQuestion, fields: Mapping[str, Any]) -> None:
-    path = project.folder.parent / "said.json"
-    path.write_text(json.dumps([{"id": question.id, **fields}]))
-    (reply,) = read_replies(path)
-    project.reply(question, reply.to_reply(question))
-
-
-@dataclass(frozen=True)
-class Case:
-    """A reply. others: where probabilities go of assets that nobody has seen; own: that of the asset asked about."""
-
-    kind: QuestionKind
-    asset: str
-    reply: Mapping[str, Any]
-    others: Direction
-    own: Direction
-    family: str = "plain"
-
-
-CASES = {
-    "right": Case("result", ASKED, {"choice": "right"}, "up", "up"),
-    "wrong": Case("result", ASKED, {"choice": "wrong"}, "down", "down"),
-    "wrong, other hulls": Case("result", ASKED, {"choice": "wrong", "selections": {"1": THREE}}, "down", "up"),
-    "wrong, other labels": Case("result", ASKED, {"choice": "wrong", "labels": {"rail": "leg"}}, "down", "down"),
-    "not of this family": Case("result", ASKED, {"choice": "not-of-family"}, "any", "any"),
-    "not solved": Case("result", ASKED, {"choice": "not-solved"}, "same", "same"),
-    "later": Case("result", ASKED, {"later": True}, "same", "same"),
-    "a group is what it is called": Case("group", OTHER, {"choice": "rail"}, "any", "up"),
-    "a group is something else": Case("group", OTHER, {"choice": "leg"}, "down", "down"),
-    "one of a group is something else": Case(
-        "group", OTHER, {"choice": "rail", "exceptions": {f"{LAST}#rail": "leg"}}, "any", "up"
-    ),
-    "a reading": Case("reading", SHELVED, {"choice": "a"}, "any", "up", "ambiguous"),
-    "none of the readings": Case("reading", SHELVED, {"choice": None}, "any", "any", "ambiguous"),
-    "a label is repaired": Case("repair", MISLABELLED, {"choice": "knob"}, "up", "up", "mislabelled"),
-    "a label is right": Case("repair", MISLABELLED, {"choice": "leg"}, "any", "any", "mislabelled"),
-    "a slip": Case("selection", SHOWN, {"choice": "yes"}, "up", "any", "slip"),
-    "no slip": Case("selection", SHOWN, {"choice": "no"}, "up", "any", "slip"),
-}
-
-
-@pytest.mark.parametrize("road", ["Project.reply", "review --answers"])
-@pytest.mark.parametrize("name", CASES)
-def test_a_reply_moves_probabilities_as_it_should(
-    made: Callable[[str], Path],
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
-    name: str,
-    road: str,
-) -> None:
-    case = CASES[name]
-    project = copy(made(case.family), tmp_path, monkeypatch)
-    before = look(project)
-    question = find_question(before, case.kind, case.asset)
-    if road == "Project.reply":
-        reply_by_method(project, question, case.reply)
-    else:
-        Path("said.json").write_text(json.dumps([{"id": question.id, **case.reply}]))
-        told = runner(monkeypatch, capsys)("review", "racks", "--answers", "said.json", "--by", "Ada")
-        assert "is not asked any more" not in told.err
-        assert all('"by":"Ada"' in line for line in project.layout.events.read_text().splitlines())
-    after = look(project)
-    assert question.id in project.feedback().replied
-    was, now = probabilities(before), probabilities(after)
-    seen = {*before.state.reviewed_assets, *after.state.reviewed_assets, case.asset, BLOCK}
-    check(case.others, [(was[one], now[one]) for one in now if one not in seen])
-    check(case.own, [(was[case.asset], now.get(case.asset, 0.0))])
-    assert question.id not in {one.id for one in after.assessment.questions} or name.startswith("wrong")
-
-
-def check(direction: Direction, pairs: list[tuple[float, float]]) -> None:
-    assert pairs
-    for was, now in pairs:
-        assert {"up": now > was, "down": now < was, "same": now == was, "any": True}[direction], (was, now)
+    return copy(made, tmp_path, monkeypatch)
 
 
 def test_where_other_hulls_are_meant_the_output_is_made_with_these_and_signed_off_by_a_person(project: Project) -> None:

@@ -106,7 +106,7 @@ def test_results_that_are_all_wrong_lower_the_rest() -> None:
 
 def test_results_of_a_program_that_is_no_more_do_not_count_against_the_one_there_is() -> None:
     _, state = show_without()
-    wrong: dict[str, tuple[frozenset[str], ...]] = {f"t{k}": (frozenset(),) for k in range(1, 5)}
+    wrong = {f"t{k}": (frozenset[str](),) for k in range(1, 5)}
     after = review(replace(state, wrong=frozenset(wrong), failed=wrong))
     assert probability(after, "t5") == probability(review(state), "t5")
 

@@ -1,0 +1,86 @@
+"""A reply whose command was killed is taken by the same command again, which then exits as if it had not been."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from pathlib import Path
+
+import pytest
+
+from meshforge.batch import IN_PROCESS
+from meshforge.project import Project
+from tests.unit.batch.families import tree
+from tests.unit.cli.in_process import runner
+from tests.unit.deaths import deaths, needs_fork
+from tests.unit.project.replying import CASES, MAKERS, find_question, look, reply_by_method
+from tests.unit.project.tables import LEGS, THIRD, applied
+
+SAME = ("labels/", "demonstrations/", "meshforge.toml", "program.mf", "edited/")
+SURE = ("--min-confidence", "0.9999", "--answers", "said.json")
+
+
+def outcome(project: Project) -> object:
+    """All that a reply can change, but for how often it was said."""
+    found = project.review(0.9999, execution=IN_PROCESS)
+    files = {name: data for name, data in tree(project.folder).items() if name.startswith(SAME)}
+    outputs = {name: data for name, data in files.items() if "/.meshforge" not in name and not name.endswith(".tmp")}
+    return found.assessment.assets, found.assessment.held, found.assessment.excluded, outputs
+
+
+@needs_fork
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "name",
+    ["right", "wrong, other hulls", "wrong, other labels", "not solved", "a group is something else", "a slip"],
+)
+def test_a_reply_whose_command_was_killed_is_taken_again(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], name: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    case, run = CASES[name], runner(monkeypatch, capsys)
+    project = MAKERS[case.family](tmp_path)
+    question = find_question(look(project), case.kind, case.asset)
+    Path("said.json").write_text(json.dumps([{"id": question.id, **case.reply}]))
+    shutil.copytree(project.folder, "before")
+    code = run("review", "racks", *SURE).code
+    expected = outcome(project)
+
+    def restore() -> None:
+        shutil.rmtree(project.folder)
+        shutil.copytree("before", project.folder)
+
+    restore()
+    died = 0
+    for _ in deaths(lambda: reply_by_method(project, question, case.reply)):
+        told = run("review", "racks", *SURE)
+        assert (told.code, "is not asked any more" in told.err) == (code, False)
+        if case.kind != "group":  # of which the labels of some assets may be written, and those of others not
+            assert outcome(project) == expected
+        restore()
+        died += 1
+    assert died
+    told = run("review", "racks", *SURE)
+    assert (told.code, "is not asked any more" in told.err) == (code, False)
+    assert outcome(project) == expected
+
+
+DONE: dict[str, dict[str, object]] = {
+    "right": {"choice": "right"},
+    "other hulls": {"choice": "wrong", "selections": {"2": sorted(LEGS)[:3]}},
+    "not solved": {"choice": "not-solved"},
+}
+
+
+@pytest.mark.parametrize("name", DONE)
+def test_who_replies_again_once_all_is_done_gets_the_exit_code_of_that(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], name: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    project, run = applied(tmp_path), runner(monkeypatch, capsys)
+    question = find_question(project.review(0.9999, execution=IN_PROCESS), "result", THIRD)
+    Path("said.json").write_text(json.dumps([{"id": question.id, **DONE[name]}]))
+    for _ in range(2):
+        told = run("review", "tables", *SURE)
+        assert (told.code, "skipped" in told.err) == (0, False)
+    assert len(project.layout.events.read_text().splitlines()) == 1
