@@ -55,7 +55,7 @@ class Standings:
         if asset.id in self.said.exclusions:
             return "excluded"
         verdict = self.said.verdict_on(asset.id)
-        is_wrong = asset.review == "wrong" and not (verdict and verdict.meant) and not asset.demonstrated
+        is_wrong = asset.review == "wrong" and not (verdict and verdict.meant)
         if asset.id in self.last.wrong if self.last else is_wrong:
             return "held"
         if is_signed or asset.review == "accepted":
