@@ -22,7 +22,6 @@ from meshforge.signoff import (
     SlipQuestion,
 )
 from meshforge.signoff.question import EXCLUDE, NO, NOT_SOLVED, RIGHT, WRONG, YES
-from meshforge.store import SpanLine, SpansFile, hull_digests
 from meshforge.symbolic import Label
 from meshforge.synthesis import Answer, Step
 from tests.unit.project.tables import FIRST, LEGS, SECOND, THIRD, applied, demonstrated, fresh, labelled, learned
@@ -80,20 +79,6 @@ def test_a_sign_off_is_void_when_a_label_changes_and_says_so(tmp_path: Path) -> 
     assert (status.sign_off, status.void) == ("void", ("labels",))
     assert status.probability is None
     assert not project.status().is_signed_off
-
-
-def test_a_sign_off_of_the_tool_is_void_when_a_hull_is_found_to_span_parts_and_a_persons_stays(tmp_path: Path) -> None:
-    project = applied(tmp_path)
-    review(project)
-    lines = {
-        asset: {"crumb": SpanLine(geometry=hull_digests(project.mesh(asset))["crumb"], chance=0.8, told="crumb holds")}
-        for asset in (FIRST, THIRD)
-    }
-    project.write_spans(SpansFile(assets=lines))
-    states = {one.id: (one.sign_off, one.void) for one in project.status().assets}
-    assert states[THIRD] == ("void", ("what is known of its hulls",))
-    assert states[FIRST] == states[SECOND] == ("signed off", ()), "a person showed what becomes of it"
-    assert review(project).taken_back.keys() == {THIRD}
 
 
 def test_a_sign_off_is_void_when_the_program_changes(tmp_path: Path) -> None:
@@ -300,17 +285,34 @@ def test_a_slip_in_an_answer_is_replaced_and_a_verdict_that_was_one_is_taken_bac
 
 
 def test_an_output_that_stands_out_though_the_review_did_not_know_is_signed_off_by_no_tool(tmp_path: Path) -> None:
-    project = applied(tmp_path)
+    project = learned(tmp_path)
     review(project)
+    list(project.apply(execution=IN_PROCESS))
     odd = dict.fromkeys((SECOND, THIRD), ("volume +300%, the family +0%",))
-    lost = project.renew_sign_offs(odd, clock=lambda: NOON)
-    assert lost == {THIRD: "its output stands out: volume +300%, the family +0%"}
+    assert project.renew_sign_offs(odd, clock=lambda: NOON) == {}
     assert {asset: one.by for asset, one in project.sign_offs().items()} == {FIRST: "person", SECOND: "person"}
     assert project.renew_sign_offs(clock=lambda: NOON) == {} and THIRD not in project.sign_offs()
     status = next(one for one in project.status().assets if one.id == THIRD)
     assert (status.sign_off, [doubt.kind for doubt in status.doubts]) == ("held", ["alarm", "reading"])
     review(project)
     assert sign_off_of(project, THIRD) == "signed off"
+
+
+def test_an_output_that_is_found_to_stand_out_stays_signed_off_and_that_is_said(tmp_path: Path) -> None:
+    project = applied(tmp_path)
+    review(project)
+    assert project.renew_sign_offs({THIRD: ("volume +300%, the family +0%",)}, clock=lambda: NOON) == {}
+    status = next(one for one in project.status().assets if one.id == THIRD)
+    assert (status.sign_off, status.found_since) == ("signed off", ("volume +300%, the family +0%",))
+
+
+def test_a_sign_off_stays_at_a_lower_bar_and_is_taken_back_where_more_is_asked_for(tmp_path: Path) -> None:
+    project = applied(tmp_path)
+    review(project)
+    assert review(project, 0.4).taken_back == {}
+    (why,) = review(project, 0.9999).taken_back.values()
+    assert why.endswith("sure, and more is asked for now")
+    assert project.sign_offs().keys() == {FIRST, SECOND}
 
 
 def test_while_nothing_fits_what_was_shown_is_signed_off_no_longer_and_what_was_accepted_is(tmp_path: Path) -> None:
