@@ -228,9 +228,9 @@ def _replace_selections(
 
 
 def find_accepted_results(store: Store) -> dict[str, tuple[batch.RuleSelection, ...]]:
-    """What the program did on the results that were looked at and accepted, by asset; of very many some, evenly."""
+    """What the program did by itself on results that were looked at and accepted, by asset; of very many some."""
     verdicts = ((asset, some[-1]) for asset, some in store.feedback().verdicts.items() if asset in store.found.ids)
-    rows = [(asset, one) for asset, one in verdicts if one.verdict == "accepted" and one.seen]
+    rows = [(asset, one) for asset, one in verdicts if one.verdict == "accepted" and one.seen and not one.meant]
     some = pick_evenly(rows, MOST_ACCEPTED)
     present = {asset: output_digest(batch.read_stamp(store.layout.edited, asset)) for asset, _ in some}
     return {asset: one.seen for asset, one in some if one.output == present[asset]}

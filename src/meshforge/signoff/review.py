@@ -155,9 +155,12 @@ def _questions(
 
 
 def _sort(questions: Iterable[ReviewQuestion], state: ReviewState) -> tuple[ReviewQuestion, ...]:
-    """Those that may be asked, what is worth most a second first; of equals the first by its id."""
+    """Those that may be asked, what is worth most a second first; of equals the first by its id. Who refused to turn
+    the assets is not asked again on another one."""
+    is_refused = any(name.startswith(kinds.OrientationQuestion.kind) for name in state.snoozed)
     asked = (one for one in questions if one.id not in state.snoozed)
-    return tuple(sorted(asked, key=lambda one: (-one.worth, one.id)))
+    left = (one for one in asked if not (is_refused and isinstance(one, kinds.OrientationQuestion)))
+    return tuple(sorted(left, key=lambda one: (-one.worth, one.id)))
 
 
 def _ask_group(family: FamilyTrial, group: LookalikeGroup) -> kinds.GroupQuestion:

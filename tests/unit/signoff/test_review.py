@@ -26,7 +26,16 @@ from meshforge.signoff import (
 from meshforge.signoff.confidence import NO_EDIT
 from meshforge.signoff.question import EXCLUDE, NO, NOT_OF_FAMILY, NOT_SOLVED, RIGHT, WRONG
 from meshforge.symbolic import Label, SymbolicMesh
-from meshforge.synthesis import Answer, Demonstration, LearningOutcome, Step, synthesize
+from meshforge.synthesis import (
+    Ambiguous,
+    Answer,
+    Demonstration,
+    Found,
+    LearningOutcome,
+    OrientationSuggestion,
+    Step,
+    synthesize,
+)
 from tests.synthesis_boxes import table
 
 LABELS = ("drawer", "handle", "leg", "misc", "panel")
@@ -249,3 +258,21 @@ def test_an_empty_family_is_done() -> None:
     found = review_family(ReviewState({}, FRAME), None, model_family([]))
     assert found.question is None
     assert found.is_done
+
+
+def test_who_refused_to_turn_the_assets_is_not_asked_to_turn_another_one() -> None:
+    meshes = tables()
+    state = ReviewState(meshes, FRAME, demos=shown(meshes, "t0"))
+    outcome = learn(state)
+    assert isinstance(outcome, Found | Ambiguous)
+
+    def asked(state: ReviewState, asset: str) -> list[ReviewQuestion]:
+        orient = Program.parse("orient +Z: Is(leg) -> Is(panel)\n").orient
+        assert orient
+        suggested = OrientationSuggestion(orient, (3,), "it is shorter", (5,), (asset,))
+        found = review_family(state, replace(outcome, suggested=suggested), model_family(list(meshes.values())))
+        return [one for one in found.questions if isinstance(one, OrientationQuestion)]
+
+    (first,) = asked(state, "t1")
+    assert first.choices[0].id == NO
+    assert asked(snooze(state, first), "t2") == []
