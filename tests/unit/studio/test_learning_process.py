@@ -202,8 +202,8 @@ def test_of_many_calls_only_the_last_is_done(fresh: tuple[Project, Learner]) -> 
     reaches = [learner.reach(BUNDLED) for _ in range(20)]
     assert outcomes[-1].result().status == "found"
     assert reaches[-1].result()
-    for outcome in outcomes[1:-1]:
-        assert isinstance(outcome.exception(), Superseded)
+    for outcome in outcomes[1:-1]:  # one that began as an earlier one ended is cancelled while it runs
+        assert isinstance(outcome.exception(), Superseded) or outcome.result().status == "timeout"
     assert outcomes[0].result().status == "timeout"
     assert all(isinstance(reach.exception(), Superseded) for reach in reaches[:-1])
 
