@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cached_property, partial
 from pathlib import Path
 from typing import Any
+
+from playwright.sync_api import TimeoutError
 
 from meshforge.common import MeshForgeError
 from meshforge.formats import load
@@ -60,14 +63,19 @@ class Expert:
             if last is None:
                 return
             self.answered[last["kind"]] += 1
-            self.person.press("u")
-            self._wait_for_card(last)
+            self._go_to_card(last)
             self._answer(last)
         raise AssertionError("the studio asks without end")
 
-    def _wait_for_card(self, question: dict[str, Any]) -> None:
+    def _go_to_card(self, question: dict[str, Any]) -> None:
+        """Press the key of the card until it is there: a busy page may lose one."""
         card = self.person.page.locator(f'[id="question-{question["id"]}"]')
         card = card.or_(self.person.page.get_by_role("heading", name=question["text"], exact=True))
+        for timeout in (5_000, 10_000, 60_000):
+            self.person.press("u")
+            with suppress(TimeoutError):
+                card.first.wait_for(timeout=timeout)
+                return
         card.first.wait_for()
 
     def _answer(self, question: dict[str, Any]) -> None:

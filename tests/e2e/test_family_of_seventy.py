@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -53,6 +54,7 @@ def test_a_family_of_seventy_is_signed_off_and_exported_by_keys(
         false = [asset for asset in signed if not expert.is_right(asset)]
         _apply(person)
         studio.cards(lambda cards: all(card["output"] == "edited" and not card["stale"] for card in cards.values()))
+        studio.until(_is_signed_off)
         _export(person)
         assert not person.complaints
     made = {asset: volumes_of(load(folder / "export" / asset)) for asset in truth}
@@ -61,6 +63,12 @@ def test_a_family_of_seventy_is_signed_off_and_exported_by_keys(
     assert len(false) <= MOST_WRONG * COUNT
     assert right >= LEAST_RIGHT * COUNT
     assert not [row.id for row in Project.open(folder).status().assets if row.output != "edited"]
+
+
+def _is_signed_off(hello: dict[str, Any]) -> bool:
+    """Whether every result is signed off as it was written, so that all can be exported."""
+    found = hello["assessment"]
+    return found is not None and not hello["assessing"] and found["signed_off"] == COUNT
 
 
 def _write_labels(source: Path, truth: dict[str, dict[str, str]]) -> int:
