@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from playwright.sync_api import Locator, TimeoutError
 
 from benchmark.learning.repairs import Noise, spoilt
 from meshforge.formats import load
@@ -121,9 +123,20 @@ def _apply(person: Hand) -> None:
 
 
 def _export(person: Hand) -> None:
-    for choice in ("What to review", "Which outputs"):
-        person.reach(person.page.get_by_label(choice).get_by_role("radio", checked=True))
-        person.press("End", "Enter")
-    person.reach(person.button(f"Export {COUNT} assets"))
+    button = person.button(f"Export {COUNT} assets")
+    _choose_last(person, "What to review", person.page.get_by_label("Which outputs"))
+    _choose_last(person, "Which outputs", button)
+    person.reach(button)
     person.press("Enter")
     person.sees("The last export")
+
+
+def _choose_last(person: Hand, choice: str, then: Locator) -> None:
+    """Take the last of some radio buttons by keys until what follows is there: a busy page may lose one."""
+    for timeout in (5_000, 10_000, 60_000):
+        person.reach(person.page.get_by_label(choice).get_by_role("radio", checked=True))
+        person.press("End", "Enter")
+        with suppress(TimeoutError):
+            then.first.wait_for(timeout=timeout)
+            return
+    then.first.wait_for()
