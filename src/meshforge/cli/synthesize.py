@@ -146,7 +146,7 @@ def _context_of(session: LearningSession, folder: Path, outcome: LearningOutcome
 
 def _print_answers(project: Project, folder: Path, json: bool) -> None:
     """List all answers and repairs by their ids."""
-    said = project.feedback().said
+    said = project.feedback().answers_and_fixes
     if json:
         print_json(_to_json(said))
         return
@@ -182,7 +182,7 @@ def _describe(event: AnswerEvent | LabelFixEvent) -> str:
 def _forget_answers(project: Project, folder: Path, ids: Sequence[str]) -> None:
     """Take back what has one of these ids, or everything by `all`."""
     if "all" in ids:
-        count = len(project.feedback().said)
+        count = len(project.feedback().answers_and_fixes)
         notes = list(project.forget_answers())
         typer.echo(f"taken back: {pluralize(count, 'answer or repair', 'answers and repairs')}")
     else:

@@ -156,7 +156,7 @@ def run_script(session: LearningSession, given: ScriptAnswers | None, verdict: b
 
 def check_all_asked(project: Project, given: ScriptAnswers | None, outcome: LearningOutcome) -> None:
     """Raise UsageError where a choice is left over, whose question did not come up now or earlier."""
-    known = set(project.feedback().said)
+    known = set(project.feedback().answers_and_fixes)
     odd = [question for question in (given.choices if given else {}) if question not in known]
     if odd:
         asked = f"The open question is {outcome.question.id}." if outcome.question else "No question is open."

@@ -232,7 +232,7 @@ def take_back(store: Store, said: str) -> str | None:
     where there is no such one.
     """
     with store.lock():
-        kept = store.feedback().said
+        kept = store.feedback().answers_and_fixes
         if said not in kept:
             listing = f"See what was said: meshforge synthesize {store.folder} --list-answers"
             remedy = suggest_name(said, kept, listing)
@@ -245,7 +245,7 @@ def take_back(store: Store, said: str) -> str | None:
 
 def forget_answers(store: Store) -> tuple[str, ...]:
     """Take back everything; gives the sentences about labels that are left alone."""
-    notes = [take_back(store, entry) for entry in store.feedback().said]
+    notes = [take_back(store, entry) for entry in store.feedback().answers_and_fixes]
     return tuple(note for note in notes if note)
 
 

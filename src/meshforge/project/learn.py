@@ -135,7 +135,7 @@ def digest_learning_inputs(store: Store, settings: Settings | None = None) -> st
     """
     layout, feedback = store.layout, store.feedback()
     words: list[object] = [digest_settings(settings or store.settings), digest_demonstrations(store)]
-    words += [line.model_dump(mode="json") for line in feedback.said.values()]
+    words += [line.model_dump(mode="json") for line in feedback.answers_and_fixes.values()]
     words += [str(some[-1].meant) for some in feedback.verdicts.values() if some[-1].meant]
     concerned = {line.asset for line in feedback.answers.values()} | set(store.demonstration_ids())
     for asset, path in store.found.ids.items():

@@ -72,9 +72,8 @@ def find_choice(question: ReviewQuestion, reply: ReviewReply) -> ReviewChoice | 
     if reply.choice is not None and choice is None:
         remedy = suggest_name(reply.choice, ids, f"Its choices are: {join_names(ids) or 'none'}.")
         raise ProjectError(f"question {question.id} has no choice {reply.choice!r}", remedy=remedy)
-    if (reply.selections or reply.labels) and (
-        not isinstance(question, signoff.ResultQuestion) or reply.choice != WRONG
-    ):
+    is_wrong = isinstance(question, signoff.ResultQuestion) and reply.choice == WRONG
+    if (reply.selections or reply.labels) and not is_wrong:
         remedy = f'They go with the choice "{WRONG}" of a question whether a result is right.'
         raise ProjectError(f"question {question.id} takes no selections and labels with that reply", remedy=remedy)
     if odd := [place for place in reply.exceptions if place not in question.hulls]:

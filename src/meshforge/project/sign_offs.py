@@ -66,14 +66,14 @@ def digest_lesson(store: Store) -> str:
     which hulls were found to span parts."""
     journals = map(store.layout.preparation_journal, store.demonstration_ids())  # whether a person saw what was carried
     kept = (content_digest(file) if file.exists() else None for file in (store.layout.spans, *journals))
-    return value_digest([digest_learning_inputs(store), digest_said(store), *kept])
+    return value_digest([digest_learning_inputs(store), digest_feedback(store), *kept])
 
 
-def digest_said(store: Store) -> str:
+def digest_feedback(store: Store) -> str:
     """The digest of what people said: answers and fixes, verdicts without notes, exclusions, and hulls that are one
     part."""
     feedback = store.feedback()
-    lines = [*feedback.said.values(), *(one for some in feedback.verdicts.values() for one in some)]
+    lines = [*feedback.answers_and_fixes.values(), *(one for some in feedback.verdicts.values() for one in some)]
     said = [one.model_dump(mode="json", exclude={"note", "by", "question"}) for one in lines]
     away = {asset: one.reason for asset, one in feedback.exclusions.items()}
     return value_digest([said, away, store.single_parts().model_dump(mode="json")])
@@ -83,7 +83,10 @@ def find_bases(
     store: Store, edits: Mapping[str, OutputInputs], outputs: Mapping[str, AssetOutput]
 ) -> dict[str, SignOffBasis]:
     """What a sign-off of each asset would rest on now. edits: the digests of all that decides its edit."""
-    settings, said = digest_settings(store.settings), value_digest([digest_demonstrations(store), digest_said(store)])
+    settings, said = (
+        digest_settings(store.settings),
+        value_digest([digest_demonstrations(store), digest_feedback(store)]),
+    )
     return {asset: SignOffBasis.of(edit, settings, said, outputs[asset].digest) for asset, edit in edits.items()}
 
 

@@ -13,20 +13,20 @@ from meshforge.store import AssessmentFile, ConfidenceLine, Feedback, SignOff, S
 @dataclass(frozen=True, eq=False, slots=True)
 class Standings:
     """What is kept of a review. bases: what sign-offs would rest on now, of assets that can be edited; lacks: what is
-    not there of the others; said: by people; signed: what is signed off, by asset; last: what the last review found,
-    None where something changed since.
+    not there of the others; feedback: of people; signed: what is signed off; last: what the last review found, None
+    where something changed since.
     """
 
     bases: Mapping[str, SignOffBasis]
     lacks: str
-    said: Feedback
+    feedback: Feedback
     signed: Mapping[str, SignOff]
     last: AssessmentFile | None
 
     def add_to(self, asset: AssetStatus) -> AssetStatus:
         """An asset with how it stands."""
         line = self.last.assets.get(asset.id) if self.last else None
-        sign_off, excluded = self.signed.get(asset.id), self.said.exclusions.get(asset.id)
+        sign_off, excluded = self.signed.get(asset.id), self.feedback.exclusions.get(asset.id)
         void = self._find_void(asset, sign_off)
         state = self._find_state(asset, line, bool(sign_off), bool(void))
         by = sign_off.by if sign_off and not _is_accepted(asset) else "person"
@@ -52,9 +52,9 @@ class Standings:
     def _find_state(
         self, asset: AssetStatus, line: ConfidenceLine | None, is_signed: bool, is_void: bool
     ) -> SignOffState:
-        if asset.id in self.said.exclusions:
+        if asset.id in self.feedback.exclusions:
             return "excluded"
-        verdict = self.said.verdict_on(asset.id)
+        verdict = self.feedback.verdict_on(asset.id)
         is_wrong = asset.review == "wrong" and not (verdict and verdict.meant)
         if asset.id in self.last.wrong if self.last else is_wrong:
             return "held"

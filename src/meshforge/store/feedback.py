@@ -25,7 +25,7 @@ class Feedback:
     replied: frozenset[str] = frozenset()
 
     @property
-    def said(self) -> Mapping[str, kinds.AnswerEvent | kinds.LabelFixEvent]:
+    def answers_and_fixes(self) -> Mapping[str, kinds.AnswerEvent | kinds.LabelFixEvent]:
         """The answers and fixes, which can be withdrawn by their ids."""
         return {**self.answers, **self.fixes}
 

@@ -105,7 +105,7 @@ def test_a_dry_run_keeps_nothing(run: Run, tmp_path: Path) -> None:
         "learned in TIME with 1 answer",
         "all believable readings of the rules agree on your 30 assets",
     ]
-    assert project.program() is None and not project.feedback().said
+    assert project.program() is None and not project.feedback().answers_and_fixes
 
 
 @pytest.mark.parametrize(

@@ -110,7 +110,7 @@ def test_a_confirmed_repair_becomes_the_label_and_remembers_the_one_before(tmp_p
     project.confirm(WRONG)
     assert project.take_back("rack0.obj#knob=knob") is None
     assert knob(project) == MACHINE
-    assert not project.feedback().said
+    assert not project.feedback().answers_and_fixes
 
 
 def test_a_missing_label_that_was_filled_in_is_missing_again(tmp_path: Path) -> None:
@@ -137,7 +137,7 @@ def test_a_repair_of_an_asset_that_is_gone_can_be_taken_back(tmp_path: Path) -> 
     (tmp_path / "assets" / PLAIN).unlink()
     project = Project.open(project.folder)
     assert "there is no asset" in (project.take_back(said) or "")
-    assert not project.feedback().said
+    assert not project.feedback().answers_and_fixes
 
 
 def test_a_repair_that_no_longer_fits_is_refused(tmp_path: Path) -> None:
@@ -149,7 +149,7 @@ def test_a_repair_that_no_longer_fits_is_refused(tmp_path: Path) -> None:
     project.set_labels(PLAIN, {"knob": "board"})
     with pytest.raises(ProjectError, match="knob is labelled board now, no longer leg"):
         project.confirm(WRONG)
-    assert not project.feedback().said
+    assert not project.feedback().answers_and_fixes
 
 
 def test_what_was_said_last_about_a_repair_counts(tmp_path: Path) -> None:
@@ -175,4 +175,4 @@ def test_everything_can_be_forgotten(tmp_path: Path) -> None:
     project.confirm(WRONG)
     demonstrations.reject(project, LabelCorrection(OTHER, "left", "leg", "knob"))
     assert project.forget_answers() == ()
-    assert not project.feedback().said and knob(project) == MACHINE
+    assert not project.feedback().answers_and_fixes and knob(project) == MACHINE

@@ -58,9 +58,9 @@ def test_a_killed_repair_can_be_done_again_and_taken_back(tmp_path: Path) -> Non
         assert project.labels(FIRST).labels["crumb"] == before
     assert project.labels(FIRST).labels["crumb"].source == "repair"
     for _ in deaths(lambda: project.take_back("table0/model.obj#crumb=leg")):
-        assert project.feedback().said
+        assert project.feedback().answers_and_fixes
     assert project.labels(FIRST).labels["crumb"] == before
-    assert not project.feedback().said
+    assert not project.feedback().answers_and_fixes
 
 
 def test_answers_at_one_time_are_all_kept(tmp_path: Path) -> None:

@@ -66,7 +66,7 @@ def test_answers_for_one_lesson_are_not_kept(tmp_path: Path) -> None:
     project = ambiguous(tmp_path)
     outcome = project.synthesize(accept=False, answers=[Answer(1, SHELVED, ["top"])])
     assert str(outcome.program) == HIGHEST
-    assert project.program() is None and not project.feedback().said
+    assert project.program() is None and not project.feedback().answers_and_fixes
 
 
 def test_answers_about_what_is_gone_are_reported_not_refused(tmp_path: Path) -> None:
@@ -111,7 +111,7 @@ def test_a_refused_repair_is_not_proposed_again(tmp_path: Path) -> None:
     outcome = project.synthesize()
     assert isinstance(outcome, NeedsRepair)
     assert not isinstance(project.synthesize(confirm=lambda _: False), NeedsRepair)
-    assert tuple(project.feedback().said) == ("rack0.obj#knob=knob",)
+    assert tuple(project.feedback().answers_and_fixes) == ("rack0.obj#knob=knob",)
     assert not isinstance(project.synthesize(), NeedsRepair)
     project.forget_answers()
     assert project.synthesize().repairs == outcome.repairs
@@ -120,7 +120,7 @@ def test_a_refused_repair_is_not_proposed_again(tmp_path: Path) -> None:
 def test_a_trial_keeps_no_repair(tmp_path: Path) -> None:
     project = mislabelled(tmp_path)
     assert project.synthesize(accept=False, confirm=lambda _: True).program
-    assert project.mesh(PLAIN).hull_of("knob").label == "leg" and not project.feedback().said
+    assert project.mesh(PLAIN).hull_of("knob").label == "leg" and not project.feedback().answers_and_fixes
 
 
 def test_learning_can_be_stopped(tmp_path: Path) -> None:

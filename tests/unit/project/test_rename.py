@@ -57,7 +57,7 @@ def test_what_was_said_means_the_same_by_the_other_name(tmp_path: Path) -> None:
     assert [edit.label for edit in project.corrections(SECOND)] == ["foot"]
     said = project.feedback()
     assert said.answers[f"2:{THIRD}"].action == "Merge as foot"
-    assert tuple(said.said) == (f"2:{THIRD}", f"{FIRST}#crumb=foot", f"{SECOND}#top=foot")
+    assert tuple(said.answers_and_fixes) == (f"2:{THIRD}", f"{FIRST}#crumb=foot", f"{SECOND}#top=foot")
     assert project.take_back(f"{FIRST}#crumb=foot") is None
     assert project.mesh(FIRST).hull_of("crumb").label == "misc"
     program = project.program()

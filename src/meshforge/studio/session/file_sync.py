@@ -129,7 +129,7 @@ class FileSync:
             for one in before.exclusions.keys() | now.exclusions.keys()
             if (one in before.exclusions) != (one in now.exclusions)
         }
-        learns = bool(about) or before.said != now.said
+        learns = bool(about) or before.answers_and_fixes != now.answers_and_fixes
         assets = changes.assets | (about & self.project.found.ids.keys())
         return replace(changes, assets=assets, learning=changes.learning or learns, questions=True)
 
