@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import exp, log, prod
@@ -32,6 +32,8 @@ from meshforge.signoff.trial import RULE_OF_FRAME, Flip, Trial, find_flips, sele
 from meshforge.synthesis import Reading
 
 SURE_OF_DEMONSTRATED = 0.999
+ALIKE = 14.0
+"""The distance of descriptions up to which hulls look alike."""
 _WORTH_TELLING = 0.01  # the probability that an edit is wrong for one reason, from which on it is told
 _PROGRAM_RIGHT, _RESULT_RIGHT = 2.5, 1.3
 """What speaks for a program as such [nats], and for one that does what a person accepted or meant on an asset: no other
@@ -90,13 +92,41 @@ class FamilyTrial:
         return tuple(
             AssetEvidence(
                 float(agreement[place]),
-                prod(1 - share for share in flip_shares(trial.flips).values()),
+                self.labels_right(place),
                 float(trial.asset in self.foreign),
                 float(self._unlikeness[place]),
                 float(len(self.alarms.get(trial.asset, ()))),
             )
             for place, trial in enumerate(self.trials)
         )
+
+    def labels_right(self, place: int, told: Collection[str] = ()) -> float:
+        """The probability that no other labels would change the edit of an asset: hulls that look alike err together,
+        so of each such cluster the most doubtful one counts.
+
+        told: names of hulls whose labels are known.
+        """
+        worst = defaultdict[int, float](float)
+        for hull, share in flip_shares(self.trials[place].flips).items():
+            if hull not in told:
+                cluster = self._clusters[place][hull]
+                worst[cluster] = max(worst[cluster], share)
+        return prod(1 - share for share in worst.values())
+
+    @cached_property
+    def _clusters(self) -> Sequence[Mapping[str, int]]:
+        """For each asset the cluster of look-alikes of each hull whose label matters."""
+        return [
+            dict(zip(hulls, cluster(self.rows_of(place, hulls)), strict=True))
+            for place, trial in enumerate(self.trials)
+            for hulls in [list(flip_shares(trial.flips))]
+        ]
+
+    def rows_of(self, place: int, hulls: Iterable[str]) -> Floats:
+        """What describes some hulls of an asset (hulls, columns), so that distances are sums of differences."""
+        table = self.posterior.table
+        index, start = self.state.meshes[self.trials[place].asset].index, table.spans.get(place, slice(0, 0)).start
+        return table.rows[[start + index[hull] for hull in hulls]] * table.metric
 
     def trust_in_program(self, looks: int = 0) -> float:
         """The probability that the program is not wrong nearly everywhere, by Bayes: each result that is as a person
@@ -247,6 +277,17 @@ class FamilyTrial:
         if evidence.unlike > 0 and share >= _WORTH_TELLING:
             found.append(Doubt("unlike", "unlike the rest: no other asset has such hulls", share=share))
         return found
+
+
+def cluster(rows: Floats) -> list[int]:
+    """The clusters of some hulls: each belongs to the first one that it looks like."""
+    heads, found = list[int](), list[int]()
+    for place, row in enumerate(rows):
+        alike = (k for k, head in enumerate(heads) if np.abs(rows[head] - row).sum() <= ALIKE)
+        found.append(next(alike, len(heads)))
+        if found[-1] == len(heads):
+            heads.append(place)
+    return found
 
 
 def flip_shares(flips: Sequence[Flip]) -> dict[str, float]:

@@ -209,16 +209,18 @@ def _ask_reading(family: FamilyTrial, rule: int, split: ReadingSplit) -> kinds.R
 
 
 def _gains_of(family: FamilyTrial, splits: Sequence[ReadingSplit], looks: int = 0) -> Floats:
-    """By how much more probable each edit is right (assets,) when some rules are told apart, and as many results more
-    are found right."""
-    shares, program = np.ones(len(family.trials)), family.trust_in_program(looks)
+    """What it is worth for each edit (assets,) when some rules are told apart, and as many results more are found
+    right; nothing for those that a person saw."""
+    shares, program = np.ones(len(family.trials)), family.trust_in_program(looks) / family.trust_in_program()
     for split in splits:
         agreement = family.readings[split.rule - 1].agreement
         shares *= np.minimum(1.0, agreement + split.gains) / np.maximum(agreement, 1e-9)
+    seen = family.state.reviewed_assets
+    rows = zip(family.trials, family.evidence, shares.tolist(), strict=True)
     return np.array(
         [
-            one.with_readings(min(1.0, one.readings * share), program).probability - one.probability
-            for one, share in zip(family.evidence, shares.tolist(), strict=True)
+            0.0 if trial.asset in seen else one.credit(readings=max(share, 1.0), program=program)
+            for trial, one, share in rows
         ]
     )
 
