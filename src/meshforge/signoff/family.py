@@ -26,6 +26,7 @@ from meshforge.signoff.assessment import (
 )
 from meshforge.signoff.confidence import NO_EDIT, AssetEvidence
 from meshforge.signoff.readings import RuleReadings, compare_readings
+from meshforge.signoff.result_labels import weigh_labels
 from meshforge.signoff.slips import RuleSlip, find_slips
 from meshforge.signoff.state import ReviewState
 from meshforge.signoff.trial import RULE_OF_FRAME, Flip, Trial, find_flips, select_by, try_program
@@ -66,14 +67,22 @@ class FamilyTrial:
         posterior: FamilyPosterior,
         alarms: Mapping[str, Sequence[str]],
     ) -> FamilyTrial:
-        """Try a program on a family."""
-        trials = list[Trial]()
-        for place, (name, mesh) in enumerate(state.meshes.items()):
-            trial = try_program(name, mesh, program, state.templates)
-            flips = find_flips(trial, mesh, program, posterior.seen.labels, posterior.chances_of(place))
-            trials.append(replace(trial, flips=flips))
+        """Try a program on a family; what people said of results speaks for labels, too."""
+        trials = [try_program(name, mesh, program, state.templates) for name, mesh in state.meshes.items()]
         compared, slips = compare_readings(program, readings, trials), tuple(find_slips(state, program, trials))
-        return FamilyTrial(state, program, posterior, tuple(trials), compared, slips, alarms)
+        found = FamilyTrial(state, program, posterior, tuple(trials), compared, slips, alarms)._with_flips(posterior)
+        evidence = weigh_labels(state, found.trials, posterior)
+        return found if evidence is None else found._with_flips(posterior.weigh(evidence))
+
+    def _with_flips(self, posterior: FamilyPosterior) -> FamilyTrial:
+        """The same with the probabilities of labels, and what other labels would change."""
+        posterior, labels = posterior.doubt_splits(), posterior.seen.labels
+        rows = enumerate(zip(self.trials, self.state.meshes.values(), strict=True))
+        trials = tuple(
+            replace(trial, flips=find_flips(trial, mesh, self.program, labels, posterior.chances_of(place)))
+            for place, (trial, mesh) in rows
+        )
+        return replace(self, posterior=posterior, trials=trials)
 
     @cached_property
     def evidence(self) -> tuple[AssetEvidence, ...]:

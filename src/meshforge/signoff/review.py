@@ -36,6 +36,7 @@ _NO_ALARMS: Mapping[str, Sequence[str]] = MappingProxyType({})
 _TRUST = 2  # the power of the probability that labels on an asset are right, with which what is said there counts
 _LEAST_TRUST = 0.7  # below this nothing is asked there about readings
 _SUGGESTION_RIGHT = 0.5  # the share of held assets that an orientation which is suggested makes right
+_CLUSTER_RISK = 0.1  # edits of look-alikes that are wrong, as far as can be expected, from which on these are asked about
 _MOST_SPLITS = 40  # assets on which readings are told apart, those where they differ most
 
 
@@ -63,7 +64,7 @@ def review_family(
     looked_at = (seen | state.demos.keys()) - stopped - trial.contradicted - state.wrong
     found = Assessment(assets, bar, looked_at, state.wrong, state.excluded)
     if found.is_done:
-        looks = list(_ask_last_looks(trial))
+        looks = [*_ask_last_looks(trial), *_ask_clusters(trial)]
         if any(one.id in state.snoozed for one in looks):  # who snoozes one wants no other
             return found
         return replace(found, questions=_sort(looks, state))
@@ -84,7 +85,8 @@ def _try_family(
     state: ReviewState, outcome: Found | Ambiguous, family: FamilyModel, alarms: Mapping[str, Sequence[str]]
 ) -> FamilyTrial:
     """The program tried on the family, under all that its labels say."""
-    posterior = family.infer([hull.annotation for mesh in state.meshes.values() for hull in mesh.hulls]).doubt_splits()
+    said = [hull.annotation for mesh in state.meshes.values() for hull in mesh.hulls]
+    posterior = family.infer(said, state.frame.labels)
     return FamilyTrial.of(state, outcome.program, outcome.readings, posterior, alarms)
 
 
@@ -107,9 +109,13 @@ def _questions_before(state: ReviewState, outcome: LearningOutcome | None) -> It
             if asset := first or next(iter(meshes), None):
                 yield _ask_demonstration(state, asset, everyone, "Show the edit on {}.")
         case NeedsRepair():
-            asked = list(_ask_repairs(state, outcome, everyone))
+            asked: list[ReviewQuestion] = list(_ask_repairs(state, outcome, everyone))
             kept = (ask_about_kept_label(state, repair, everyone) for repair in outcome.repairs)
-            yield from asked or (slip for slip in kept if slip)
+            asked = asked or [slip for slip in kept if slip and slip.id not in state.snoozed]
+            yield from asked
+            if not asked:  # all was refused: what was shown there may be otherwise
+                text = "Nothing fits what was shown on {} with the labels there: show it again, or correct a label."
+                yield _ask_demonstration(state, outcome.repairs[0].correction.asset, everyone, text)
         case NoProgram():
             if outcome.suggested:
                 yield _ask_orientation(outcome.suggested, state, everyone)
@@ -261,6 +267,21 @@ def _ask_last_looks(family: FamilyTrial) -> Iterator[ReviewQuestion]:
         if looked:
             gain = len(looked) + 1 - evidence.probability
             yield _ask_result(trial, gain, YES_OR_NO, f"One last look: is the result of {trial.asset} right?")
+
+
+def _ask_clusters(family: FamilyTrial) -> Iterator[ReviewQuestion]:
+    """Look-alikes of several assets err together: those whose labels decide edits that nobody looked at are asked about
+    once, however sure each edit is by itself."""
+    state = family.state
+    unseen = [
+        place
+        for place, one in enumerate(family.trials)
+        if one.asset not in state.reviewed_assets and one.asset not in state.excluded
+    ]
+    for group in find_groups(family, unseen):
+        assets = {place.asset for place in group.hulls}
+        if len(assets) > 1 and group.share * len(assets) >= _CLUSTER_RISK:
+            yield _ask_group(family, group)
 
 
 EXCLUDE_CHOICES = tuple(ReviewChoice(choice, f"exclude it: {reason}") for choice, reason in EXCLUDE.items())
