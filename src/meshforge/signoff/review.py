@@ -22,6 +22,7 @@ from meshforge.signoff.readings import ReadingSplit, split_readings
 from meshforge.signoff.slips import ask_about_kept_label, ask_about_nearest, ask_about_slip
 from meshforge.signoff.state import ReviewState
 from meshforge.signoff.trial import Trial
+from meshforge.signoff.turns import find_turned_asset
 from meshforge.synthesis import (
     Ambiguous,
     Found,
@@ -117,8 +118,7 @@ def _questions_before(state: ReviewState, outcome: LearningOutcome | None) -> It
                 text = "Nothing fits what was shown on {} with the labels there: show it again, or correct a label."
                 yield _ask_demonstration(state, outcome.repairs[0].correction.asset, everyone, text)
         case NoProgram():
-            if outcome.suggested:
-                yield _ask_orientation(outcome.suggested, state, everyone)
+            yield from _ask_orientation(outcome.suggested, state, everyone)
             if slip := ask_about_nearest(state, outcome.nearest, everyone):
                 yield slip
             text = f"Nothing fits what was shown on {{}}: {outcome.why}."
@@ -138,11 +138,15 @@ def _ask_repairs(state: ReviewState, outcome: NeedsRepair, everyone: float) -> I
             yield question
 
 
-def _ask_orientation(suggested: OrientationSuggestion, state: ReviewState, gain: float) -> kinds.OrientationQuestion:
-    text = f"Are assets to be turned first, by {show(suggested.orient)}? {suggested.why}."
-    choices = (ReviewChoice(NO, "no"), ReviewChoice(YES, "yes", orient=suggested.orient))
-    asset = next(iter([*suggested.differs_on, *state.meshes]))
-    return identify(kinds.OrientationQuestion(text, YES_OR_NO, gain, asset, choices=choices))
+def _ask_orientation(
+    suggested: OrientationSuggestion | None, state: ReviewState, gain: float
+) -> Iterator[kinds.OrientationQuestion]:
+    asset = find_turned_asset(state, suggested) if suggested else None
+    if suggested and asset:
+        text = f"Should {asset} stand like this?"
+        yes = ReviewChoice(YES, "yes, turn all assets like this", orient=suggested.orient)
+        choices = (ReviewChoice(NO, "no, all stay as they are"), yes)
+        yield identify(kinds.OrientationQuestion(text, YES_OR_NO, gain, asset, choices=choices))
 
 
 def _questions(
@@ -155,9 +159,8 @@ def _questions(
     yield from (ask_about_slip(family.state, slip) for slip in family.slips)
     yield from _ask_results(family, found)
     if suggested:
-        yield _ask_orientation(
-            suggested, family.state, _SUGGESTION_RIGHT * len(held.intersection(suggested.differs_on))
-        )
+        gain = _SUGGESTION_RIGHT * len(held.intersection(suggested.differs_on))
+        yield from _ask_orientation(suggested, family.state, gain)
 
 
 def _sort(questions: Iterable[ReviewQuestion], state: ReviewState) -> tuple[ReviewQuestion, ...]:
