@@ -72,7 +72,22 @@ class FamilyTrial:
         compared, slips = compare_readings(program, readings, trials), tuple(find_slips(state, program, trials))
         found = FamilyTrial(state, program, posterior, tuple(trials), compared, slips, alarms)._with_flips(posterior)
         evidence = weigh_labels(state, found.trials, posterior)
-        return found if evidence is None else found._with_flips(posterior.weigh(evidence))
+        found = found if evidence is None else found._with_flips(posterior.weigh(evidence))
+        return replace(found, readings=found._weigh_readings())
+
+    def _weigh_readings(self) -> tuple[RuleReadings, ...]:
+        """The readings by what rules did on results that were called wrong: where the other rules and the labels there
+        are probably right, a reading that does the same is probably not meant."""
+        found = list(self.readings)
+        for asset, failed in self.state.failed.items():
+            place = self.places.get(asset)
+            if place is None or asset in self.state.meant or self.trials[place].selected != failed:
+                continue
+            sure = [one.agreement[place] for one in self.readings]
+            for k, one in enumerate(self.readings):
+                others = prod([*sure[:k], *sure[k + 1 :], self.labels_right(place)])
+                found[k] = found[k].doubt(one.kinds[:, place] == 0, min(others, _MOST_EXPECTED))
+        return tuple(found)
 
     def _with_flips(self, posterior: FamilyPosterior) -> FamilyTrial:
         """The same with the probabilities of labels, and what other labels would change."""

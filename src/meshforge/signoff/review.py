@@ -10,7 +10,7 @@ from types import MappingProxyType
 import numpy as np
 
 from meshforge.geometry import Floats
-from meshforge.label_model import FamilyModel
+from meshforge.label_model import FamilyModel, FamilyPosterior
 from meshforge.language import show
 from meshforge.signoff import question as kinds
 from meshforge.signoff.assessment import BAR, Assessment, AssetConfidence, Doubt
@@ -19,7 +19,7 @@ from meshforge.signoff.groups import LookalikeGroup, find_groups, find_other_lab
 from meshforge.signoff.prices import READING, YES_OR_NO, price_demonstration
 from meshforge.signoff.question import EXCLUDE, NO, RIGHT, WRONG, YES, HullPlace, ReviewChoice, ReviewQuestion, identify
 from meshforge.signoff.readings import ReadingSplit, split_readings
-from meshforge.signoff.slips import ask_about_kept_label, ask_about_nearest, ask_about_slip
+from meshforge.signoff.slips import ask_about_kept_label, ask_about_nearest, ask_about_slip, offer_label
 from meshforge.signoff.state import ReviewState
 from meshforge.signoff.trial import Trial
 from meshforge.signoff.turns import find_turned_asset
@@ -57,7 +57,7 @@ def review_family(
     if not isinstance(outcome, Found | Ambiguous):  # what was demonstrated is not what any program does
         unknown = {name: AssetConfidence(name, 0.0, (_doubt_of(outcome),)) for name in state.meshes}
         return Assessment(
-            unknown, bar, seen, state.wrong, state.excluded, _sort(_questions_before(state, outcome), state)
+            unknown, bar, seen, state.wrong, state.excluded, _sort(_questions_before(state, outcome, family), state)
         )
     trial = _try_family(state, outcome, family, alarms)
     assets = {one.asset: trial.confidence_of(place) for place, one in enumerate(trial.trials)}
@@ -86,9 +86,13 @@ def _try_family(
     state: ReviewState, outcome: Found | Ambiguous, family: FamilyModel, alarms: Mapping[str, Sequence[str]]
 ) -> FamilyTrial:
     """The program tried on the family, under all that its labels say."""
+    return FamilyTrial.of(state, outcome.program, outcome.readings, _infer(state, family), alarms)
+
+
+def _infer(state: ReviewState, family: FamilyModel) -> FamilyPosterior:
+    """What is said of the labels of a family."""
     said = [hull.annotation for mesh in state.meshes.values() for hull in mesh.hulls]
-    posterior = family.infer(said, state.frame.labels)
-    return FamilyTrial.of(state, outcome.program, outcome.readings, posterior, alarms)
+    return family.infer(said, state.frame.labels)
 
 
 def _doubt_of(outcome: LearningOutcome | None) -> Doubt:
@@ -99,7 +103,9 @@ def _doubt_of(outcome: LearningOutcome | None) -> Doubt:
     return Doubt("reading", getattr(outcome, "why", "no program was found"), share=1.0)
 
 
-def _questions_before(state: ReviewState, outcome: LearningOutcome | None) -> Iterator[ReviewQuestion]:
+def _questions_before(
+    state: ReviewState, outcome: LearningOutcome | None, family: FamilyModel
+) -> Iterator[ReviewQuestion]:
     """What can be asked while there is no program; the first is to be asked before the others."""
     everyone = float(len(state.meshes))
     match outcome:
@@ -120,7 +126,7 @@ def _questions_before(state: ReviewState, outcome: LearningOutcome | None) -> It
         case NoProgram():
             yield from _ask_orientation(outcome.suggested, state, everyone)
             if slip := ask_about_nearest(state, outcome.nearest, everyone):
-                yield slip
+                yield offer_label(state, _infer(state, family), slip)
             text = f"Nothing fits what was shown on {{}}: {outcome.why}."
             yield _ask_demonstration(state, outcome.nearest.asset, everyone, text)
         case _:
@@ -152,11 +158,11 @@ def _ask_orientation(
 def _questions(
     family: FamilyTrial, found: Assessment, suggested: OrientationSuggestion | None
 ) -> Iterator[ReviewQuestion]:
-    held = set(found.held)
+    state, held = family.state, set(found.held)
     open_assets = [place for place, one in enumerate(family.trials) if one.asset in held]
     yield from (_ask_group(family, group) for group in find_groups(family, open_assets))
     yield from _ask_readings(family, found)
-    yield from (ask_about_slip(family.state, slip) for slip in family.slips)
+    yield from (offer_label(state, family.posterior, ask_about_slip(state, slip)) for slip in family.slips)
     yield from _ask_results(family, found)
     if suggested:
         gain = _SUGGESTION_RIGHT * len(held.intersection(suggested.differs_on))
