@@ -3,7 +3,7 @@
 Usage: python -m benchmark.signoff before          writes `before.json` anew, from the tool as it is
        python -m benchmark.signoff unchanged       writes `unchanged.json` anew, from the product as it is
        python -m benchmark.signoff tune FOLDER ... measures on families to tune on, and prints what it finds
-       python -m benchmark.signoff fit FOLDER      fits the weights of probabilities on them, and writes them
+       python -m benchmark.signoff fit FOLDER ...  fits probabilities and threshold on them, and writes them
 """
 
 from __future__ import annotations
@@ -34,10 +34,10 @@ def main(arguments: list[str] | None = None) -> int:
     tune.add_argument("--condition", action="append", choices=[one.name for one in ASKED], metavar="NAME")
     tune.add_argument("--few", action="store_true", help="one person")
     fitted = what.add_parser("fit", help="fit the weights of probabilities on families to tune on")
-    fitted.add_argument("folder", type=Path, help=f"where `{MAKE}` wrote them")
+    fitted.add_argument("folder", type=Path, nargs="+", help=f"where `{MAKE}` wrote them, with one seed each")
     given = parser.parse_args(arguments)
     if given.what == "fit":
-        fit(given.folder.resolve(), _tell)
+        fit([folder.resolve() for folder in given.folder], _tell)
         return 0
     if given.what in _FREEZE:
         _FREEZE[given.what](_tell)

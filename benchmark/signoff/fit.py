@@ -1,164 +1,170 @@
-"""The weights of the probability that an edit is right, fitted on sessions of families to tune on."""
+"""The probability that an edit is right, and the threshold from which on it is signed off without a look, fitted on
+sessions of families to tune on."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 from scipy.optimize import minimize
 
 from benchmark.journal import run_units
 from benchmark.report import Tell
 from benchmark.signoff.calibration import calibrate
 from benchmark.signoff.client import Client, FamilyStatus
-from benchmark.signoff.conditions import open_family
+from benchmark.signoff.conditions import NONE, open_family
 from benchmark.signoff.judge import Judge
-from benchmark.signoff.opening import open_review
 from benchmark.signoff.project import name_by_files
 from benchmark.signoff.queue import sign_off
-from benchmark.study import CONDITIONS, FLAT, TRUE
+from benchmark.study import CONDITIONS, FLAT
 from benchmark.study.condition import PROPAGATED, SYSTEMATIC
 from benchmark.tasks import task, tasks
-from meshforge.batch import IN_PROCESS
 from meshforge.common import write_atomically
 from meshforge.geometry import Floats
 from meshforge.label_model import model_family
 from meshforge.project import Project, ProjectReview
-from meshforge.project.alarms import measure_results
-from meshforge.project.sign_offs import find_inputs
-from meshforge.signoff import BAR, confidence, describe_odd_results
+from meshforge.signoff import confidence
 from meshforge.signoff.family import FamilyTrial
 from meshforge.synthesis import Ambiguous, Found
 
-LABELS = (FLAT, TRUE, SYSTEMATIC, PROPAGATED[2])
+LABELS = (FLAT, NONE, SYSTEMATIC, PROPAGATED[2])
 """Under which the sessions are."""
-SEED = 1
-_CAP = 90.0  # seconds of a person, after which a session says nothing new
-MOST_WRONG = 0.01
-"""The share of the edits at the bar that may be wrong in the midst of sessions: as at their end, where it is less."""
-_STEP = 0.05  # by which less speaks for edits
-_STRAY = 1e-3  # cost of the squares of the weights
-_SIGNS = (0, 1, -1, -1, -1)  # of the weights: what speaks for an edit never speaks against it
+SEED = 0
+RISK = 0.01
+"""The share of the assets of a family that are signed off and wrong, at most, as far as can be expected."""
+MOST_LOSS = 0.25
+"""What a family counts at most whose edits are signed off and wrong: with the few families that there are, one that
+counted as a whole would leave no threshold."""
+_CAP = 150.0  # seconds of a person, after which a session says little new
+_FIRST = 3.0  # what an edit counts at the first look beside one at a later look, of which there are many
+_STRAY = 1e-4  # cost of the squares of the weights
+_SIGNS = (0, 1, 1, -1, -1, -1, 1, 1)  # of the weights, then of a program and of a result: what speaks for never against
+_START = (0.0, 1.0, 1.0, 0.0, 0.0, 0.0, 3.0, 1.0)
+_THRESHOLDS = np.round(np.arange(0.5, 0.9991, 0.001), 3)
+Look = list[list[float]]
+"""Of each edit that was judged and that nobody had seen at one look: the features, results that were found right, what
+wrong ones say against the program [nats], whether it was called wrong, and whether it is right."""
 
 
 class _Observer(Client):
-    """Keeps what speaks for each edit whenever a person looks. looks: the rows of each look, as of `_list_rows`."""
+    """Keeps what speaks for each edit whenever a person looks; nothing where an alarm makes it stand out."""
 
-    def __init__(self, judge: Judge, looks: list[list[list[float]]], project: Project) -> None:
+    def __init__(self, judge: Judge, looks: list[Look], project: Project) -> None:
         super().__init__(project)
         self._judge, self._looks = judge, looks
 
     def review(self) -> FamilyStatus:
         status = super().review()
-        self._looks.append(self._list_rows(self.found) if self.found else [])
+        if self.found and isinstance(self.found.outcome, Found | Ambiguous):
+            self._looks.append(list(self._list_rows(self.found, self.found.outcome)))
         return status
 
-    def _list_rows(self, found: ProjectReview) -> list[list[float]]:
-        """The features of each edit that was judged, how far its program is trusted, and whether it is right, where
-        nobody has looked at it."""
-        state, outcome = found.state, found.outcome
-        if not isinstance(outcome, Found | Ambiguous):
-            return []
-        posterior = model_family(list(state.meshes.values())).infer(
-            [hull.annotation for mesh in state.meshes.values() for hull in mesh.hulls]
-        )
-        inputs = find_inputs(self.project, IN_PROCESS)
-        alarms = describe_odd_results(measure_results(self.project, outcome.program, state.meshes, inputs))
-        family = FamilyTrial.of(state, outcome.program, outcome.readings, posterior, alarms)
-        looked_at = {*state.demos, *state.accepted}
-        return [
-            [
-                *evidence.features.tolist(),
-                evidence.program,
-                float(self._judge.is_right(one.asset, self.read_output(one.asset))),
-            ]
-            for one, evidence in zip(family.trials, family.evidence, strict=True)
-            if not one.error and one.asset in self._judge.possible and one.asset not in looked_at
-        ]
+    def _list_rows(self, found: ProjectReview, outcome: Found | Ambiguous) -> Iterator[list[float]]:
+        state, known = found.state, confidence.read_calibration()
+        family = model_family(list(state.meshes.values()))
+        said = [hull.annotation for mesh in state.meshes.values() for hull in mesh.hulls]
+        posterior = family.infer(said, state.frame.labels)
+        trial = FamilyTrial.of(state, outcome.program, outcome.readings, posterior, {})
+        trust, right = trial.trust_in_program(), trial.count_right()
+        against = known.program + known.result * right - float(np.log(trust / (1 - trust)))
+        for one, evidence in zip(trial.trials, trial.evidence, strict=True):
+            alarms = any(doubt.kind == "alarm" for doubt in found.assessment.assets[one.asset].doubts)
+            if not (one.error or alarms or one.asset in state.reviewed_assets) and one.asset in self._judge.possible:
+                is_right = self._judge.is_right(one.asset, self.read_output(one.asset))
+                yield [*evidence.features.tolist(), right, against, float(one.asset in state.wrong), float(is_right)]
 
 
-def observe(name: str, condition: str, folder: str) -> list[list[float]]:
-    """The rows of all looks of one session of the queue."""
-    one, looks = CONDITIONS[condition], list[list[list[float]]]()
+def observe(name: str, condition: str, folder: str) -> list[Look]:
+    """All looks of one session of the queue."""
+    one, looks = CONDITIONS[condition], list[Look]()
     bench = open_family(name, one.setting(SEED), folder)
     sign_off(bench, one, SEED, partial(_Observer, Judge(name_by_files(bench)), looks), _CAP)
-    return [row for look in looks for row in look]
+    return looks
 
 
-def observe_taught(name: str, condition: str, folder: str) -> list[list[float]]:
-    """The rows of a family that was taught as before there was a queue; trust in the program is a column of its own, so
-    none of its edits has to be told as right."""
-    one, looks = CONDITIONS[condition], list[list[list[float]]]()
-    bench = open_family(name, one.setting(SEED), folder)
-    observer = partial(_Observer, Judge(name_by_files(bench)), looks)
-    open_review(bench, one, SEED, observer, tells_looks=False)
-    return looks[-1] if looks else []
-
-
-def fit(folder: Path, tell: Tell) -> None:
-    """Fit the weights on all tasks, say how good they are on categories left out, and write them where they ship."""
-    units = [(one.name, condition.name, str(folder)) for one in tasks() for condition in LABELS]
-    rows = dict[tuple[str, str], npt.NDArray[np.float64]]()
-    for what, work in (("signoff-fit", observe), ("signoff-taught", observe_taught)):
-        for unit, some in zip(units, run_units(what, work, units, tell), strict=True):
-            table = np.array(some).reshape(-1, len(_SIGNS) + 2)
-            rows[what, unit[0]] = np.concatenate([rows.get((what, unit[0]), table[:0]), table])
-    categories = sorted({task(name).category for _, name in rows})
-    pairs: dict[str, list[tuple[float, bool]]] = {what: [] for what, _ in rows}
-    for left in categories:
-        weights = fit_weights([some for (_, name), some in rows.items() if task(name).category != left])
-        for (what, name), some in rows.items():
-            if task(name).category == left:
-                shares = _predict(weights, some)
-                pairs[what] += list(zip(shares.tolist(), (some[:, -1] > 0).tolist(), strict=True))
-    for what, some in pairs.items():
-        tell(f"{what}, category left out: {calibrate(some)}")
-    weights = lower(fit_weights(list(rows.values())), np.concatenate(list(rows.values())))
-    data: dict[str, Any] = {"about": "made by `python -m benchmark.signoff fit FOLDER`"}
-    fitted = {name: round(float(one), 3) for name, one in zip(confidence.FEATURES, weights, strict=True)}
-    data["weights"] = fitted | confidence.BY_HAND
+def fit(folders: Sequence[Path], tell: Tell) -> None:
+    """Fit the weights on all tasks, say how good they are on categories left out, choose the threshold by these, and
+    write all where it ships. folders: each with families of all categories; the labels of each further one are of one
+    kind, in turn."""
+    units = [(one.name, condition.name, str(folders[0])) for one in tasks() for condition in LABELS]
+    for place, other in enumerate(folders[1:]):
+        units += [(one.name, LABELS[(place + k) % len(LABELS)].name, str(other)) for k, one in enumerate(tasks())]
+    sessions = list(zip(units, run_units("signoff-fit", observe, units, tell), strict=True))
+    kinds = [task(name).category for (name, *_), _ in sessions]
+    left_out = dict[str, Floats]()
+    for kind in sorted(set(kinds)):
+        left_out[kind] = _fit([looks for own, (_, looks) in zip(kinds, sessions, strict=True) if own != kind])
+    rated = [_rate(left_out[own], looks) for own, (_, looks) in zip(kinds, sessions, strict=True)]
+    for what, some in (("first look", [looks[:1] for looks in rated]), ("all looks", rated)):
+        pairs = [(share, bool(right)) for looks in some for look in looks for share, _, right in look.tolist()]
+        tell(f"{what}, category left out: {calibrate(pairs)}")
+    losses = dict[tuple[str, str], list[Floats]]()
+    for own, ((_, _, folder), _), looks in zip(kinds, sessions, rated, strict=True):
+        losses.setdefault((own, folder), []).append(_lose(looks))
+    threshold = choose_threshold([np.mean(some, axis=0) for some in losses.values()])
+    weights = _fit([looks for _, looks in sessions])
+    data: dict[str, Any] = {"about": "made by `python -m benchmark.signoff fit FOLDER ...`"}
+    names = zip(confidence.FEATURES, weights, strict=False)
+    data["weights"] = {name: round(float(one), 3) for name, one in names} | confidence.BY_HAND
+    data |= {"program": round(float(weights[-2]), 3), "result": round(float(weights[-1]), 3)}
+    data |= {"threshold": threshold, "families": len(losses), "risk": RISK}
     write_atomically(Path(confidence.__file__).parent / confidence.WEIGHTS_FILE, json.dumps(data, indent=1) + "\n")
-    tell(str(data["weights"]))
+    tell(str(data))
 
 
-def fit_weights(tables: Sequence[npt.NDArray[np.float64]]) -> Floats:
-    """Logistic regression on rows as of `_Observer`, each task counting alike."""
-    parts = [(rows, 1 / len(rows)) for rows in tables if len(rows)]
-    low = [0.0 if sign > 0 else None for sign in _SIGNS]
-    high = [0.0 if sign < 0 else None for sign in _SIGNS]
-    start = np.array([0.0, 1.0, 0.0, 0.0, 0.0])
-    return np.array(minimize(partial(_loss, parts), start, bounds=list(zip(low, high, strict=True)), jac=True).x)
+def choose_threshold(losses: Sequence[Floats]) -> float:
+    """The least threshold at which the expected loss of a new family is at most RISK, by conformal risk control.
+
+    losses: of each family at each of the thresholds.
+    """
+    bound = (np.sum(losses, axis=0) + MOST_LOSS) / (len(losses) + 1)
+    return float(_THRESHOLDS[np.flatnonzero(bound > RISK).max(initial=-1) + 1 :][0])
 
 
-def lower(weights: Floats, rows: Floats) -> Floats:
-    """The weights with less speaking for every edit, until hardly any at the bar is wrong: what is signed off by
-    mistake costs more than a question. rows: of all sessions."""
-    found = weights.copy()
-    while True:
-        signed = _predict(found, rows) >= BAR
-        if (rows[signed, -1] == 0).sum() <= MOST_WRONG * signed.sum():
-            return found
-        found[0] -= _STEP
+def _lose(looks: Sequence[Floats]) -> Floats:
+    """The loss of a session at each threshold: the share of the edits that would be signed off without a look, though
+    they are wrong, at the look where that is most."""
+    found = np.zeros(len(_THRESHOLDS))
+    for look in looks:
+        wrong = look[(look[:, 1] == 0) & (look[:, 2] == 0), 0]
+        share = (wrong[:, None] >= _THRESHOLDS).sum(axis=0) / max(len(looks[0]), 1)
+        found = np.maximum(found, np.minimum(share, MOST_LOSS))
+    return found
+
+
+def _fit(sessions: Sequence[Sequence[Look]]) -> Floats:
+    """The weights, then what speaks for a program and for a result, each session counting alike."""
+    tables, worths = list[Floats](), list[Floats]()
+    for looks in (one for one in sessions if any(one)):
+        rows = np.array([row for look in looks for row in look])
+        worth = np.array([_FIRST if place == 0 else 1.0 for place, look in enumerate(looks) for _ in look])
+        tables.append(rows)
+        worths.append(worth / worth.sum())
+    rows, worth = np.concatenate(tables), np.concatenate(worths)
+    bounds = [(None if sign <= 0 else 0.0, None if sign >= 0 else 0.0) for sign in _SIGNS]
+    return np.array(minimize(partial(_compute_loss, rows, worth), np.array(_START), bounds=bounds).x)
+
+
+def _rate(weights: Floats, looks: Sequence[Look]) -> list[Floats]:
+    """Of each edit at each look the probability, whether it was called wrong, and whether it is right."""
+    width = len(_SIGNS) + 2
+    tables = [np.array(look).reshape(-1, width) for look in looks]
+    return [np.column_stack([_predict(weights, rows), rows[:, -2:]]) for rows in tables]
 
 
 def _predict(weights: Floats, rows: Floats) -> Floats:
     """The probability that each edit is right (rows,)."""
-    found: Floats = rows[:, -2] / (1 + np.exp(-(rows[:, :-2] @ weights)))
+    count = len(confidence.FEATURES)
+    trust = weights[count] + weights[count + 1] * rows[:, count] - rows[:, count + 1]
+    found: Floats = 1 / (1 + np.exp(-trust)) / (1 + np.exp(-(rows[:, :count] @ weights[:count])))
     return found
 
 
-def _loss(parts: Sequence[tuple[Floats, float]], weights: Floats) -> tuple[float, Floats]:
-    total, slope = _STRAY * float(weights @ weights), 2 * _STRAY * weights
-    for rows, worth in parts:
-        features, trust, right = rows[:, :-2], rows[:, -2], rows[:, -1]
-        share = 1 / (1 + np.exp(-(features @ weights)))
-        found = np.clip(trust * share, 1e-9, 1 - 1e-9)
-        total -= worth * float((right * np.log(found) + (1 - right) * np.log(1 - found)).sum()) / len(parts)
-        pull = (found - right) / (found * (1 - found)) * trust * share * (1 - share)
-        slope = slope + worth * features.T @ pull / len(parts)
-    return total, slope
+def _compute_loss(rows: Floats, worth: Floats, weights: Floats) -> float:
+    shares, right = np.clip(_predict(weights, rows), 1e-9, 1 - 1e-9), rows[:, -1]
+    nats = right * np.log(shares) + (1 - right) * np.log(1 - shares)
+    return _STRAY * float(weights @ weights) - float(worth @ nats) / float(worth.sum())

@@ -6,10 +6,11 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
+from meshforge.signoff.confidence import read_calibration
 from meshforge.signoff.question import ExclusionReason, ReviewQuestion
 
-BAR = 0.95
-"""The probability from which on an asset is signed off without being looked at."""
+BAR = read_calibration().threshold
+"""The probability from which on an asset is signed off without being looked at, unless a person chooses another."""
 NO_LOOK = "nobody has looked at a result of this program yet"
 """The doubt of all edits by a program of which no result was looked at."""
 CALLED_WRONG = "a person said that this result is wrong"

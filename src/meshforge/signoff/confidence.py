@@ -1,6 +1,7 @@
 """From readings, labels and all that is odd about an asset to one probability that its edit is right: that of its
-program, times a logistic regression, fitted on sessions of the calibration set (`python -m benchmark.signoff fit`;
-Platt 1999)."""
+program, times a logistic regression (Platt 1999), and the threshold from which on an asset is signed off without a look,
+by conformal risk control over families (Angelopoulos et al. 2024). All of it is fitted on sessions of calibration
+families (`python -m benchmark.signoff fit`)."""
 
 from __future__ import annotations
 
@@ -15,7 +16,7 @@ import numpy as np
 from meshforge.geometry import Floats
 
 WEIGHTS_FILE = "confidence.json"
-FEATURES = ("always", "readings and labels", "labels not demonstrated", "unlike the rest", "alarms")
+FEATURES = ("always", "readings", "labels", "labels not demonstrated", "unlike the rest", "alarms")
 """What the probability depends on."""
 LEAST, MOST = 0.0005, 0.9995
 """Bounds of what readings and labels say."""
@@ -27,13 +28,28 @@ STANDS_OUT = 0.49
 """The most that the probability is of an edit that stands out: below any bar, so that a person looks at it first."""
 
 
+@dataclass(frozen=True, eq=False, slots=True)
+class Calibration:
+    """weights: (features,); program, result: what speaks for a program as such, and for one that does what a person
+    accepted or meant on an asset [nats]; threshold: the probability from which on an asset is signed off without a
+    look; families: on which it rests; risk: the share of the assets of a family that are signed off and wrong, at most,
+    as far as can be expected."""
+
+    weights: Floats
+    program: float
+    result: float
+    threshold: float
+    families: int
+    risk: float
+
+
 @cache
-def confidence_weights() -> Floats:
-    """The weights (features,)."""
+def read_calibration() -> Calibration:
+    """What ships."""
     read = json.loads(files("meshforge.signoff").joinpath(WEIGHTS_FILE).read_text("utf-8"))
-    found = np.array([read["weights"][name] for name in FEATURES], dtype=float)
-    found.flags.writeable = False
-    return found
+    weights = np.array([read["weights"][name] for name in FEATURES], dtype=float)
+    weights.flags.writeable = False
+    return Calibration(weights, *(read[one] for one in ("program", "result", "threshold", "families", "risk")))
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,12 +72,13 @@ class AssetEvidence:
     @property
     def features(self) -> Floats:
         """The features (len(FEATURES),)."""
-        return np.array([1.0, _log_odds(self.readings * self.labels), self.foreign, self.unlike, self.alarms])
+        told = _log_odds(self.readings), _log_odds(self.labels)
+        return np.array([1.0, *told, self.foreign, self.unlike, self.alarms])
 
     @property
     def probability(self) -> float:
         """That the edit is right."""
-        found = self.program * float(1 / (1 + np.exp(-(self.features @ confidence_weights()))))
+        found = self.program * float(1 / (1 + np.exp(-(self.features @ read_calibration().weights))))
         return min(found, STANDS_OUT) if self.alarms else found
 
     def credit(self, *, readings: float = 1.0, labels: float = 1.0, program: float = 1.0) -> float:

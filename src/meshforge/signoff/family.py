@@ -24,7 +24,7 @@ from meshforge.signoff.assessment import (
     Doubt,
     DoubtKind,
 )
-from meshforge.signoff.confidence import NO_EDIT, AssetEvidence
+from meshforge.signoff.confidence import NO_EDIT, AssetEvidence, read_calibration
 from meshforge.signoff.readings import RuleReadings, compare_readings
 from meshforge.signoff.result_labels import weigh_labels
 from meshforge.signoff.slips import RuleSlip, find_slips
@@ -36,9 +36,6 @@ SURE_OF_DEMONSTRATED = 0.999
 ALIKE = 14.0
 """The distance of descriptions up to which hulls look alike."""
 _WORTH_TELLING = 0.01  # the probability that an edit is wrong for one reason, from which on it is told
-_PROGRAM_RIGHT, _RESULT_RIGHT = 2.5, 1.3
-"""What speaks for a program as such [nats], and for one that does what a person accepted or meant on an asset: no other
-is at the bar before one was looked at."""
 _WRONG_BY_CHANCE, _MOST_EXPECTED = 0.27, 0.995
 """The share of a program's right results that are called wrong where it is wrong nearly everywhere, and the most that
 a result can be expected to be right."""
@@ -160,7 +157,12 @@ class FamilyTrial:
         """
         right, wrong = self._results
         against = sum(log((1 - _WRONG_BY_CHANCE * q) / (1 - q)) for q in map(self._expect, wrong))
-        return 1 / (1 + exp(-(_PROGRAM_RIGHT + _RESULT_RIGHT * (len(right) + looks) - against)))
+        known = read_calibration()
+        return 1 / (1 + exp(-(known.program + known.result * (len(right) + looks) - against)))
+
+    def count_right(self) -> int:
+        """On how many assets the program does what a person accepted or meant."""
+        return len(self._results[0])
 
     @cached_property
     def _results(self) -> tuple[tuple[str, ...], tuple[str, ...]]:
