@@ -19,10 +19,10 @@ from benchmark.signoff.client import Client, FamilyStatus
 from benchmark.signoff.conditions import open_family
 from benchmark.signoff.judge import Judge
 from benchmark.signoff.opening import open_review
-from benchmark.signoff.project import name_by_files
 from benchmark.signoff.queue import sign_off
 from benchmark.study import CONDITIONS, FLAT, TRUE
 from benchmark.study.condition import PROPAGATED, SYSTEMATIC
+from benchmark.study.project import name_by_files
 from benchmark.tasks import task, tasks
 from meshforge.batch import IN_PROCESS
 from meshforge.common import write_atomically

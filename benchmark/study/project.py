@@ -17,7 +17,8 @@ from meshforge.geometry import Shape
 from meshforge.project import Project
 from meshforge.symbolic import SymbolicMesh, write_labels
 
-_SUFFIX = ".obj"
+SUFFIX = ".obj"
+"""What the name of a mesh ends with in a project."""
 _MEMORY = Path("/dev/shm")  # a disk in memory, where there is one
 
 
@@ -27,7 +28,7 @@ def name_by_files(bench: Bench) -> Bench:
     product orders the vertices of a hull in its own way. What it remembers stays with it."""
 
     def rename(name: str) -> str:
-        return f"{name}{_SUFFIX}"
+        return f"{name}{SUFFIX}"
 
     start = bench.start
     parts = {rename(name): labels for name, labels in start.parts.items()}
@@ -81,25 +82,6 @@ def write_project(desk: Desk, folder: Path) -> Project:
             write_labels(project.layout.labels(name), mesh, project.vocabulary)
     _check_meshes(project, desk.meshes)
     return project
-
-
-def take_labels(desk: Desk) -> Desk:
-    """The meshes with the labels that the product gives them by consensus of all that is said; a person's stay."""
-    if not any(mesh.labels for mesh in desk.meshes.values()):
-        return desk
-    bench = name_by_files(desk.bench)
-    pairs = zip(bench.truth.meshes.items(), desk.meshes.values(), strict=True)
-    named = Desk(
-        bench, {name: own.with_labels({**dict.fromkeys(own.index), **mesh.labels}) for (name, own), mesh in pairs}
-    )
-    with open_project(named) as project:
-        project.label_by_consensus()
-        found = {name: project.mesh(f"{name}{_SUFFIX}") for name in desk.meshes}
-    meshes = {name: mesh.with_labels(dict(found[name].labels)) for name, mesh in desk.meshes.items()}
-    same = {
-        name: desk.meshes[name] if mesh.labels == desk.meshes[name].labels else mesh for name, mesh in meshes.items()
-    }
-    return desk.with_meshes(same)
 
 
 def _format_obj(shapes: Iterable[Shape], names: Iterable[str] = ()) -> str:
