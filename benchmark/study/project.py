@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from functools import lru_cache
@@ -14,6 +14,7 @@ import numpy as np
 from benchmark.study.desk import Bench, Desk, Start
 from meshforge.formats import read
 from meshforge.geometry import Shape
+from meshforge.language import Orient
 from meshforge.project import Project
 from meshforge.symbolic import SymbolicMesh, write_labels
 
@@ -32,7 +33,7 @@ def name_by_files(bench: Bench) -> Bench:
 
     start = bench.start
     parts = {rename(name): labels for name, labels in start.parts.items()}
-    with _open_folder() as folder:
+    with open_folder() as folder:
         samples = [
             replace(sample, name=rename(name), mesh=_read_back(sample.mesh, folder / rename(name)))
             for name, sample in bench.samples.items()
@@ -48,7 +49,7 @@ def _read_back(mesh: SymbolicMesh, file: Path) -> SymbolicMesh:
 
 
 @contextmanager
-def _open_folder() -> Iterator[Path]:
+def open_folder() -> Iterator[Path]:
     """A folder in memory, where there is such a disk, that goes away afterwards."""
     with tempfile.TemporaryDirectory(dir=_MEMORY if _MEMORY.is_dir() else None) as folder:
         yield Path(folder)
@@ -60,20 +61,14 @@ def open_project(desk: Desk) -> Iterator[Project]:
 
     The meshes have the names that `name_by_files` gives.
     """
-    with _open_folder() as folder:
+    with open_folder() as folder:
         yield write_project(desk, folder)
 
 
 def write_project(desk: Desk, folder: Path) -> Project:
     """Write the meshes of a desk as files of assets into a folder, and a project of them beside these."""
-    one, assets = desk.bench.task, folder / "assets"
-    assets.mkdir()
-    for name, mesh in desk.meshes.items():
-        shapes = (hull.shape for hull in mesh.hulls)
-        (assets / name).write_text(_format_obj(shapes, mesh.index), encoding="utf-8")
-    files = [assets / name for name in desk.meshes]
-    frame = one.program
-    project = Project.create(folder / "project", files, name=one.name, vocabulary=frame.labels, orient=frame.orient)
+    one, frame = desk.bench.task, desk.bench.task.program
+    project = create_project(folder, one.name, desk.meshes, frame.labels, frame.orient)
     _write_thresholds(project, frame.contact, frame.extremity)
     for name, template in one.templates.items():
         project.add_template(name, _format_obj(template.shapes).encode())
@@ -82,6 +77,23 @@ def write_project(desk: Desk, folder: Path) -> Project:
             write_labels(project.layout.labels(name), mesh, project.vocabulary)
     _check_meshes(project, desk.meshes)
     return project
+
+
+def create_project(
+    folder: Path,
+    name: str,
+    meshes: Mapping[str, SymbolicMesh],
+    vocabulary: Sequence[str],
+    orient: Orient | None = None,
+) -> Project:
+    """Write meshes as files of assets into a folder, and a project of them beside these, without labels."""
+    assets = folder / "assets"
+    assets.mkdir()
+    for asset, mesh in meshes.items():
+        shapes = (hull.shape for hull in mesh.hulls)
+        (assets / asset).write_text(_format_obj(shapes, mesh.index), encoding="utf-8")
+    files = [assets / asset for asset in meshes]
+    return Project.create(folder / "project", files, name=name, vocabulary=vocabulary, orient=orient)
 
 
 def _format_obj(shapes: Iterable[Shape], names: Iterable[str] = ()) -> str:
