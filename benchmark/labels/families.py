@@ -91,7 +91,9 @@ def _open(name: str, setting: str) -> LabelProject:
     rows, stack = family(name, setting), ExitStack()
     atexit.register(stack.close)
     meshes = [row.mesh for row in rows]
-    return stack.enter_context(open_label_project(name, [row.name for row in rows], meshes))
+    project = stack.enter_context(open_label_project(name, [row.name for row in rows], meshes))
+    project.propagate()  # which describes the meshes, and no more: there is no label yet
+    return project
 
 
 @cache
