@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from time import perf_counter
 
-from benchmark.study.client import TeachingClient
+from benchmark.study.client import TaskClient
 from benchmark.study.project import SUFFIX, create_project, open_folder
 from benchmark.tasks import task
 from meshforge.project import Project
@@ -17,7 +17,7 @@ class LabelProject:
     """meshes: with their true labels; in the project they have none at first."""
 
     def __init__(self, project: Project, meshes: Mapping[str, SymbolicMesh]) -> None:
-        self._client, self._meshes = TeachingClient(project), meshes
+        self._client, self._meshes = TaskClient(project), meshes
         self._names = list(meshes)
         self._by_hand = frozenset[str]()
 

@@ -6,7 +6,7 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 
 from benchmark.signoff.judge import Output
-from benchmark.study.client import TeachingClient
+from benchmark.study.client import TaskClient
 from benchmark.tasks import EditResult
 from meshforge.batch import IN_PROCESS
 from meshforge.common import MeshForgeError
@@ -33,7 +33,7 @@ class FamilyStatus:
     nearest: Nearest | None = None
 
 
-class Client(TeachingClient):
+class Client(TaskClient):
     """By the public methods of `Project`. found: by the last look; program: of the project then."""
 
     name = "Project"

@@ -13,7 +13,7 @@ from benchmark.signoff.client import Client, FamilyStatus
 from benchmark.signoff.judge import Output
 from benchmark.signoff.point import Point
 from benchmark.signoff.reviewer import Reviewer
-from benchmark.study.client import TeachingClient
+from benchmark.study.client import TaskClient
 from benchmark.study.condition import MOST, Condition
 from benchmark.study.desk import Bench, Desk
 from benchmark.study.keystrokes import CONFIRMATION, GLANCE
@@ -78,7 +78,7 @@ def sign_off(
     reviewer, desk = Reviewer(bench, seed, condition), bench.desk(condition.labels, seed)
     with open_project(desk) as project:
         if condition.labels == "propagated":
-            _, painted = begin_by_hand(TeachingClient(project), bench, condition.labelled)
+            _, painted = begin_by_hand(TaskClient(project), bench, condition.labelled)
             reviewer.ledger.add_labels(painted)
         return ReviewCourse(desk, condition, seed, reviewer, client(project)).run(cap)
 

@@ -11,11 +11,11 @@ from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Answer, LearningOutcome, Options, Repair, Step
 
 
-class TeachingClient:
+class TaskClient:
     """Whatever is done is written to the disk."""
 
     def __init__(self, project: Project) -> None:
-        self.project = project.with_cache()
+        self.project = project if project.cache else project.with_cache()
 
     # What a person does
 

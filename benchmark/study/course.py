@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from dataclasses import replace
 from time import perf_counter
 
-from benchmark.study.client import TeachingClient
+from benchmark.study.client import TaskClient
 from benchmark.study.condition import MOST, Condition
 from benchmark.study.desk import Bench, Desk, Selections
 from benchmark.study.person import Person
@@ -47,7 +47,7 @@ def open_course(
     """A session before anything is shown; the meshes of the bench have the names that `name_by_files` gives."""
     desk = bench.desk(condition.labels, seed)
     with open_project(desk) as project:
-        client = TeachingClient(project)
+        client = TaskClient(project)
         if takes_labels:
             client.take_labels()
         yield Course(desk, client, condition, seed, watch)
@@ -62,7 +62,7 @@ class Course:
     def __init__(
         self,
         desk: Desk,
-        client: TeachingClient,
+        client: TaskClient,
         condition: Condition,
         seed: int,
         watch: Callable[[Program | None], None] | None = None,

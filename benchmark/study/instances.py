@@ -10,7 +10,7 @@ from time import perf_counter
 from typing import Any, Literal
 
 from benchmark.assets import SEPARATE
-from benchmark.study.client import TeachingClient
+from benchmark.study.client import TaskClient
 from benchmark.study.condition import FLAT, MOST, SEEN
 from benchmark.study.desk import Bench, Desk, open_bench
 from benchmark.study.keystrokes import CONFIRMATION, DEMONSTRATION, GLANCE, HULL, INSPECTION, PAINT, RULE, STROKE
@@ -75,7 +75,7 @@ def instance(name: str) -> Instance | None:
 def _near_miss(one: Instance) -> bool:
     shown = one.pool[:_FIRST]
     with open_project(one.desk) as project:
-        client = TeachingClient(project)
+        client = TaskClient(project)
         _show(one, client, shown)
         without = _learn(client, Options(repair=False))
         _inspect(client, one.desk, shown)
@@ -99,7 +99,7 @@ def mend(one: Instance, way: Way, *, takes_labels: bool = False) -> InstanceResu
         return said
 
     with open_project(one.desk) as project:
-        client = TeachingClient(project)
+        client = TaskClient(project)
         if takes_labels:
             client.take_labels()
         for count in range(_FIRST, MOST + 1):
@@ -119,13 +119,13 @@ def mend(one: Instance, way: Way, *, takes_labels: bool = False) -> InstanceResu
     return log
 
 
-def _show(one: Instance, client: TeachingClient, shown: Sequence[str]) -> None:
+def _show(one: Instance, client: TaskClient, shown: Sequence[str]) -> None:
     person = Person(one.desk, one.seed, FLAT)
     for name in shown:
         client.demonstrate(name, person.shows(one.desk, name).steps)
 
 
-def _learn(client: TeachingClient, options: Options, confirm: Callable[[Repair], bool] | None = None) -> Program | None:
+def _learn(client: TaskClient, options: Options, confirm: Callable[[Repair], bool] | None = None) -> Program | None:
     try:
         return client.synthesize(options, confirm).program
     except MeshForgeError:
@@ -144,7 +144,7 @@ def _find_wrong(desk: Desk, name: str) -> dict[str, str]:
     return {hull.name: true.label for hull, true in pairs if true.label and hull.label != true.label}
 
 
-def _inspect(client: TeachingClient, desk: Desk, names: Sequence[str]) -> None:
+def _inspect(client: TaskClient, desk: Desk, names: Sequence[str]) -> None:
     for name in names:
         client.set_labels(name, _find_wrong(desk, name))
 

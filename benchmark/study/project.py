@@ -68,7 +68,7 @@ def open_project(desk: Desk) -> Iterator[Project]:
 def write_project(desk: Desk, folder: Path) -> Project:
     """Write the meshes of a desk as files of assets into a folder, and a project of them beside these."""
     one, frame = desk.bench.task, desk.bench.task.program
-    project = create_project(folder, one.name, desk.meshes, frame.labels, frame.orient)
+    project = create_project(folder, one.name, desk.meshes, frame.labels, frame.orient).with_cache()
     _write_thresholds(project, frame.contact, frame.extremity)
     for name, template in one.templates.items():
         project.add_template(name, _format_obj(template.shapes).encode())

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from benchmark.study.client import TeachingClient
+from benchmark.study.client import TaskClient
 from benchmark.study.desk import Bench
 
 
@@ -20,7 +20,7 @@ class HandLabels:
         return HandLabels(self.inspected + other.inspected, self.typed + other.typed, self.strokes + other.strokes)
 
 
-def begin_by_hand(client: TeachingClient, bench: Bench, count: int) -> tuple[frozenset[str], HandLabels]:
+def begin_by_hand(client: TaskClient, bench: Bench, count: int) -> tuple[frozenset[str], HandLabels]:
     """Label as many meshes by hand as `count`, each the one that is advised, or that the bench names.
 
     Their names, and what a person did for that.
@@ -36,7 +36,7 @@ def begin_by_hand(client: TeachingClient, bench: Bench, count: int) -> tuple[fro
     return frozenset(done), painted
 
 
-def label_by_hand(client: TeachingClient, bench: Bench, name: str) -> tuple[HandLabels, str | None]:
+def label_by_hand(client: TaskClient, bench: Bench, name: str) -> tuple[HandLabels, str | None]:
     """Look through the labels of a mesh, and let the product propagate what is said; what a person said before stays.
 
     What the person did, and the mesh to label next.

@@ -23,7 +23,7 @@ from benchmark.spanning.programs import (
     rebuild_sample,
     split_sample,
 )
-from benchmark.study.client import TeachingClient
+from benchmark.study.client import TaskClient
 from benchmark.study.project import SUFFIX, name_by_files, open_project
 from benchmark.study.propagation import begin_by_hand
 from benchmark.tasks import task
@@ -88,7 +88,7 @@ def test_a_session_begins_with_labels_by_hand_of_the_known_assets_and_those_of_s
     told = Label("handle", 0.6, "split")
     bench = name_by_files(open_bench(task("cup-medium"), [(row, {part: told} if row is split else {}) for row in rows]))
     with open_project(bench.desk("propagated", 0)) as project:
-        by_hand, _ = begin_by_hand(TeachingClient(project), bench, 3)
+        by_hand, _ = begin_by_hand(TaskClient(project), bench, 3)
         meshes = dict(project.meshes_by_id())
     assert by_hand == {f"{name}{SUFFIX}" for name in known}
     parts = meshes[f"{split.name}{SUFFIX}"]

@@ -11,7 +11,7 @@ from scipy.stats import ks_2samp
 
 from benchmark.assets import CATEGORIES, SEPARATE, family, samples
 from benchmark.study import CONDITIONS, FLAT, REPORTED, TRUE, Bench, Session, open_bench, teach_task
-from benchmark.study.client import TeachingClient
+from benchmark.study.client import TaskClient
 from benchmark.study.condition import KIND, PROPAGATED, SYSTEMATIC
 from benchmark.study.instances import instance, mend
 from benchmark.study.keystrokes import APPROVAL, GLANCE, count_acts, model_seconds, price_group
@@ -52,7 +52,7 @@ def test_labels_that_are_carried_over_leave_what_was_labelled_by_hand_and_judge_
     named, name = name_by_files(bench), one.shown[0] + SUFFIX
     true = named.truth.meshes
     with open_project(named.desk("propagated", 0)) as project:
-        client = TeachingClient(project)
+        client = TaskClient(project)
         by_hand, painted = begin_by_hand(client, named, 3)
         before = client.read_meshes()
         more, _ = label_by_hand(client, named, name)
