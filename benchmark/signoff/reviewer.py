@@ -73,10 +73,15 @@ class Reviewer:
         return ReviewReply(question.id, self._slip(question, right))
 
     def _check_selection(self, question: ReviewQuestion) -> ReviewReply:
-        """Whether hulls were left out of a demonstration by mistake: what is nearer to what is wanted."""
+        """Whether hulls were left out of a demonstration by mistake: what is nearer to what is wanted; or the label of
+        the hull where it is the one that is offered."""
         wanted, rule = self._truth.reference[question.asset], question.rule or 1
         meant = wanted[rule - 1] if wanted else frozenset[str]()
-        gaps = [len(meant ^ frozenset(choice.select or ())) for choice in question.choices]
+        true = self._label_of(question.hulls[0]) if question.hulls else None
+        gaps = [
+            len(meant ^ frozenset(choice.select or ())) if choice.label is None else -1 if choice.label == true else 1e9
+            for choice in question.choices
+        ]
         self.ledger.add(question.kind, CONFIRMATION)
         return ReviewReply(question.id, self._slip(question, gaps.index(min(gaps))))
 

@@ -1039,9 +1039,8 @@ export interface RuleView {
  * are probably wrong.
  *
  * error: a message in place of an outcome; seconds: the time it took. why, advice, nearest: for a rule without an
- * extractor. suggested_orientation, suggested_because: a directive in which the rules do better, and why.
- * stale: ids of answers that no longer fit. sample: the assets whose results show best whether the program is right,
- * best first; overruled: those whose accepted result no program keeps.
+ * extractor. stale: ids of answers that no longer fit. sample: the assets whose results show best whether the program
+ * is right, best first; overruled: those whose accepted result no program keeps.
  */
 export interface OutcomeView {
   number: number;
@@ -1056,8 +1055,6 @@ export interface OutcomeView {
   hint: HintView | null;
   why: string | null;
   advice: string[];
-  suggested_orientation: string | null;
-  suggested_because: string | null;
   stale: string[];
   sample: string[];
   overruled: string[];

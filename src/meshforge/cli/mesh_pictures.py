@@ -74,11 +74,11 @@ class MeshPictures:
         words, up = self._project.vocabulary, self._up(program.orient)
         return self._write(name, draw_before_after(before, turned, size=_SMALL_SIZE, vocabulary=words, up=up))
 
-    def draw_turned(self, asset: str, orient: Orient, name: str) -> Path:
+    def draw_turned(self, asset: str, orient: Orient | None, name: str, title: str) -> Path:
         """Draw an asset as an orientation turns it, in the colours of its labels."""
         mesh = to_canonical_frame(self._meshes()[asset], orient, self._project.settings.thresholds.contact)[0]
         words, up = self._project.vocabulary, self._up(orient)
-        picture = render(mesh, color_by="label", size=PICTURE_SIZE, title=asset, vocabulary=words, up=up)
+        picture = render(mesh, color_by="label", size=PICTURE_SIZE, title=title, vocabulary=words, up=up)
         return self._write(name, picture)
 
     def _write(self, name: str, picture: Image) -> Path:
@@ -88,5 +88,5 @@ class MeshPictures:
 
     @staticmethod
     def _up(orient: Orient | None) -> Up | None:
-        """Z, where the orientation says what +Z is, so that Z points up whatever the files say."""
-        return "Z" if orient is not None and any(pair.axis.endswith("Z") for pair in orient.pairs) else None
+        """Z where the orientation names it; otherwise the file says which axis is up."""
+        return "Z" if orient and orient.names_z else None

@@ -8,7 +8,7 @@ from pathlib import Path
 from meshforge.cli.mesh_pictures import MeshPictures
 from meshforge.common import MeshForgeError
 from meshforge.project import Project, ProjectReview
-from meshforge.signoff import ReadingQuestion, ResultQuestion, ReviewQuestion, SpanQuestion
+from meshforge.signoff import OrientationQuestion, ReadingQuestion, ResultQuestion, ReviewQuestion, SpanQuestion
 from meshforge.signoff.question import RIGHT
 
 
@@ -39,9 +39,12 @@ def _draw(pictures: MeshPictures, found: ProjectReview, question: ReviewQuestion
         ]
     if isinstance(question, ResultQuestion) and program and question.choice(RIGHT):
         return [pictures.draw_result(question.asset, program, name)]
-    turned = [choice.orient for choice in question.choices if choice.orient]
-    if turned:
-        return [pictures.draw_turned(question.asset, turned[0], name)]
+    if isinstance(question, OrientationQuestion):
+        now = found.state.frame.orient
+        return [
+            pictures.draw_turned(question.asset, choice.orient or now, f"{name}-{choice.id}", choice.text)
+            for choice in question.choices
+        ]
     return [pictures.draw_labels(question.asset, name)]
 
 

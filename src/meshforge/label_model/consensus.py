@@ -47,6 +47,10 @@ _AT_MOST = 0.97  # to which degree two hulls are alike
 _TWINS = 1.5  # the distance up to which hardly anything tells two hulls of a mesh apart
 _PRIOR_SHARE = 0.3  # of the prior beside look-alikes
 _START = 0.9  # what each label is believed at the start
+_NOBODY_GAVE = 1.0
+"""What speaks in each round for a label of the vocabulary that nothing gives yet [nats]: on calibration families of
+which one, two or three assets are labelled, such labels then have 17, 10 and 6% of the probability, and 16, 12 and 7%
+of the hulls; with nothing for them 4, 2 and 1%."""
 _PAIRS = 0.5  # pairs of labels count as having touched so often before any are seen
 
 
@@ -59,16 +63,23 @@ def consensus_weights() -> Floats:
     return found
 
 
-def infer_chances(table: FamilyTable, seen: Observations, weights: Floats | None = None) -> tuple[Floats, Floats]:
+def infer_chances(
+    table: FamilyTable, seen: Observations, weights: Floats | None = None, evidence: Floats | None = None
+) -> tuple[Floats, Floats]:
     """The probability of each label that anything says for each hull of a family: by all, and but for what is said of
-    the hull itself. Both (n, labels)."""
+    the hull itself. Both (n, labels).
+
+    evidence: (n, labels), more that speaks for each label of each hull [nats].
+    """
     context = FamilyContext(table, seen)
     chances = by_others = context.start()
+    more = np.where(np.isin(np.arange(context.count), seen.codes), 0.0, _NOBODY_GAVE)
+    more = more if evidence is None else more + evidence
     for row in consensus_weights() if weights is None else weights:
         scores = context.collect_evidence(chances)
         scores *= row
         by_others = softmax(scores[:, :, _OF_OTHERS].sum(axis=2))
-        chances = context.hold(softmax(scores.sum(axis=2)))
+        chances = context.hold(softmax(scores.sum(axis=2) + more))
     return chances, by_others
 
 

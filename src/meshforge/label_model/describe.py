@@ -23,13 +23,18 @@ _STAYS = 0.05  # how much better another direction must be than the file's own
 _OTHER = np.cos(np.radians(30.0))  # directions that turn by less are one and the same way to lie
 
 
-def find_up(mesh: SymbolicMesh) -> Floats:
+def up_in_file(mesh: SymbolicMesh) -> Floats:
+    """The axis (3,) that points up by what the file of a mesh says."""
+    return np.array([0.0, 1.0, 0.0] if mesh.asset and mesh.asset.up == "y" else [0.0, 0.0, 1.0])
+
+
+def find_up(mesh: SymbolicMesh, axis: Floats | None = None) -> Floats:
     """The direction (3,) that points up in a mesh, whatever small turn its file gave it.
 
     Of the file's upright axis and the directions in which the whole could lie flat, the one in which most of the
-    hulls' faces are level or plumb, those near the file's axis before others.
+    hulls' faces are level or plumb, those near the file's axis before others. axis: another one in its place.
     """
-    axis = np.array([0.0, 1.0, 0.0] if mesh.asset and mesh.asset.up == "y" else [0.0, 0.0, 1.0])
+    axis = up_in_file(mesh) if axis is None else axis
     found = np.concatenate([axis[None], _flat_sides(mesh)])
     worth = _score(mesh, found) * np.exp(-((_to_degrees(found @ axis) / _FAR) ** 2))
     worth[0] += _STAYS

@@ -59,6 +59,11 @@ class FamilyPosterior:
         others = infer_chances(self.table, self.seen.without_splits())[0]
         return replace(self, chances=_bound_splits(self.seen, self.chances, others))
 
+    def weigh(self, evidence: Floats) -> FamilyPosterior:
+        """The same with more evidence (n, labels) [nats] on the labels of hulls, which counts for look-alikes too."""
+        chances, by_others = infer_chances(self.table, self.seen, evidence=evidence)
+        return replace(self, chances=chances, by_others=by_others)
+
     def chances_of(self, mesh: int) -> Floats:
         """Those of the hulls of one mesh, in their order."""
         return self.chances[self.table.spans.get(mesh, slice(0, 0))]
@@ -185,18 +190,20 @@ class FamilyModel:
         self._sides = [one.sides for one in descriptors]
         self._closely = lru_cache(_REMEMBERED)(lambda mesh: cache(MeshDescriber(meshes[mesh]).describe_side))
         self._turned: dict[tuple[tuple[int, int], ...], FamilyTable] = {}
-        self._inferred: dict[tuple[Label | None, ...], FamilyPosterior] = {}
+        self._inferred: dict[tuple[tuple[Label | None, ...], tuple[str, ...]], FamilyPosterior] = {}
 
-    def infer(self, labels: Sequence[Label | None]) -> FamilyPosterior:
+    def infer(self, labels: Sequence[Label | None], vocabulary: Sequence[str] = ()) -> FamilyPosterior:
         """What labels, one or None for each hull of all meshes, say about all hulls, these included.
+
+        vocabulary: labels that hulls may have though nothing says so yet.
 
         The same family in the same order gives the same, bit for bit, on any processor. Meshes may lie anyhow about the
         upright axis of their files, at any size and place, tilted by up to some 40 degrees, or on their side. What was
         inferred last is kept.
         """
-        key = tuple(labels)
+        key = tuple(labels), tuple(vocabulary)
         if key not in self._inferred:
-            seen = Observations.of(labels)
+            seen = Observations.of(*key)
             self._inferred = {key: FamilyPosterior.of(self._set_upright(seen), seen)}
         return self._inferred[key]
 

@@ -125,7 +125,7 @@ class FamilyTable:
 class Observations:
     """What is said of the labels of n hulls.
 
-    labels: that anything says, sorted; codes: (n,) the place of what is said among these, NO_LABEL where nothing is;
+    labels: that anything says, and those of the vocabulary, sorted; codes: (n,) the place of what is said among these, NO_LABEL where nothing is;
     confidence: (n,); sources: (n,) the place of the source among LABEL_SOURCES; fixed: (n,) whether a person said it;
     given: (n,) whether others may be taken from it.
     """
@@ -138,12 +138,16 @@ class Observations:
     given: Bools
 
     @staticmethod
-    def of(said: Sequence[Label | None]) -> Observations:
-        """What annotations of hulls say; a label that was inferred says nothing but what it was inferred over."""
+    def of(said: Sequence[Label | None], vocabulary: Sequence[str] = ()) -> Observations:
+        """What annotations of hulls say; a label that was inferred says nothing but what it was inferred over.
+
+        vocabulary: labels that hulls may have though nothing says so yet.
+        """
         evidence = [evidence_of(label) for label in said]
         if not any(evidence):
             evidence = list(said)
-        labels = tuple(sorted({one.name for one in evidence if one}))
+        given = {one.name for one in evidence if one}
+        labels = tuple(sorted(given.union(vocabulary) if given else given))
         places = {label: place for place, label in enumerate(labels)}
         return Observations(
             labels,

@@ -154,6 +154,11 @@ class Orient:
             problem = f"orient names the axis {axes[0][1]} twice"
             raise ProgramError(problem, remedy="Give the second pair another axis than the first.")
 
+    @property
+    def names_z(self) -> bool:
+        """Whether it says what +Z is, so that Z points up whatever the files say."""
+        return any(pair.axis.endswith("Z") for pair in self.pairs)
+
 
 def _check_base(node: object, *operands: object) -> None:
     for operand in operands:

@@ -3,9 +3,8 @@ that are not to be proposed."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-
-import numpy as np
+import math
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from meshforge import synthesis
 from meshforge.batch import RuleSelection
@@ -18,6 +17,9 @@ from meshforge.symbolic import SymbolicMesh
 TEACHES = 0.8
 """A result that was corrected is learned from where the labels of the hulls that differ are right with this
 probability; elsewhere the labels may be at fault, and no rule."""
+UNSURE_PRICE = 1.6
+"""Of a reading that does otherwise than a result which nothing fits [nats]: what labels cost that are right at 80%."""
+_LEAST_DOUBT = 0.05  # that labels on an asset are at fault
 
 
 def sort_answers(
@@ -40,32 +42,44 @@ def list_accepted(
     return [one for one in every if (one.rule, one.asset) not in known]
 
 
-def list_corrected(
+def list_wrong(
     said: Feedback, demos: Mapping[str, synthesis.Demonstration], meshes: Mapping[str, SymbolicMesh]
 ) -> list[synthesis.Answer]:
-    """What rules should have selected on results that were corrected, where the labels are no likely reason why they
-    did not."""
+    """What rules should have selected on results that were called wrong, or that they should not have selected what
+    they did where one rule alone did anything there; unsure where labels may be the reason."""
     last = {asset: some[-1] for asset, some in said.verdicts.items() if asset in meshes and asset not in demos}
-    corrected = {asset: one for asset, one in last.items() if one.meant}
-    if not corrected:
+    wrong = {asset: one for asset, one in last.items() if one.meant or one.verdict == "wrong"}
+    if not wrong:
         return []
     every = [hull.annotation for mesh in meshes.values() for hull in mesh.hulls]
     posterior = model_family(list(meshes.values())).infer(every)
     columns = {label: column for column, label in enumerate(posterior.seen.labels)}
-    found = []
+    found = list[synthesis.Answer]()
     for place, (asset, mesh) in enumerate(meshes.items()):
-        if one := corrected.get(asset):
+        if one := wrong.get(asset):
             pairs = zip(one.seen, one.meant, strict=False)
             differing = frozenset[str]().union(*({*was.select} ^ {*now.select} for was, now in pairs))
             rows = zip(mesh.hulls, posterior.chances_of(place), strict=True)
-            shares = [
+            share = math.prod(
                 float(row[columns[hull.label]]) if hull.label in columns else 0.0
                 for hull, row in rows
                 if hull.name in differing or not differing
-            ]
-            if np.prod(shares) >= TEACHES:
-                found += list(_number(demos, asset, one.meant))
+            )
+            price = -math.log(max(1 - share, _LEAST_DOUBT))
+            answers = list(_number(demos, asset, one.meant or one.seen))
+            if one.meant:
+                found += answers if share >= TEACHES else soften(answers, price)
+            elif len(active := [answer for answer in answers if answer.select]) == 1:
+                found += [synthesis.Answer(a.rule, asset, None, [a.select or ()], price) for a in active]
     return found
+
+
+def soften(answers: Iterable[synthesis.Answer], price: float = UNSURE_PRICE) -> list[synthesis.Answer]:
+    """The same answers, which no reading has to keep to; what is unsure stays so."""
+    return [
+        synthesis.Answer(one.rule, one.asset, one.select, one.refused, price if one.price is None else one.price)
+        for one in answers
+    ]
 
 
 def _number(

@@ -13,7 +13,7 @@ from meshforge.common import MeshForgeError, ProgramError, ProjectError, file_di
 from meshforge.labels import pick_evenly
 from meshforge.language import Program
 from meshforge.project import demonstrations
-from meshforge.project.evidence import list_accepted, list_corrected, list_rejections, sort_answers
+from meshforge.project.evidence import list_accepted, list_rejections, list_wrong, soften, sort_answers
 from meshforge.signoff.question import NOT_OF_FAMILY
 from meshforge.store import ProgramRecord, Settings, Store
 from meshforge.symbolic import SymbolicMesh
@@ -136,7 +136,8 @@ def digest_learning_inputs(store: Store, settings: Settings | None = None) -> st
     layout, feedback = store.layout, store.feedback()
     words: list[object] = [digest_settings(settings or store.settings), digest_demonstrations(store)]
     words += [line.model_dump(mode="json") for line in feedback.answers_and_fixes.values()]
-    words += [str(some[-1].meant) for some in feedback.verdicts.values() if some[-1].meant]
+    last = [some[-1] for some in feedback.verdicts.values()]
+    words += [f"{one.seen} {one.meant}" for one in last if one.meant or one.verdict == "wrong"]
     concerned = {line.asset for line in feedback.answers.values()} | set(store.demonstration_ids())
     for asset, path in store.found.ids.items():
         if asset in concerned:
@@ -183,7 +184,7 @@ def learn_program(
     inputs = digest_learning_inputs(store)
     said = store.feedback()
     fitting, unfit = sort_answers(store, said, demos, answers)
-    accepted, corrected = list_accepted(store, demos, fitting), list_corrected(said, demos, meshes)
+    accepted, wrong = list_accepted(store, demos, fitting), list_wrong(said, demos, meshes)
     asker = _RepairAsker(store, confirm) if accept and confirm else None
     settings = store.settings
     names = dict.fromkeys(name for demo in demos.values() for step in demo.steps for name in step.action.templates)
@@ -209,13 +210,14 @@ def learn_program(
             answers=answers,
         )
 
-    outcome = learn([*accepted, *fitting, *corrected])
-    if isinstance(outcome, synthesis.NoProgram | synthesis.NeedsRepair) and corrected:
-        outcome = learn([*accepted, *fitting])  # other labels may be at fault there
+    outcome = learn([*accepted, *fitting, *wrong])
+    if isinstance(outcome, synthesis.NoProgram | synthesis.NeedsRepair) and wrong:
+        wrong = soften(wrong)  # other labels may be at fault there
+        outcome = learn([*accepted, *fitting, *wrong])
     if isinstance(outcome, synthesis.NoProgram) and accepted:
         overruled = tuple(dict.fromkeys(answer.asset for answer in accepted))
-        outcome = replace(learn(fitting), overruled=overruled)
-    stale = [answer for answer in outcome.stale if answer not in (*accepted, *corrected)]
+        outcome = replace(learn([*fitting, *wrong, *soften(accepted)]), overruled=overruled)
+    stale = [answer for answer in outcome.stale if answer not in (*accepted, *wrong)]
     outcome = replace(outcome, stale=tuple(dict.fromkeys([*unfit, *stale])))
     if accept and isinstance(outcome, synthesis.Found | synthesis.Ambiguous):
         accept_outcome(store, outcome, asker.inputs if asker and asker.inputs else inputs)

@@ -43,6 +43,8 @@ def reply_to(store: Store, question: ReviewQuestion, reply: ReviewReply) -> None
         case signoff.SlipQuestion():
             if choice is None or choice.id == NO:
                 _snooze(store, said)
+            elif choice.label:
+                _label(store, question, choice, reply)
             else:
                 place, select = (question.asset, question.rule or 1), choice.select or ()
                 _do(store, said, lambda: demonstrations.correct_selection(store, *place, select, said))
@@ -117,8 +119,8 @@ def _make_output(store: Store, asset: str) -> None:
             raise ProjectError(f"{asset} cannot be edited: {outcome.error}", where=str(store.folder))
 
 
-def _label(store: Store, question: signoff.GroupQuestion, choice: ReviewChoice | None, reply: ReviewReply) -> None:
-    """Give labels to a group of hulls."""
+def _label(store: Store, question: signoff.GroupQuestion | signoff.SlipQuestion, choice: ReviewChoice | None, reply: ReviewReply) -> None:
+    """Give labels to hulls."""
     given = dict.fromkeys(question.hulls, choice.label) if choice and choice.label else {}
     labels = dict[str, dict[str, str]]()
     for place, label in sorted({**given, **reply.exceptions}.items()):

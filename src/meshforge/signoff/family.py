@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import exp, log, prod
@@ -26,12 +26,15 @@ from meshforge.signoff.assessment import (
 )
 from meshforge.signoff.confidence import NO_EDIT, AssetEvidence
 from meshforge.signoff.readings import RuleReadings, compare_readings
+from meshforge.signoff.result_labels import weigh_labels
 from meshforge.signoff.slips import RuleSlip, find_slips
 from meshforge.signoff.state import ReviewState
 from meshforge.signoff.trial import RULE_OF_FRAME, Flip, Trial, find_flips, select_by, try_program
 from meshforge.synthesis import Reading
 
 SURE_OF_DEMONSTRATED = 0.999
+ALIKE = 14.0
+"""The distance of descriptions up to which hulls look alike."""
 _WORTH_TELLING = 0.01  # the probability that an edit is wrong for one reason, from which on it is told
 _PROGRAM_RIGHT, _RESULT_RIGHT = 2.5, 1.3
 """What speaks for a program as such [nats], and for one that does what a person accepted or meant on an asset: no other
@@ -64,14 +67,37 @@ class FamilyTrial:
         posterior: FamilyPosterior,
         alarms: Mapping[str, Sequence[str]],
     ) -> FamilyTrial:
-        """Try a program on a family."""
-        trials = list[Trial]()
-        for place, (name, mesh) in enumerate(state.meshes.items()):
-            trial = try_program(name, mesh, program, state.templates)
-            flips = find_flips(trial, mesh, program, posterior.seen.labels, posterior.chances_of(place))
-            trials.append(replace(trial, flips=flips))
+        """Try a program on a family; what people said of results speaks for labels, too."""
+        trials = [try_program(name, mesh, program, state.templates) for name, mesh in state.meshes.items()]
         compared, slips = compare_readings(program, readings, trials), tuple(find_slips(state, program, trials))
-        return FamilyTrial(state, program, posterior, tuple(trials), compared, slips, alarms)
+        found = FamilyTrial(state, program, posterior, tuple(trials), compared, slips, alarms)._with_flips(posterior)
+        evidence = weigh_labels(state, found.trials, posterior)
+        found = found if evidence is None else found._with_flips(posterior.weigh(evidence))
+        return replace(found, readings=found._weigh_readings())
+
+    def _weigh_readings(self) -> tuple[RuleReadings, ...]:
+        """The readings by what rules did on results that were called wrong: where the other rules and the labels there
+        are probably right, a reading that does the same is probably not meant."""
+        found = list(self.readings)
+        for asset, failed in self.state.failed.items():
+            place = self.places.get(asset)
+            if place is None or asset in self.state.meant or self.trials[place].selected != failed:
+                continue
+            sure = [one.agreement[place] for one in self.readings]
+            for k, one in enumerate(self.readings):
+                others = prod([*sure[:k], *sure[k + 1 :], self.labels_right(place)])
+                found[k] = found[k].doubt(one.kinds[:, place] == 0, min(others, _MOST_EXPECTED))
+        return tuple(found)
+
+    def _with_flips(self, posterior: FamilyPosterior) -> FamilyTrial:
+        """The same with the probabilities of labels, and what other labels would change."""
+        posterior, labels = posterior.doubt_splits(), posterior.seen.labels
+        rows = enumerate(zip(self.trials, self.state.meshes.values(), strict=True))
+        trials = tuple(
+            replace(trial, flips=find_flips(trial, mesh, self.program, labels, posterior.chances_of(place)))
+            for place, (trial, mesh) in rows
+        )
+        return replace(self, posterior=posterior, trials=trials)
 
     @cached_property
     def evidence(self) -> tuple[AssetEvidence, ...]:
@@ -90,13 +116,41 @@ class FamilyTrial:
         return tuple(
             AssetEvidence(
                 float(agreement[place]),
-                prod(1 - share for share in flip_shares(trial.flips).values()),
+                self.labels_right(place),
                 float(trial.asset in self.foreign),
                 float(self._unlikeness[place]),
                 float(len(self.alarms.get(trial.asset, ()))),
             )
             for place, trial in enumerate(self.trials)
         )
+
+    def labels_right(self, place: int, told: Collection[str] = ()) -> float:
+        """The probability that no other labels would change the edit of an asset: hulls that look alike err together,
+        so of each such cluster the most doubtful one counts.
+
+        told: names of hulls whose labels are known.
+        """
+        worst = defaultdict[int, float](float)
+        for hull, share in flip_shares(self.trials[place].flips).items():
+            if hull not in told:
+                cluster = self._clusters[place][hull]
+                worst[cluster] = max(worst[cluster], share)
+        return prod(1 - share for share in worst.values())
+
+    @cached_property
+    def _clusters(self) -> Sequence[Mapping[str, int]]:
+        """For each asset the cluster of look-alikes of each hull whose label matters."""
+        return [
+            dict(zip(hulls, cluster(self.rows_of(place, hulls)), strict=True))
+            for place, trial in enumerate(self.trials)
+            for hulls in [list(flip_shares(trial.flips))]
+        ]
+
+    def rows_of(self, place: int, hulls: Iterable[str]) -> Floats:
+        """What describes some hulls of an asset (hulls, columns), so that distances are sums of differences."""
+        table = self.posterior.table
+        index, start = self.state.meshes[self.trials[place].asset].index, table.spans.get(place, slice(0, 0)).start
+        return table.rows[[start + index[hull] for hull in hulls]] * table.metric
 
     def trust_in_program(self, looks: int = 0) -> float:
         """The probability that the program is not wrong nearly everywhere, by Bayes: each result that is as a person
@@ -247,6 +301,17 @@ class FamilyTrial:
         if evidence.unlike > 0 and share >= _WORTH_TELLING:
             found.append(Doubt("unlike", "unlike the rest: no other asset has such hulls", share=share))
         return found
+
+
+def cluster(rows: Floats) -> list[int]:
+    """The clusters of some hulls: each belongs to the first one that it looks like."""
+    heads, found = list[int](), list[int]()
+    for place, row in enumerate(rows):
+        alike = (k for k, head in enumerate(heads) if np.abs(rows[head] - row).sum() <= ALIKE)
+        found.append(next(alike, len(heads)))
+        if found[-1] == len(heads):
+            heads.append(place)
+    return found
 
 
 def flip_shares(flips: Sequence[Flip]) -> dict[str, float]:

@@ -5,18 +5,17 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from math import prod
 
 import numpy as np
 
-from meshforge.signoff.family import FamilyTrial, flip_shares
+from meshforge.signoff.confidence import LEAST
+from meshforge.signoff.family import ALIKE, FamilyTrial, flip_shares
 from meshforge.signoff.prices import price_group
 from meshforge.signoff.question import HullPlace
 
 MOST_HULLS = 24
 """Hulls of a group."""
 _LEAST_SHARE = 0.003  # a hull whose label is surer than this needs no confirmation
-_ALIKE = 14.0  # the distance of descriptions up to which hulls look alike
 _SEEDS = 8  # hulls about which a group is looked for, those that matter most
 
 
@@ -35,12 +34,14 @@ class _Suspect:
 
 @dataclass(frozen=True, slots=True)
 class LookalikeGroup:
-    """Hulls that look alike, and what they probably are. gain: assets made right by confirming that; seconds: of it."""
+    """Hulls that look alike, and what they probably are. gain: assets made right by confirming that; seconds: of it;
+    share: the most that any of them is likely to change an edit."""
 
     label: str
     hulls: tuple[HullPlace, ...]
     gain: float
     seconds: float
+    share: float
 
 
 def find_groups(family: FamilyTrial, open_assets: Sequence[int]) -> Iterator[LookalikeGroup]:
@@ -55,7 +56,7 @@ def find_groups(family: FamilyTrial, open_assets: Sequence[int]) -> Iterator[Loo
     for label, some in sorted(by_label.items()):
         for seed in some[: max(1, _SEEDS // len(by_label))]:
             apart = cdist(rows[[one.row for one in some]], rows[[seed.row]], "cityblock")[:, 0]
-            alike = [one for one, gap in zip(some, apart, strict=True) if gap <= _ALIKE]
+            alike = [one for one, gap in zip(some, apart, strict=True) if gap <= ALIKE]
             yield _best_of(family, label, [seed, *(one for one in alike if one is not seed)])
 
 
@@ -78,17 +79,17 @@ def _suspects(family: FamilyTrial, open_assets: Sequence[int]) -> Iterator[_Susp
 
 def _gain(family: FamilyTrial, some: Sequence[_Suspect]) -> float:
     """How many assets more are right, as far as can be expected, when the labels of some hulls are told."""
-    by_mesh = defaultdict[int, list[float]](list)
+    by_mesh = defaultdict[int, list[_Suspect]](list)
     for one in some:
-        by_mesh[one.mesh].append(one.share)
+        by_mesh[one.mesh].append(one)
     found = 0.0
-    for mesh, shares in by_mesh.items():
+    for mesh, told in by_mesh.items():
         if family.trials[mesh].error:  # the labels with which it could be edited
-            found += max(shares)
+            found += max(one.share for one in told)
             continue
         evidence = family.evidence[mesh]
-        rest = prod(max(1 - share, 1e-6) for share in shares)
-        found += evidence.with_labels(min(1.0, evidence.labels / rest)).probability - evidence.probability
+        labels = family.labels_right(mesh, {one.place.hull for one in told})
+        found += evidence.credit(labels=labels / max(evidence.labels, LEAST))
     return found
 
 
@@ -98,7 +99,8 @@ def _best_of(family: FamilyTrial, label: str, some: Sequence[_Suspect]) -> Looka
     for count in range(1, min(len(some), MOST_HULLS) + 1):
         part = some[:count]
         seconds = price_group(count, sum(one.wrong for one in part))
-        group = LookalikeGroup(label, tuple(sorted(one.place for one in part)), _gain(family, part), seconds)
+        hulls, share = tuple(sorted(one.place for one in part)), max(one.share for one in part)
+        group = LookalikeGroup(label, hulls, _gain(family, part), seconds, share)
         if best is None or group.gain / group.seconds > best.gain / best.seconds:
             best = group
     assert best

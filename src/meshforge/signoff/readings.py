@@ -4,9 +4,10 @@ the question that tells readings apart for the fewest seconds."""
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
+import numpy.typing as npt
 
 from meshforge.geometry import Floats, Ints
 from meshforge.language import EXTREMITY, Extractor, Program
@@ -19,6 +20,7 @@ LEAST_BELIEF = 0.0005
 FEW_ASSETS = 400
 """Up to so many assets learning has looked at all of them, and says where readings differ."""
 MOST_CHOICES = 3
+Bools = npt.NDArray[np.bool_]
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,6 +41,12 @@ class RuleReadings:
         """The belief in readings that do on each asset as the program does (assets,)."""
         found: Floats = self.beliefs @ (self.kinds == 0)
         return found
+
+
+    def doubt(self, some: Bools, share: float) -> RuleReadings:
+        """The same where some readings (k,) are wrong with that probability besides."""
+        beliefs = np.where(some, self.beliefs * (1 - share), self.beliefs)
+        return replace(self, beliefs=beliefs / beliefs.sum())
 
 
 @dataclass(frozen=True, slots=True)

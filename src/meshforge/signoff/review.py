@@ -10,7 +10,7 @@ from types import MappingProxyType
 import numpy as np
 
 from meshforge.geometry import Floats
-from meshforge.label_model import FamilyModel
+from meshforge.label_model import FamilyModel, FamilyPosterior
 from meshforge.language import show
 from meshforge.signoff import question as kinds
 from meshforge.signoff.assessment import BAR, Assessment, AssetConfidence, Doubt
@@ -19,9 +19,10 @@ from meshforge.signoff.groups import LookalikeGroup, find_groups, find_other_lab
 from meshforge.signoff.prices import READING, YES_OR_NO, price_demonstration
 from meshforge.signoff.question import EXCLUDE, NO, RIGHT, WRONG, YES, HullPlace, ReviewChoice, ReviewQuestion, identify
 from meshforge.signoff.readings import ReadingSplit, split_readings
-from meshforge.signoff.slips import ask_about_kept_label, ask_about_nearest, ask_about_slip
+from meshforge.signoff.slips import ask_about_kept_label, ask_about_nearest, ask_about_slip, offer_label
 from meshforge.signoff.state import ReviewState
 from meshforge.signoff.trial import Trial
+from meshforge.signoff.turns import find_turned_asset
 from meshforge.synthesis import (
     Ambiguous,
     Found,
@@ -36,6 +37,7 @@ _NO_ALARMS: Mapping[str, Sequence[str]] = MappingProxyType({})
 _TRUST = 2  # the power of the probability that labels on an asset are right, with which what is said there counts
 _LEAST_TRUST = 0.7  # below this nothing is asked there about readings
 _SUGGESTION_RIGHT = 0.5  # the share of held assets that an orientation which is suggested makes right
+_CLUSTER_RISK = 0.2  # edits of look-alikes that are wrong, as far as can be expected, from which on these are asked about
 _MOST_SPLITS = 40  # assets on which readings are told apart, those where they differ most
 
 
@@ -55,7 +57,7 @@ def review_family(
     if not isinstance(outcome, Found | Ambiguous):  # what was demonstrated is not what any program does
         unknown = {name: AssetConfidence(name, 0.0, (_doubt_of(outcome),)) for name in state.meshes}
         return Assessment(
-            unknown, bar, seen, state.wrong, state.excluded, _sort(_questions_before(state, outcome), state)
+            unknown, bar, seen, state.wrong, state.excluded, _sort(_questions_before(state, outcome, family), state)
         )
     trial = _try_family(state, outcome, family, alarms)
     assets = {one.asset: trial.confidence_of(place) for place, one in enumerate(trial.trials)}
@@ -63,7 +65,7 @@ def review_family(
     looked_at = (seen | state.demos.keys()) - stopped - trial.contradicted - state.wrong
     found = Assessment(assets, bar, looked_at, state.wrong, state.excluded)
     if found.is_done:
-        looks = list(_ask_last_looks(trial))
+        looks = [*_ask_last_looks(trial), *_ask_clusters(trial)]
         if any(one.id in state.snoozed for one in looks):  # who snoozes one wants no other
             return found
         return replace(found, questions=_sort(looks, state))
@@ -84,8 +86,13 @@ def _try_family(
     state: ReviewState, outcome: Found | Ambiguous, family: FamilyModel, alarms: Mapping[str, Sequence[str]]
 ) -> FamilyTrial:
     """The program tried on the family, under all that its labels say."""
-    posterior = family.infer([hull.annotation for mesh in state.meshes.values() for hull in mesh.hulls]).doubt_splits()
-    return FamilyTrial.of(state, outcome.program, outcome.readings, posterior, alarms)
+    return FamilyTrial.of(state, outcome.program, outcome.readings, _infer(state, family), alarms)
+
+
+def _infer(state: ReviewState, family: FamilyModel) -> FamilyPosterior:
+    """What is said of the labels of a family."""
+    said = [hull.annotation for mesh in state.meshes.values() for hull in mesh.hulls]
+    return family.infer(said, state.frame.labels)
 
 
 def _doubt_of(outcome: LearningOutcome | None) -> Doubt:
@@ -96,7 +103,9 @@ def _doubt_of(outcome: LearningOutcome | None) -> Doubt:
     return Doubt("reading", getattr(outcome, "why", "no program was found"), share=1.0)
 
 
-def _questions_before(state: ReviewState, outcome: LearningOutcome | None) -> Iterator[ReviewQuestion]:
+def _questions_before(
+    state: ReviewState, outcome: LearningOutcome | None, family: FamilyModel
+) -> Iterator[ReviewQuestion]:
     """What can be asked while there is no program; the first is to be asked before the others."""
     everyone = float(len(state.meshes))
     match outcome:
@@ -107,14 +116,17 @@ def _questions_before(state: ReviewState, outcome: LearningOutcome | None) -> It
             if asset := first or next(iter(meshes), None):
                 yield _ask_demonstration(state, asset, everyone, "Show the edit on {}.")
         case NeedsRepair():
-            asked = list(_ask_repairs(state, outcome, everyone))
+            asked: list[ReviewQuestion] = list(_ask_repairs(state, outcome, everyone))
             kept = (ask_about_kept_label(state, repair, everyone) for repair in outcome.repairs)
-            yield from asked or (slip for slip in kept if slip)
+            asked = asked or [slip for slip in kept if slip and slip.id not in state.snoozed]
+            yield from asked
+            if not asked:  # all was refused: what was shown there may be otherwise
+                text = "Nothing fits what was shown on {} with the labels there: show it again, or correct a label."
+                yield _ask_demonstration(state, outcome.repairs[0].correction.asset, everyone, text)
         case NoProgram():
-            if outcome.suggested:
-                yield _ask_orientation(outcome.suggested, state, everyone)
+            yield from _ask_orientation(outcome.suggested, state, everyone)
             if slip := ask_about_nearest(state, outcome.nearest, everyone):
-                yield slip
+                yield offer_label(state, _infer(state, family), slip)
             text = f"Nothing fits what was shown on {{}}: {outcome.why}."
             yield _ask_demonstration(state, outcome.nearest.asset, everyone, text)
         case _:
@@ -132,26 +144,29 @@ def _ask_repairs(state: ReviewState, outcome: NeedsRepair, everyone: float) -> I
             yield question
 
 
-def _ask_orientation(suggested: OrientationSuggestion, state: ReviewState, gain: float) -> kinds.OrientationQuestion:
-    text = f"Are assets to be turned first, by {show(suggested.orient)}? {suggested.why}."
-    choices = (ReviewChoice(NO, "no"), ReviewChoice(YES, "yes", orient=suggested.orient))
-    asset = next(iter([*suggested.differs_on, *state.meshes]))
-    return identify(kinds.OrientationQuestion(text, YES_OR_NO, gain, asset, choices=choices))
+def _ask_orientation(
+    suggested: OrientationSuggestion | None, state: ReviewState, gain: float
+) -> Iterator[kinds.OrientationQuestion]:
+    asset = find_turned_asset(state, suggested) if suggested else None
+    if suggested and asset:
+        text = f"Should {asset} stand like this?"
+        yes = ReviewChoice(YES, "yes, turn all assets like this", orient=suggested.orient)
+        choices = (ReviewChoice(NO, "no, all stay as they are"), yes)
+        yield identify(kinds.OrientationQuestion(text, YES_OR_NO, gain, asset, choices=choices))
 
 
 def _questions(
     family: FamilyTrial, found: Assessment, suggested: OrientationSuggestion | None
 ) -> Iterator[ReviewQuestion]:
-    held = set(found.held)
+    state, held = family.state, set(found.held)
     open_assets = [place for place, one in enumerate(family.trials) if one.asset in held]
     yield from (_ask_group(family, group) for group in find_groups(family, open_assets))
     yield from _ask_readings(family, found)
-    yield from (ask_about_slip(family.state, slip) for slip in family.slips)
+    yield from (offer_label(state, family.posterior, ask_about_slip(state, slip)) for slip in family.slips)
     yield from _ask_results(family, found)
     if suggested:
-        yield _ask_orientation(
-            suggested, family.state, _SUGGESTION_RIGHT * len(held.intersection(suggested.differs_on))
-        )
+        gain = _SUGGESTION_RIGHT * len(held.intersection(suggested.differs_on))
+        yield from _ask_orientation(suggested, family.state, gain)
 
 
 def _sort(questions: Iterable[ReviewQuestion], state: ReviewState) -> tuple[ReviewQuestion, ...]:
@@ -209,16 +224,18 @@ def _ask_reading(family: FamilyTrial, rule: int, split: ReadingSplit) -> kinds.R
 
 
 def _gains_of(family: FamilyTrial, splits: Sequence[ReadingSplit], looks: int = 0) -> Floats:
-    """By how much more probable each edit is right (assets,) when some rules are told apart, and as many results more
-    are found right."""
-    shares, program = np.ones(len(family.trials)), family.trust_in_program(looks)
+    """What it is worth for each edit (assets,) when some rules are told apart, and as many results more are found
+    right; nothing for those that a person saw."""
+    shares, program = np.ones(len(family.trials)), family.trust_in_program(looks) / family.trust_in_program()
     for split in splits:
         agreement = family.readings[split.rule - 1].agreement
         shares *= np.minimum(1.0, agreement + split.gains) / np.maximum(agreement, 1e-9)
+    seen = family.state.reviewed_assets
+    rows = zip(family.trials, family.evidence, shares.tolist(), strict=True)
     return np.array(
         [
-            one.with_readings(min(1.0, one.readings * share), program).probability - one.probability
-            for one, share in zip(family.evidence, shares.tolist(), strict=True)
+            0.0 if trial.asset in seen else one.credit(readings=max(share, 1.0), program=program)
+            for trial, one, share in rows
         ]
     )
 
@@ -259,6 +276,21 @@ def _ask_last_looks(family: FamilyTrial) -> Iterator[ReviewQuestion]:
         if looked:
             gain = len(looked) + 1 - evidence.probability
             yield _ask_result(trial, gain, YES_OR_NO, f"One last look: is the result of {trial.asset} right?")
+
+
+def _ask_clusters(family: FamilyTrial) -> Iterator[ReviewQuestion]:
+    """Look-alikes of several assets err together: those whose labels decide edits that nobody looked at are asked about
+    once, however sure each edit is by itself."""
+    state = family.state
+    unseen = [
+        place
+        for place, one in enumerate(family.trials)
+        if one.asset not in state.reviewed_assets and one.asset not in state.excluded
+    ]
+    for group in find_groups(family, unseen):
+        assets = {place.asset for place in group.hulls}
+        if len(assets) > 1 and group.share * len(assets) >= _CLUSTER_RISK:
+            yield _ask_group(family, group)
 
 
 EXCLUDE_CHOICES = tuple(ReviewChoice(choice, f"exclude it: {reason}") for choice, reason in EXCLUDE.items())

@@ -4,12 +4,13 @@ question about them."""
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from meshforge.common import join_names
 from meshforge.geometry import Floats
+from meshforge.label_model import FamilyPosterior
 from meshforge.language import Program, show
 from meshforge.signoff.prices import YES_OR_NO
 from meshforge.signoff.question import NO, YES, HullPlace, ReviewChoice, SlipQuestion, identify
@@ -20,6 +21,7 @@ from meshforge.synthesis import Example, Nearest, Options, Repair, Slip, find_sl
 from meshforge.synthesis.slips import MOST_SLIPS
 
 _LEAST_SHARE = 0.3  # from which on a slip is asked about
+_LEAST_CHANCE = 0.05  # of another label, from which on it is offered
 _FITS_BARELY = 0.5  # the probability of a slip where no program fits what was shown
 
 
@@ -98,7 +100,9 @@ def _is_refused(state: ReviewState, rule: int, trial: Trial, mask: int | None) -
 def ask_about_slip(state: ReviewState, found: RuleSlip) -> SlipQuestion:
     """The question whether it is one."""
     slip, rule = found.slip, found.rule
-    text = f"{_describe(slip.missing, slip.extra)} rule {rule} would just be {show(slip.extractor)}"
+    text = _liken_to_shown(state, found) or (
+        f"{_describe(slip.missing, slip.extra)} rule {rule} would just be {show(slip.extractor)}"
+    )
     return _ask(state, (slip.asset, rule), slip.missing, slip.extra, text, slip.share * float(found.differs.sum()))
 
 
@@ -130,6 +134,34 @@ def ask_about_kept_label(state: ReviewState, repair: Repair, everyone: float) ->
         return None
     text = f"{hull} is {repair.correction.was}, and rule {repair.rule} {'selects it' if extra else 'leaves it out'}"
     return _ask(state, (asset, repair.rule), missing, extra, text, _FITS_BARELY * everyone)
+
+
+def _liken_to_shown(state: ReviewState, found: RuleSlip) -> str | None:
+    """What hulls that were left out have in common with those that were selected, None where that is not all."""
+    slip, mesh = found.slip, state.meshes[found.slip.asset]
+    shown = _read_selection(state, slip.asset, found.rule) or frozenset()
+    labels = {mesh.hull_of(hull).label for hull in {*slip.missing, *shown} if hull in mesh.index}
+    if slip.extra or not shown or len(labels) != 1:
+        return None
+    verb = "is" if len(slip.missing) == 1 else "are"
+    others = f"the {len(shown)} hulls that rule {found.rule} selects" if len(shown) > 1 else next(iter(shown))
+    return f"{join_names(slip.missing)} {verb} {next(iter(labels))}, like {others}"
+
+
+def offer_label(state: ReviewState, posterior: FamilyPosterior, question: SlipQuestion) -> SlipQuestion:
+    """The same question with one more choice: that the label of its hull is wrong, where another one is likely by what
+    is said of other hulls."""
+    if len(question.hulls) != 1 or not posterior.seen.labels:
+        return question
+    asset, hull = question.hulls[0]
+    place, mesh = list(state.meshes).index(asset), state.meshes[asset]
+    chances = posterior.by_others[posterior.table.spans[place]][mesh.index[hull]]
+    label = mesh.hull_of(hull).label
+    others = [(-share, name) for share, name in zip(chances.tolist(), posterior.seen.labels, strict=True)]
+    share, name = min((row for row in others if row[1] != label), default=(0.0, ""))
+    if -share < _LEAST_CHANCE or name in (YES, NO):
+        return question
+    return replace(question, choices=(*question.choices, ReviewChoice(name, f"no, {hull} is {name}", label=name)))
 
 
 def _describe(missing: Sequence[str], extra: Sequence[str]) -> str:

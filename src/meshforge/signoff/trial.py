@@ -25,7 +25,8 @@ RULE_OF_FRAME = 0
 class Flip:
     """A hull that may have another label, with which the edit would be another one.
 
-    chance: of that label; rules: the numbers of those that would select otherwise; 0 for the orientation.
+    chance: of that label; rules: the numbers of those that would select otherwise; 0 for the orientation; selections:
+    what these would select, as bit sets; nothing for the orientation.
     """
 
     hull: str
@@ -33,6 +34,7 @@ class Flip:
     to: str
     chance: float
     rules: tuple[int, ...]
+    selections: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -94,16 +96,17 @@ def find_flips(
             if to == hull.label or not {to, hull.label} & every:
                 continue
             turned = bool({to, hull.label} & landmarks) and _turns(mesh, row, to, program.orient, before)
-            rules = [RULE_OF_FRAME] if turned else []
+            others = {RULE_OF_FRAME: 0} if turned else {}
             for number, (rule, met, names) in enumerate(zip(program.rules, trial.meshes, seen, strict=False), 1):
                 at = met.index.get(hull.name)
                 if at is None or names[at] != hull.label or not {to, hull.label} & asked[number - 1]:
                     continue
-                other = [*names[:at], to, *names[at + 1 :]]
-                if select_mask(rule.extractor, met, delta, other) != trial.selections[number - 1]:
-                    rules.append(number)
-            if rules:
-                found.append(Flip(hull.name, hull.label, to, float(chances[row, place]), tuple(rules)))
+                other = select_mask(rule.extractor, met, delta, [*names[:at], to, *names[at + 1 :]])
+                if other != trial.selections[number - 1]:
+                    others[number] = other
+            if others:
+                chance = float(chances[row, place])
+                found.append(Flip(hull.name, hull.label, to, chance, tuple(others), tuple(others.values())))
     return tuple(found)
 
 

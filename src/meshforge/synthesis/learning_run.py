@@ -131,8 +131,8 @@ class LearningRun:
             return corrections
         if isinstance(found, Miss):
             return found
-        refused = self._replays.rejections(spec.number, search.field.meshes)
-        return RankedReadings(search, enumerate_consistent(search, found.extractor, task.options.above), refused)
+        preferences = self._replays.preferences(spec.number, search.field.meshes)
+        return RankedReadings(search, enumerate_consistent(search, found.extractor, task.options.above), preferences)
 
     def _find_by_paper(
         self, spec: RuleSpec, examples: Sequence[Example], rest: Sequence[SymbolicMesh]

@@ -72,16 +72,23 @@ class Question:
 class Answer:
     """What a person said: the hulls that a rule selects on an asset; None: neither of the choices.
 
-    refused: where it is neither, the choices there were.
+    refused: where it is neither, the choices there were. price: of a reading that does otherwise [nats], where labels
+    may be at fault; None where an answer is certain.
     """
 
     rule: int
     asset: str
     select: frozenset[str] | None
     refused: tuple[frozenset[str], ...] = ()
+    price: float | None = None
 
     def __init__(
-        self, rule: int, asset: str, select: Iterable[str] | None, refused: Iterable[Iterable[str]] = ()
+        self,
+        rule: int,
+        asset: str,
+        select: Iterable[str] | None,
+        refused: Iterable[Iterable[str]] = (),
+        price: float | None = None,
     ) -> None:
         if isinstance(select, str):
             problem = f"rule {rule}: an answer is a set of hull names, not the text {select!r}"
@@ -90,6 +97,7 @@ class Answer:
         object.__setattr__(self, "asset", asset)
         object.__setattr__(self, "select", None if select is None else frozenset(select))
         object.__setattr__(self, "refused", tuple(map(frozenset, refused)))
+        object.__setattr__(self, "price", price)
 
 
 @dataclass(frozen=True, slots=True)

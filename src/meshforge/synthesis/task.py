@@ -3,7 +3,7 @@ before it."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TypeVar
 from weakref import WeakKeyDictionary
@@ -14,6 +14,8 @@ from meshforge.symbolic import Label, SymbolicMesh, mask_of, split_by_contact
 from meshforge.synthesis.demonstration import Demonstration, Example, RuleSpec, name_demonstrations
 from meshforge.synthesis.options import Options
 from meshforge.synthesis.questions import Answer, LabelCorrection
+from meshforge.synthesis.readings.belief import NEITHER
+from meshforge.synthesis.readings.rank import Preference
 
 Batch = Mapping[str, SymbolicMesh]
 """Meshes by the names that questions and readings call them."""
@@ -84,7 +86,9 @@ class ReplaySet:
         templates: Mapping[str, language.Template],
         answers: Sequence[Answer],
     ) -> None:
-        self._frame, self._templates, self._answers = frame, templates, answers
+        self._frame, self._templates = frame, templates
+        self._answers = [answer for answer in answers if answer.price is None]
+        self._unsure = [answer for answer in answers if answer.price is not None]
         self.shown = [
             begin_replay(name, demo, frame.orient, frame.contact) for name, demo in name_demonstrations(demos)
         ]
@@ -92,7 +96,8 @@ class ReplaySet:
         rows = ((name, mesh) for name, mesh in batch.items() if name not in bare)
         self.others = [replay for name, mesh in rows if (replay := self._begin(name, mesh))]
         rules = range(1, 1 + max((len(demo.steps) for demo in demos), default=0))
-        self._stale = self._answers_without_asset(answers) + [answer for answer in answers if answer.rule not in rules]
+        self._stale = self._answers_without_asset(self._answers)
+        self._stale += [answer for answer in self._answers if answer.rule not in rules]
 
     @property
     def stale(self) -> tuple[Answer, ...]:
@@ -133,15 +138,18 @@ class ReplaySet:
         selections = {a.asset: a.select for a in self._answers if a.rule == rule}
         return tuple(name for name, select in selections.items() if select is not None and name in silent)
 
-    def rejections(self, rule: int, meshes: Sequence[SymbolicMesh]) -> list[tuple[int, int]]:
-        """What a person said is not meant: places in the list of meshes, and hulls there, as bit sets."""
+    def preferences(self, rule: int, meshes: Sequence[SymbolicMesh]) -> list[Preference]:
+        """What a person said is not meant, or is probably meant."""
         places = {id(mesh): place for place, mesh in enumerate(meshes)}
         by_name = {replay.name: replay.mesh for replay in [*self.shown, *self.others] if id(replay.mesh) in places}
+        last = {a.asset: a for a in self._answers if a.rule == rule}.values()
         return [
-            (places[id(by_name[answer.asset])], mask_of(by_name[answer.asset].index[name] for name in names))
-            for answer in {a.asset: a for a in self._answers if a.rule == rule}.values()
-            for names in answer.refused
-            if answer.asset in by_name and names <= by_name[answer.asset].index.keys()
+            Preference(places[id(mesh)], mask_of(map(mesh.index.__getitem__, names)), price, is_meant)
+            for answer in [*last, *(one for one in self._unsure if one.rule == rule)]
+            if (mesh := by_name.get(answer.asset))
+            for price in [NEITHER if answer.price is None else answer.price]
+            for names, is_meant in _list_preferred(answer)
+            if names <= mesh.index.keys()
         ]
 
     def advance(self, number: int, rule: language.Rule, last: bool) -> None:
@@ -161,6 +169,13 @@ class ReplaySet:
         """Go on as if labels were corrected."""
         self.shown = [_correct_replay(replay, corrections) for replay in self.shown]
         self.others = [_correct_replay(replay, corrections) for replay in self.others]
+
+
+def _list_preferred(answer: Answer) -> Iterator[tuple[frozenset[str], bool]]:
+    """Selections that are not meant, or where the answer is unsure the one that probably is."""
+    yield from ((names, False) for names in answer.refused)
+    if answer.select is not None and answer.price is not None:
+        yield answer.select, True
 
 
 def _example_of_answer(replay: Replay, answer: Answer) -> Example | None:

@@ -36,7 +36,7 @@ from meshforge.synthesis import (
     Step,
     synthesize,
 )
-from tests.synthesis_boxes import table
+from tests.synthesis_boxes import table, turned
 
 LABELS = ("drawer", "handle", "leg", "misc", "panel")
 FRAME = Program(LABELS, None, ())
@@ -261,7 +261,7 @@ def test_an_empty_family_is_done() -> None:
 
 
 def test_who_refused_to_turn_the_assets_is_not_asked_to_turn_another_one() -> None:
-    meshes = tables()
+    meshes = {name: turned(mesh, "YZX") if name in ("t1", "t2") else mesh for name, mesh in tables().items()}
     state = ReviewState(meshes, FRAME, demos=shown(meshes, "t0"))
     outcome = learn(state)
     assert isinstance(outcome, Found | Ambiguous)
@@ -273,6 +273,7 @@ def test_who_refused_to_turn_the_assets_is_not_asked_to_turn_another_one() -> No
         found = review_family(state, replace(outcome, suggested=suggested), model_family(list(meshes.values())))
         return [one for one in found.questions if isinstance(one, OrientationQuestion)]
 
-    (first,) = asked(state, "t1")
+    (first,), (other,) = asked(state, "t1"), asked(state, "t2")
+    assert (first.asset, other.asset) == ("t1", "t2")
     assert first.choices[0].id == NO
     assert asked(snooze(state, first), "t2") == []

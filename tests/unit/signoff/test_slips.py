@@ -52,7 +52,7 @@ def test_a_hull_that_was_forgotten_is_asked_about() -> None:
     question = ask_about_slip(state)
     assert question is not None
     assert (question.asset, question.rule) == ("t0", 1)
-    assert f"With {FORGOTTEN} rule 1" in question.text
+    assert f"{FORGOTTEN} is leg, like the 7 hulls that rule 1 selects" in question.text
     assert "was it left out on t0 by mistake?" in question.text
     assert [choice.id for choice in question.choices] == [NO, YES], "things stay as they are by default"
     assert meant_by(question) == legs_of("t0")

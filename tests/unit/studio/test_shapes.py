@@ -136,3 +136,4 @@ def test_a_file_whose_y_points_up_is_shown_with_z_up(project: Project, tmp_path:
     assert compute_upright(plain, standing).pose.apply(np.array([[0.0, 1.0, 0.0]])).tolist() == [[0.0, 0.0, 1.0]]
     turned = compute_upright(project, standing).pose.rotation
     assert np.array_equal(turned, compute_upright(project, mesh).pose.rotation)
+    assert np.array_equal(turned, compute_upright(plain, standing, project.orientation).pose.rotation)

@@ -28,7 +28,6 @@ export async function chooseReading(reading: ReadingView): Promise<void> {
 }
 
 export const withdraw = (id: string): Promise<boolean> => perform({ kind: "take-back", id });
-export const orientBy = (text: string): Promise<boolean> => perform({ kind: "orient", text });
 
 /** Makes a text the program, unless it was changed elsewhere since `version`. */
 export const writeProgram = (text: string, version: string): Promise<boolean> =>

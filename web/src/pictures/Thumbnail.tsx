@@ -13,17 +13,20 @@ interface ThumbnailProps {
   highlight?: readonly number[] | undefined;
   /** Positions of hulls in the colours of their labels; the others are pale. */
   only?: readonly number[];
+  /** The directive by which it is turned, in place of the project's. */
+  turned?: string | null;
   /** Width in CSS pixels; it fills its place without. */
   size?: number;
   /** What a screen reader says; empty where words beside it say the same. */
   label?: string;
 }
 
-export const Thumbnail = memo(function Thumbnail({ asset, of, highlight, only, size, label }: ThumbnailProps) {
+export const Thumbnail = memo(function Thumbnail({ asset, of, highlight, only, turned, size, label }: ThumbnailProps) {
   const version = useProject(({ cards }) => cards[asset]?.[of === "source" ? "picture" : "edited_picture"] ?? null);
   const labels = useProject(({ cards }) => cards[asset]?.[of === "source" ? "labels" : "after_labels"]);
   const unsure = useProject(({ cards }) => cards[asset]?.unsure);
   const palette = useProject(({ project }) => project.vocabulary.map((entry) => entry.color).join(" "));
+  const run = useProject(({ outcome }) => outcome?.number ?? 0); // labels may turn it otherwise in the next one
   const marked = useMemo(() => (highlight ? new Set(highlight) : null), [highlight]);
   const doubtful = useMemo(() => new Set(of === "source" ? unsure : []), [of, unsure]);
   const colors = useCallback(
@@ -39,9 +42,8 @@ export const Thumbnail = memo(function Thumbnail({ asset, of, highlight, only, s
   const hatched = useCallback((k: number) => !marked && !only && doubtful.has(k), [marked, only, doubtful]);
   if (version === null) return <Blank size={size} />;
   const said = label ?? `${of === "source" ? "Picture" : "Picture of the edited asset"}: ${asset}`;
-  return (
-    <IdPicture url={api.thumbnail(asset, of, version)} label={said} colors={colors} hatched={hatched} width={size} />
-  );
+  const url = turned ? api.turned(asset, turned, run) : api.thumbnail(asset, of, version);
+  return <IdPicture url={url} label={said} colors={colors} hatched={hatched} width={size} />;
 });
 
 /** Keeps the place of a picture that is not there. */

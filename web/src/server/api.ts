@@ -56,6 +56,7 @@ export const api = {
     readPicture(await getBytes("api/picture", { asset, rule, show })),
   thumbnail: (asset: string, of: "source" | "output", version: string) =>
     withQuery("api/thumbnail", { asset, of, v: version }),
+  turned: (asset: string, orient: string, run: number) => withQuery("api/turned", { asset, orient, run }),
   checked: (asset: string, part: CheckResult["part"], stop: AbortSignal) =>
     getJson<CheckResult>("api/checked", { asset, part }, stop),
   checkPictures: (asset: string, part: CheckResult["part"], unit: "m" | "mm", stop: AbortSignal) =>

@@ -19,8 +19,6 @@ const outcome = (more: Partial<OutcomeView>): OutcomeView => ({
   hint: null,
   why: null,
   advice: [],
-  suggested_orientation: null,
-  suggested_because: null,
   stale: [],
   sample: [],
     overruled: [],

@@ -163,6 +163,14 @@ def get_picture(
     return packet_response(assets.draw_rule_picture(session.project, asset, session.mesh(asset), rule, program, show))
 
 
+@router.get("/turned")
+def get_turned(session: CurrentSession, asset: str, orient: str) -> Response:
+    """The thumbnail of an asset as a directive turns it."""
+    mesh = session.mesh(asset)
+    upright = assets.compute_upright(session.project, mesh, Program.parse(f"orient {orient}\n").orient)
+    return Response(assets.draw_thumbnail(mesh, upright.pose), media_type="image/png")
+
+
 @router.get("/language")
 def get_language() -> LanguageView:
     """Actions, operators and directions."""

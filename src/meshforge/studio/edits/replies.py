@@ -62,13 +62,13 @@ class ReplyToQuestion(Edit):
         match question:
             case signoff.ReadingQuestion():
                 return f"rule {question.rule} on {asset} answered"
-            case signoff.GroupQuestion() | signoff.RepairQuestion():
+            case signoff.SlipQuestion() if not self._labels:
+                return f"what rule {question.rule} selects on {asset} corrected"
+            case signoff.GroupQuestion() | signoff.RepairQuestion() | signoff.SlipQuestion():
                 counts = Counter(self._labels.values()).items()
                 return ", ".join(f"{pluralize(count, 'hull')} labelled {label}" for label, count in counts)
             case signoff.ResultQuestion():
                 return f"result of {asset}: {choice.text if choice else 'none'}"
-            case signoff.SlipQuestion():
-                return f"what rule {question.rule} selects on {asset} corrected"
             case signoff.OrientationQuestion():
                 return "assets are turned first"
             case signoff.SpanQuestion():
@@ -122,12 +122,12 @@ class ReplyToQuestion(Edit):
             return
         layout = project.layout
         match self._asked:
-            case signoff.GroupQuestion() | signoff.RepairQuestion() | signoff.ResultQuestion():
+            case signoff.SlipQuestion() if not self._labels:
+                yield layout.demonstration(self._asked.asset)
+            case signoff.GroupQuestion() | signoff.RepairQuestion() | signoff.ResultQuestion() | signoff.SlipQuestion():
                 assets = self.list_labels()
                 everywhere = bool(assets) and has_agreed_labels(project)
                 yield from [project.folder / "labels"] if everywhere else map(layout.labels, assets)
-            case signoff.SlipQuestion():
-                yield layout.demonstration(self._asked.asset)
             case signoff.OrientationQuestion():
                 yield layout.settings
             case signoff.SpanQuestion():

@@ -23,7 +23,6 @@ def build_outcome_view(
     """The outcome of a learning run. number: of the run; looked_at: how many assets it looked at; seconds: its time."""
     counts = Counter(reading.rule for reading in outcome.readings)
     failure = outcome if isinstance(outcome, synthesis.NoProgram) else None
-    suggested = outcome.suggested
     return wire.OutcomeView(
         number=number,
         status=outcome.status,
@@ -37,8 +36,6 @@ def build_outcome_view(
         hint=wire.HintView(asset=outcome.hint.asset, why=outcome.hint.why) if outcome.hint else None,
         why=failure.why if failure else None,
         advice=failure.advice if failure else (),
-        suggested_orientation=show(suggested.orient).removeprefix("orient ") if suggested else None,
-        suggested_because=suggested.why if suggested else None,
         stale=tuple(f"{answer.rule}:{answer.asset}" for answer in outcome.stale),
         sample=() if outcome.settled else outcome.sample,
         overruled=outcome.overruled,

@@ -109,12 +109,12 @@ class UprightPose:
     problem: str | None = None
 
 
-def compute_upright(project: Project, mesh: SymbolicMesh) -> UprightPose:
-    """How an asset of a project is shown: turned by the orientation, then so that Z points up.
+def compute_upright(project: Project, mesh: SymbolicMesh, orient: Orient | None = None) -> UprightPose:
+    """How an asset of a project is shown: turned by an orientation, its own if none is given, then so that Z points up.
 
     Z is up already where the orientation names it; otherwise the file says which axis is up.
     """
-    orient = project.orientation
+    orient = orient or project.orientation
     try:
         pose, problem = orient_mesh(mesh, orient)[1], None
     except MeshForgeError as error:
@@ -124,8 +124,7 @@ def compute_upright(project: Project, mesh: SymbolicMesh) -> UprightPose:
 
 def is_y_up(mesh: SymbolicMesh, orient: Orient | None) -> bool:
     """Whether Y still points up after an orientation: the file says so, and no landmark says what +Z is."""
-    named = orient is not None and any(pair.axis.endswith("Z") for pair in orient.pairs)
-    return not named and mesh.asset is not None and mesh.asset.up == "y"
+    return not (orient and orient.names_z) and mesh.asset is not None and mesh.asset.up == "y"
 
 
 def to_numbers(pose: Pose) -> tuple[float, ...] | None:

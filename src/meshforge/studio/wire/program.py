@@ -54,9 +54,8 @@ class OutcomeView(Wire):
     are probably wrong.
 
     error: a message in place of an outcome; seconds: the time it took. why, advice, nearest: for a rule without an
-    extractor. suggested_orientation, suggested_because: a directive in which the rules do better, and why.
-    stale: ids of answers that no longer fit. sample: the assets whose results show best whether the program is right,
-    best first; overruled: those whose accepted result no program keeps.
+    extractor. stale: ids of answers that no longer fit. sample: the assets whose results show best whether the program
+    is right, best first; overruled: those whose accepted result no program keeps.
     """
 
     number: int
@@ -71,8 +70,6 @@ class OutcomeView(Wire):
     hint: HintView | None = None
     why: str | None = None
     advice: tuple[str, ...] = ()
-    suggested_orientation: str | None = None
-    suggested_because: str | None = None
     stale: tuple[str, ...] = ()
     sample: tuple[str, ...] = ()
     overruled: tuple[str, ...] = ()

@@ -55,13 +55,13 @@ def compute_beliefs(
     found: Sequence[ReadingEvidence],
     shown: int,
     assets: int,
-    refused: Sequence[int] | None = None,
+    against: Sequence[float] | None = None,
     unneeded: Sequence[int] | None = None,
 ) -> tuple[float, ...]:
     """The belief in each of the consistent terms of a rule, in 0..1, in all 1.
 
     found: what the batch says of each; shown: the groups of demonstrated hulls; assets: that are not demonstrated.
-    refused: on how many assets a person refused what each of the terms selects; unneeded: how much in each of them
+    against: what a person said against each of the terms [nats]; unneeded: how much in each of them
     leaves nothing out of its label on the demonstrated meshes.
     """
     share, leaves, none = assets / (assets + FEW), dict[Extractor, float](), [0] * len(terms)
@@ -69,8 +69,8 @@ def compute_beliefs(
         count_nats(term, shown, leaves)
         + UNNEEDED * idle
         + share * (IDLE * facts.idle + STRANGE * min(facts.strange, STRANGEST))
-        + NEITHER * against
-        for term, facts, against, idle in zip(terms, found, refused or none, unneeded or none, strict=True)
+        + other
+        for term, facts, other, idle in zip(terms, found, against or none, unneeded or none, strict=True)
     ]
     least = min(nats)
     weights = [math.exp(least - nat) for nat in nats]

@@ -3,9 +3,11 @@ takes, where the others differ, and the question that tells them apart."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
@@ -139,18 +141,34 @@ MAX_CHOICES = 3
 _NOTHING = 1e-9  # less harm than this is none
 
 
+class Preference(NamedTuple):
+    """What a person said of a selection on a mesh, which no reading has to keep to.
+
+    mesh: its place; mask: the hulls, as a bit set; price: of a reading that does otherwise [nats]; is_meant: whether
+    that selection is meant, or is not.
+    """
+
+    mesh: int
+    mask: int
+    price: float
+    is_meant: bool
+
+
 class RankedReadings:
     """Consistent terms over the field of a search: first the one that the rule takes, then the more believable.
 
-    refused: places of meshes, and hulls on them that a person said are not what is meant, as bit sets.
+    preferences: what else a person said.
     """
 
-    def __init__(self, search: Search, consistent: ConsistentTerms, refused: Sequence[tuple[int, int]] = ()) -> None:
+    def __init__(self, search: Search, consistent: ConsistentTerms, preferences: Sequence[Preference] = ()) -> None:
         terms, field = consistent.terms, search.field
         many = len(terms) > 1
         found = measure_evidence(field, search.selections, [term.bits for term in terms]) if many else ()
         assets = len(field.meshes) - len(search.examples)
-        against = [sum(field.on(term.bits, mesh) == mask for mesh, mask in refused) for term in terms]
+        against = [
+            math.fsum(one.price for one in preferences if (field.on(term.bits, one.mesh) == one.mask) != one.is_meant)
+            for term in terms
+        ]
         shown = (1 << search.width) - 1
         idle = [count_idle(term, shown, field) for term in terms]
         shares = compute_beliefs(terms, found, shown, assets, against, idle) if many else (1.0,)

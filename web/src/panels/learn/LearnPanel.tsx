@@ -9,11 +9,10 @@ import {
   GraduationCap,
   LoaderCircle,
   MessageCircleReply,
-  RotateCw,
   Square,
   X,
 } from "lucide-react";
-import { demonstrate, learnNow, orientBy, showNearest, stopLearning, withdraw } from "../../commands/learn";
+import { demonstrate, learnNow, showNearest, stopLearning, withdraw } from "../../commands/learn";
 import { openQuestion } from "../../store/assessment";
 import { summarizeOutcome, type Summary } from "../../store/outcome";
 import { countReadable, useProject } from "../../store/project";
@@ -36,7 +35,6 @@ export function LearnPanel() {
       <LearnHead />
       <Questions />
       {outcome && <NoProgram outcome={outcome} />}
-      {outcome?.suggested_orientation && asked !== "orientation" && <SuggestedOrientation outcome={outcome} orient={outcome.suggested_orientation} />}
       <OpenDoubts />
       <ProgramSection />
       {outcome?.hint && asked !== "demonstrate" && <NextDemonstration hint={outcome.hint} />}
@@ -169,22 +167,6 @@ function NoProgram({ outcome }: { outcome: OutcomeView }) {
           ))}
         </ul>
       )}
-    </Section>
-  );
-}
-
-/** An orientation in which the rules do better, with why, to be taken by one click. */
-function SuggestedOrientation({ outcome, orient }: { outcome: OutcomeView; orient: string }) {
-  return (
-    <Section title="Another orientation">
-      <div className={css.split}>
-        <p>
-          <code className={css.code}>{orient}</code> {outcome.program ? "may be meant" : "would do"}: {outcome.suggested_because}
-        </p>
-        <Button icon={RotateCw} onClick={() => void orientBy(orient)}>
-          Use it
-        </Button>
-      </div>
     </Section>
   );
 }

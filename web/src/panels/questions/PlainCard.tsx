@@ -1,4 +1,4 @@
-// Every question but those of pictures: labels of look-alikes, slips, orientations, results, demonstrations.
+// Every question but those of pictures: labels of look-alikes, slips, results, demonstrations.
 import { TriangleAlert } from "lucide-react";
 import { useMemo, useState } from "react";
 import { demonstrate } from "../../commands/learn";

@@ -8,6 +8,7 @@ import { countText } from "../../store/words";
 import { Button } from "../../ui/Button";
 import type { AssessmentView, ReviewQuestionView } from "../../wire";
 import { CardFocusContext, type CardKeys, pressOnCard } from "./cardKeys";
+import { OrientationCard } from "./OrientationCard";
 import { PlainCard } from "./PlainCard";
 import css from "./questions.module.css";
 import { ReadingsCard } from "./ReadingsCard";
@@ -52,6 +53,8 @@ function Card({ question }: { question: ReviewQuestionView }) {
     case "reading":
     case "label":
       return <ReadingsCard question={question} />;
+    case "orientation":
+      return <OrientationCard question={question} />;
     default:
       return <PlainCard question={question} />;
   }

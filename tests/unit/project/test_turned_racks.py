@@ -1,0 +1,47 @@
+"""The question whether assets are to be turned, in a project: what a reply does, and how it is shown."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from meshforge.cli.review_pictures import draw_question
+from meshforge.project import Project
+from meshforge.signoff import OrientationQuestion, ReviewReply
+from meshforge.signoff.question import NO, YES
+from tests.program_parts import parse_orient
+from tests.unit.project.replying import find_question, look
+from tests.unit.project.turned_racks import racks_on_their_side
+
+
+@pytest.fixture
+def project(tmp_path: Path) -> Project:
+    return racks_on_their_side(tmp_path)
+
+
+def asked(project: Project) -> list[OrientationQuestion]:
+    return [one for one in look(project).assessment.questions if isinstance(one, OrientationQuestion)]
+
+
+def test_yes_turns_the_assets(project: Project) -> None:
+    (question,) = asked(project)
+    project.reply(question, ReviewReply(question.id, YES))
+    assert project.orientation == parse_orient("orient +Z: Is(leg) -> Is(panel)")
+    assert asked(project) == []
+
+
+def test_no_leaves_them_and_is_not_asked_again_on_another_asset(project: Project) -> None:
+    (question,) = asked(project)
+    project.reply(question, ReviewReply(question.id, NO))
+    result = find_question(look(project), "result", question.asset)
+    project.reply(result, ReviewReply(result.id, "not-solved"))
+    assert project.orientation is None
+    assert asked(project) == []
+
+
+def test_each_choice_has_a_picture_of_the_asset(project: Project) -> None:
+    (question,) = asked(project)
+    now, then = draw_question(project, look(project), question)
+    assert [path.stem.rpartition("-")[2] for path in (now, then)] == [NO, YES]
+    assert now.read_bytes() != then.read_bytes()
