@@ -15,6 +15,9 @@ NOTES = (
     "five demonstrations. *Kind person*: that of the first edition, who begins with the richest of a dozen meshes "
     "that the tool proposes, looks at the dozen that it proposes, reports what is right there, names the rule "
     "that failed, and passes over what the reference gets wrong too. The rows between change one of these.",
+    "*The tool* is `meshforge.Project`, in every condition: each session has a project of its own on a disk, of meshes "
+    "that were written as OBJ files and read back, so that their vertices are in the product's order. Demonstrations, "
+    "answers and labels are written there, repairs and verdicts kept there, and learning reads them.",
     "*SSR*: tasks in which all demonstrators end with a program whose selections are the reference's on every "
     "mesh of the family that was not demonstrated, under the same labels. *Right if labels were*: on these meshes "
     "under true labels. *On all decompositions*: also on the other decompositions of these assets. *k*: "

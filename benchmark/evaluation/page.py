@@ -28,6 +28,8 @@ _HOW = """
 - `script/make-benchmark` makes the meshes and the calibration set again ([assets](assets)). The tasks are folders
   in [tasks](tasks), readable in a minute; criteria are in [criteria](criteria), the simulated people in
   [study](study), the real families in [real](real).
+- Who teaches a task does so in a project on a disk, by the methods of `meshforge.Project`: labels, demonstrations,
+  learning, answers, repairs and verdicts. Results are judged on the meshes in memory, which have the same hulls.
 - [The gallery](gallery/index.html) shows each task before and after, rule by rule.
 
 ![Each task before and after](pictures/tasks.png)

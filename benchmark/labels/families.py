@@ -10,7 +10,8 @@ writes them as OBJ files with the labels that there are to choose from, for labe
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
+import atexit
+from contextlib import ExitStack
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -18,6 +19,7 @@ from pathlib import Path
 import numpy as np
 
 from benchmark.assets import CATEGORIES, SEPARATE, Sample, family
+from benchmark.labels.project import LabelProject, open_label_project
 from benchmark.tasks import task
 from meshforge.common import UsageError, write_atomically
 from meshforge.formats import save
@@ -51,18 +53,14 @@ class Family:
         return _bare(self.name, self.setting)
 
     @property
-    def relatives(self) -> FamilyModel:
-        """The meshes as propagation sees them."""
-        return _relatives(self.name, self.setting)
+    def project(self) -> LabelProject:
+        """A project of the meshes on disk, the same each time, that is gone when the process ends."""
+        return _open(self.name, self.setting)
 
     @property
     def advised(self) -> tuple[int, ...]:
         """The meshes that a person labels who always takes the one that is advised, in this order."""
         return _advise(self.name, self.setting)
-
-    def labels_of(self, meshes: Sequence[int]) -> list[Label | None]:
-        """The labels of all hulls of some meshes as a person gives them, None for all others."""
-        return _labels_of(self.samples, meshes)
 
     @property
     def drawn(self) -> tuple[int, ...]:
@@ -89,21 +87,24 @@ def _bare(name: str, setting: str) -> tuple[SymbolicMesh, ...]:
 
 
 @cache
-def _relatives(name: str, setting: str) -> FamilyModel:
-    return FamilyModel(_bare(name, setting))
+def _open(name: str, setting: str) -> LabelProject:
+    rows, stack = family(name, setting), ExitStack()
+    atexit.register(stack.close)
+    meshes = [row.mesh for row in rows]
+    project = stack.enter_context(open_label_project(name, [row.name for row in rows], meshes))
+    project.propagate()  # which describes the meshes, and no more: there is no label yet
+    return project
 
 
 @cache
 def _advise(name: str, setting: str) -> tuple[int, ...]:
-    chosen, relatives = list[int](), _relatives(name, setting)
+    """By the model in memory, so that the sample, which is without them, stays what it was."""
+    chosen, rows = list[int](), list(enumerate(family(name, setting)))
+    model = FamilyModel(_bare(name, setting))
     while len(chosen) < LABELLED:
-        chosen += relatives.infer(_labels_of(family(name, setting), chosen)).next_to_label()
+        said = [Label(str(hull.label)) if k in chosen else None for k, row in rows for hull in row.mesh.hulls]
+        chosen += model.infer(said).next_to_label()
     return tuple(chosen)
-
-
-def _labels_of(samples: Sequence[Sample], meshes: Sequence[int]) -> list[Label | None]:
-    rows = [(place in meshes, hull.label) for place, sample in enumerate(samples) for hull in sample.mesh.hulls]
-    return [Label(name) if known and name is not None else None for known, name in rows]
 
 
 def main(arguments: list[str] | None = None) -> None:

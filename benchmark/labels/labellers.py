@@ -107,7 +107,8 @@ def _notes(scores: Sequence[Score], settings: VlmSettings | None) -> Iterator[st
     )
     yield (
         "*Propagation*, *majority*: meshes of the family are labelled by hand, as advised. *Names*: the hulls of the "
-        "benchmark are numbered, so that their names say nothing."
+        "benchmark are numbered, so that their names say nothing. *Propagation* and *names* are what a project on a "
+        "disk has by them."
     )
     for score in scores:
         if score.missing:

@@ -11,8 +11,6 @@ from time import perf_counter
 
 from benchmark.labels.families import LABELLED, Family
 from meshforge.common import UsageError
-from meshforge.labels.names.label_by_names import HullNames, match_names
-from meshforge.symbolic import Label, SymbolicMesh
 from meshforge.symbolic.label_file import read_labels
 
 REPEATS = 5
@@ -58,22 +56,23 @@ def offline(folders: Sequence[Path]) -> list[Method]:
 
 
 def _propagate(count: int, family: Family, repeat: int) -> LabellerOutput:
-    labelled = family.labels_of(family.advised[:count])
-    started = perf_counter()
-    found = family.relatives.infer(labelled)
-    seconds = perf_counter() - started
-    return LabellerOutput(tuple(tuple(map(_name, found.labels(place))) for place in family.drawn), seconds)
+    family.project.label(family.advised[:count])
+    _, seconds = family.project.propagate()
+    return LabellerOutput(_read_drawn(family), seconds)
 
 
 def _label_by_names(family: Family, repeat: int) -> LabellerOutput:
+    family.project.clear()
     started = perf_counter()
-    labels = tuple(_by_names(family.bare[place], family.vocabulary) for place in family.drawn)
-    return LabellerOutput(labels, perf_counter() - started)
+    family.project.label_by_names()
+    seconds = perf_counter() - started
+    return LabellerOutput(_read_drawn(family), seconds)
 
 
-def _by_names(mesh: SymbolicMesh, vocabulary: Sequence[str]) -> Labels:
-    said = (match_names(HullNames(hull.name, hull.body), vocabulary) for hull in mesh.hulls)
-    return tuple(one.label if one else None for one in said)
+def _read_drawn(family: Family) -> tuple[Labels, ...]:
+    """The labels of the drawn meshes in the project."""
+    rows = family.project.read_labels()
+    return tuple(tuple(label.name if label else None for label in rows[place]) for place in family.drawn)
 
 
 def _commonest(family: Family, repeat: int) -> LabellerOutput:
@@ -96,7 +95,3 @@ def _label_by_files(folder: Path, family: Family, repeat: int) -> LabellerOutput
         by_hull = {name.rpartition("/")[2]: label.name for name, label in known.items()}
         rows.append(tuple(by_hull.get(hull.name) for hull in mesh.hulls))
     return LabellerOutput(tuple(rows), cost=None)
-
-
-def _name(label: Label | None) -> str | None:
-    return label.name if label else None

@@ -44,7 +44,7 @@ def _of_task(name: str, seeds: tuple[int, ...], counts: tuple[int, ...], calibra
         meshes = tuple(desk.mesh_before(mesh, place) for mesh in names)
         assert all(mesh.contacts is not None for mesh in meshes)
         masks = tuple(select_mask(rule.extractor, mesh) for mesh in meshes)
-        first = names.index(Person(desk, seed, KIND).begins_with(desk, names))
+        first = names.index(Person(desk, seed, KIND).begins_with(names, desk.propose))
         rest = [k for k in range(len(names)) if k != first]
         for count in counts:
             shown = (first, *random.Random(f"{seed} {name} {place}").sample(rest, count - 1))

@@ -19,10 +19,10 @@ from benchmark.signoff.conditions import ASKED, ON_REAL, list_benches, list_real
 from benchmark.signoff.judge import Judge, run_on_desk
 from benchmark.signoff.ledger import price_of_hand, price_of_mend
 from benchmark.signoff.point import Point
-from benchmark.study import CONDITIONS, Condition
+from benchmark.study import CONDITIONS, Bench, Condition, Desk, open_course
 from benchmark.study.course import Course
-from benchmark.study.desk import Bench, Desk
 from benchmark.study.keystrokes import GLANCE, model_seconds
+from benchmark.study.project import name_by_files
 from meshforge.common import write_atomically
 from meshforge.language import Program
 
@@ -58,14 +58,16 @@ class Before:
 
 def teach_before(bench: Bench, condition: Condition, seed: int) -> Before:
     """A task taught without a queue, then finished by hand."""
+    bench = name_by_files(bench)
     judge, points, programs = Judge(bench), list[Point](), list[Program | None]()
 
     def watch(program: Program | None) -> None:
         programs.append(program)
         points.append(Point(_count_seconds(course), judge.count_right(course.desk, program)))
 
-    course = Course(bench, condition, seed, watch)
-    log, program = course.session(()), programs[-1]
+    with open_course(bench, condition, seed, watch) as course:
+        log = course.session(())
+    program = programs[-1]
     right = judge.count_right(course.desk, program)
     settled = log.accepted and log.settled
     assets, possible = len(bench.samples), len(judge.possible)

@@ -1,19 +1,19 @@
-"""What a person does with a project who signs its family off: reviews, replies, demonstrates, labels, takes back."""
+"""What a person does besides who signs the family of a project off: reviews, replies, looks at what is written."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 
 from benchmark.signoff.judge import Output
+from benchmark.study.client import TaskClient
 from benchmark.tasks import EditResult
 from meshforge.batch import IN_PROCESS
 from meshforge.common import MeshForgeError
 from meshforge.language import Program
 from meshforge.project import Project, ProjectReview, run_with_corrections
 from meshforge.signoff import Assessment, ReviewQuestion, ReviewReply
-from meshforge.symbolic import SymbolicMesh
-from meshforge.synthesis import Answer, Nearest, NoProgram, Step
+from meshforge.synthesis import Nearest, NoProgram
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -33,7 +33,7 @@ class FamilyStatus:
     nearest: Nearest | None = None
 
 
-class Client:
+class Client(TaskClient):
     """By the public methods of `Project`. found: by the last look; program: of the project then."""
 
     name = "Project"
@@ -41,7 +41,8 @@ class Client:
     """Whether the person shows the edit where a result is wrong, or says no more than that it is."""
 
     def __init__(self, project: Project) -> None:
-        self.project, self.program = project.with_cache(), project.program()
+        super().__init__(project)
+        self.program = project.program()
         self.found: ProjectReview | None = None
         self._outputs = dict[tuple[str, str, bytes, str], Output]()
 
@@ -61,47 +62,12 @@ class Client:
         """Reply to the question that the last look asked."""
         self.project.reply(question, reply)
 
-    def demonstrate(self, asset: str, steps: Iterable[Step]) -> None:
-        """Show the edit on an asset."""
-        self.project.demonstrate(asset, steps)
-
-    def take_demonstration_back(self, asset: str) -> None:
-        """Take the demonstration of an asset back, and what was answered about it."""
-        self.project.demonstrate(asset, ())
-        for name, answer in self.project.feedback().answers.items():
-            if answer.asset == asset:
-                self.project.take_back(name)
-
-    def accept(self, asset: str) -> None:
-        """Find the result of an asset right, once it is written."""
-        for _ in self.project.apply([asset], execution=IN_PROCESS):
-            pass
-        self.project.set_verdict(asset, "accepted")
-
-    def refuse_choices(self, answer: Answer) -> None:
-        """Say in place of an answer that none of the choices was meant."""
-        self.project.add_answer(Answer(answer.rule, answer.asset, None))
-
     def set_labels(self, asset: str, labels: Mapping[str, str]) -> None:
         """Label hulls by hand, then let the product weigh all labels again."""
-        self.project.set_labels(asset, labels)
+        super().set_labels(asset, labels)
         self.take_labels()
 
-    def take_labels(self) -> None:
-        """Take the labels that all sources together speak for, where any hull has one."""
-        if any(mesh.labels for mesh in self.read_meshes().values()):
-            self.project.label_by_consensus()
-
     # What a person sees
-
-    @property
-    def answers(self) -> tuple[Answer, ...]:
-        """What was answered so far."""
-        return tuple(line.answer for line in self.project.feedback().answers.values())
-
-    def read_meshes(self) -> dict[str, SymbolicMesh]:
-        """All assets with their labels; those whose labels stay are the same objects."""
-        return dict(self.project.meshes_by_id())
 
     def read_output(self, asset: str) -> Output | None:
         """What the project would write of an asset: by its program, then by hand; None while there is no program."""

@@ -18,10 +18,10 @@ from benchmark.signoff.calibration import calibrate
 from benchmark.signoff.client import Client, FamilyStatus
 from benchmark.signoff.conditions import NONE, open_family
 from benchmark.signoff.judge import Judge
-from benchmark.signoff.project import name_by_files
 from benchmark.signoff.queue import sign_off
 from benchmark.study import CONDITIONS, FLAT
 from benchmark.study.condition import PROPAGATED, SYSTEMATIC
+from benchmark.study.project import name_by_files
 from benchmark.tasks import task, tasks
 from meshforge.common import write_atomically
 from meshforge.geometry import Floats

@@ -9,9 +9,7 @@ from benchmark.evaluation.figures import by_task, count_solved
 from benchmark.journal import run_units
 from benchmark.report import Cell, Goal, Result, Table, Tell
 from benchmark.signoff.conditions import list_tasks, open_family
-from benchmark.signoff.project import take_labels
-from benchmark.study import CONDITIONS, FLAT, REPORTED, TRUE, Session
-from benchmark.study.course import Course
+from benchmark.study import CONDITIONS, FLAT, REPORTED, TRUE, Session, teach_task
 from benchmark.study.instances import instance, mend
 
 DOZEN = CONDITIONS[f"{FLAT.name}: the tool's dozen"]
@@ -40,13 +38,9 @@ def measure(tell: Tell, quick: bool) -> Result:
 
 def teach(name: str, condition: str, quick: bool) -> list[dict[str, Any]]:
     """One task under one condition by each person, on labels as the tool takes them before anything is shown."""
-    one, found = CONDITIONS[condition], list[dict[str, Any]]()
-    for seed in REPORTED[: 1 if quick else None]:
-        bench = open_family(name, one.setting(seed))
-        course = Course(bench, one, seed)
-        course.desk = take_labels(course.desk)
-        found.append(course.session(()).to_json())
-    return found
+    one, seeds = CONDITIONS[condition], REPORTED[: 1 if quick else None]
+    families = ((seed, open_family(name, one.setting(seed))) for seed in seeds)
+    return [teach_task(bench, one, seed, takes_labels=True).to_json() for seed, bench in families]
 
 
 def mend_near_miss(name: str) -> list[dict[str, Any]]:
@@ -54,7 +48,7 @@ def mend_near_miss(name: str) -> list[dict[str, Any]]:
     found = instance(name)
     if found is None:
         return []
-    return [mend(found, "ABI").to_json(), mend(found, "ABI", take_labels(found.desk)).to_json()]
+    return [mend(found, "ABI").to_json(), mend(found, "ABI", takes_labels=True).to_json()]
 
 
 def _list_goals(rows: Sequence[Session], near: Sequence[list[dict[str, Any]]]) -> Iterator[Goal]:

@@ -12,11 +12,12 @@ from typing import Any
 from benchmark.signoff.client import Client, FamilyStatus
 from benchmark.signoff.judge import Output
 from benchmark.signoff.point import Point
-from benchmark.signoff.project import name_by_files, open_project
 from benchmark.signoff.reviewer import Reviewer
+from benchmark.study.client import TaskClient
 from benchmark.study.condition import MOST, Condition
 from benchmark.study.desk import Bench, Desk
 from benchmark.study.keystrokes import CONFIRMATION, GLANCE
+from benchmark.study.project import name_by_files, open_project
 from benchmark.study.propagation import begin_by_hand
 from meshforge.common import MeshForgeError
 from meshforge.project import Project
@@ -74,13 +75,11 @@ def sign_off(
 ) -> Review:
     """A family signed off by one person in a new project; client: what they do it with."""
     bench = name_by_files(bench)
-    reviewer = Reviewer(bench, seed, condition)
-    if condition.labels == "propagated":
-        desk, _, painted = begin_by_hand(bench, condition.labelled)
-        reviewer.ledger.add_labels(painted)
-    else:
-        desk = bench.desk(condition.labels, seed)
+    reviewer, desk = Reviewer(bench, seed, condition), bench.desk(condition.labels, seed)
     with open_project(desk) as project:
+        if condition.labels == "propagated":
+            _, painted = begin_by_hand(TaskClient(project), bench, condition.labelled)
+            reviewer.ledger.add_labels(painted)
         return ReviewCourse(desk, condition, seed, reviewer, client(project)).run(cap)
 
 
@@ -220,7 +219,7 @@ class ReviewCourse:
             if not able:
                 self.log.ended = HOPELESS
                 return
-            name = self.reviewer.person.begins_with(self.desk, able)
+            name = self.reviewer.person.begins_with(able, self.client.propose_first)
         self._show(name)
         if first:
             self._show_rules()
@@ -238,7 +237,7 @@ class ReviewCourse:
             if not any(person.wants(name, rule) for name in self.shown) and len(self.shown) < MOST:
                 busy = [name for name in self._showable() if person.wants(name, rule)]
                 if busy:
-                    self._show(person.begins_with(self.desk, busy))
+                    self._show(person.begins_with(busy, self.client.propose_first))
 
     def _recover(self, nearest: Nearest | None, named: str | None, cap: float) -> None:
         """Nothing was learned: begin; or take an answer back; or show once more what was shown with a slip; or look

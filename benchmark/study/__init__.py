@@ -1,7 +1,7 @@
 """Simulated people who teach the tasks: what they see, show, answer and confirm, and what comes of it."""
 
 from benchmark.study.condition import CONDITIONS, FLAT, MOST, REPORTED, SEEN, TRUE, TUNING, Condition
-from benchmark.study.course import teach_task
+from benchmark.study.course import open_course, teach_task
 from benchmark.study.desk import Bench, Desk, open_bench
 from benchmark.study.session import Round, Session
 
@@ -19,5 +19,6 @@ __all__ = [
     "Round",
     "Session",
     "open_bench",
+    "open_course",
     "teach_task",
 ]

@@ -3,47 +3,83 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import replace
 from time import perf_counter
 
+from benchmark.study.client import TaskClient
 from benchmark.study.condition import MOST, Condition
-from benchmark.study.desk import Bench, Selections
+from benchmark.study.desk import Bench, Desk, Selections
 from benchmark.study.person import Person
+from benchmark.study.project import SUFFIX, name_by_files, open_project
 from benchmark.study.propagation import HandLabels, begin_by_hand, label_by_hand
 from benchmark.study.session import Round, Session
 from meshforge.common import MeshForgeError, UsageError
 from meshforge.language import Program
-from meshforge.synthesis import Ambiguous, Answer, Demonstration, LabelCorrection, LearningOutcome, NoProgram, Repair
+from meshforge.synthesis import Ambiguous, LearningOutcome, Repair
 
 _ANSWERS = 12  # that a person gives between two demonstrations at most
 
 
-def teach_task(bench: Bench, condition: Condition, seed: int, others: Sequence[Bench] = ()) -> Session:
-    """A task taught by one person under a condition; others: further decompositions of the same assets."""
-    return Course(bench, condition, seed).session(others)
+def teach_task(
+    bench: Bench, condition: Condition, seed: int, others: Sequence[Bench] = (), *, takes_labels: bool = False
+) -> Session:
+    """A task taught by one person under a condition, in a new project on disk.
+
+    others: further decompositions of the same assets; takes_labels: whether the labels are first taken as all sources
+    together speak for them.
+    """
+    with open_course(name_by_files(bench), condition, seed, takes_labels=takes_labels) as course:
+        log = course.session(others)
+    shown = [name.removesuffix(SUFFIX) for name in log.shown]
+    return replace(log, shown=shown, failures={name.removesuffix(SUFFIX): why for name, why in log.failures.items()})
+
+
+@contextmanager
+def open_course(
+    bench: Bench,
+    condition: Condition,
+    seed: int,
+    watch: Callable[[Program | None], None] | None = None,
+    *,
+    takes_labels: bool = False,
+) -> Iterator[Course]:
+    """A session before anything is shown; the meshes of the bench have the names that `name_by_files` gives."""
+    desk = bench.desk(condition.labels, seed)
+    with open_project(desk) as project:
+        client = TaskClient(project)
+        if takes_labels:
+            client.take_labels()
+        yield Course(desk, client, condition, seed, watch)
 
 
 class Course:
-    """The state of a session on its way. watch: called with the program after each round."""
+    """The state of a session on its way. All that the person does and the tool makes of it goes through the client.
+
+    desk: the meshes as they are labelled in the project; watch: called with the program after each round.
+    """
 
     def __init__(
-        self, bench: Bench, condition: Condition, seed: int, watch: Callable[[Program | None], None] | None = None
+        self,
+        desk: Desk,
+        client: TaskClient,
+        condition: Condition,
+        seed: int,
+        watch: Callable[[Program | None], None] | None = None,
     ) -> None:
-        self.bench, self.condition, self._watch = bench, condition, watch
+        bench = desk.bench
+        self.bench, self.desk, self.client, self.condition, self._watch = bench, desk, client, condition, watch
         self.log = Session(bench.task.name, condition.name, seed, next(iter(bench.samples.values())).setting)
         self.by_hand = frozenset[str]()
         """Meshes that were labelled before any was demonstrated; they are not judged."""
         if condition.labels == "propagated":
-            self.desk, self.by_hand, painted = begin_by_hand(bench, condition.labelled)
+            self.by_hand, painted = begin_by_hand(client, bench, condition.labelled)
             self._count(painted)
-        else:
-            self.desk = bench.desk(condition.labels, seed)
+        self._read_labels()
         self.person = Person(self.desk, seed, condition)
         self.able = [name for name, done in bench.truth.reference.items() if done is not None]
         self.given: dict[str, frozenset[int] | None] = {}
         """Meshes with the rules that were shown on them, None for all."""
-        self.answers: list[Answer] = []
-        self.rejected: set[LabelCorrection] = set()
-        self.corrections: list[LabelCorrection] = []
         self.accepted: dict[str, Selections] = {}
         """Results that were found right when they were looked at."""
         self.outcome: LearningOutcome | MeshForgeError = UsageError("nothing was shown")
@@ -76,6 +112,9 @@ class Course:
         self._judge(UsageError("there is no mesh on which anything could be shown"), others)
         return self.log
 
+    def _read_labels(self) -> None:
+        self.desk = self.desk.with_labels_of(self.client.read_meshes())
+
     def _count(self, painted: HandLabels) -> None:
         self.log.inspected += painted.inspected
         self.log.typed += painted.typed
@@ -94,32 +133,32 @@ class Course:
         self.given[name] = new and new | (self.given.get(name) or frozenset())
         self.log.shown.append(name)
         if self.condition.labels == "propagated":
-            self.desk, painted = label_by_hand(self.desk, name)
+            painted, _ = label_by_hand(self.client, self.bench, name)
             self._count(painted)
+            self._read_labels()
+        self.client.demonstrate(name, self.person.shows(self.desk, name, self.given[name]).steps)
         steps = [step.select for step in self.person.shows(self.desk, name, new).steps if step.select]
         self.log.steps_shown += len(steps)
         self.log.hulls_shown += sum(map(len, steps))
 
     def _begin(self) -> None:
         """Show a mesh, and another one while there is a rule that had nothing to do on any."""
-        self._show(self.person.begins_with(self.desk, self._showable()), None)
+        self._show(self.person.begins_with(self._showable(), self.client.propose_first), None)
         for rule in range(1, len(self.bench.task.program.rules) + 1):
             if not any(self.person.wants(name, rule) for name in self.given) and len(self.log.shown) < MOST:
                 busy = [name for name in self._showable() if self.person.wants(name, rule)]
                 if busy:
-                    self._show(self.person.begins_with(self.desk, busy), None)
+                    self._show(self.person.begins_with(busy, self.client.propose_first), None)
 
     def _learn(self) -> LearningOutcome | MeshForgeError:
         """What the tool makes of it, or why it refuses the demonstrations."""
-        demos = [self.person.shows(self.desk, name, rules) for name, rules in self.given.items()]
         start = perf_counter()
         try:
-            outcome: LearningOutcome | MeshForgeError = self._outcome(demos)
+            outcome: LearningOutcome | MeshForgeError = self.client.synthesize(self.condition.options, self._confirm)
         except MeshForgeError as error:
             outcome = error
         self.outcome, seconds = outcome, {"all": perf_counter() - start}
-        if self.corrections:
-            self.desk, self.corrections = self.desk.correct(self.corrections), []
+        self._read_labels()
         if isinstance(outcome, MeshForgeError):
             self._note("refused", None, False, seconds)
             return outcome
@@ -141,24 +180,11 @@ class Course:
         landmarks = Program(orient=self.bench.task.program.orient).labels_in_use
         mesh, true = self.desk.meshes[outcome.where], self.bench.truth.meshes[outcome.where]
         pairs = [(hull, true.hull_of(hull.name).label) for hull in mesh.hulls]
-        wrong = [
-            LabelCorrection(outcome.where, h.name, h.label, to) for h, to in pairs if to in landmarks and h.label != to
-        ]
-        self.desk = self.desk.correct(wrong)
-        self._count(HandLabels(len(mesh.hulls), len(wrong), len({one.to for one in wrong})))
+        wrong = {hull.name: to for hull, to in pairs if to and to in landmarks and hull.label != to}
+        self.client.set_labels(outcome.where, wrong)
+        self._read_labels()
+        self._count(HandLabels(len(mesh.hulls), len(wrong), len(set(wrong.values()))))
         return bool(wrong)
-
-    def _outcome(self, demos: list[Demonstration]) -> LearningOutcome:
-        """What the tool learns; where no program keeps all that was accepted, that is forgotten, as a project does."""
-        found = self._synthesize(demos)
-        if isinstance(found, NoProgram) and self.accepted:
-            self.accepted.clear()
-            found = self._synthesize(demos)
-        return found
-
-    def _synthesize(self, demos: list[Demonstration]) -> LearningOutcome:
-        said = [*self._verdicts(), *self.answers]
-        return self.desk.learn(demos, self.condition.options, self._confirm, said, self.rejected)
 
     def _find_right_readings(self, outcome: LearningOutcome) -> list[bool]:
         """For each rule, whether one of its readings behaves as the reference does on every mesh."""
@@ -171,12 +197,8 @@ class Course:
     def _confirm(self, repair: Repair) -> bool:
         said, log = self.person.confirms(repair), self.log
         log.rightly += said == self.person.knows(repair.correction)
-        if said:
-            log.confirmed += 1
-            self.corrections.append(repair.correction)
-        else:
-            log.refused += 1
-            self.rejected.add(repair.correction)
+        log.confirmed += said
+        log.refused += not said
         return said
 
     def _answer(self, outcome: LearningOutcome | MeshForgeError) -> bool:
@@ -187,7 +209,7 @@ class Course:
         if sum(row.demonstrations == len(self.log.shown) for row in self.log.rounds) > _ANSWERS:
             return False
         answer = self.person.answers(self.desk, outcome.question, outcome.program)
-        self.answers.append(answer)
+        self.client.project.add_answer(answer)
         self.log.answers += 1
         self.log.neither += answer.select is None
         return True
@@ -205,7 +227,7 @@ class Course:
             self._show(hardest, None)
             return True
         del self.given[hardest]
-        self.answers = [answer for answer in self.answers if answer.asset != hardest]
+        self.client.take_demonstration_back(hardest)
         self.log.set_aside += 1
         if len(self.log.shown) < MOST and self._showable():
             self._begin()
@@ -213,9 +235,9 @@ class Course:
 
     def _unsaid(self, rule: int, asset: str) -> bool:
         """Take an answer back that nothing fits, if it is one: what is meant is none of the choices there."""
-        for place, answer in enumerate(self.answers):
+        for answer in self.client.answers:
             if (answer.rule, answer.asset) == (rule, asset) and answer.select is not None and asset not in self.given:
-                self.answers[place] = Answer(rule, asset, None)
+                self.client.refuse_choices(answer)
                 self.log.taken_back += 1
                 return True
         return False
@@ -240,9 +262,9 @@ class Course:
             self.found_right = frozenset(looked_at)
             return guided
         name, rules = seen
-        wrong = rules and self.person.takes_back(self.desk, self.answers, max(rules))
+        wrong = rules and self.person.takes_back(self.desk, self.client.answers, max(rules))
         if wrong:
-            self.answers.remove(wrong)
+            self.client.take_answer_back(wrong)
             self.log.taken_back += 1
             return True
         if len(self.log.shown) >= MOST:
@@ -257,13 +279,10 @@ class Course:
     def _accept(self, program: Program, names: Iterable[str]) -> None:
         for name in names:
             done = self.desk.select(program, name)
-            if done is not None and self.person.accepts(name, done):
-                self.log.approvals += self.accepted.get(name) != done
+            if done is not None and self.person.accepts(name, done) and self.accepted.get(name) != done:
+                self.client.accept(name)
+                self.log.approvals += 1
                 self.accepted[name] = done
-
-    def _verdicts(self) -> Iterator[Answer]:
-        for name, done in self.accepted.items():
-            yield from (Answer(rule, name, select) for rule, select in enumerate(done, 1))
 
     def _judge(self, outcome: LearningOutcome | MeshForgeError, others: Sequence[Bench]) -> None:
         """How good the last program is on all meshes that were neither demonstrated nor labelled before."""

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 from hashlib import blake2b
 
@@ -11,20 +11,10 @@ from benchmark.assets import SEPARATE, Sample, family
 from benchmark.study.condition import Labels
 from benchmark.study.labels import mislabel, noisy
 from benchmark.tasks import EditResult, Task, task
-from meshforge.label_model import FamilyModel
 from meshforge.language import EXTREMITY, Extractor, Program, select_mask
 from meshforge.signoff import EditMeasures, measure_edit
 from meshforge.symbolic import Label, SymbolicMesh
-from meshforge.synthesis import (
-    Answer,
-    Demonstration,
-    LabelCorrection,
-    LearningOutcome,
-    Options,
-    Repair,
-    choose_first_demonstration,
-    synthesize,
-)
+from meshforge.synthesis import Demonstration, choose_first_demonstration
 from meshforge.synthesis.task import Replay, advance, begin_replay
 
 Selections = tuple[frozenset[str], ...]
@@ -66,11 +56,6 @@ class Bench:
         """The desk with true labels."""
         return Desk(self, {name: sample.mesh for name, sample in self.samples.items()})
 
-    @cached_property
-    def relatives(self) -> FamilyModel:
-        """The meshes as propagation sees them."""
-        return FamilyModel([sample.mesh for sample in self.samples.values()])
-
     def desk(self, labels: Labels, seed: int) -> Desk:
         """The meshes as a demonstrator gets them who labels nothing."""
         if labels == "true":
@@ -78,11 +63,17 @@ class Bench:
         if labels == "systematic":
             meshes = {name: sample.mesh for name, sample in self.samples.items()}
             return Desk(self, mislabel(meshes, (seed, *self.task.category.encode())))
-        assert labels in ("telling", "flat"), f"nobody gives {labels} labels at the start"
+        if labels == "propagated":
+            return Desk(self, {name: self._unlabel(name) for name in self.samples})
         rows = enumerate(self.samples.items())
         seeds = {name: (seed, *self.task.category.encode(), k) for k, (name, _) in rows}
         told = labels == "telling"
         return Desk(self, {name: noisy(row.mesh, seeds[name], telling=told) for name, row in self.samples.items()})
+
+    def _unlabel(self, name: str) -> SymbolicMesh:
+        """A mesh before anybody labels it."""
+        mesh = self.samples[name].mesh
+        return mesh.with_labels({**dict.fromkeys(mesh.index), **self.start.parts.get(name, {})})
 
     def failure(self, name: str, edited: EditResult) -> str | None:
         """Why an edit of a mesh does not do; the same edit is judged once.
@@ -145,27 +136,6 @@ class Desk:
             self._met[key] = replay
         return self._met[key].mesh
 
-    def learn(
-        self,
-        demos: Sequence[Demonstration],
-        options: Options,
-        confirm: Callable[[Repair], bool] | None = None,
-        answers: Sequence[Answer] = (),
-        rejected: Iterable[LabelCorrection] = (),
-    ) -> LearningOutcome:
-        """What the tool learns from demonstrations on these meshes; raises as `synthesize` does."""
-        one, templates = self.bench.task.program, self.bench.task.templates
-        return synthesize(
-            demos,
-            self.meshes,
-            one.orient,
-            templates,
-            one.labels,
-            replace(options, contact=one.contact, extremity=one.extremity, rejected=tuple(rejected)),
-            confirm,
-            answers,
-        )
-
     def propose(self, names: Iterable[str]) -> str | None:
         """The mesh that the tool proposes to demonstrate first."""
         one, some = self.bench.task.program, frozenset(names)
@@ -205,12 +175,15 @@ class Desk:
         ]
         return sum(a == b for a, b in pairs) / max(len(pairs), 1)
 
-    def correct(self, corrections: Iterable[LabelCorrection]) -> Desk:
-        """The same with some labels corrected."""
-        meshes = dict(self.meshes)
-        for one in corrections:
-            meshes[one.asset] = meshes[one.asset].with_labels({one.hull: Label(one.to, 1.0, "repair")})
-        return self.with_meshes(meshes)
+    def with_labels_of(self, meshes: Mapping[str, SymbolicMesh]) -> Desk:
+        """The same with the labels of meshes that have the same hulls; where they stay, the edits are not forgotten."""
+        found = {
+            name: mesh
+            if mesh.labels == (now := meshes[name].labels)
+            else mesh.with_labels({**dict.fromkeys(mesh.index), **now})
+            for name, mesh in self.meshes.items()
+        }
+        return self.with_meshes(found)
 
     def with_meshes(self, meshes: Mapping[str, SymbolicMesh]) -> Desk:
         """The same with some meshes labelled otherwise; edits of the others are not forgotten."""

@@ -3,20 +3,22 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 from functools import cached_property
 from time import perf_counter
 from typing import Any, Literal
 
 from benchmark.assets import SEPARATE
+from benchmark.study.client import TaskClient
 from benchmark.study.condition import FLAT, MOST, SEEN
 from benchmark.study.desk import Bench, Desk, open_bench
 from benchmark.study.keystrokes import CONFIRMATION, DEMONSTRATION, GLANCE, HULL, INSPECTION, PAINT, RULE, STROKE
 from benchmark.study.person import Person
+from benchmark.study.project import name_by_files, open_project
 from meshforge.common import MeshForgeError
 from meshforge.language import Program
-from meshforge.synthesis import LabelCorrection, Options, Repair
+from meshforge.synthesis import Options, Repair
 
 Way = Literal["no correction", "all labels inspected (Standard PBE)", "ABI"]
 _SEED, _DRAWS = 300, 12
@@ -59,7 +61,7 @@ def instance(name: str) -> Instance | None:
     """The first draw of a task in which two demonstrations do not suffice without repair, though they would if all
     their labels were right; None where a dozen draws have none."""
     for draw in range(_DRAWS):
-        bench = open_bench(name, SEPARATE[draw % len(SEPARATE)])
+        bench = name_by_files(open_bench(name, SEPARATE[draw % len(SEPARATE)]))
         able = [mesh for mesh, done in bench.truth.reference.items() if done is not None and all(done)]
         if len(able) < MOST:
             continue
@@ -72,76 +74,79 @@ def instance(name: str) -> Instance | None:
 
 def _near_miss(one: Instance) -> bool:
     shown = one.pool[:_FIRST]
-    without = _learn(one, one.desk, shown, Options(repair=False))
-    inspected = _learn(one, _inspect(one.desk, shown), shown, Options(repair=False))
-    return not _right(one, without) and _right(one, inspected)
+    with open_project(one.desk) as project:
+        client = TaskClient(project)
+        _show(one, client, shown)
+        without = _learn(client, Options(repair=False))
+        _inspect(client, one.desk, shown)
+        return not _right(one, without, one.desk) and _right(one, _learn(client, Options(repair=False)), one.desk)
 
 
-def mend(one: Instance, way: Way, desk: Desk | None = None) -> InstanceResult:
-    """One way on one instance: from two demonstrations on, as many of the pool as it takes. desk: with other labels."""
-    person = Person(one.desk, one.seed, FLAT)
-    desk, log = desk or one.desk, InstanceResult(one.bench.task.name, way, False, 0, 0, 0, 0, 0, 0.0, 0.0)
-    rejected: list[LabelCorrection] = []
-    for count in range(_FIRST, MOST + 1):
-        shown = one.pool[:count]
-        if way.startswith("all labels"):
-            hulls = sum(len(desk.meshes[name].hulls) for name in shown)
-            log.inspected, log.typed = hulls, len(list(_wrong(one.desk, shown)))
-            desk = _inspect(desk, shown)
-        agreed: list[LabelCorrection] = []
+def mend(one: Instance, way: Way, *, takes_labels: bool = False) -> InstanceResult:
+    """One way on one instance, in a new project: from two demonstrations on, as many of the pool as it takes.
 
-        def confirm(repair: Repair, agreed: list[LabelCorrection] = agreed) -> bool:
-            if said := person.confirms(repair):
-                log.confirmed += 1
-                agreed.append(repair.correction)
-            else:
-                log.refused += 1
-                rejected.append(repair.correction)
-            return said
+    takes_labels: whether the labels are first taken as all sources together speak for them.
+    """
+    person, log = (
+        Person(one.desk, one.seed, FLAT),
+        InstanceResult(one.bench.task.name, way, False, 0, 0, 0, 0, 0, 0.0, 0.0),
+    )
 
-        start = perf_counter()
-        outcome = _learn(one, desk, shown, Options(repair=way == "ABI"), confirm, rejected)
-        log.seconds += perf_counter() - start
-        desk, log.demonstrations = desk.correct(agreed), count
-        if _right(one, outcome, desk):
-            log.right = True
-            break
+    def confirm(repair: Repair) -> bool:
+        said = person.confirms(repair)
+        log.confirmed += said
+        log.refused += not said
+        return said
+
+    with open_project(one.desk) as project:
+        client = TaskClient(project)
+        if takes_labels:
+            client.take_labels()
+        for count in range(_FIRST, MOST + 1):
+            shown = one.pool[:count]
+            _show(one, client, shown)
+            if way.startswith("all labels"):
+                log.inspected = sum(len(one.desk.meshes[name].hulls) for name in shown)
+                log.typed = sum(len(_find_wrong(one.desk, name)) for name in shown)
+                _inspect(client, one.desk, shown)
+            start = perf_counter()
+            program = _learn(client, Options(repair=way == "ABI"), confirm)
+            log.seconds, log.demonstrations = log.seconds + perf_counter() - start, count
+            if _right(one, program, one.desk.with_labels_of(client.read_meshes())):
+                log.right = True
+                break
     log.person = _person(one, log)
     return log
 
 
-def _learn(
-    one: Instance,
-    desk: Desk,
-    shown: Sequence[str],
-    options: Options,
-    confirm: Callable[[Repair], bool] | None = None,
-    rejected: Sequence[LabelCorrection] = (),
-) -> Program | None:
+def _show(one: Instance, client: TaskClient, shown: Sequence[str]) -> None:
     person = Person(one.desk, one.seed, FLAT)
+    for name in shown:
+        client.demonstrate(name, person.shows(one.desk, name).steps)
+
+
+def _learn(client: TaskClient, options: Options, confirm: Callable[[Repair], bool] | None = None) -> Program | None:
     try:
-        return desk.learn([person.shows(desk, name) for name in shown], options, confirm, (), rejected).program
+        return client.synthesize(options, confirm).program
     except MeshForgeError:
         return None
 
 
-def _right(one: Instance, program: Program | None, desk: Desk | None = None) -> bool:
+def _right(one: Instance, program: Program | None, desk: Desk) -> bool:
     """Whether a program behaves as the reference on all meshes outside the pool."""
     rest = [name for name, done in one.bench.truth.reference.items() if done is not None and name not in one.pool]
-    return not (desk or one.desk).find_differences(program, rest)
+    return not desk.find_differences(program, rest)
 
 
-def _wrong(desk: Desk, names: Sequence[str]) -> Iterator[LabelCorrection]:
+def _find_wrong(desk: Desk, name: str) -> dict[str, str]:
+    """The hulls of a mesh that have a wrong label, with the right one."""
+    pairs = zip(desk.meshes[name].hulls, desk.bench.truth.meshes[name].hulls, strict=True)
+    return {hull.name: true.label for hull, true in pairs if true.label and hull.label != true.label}
+
+
+def _inspect(client: TaskClient, desk: Desk, names: Sequence[str]) -> None:
     for name in names:
-        true = desk.bench.truth.meshes[name]
-        for hull in desk.meshes[name].hulls:
-            right = true.hull_of(hull.name).label
-            if right and hull.label != right:
-                yield LabelCorrection(name, hull.name, hull.label, right)
-
-
-def _inspect(desk: Desk, names: Sequence[str]) -> Desk:
-    return desk.correct(_wrong(desk, names))
+        client.set_labels(name, _find_wrong(desk, name))
 
 
 def _person(one: Instance, log: InstanceResult) -> float:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 
 from benchmark.study.condition import SEEN, Condition
@@ -21,16 +21,18 @@ class Person:
         self._task, self._truth, self._errs = desk.bench.task, desk.bench.truth, condition.errs
         self._first, self._names_rules, self._excuses = condition.first, condition.names_rules, condition.excuses
 
-    def begins_with(self, desk: Desk, names: Sequence[str]) -> str:
+    def begins_with(self, names: Sequence[str], propose: Callable[[Sequence[str]], str | None]) -> str:
         """Any mesh; or of a dozen one on which most rules have something to do: of several such the first, or the one
         that the tool proposes.
+
+        propose: the tool's choice of some.
         """
         if self._first == "random":
             return self._draw.choice(list(names))
         some = self._draw.sample(list(names), min(SEEN, len(names)))
         most = max(map(self._busy, some))
         busy = [name for name in some if self._busy(name) == most]
-        return (self._first == "advised" and desk.propose(busy)) or busy[0]
+        return (self._first == "advised" and propose(busy)) or busy[0]
 
     def _busy(self, name: str) -> int:
         wanted = self._truth.reference[name]

@@ -119,7 +119,12 @@ def _make_output(store: Store, asset: str) -> None:
             raise ProjectError(f"{asset} cannot be edited: {outcome.error}", where=str(store.folder))
 
 
-def _label(store: Store, question: signoff.GroupQuestion | signoff.SlipQuestion, choice: ReviewChoice | None, reply: ReviewReply) -> None:
+def _label(
+    store: Store,
+    question: signoff.GroupQuestion | signoff.SlipQuestion,
+    choice: ReviewChoice | None,
+    reply: ReviewReply,
+) -> None:
     """Give labels to hulls."""
     given = dict.fromkeys(question.hulls, choice.label) if choice and choice.label else {}
     labels = dict[str, dict[str, str]]()

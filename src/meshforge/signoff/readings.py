@@ -42,7 +42,6 @@ class RuleReadings:
         found: Floats = self.beliefs @ (self.kinds == 0)
         return found
 
-
     def doubt(self, some: Bools, share: float) -> RuleReadings:
         """The same where some readings (k,) are wrong with that probability besides."""
         beliefs = np.where(some, self.beliefs * (1 - share), self.beliefs)

@@ -37,7 +37,9 @@ _NO_ALARMS: Mapping[str, Sequence[str]] = MappingProxyType({})
 _TRUST = 2  # the power of the probability that labels on an asset are right, with which what is said there counts
 _LEAST_TRUST = 0.7  # below this nothing is asked there about readings
 _SUGGESTION_RIGHT = 0.5  # the share of held assets that an orientation which is suggested makes right
-_CLUSTER_RISK = 0.2  # edits of look-alikes that are wrong, as far as can be expected, from which on these are asked about
+_CLUSTER_RISK = (
+    0.2  # edits of look-alikes that are wrong, as far as can be expected, from which on these are asked about
+)
 _MOST_SPLITS = 40  # assets on which readings are told apart, those where they differ most
 
 

@@ -12,15 +12,16 @@ from benchmark.assets import family
 from benchmark.signoff.client import Client
 from benchmark.signoff.judge import Judge, Output, run_on_desk
 from benchmark.signoff.product_before import FROZEN, list_units, measure, read, write
-from benchmark.signoff.project import name_by_files, open_project, take_labels
 from benchmark.signoff.queue import DONE, ReviewCourse, sign_off
 from benchmark.signoff.reviewer import Reviewer
 from benchmark.signoff.sessions import Unit
 from benchmark.signoff.terminal import AnswersClient, TerminalClient
 from benchmark.study import TRUE, Bench
 from benchmark.study.condition import PROPAGATED
+from benchmark.study.project import name_by_files, open_project
 from benchmark.tasks import task
 from meshforge.geometry import digest
+from meshforge.label_model import FamilyModel
 from meshforge.language import Merge
 from meshforge.signoff import ReviewReply
 
@@ -55,13 +56,16 @@ def test_a_project_holds_the_hulls_labels_orientation_and_templates_of_its_famil
 def test_labels_taken_by_the_product_are_those_of_its_model_of_the_family(bench: Bench) -> None:
     desk = bench.desk("flat", 1)
     said = [hull.annotation for mesh in desk.meshes.values() for hull in mesh.hulls]
-    agreed = [label and label.name for label in bench.relatives.infer(said).agree(said)]
-    taken = take_labels(desk)
-    assert [hull.label for mesh in taken.meshes.values() for hull in mesh.hulls] == agreed
-    nothing = desk.with_meshes(
-        {name: mesh.with_labels(dict.fromkeys(mesh.index)) for name, mesh in desk.meshes.items()}
-    )
-    assert take_labels(nothing) is nothing
+    agreed = FamilyModel(list(bench.truth.meshes.values())).infer(said).agree(said)
+    with open_project(desk) as project:
+        client = Client(project)
+        client.take_labels()
+        taken = [hull.label for mesh in client.read_meshes().values() for hull in mesh.hulls]
+    assert taken == [label and label.name for label in agreed]
+    with open_project(bench.desk("propagated", 1)) as project:
+        client = Client(project)
+        client.take_labels()
+        assert not any(mesh.labels for mesh in client.read_meshes().values())
 
 
 @pytest.mark.slow

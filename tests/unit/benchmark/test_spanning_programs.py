@@ -23,6 +23,8 @@ from benchmark.spanning.programs import (
     rebuild_sample,
     split_sample,
 )
+from benchmark.study.client import TaskClient
+from benchmark.study.project import SUFFIX, name_by_files, open_project
 from benchmark.study.propagation import begin_by_hand
 from benchmark.tasks import task
 from meshforge.geometry import Floats, HullPart, Ints, cut
@@ -84,13 +86,16 @@ def test_a_session_begins_with_labels_by_hand_of_the_known_assets_and_those_of_s
     split = next(row for row in rows if row.name not in known)
     part = split.mesh.hulls[0].name
     told = Label("handle", 0.6, "split")
-    bench = open_bench(task("cup-medium"), [(row, {part: told} if row is split else {}) for row in rows])
-    desk, by_hand, _ = begin_by_hand(bench, 3)
-    assert by_hand == set(known)
-    assert desk.meshes[split.name].hull_of(part).annotation == told
-    assert all(hull.source == "propagated" for hull in desk.meshes[split.name].hulls if hull.name != part)
+    bench = name_by_files(open_bench(task("cup-medium"), [(row, {part: told} if row is split else {}) for row in rows]))
+    with open_project(bench.desk("propagated", 0)) as project:
+        by_hand, _ = begin_by_hand(TaskClient(project), bench, 3)
+        meshes = dict(project.meshes_by_id())
+    assert by_hand == {f"{name}{SUFFIX}" for name in known}
+    parts = meshes[f"{split.name}{SUFFIX}"]
+    assert parts.hull_of(part).annotation == told
+    assert all(hull.source == "propagated" for hull in parts.hulls if hull.name != part)
     for name in by_hand:
-        pairs = zip(desk.meshes[name].hulls, bench.truth.meshes[name].hulls, strict=True)
+        pairs = zip(meshes[name].hulls, bench.truth.meshes[name].hulls, strict=True)
         assert all(hull.label == true.label and hull.source == "user" for hull, true in pairs)
 
 

@@ -11,11 +11,13 @@ from scipy.stats import ks_2samp
 
 from benchmark.assets import CATEGORIES, SEPARATE, family, samples
 from benchmark.study import CONDITIONS, FLAT, REPORTED, TRUE, Bench, Session, open_bench, teach_task
+from benchmark.study.client import TaskClient
 from benchmark.study.condition import KIND, PROPAGATED, SYSTEMATIC
 from benchmark.study.instances import instance, mend
 from benchmark.study.keystrokes import APPROVAL, GLANCE, count_acts, model_seconds, price_group
 from benchmark.study.labels import ACCURACY, AFFECTED, FEW, MOST, count_wrong, mislabel, noisy
 from benchmark.study.person import Person
+from benchmark.study.project import SUFFIX, name_by_files, open_project
 from benchmark.study.propagation import begin_by_hand, label_by_hand
 from meshforge.language import Is
 from tests.unit.benchmark.conftest import few
@@ -47,22 +49,24 @@ CARRIED = PROPAGATED[3]
 def test_labels_that_are_carried_over_leave_what_was_labelled_by_hand_and_judge_the_rest(bench: Bench) -> None:
     one, other = (teach_task(bench, CARRIED, 0) for _ in range(2))
     assert without_times(one) == without_times(other)
-    begun, by_hand, painted = begin_by_hand(bench, 3)
+    named, name = name_by_files(bench), one.shown[0] + SUFFIX
+    true = named.truth.meshes
+    with open_project(named.desk("propagated", 0)) as project:
+        client = TaskClient(project)
+        by_hand, painted = begin_by_hand(client, named, 3)
+        before = client.read_meshes()
+        more, _ = label_by_hand(client, named, name)
+        after = client.read_meshes()
     given = painted.typed
     assert len(by_hand) == 3
-    assert sum(len(bench.samples[name].mesh.hulls) for name in by_hand) >= given > 0
-    assert one.judged == len(bench.samples) - len(by_hand | set(one.shown))
+    assert sum(len(true[known].hulls) for known in by_hand) >= given > 0
+    assert one.judged == len(bench.samples) - len(by_hand | {shown + SUFFIX for shown in one.shown})
     assert one.typed >= given
-    name = one.shown[0]
-    desk, more = label_by_hand(begun, name)
     for known in (*by_hand, name):
-        true = bench.truth.meshes[known]
-        assert [hull.label for hull in desk.meshes[known].hulls] == [hull.label for hull in true.hulls]
-    assert more.inspected == len(begun.meshes[name].hulls)
-    assert more.typed == sum(
-        a.label != b.label for a, b in zip(begun.meshes[name].hulls, bench.truth.meshes[name].hulls, strict=True)
-    )
-    carried = [h for n, mesh in desk.meshes.items() if n not in by_hand | {name} for h in mesh.hulls]
+        assert [hull.label for hull in after[known].hulls] == [hull.label for hull in true[known].hulls]
+    assert more.inspected == len(before[name].hulls)
+    assert more.typed == sum(a.label != b.label for a, b in zip(before[name].hulls, true[name].hulls, strict=True))
+    carried = [h for n, mesh in after.items() if n not in by_hand | {name} for h in mesh.hulls]
     assert {hull.source for hull in carried} == {"propagated"}
 
 
@@ -183,7 +187,7 @@ def test_a_person_who_names_no_rule_shows_the_whole_edit_and_excuses_nothing(ben
 
 def test_a_person_who_helps_in_no_way_begins_with_any_mesh(bench: Bench) -> None:
     names = list(bench.samples)
-    first = {Person(bench.truth, seed, TRUE).begins_with(bench.truth, names) for seed in range(40)}
+    first = {Person(bench.truth, seed, TRUE).begins_with(names, bench.truth.propose) for seed in range(40)}
     assert len(first) > len(names) / 2
 
 

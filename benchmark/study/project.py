@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from functools import lru_cache
@@ -14,10 +14,12 @@ import numpy as np
 from benchmark.study.desk import Bench, Desk, Start
 from meshforge.formats import read
 from meshforge.geometry import Shape
+from meshforge.language import Orient
 from meshforge.project import Project
 from meshforge.symbolic import SymbolicMesh, write_labels
 
-_SUFFIX = ".obj"
+SUFFIX = ".obj"
+"""What the name of a mesh ends with in a project."""
 _MEMORY = Path("/dev/shm")  # a disk in memory, where there is one
 
 
@@ -27,11 +29,11 @@ def name_by_files(bench: Bench) -> Bench:
     product orders the vertices of a hull in its own way. What it remembers stays with it."""
 
     def rename(name: str) -> str:
-        return f"{name}{_SUFFIX}"
+        return f"{name}{SUFFIX}"
 
     start = bench.start
     parts = {rename(name): labels for name, labels in start.parts.items()}
-    with _open_folder() as folder:
+    with open_folder() as folder:
         samples = [
             replace(sample, name=rename(name), mesh=_read_back(sample.mesh, folder / rename(name)))
             for name, sample in bench.samples.items()
@@ -47,7 +49,7 @@ def _read_back(mesh: SymbolicMesh, file: Path) -> SymbolicMesh:
 
 
 @contextmanager
-def _open_folder() -> Iterator[Path]:
+def open_folder() -> Iterator[Path]:
     """A folder in memory, where there is such a disk, that goes away afterwards."""
     with tempfile.TemporaryDirectory(dir=_MEMORY if _MEMORY.is_dir() else None) as folder:
         yield Path(folder)
@@ -59,20 +61,14 @@ def open_project(desk: Desk) -> Iterator[Project]:
 
     The meshes have the names that `name_by_files` gives.
     """
-    with _open_folder() as folder:
+    with open_folder() as folder:
         yield write_project(desk, folder)
 
 
 def write_project(desk: Desk, folder: Path) -> Project:
     """Write the meshes of a desk as files of assets into a folder, and a project of them beside these."""
-    one, assets = desk.bench.task, folder / "assets"
-    assets.mkdir()
-    for name, mesh in desk.meshes.items():
-        shapes = (hull.shape for hull in mesh.hulls)
-        (assets / name).write_text(_format_obj(shapes, mesh.index), encoding="utf-8")
-    files = [assets / name for name in desk.meshes]
-    frame = one.program
-    project = Project.create(folder / "project", files, name=one.name, vocabulary=frame.labels, orient=frame.orient)
+    one, frame = desk.bench.task, desk.bench.task.program
+    project = create_project(folder, one.name, desk.meshes, frame.labels, frame.orient).with_cache()
     _write_thresholds(project, frame.contact, frame.extremity)
     for name, template in one.templates.items():
         project.add_template(name, _format_obj(template.shapes).encode())
@@ -83,23 +79,21 @@ def write_project(desk: Desk, folder: Path) -> Project:
     return project
 
 
-def take_labels(desk: Desk) -> Desk:
-    """The meshes with the labels that the product gives them by consensus of all that is said; a person's stay."""
-    if not any(mesh.labels for mesh in desk.meshes.values()):
-        return desk
-    bench = name_by_files(desk.bench)
-    pairs = zip(bench.truth.meshes.items(), desk.meshes.values(), strict=True)
-    named = Desk(
-        bench, {name: own.with_labels({**dict.fromkeys(own.index), **mesh.labels}) for (name, own), mesh in pairs}
-    )
-    with open_project(named) as project:
-        project.label_by_consensus()
-        found = {name: project.mesh(f"{name}{_SUFFIX}") for name in desk.meshes}
-    meshes = {name: mesh.with_labels(dict(found[name].labels)) for name, mesh in desk.meshes.items()}
-    same = {
-        name: desk.meshes[name] if mesh.labels == desk.meshes[name].labels else mesh for name, mesh in meshes.items()
-    }
-    return desk.with_meshes(same)
+def create_project(
+    folder: Path,
+    name: str,
+    meshes: Mapping[str, SymbolicMesh],
+    vocabulary: Sequence[str],
+    orient: Orient | None = None,
+) -> Project:
+    """Write meshes as files of assets into a folder, and a project of them beside these, without labels."""
+    assets = folder / "assets"
+    assets.mkdir()
+    for asset, mesh in meshes.items():
+        shapes = (hull.shape for hull in mesh.hulls)
+        (assets / asset).write_text(_format_obj(shapes, mesh.index), encoding="utf-8")
+    files = [assets / asset for asset in meshes]
+    return Project.create(folder / "project", files, name=name, vocabulary=vocabulary, orient=orient)
 
 
 def _format_obj(shapes: Iterable[Shape], names: Iterable[str] = ()) -> str:
