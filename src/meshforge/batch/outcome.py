@@ -148,7 +148,7 @@ def _rule_to_json(line: RuleEffect) -> dict[str, Any]:
 class RunSummary:
     """counts: by status; before, after: hulls of all that ran; failed, ran: the first outcomes of either kind;
     measures: of all edits, by asset; labels: all that hulls had before, None where that is not known of some asset that
-    ran; held: those that were held back.
+    ran; held: those that were held back; shown: measures of edits by this program that a person saw.
     """
 
     counts: Counter[StatusWord] = field(default_factory=Counter)
@@ -159,6 +159,7 @@ class RunSummary:
     measures: dict[str, EditMeasures] = field(default_factory=dict)
     labels: set[str] | None = field(default_factory=set)
     held: Sequence[Held] = ()
+    shown: Sequence[EditMeasures] = ()
 
     def add(self, outcome: AssetOutcome) -> None:
         """Count one more."""
@@ -183,7 +184,7 @@ class RunSummary:
 
     def find_alarms(self) -> dict[str, tuple[str, ...]]:
         """Sentences about the results that stand out of all so far, the weightiest first, by asset."""
-        return describe_odd_results(self.measures)
+        return describe_odd_results(self.measures, self.shown)
 
     def describe_absent_labels(self, program: Program) -> list[str]:
         """A sentence on each label that a program asks for, no rule gives and no asset that ran has.

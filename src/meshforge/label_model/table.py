@@ -125,9 +125,9 @@ class FamilyTable:
 class Observations:
     """What is said of the labels of n hulls.
 
-    labels: that anything says, and those of the vocabulary, sorted; codes: (n,) the place of what is said among these, NO_LABEL where nothing is;
-    confidence: (n,); sources: (n,) the place of the source among LABEL_SOURCES; fixed: (n,) whether a person said it;
-    given: (n,) whether others may be taken from it.
+    labels: that anything says, and those of a vocabulary, sorted; codes: (n,) the place of what is said among these,
+    NO_LABEL where nothing is; confidence: (n,); sources: (n,) the place of the source among LABEL_SOURCES; fixed: (n,)
+    whether a person said it; given: (n,) whether others may be taken from it.
     """
 
     labels: tuple[str, ...]

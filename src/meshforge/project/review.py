@@ -103,7 +103,8 @@ def assess_family(
     family = model_family(list(meshes.values()))
     if stop():
         return None
-    found = review_family(state, outcome, family, bar, describe_odd_results(measures))
+    shown = [measures[asset] for asset in (*state.demos, *state.accepted) if asset in measures]
+    found = review_family(state, outcome, family, bar, describe_odd_results(measures, shown))
     found = add_span_doubts(store, meshes, _add_unreadable(store, found, state, lost), state.reviewed_assets)
     if not by_hand:
         found = add_demonstration_doubts(store, found, state.accepted | state.corrected)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from math import expm1, log
 from typing import Literal
@@ -13,8 +13,9 @@ from meshforge.signoff.measures import EditMeasures
 
 LEAST_FAMILY = 4
 """Of fewer edits none is an outlier: nobody can say which are the odd ones."""
-BLOCK = 0.5
-"""An edit that fills such a share of the free space of an asset makes one solid block of it."""
+BLOCK, MORE = 0.5, 0.15
+"""An edit that fills such a share of the free space of an asset makes one solid block of it, unless the same was shown:
+then one that fills so much more than any that a person showed."""
 _LIMIT = 5.0  # robust z from which on an edit stands out
 _DEVIATION = 1.4826  # of a normal distribution, in median absolute deviations
 _LEAST_SHARE = 1e-3  # smaller shares of a volume or an extent count as this
@@ -49,9 +50,13 @@ class _Figure:
     show: Callable[[float], str]
 
 
-def find_alarms(measures: Mapping[str, EditMeasures]) -> dict[str, tuple[Alarm, ...]]:
-    """The alarms of those edits of a family that have any, the farthest out first; measures: by asset."""
-    found: dict[str, list[Alarm]] = {name: list(_find_absolute(one)) for name, one in measures.items()}
+def find_alarms(
+    measures: Mapping[str, EditMeasures], shown: Iterable[EditMeasures] = ()
+) -> dict[str, tuple[Alarm, ...]]:
+    """The alarms of those edits of a family that have any, the farthest out first; measures: by asset; shown: of the
+    same program on assets that a person demonstrated or accepted."""
+    block = max([BLOCK, *(one.filled + MORE for one in shown if one.free >= _LEAST_FREE)])
+    found: dict[str, list[Alarm]] = {name: list(_find_absolute(one, block)) for name, one in measures.items()}
     known = [one for name, one in measures.items() if not found[name]]
     for figure in _FIGURES:
         if usual := _find_usual(figure, known):
@@ -60,15 +65,17 @@ def find_alarms(measures: Mapping[str, EditMeasures]) -> dict[str, tuple[Alarm, 
     return {name: tuple(sorted(alarms, key=lambda alarm: -alarm.excess)) for name, alarms in found.items() if alarms}
 
 
-def describe_odd_results(measures: Mapping[str, EditMeasures]) -> dict[str, tuple[str, ...]]:
+def describe_odd_results(
+    measures: Mapping[str, EditMeasures], shown: Iterable[EditMeasures] = ()
+) -> dict[str, tuple[str, ...]]:
     """Sentences on those edits of a family that stand out, the farthest out first, by asset."""
-    return {name: tuple(alarm.text for alarm in alarms) for name, alarms in find_alarms(measures).items()}
+    return {name: tuple(alarm.text for alarm in alarms) for name, alarms in find_alarms(measures, shown).items()}
 
 
-def _find_absolute(one: EditMeasures) -> Iterator[Alarm]:
+def _find_absolute(one: EditMeasures, block: float) -> Iterator[Alarm]:
     if one.hulls_before and not one.hulls_after:
         yield Alarm("deleted", "no hull is left", float("inf"))
-    if one.free >= _LEAST_FREE and one.filled >= BLOCK:
+    if one.free >= _LEAST_FREE and one.filled >= block:
         yield Alarm("block", f"nearly one solid block: {one.filled:.0%} of the free space is filled", float("inf"))
 
 

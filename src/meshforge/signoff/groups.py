@@ -34,14 +34,12 @@ class _Suspect:
 
 @dataclass(frozen=True, slots=True)
 class LookalikeGroup:
-    """Hulls that look alike, and what they probably are. gain: assets made right by confirming that; seconds: of it;
-    share: the most that any of them is likely to change an edit."""
+    """Hulls that look alike, and what they probably are. gain: assets made right by confirming that; seconds: of it."""
 
     label: str
     hulls: tuple[HullPlace, ...]
     gain: float
     seconds: float
-    share: float
 
 
 def find_groups(family: FamilyTrial, open_assets: Sequence[int]) -> Iterator[LookalikeGroup]:
@@ -99,8 +97,7 @@ def _best_of(family: FamilyTrial, label: str, some: Sequence[_Suspect]) -> Looka
     for count in range(1, min(len(some), MOST_HULLS) + 1):
         part = some[:count]
         seconds = price_group(count, sum(one.wrong for one in part))
-        hulls, share = tuple(sorted(one.place for one in part)), max(one.share for one in part)
-        group = LookalikeGroup(label, hulls, _gain(family, part), seconds, share)
+        group = LookalikeGroup(label, tuple(sorted(one.place for one in part)), _gain(family, part), seconds)
         if best is None or group.gain / group.seconds > best.gain / best.seconds:
             best = group
     assert best

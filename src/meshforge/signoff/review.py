@@ -291,7 +291,7 @@ def _ask_clusters(family: FamilyTrial) -> Iterator[ReviewQuestion]:
     ]
     for group in find_groups(family, unseen):
         assets = {place.asset for place in group.hulls}
-        if len(assets) > 1 and group.share * len(assets) >= _CLUSTER_RISK:
+        if len(assets) > 1 and group.gain >= _CLUSTER_RISK:
             yield _ask_group(family, group)
 
 

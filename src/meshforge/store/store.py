@@ -19,6 +19,7 @@ from meshforge.batch import (
 )
 from meshforge.common import MeshForgeError, ProjectError, nearest_name, write_all_atomically, write_atomically
 from meshforge.language import Orient, Program, Template
+from meshforge.signoff import EditMeasures
 from meshforge.store import membership
 from meshforge.store import program as program_files
 from meshforge.store import settings as settings_file
@@ -339,6 +340,11 @@ class Store:
     def assessment(self) -> AssessmentFile | None:
         """How the family stood when it was looked at last; None where that is not kept, or damaged."""
         return read_derived(self.layout.assessment, AssessmentFile)
+
+    def shown_measures(self) -> list[EditMeasures]:
+        """The measures of edits that a person showed, accepted or corrected, as the last review found them."""
+        last = self.assessment()
+        return [one.measures for one in last.assets.values() if one.looked_at and one.measures] if last else []
 
     def write_assessment(self, found: AssessmentFile) -> None:
         """Keep how the family stands."""

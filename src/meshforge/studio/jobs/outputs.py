@@ -40,7 +40,10 @@ def start_apply(session: Session, request: ApplyJob) -> Job:
         raise ProjectError("there is no program yet", remedy="Demonstrate what is to be done on an asset or two.")
 
     def work(progress: JobProgress) -> str:
-        summary, new = batch.RunSummary(), prepare_new(session, progress, assets, split=request.split)
+        summary, new = (
+            batch.RunSummary(shown=project.shown_measures()),
+            prepare_new(session, progress, assets, split=request.split),
+        )
         for failed in new.failed:
             summary.add(failed)
             progress.add_line(_apply_line(failed, new))
