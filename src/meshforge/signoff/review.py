@@ -175,7 +175,7 @@ def _sort(questions: Iterable[ReviewQuestion], state: ReviewState) -> tuple[Revi
     """Those that may be asked, what is worth most a second first; of equals the first by its id. Who refused to turn
     the assets is not asked again on another one."""
     is_refused = any(name.startswith(kinds.OrientationQuestion.kind) for name in state.snoozed)
-    asked = (one for one in questions if one.id not in state.snoozed)
+    asked = {one.id: one for one in questions if one.id not in state.snoozed}.values()
     left = (one for one in asked if not (is_refused and isinstance(one, kinds.OrientationQuestion)))
     return tuple(sorted(left, key=lambda one: (-one.worth, one.id)))
 

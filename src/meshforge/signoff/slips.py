@@ -20,7 +20,7 @@ from meshforge.symbolic import HUMAN_SOURCES, mask_of
 from meshforge.synthesis import Example, Nearest, Options, Repair, Slip, find_slip
 from meshforge.synthesis.slips import MOST_SLIPS
 
-_LEAST_SHARE = 0.3  # from which on a slip is asked about
+_LEAST_SHARE = 0.05  # from which on a slip is asked about
 _LEAST_CHANCE = 0.05  # of another label, from which on it is offered
 _FITS_BARELY = 0.5  # the probability of a slip where no program fits what was shown
 

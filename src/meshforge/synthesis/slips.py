@@ -21,7 +21,7 @@ MOST_SLIPS = 2
 SLIP, NODE = 3.5, 1.0
 """What a slip costs, and a node of an extractor [nats]: a person misses about one hull in thirty, and answers as seldom
 wrongly; rules that people mean are short."""
-_LEAST_NODES, _MOST_NODES = 4, 3  # of an extractor that may come from a slip, and of one that would be simpler
+_LEAST_NODES, _MOST_NODES = 2, 3  # of an extractor that may come from a slip, and of one that would be simpler
 
 
 @dataclass(frozen=True, slots=True)

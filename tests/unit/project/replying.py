@@ -17,13 +17,16 @@ from meshforge.language import Each, Merge
 from meshforge.project import Project, ProjectReview
 from meshforge.signoff import ReviewQuestion
 from meshforge.signoff.question import QuestionKind
+from meshforge.store import SpanLine, SpansFile, hull_digests
 from meshforge.synthesis import Step
 from tests.unit.project.racks import LEGS, PLAIN, shown_racks
 from tests.unit.project.shelves import PLAIN as MISLABELLED
 from tests.unit.project.shelves import SHELVED, ambiguous, mislabelled
+from tests.unit.project.turned_racks import racks_on_their_side
 
 SHOWN, ALSO, ASKED, OTHER, LAST = PLAIN
 THREE = sorted(LEGS)[:3]
+LYING = "rack5.obj"
 Direction = Literal["up", "down", "same", "any"]
 
 
@@ -35,7 +38,26 @@ def forgetful(folder: Path) -> Project:
     return project
 
 
+def spanning(folder: Path) -> Project:
+    """Racks of which one has a hull that likely spans parts."""
+    project = shown_racks(folder)
+    line = SpanLine(geometry=hull_digests(project.mesh(ASKED))["rail"], chance=0.6, told="two parts")
+    project.write_spans(SpansFile(assets={ASKED: {"rail": line}}))
+    return project
+
+
+def undemonstrated(folder: Path) -> Project:
+    """Racks of which none is shown."""
+    project = shown_racks(folder)
+    for asset in project.demonstration_ids():
+        project.demonstrate(asset, ())
+    return project
+
+
 MAKERS: Mapping[str, Callable[[Path], Project]] = {
+    "spanning": spanning,
+    "undemonstrated": undemonstrated,
+    "lying": racks_on_their_side,
     "plain": shown_racks,
     "slip": forgetful,
     "ambiguous": ambiguous,
@@ -46,7 +68,8 @@ MAKERS: Mapping[str, Callable[[Path], Project]] = {
 def copy(source: Path, folder: Path, monkeypatch: pytest.MonkeyPatch) -> Project:
     shutil.copytree(source, folder, dirs_exist_ok=True)
     monkeypatch.chdir(folder)
-    return Project.open(folder / "racks")
+    beside = folder / "project"  # of those whose assets lie beside it
+    return Project.open(beside if beside.exists() else folder / "racks")
 
 
 def look(project: Project) -> ProjectReview:
@@ -108,5 +131,9 @@ CASES = {
     "a label is repaired": Case("repair", MISLABELLED, {"choice": "knob"}, "up", "up", "mislabelled"),
     "a label is right": Case("repair", MISLABELLED, {"choice": "leg"}, "any", "any", "mislabelled"),
     "a slip": Case("selection", SHOWN, {"choice": "yes"}, "up", "any", "slip"),
+    "one part": Case("span", ASKED, {"choice": "no"}, "same", "up", "spanning"),
+    "turned": Case("orientation", LYING, {"choice": "yes"}, "any", "up", "lying"),
+    "not turned": Case("orientation", LYING, {"choice": "no"}, "same", "same", "lying"),
+    "no demonstration": Case("demonstrate", "rack3/model.obj", {"later": True}, "same", "same", "undemonstrated"),
     "no slip": Case("selection", SHOWN, {"choice": "no"}, "up", "any", "slip"),
 }

@@ -55,7 +55,7 @@ def test_a_reply_moves_probabilities_as_it_should(
     else:
         monkeypatch.setattr("meshforge.cli.review.draw_question", lambda *_: [])  # pictures are slow
         Path("said.json").write_text(json.dumps([{"id": question.id, **case.reply}]))
-        told = runner(monkeypatch, capsys)("review", "racks", "--answers", "said.json", "--by", "Ada")
+        told = runner(monkeypatch, capsys)("review", project.folder.name, "--answers", "said.json", "--by", "Ada")
         assert "is not asked any more" not in told.err
         assert all('"by":"Ada"' in line for line in project.layout.events.read_text().splitlines())
     after = look(project)
