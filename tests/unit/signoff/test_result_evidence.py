@@ -1,4 +1,4 @@
-"""What results and labels say of a family: labels by results, readings by results called wrong, look-alikes together."""
+"""What results and labels say of a family: labels by results, readings by results called wrong, look-alikes as one."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def chance(trial: FamilyTrial, asset: str, hull: str, label: str) -> float:
 
 
 def test_a_corrected_result_makes_the_label_probable_with_which_it_would_have_been_right() -> None:
-    meshes = tables(**{WRONG_LEG: "panel"})
+    meshes = tables(leg2_low="panel")
     before = ReviewState(meshes, FRAME, demos=shown(meshes, "t0"))
     told = replace(before, meant={"t5": (legs_of("t5"),)}, corrected=frozenset({"t5"}))
     outcome = learn(before)
@@ -51,7 +51,7 @@ def test_a_corrected_result_makes_the_label_probable_with_which_it_would_have_be
 
 
 def test_a_result_that_was_found_right_speaks_for_the_labels_there() -> None:
-    meshes = tables(**{WRONG_LEG: "panel"})
+    meshes = tables(leg2_low="panel")
     state = ReviewState(meshes, FRAME, demos=shown(meshes, "t0"))
     as_labelled = accept(state, "t5", legs_of("t5") - {WRONG_LEG})
     before, after = try_state(state), try_state(as_labelled)
@@ -74,7 +74,7 @@ def test_a_reading_that_does_what_was_called_wrong_is_less_believed() -> None:
 
 
 def test_look_alikes_of_an_asset_count_once() -> None:
-    meshes = tables(**{"leg1_low": "panel", WRONG_LEG: "panel"})
+    meshes = tables(leg1_low="panel", leg2_low="panel")
     trial = try_state(ReviewState(meshes, FRAME, demos=shown(meshes, "t0")))
     place = trial.places["t5"]
     shares = flip_shares(trial.trials[place].flips)
