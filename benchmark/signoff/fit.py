@@ -42,11 +42,22 @@ counted as a whole would leave no threshold."""
 _CAP = 150.0  # seconds of a person, after which a session says little new
 _FIRST = 3.0  # what an edit counts at the first look beside one at a later look, of which there are many
 _STRAY = 1e-4  # cost of the squares of the weights
-_SIGNS = (0, 1, 1, -1, -1, -1, 1, 1)  # of the weights, then of a program and of a result: what speaks for never against
-_START = (0.0, 1.0, 1.0, 0.0, 0.0, 0.0, 3.0, 1.0)
+_SIGNS = (
+    0,
+    1,
+    0,
+    1,
+    -1,
+    -1,
+    -1,
+    1,
+    1,
+)  # of the weights, then of a program and of a result: what speaks for never against
+_START = (0.5, 1.0, 0.5, 1.0, 0.0, 0.0, 0.0, 3.0, 1.0)
+_FEATURES = 5
 _THRESHOLDS = np.round(np.arange(0.5, 0.9991, 0.001), 3)
 Look = list[list[float]]
-"""Of each edit that was judged and that nobody had seen at one look: the features, results that were found right, what
+"""Of each edit that was judged and that nobody had seen at one look: the features (5), results that were found right, what
 wrong ones say against the program [nats], whether it was called wrong, and whether it is right."""
 
 
@@ -108,7 +119,7 @@ def fit(folders: Sequence[Path], tell: Tell) -> None:
     threshold = choose_threshold([np.mean(some, axis=0) for some in losses.values()])
     weights = _fit([looks for _, looks in sessions])
     data: dict[str, Any] = {"about": "made by `python -m benchmark.signoff fit FOLDER ...`"}
-    names = zip(confidence.FEATURES, weights, strict=False)
+    names = zip(confidence.WEIGHTS, weights, strict=False)
     data["weights"] = {name: round(float(one), 3) for name, one in names} | confidence.BY_HAND
     data |= {"program": round(float(weights[-2]), 3), "result": round(float(weights[-1]), 3)}
     data |= {"threshold": threshold, "families": len(losses), "risk": RISK}
@@ -126,14 +137,13 @@ def choose_threshold(losses: Sequence[Floats]) -> float:
 
 
 def _lose(looks: Sequence[Floats]) -> Floats:
-    """The loss of a session at each threshold: the share of the edits that would be signed off without a look, though
-    they are wrong, at the look where that is most."""
-    found = np.zeros(len(_THRESHOLDS))
-    for look in looks:
-        wrong = look[(look[:, 1] == 0) & (look[:, 2] == 0), 0]
-        share = (wrong[:, None] >= _THRESHOLDS).sum(axis=0) / max(len(looks[0]), 1)
-        found = np.maximum(found, np.minimum(share, MOST_LOSS))
-    return found
+    """The loss of a session at each threshold: the share of the edits that are signed off without a look at its end,
+    though they are wrong."""
+    if not looks:
+        return np.zeros(len(_THRESHOLDS))
+    wrong = looks[-1][(looks[-1][:, 1] == 0) & (looks[-1][:, 2] == 0), 0]
+    share = (wrong[:, None] >= _THRESHOLDS).sum(axis=0) / max(len(looks[0]), 1)
+    return np.minimum(share, MOST_LOSS)
 
 
 def _fit(sessions: Sequence[Sequence[Look]]) -> Floats:
@@ -151,16 +161,15 @@ def _fit(sessions: Sequence[Sequence[Look]]) -> Floats:
 
 def _rate(weights: Floats, looks: Sequence[Look]) -> list[Floats]:
     """Of each edit at each look the probability, whether it was called wrong, and whether it is right."""
-    width = len(_SIGNS) + 2
+    width = _FEATURES + 4
     tables = [np.array(look).reshape(-1, width) for look in looks]
     return [np.column_stack([_predict(weights, rows), rows[:, -2:]]) for rows in tables]
 
 
 def _predict(weights: Floats, rows: Floats) -> Floats:
     """The probability that each edit is right (rows,)."""
-    count = len(confidence.FEATURES)
-    trust = weights[count] + weights[count + 1] * rows[:, count] - rows[:, count + 1]
-    found: Floats = 1 / (1 + np.exp(-trust)) / (1 + np.exp(-(rows[:, :count] @ weights[:count])))
+    trust = weights[-2] + weights[-1] * rows[:, _FEATURES] - rows[:, _FEATURES + 1]
+    found: Floats = confidence.combine(rows[:, :_FEATURES], weights[:-2]) / (1 + np.exp(-trust))
     return found
 
 

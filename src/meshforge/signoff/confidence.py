@@ -1,5 +1,5 @@
 """From readings, labels and all that is odd about an asset to one probability that its edit is right: that of its
-program, times a logistic regression (Platt 1999), and the threshold from which on an asset is signed off without a
+program, that of its readings and that of its labels, each by a logistic function (Platt 1999), and the threshold from which on an asset is signed off without a
 look, by conformal risk control over families (Angelopoulos et al. 2024). All of it is fitted on sessions of calibration
 families (`python -m benchmark.signoff fit`)."""
 
@@ -16,8 +16,16 @@ import numpy as np
 from meshforge.geometry import Floats
 
 WEIGHTS_FILE = "confidence.json"
-FEATURES = ("always", "readings", "labels", "labels not demonstrated", "unlike the rest", "alarms")
-"""What the probability depends on."""
+WEIGHTS = (
+    "readings, always",
+    "readings",
+    "labels, always",
+    "labels",
+    "labels not demonstrated",
+    "unlike the rest",
+    "alarms",
+)
+"""What speaks for an edit: the first two for its readings, the others for its labels and all that is odd."""
 LEAST, MOST = 0.0005, 0.9995
 """Bounds of what readings and labels say."""
 BY_HAND = {"unlike the rest": -1.0, "alarms": -1.5}
@@ -30,7 +38,7 @@ STANDS_OUT = 0.49
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Calibration:
-    """weights: (features,); program, result: what speaks for a program as such, and for one that does what a person
+    """weights: (len(WEIGHTS),); program, result: what speaks for a program as such, and for one that does what a person
     accepted or meant on an asset [nats]; threshold: the probability from which on an asset is signed off without a
     look; families: on which it rests; risk: the share of the assets of a family that are signed off and wrong, at most,
     as far as can be expected."""
@@ -47,9 +55,21 @@ class Calibration:
 def read_calibration() -> Calibration:
     """What ships."""
     read = json.loads(files("meshforge.signoff").joinpath(WEIGHTS_FILE).read_text("utf-8"))
-    weights = np.array([read["weights"][name] for name in FEATURES], dtype=float)
+    weights = np.array([read["weights"][name] for name in WEIGHTS], dtype=float)
     weights.flags.writeable = False
     return Calibration(weights, *(read[one] for one in ("program", "result", "threshold", "families", "risk")))
+
+
+def combine(features: Floats, weights: Floats) -> Floats:
+    """The probability (n,) that edits are right under a program that is not wrong nearly everywhere: that each reading
+    means there what it does, times that no other label would change it.
+
+    features: (n, 5), of edits; weights: (len(WEIGHTS),).
+    """
+    readings = weights[0] + weights[1] * features[..., 0]
+    labels = weights[2] + features[..., 1:] @ weights[3:]
+    found: Floats = 1 / (1 + np.exp(-readings)) / (1 + np.exp(-labels))
+    return found
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,14 +91,13 @@ class AssetEvidence:
 
     @property
     def features(self) -> Floats:
-        """The features (len(FEATURES),)."""
-        told = _log_odds(self.readings), _log_odds(self.labels)
-        return np.array([1.0, *told, self.foreign, self.unlike, self.alarms])
+        """The log odds of readings and labels, then what is odd (5,)."""
+        return np.array([_log_odds(self.readings), _log_odds(self.labels), self.foreign, self.unlike, self.alarms])
 
     @property
     def probability(self) -> float:
         """That the edit is right."""
-        found = self.program * float(1 / (1 + np.exp(-(self.features @ read_calibration().weights))))
+        found = self.program * float(combine(self.features, read_calibration().weights))
         return min(found, STANDS_OUT) if self.alarms else found
 
     def credit(self, *, readings: float = 1.0, labels: float = 1.0, program: float = 1.0) -> float:
