@@ -57,7 +57,7 @@ _START = (0.5, 1.0, 0.5, 1.0, 0.0, 0.0, 0.0, 3.0, 1.0)
 _FEATURES = 5
 _THRESHOLDS = np.round(np.arange(0.5, 0.9991, 0.001), 3)
 Look = list[list[float]]
-"""Of each edit that was judged and that nobody had seen at one look: the features (5), results that were found right, what
+"""Of each edit that was judged and that nobody had seen at one look: the features, results that were found right, what
 wrong ones say against the program [nats], whether it was called wrong, and whether it is right."""
 
 
@@ -80,7 +80,7 @@ class _Observer(Client):
         said = [hull.annotation for mesh in state.meshes.values() for hull in mesh.hulls]
         posterior = family.infer(said, state.frame.labels)
         trial = FamilyTrial.of(state, outcome.program, outcome.readings, posterior, {})
-        trust, right = trial.trust_in_program(), trial.count_right()
+        trust, right = trial.trust_in_program(), len(trial.results[0])
         against = known.program + known.result * right - float(np.log(trust / (1 - trust)))
         for one, evidence in zip(trial.trials, trial.evidence, strict=True):
             alarms = any(doubt.kind == "alarm" for doubt in found.assessment.assets[one.asset].doubts)
@@ -143,7 +143,8 @@ def _lose(looks: Sequence[Floats]) -> Floats:
         return np.zeros(len(_THRESHOLDS))
     wrong = looks[-1][(looks[-1][:, 1] == 0) & (looks[-1][:, 2] == 0), 0]
     share = (wrong[:, None] >= _THRESHOLDS).sum(axis=0) / max(len(looks[0]), 1)
-    return np.minimum(share, MOST_LOSS)
+    found: Floats = np.minimum(share, MOST_LOSS)
+    return found
 
 
 def _fit(sessions: Sequence[Sequence[Look]]) -> Floats:

@@ -1,7 +1,7 @@
 """From readings, labels and all that is odd about an asset to one probability that its edit is right: that of its
-program, that of its readings and that of its labels, each by a logistic function (Platt 1999), and the threshold from which on an asset is signed off without a
-look, by conformal risk control over families (Angelopoulos et al. 2024). All of it is fitted on sessions of calibration
-families (`python -m benchmark.signoff fit`)."""
+program, that of its readings and that of its labels, each by a logistic function (Platt 1999); and the threshold from
+which on an asset is signed off without a look, by conformal risk control over families (Angelopoulos et al. 2024). All
+of it is fitted on sessions of calibration families (`python -m benchmark.signoff fit`)."""
 
 from __future__ import annotations
 

@@ -155,17 +155,13 @@ class FamilyTrial:
 
         looks: more results that are found right.
         """
-        right, wrong = self._results
+        right, wrong = self.results
         against = sum(log((1 - _WRONG_BY_CHANCE * q) / (1 - q)) for q in map(self._expect, wrong))
         known = read_calibration()
         return 1 / (1 + exp(-(known.program + known.result * (len(right) + looks) - against)))
 
-    def count_right(self) -> int:
-        """On how many assets the program does what a person accepted or meant."""
-        return len(self._results[0])
-
     @cached_property
-    def _results(self) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    def results(self) -> tuple[tuple[str, ...], tuple[str, ...]]:
         """The assets on which the program does what a person accepted or meant, and those on which it does not."""
         state, done = self.state, {trial.asset: trial.selected for trial in self.trials}
         right = [name for name, meant in state.meant.items() if done.get(name) == meant]
@@ -251,7 +247,7 @@ class FamilyTrial:
     def _program_doubts(self) -> tuple[Doubt, ...]:
         """Whether too few results were looked at, or too many of these were wrong."""
         share = 1 - self.trust_in_program()
-        right, wrong = map(len, self._results)
+        right, wrong = map(len, self.results)
         text = f"{wrong} of the {right + wrong} results that were looked at are wrong" if wrong else NO_LOOK
         return (Doubt("reading", text, share=share),) if share > _MOST_MISTRUST else ()
 
