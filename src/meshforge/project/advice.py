@@ -115,7 +115,7 @@ class Adviser:
         if self.state.outdated and not any(asset.demonstrated for asset in self.assets):
             return self._advise_demonstration()
         if self.state.outdated:
-            say = "Labels, demonstrations or settings changed since the program was learned: learn it again."
+            say = "Labels, demonstrations, replies or settings changed since the program was learned: learn it again."
             return Advice(say, self._type("synthesize"))
         if self.state.question and self._behind:  # nobody is asked who has applied the program as it is
             rule, _, asset = self.state.question.partition(":")

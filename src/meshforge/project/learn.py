@@ -136,9 +136,10 @@ def digest_learning_inputs(store: Store, settings: Settings | None = None) -> st
     layout, feedback = store.layout, store.feedback()
     words: list[object] = [digest_settings(settings or store.settings), digest_demonstrations(store)]
     words += [line.model_dump(mode="json") for line in feedback.answers_and_fixes.values()]
-    last = [some[-1] for some in feedback.verdicts.values()]
-    words += [f"{one.seen} {one.meant}" for one in last if one.meant or one.verdict == "wrong"]
-    concerned = {line.asset for line in feedback.answers.values()} | set(store.demonstration_ids())
+    shown = set(store.demonstration_ids())
+    last = [some[-1] for asset, some in feedback.verdicts.items() if asset not in shown]
+    words += [f"{one.seen} {one.meant}" for one in last if one.meant or (one.verdict == "wrong" and one.seen)]
+    concerned = {line.asset for line in feedback.answers.values()} | shown
     for asset, path in store.found.ids.items():
         if asset in concerned:
             labels = content_digest(layout.labels(asset)) if layout.labels(asset).exists() else None

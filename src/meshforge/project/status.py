@@ -80,7 +80,7 @@ class AssetStatus:
 class Status:
     """A project. assets: all, or those that were asked for. rules: of the program, None where there is none.
 
-    outdated: whether it was learned from other demonstrations, labels or settings than there are now.
+    outdated: whether it was learned from other demonstrations, labels, replies or settings than there are now.
     problem: why the program cannot be applied at all.
 
     lost: ids that have labels, demonstrations or corrections, but no asset.

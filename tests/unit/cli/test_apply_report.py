@@ -8,12 +8,13 @@ from pathlib import Path
 import pytest
 
 from meshforge.project import Project
+from meshforge.signoff import BAR
 from tests.unit.batch.families import write_tables
 from tests.unit.batch.pages import figures, kinds, names, opened, texts
 from tests.unit.cli.in_process import Run, runner
 from tests.unit.project.tables import FIRST, SECOND, THIRD, applied
 
-HELD = "2 of 3 are at least 95% sure, or were looked at; look at this one:"
+HELD = f"2 of 3 are at least {100 * BAR:g}% sure, or were looked at; look at this one:"
 
 
 @pytest.fixture

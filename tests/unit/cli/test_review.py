@@ -7,7 +7,9 @@ from pathlib import Path
 
 import pytest
 
+from meshforge.common import format_share
 from meshforge.project import Project
+from meshforge.signoff import BAR
 from tests.unit.cli.in_process import Run, runner
 from tests.unit.project.racks import BLOCK, PLAIN, find_right, shown_racks
 from tests.unit.project.tables import SECOND, THIRD, applied
@@ -158,7 +160,7 @@ def racks(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], t
 def test_a_result_that_would_be_a_block_is_held_though_nothing_was_written_before(racks: Run) -> None:
     find_right(Project.open("racks"), PLAIN[2])
     assert f"{BLOCK} (49%): nearly one solid block" in racks("review", "racks").out
-    told = racks("apply", "racks", "--min-confidence", "0.95", "--workers", "1")
+    told = racks("apply", "racks", "--min-confidence", str(BAR), "--workers", "1")
     assert told.code == 1
     assert f"held       {BLOCK}: 49% sure; nearly one solid block" in told.out
     project = Project.open("racks")
@@ -177,7 +179,9 @@ def test_a_result_that_stands_out_in_a_run_alone_is_not_signed_off_by_it(
     assert f"1 result stands out: {BLOCK}" in racks("apply", "racks", "--workers", "1").out
     assert set(Project.open("racks").sign_offs()) == set(PLAIN)
     told = racks("status", "racks", "--signed-off")
-    assert told.code == 1 and f"{BLOCK} (97%): nearly one solid block" in told.out
+    (block,) = (one for one in Project.open("racks").status().assets if one.id == BLOCK)
+    assert block.probability is not None and block.probability >= BAR, "that is how sure the review was"
+    assert told.code == 1 and f"{BLOCK} ({format_share(block.probability)}): nearly one solid block" in told.out
 
 
 @pytest.mark.slow

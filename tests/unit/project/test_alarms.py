@@ -11,7 +11,7 @@ from meshforge.language import Delete, Program
 from meshforge.project import Project
 from meshforge.project.alarms import measure_results
 from meshforge.project.sign_offs import find_inputs
-from meshforge.signoff import EditMeasures, describe_odd_results, measure_edit
+from meshforge.signoff import BAR, EditMeasures, describe_odd_results, measure_edit
 from meshforge.symbolic import SymbolicMesh
 from tests.unit.project.racks import BLOCK, PLAIN, find_right, shown_racks
 
@@ -86,11 +86,12 @@ def test_a_review_before_anything_is_written_holds_the_block(racks: Project) -> 
     assert found.assets[BLOCK].doubts[0].kind == "alarm"
 
 
-def test_nothing_but_what_was_shown_is_signed_off_before_anybody_looked_at_a_result(racks: Project) -> None:
+def test_what_stands_out_is_held_before_anybody_looked_at_a_result_and_the_rest_is_signed_off(racks: Project) -> None:
     found = racks.review(execution=IN_PROCESS).assessment
-    assert set(found.held) == {*PLAIN[2:], BLOCK}
-    assert found.assets[PLAIN[2]].doubts[0].text == "nobody has looked at a result of this program yet"
-    assert found.question is not None and found.question.kind == "result"
+    assert found.held == (BLOCK,)
+    assert found.assets[BLOCK].doubts[0].kind == "alarm"
+    assert all(found.assets[asset].probability >= BAR for asset in PLAIN)
+    assert found.question is not None and (found.question.kind, found.question.asset) == ("result", BLOCK)
 
 
 def test_a_second_review_measures_what_changed_since_the_first(racks: Project, measured: list[int]) -> None:

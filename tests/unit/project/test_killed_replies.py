@@ -13,16 +13,16 @@ from meshforge.project import Project
 from tests.unit.batch.families import tree
 from tests.unit.cli.in_process import runner
 from tests.unit.deaths import deaths, needs_fork
-from tests.unit.project.replying import CASES, MAKERS, find_question, look, reply_by_method
+from tests.unit.project.replying import CASES, MAKERS, STRICT, find_question, look, reply_by_method
 from tests.unit.project.tables import LEGS, THIRD, applied
 
 SAME = ("labels/", "demonstrations/", "meshforge.toml", "program.mf", "edited/")
-SURE = ("--min-confidence", "0.9999", "--answers", "said.json")
+SURE = ("--min-confidence", str(STRICT), "--answers", "said.json")
 
 
 def outcome(project: Project) -> object:
     """All that a reply can change, but for how often it was said."""
-    found = project.review(0.9999, execution=IN_PROCESS)
+    found = project.review(STRICT, execution=IN_PROCESS)
     files = {name: data for name, data in tree(project.folder).items() if name.startswith(SAME)}
     outputs = {name: data for name, data in files.items() if "/.meshforge" not in name and not name.endswith(".tmp")}
     return found.assessment.assets, found.assessment.held, found.assessment.excluded, outputs
@@ -78,7 +78,7 @@ def test_who_replies_again_once_all_is_done_gets_the_exit_code_of_that(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     project, run = applied(tmp_path), runner(monkeypatch, capsys)
-    question = find_question(project.review(0.9999, execution=IN_PROCESS), "result", THIRD)
+    question = find_question(project.review(STRICT, execution=IN_PROCESS), "result", THIRD)
     Path("said.json").write_text(json.dumps([{"id": question.id, **DONE[name]}]))
     for _ in range(2):
         told = run("review", "tables", *SURE)

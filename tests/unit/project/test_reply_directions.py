@@ -13,6 +13,7 @@ from tests.unit.project.racks import BLOCK
 from tests.unit.project.replying import (
     CASES,
     MAKERS,
+    STRICT,
     Direction,
     copy,
     find_question,
@@ -55,7 +56,8 @@ def test_a_reply_moves_probabilities_as_it_should(
     else:
         monkeypatch.setattr("meshforge.cli.review.draw_question", lambda *_: [])  # pictures are slow
         Path("said.json").write_text(json.dumps([{"id": question.id, **case.reply}]))
-        told = runner(monkeypatch, capsys)("review", project.folder.name, "--answers", "said.json", "--by", "Ada")
+        options = "--min-confidence", str(STRICT), "--answers", "said.json", "--by", "Ada"
+        told = runner(monkeypatch, capsys)("review", project.folder.name, *options)
         assert "is not asked any more" not in told.err
         assert all('"by":"Ada"' in line for line in project.layout.events.read_text().splitlines())
     after = look(project)

@@ -190,6 +190,16 @@ def test_a_learned_program_is_outdated_when_what_it_was_learned_from_changes(tmp
     assert not of(project).outdated
 
 
+def test_a_learned_program_is_outdated_when_a_result_is_called_wrong_that_was_not_shown(tmp_path: Path) -> None:
+    project = applied(tmp_path)
+    project.set_verdict(SECOND, "wrong")
+    assert not of(project).outdated
+    project.set_verdict(THIRD, "wrong")
+    assert of(project).outdated and "replies" in of(project).next.say
+    project.set_verdict(THIRD, None)
+    assert not of(project).outdated
+
+
 def test_what_is_kept_for_assets_that_are_gone_is_named(tmp_path: Path) -> None:
     project = labelled(tmp_path)
     (tmp_path / "assets" / THIRD).unlink()
@@ -201,6 +211,7 @@ def test_a_review_counts_until_the_output_changes(tmp_path: Path) -> None:
     project.set_verdict(FIRST, "accepted")
     project.set_verdict(SECOND, "wrong", "left leg")
     assert [a.review for a in of(project).assets] == ["accepted", "wrong", None]
+    assert not of(project).outdated, "nothing is learned from what was said of a demonstrated asset"
     project.set_verdict(THIRD, "accepted")
     assert "table1/model.obj is not signed off" in of(project).next.say
     project.set_verdict(THIRD, None)

@@ -9,6 +9,7 @@ import pytest
 from meshforge.formats import load
 from meshforge.language import Delete, Each, Merge, Program
 from meshforge.project import Project
+from meshforge.signoff import BAR
 from meshforge.signoff.assessment import CALLED_WRONG_BEFORE, CONTRADICTED
 from meshforge.symbolic import Label
 from meshforge.synthesis import Step
@@ -178,13 +179,19 @@ def test_what_is_not_solved_counts_and_what_is_not_of_the_family_does_not(projec
     say(project, "right", OTHER)
     told = run("review", "racks")
     assert told.code == 0
-    assert told.out.startswith("4 of 4 are at least 95% sure, or were looked at, 2 excluded: not of this family.")
+    assert told.out.startswith(
+        f"4 of 4 are at least {100 * BAR:g}% sure, or were looked at, 2 excluded: not of this family."
+    )
     assert run("status", "racks", "--signed-off").code == 0
     project.set_verdict(BLOCK, None)
     say(project, "not-solved", BLOCK)
+    run("review", "racks")
     told = run("status", "racks", "--signed-off")
     assert told.code == 1
-    assert "4 of 5 are at least 95% sure, or were looked at, 1 excluded: not solved, 1 excluded: not of" in told.out
+    assert (
+        f"4 of 5 are at least {100 * BAR:g}% sure, or were looked at, 1 excluded: not solved, 1 excluded: not of"
+        in told.out
+    )
     assert run("status", "racks", "--signed-off", "--allow-excluded").code == 0
 
 

@@ -7,6 +7,7 @@ import pytest
 from meshforge.language import Program
 from meshforge.project import Project
 from meshforge.signoff import (
+    BAR,
     Assessment,
     AssetConfidence,
     Doubt,
@@ -32,7 +33,7 @@ def project(tmp_path_factory: pytest.TempPathFactory) -> Project:
 
 def assessment_of(*questions: ReviewQuestion) -> Assessment:
     rows = {
-        ONE: AssetConfidence(ONE, 0.97),
+        ONE: AssetConfidence(ONE, 0.999),
         OTHER: AssetConfidence(OTHER, 0.62, (Doubt("alarm", "nearly one solid block", share=0.3),)),
         "wrong": AssetConfidence("wrong", 0.99),
         "away": AssetConfidence("away", 0.1),
@@ -43,7 +44,7 @@ def assessment_of(*questions: ReviewQuestion) -> Assessment:
 
 def test_each_asset_is_signed_off_held_or_excluded_and_counted() -> None:
     view = view_assessment(assessment_of(), ReviewState({}, Program()), 3)
-    assert (view.number, view.bar, view.signed_off, view.held, view.excluded) == (3, 0.95, 1, 2, 1)
+    assert (view.number, view.bar, view.signed_off, view.held, view.excluded) == (3, BAR, 1, 2, 1)
     assert [(row.asset, row.state, row.told) for row in view.assets] == [
         (ONE, "signed", True),
         (OTHER, "held", False),
