@@ -55,7 +55,7 @@ _SIGNS = (
 )  # of the weights, then of a program and of a result: what speaks for never against
 _START = (0.5, 1.0, 0.5, 1.0, 0.0, 0.0, 0.0, 3.0, 1.0)
 _FEATURES = 5
-_THRESHOLDS = np.round(np.arange(0.5, 0.9991, 0.001), 3)
+_THRESHOLDS = np.round(np.arange(0.5, 0.9951, 0.005), 3)
 Look = list[list[float]]
 """Of each edit that was judged and that nobody had seen at one look: the features, results that were found right, what
 wrong ones say against the program [nats], whether it was called wrong, and whether it is right."""
@@ -108,16 +108,16 @@ def fit(folders: Sequence[Path], tell: Tell) -> None:
     kinds = [task(name).category for (name, *_), _ in sessions]
     left_out = dict[str, Floats]()
     for kind in sorted(set(kinds)):
-        left_out[kind] = _fit([looks for own, (_, looks) in zip(kinds, sessions, strict=True) if own != kind])
+        left_out[kind] = fit_weights([looks for own, (_, looks) in zip(kinds, sessions, strict=True) if own != kind])
     rated = [_rate(left_out[own], looks) for own, (_, looks) in zip(kinds, sessions, strict=True)]
     for what, some in (("first look", [looks[:1] for looks in rated]), ("all looks", rated)):
         pairs = [(share, bool(right)) for looks in some for look in looks for share, _, right in look.tolist()]
         tell(f"{what}, category left out: {calibrate(pairs)}")
     losses = dict[tuple[str, str], list[Floats]]()
     for own, ((_, _, folder), _), looks in zip(kinds, sessions, rated, strict=True):
-        losses.setdefault((own, folder), []).append(_lose(looks))
+        losses.setdefault((own, folder), []).append(lose(looks))
     threshold = choose_threshold([np.mean(some, axis=0) for some in losses.values()])
-    weights = _fit([looks for _, looks in sessions])
+    weights = fit_weights([looks for _, looks in sessions])
     data: dict[str, Any] = {"about": "made by `python -m benchmark.signoff fit FOLDER ...`"}
     names = zip(confidence.WEIGHTS, weights, strict=False)
     data["weights"] = {name: round(float(one), 3) for name, one in names} | confidence.BY_HAND
@@ -128,15 +128,17 @@ def fit(folders: Sequence[Path], tell: Tell) -> None:
 
 
 def choose_threshold(losses: Sequence[Floats]) -> float:
-    """The least threshold at which the expected loss of a new family is at most RISK, by conformal risk control.
+    """The least threshold at which the expected loss of a new family is at most RISK, by conformal risk control; 1 where
+    there is none.
 
     losses: of each family at each of the thresholds.
     """
     bound = (np.sum(losses, axis=0) + MOST_LOSS) / (len(losses) + 1)
-    return float(_THRESHOLDS[np.flatnonzero(bound > RISK).max(initial=-1) + 1 :][0])
+    left = _THRESHOLDS[np.flatnonzero(bound > RISK).max(initial=-1) + 1 :]
+    return float(left[0]) if len(left) else 1.0
 
 
-def _lose(looks: Sequence[Floats]) -> Floats:
+def lose(looks: Sequence[Floats]) -> Floats:
     """The loss of a session at each threshold: the share of the edits that are signed off without a look at its end,
     though they are wrong."""
     if not looks:
@@ -147,7 +149,7 @@ def _lose(looks: Sequence[Floats]) -> Floats:
     return found
 
 
-def _fit(sessions: Sequence[Sequence[Look]]) -> Floats:
+def fit_weights(sessions: Sequence[Sequence[Look]]) -> Floats:
     """The weights, then what speaks for a program and for a result, each session counting alike."""
     tables, worths = list[Floats](), list[Floats]()
     for looks in (one for one in sessions if any(one)):

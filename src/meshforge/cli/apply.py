@@ -47,7 +47,7 @@ def _run(given: ApplyArguments, work: ApplyWork, measures: CheckOptions | None) 
     """Run the program and print what became of each asset; the exit code."""
     if len(work.jobs) > 1:
         remark(str(batch.plan_run(work.jobs, work.out)))
-    shown = work.project.shown_measures() if work.project else ()
+    shown = work.project.reference_measures() if work.project else ()
     summary, started, done = batch.RunSummary(shown=shown), perf_counter(), list[batch.AssetOutcome]()
     run_options = batch.ApplyOptions(
         given.mass, given.link, given.dry_run, resume=not given.again, names=given.names, collision=given.collision

@@ -33,7 +33,7 @@ class RunReport:
 
 def summarize_outputs(project: Project) -> batch.RunSummary:
     """What runs have made of each asset so far, as if one run had just made all of it."""
-    summary, out = batch.RunSummary(shown=project.shown_measures()), project.layout.edited
+    summary, out = batch.RunSummary(shown=project.reference_measures()), project.layout.edited
     for asset in project.assets():
         stamp = batch.read_stamp(out, asset)
         if stamp is None:

@@ -341,7 +341,7 @@ class Store:
         """How the family stood when it was looked at last; None where that is not kept, or damaged."""
         return read_derived(self.layout.assessment, AssessmentFile)
 
-    def shown_measures(self) -> list[EditMeasures]:
+    def reference_measures(self) -> list[EditMeasures]:
         """The measures of edits that a person showed, accepted or corrected, as the last review found them."""
         last = self.assessment()
         return [one.measures for one in last.assets.values() if one.looked_at and one.measures] if last else []

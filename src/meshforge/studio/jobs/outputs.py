@@ -41,7 +41,7 @@ def start_apply(session: Session, request: ApplyJob) -> Job:
 
     def work(progress: JobProgress) -> str:
         summary, new = (
-            batch.RunSummary(shown=project.shown_measures()),
+            batch.RunSummary(shown=project.reference_measures()),
             prepare_new(session, progress, assets, split=request.split),
         )
         for failed in new.failed:
