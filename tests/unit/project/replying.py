@@ -129,7 +129,8 @@ CASES = {
     "one of a group is something else": Case(
         "group", ASKED, {"choice": "rail", "exceptions": {f"{LAST}#rail": "leg"}}, "any", "up"
     ),
-    "a reading": Case("reading", SHELVED, {"choice": "a"}, "any", "up", "ambiguous"),
+    "the reading that stands out": Case("reading", SHELVED, {"choice": "a"}, "any", "any", "ambiguous"),
+    "another reading": Case("reading", SHELVED, {"choice": "b"}, "any", "up", "ambiguous"),
     "none of the readings": Case("reading", SHELVED, {"choice": None}, "any", "any", "ambiguous"),
     "a label is repaired": Case("repair", MISLABELLED, {"choice": "knob"}, "up", "up", "mislabelled"),
     "a label is right": Case("repair", MISLABELLED, {"choice": "leg"}, "any", "any", "mislabelled"),
