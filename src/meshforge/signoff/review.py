@@ -36,7 +36,7 @@ from meshforge.synthesis import (
 _NO_ALARMS: Mapping[str, Sequence[str]] = MappingProxyType({})
 _TRUST = 2  # the power of the probability that labels on an asset are right, with which what is said there counts
 _LEAST_TRUST = 0.7  # below this nothing is asked there about readings
-_SUGGESTION_RIGHT = 0.5  # the share of held assets that an orientation which is suggested makes right
+_SUGGESTION_RIGHT = 0.5  # how often an orientation that is suggested, and not refused, is right
 _CLUSTER_RISK = (
     0.2  # edits of look-alikes that are wrong, as far as can be expected, from which on these are asked about
 )
@@ -66,6 +66,12 @@ def review_family(
     stopped = {one.asset for one in trial.trials if one.error} - state.accepted
     looked_at = (seen | state.demos.keys()) - stopped - trial.contradicted - state.wrong
     found = Assessment(assets, bar, looked_at, state.wrong, state.excluded)
+    if outcome.suggested and _sort(_ask_orientation(outcome.suggested, state, 1.0), state):
+        doubt = Doubt(
+            "orientation", "it may have to be turned first, and would be edited otherwise then", share=_SUGGESTION_RIGHT
+        )
+        unseen = [name for name in outcome.suggested.differs_on if name in assets and name not in looked_at]
+        found = replace(found, assets={**assets, **{name: assets[name].with_doubts([doubt]) for name in unseen}})
     if found.is_done:
         looks = [*_ask_last_looks(trial), *_ask_clusters(trial)]
         if any(one.id in state.snoozed for one in looks):  # who snoozes one wants no other
