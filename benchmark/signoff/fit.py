@@ -128,8 +128,9 @@ def fit(folders: Sequence[Path], tell: Tell) -> None:
 
 
 def choose_threshold(losses: Sequence[Floats]) -> float:
-    """The least threshold at which the expected loss of a new family is at most RISK, by conformal risk control; 1 where
-    there is none.
+    """The least threshold at which the expected loss of a new family is at most RISK; 1 where there is none.
+
+    By conformal risk control.
 
     losses: of each family at each of the thresholds.
     """
