@@ -11,16 +11,14 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import asdict
 from functools import cache
 from pathlib import Path
-from statistics import mean
 from typing import Any
 
 from benchmark.journal import ROOT
-from benchmark.report import Cell, Result, Table, Tell
-from benchmark.signoff.calibration import calibrate
+from benchmark.report import Result, Tell
 from benchmark.signoff.client import Client
 from benchmark.signoff.conditions import ERRS, NONE, list_tasks
-from benchmark.signoff.outcomes import last, mean_over_tasks, person_time, right_when_done, share, wrong_when_done
-from benchmark.signoff.queue import DONE, Review
+from benchmark.signoff.queue import Review
+from benchmark.signoff.session_tables import tell_amiss, tell_early, tell_ends
 from benchmark.signoff.sessions import Unit, run_sessions
 from benchmark.signoff.terminal import AnswersClient
 from benchmark.study import FLAT, REPORTED, TRUE
@@ -35,8 +33,6 @@ CONDITIONS = {
     AnswersClient.name: (FLAT, NONE),
 }
 """Under which labels, by what a person does it with."""
-MANY = 8
-"""Results corrected one by one, from which on a session counts as one that goes the long way."""
 TITLE = "Through the product, before anything was changed"
 
 
@@ -83,76 +79,9 @@ def measure(tell: Tell, quick: bool) -> Result:
     groups = dict[tuple[str, str], list[Review]]()
     for client, review in sessions:
         groups.setdefault((review.condition, client), []).append(review)
-    tables = (_tell_figures(groups), _tell_probabilities(groups), _tell_long(sessions))
+    through = {key: rows for key, rows in groups.items() if key[1] == Client.name}
+    tables = (tell_ends(groups), tell_early(through), tell_amiss(sessions))
     return Result("product_before", TITLE, tables, (), tuple(_list_notes(commit, [one for _, one in sessions])))
-
-
-_Groups = dict[tuple[str, str], list[Review]]
-
-
-def _tell_figures(groups: _Groups) -> Table:
-    columns = (
-        "condition",
-        "by",
-        "sessions",
-        "right and signed off when done, %",
-        "signed off, yet wrong, %",
-        "set aside, %",
-        "held, %",
-        "until done, s",
-        "not ended as done",
-        "results corrected one by one",
-        f"sessions with {MANY} or more, %",
-    )
-    return Table("When done", columns, tuple(_row(*key, rows) for key, rows in groups.items()))
-
-
-def _row(condition: str, client: str, rows: Sequence[Review]) -> tuple[Cell, ...]:
-    return (
-        condition,
-        client,
-        len(rows),
-        mean_over_tasks(rows, right_when_done),
-        mean_over_tasks(rows, wrong_when_done),
-        mean_over_tasks(rows, lambda row: share(len(row.aside), row.assets)),
-        mean_over_tasks(rows, lambda row: share(last(row).held, row.assets)),
-        mean_over_tasks(rows, person_time),
-        sum(row.ended != DONE for row in rows),
-        mean(map(_count_corrected, rows)),
-        share(sum(_count_corrected(row) >= MANY for row in rows), len(rows)),
-    )
-
-
-def _count_corrected(row: Review) -> int:
-    return row.acts.get("correction", 0)
-
-
-def _tell_probabilities(groups: _Groups) -> Table:
-    columns = ("condition", "by", "assets", "right, %", "calibration error", "AUROC",
-               "signed off before any look, %", "of these wrong")  # fmt: skip
-    named = [(*key, rows) for key, rows in groups.items() if key[1] == Client.name]
-    every = [row for *_, rows in named for row in rows]
-    lines = tuple(_probability_row(*one) for one in [*named, ("all", Client.name, every)])
-    return Table("The first program: assets that nobody demonstrated", columns, lines)
-
-
-def _probability_row(condition: str, client: str, rows: Sequence[Review]) -> tuple[Cell, ...]:
-    found = calibrate([pair for row in rows for pair in row.first])
-    early = share(sum(row.early for row in rows), sum(row.unseen for row in rows))
-    wrong = sum(row.early_wrong for row in rows)
-    return condition, client, found.count, 100 * found.right, found.error, found.order, early, wrong
-
-
-def _tell_long(sessions: Sequence[tuple[str, Review]]) -> Table:
-    """Sessions that did not end as done, or with more than a twentieth signed off wrong."""
-    columns = ("task", "condition", "by", "ended", "s", "right, %", "wrong, %", "set aside", "corrected")
-    rows = [
-        (one.task, one.condition, client, one.ended, person_time(one), right_when_done(one), wrong_when_done(one),
-         len(one.aside), _count_corrected(one))
-        for client, one in sessions
-        if one.ended != DONE or wrong_when_done(one) > 5
-    ]  # fmt: skip
-    return Table("Sessions not done, or with more than 5% signed off wrong", columns, tuple(rows))
 
 
 def _list_notes(commit: str, reviews: Sequence[Review]) -> Iterator[str]:

@@ -17,6 +17,7 @@ from benchmark.study.client import TaskClient
 from benchmark.study.condition import MOST, Condition
 from benchmark.study.desk import Bench, Desk
 from benchmark.study.keystrokes import CONFIRMATION, GLANCE
+from benchmark.study.labels import count_wrong
 from benchmark.study.project import name_by_files, open_project
 from benchmark.study.propagation import begin_by_hand
 from meshforge.common import MeshForgeError
@@ -42,7 +43,8 @@ class Review:
     set aside; first: of each asset not demonstrated, where a right edit is possible, the probability that the tool gave
     it when it first had a program, and whether it was right; wrong: assets signed off in the end, yet not right;
     unseen: assets that nobody had demonstrated when there was the first program; early, early_wrong: those of them that
-    were signed off then, and of these the ones that were not right.
+    were signed off then, and of these the ones that were not right; misnamed: on the meshes that were demonstrated by
+    then, the labels that had been wrong; refused: repairs that were proposed though no label was wrong.
     """
 
     task: str
@@ -63,6 +65,8 @@ class Review:
     unseen: int = 0
     early: int = 0
     early_wrong: int = 0
+    misnamed: int = 0
+    refused: int = 0
 
     @staticmethod
     def of_json(row: dict[str, Any]) -> Review:
@@ -92,7 +96,7 @@ class ReviewCourse:
         family = (self.bench.task.name, condition.name, seed, setting)
         self.log = Review(*family, len(self.bench.samples), len(self.judge.possible))
         client.take_labels()
-        self.desk = desk.with_meshes(client.read_meshes())
+        self._given, self.desk = desk, desk.with_meshes(client.read_meshes())
         self.shown = list[str]()
         self._given_up = set[str]()
         self._status: FamilyStatus | None = None
@@ -106,7 +110,7 @@ class ReviewCourse:
         log.reference = self.judge.count_right(self.desk, self.bench.task.program)
         log.program = str(program) if program else None
         log.seconds = {what: round(seconds, 2) for what, seconds in ledger.seconds.items()}
-        log.acts = dict(ledger.acts)
+        log.acts, log.refused = dict(ledger.acts), self.reviewer.refused
         log.aside = sorted(self._status.excluded) if self._status else []
         return log
 
@@ -146,6 +150,8 @@ class ReviewCourse:
         shares, signed = status.probabilities, set(status.signed_off)
         able = [name for name in rest if name in self.judge.possible]
         self.log.first = [(round(shares[name], 4), name in right) for name in able if name in shares]
+        true, given = self.bench.truth.meshes, self._given.meshes
+        self.log.misnamed = sum(count_wrong(true[name], given[name]) for name in self.shown)
         self.log.unseen = len(rest)
         self.log.early = len(signed.intersection(rest))
         self.log.early_wrong = len(signed.intersection(able) - right)

@@ -2,31 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import asdict
 from typing import Any
 
 from benchmark.journal import run_units
-from benchmark.report import Goal, Result, Tell
+from benchmark.report import Result, Tell
 from benchmark.signoff.before import read_before
-from benchmark.signoff.calibration import calibrate
-from benchmark.signoff.conditions import ASKED, ERRS, MAKE, NONE, PEOPLE, list_benches, list_tasks, open_bench_of
+from benchmark.signoff.client import Client
+from benchmark.signoff.conditions import ASKED, MAKE, PEOPLE, list_benches, list_tasks, open_bench_of
+from benchmark.signoff.goals import RIGHT, RIGHT_ON_REAL, list_goals
 from benchmark.signoff.opening import FirstLook, open_review
-from benchmark.signoff.outcomes import (
-    Group,
-    group,
-    mean_over_tasks,
-    person_time,
-    right_when_done,
-    share,
-    share_signed_off,
-    wrong_when_done,
-)
+from benchmark.signoff.outcomes import group
+from benchmark.signoff.paper import tell_paper
 from benchmark.signoff.queue import CAP, Review
+from benchmark.signoff.session_tables import tell_amiss, tell_early, tell_ends, tell_long, tell_misnamed
 from benchmark.signoff.sessions import Unit, read_reviews, run_sessions
-from benchmark.signoff.tables import list_tables, pairs_of
+from benchmark.signoff.tables import list_tables
 from benchmark.study import CONDITIONS, FLAT, TRUE, Condition
-from benchmark.study.condition import PROPAGATED, SYSTEMATIC, TELLING
 
 _QUICK = ("cup", (TRUE, FLAT))
 """The category and the conditions of a quick run, which has one person."""
@@ -46,14 +39,20 @@ def run(
 
     few: by one of them.
     """
-    units = [
-        Unit(name, one.name, seed, folder)
+    people = {
+        (name, one.name): [seed for seed, _ in list_benches(name, one, folder, few)]
         for name in names
         for one in conditions
-        for seed, _ in list_benches(name, one, folder, few)
+    }
+    units = [
+        Unit(name, one, some[place], folder)
+        for place in range(max(map(len, people.values())))  # so that a run that stops has had some people whole
+        for (name, one), some in people.items()
+        if place < len(some)
     ]
-    openings = run_units("signoff-opening", open_family_of, [unit[:4] for unit in units], tell)
-    return read_reviews(run_sessions(units, tell)), list(map(FirstLook.of_json, openings))
+    reviews = read_reviews(run_sessions(units, tell))
+    ones = [unit[:4] for unit in units if unit.seed == people[unit.task, unit.condition][0]]
+    return reviews, list(map(FirstLook.of_json, run_units("signoff-opening", open_family_of, ones, tell)))
 
 
 def open_family_of(name: str, condition: str, seed: int, folder: str | None) -> dict[str, Any]:
@@ -67,11 +66,20 @@ def summarize(
 ) -> Result:
     """What sessions come to; before: beside the tool as it was."""
     groups = group([one.name for one in ASKED], reviews, openings, read_before() if before else ())
+    by_client = {(one.condition, Client.name): one.reviews for one in groups}
+    more = (
+        tell_ends(by_client),
+        tell_early(by_client),
+        tell_misnamed(by_client),
+        tell_amiss([(Client.name, row) for row in reviews]),
+        tell_long(by_client),
+    )
+    paper = (tell_paper({one.condition: one.reviews for one in groups}),) if part == "review" else ()
     return Result(
         part,
         title,
-        list_tables(groups),
-        tuple(_list_goals(groups)),
+        (*paper, *list_tables(groups), *more),
+        tuple(list_goals(groups, RIGHT_ON_REAL if part == "real_families" else RIGHT)),
         _NOTES,
         tuple(_summarize_session(row) for row in reviews),
     )
@@ -82,67 +90,39 @@ def _summarize_session(row: Review) -> dict[str, Any]:
     return {key: value for key, value in asdict(row).items() if key != "first"}
 
 
-def _list_goals(groups: Sequence[Group]) -> Iterator[Goal]:
-    by_name = {one.condition: one for one in groups}
-    for condition in (TELLING, FLAT):
-        if one := by_name.get(condition.name):
-            right = mean_over_tasks(one.openings, lambda row: share(row.right, row.possible))
-            yield Goal(f"right before any question, {condition.name}, %", "at least", 88.0, right)
-    for condition, wanted in ((TELLING, 98.0), (FLAT, 98.0), (SYSTEMATIC, 97.0), (PROPAGATED[2], 98.0), (ERRS, 95.0)):
-        if one := by_name.get(condition.name):
-            right = mean_over_tasks(one.reviews, right_when_done)
-            yield Goal(f"right and signed off when done, {condition.name}, %", "at least", wanted, right)
-    least = min(groups, key=lambda one: mean_over_tasks(one.reviews, share_signed_off))
-    told = f"signed off when done, least of all conditions ({least.condition}), %"
-    yield Goal(told, "at least", 97.0, mean_over_tasks(least.reviews, share_signed_off))
-    most = max(groups, key=lambda one: mean_over_tasks(one.reviews, wrong_when_done))
-    told = f"signed off, yet wrong, most of all conditions ({most.condition}), %"
-    yield Goal(told, "at most", 1.0, mean_over_tasks(most.reviews, wrong_when_done))
-    for condition, most_seconds in ((TRUE, 60.0), (TELLING, 100.0), (FLAT, 100.0), (NONE, 200.0)):
-        if one := by_name.get(condition.name):
-            seconds = mean_over_tasks(one.reviews, person_time)
-            yield Goal(f"a person's time until done, {condition.name}, s", "at most", most_seconds, seconds)
-    if compared := [one for one in groups if one.before]:
-        sooner = sum(_is_sooner(one) for one in compared)
-        told = "conditions in which that is less than by hand, %"
-        yield Goal(told, "at least", 100.0, share(sooner, len(compared)))
-    found = calibrate(pairs_of(groups)[0])
-    yield Goal("calibration error before any question, ten bins", "at most", 0.05, found.error)
-    yield Goal("AUROC before any question", "at least", 0.9, found.order)
-    yield Goal("doubtful assets named at recall 0.95: wrong, %", "at least", 50.0, 100 * found.precision)
-
-
-def _is_sooner(one: Group) -> bool:
-    by_hand = mean_over_tasks(one.before, lambda row: row.brute.seconds)
-    return mean_over_tasks(one.reviews, person_time) < by_hand
-
-
 _NOTES = (
     f"Families of 25 different assets at one decomposition; {PEOPLE} people, one for each of the decompositions. An "
     "asset is *right* if its rules select what the reference selects under true labels, and the edited mesh meets the "
     "criterion. *Possible*: the reference itself meets it there under true labels; shares of right assets are of "
     "these, as on the others no edit is right: there, a result that is as the reference's is neither right nor wrong. "
     "Means over people, then over tasks.",
-    "*When done* counts what is right and signed off; what is held or set aside is not right.",
+    "*When done* counts what is right and signed off; what needs review or is excluded is not right.",
     "*As it was*: the tool before it had a queue, frozen in `benchmark/signoff/before.json` with the command and the "
     "commit that made it. *Then by hand*: that person glances at all results and mends what differs in each wrong one, "
     "at the prices at which the queue's person mends; *anew*: makes the whole edit again. By hand, who errs leaves "
     "hulls out and overlooks results; the people of *as it was* err in answers and confirmations only, those of the "
     "queue in all acts, demonstrations too.",
     f"Sessions are broken off after {CAP:.0f} s; their time counts as it stands then, so it is a lower bound, and what "
-    "is held then is not right.",
-    "*Before any question*: the task is taught as before, on the labels as the tool takes them now, until all of a "
-    "dozen results look right; the tool is told so. *The first program*: after the demonstrations that begin a session "
-    "of the queue. The probabilities are of possible assets that nobody showed or looked at; the goals are about all "
-    "conditions together.",
-    "A change of protocol: until this run the tool was not told of that dozen, and as it trusts no program of which "
-    "nobody has seen a result (decision 0034), it could not say more than 92% of any asset.",
+    "needs review then is not right.",
+    "*Before any question*, by the first of the people: the task is taught as before, on the labels as the tool takes "
+    "them now, until all of a dozen results look right; the tool is told so. *The first program*: after the "
+    "demonstrations that begin a session of the queue. The probabilities are of possible assets that nobody showed or "
+    "looked at; the goals are about all conditions together.",
     "The person of the queue does all in a project on disk, by the methods of `Project`: shows an asset, and another "
-    "one while a rule has had nothing to do, replies to each question by what is true, says which results are wrong, "
-    "and shows the edit there. Where a mesh is turned wrongly, or no program fits what was shown on it, the person "
-    "looks through its labels one by one, and corrects those that are wrong; where that does not help, the "
-    "demonstration is taken back. What is set aside or flagged counts as not right. Where no label is there at the "
-    "start, the hulls of a mesh that is shown are named by hand; after labels by hand come those by consensus.",
+    "one while a rule has had nothing to do, replies to each question by what is true, and says which results are "
+    "wrong, and which hulls the rules should have taken there; where a mesh is turned wrongly, or no program fits what "
+    "was shown on it, which labels are wrong, after a look at each; where that does not help, the demonstration is "
+    "taken back. Where no label is there at the start, the hulls of a mesh that is shown are named by hand; after "
+    "labels by hand come those by consensus.",
+    "*k* beside the paper counts demonstrations, corrected results, and answers about the program; without the queue "
+    "it counts demonstrations and answers. A task is right if each person ends with every asset that can be right "
+    "signed off, and none that is not; the paper and the sessions without the queue ask for the program alone, on "
+    "labels as they come.",
+    "*One wrong label*: of the labels as they came, exactly one was wrong on the meshes that were demonstrated before "
+    "the first program; elsewhere as many as the condition has, 8% where they are noisy.",
+    "A change of protocol: until this run sessions, but for those of the first part of this page, went through another "
+    "implementation of replies, by one person a task; these go through `Project`, by three. Goals are those of the "
+    "third edition.",
     "What would make these figures fail: labels that are wrong alike on look-alike hulls of most assets, which no vote "
     "finds; a rule about parts that few assets have, which no demonstration shows; a criterion that a right selection "
     "does not meet, which the tool cannot know of.",

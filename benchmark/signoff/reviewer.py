@@ -28,11 +28,14 @@ from meshforge.synthesis import Demonstration, Step
 
 
 class Reviewer:
-    """Everything that they do is noted in the ledger. slipped: assets whose demonstration has a slip of theirs."""
+    """Everything that they do is noted in the ledger.
+
+    slipped: assets whose demonstration has a slip of theirs; refused: repairs that they declined as no label was wrong.
+    """
 
     def __init__(self, bench: Bench, seed: int, condition: Condition) -> None:
         self.person, self.judge, self.ledger = Person(bench.truth, seed, condition), Judge(bench), Ledger()
-        self.slipped = set[str]()
+        self.slipped, self.refused = set[str](), 0
         self._looked_at = set[HullPlace]()
         self._truth = bench.truth
 
@@ -93,6 +96,7 @@ class Reviewer:
         labels = [choice.label for choice in question.choices]
         true = self._label_of(question.hulls[0]) if question.hulls else None
         right = labels.index(true) if true is not None and true in labels else None
+        self.refused += question.kind == "repair" and right is None
         self.ledger.add(question.kind, CONFIRMATION)
         return ReviewReply(question.id, self._slip(question, right))
 

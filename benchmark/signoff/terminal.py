@@ -5,6 +5,8 @@ from __future__ import annotations
 
 import io
 import json
+import subprocess
+import sys
 from collections.abc import Iterable, Mapping
 from contextlib import redirect_stderr, redirect_stdout
 from typing import Any, get_args
@@ -16,10 +18,13 @@ from meshforge.cli.label import label
 from meshforge.cli.main import load_command
 from meshforge.cli.review import review
 from meshforge.cli.synthesize import synthesize
+from meshforge.common import MeshForgeError
 from meshforge.project import Project
 from meshforge.signoff import HullPlace, ReviewChoice, ReviewQuestion, ReviewReply, UnseenLabelQuestion
 from meshforge.synthesis import Answer, Step
 
+_REFUSED = 2
+"""The exit code of a command that did nothing."""
 _PICTURES = "meshforge.cli.review.draw_question"  # nobody looks at them here, and they take half of the time
 _KINDS: dict[str, type[ReviewQuestion]] = {kind.kind: kind for kind in get_args(ReviewQuestion)}
 _KINDS["label"] = UnseenLabelQuestion
@@ -85,6 +90,22 @@ class AnswersClient(TerminalClient):
 
     name = "answers alone"
     shows_corrections = False
+
+
+class ProcessClient(AnswersClient):
+    """The same, each command in a process of its own."""
+
+    name = "answers alone, by processes"
+
+    def _call(self, command: str, *words: str) -> str:
+        self._told = None
+        line = [sys.executable, "-m", "meshforge", command, str(self.project.folder), *words]
+        done = subprocess.run(line, capture_output=True, text=True)
+        if done.returncode == _REFUSED:
+            said = done.stderr.strip().removeprefix("error: ")
+            where, told, problem = said.partition(": ")
+            raise MeshForgeError(problem or said, where=where if told else None)
+        return done.stdout
 
 
 def _format_reply(reply: ReviewReply) -> dict[str, Any]:

@@ -8,6 +8,7 @@ import json
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from dataclasses import fields as dataclass_fields
+from functools import cache
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any, Literal
@@ -208,7 +209,12 @@ def source_files(path: Path) -> list[Path]:
 def software_version(plugins: Iterable[Plugin | None] = ()) -> str:
     """The version of this program and of the plug-ins that are used, since others may write other files."""
     own = sorted({f"{plugin.package} {plugin.version}" for plugin in plugins if plugin})
-    return ", ".join([version("meshforge"), *own])
+    return ", ".join([_read_own_version(), *own])
+
+
+@cache
+def _read_own_version() -> str:
+    return version("meshforge")  # reading it takes half a millisecond, and each output asks
 
 
 @dataclass(frozen=True, slots=True)

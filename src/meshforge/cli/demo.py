@@ -78,9 +78,9 @@ def _run_all(out: Path, workers: int | None) -> None:
     with progress(len(assets), "drawing") as advance:
         report = out / "report.html"
         about = "Pictures show every table upright, as the program sees it; the files keep the frame they came in."
-        header = ReportHeader("Tables", about, seconds, standing=format_status(found, project.folder))
+        header = ReportHeader("Tables", about, seconds, standing=format_status(found))
         write_report(report, header, assets, program=program, options=ReportOptions(progress=advance))
-    _print_result(assets, seconds, project, report, format_status(found, project.folder))
+    _print_result(assets, seconds, project, report, format_status(found))
     raise typer.Exit(int(any(asset.status == "failed" for asset in assets)))
 
 

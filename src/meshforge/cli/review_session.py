@@ -49,7 +49,7 @@ class ReviewSession:
         """Ask at the terminal until nothing of some kinds is left, or the person has enough; what was said is kept at
         once."""
         while question := next((one for one in self.found.assessment.questions if isinstance(one, kinds)), None):
-            typer.echo(format_review(self.found, self._project.folder, held=_FEW_HELD))
+            typer.echo(format_review(self.found, held=_FEW_HELD))
             typer.echo(f"\n{format_question(question, draw_question(self._project, self.found, question))}")
             if not question.choices:
                 typer.echo(format_reply_help(question, shlex.quote(str(self._project.folder))))

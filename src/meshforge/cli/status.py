@@ -54,7 +54,7 @@ def _print_status(found: Status, folder: Path) -> None:
     for asset in found.lost:
         typer.echo(f"kept for an asset that is not there: {asset}")
     if found.rules is not None:
-        typer.echo(f"\n{format_status(found, folder)}")
+        typer.echo(f"\n{format_status(found)}")
     typer.echo(f"\nNext: {found.next.say}" + (f"\n  {found.next.command}" if found.next.command else ""))
 
 

@@ -72,9 +72,7 @@ def build_run_report(
         readers, alarms = project.readers(outcome.asset for outcome in outcomes), summary.find_alarms()
         demonstrated = frozenset(project.layout.ids_with("demonstrations"))
         assets = list(batch.compare_outcomes(outcomes, program, readers, demonstrated, measures, alarms, execution))
-    header = batch.ReportHeader(
-        title or found.name, seconds=seconds, figures=figures, standing=format_status(found, project.folder)
-    )
+    header = batch.ReportHeader(title or found.name, seconds=seconds, figures=figures, standing=format_status(found))
     return RunReport(header, add_standings(assets, found, back), program)
 
 

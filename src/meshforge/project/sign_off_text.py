@@ -4,13 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING
 
-from meshforge.common import format_share, join_names, quote_path
+from meshforge.common import format_share, join_names
 from meshforge.project.status import AssetStatus, Status
 from meshforge.signoff import AssetConfidence, ExclusionReason
-from meshforge.signoff.assessment import NO_LOOK
 from meshforge.signoff.question import NOT_OF_FAMILY, NOT_SOLVED
 
 if TYPE_CHECKING:
@@ -34,12 +32,12 @@ def format_counts(signed_off: int, total: int, held: int, excluded: Sequence[Exc
     return f"{some}{away}." if signed_off else f"Nothing is signed off{away}."
 
 
-def format_review(found: ProjectReview, folder: Path, held: int = MOST_HELD) -> str:
+def format_review(found: ProjectReview, held: int = MOST_HELD) -> str:
     """How the family stands: the counts, then why assets are held, the least probable first; held: lines at most."""
     one = found.assessment
     names = one.held
     lines = [format_counts(len(one.signed_off), len(one.assets), len(names), [*one.excluded.values()], one.bar)]
-    lines += _format_held([_hold(one.assets[name]) for name in names], folder, held, " (all with --json)")
+    lines += _format_held([_hold(one.assets[name]) for name in names], held, " (all with --json)")
     if names and one.question is None:
         lines.append(
             "Nothing is left to ask: show the edit on one of these (meshforge demonstrate), or say what is right there."
@@ -47,7 +45,7 @@ def format_review(found: ProjectReview, folder: Path, held: int = MOST_HELD) -> 
     return "\n".join(lines)
 
 
-def format_status(found: Status, folder: Path) -> str:
+def format_status(found: Status) -> str:
     """How far a project is signed off by its last review, and what is not, the least sure first."""
     waits = found.count(lambda asset: asset.sign_off == "sure")
     done = waits + found.count(lambda asset: asset.sign_off == "signed off")
@@ -56,9 +54,9 @@ def format_status(found: Status, folder: Path) -> str:
     lines = [format_counts(done, total, len(found.open_assets), excluded, found.bar)]
     if waits:
         lines.append(f"  {waits} of them will be signed off when their outputs are up to date (meshforge apply)")
-    lines += _format_held([_hold_of_status(asset) for asset in found.open_assets], folder, MOST_HELD)
+    lines += _format_held([_hold_of_status(asset) for asset in found.open_assets], MOST_HELD)
     doubted = [_AssetDoubt(one.id, None, format_standing(one)) for one in found.assets if one.found_since]
-    return "\n".join([*lines, *_format_held(doubted, folder, MOST_HELD)])
+    return "\n".join([*lines, *_format_held(doubted, MOST_HELD)])
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,7 +78,7 @@ def _hold_of_status(asset: AssetStatus) -> _AssetDoubt:
     return _hold(AssetConfidence(asset.id, asset.probability, asset.doubts))
 
 
-def _format_held(held: Sequence[_AssetDoubt], folder: Path, most: int, rest: str = "") -> Iterator[str]:
+def _format_held(held: Sequence[_AssetDoubt], most: int, rest: str = "") -> Iterator[str]:
     """A line for each reason with the assets held for it, in the order given; most: lines; rest: after the others."""
     reasons: dict[str, list[_AssetDoubt]] = {}
     for one in held:
@@ -89,9 +87,6 @@ def _format_held(held: Sequence[_AssetDoubt], folder: Path, most: int, rest: str
         shares = [one.probability for one in some if one.probability is not None]
         share = f" ({_format_range(shares)})" if shares else ""
         yield f"  {join_names([one.name for one in some])}{share}{': ' if reason else ''}{reason}"
-        if reason == NO_LOOK:
-            freed = "it" if len(some) == 1 else "most of them"
-            yield f"    One look at a result frees {freed}: meshforge review {quote_path(folder)}"
     more = sum(map(len, list(reasons.values())[most:]))
     if more:
         yield f"  and {more} more{rest}"

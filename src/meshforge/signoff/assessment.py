@@ -11,8 +11,6 @@ from meshforge.signoff.question import ExclusionReason, ReviewQuestion
 
 BAR = read_calibration().threshold
 """The probability from which on an asset is signed off without being looked at, unless a person chooses another."""
-NO_LOOK = "nobody has looked at a result of this program yet"
-"""The doubt of all edits by a program of which no result was looked at."""
 CALLED_WRONG = "a person said that this result is wrong"
 CALLED_WRONG_BEFORE = "a person said that a result here was wrong, and nobody has looked at it since"
 EDITED_SINCE = "it was edited by hand, and nobody has accepted that"

@@ -19,7 +19,6 @@ from meshforge.signoff.assessment import (
     CONTRADICTED,
     EDITED_SINCE,
     MOST_DOUBTS,
-    NO_LOOK,
     AssetConfidence,
     Doubt,
     DoubtKind,
@@ -245,11 +244,11 @@ class FamilyTrial:
 
     @cached_property
     def _program_doubts(self) -> tuple[Doubt, ...]:
-        """Whether too few results were looked at, or too many of these were wrong."""
+        """Whether too many of the results that were looked at were wrong."""
         share = 1 - self.trust_in_program()
         right, wrong = map(len, self.results)
-        text = f"{wrong} of the {right + wrong} results that were looked at are wrong" if wrong else NO_LOOK
-        return (Doubt("reading", text, share=share),) if share > _MOST_MISTRUST else ()
+        text = f"{wrong} of the {right + wrong} results that were looked at are wrong"
+        return (Doubt("reading", text, share=share),) if wrong and share > _MOST_MISTRUST else ()
 
     def _reading_doubts(self, place: int) -> list[Doubt]:
         found, trial = [], self.trials[place]

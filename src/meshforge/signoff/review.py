@@ -37,6 +37,7 @@ _NO_ALARMS: Mapping[str, Sequence[str]] = MappingProxyType({})
 _TRUST = 2  # the power of the probability that labels on an asset are right, with which what is said there counts
 _LEAST_TRUST = 0.7  # below this nothing is asked there about readings
 _SUGGESTION_RIGHT = 0.5  # how often an orientation that is suggested, and not refused, is right
+_LIKELY = 0.5  # a slip in what a person answered or accepted is asked about above this, unless a result is wrong
 _CLUSTER_RISK = (
     0.2  # edits of look-alikes that are wrong, as far as can be expected, from which on these are asked about
 )
@@ -166,11 +167,14 @@ def _ask_orientation(
 def _questions(
     family: FamilyTrial, found: Assessment, suggested: OrientationSuggestion | None
 ) -> Iterator[ReviewQuestion]:
+    """What a person said is not asked again as a slip, unless a result or a long rule speaks against it."""
     state, held = family.state, set(found.held)
     open_assets = [place for place, one in enumerate(family.trials) if one.asset in held]
     yield from (_ask_group(family, group) for group in find_groups(family, open_assets))
     yield from _ask_readings(family, found)
-    yield from (offer_label(state, family.posterior, ask_about_slip(state, slip)) for slip in family.slips)
+    told = [one for one in family.slips if one.slip.asset in state.demos or one.slip.share > _LIKELY]
+    asked = family.slips if family.results[1] else told
+    yield from (offer_label(state, family.posterior, ask_about_slip(state, slip)) for slip in asked)
     yield from _ask_results(family, found)
     if suggested:
         gain = _SUGGESTION_RIGHT * len(held.intersection(suggested.differs_on))

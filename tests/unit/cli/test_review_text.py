@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import cast
 
 from meshforge.project import ProjectReview, format_review
 from meshforge.signoff import Assessment, AssetConfidence, Doubt
-from meshforge.signoff.assessment import NO_LOOK
 
 
 def text_of(reasons: dict[str, tuple[float, str]], held: int = 12) -> list[str]:
@@ -18,15 +16,14 @@ def text_of(reasons: dict[str, tuple[float, str]], held: int = 12) -> list[str]:
     class Found:
         assessment = Assessment(assets)
 
-    return format_review(cast(ProjectReview, Found()), Path("my tables"), held).splitlines()[1:-1]
+    return format_review(cast(ProjectReview, Found()), held).splitlines()[1:-1]
 
 
 def test_assets_of_one_reason_share_a_line_with_the_range_of_their_probabilities() -> None:
-    reasons = {f"t{k}": (0.9 + 0.004 * k, NO_LOOK) for k in range(9)} | {"odd": (0.5, "a solid block")}
+    reasons = {f"t{k}": (0.9 + 0.004 * k, "unlike") for k in range(9)} | {"odd": (0.5, "a solid block")}
     assert text_of(reasons) == [
         "  odd (50%): a solid block",
-        f"  t0, t1, t2, t3, t4 and 4 more (90% to 93%): {NO_LOOK}",
-        "    One look at a result frees most of them: meshforge review 'my tables'",
+        "  t0, t1, t2, t3, t4 and 4 more (90% to 93%): unlike",
     ]
 
 
@@ -34,7 +31,3 @@ def test_the_order_is_that_of_the_least_probable_of_each_reason_and_what_is_not_
     reasons = {"a": (0.3, "x"), "b": (0.2, "y"), "c": (0.6, "x"), "d": (0.7, "z"), "e": (0.8, "z"), "f": (0.9, "")}
     assert text_of(reasons, held=2) == ["  b (20%): y", "  a, c (30% to 60%): x", "  and 3 more (all with --json)"]
     assert text_of(reasons)[-1] == "  f (90%)"
-
-
-def test_one_asset_that_waits_for_a_look_is_freed_by_it() -> None:
-    assert text_of({"a": (0.92, NO_LOOK)})[1] == "    One look at a result frees it: meshforge review 'my tables'"

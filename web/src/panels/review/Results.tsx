@@ -83,9 +83,9 @@ function List({ lines, onOpen }: { lines: readonly Line[]; onOpen: () => void })
 
 function Head({ line }: { line: Line & { kind: "head" } }) {
   return (
-    <h4 className={css.groupHead}>
+    <h3 className={css.groupHead}>
       {HEADS[line.group]} <span className={css.dim}>{line.count}</span>
-    </h4>
+    </h3>
   );
 }
 
