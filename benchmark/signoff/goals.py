@@ -21,11 +21,11 @@ from benchmark.signoff.session_tables import (
     MANY,
     MUCH_WRONG,
     is_amiss,
-    share_named_first,
     share_all_right,
     share_corrected_by_hand,
     share_early,
     share_early_wrong,
+    share_named_first,
     share_right_at_once,
 )
 from benchmark.signoff.tables import pairs_of
