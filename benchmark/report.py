@@ -108,9 +108,10 @@ def _verdict(goal: Goal) -> str:
 
 
 def format_table(table: Table) -> str:
-    """A table in Markdown, under its title where it has one."""
+    """A table in Markdown, under its title where it has one; *none* in place of no rows."""
     lines = [table.columns, *(tuple(format_cell(cell).replace("|", "/") for cell in row) for row in table.rows)]
     widths = [max(len(line[k]) for line in lines) for k in range(len(table.columns))]
     text = ["| " + " | ".join(c.ljust(w) for c, w in zip(line, widths, strict=True)) + " |" for line in lines]
     rule = "|" + "|".join("-" * (w + 2) for w in widths) + "|"
-    return "\n".join([*([f"**{table.title}**\n"] if table.title else []), text[0], rule, *text[1:]]) + "\n"
+    body = [text[0], rule, *text[1:]] if table.rows else ["*none*"]
+    return "\n".join([*([f"**{table.title}**\n"] if table.title else []), *body]) + "\n"
