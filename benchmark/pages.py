@@ -68,7 +68,7 @@ PAGES = (
         "signoff",
         "# Families signed off\n\nWritten by `script/bench` from the JSON beside it. Every run gives the same, but for "
         "times of the computer. A person's seconds are modelled by keystrokes, at prices fixed beforehand.\n",
-        ("product_before", "review", "real_families", "terminal_sessions", "lessons", "orientation", "posterior"),
+        ("review", "real_families", "terminal_sessions", "product_before", "lessons", "orientation", "posterior"),
         ("numpy", "scipy", "coal", "mujoco"),
     ),
     Page(

@@ -37,7 +37,7 @@ class Goal:
 
 @dataclass(frozen=True, slots=True)
 class Result:
-    """All that one part has found; details: figures for the JSON only."""
+    """All that one part has found; details: figures for the JSON only; lead: what a reader must know first."""
 
     part: str
     title: str
@@ -45,6 +45,7 @@ class Result:
     goals: tuple[Goal, ...] = ()
     notes: tuple[str, ...] = ()
     details: tuple[dict[str, Any], ...] = ()
+    lead: str = ""
 
     def to_json(self) -> dict[str, Any]:
         goals = [{**asdict(goal), "reached": goal.reached} for goal in self.goals]
@@ -55,7 +56,8 @@ class Result:
         tables = [Table(t["title"], tuple(t["columns"]), tuple(map(tuple, t["rows"]))) for t in data["tables"]]
         goals = [Goal(g["what"], g["sense"], g["wanted"], g["measured"]) for g in data["goals"]]
         details = tuple(data["details"])
-        return Result(data["part"], data["title"], tuple(tables), tuple(goals), tuple(data["notes"]), details)
+        notes, lead = tuple(data["notes"]), data.get("lead", "")
+        return Result(data["part"], data["title"], tuple(tables), tuple(goals), notes, details, lead)
 
 
 _LINES = {"tables": 3}
@@ -91,7 +93,7 @@ def format_cell(cell: Cell) -> str:
 
 def as_text(result: Result) -> str:
     """A result in Markdown."""
-    parts = [f"## {result.title}\n"]
+    parts = [f"## {result.title}\n", *([f"{result.lead}\n"] if result.lead else [])]
     if result.goals:
         rows = tuple(
             (g.what, f"{g.sense} {format_cell(g.wanted)}", format_cell(g.measured), _verdict(g)) for g in result.goals

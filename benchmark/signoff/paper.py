@@ -21,6 +21,13 @@ _KS: Mapping[int, str] = {1: "33.3", 2: "–", 3: "91.7"}
 _TEACHES = ("demonstration", "reading", "slip")
 
 
+_WHY = (
+    "Here a task counts where each of three people ends with every asset right that can be, and signed off, and each "
+    "reply about the program counts as a demonstration does; the paper counts demonstrations after which the program "
+    "is right."
+)
+
+
 def is_right(row: Review) -> bool:
     """Whether all assets that can be right are, and are signed off, and none is signed off that is not."""
     return last(row).sure == row.possible and not last(row).wrong
@@ -37,6 +44,16 @@ def share_of_tasks(rows: Sequence[Review], most: int | None = None) -> float:
     for row in rows:
         by_task[row.task].append(is_right(row) and (most is None or count_lessons(row) <= most))
     return share(sum(map(all, by_task.values())), len(by_task))
+
+
+def describe_gaps(table: Table) -> str:
+    """Where we are behind the paper, and why."""
+    behind = [
+        f"{what}: {told} in the paper, {ours:.3g} here"
+        for what, told, _, ours in table.rows
+        if told != "–" and (float(told) < float(ours) if "confirmations" in str(what) else float(told) > float(ours))
+    ]
+    return f"Behind the paper: {'; '.join(behind)}. {_WHY}" if behind else "Nowhere behind the paper's rows."
 
 
 def tell_paper(groups: Mapping[str, Sequence[Review]]) -> Table:

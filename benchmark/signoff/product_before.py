@@ -112,11 +112,6 @@ def _list_notes(commit: str, reviews: Sequence[Review]) -> Iterator[str]:
         "those by consensus."
     )
     yield (
-        "The sessions of *A family signed off* and *Real families signed off* on this page, as far as they are older "
-        "than this part, went through another implementation of replies, which no command and no page of the studio "
-        "used: a result that was wrong was corrected hull by hull there, and counted as it was left."
-    )
-    yield (
         "*Corrected one by one*: edits shown after a result was called wrong. *Before any look*: when there is the "
         "first program. Means over tasks; of the probabilities over assets on which a right edit is possible."
     )

@@ -14,7 +14,7 @@ from benchmark.signoff.conditions import ASKED, MAKE, PEOPLE, list_benches, list
 from benchmark.signoff.goals import RIGHT, RIGHT_ON_REAL, list_goals
 from benchmark.signoff.opening import FirstLook, open_review
 from benchmark.signoff.outcomes import group
-from benchmark.signoff.paper import tell_paper
+from benchmark.signoff.paper import describe_gaps, tell_paper
 from benchmark.signoff.queue import CAP, Review
 from benchmark.signoff.session_tables import tell_amiss, tell_early, tell_ends, tell_long, tell_misnamed
 from benchmark.signoff.sessions import Unit, read_reviews, run_sessions
@@ -74,14 +74,15 @@ def summarize(
         tell_amiss([(Client.name, row) for row in reviews]),
         tell_long(by_client),
     )
-    paper = (tell_paper({one.condition: one.reviews for one in groups}),) if part == "review" else ()
+    paper = tell_paper({one.condition: one.reviews for one in groups}) if part == "review" else None
     return Result(
         part,
         title,
-        (*paper, *list_tables(groups), *more),
+        (*([paper] if paper else []), *list_tables(groups), *more),
         tuple(list_goals(groups, RIGHT_ON_REAL if part == "real_families" else RIGHT)),
         _NOTES,
         tuple(_summarize_session(row) for row in reviews),
+        describe_gaps(paper) if paper else "",
     )
 
 
@@ -120,9 +121,9 @@ _NOTES = (
     "labels as they come.",
     "*One wrong label*: of the labels as they came, exactly one was wrong on the meshes that were demonstrated before "
     "the first program; elsewhere as many as the condition has, 8% where they are noisy.",
-    "A change of protocol: until this run sessions, but for those of the first part of this page, went through another "
-    "implementation of replies, by one person a task; these go through `Project`, by three. Goals are those of the "
-    "third edition.",
+    "A change of protocol: until this run all sessions but those of *Through the product, before anything was changed* "
+    "went through another implementation of replies, by one person a task; these go through `Project`, by three. "
+    "Goals are those of the third edition.",
     "What would make these figures fail: labels that are wrong alike on look-alike hulls of most assets, which no vote "
     "finds; a rule about parts that few assets have, which no demonstration shows; a criterion that a right selection "
     "does not meet, which the tool cannot know of.",
