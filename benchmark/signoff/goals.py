@@ -66,7 +66,7 @@ def list_goals(groups: Sequence[Group], right: Mapping[Condition, float]) -> Ite
     told = f"sessions with {MANY} or more results corrected one by one, %"
     yield Goal(told, "at most", 2.0, share_corrected_by_hand(every))
     if compared := [one for one in groups if one.before]:
-        told = "conditions in which that is less than by hand, %"
+        told = "conditions in which a person's time is less than by hand, %"
         yield Goal(told, "at least", 100.0, share(sum(map(_is_sooner, compared)), len(compared)))
     yield from _list_goals_of_probabilities(groups, every)
 

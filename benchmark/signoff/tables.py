@@ -56,7 +56,7 @@ def _tell_right(groups: Sequence[Group]) -> Table:
         "when done: right, %",
         "of all assets, %",
         "signed off, %",
-        "set aside, %",
+        "excluded, %",
         "signed off, yet wrong, %",
     )
     return Table("Edits that are right", columns, tuple(map(_right_row, groups)))
@@ -186,7 +186,7 @@ def _tell_curves(groups: Sequence[Group]) -> Table:
 
 def _tell_tasks(one: Group) -> Table:
     brute = brute_of(one)
-    columns = ("task", "possible", "right when done, %", "signed off, yet wrong, %", "set aside", "s", "by hand, s")
+    columns = ("task", "possible", "right when done, %", "signed off, yet wrong, %", "excluded", "s", "by hand, s")
     rows: list[tuple[Cell, ...]] = []
     for name in dict.fromkeys(row.task for row in one.reviews):
         mine = [row for row in one.reviews if row.task == name]
