@@ -125,14 +125,14 @@ _NOTES = (
     "went through another implementation of replies, by one person a task; these go through `Project`, by three. "
     "Goals are those of the third edition.",
     "Not reached, and why. *Before any look*: of the assets that are said to be right at 98% one in 500 is wrong, of "
-    "those at 95% one in 40; a lower threshold would sign a fifth off, and more of it wrong than is allowed. *Seconds*: "
-    "under true labels the demonstration takes 23 of them, answers about the program 11, results looked at 10. *From 2 "
-    "and none*: labels that are carried from one or two meshes are wrong alike on look-alike hulls; a label that these "
-    "meshes lack is then thought of on all hulls that are far from theirs, so nothing is sure; and a group is worth its "
-    "own hulls alone, though what is said of them is carried to others, so that results are corrected one by one "
-    "instead. *A person who errs*: a picture or a hull taken by mistake, which nothing contradicts, makes a longer rule "
-    "that is right wherever anybody looked. *One wrong label*: the first rule is bent to it; the questions that follow "
-    "find it.",
+    "those at 95% one in 40; a lower threshold would sign a fifth off, and more of it wrong than is allowed. "
+    "*Seconds*: under true labels the demonstration takes 23 of them, answers about the program 11, results looked at "
+    "10. *From 2 and none*: labels that are carried from one or two meshes are wrong alike on look-alike hulls; a "
+    "label that these meshes lack is then thought of on all hulls that are far from theirs, so nothing is sure; and a "
+    "group is worth its own hulls alone, though what is said of them is carried to others, so that results are "
+    "corrected one by one instead. *A person who errs*: a picture or a hull taken by mistake, which nothing "
+    "contradicts, makes a longer rule that is right wherever anybody looked. *One wrong label*: the first rule is "
+    "bent to it; the questions that follow find it.",
     "What would make these figures fail: labels that are wrong alike on look-alike hulls of most assets, which no vote "
     "finds; a rule about parts that few assets have, which no demonstration shows; a criterion that a right selection "
     "does not meet, which the tool cannot know of.",
