@@ -26,6 +26,7 @@ from meshforge.synthesis import Answer, Step
 _REFUSED = 2
 """The exit code of a command that did nothing."""
 _PICTURES = "meshforge.cli.review.draw_question"  # nobody looks at them here, and they take half of the time
+_PROCESSORS = "meshforge.batch.workers.count_processors"  # sessions run side by side; results are the same
 _KINDS: dict[str, type[ReviewQuestion]] = {kind.kind: kind for kind in get_args(ReviewQuestion)}
 _KINDS["label"] = UnseenLabelQuestion
 _COMMANDS = {one.__name__: load_command(one.__name__) for one in (demonstrate, label, review, synthesize)}
@@ -80,7 +81,8 @@ class TerminalClient(Client):
     def _call(self, command: str, *words: str) -> str:
         """What a command prints. Raises MeshForgeError as the command does."""
         self._told, out = None, io.StringIO()
-        with redirect_stdout(out), redirect_stderr(io.StringIO()), patch(_PICTURES, return_value=[]):
+        alone = patch(_PROCESSORS, return_value=0)
+        with redirect_stdout(out), redirect_stderr(io.StringIO()), patch(_PICTURES, return_value=[]), alone:
             _COMMANDS[command].main([str(self.project.folder), *words], command, standalone_mode=False)
         return out.getvalue()
 
