@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from benchmark.report import Goal, Result, Tell
 from benchmark.signoff.conditions import NONE, list_people, list_tasks
 from benchmark.signoff.outcomes import mean_over_tasks, right_when_done, share, wrong_when_done
+from benchmark.signoff.queue import Review
 from benchmark.signoff.session_tables import tell_amiss, tell_ends, tell_long
 from benchmark.signoff.sessions import Unit, read_reviews, run_sessions
 from benchmark.signoff.terminal import AnswersClient, ProcessClient
@@ -29,19 +32,23 @@ def measure(tell: Tell, quick: bool) -> Result:
     rows = read_reviews(run_sessions(units, tell))
     same = [one for one in units if one.task in _BY_PROCESSES and one.condition == FLAT.name][: 1 if quick else _MANY]
     again = read_reviews(run_sessions([one._replace(client=ProcessClient.name) for one in same], tell))
-    agree = sum(row in rows for row in again)
-    groups = {(one.name, AnswersClient.name): [row for row in rows if row.condition == one.name] for one in _WANTED}
+    return summarize(rows, again)
+
+
+def summarize(rows: Sequence[Review], again: Sequence[Review]) -> Result:
+    """What the sessions come to; again: some of them, held by real processes."""
+    some = {one: [row for row in rows if row.condition == one.name] for one in _WANTED}
+    groups = {(one.name, AnswersClient.name): mine for one, mine in some.items()}
     goals = [
-        Goal(f"right and signed off when done, {one.name}, %", "at least", wanted,
-             mean_over_tasks(groups[one.name, AnswersClient.name], right_when_done))
-        for one, wanted in _WANTED.items()
+        Goal(f"right and signed off when done, {one.name}, %", "at least", _WANTED[one],
+             mean_over_tasks(mine, right_when_done))
+        for one, mine in some.items()
     ]  # fmt: skip
-    worst = max(mean_over_tasks(some, wrong_when_done) for some in groups.values())
+    worst = max(mean_over_tasks(mine, wrong_when_done) for mine in some.values())
     goals.append(Goal("signed off, yet wrong, most of all conditions, %", "at most", 1.0, worst))
-    goals.append(Goal("sessions by processes of their own that come to the same, %", "at least", 100.0,
-                      share(agree, len(again))))  # fmt: skip
-    told = [(AnswersClient.name, row) for row in rows]
-    tables = (tell_ends(groups), tell_amiss(told), tell_long(groups))
+    agree = share(sum(row in rows for row in again), len(again))
+    goals.append(Goal("sessions by processes of their own that come to the same, %", "at least", 100.0, agree))
+    tables = (tell_ends(groups), tell_amiss([(AnswersClient.name, row) for row in rows]), tell_long(groups))
     return Result("terminal_sessions", "By files of answers alone", tables, tuple(goals), _NOTES)
 
 
