@@ -11,7 +11,7 @@ from benchmark.study.client import TaskClient
 from benchmark.study.condition import MOST, Condition
 from benchmark.study.desk import Bench, Desk, Selections
 from benchmark.study.person import Person
-from benchmark.study.project import SUFFIX, name_by_files, open_project
+from benchmark.study.project import name_by_files, open_project
 from benchmark.study.propagation import HandLabels, begin_by_hand, label_by_hand
 from benchmark.study.session import Round, Session
 from meshforge.common import MeshForgeError, UsageError
@@ -31,8 +31,8 @@ def teach_task(
     """
     with open_course(name_by_files(bench), condition, seed, takes_labels=takes_labels) as course:
         log = course.session(others)
-    shown = [name.removesuffix(SUFFIX) for name in log.shown]
-    return replace(log, shown=shown, failures={name.removesuffix(SUFFIX): why for name, why in log.failures.items()})
+    shown = [name.rpartition(".")[0] for name in log.shown]
+    return replace(log, shown=shown, failures={name.rpartition(".")[0]: why for name, why in log.failures.items()})
 
 
 @contextmanager

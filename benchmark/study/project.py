@@ -8,9 +8,11 @@ from contextlib import contextmanager
 from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy as np
 
+from benchmark.assets.storage import Sample
 from benchmark.study.desk import Bench, Desk, Start
 from meshforge.formats import read
 from meshforge.geometry import Shape
@@ -18,8 +20,8 @@ from meshforge.language import Orient
 from meshforge.project import Project
 from meshforge.symbolic import SymbolicMesh, write_labels
 
-SUFFIX = ".obj"
-"""What the name of a mesh ends with in a project."""
+SUFFIX, _SUFFIX_OF_BODIES = ".obj", ".urdf"
+"""What the name of a mesh ends with in a project: of one body, and of several, which an OBJ file cannot tell apart."""
 _MEMORY = Path("/dev/shm")  # a disk in memory, where there is one
 
 
@@ -29,23 +31,57 @@ def name_by_files(bench: Bench) -> Bench:
     product orders the vertices of a hull in its own way. What it remembers stays with it."""
 
     def rename(name: str) -> str:
-        return f"{name}{SUFFIX}"
+        return f"{name}{_suffix_of(bench.samples[name].mesh)}"
 
     start = bench.start
     parts = {rename(name): labels for name, labels in start.parts.items()}
     with open_folder() as folder:
-        samples = [
-            replace(sample, name=rename(name), mesh=_read_back(sample.mesh, folder / rename(name)))
-            for name, sample in bench.samples.items()
-        ]
+        samples = [_read_back(replace(sample, name=rename(name)), folder) for name, sample in bench.samples.items()]
     return Bench(bench.task, samples, Start(tuple(map(rename, start.by_hand)), parts))
 
 
-def _read_back(mesh: SymbolicMesh, file: Path) -> SymbolicMesh:
-    """A mesh with its shapes as they are read from a file; all else is as it was."""
-    file.write_text(_format_obj((hull.shape for hull in mesh.hulls), mesh.index), encoding="utf-8")
-    rows = zip(mesh.hulls, read(file).geoms, strict=True)
-    return SymbolicMesh(tuple(replace(hull, shape=geom.shape) for hull, geom in rows))
+def _suffix_of(mesh: SymbolicMesh) -> str:
+    return _SUFFIX_OF_BODIES if len({hull.body for hull in mesh.hulls}) > 1 else SUFFIX
+
+
+def _read_back(sample: Sample, folder: Path) -> Sample:
+    """A mesh with its hulls as they are read from a file, with their labels: body by body, if there are several."""
+    bodies = list(dict.fromkeys(hull.body for hull in sample.mesh.hulls))
+    rows = sorted(zip(sample.mesh.hulls, sample.shares, strict=True), key=lambda row: bodies.index(row[0].body))
+    mesh = SymbolicMesh(tuple(hull for hull, _ in rows))
+    geoms = read(_write_mesh(mesh, folder / sample.name)).geoms
+    if len(bodies) == 1:
+        hulls = [replace(hull, shape=geom.shape) for hull, geom in zip(mesh.hulls, geoms, strict=True)]
+    else:
+        hulls = [
+            replace(hull, name=geom.name, body=geom.body, shape=geom.shape)
+            for hull, geom in zip(mesh.hulls, geoms, strict=True)
+        ]
+    return replace(sample, mesh=SymbolicMesh(tuple(hulls)), shares=tuple(shares for _, shares in rows))
+
+
+def _write_mesh(mesh: SymbolicMesh, file: Path) -> Path:
+    """Write a mesh, as the suffix says."""
+    if file.suffix == SUFFIX:
+        file.write_text(_format_obj((hull.shape for hull in mesh.hulls), mesh.index), encoding="utf-8")
+        return file
+    robot = ElementTree.Element("robot", name=file.stem)
+    ElementTree.SubElement(robot, "link", name="root")
+    pieces = file.with_suffix("")
+    pieces.mkdir()
+    for body in dict.fromkeys(hull.body for hull in mesh.hulls):
+        link = ElementTree.SubElement(robot, "link", name=body)
+        for number, hull in ((k, one) for k, one in enumerate(mesh.hulls) if one.body == body):
+            piece = pieces / f"{number}.obj"
+            piece.write_text(_format_obj([hull.shape]), encoding="utf-8")
+            collision = ElementTree.SubElement(link, "collision", name=hull.name.removeprefix(f"{body}/"))
+            geometry = ElementTree.SubElement(collision, "geometry")
+            ElementTree.SubElement(geometry, "mesh", filename=f"{pieces.name}/{piece.name}")
+        joint = ElementTree.SubElement(robot, "joint", name=f"to {body}", type="fixed")
+        ElementTree.SubElement(joint, "parent", link="root")
+        ElementTree.SubElement(joint, "child", link=body)
+    ElementTree.ElementTree(robot).write(file, encoding="utf-8")
+    return file
 
 
 @contextmanager
@@ -90,8 +126,7 @@ def create_project(
     assets = folder / "assets"
     assets.mkdir()
     for asset, mesh in meshes.items():
-        shapes = (hull.shape for hull in mesh.hulls)
-        (assets / asset).write_text(_format_obj(shapes, mesh.index), encoding="utf-8")
+        _write_mesh(mesh, assets / asset)
     files = [assets / asset for asset in meshes]
     return Project.create(folder / "project", files, name=name, vocabulary=vocabulary, orient=orient)
 
