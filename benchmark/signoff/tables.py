@@ -146,6 +146,7 @@ def _tell_calibration(groups: Sequence[Group]) -> Table:
         (name, when, *_calibration_row(calibrate(pairs)))
         for name, *both in [*((one.condition, *pairs_of([one])) for one in groups), ("all", *pairs_of(groups))]
         for when, pairs in zip(("taught as before", "the first program"), both, strict=True)
+        if pairs
     ]
     return Table("The probabilities of assets that nobody showed", columns, tuple(rows))
 
