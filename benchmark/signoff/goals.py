@@ -73,11 +73,17 @@ def list_goals(groups: Sequence[Group], right: Mapping[Condition, float]) -> Ite
 
 def _list_goals_of_probabilities(groups: Sequence[Group], every: Sequence[Review]) -> Iterator[Goal]:
     before, first = map(calibrate, pairs_of(groups))
+    for one in groups:
+        if one.openings and one.condition in (TELLING.name, FLAT.name):
+            right = mean_over_tasks(one.openings, lambda row: share(row.right, row.possible))
+            yield Goal(f"right before any question, {one.condition}, %", "at least", 88.0, right)
     yield Goal("calibration error at the first program, ten bins", "at most", 0.06, first.error)
     yield Goal("AUROC at the first program", "at least", 0.93, first.order)
     if before.count:
         yield Goal("calibration error, taught as before", "at most", 0.05, before.error)
         yield Goal("AUROC, taught as before", "at least", 0.91, before.order)
+        told = "doubtful assets named at recall 0.95, taught as before: wrong, %"
+        yield Goal(told, "at least", 50.0, 100 * before.precision)
     early = [row for one in groups if one.condition in {c.name for c in _EARLY} for row in one.reviews]
     if early:
         pooled = "labels noisy (flat), systematic, from 2 and none"
