@@ -106,8 +106,7 @@ class FamilyContext:
 
         self.table, self.seen, self.count = table, seen, len(seen.labels)
         self.free = seen.known & ~seen.fixed
-        speaking = np.unique(table.owner[seen.given]) if seen.given.any() else np.unique(table.owner[seen.known])
-        self.lookalikes = table.find_lookalikes(speaking.tolist())
+        self.lookalikes = table.find_lookalikes(seen)
         a, b = table.touching.T
         n = len(table.owner)
         links = csr_matrix((np.ones(2 * len(a)), (np.concatenate([a, b]), np.concatenate([b, a]))), shape=(n, n))

@@ -6,6 +6,7 @@ import os
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 import numpy.typing as npt
@@ -88,53 +89,79 @@ def take_nearest(hulls: Places, apart: Floats, count: int) -> tuple[Places, Floa
     return np.take_along_axis(hulls, order, axis=1), np.take_along_axis(apart, order, axis=1)
 
 
-def find_lookalikes(rows: Floats, metric: Floats, owner: Ints, first: Sequence[int]) -> Lookalikes:
-    """Compare hulls by the sum of the weighted differences of their rows (n, columns), by all processors.
+class LookalikeSearch:
+    """Compares hulls by the sum of the weighted differences of their rows (n, columns), by all processors.
 
-    metric: the weight of each column; owner: (n,) the mesh of each, ascending; first: meshes that are looked at before
-    others where there are too many.
+    metric: the weight of each column; owner: (n,) the mesh of each, ascending.
     """
-    from scipy.spatial.distance import cdist  # lazy: 0.5 s, half of all imports
 
-    meshes, starts = np.unique(owner, return_index=True)
-    ends = np.append(starts[1:], len(owner)).astype(np.int64)
-    chosen = _choose_meshes(meshes, first)
-    kept = len(chosen) if len(meshes) <= MOST_MESHES else min(KEPT_MESHES, len(chosen))
-    others = np.zeros((len(rows), kept, PER_MESH), dtype=np.int32)
-    apart = np.full((len(rows), kept, PER_MESH), np.inf, float if kept == len(meshes) else np.float32)
-    compared = [
-        (int(meshes[k]), np.arange(starts[k], ends[k], dtype=np.int32), rows[starts[k] : ends[k]] * metric)
-        for k in chosen
-    ]
+    def __init__(self, rows: Floats, metric: Floats, owner: Ints) -> None:
+        self.rows, self.metric, self.owner = rows, metric, owner
+        self._meshes, starts = np.unique(owner, return_index=True)
+        self._starts = np.append(starts, len(owner)).astype(np.int64)
+        self._base = pick_evenly(self._meshes, MOST_MESHES)
+        self._last: tuple[frozenset[int], Lookalikes] | None = None
 
-    def compare(begin: int) -> None:
-        some = slice(begin, min(begin + _AT_ONCE, len(rows)))
-        hulls, gaps = _compare(rows[some] * metric, owner[some], compared)
-        if gaps.shape[1] > kept:
-            order = np.argsort(np.round(gaps[:, :, 0] / _GRAIN), axis=1, kind="stable")[:, :kept, None]
-            hulls, gaps = np.take_along_axis(hulls, order, axis=1), np.take_along_axis(gaps, order, axis=1)
-        others[some], apart[some] = hulls, gaps
+    def find(self, speaking: Sequence[int]) -> Lookalikes:
+        """The nearest hulls of each; what was found last is kept.
 
-    with ThreadPoolExecutor(os.cpu_count()) as pool:
-        for _ in pool.map(compare, range(0, len(rows), _AT_ONCE)):
-            pass
-    own, own_apart = np.zeros((len(rows), OF_OWN), dtype=np.int32), np.full((len(rows), OF_OWN), np.inf)
-    for start, end in zip(starts.tolist(), ends.tolist(), strict=True):
-        weighted = rows[start:end] * metric
-        gaps = cdist(weighted, weighted, "cityblock")
-        np.fill_diagonal(gaps, np.inf)
-        hulls = np.broadcast_to(np.arange(start, end, dtype=np.int32), gaps.shape)
-        own[start:end], own_apart[start:end] = take_nearest(hulls, gaps, OF_OWN)
-    return Lookalikes(others, apart, own, own_apart)
+        speaking: meshes of which something is said; where there are too many meshes to look at all, up to `MOST_MESHES`
+        of these are looked at, beside those that always are. One more costs no more than itself.
+        """
+        beside = np.setdiff1d(np.array(speaking, dtype=np.int64), self._base)
+        beside = pick_evenly(beside, MOST_MESHES - int(np.isin(self._base, speaking).sum()))
+        wanted = frozenset(beside.tolist())
+        if self._last is None or not self._last[0] <= wanted:
+            self._last = frozenset(), self._extend(self._find_own(), self._base)
+        last, found = self._last
+        if last != wanted:
+            self._last = wanted, self._extend(found, np.array(sorted(wanted - last)))
+        return self._last[1]
 
+    def _find_own(self) -> Lookalikes:
+        """Those of the same mesh alone."""
+        from scipy.spatial.distance import cdist  # lazy: 0.5 s, half of all imports
 
-def _choose_meshes(meshes: Ints, first: Sequence[int]) -> Ints:
-    """Places among the meshes of those that are looked at."""
-    if len(meshes) <= MOST_MESHES:
-        return np.arange(len(meshes))
-    preferred = pick_evenly(np.flatnonzero(np.isin(meshes, np.array(first, dtype=np.int64))), MOST_MESHES)
-    rest = pick_evenly(np.setdiff1d(np.arange(len(meshes)), preferred), MOST_MESHES - len(preferred))
-    return np.sort(np.concatenate([preferred, rest]))
+        count, starts = len(self.rows), self._starts.tolist()
+        own, own_apart = np.zeros((count, OF_OWN), np.int32), np.full((count, OF_OWN), np.inf)
+        for start, end in pairwise(starts):
+            weighted = self.rows[start:end] * self.metric
+            gaps = cdist(weighted, weighted, "cityblock")
+            np.fill_diagonal(gaps, np.inf)
+            hulls = np.broadcast_to(np.arange(start, end, dtype=np.int32), gaps.shape)
+            own[start:end], own_apart[start:end] = take_nearest(hulls, gaps, OF_OWN)
+        precision = float if len(self._meshes) <= MOST_MESHES else np.float32
+        nothing = np.zeros((count, 0, PER_MESH))
+        return Lookalikes(nothing.astype(np.int32), nothing.astype(precision), own, own_apart)
+
+    def _extend(self, known: Lookalikes, more: Ints) -> Lookalikes:
+        """The same where more meshes are looked at."""
+        places = np.searchsorted(self._meshes, more)
+        spans = [slice(start, end) for start, end in zip(self._starts[places], self._starts[places + 1], strict=True)]
+        compared = [
+            (mesh, np.arange(span.start, span.stop, dtype=np.int32), self.rows[span] * self.metric)
+            for mesh, span in zip(more.tolist(), spans, strict=True)
+        ]
+        width = known.others.shape[1] + len(compared)
+        kept = width if len(self._meshes) <= MOST_MESHES else min(KEPT_MESHES, width)
+        others = np.zeros((len(self.rows), kept, PER_MESH), dtype=np.int32)
+        apart = np.full(others.shape, np.inf, known.apart.dtype)
+
+        def compare(begin: int) -> None:
+            some = slice(begin, min(begin + _AT_ONCE, len(self.rows)))
+            hulls, gaps = _compare(self.rows[some] * self.metric, self.owner[some], compared)
+            hulls = np.concatenate([known.others[some], hulls], axis=1)
+            gaps = np.concatenate([known.apart[some], gaps.astype(apart.dtype)], axis=1)
+            if gaps.shape[1] > kept:
+                whose = self.owner[hulls[:, :, 0]]
+                order = np.lexsort((whose, np.round(gaps[:, :, 0].astype(float) / _GRAIN)), axis=1)[:, :kept, None]
+                hulls, gaps = np.take_along_axis(hulls, order, axis=1), np.take_along_axis(gaps, order, axis=1)
+            others[some], apart[some] = hulls, gaps
+
+        with ThreadPoolExecutor(os.cpu_count()) as pool:
+            for _ in pool.map(compare, range(0, len(self.rows), _AT_ONCE)):
+                pass
+        return Lookalikes(others, apart, known.own, known.own_apart)
 
 
 def _compare(rows: Floats, owner: Ints, meshes: Sequence[tuple[int, Places, Floats]]) -> tuple[Places, Floats]:

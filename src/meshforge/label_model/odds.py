@@ -147,7 +147,7 @@ class LabelBeliefs:
         """The labels of the most similar hulls of which something is said."""
         posterior = self.posterior
         seen, place = posterior.seen, posterior.table.spans[self._places[asset]].start + row
-        found = posterior.table.find_lookalikes(()).nearest_of(place, seen.known, MAX_MENTIONED, PER_MESH)
+        found = posterior.table.find_lookalikes(seen).nearest_of(place, seen.known, MAX_MENTIONED, PER_MESH)
         return tuple(seen.labels[seen.codes[other]] for other in found)
 
 

@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from meshforge.geometry import Floats, Ints
 from meshforge.label_model.describe import ROW_WIDTH
-from meshforge.label_model.lookalikes import MOST_MESHES, Lookalikes, find_lookalikes
+from meshforge.label_model.lookalikes import Lookalikes, LookalikeSearch
 from meshforge.rendering import UNSURE
 from meshforge.symbolic import GIVEN_SOURCES, HUMAN_SOURCES, INFERRED_SOURCES, LABEL_SOURCES, Label
 
@@ -100,18 +100,14 @@ class FamilyTable:
         rows = zip(meshes.tolist(), starts.tolist(), ends.tolist(), strict=True)
         return {mesh: slice(start, end) for mesh, start, end in rows}
 
-    def find_lookalikes(self, first: Sequence[int]) -> Lookalikes:
-        """The nearest hulls of each; first: meshes that are looked at before others where there are too many."""
-        key = tuple(first) if len(self.spans) > MOST_MESHES else ()
-        if key not in self._found:
-            self._found.clear()
-            self._found[key] = find_lookalikes(self.rows, self.metric, self.owner, key)
-        return self._found[key]
-
     @cached_property
-    def _found(self) -> dict[tuple[int, ...], Lookalikes]:
-        """What was found last."""
-        return {}
+    def _search(self) -> LookalikeSearch:
+        return LookalikeSearch(self.rows, self.metric, self.owner)
+
+    def find_lookalikes(self, seen: Observations) -> Lookalikes:
+        """The nearest hulls of each; where there are too many meshes, those with given labels are looked at, too."""
+        which = seen.given if seen.given.any() else seen.known
+        return self._search.find(np.unique(self.owner[which]).tolist())
 
     def turn(self, turned: Iterator[tuple[slice, Floats]]) -> FamilyTable:
         """The table with other rows for some meshes."""

@@ -203,8 +203,8 @@ class FamilyTrial:
     def _unlikeness(self) -> Floats:
         """How much farther than usual the strangest hull of each asset is from all hulls of other assets of which
         something is said, as a logarithm, above what may be (assets,)."""
-        table, known = self.posterior.table, self.posterior.seen.known
-        _, apart = table.find_lookalikes(()).nearest(known, 1, 1)
+        table, seen = self.posterior.table, self.posterior.seen
+        _, apart = table.find_lookalikes(seen).nearest(seen.known, 1, 1)
         nearest = apart[:, 0]
         usual = float(np.median(nearest[np.isfinite(nearest)])) if np.isfinite(nearest).any() else 1.0
         found = np.zeros(len(self.trials))
