@@ -6,6 +6,7 @@ import os
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
@@ -42,10 +43,22 @@ class Lookalikes:
     own_apart: Floats
 
     def nearest(self, usable: Bools, count: int, per_mesh: int) -> tuple[Places, Floats]:
-        """The `count` nearest usable hulls of other meshes, at most `per_mesh` of one: (n, count) and distances."""
-        starts = range(0, max(len(self.apart), 1), _AT_ONCE)
-        found = [self._nearest(slice(start, start + _AT_ONCE), usable, count, per_mesh) for start in starts]
-        return np.concatenate([hulls for hulls, _ in found]), np.concatenate([apart for _, apart in found])
+        """The `count` nearest usable hulls of other meshes, at most `per_mesh` of one: (n, count) and distances.
+
+        What was found last for a count is kept: an answer seldom changes which hulls are usable.
+        """
+        before = self._kept.get((count, per_mesh))
+        if before is None or not np.array_equal(before[0], usable):
+            starts = range(0, max(len(self.apart), 1), _AT_ONCE)
+            found = [self._nearest(slice(start, start + _AT_ONCE), usable, count, per_mesh) for start in starts]
+            hulls, apart = np.concatenate([one for one, _ in found]), np.concatenate([one for _, one in found])
+            before = self._kept[count, per_mesh] = usable.copy(), hulls, apart
+        return before[1:]
+
+    @cached_property
+    def _kept(self) -> dict[tuple[int, int], tuple[Bools, Places, Floats]]:
+        """Which hulls were usable last, and what was found, by count."""
+        return {}
 
     def _nearest(self, some: slice, usable: Bools, count: int, per_mesh: int) -> tuple[Places, Floats]:
         """The same of some hulls: what is sorted for all at once takes a lot of memory."""

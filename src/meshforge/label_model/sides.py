@@ -42,12 +42,15 @@ class UprightReference:
         others = self.hulls[table.owner[self.hulls] != mesh]
         if not len(others):
             return [0.0] * len(sides)
-        metric, own = table.metric[columns], self._codes[span]
-        theirs = table.rows[others, columns] * metric
-        same = (own[:, None] == self._codes[others][None]) | (own == NO_LABEL)[:, None]
-        same |= ~same.any(axis=1, keepdims=True)
-        gaps = (cdist(rows * metric, theirs, "cityblock") for rows in sides)
-        return [float(np.where(same, one, np.inf).min(axis=1).mean()) for one in gaps]
+        metric, own, codes = table.metric[columns], self._codes[span], self._codes[others]
+        theirs, mine = table.rows[others, columns] * metric, np.stack(sides) * metric
+        nearest = np.empty(mine.shape[:2])
+        for code in np.unique(own).tolist():
+            which, same = own == code, codes == code
+            compared = theirs[same] if code != NO_LABEL and same.any() else theirs
+            gaps = cdist(mine[:, which].reshape(-1, mine.shape[2]), compared, "cityblock")
+            nearest[:, which] = gaps.min(axis=1).reshape(len(sides), -1)
+        return [float(side.mean()) for side in nearest]
 
 
 def find_doubtful_sides(
