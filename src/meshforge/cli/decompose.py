@@ -43,7 +43,7 @@ class DecomposeArguments:
         Path | None,
         typer.Option(
             "--labels",
-            help="With --by labels or --advise: the file of segmented points or faces, if not the one beside the mesh.",
+            help="With --by labels or --advise: the file of segmented points, if not the one beside the mesh.",
             show_default=False,
         ),
     ] = None

@@ -181,7 +181,7 @@ By = Annotated[
     typer.Option(
         "--by",
         help="Decompose a mesh at once, or each of its parts by itself, so that no hull crosses from one to another: "
-        "its groups, nodes and materials, or what the labels of points or faces beside it (MESH.points.npz) say.",
+        "its groups, nodes and materials, or what the labels of points beside it (MESH.points.npz) say.",
     ),
 ]
 
