@@ -54,9 +54,8 @@ def read_parts(
     box, found, where = Aabb.of_points(vertices[faces].reshape(-1, 3)), read_segmentation(file.path), str(file.path)
     points = align_points(found.points, [box, *beside], file.placing, where, up)
     order = np.lexsort((found.classes, *points.T))  # the order in the file says nothing
-    kinds, told = _find_classes(
-        (points[order], found.classes[order]), vertices, faces, file.placing, where, is_part=bool(beside)
-    )
+    said = points[order], found.classes[order]
+    kinds, told = _find_classes(said, vertices, faces, file.placing, where, is_part=bool(beside))
     for text in told:
         note(text)
     known, numbers = np.unique(kinds, return_inverse=True)

@@ -32,8 +32,6 @@ _REMEDY = (
     'np.savez("NAME.points.npz", points=xyz, labels=classes, names=["drawer", "handle"])'
 )
 
-Arrays = Mapping[str, npt.NDArray[Any]]
-
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Segmentation:
@@ -110,7 +108,7 @@ def _read_archive(path: Path) -> dict[str, npt.NDArray[Any]]:
     raise AssetError(problem, where=str(path), remedy="Thin the points out.")
 
 
-def _require(arrays: Arrays, names: Sequence[str], where: str) -> npt.NDArray[Any]:
+def _require(arrays: Mapping[str, npt.NDArray[Any]], names: Sequence[str], where: str) -> npt.NDArray[Any]:
     found = next((arrays[name] for name in names if name in arrays), None)
     if found is None:
         lacks = "points" if names is _POINTS else "labels"

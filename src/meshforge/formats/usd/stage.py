@@ -14,6 +14,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
+from importlib import import_module
 from pathlib import Path
 from typing import Any, Literal
 
@@ -124,22 +125,17 @@ _LONGEST = 300  # characters of a complaint in a message
 _CENTIMETRES = 0.01  # metersPerUnit of a stage that does not say it
 
 
-def require_usd(where: str) -> None:
-    """Raise AssetError where the library is not installed."""
-    try:
-        import pxr.Usd  # noqa: F401  # lazy: an optional package, and 0.3 s
-    except ImportError as error:
-        problem = "USD files need the package usd-core, which is not installed"
-        raise AssetError(problem, where=where, remedy="Install it: pip install 'meshforge[usd]'.") from error
-
-
 @contextmanager
 def usd(where: str) -> Iterator[list[str]]:
     """The library, for one asset alone; the list gets what it complains about in between.
 
-    Raises AssetError at `where`, with its first complaint, where it gives up.
+    Raises AssetError at `where`, with its first complaint where it gives up, or where it is not installed.
     """
-    require_usd(where)
+    try:
+        import_module("pxr.Usd")  # lazy: an optional package, and 0.3 s
+    except ImportError as error:
+        problem = "USD files need the package usd-core, which is not installed"
+        raise AssetError(problem, where=where, remedy="Install it: pip install 'meshforge[usd]'.") from error
     complaints: list[str] = []
     with _LOCK:
         delegate = pxr.UsdUtils.CoalescingDiagnosticDelegate()
