@@ -102,7 +102,6 @@ def decompose(given: DecomposeArguments) -> None:
 
 
 def _advise(given: DecomposeArguments, settings: DecomposeSettings) -> None:
-    """Print and draw what several settings come to."""
     from meshforge.inspection import advise_decomposition  # lazy: most runs of this command draw nothing
 
     picture = _picture_path(given.out, given.overwrite)

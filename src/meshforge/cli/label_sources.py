@@ -132,7 +132,6 @@ def label_from_sources(
 
 
 def _run_source(project: Project, options: SourceOptions, execution: ExecutionOptions, printer: LabelPrinter) -> str:
-    """Label; a closing sentence."""
     count = len(project.assets())
     if options.source == "propagate":
         result = project.propagate_labels(execution=execution, stage=progress, report=printer.print)

@@ -99,7 +99,6 @@ Port = Annotated[int, typer.Option("--port", min=0, max=65535, help="Port on thi
 
 
 def _parse_gibibytes(text: str) -> int:
-    """Bytes of a number of GiB."""
     try:
         number = float(text)
     except ValueError:

@@ -110,7 +110,6 @@ def _measure_part(task: MeasureTask, part: CheckPart, cache: ResultCache) -> Che
 
 
 def _measure_all(work: tuple[MeasureTask, ResultCache]) -> str | None:
-    """Measure what is missing; the first problem, None where there is none."""
     task, cache = work
     problem = None
     try:

@@ -152,7 +152,6 @@ def _name_by_parts(base: str, parts: Sequence[str], taken: set[str]) -> list[str
 
 
 def _drop_decompositions(before: record.Preparation, only: Sequence[str]) -> record.Preparation:
-    """What is prepared, without the decompositions that are to be done again."""
     kept = []
     for step in before.steps:
         stay = tuple(r for r in step.replaced if step.do != "decompose" or not _is_chosen(r.what, only))
