@@ -33,8 +33,9 @@ _UNSTEADY = (
     (r"\nBoxes and contacts are .*", ""),
     (r"(\.\./)+", "../"),
     (r"\b\d+\.\d\d s\b", "TIME"),
+    (r"(?<=the process that read it died) \(\w+\)", ""),
 )
-"""Advice that stands under every output, ways up that depend on where folders are, and times."""
+"""Advice that stands under every output, ways up that depend on where folders are, times, and how processes died."""
 _SECONDS = 120  # for all bombs together
 
 

@@ -34,7 +34,7 @@ KINDS = {
     "labels": ("labels/good.json",),
     "steps": ("demonstrations/good.json",),
     "settings": ("settings/good.toml",),
-    "points": ("points/a.npz", "points/a.npy", "points/a.ply"),
+    "points": ("points/a.npz", "points/a.ply"),
 }
 """Whole inputs of each kind: files of the corpus, and segmented points and crates, which are made."""
 _OF_PROJECTS: dict[str, Callable[[Path], object]] = {
@@ -91,8 +91,6 @@ def _points(suffix: str) -> bytes:
     points, classes, stream = np.arange(15.0).reshape(5, 3), np.array([0, 1, 0, 1, 1]), io.BytesIO()
     if suffix == ".npz":
         np.savez_compressed(stream, points=points, labels=classes)
-    elif suffix == ".npy":
-        np.save(stream, np.column_stack([points, classes]))
     else:
         properties = "".join(f"property float {axis}\n" for axis in "xyz") + "property int label\n"
         rows = "".join(f"{x} {y} {z} {label}\n" for (x, y, z), label in zip(points, classes, strict=True))

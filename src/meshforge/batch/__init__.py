@@ -113,11 +113,8 @@ if TYPE_CHECKING:
         ExecutionOptions,
         WorkerFailure,
         count_processors,
-        memory_share,
         raise_if_stopped,
         run_isolated,
-        server_context,
-        worker_context,
     )
 else:
     __getattr__ = export_lazily(__name__)
@@ -198,7 +195,6 @@ __all__ = [
     "load_named_templates",
     "load_templates",
     "make_jobs",
-    "memory_share",
     "open_journal",
     "plan_run",
     "program_digest",
@@ -216,7 +212,6 @@ __all__ = [
     "replay_preparation",
     "run_isolated",
     "selections_of",
-    "server_context",
     "software_version",
     "source_files",
     "split_hull",
@@ -227,7 +222,6 @@ __all__ = [
     "text_digest",
     "to_json_line",
     "value_digest",
-    "worker_context",
     "write_archive",
     "write_preparation",
     "write_report",

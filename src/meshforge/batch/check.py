@@ -212,7 +212,6 @@ def _check_job(task: CheckTask, item: tuple[AssetJob, CheckInputs | None]) -> Ch
 
 
 def _load_before(path: Path, base: Path, against: Path | None) -> SymbolicMesh | None:
-    """The asset as it was."""
     if against is None:
         return None
     place = against / asset_id(path, base) if against.is_dir() else against
@@ -222,7 +221,6 @@ def _load_before(path: Path, base: Path, against: Path | None) -> SymbolicMesh |
 
 
 def _draw_pictures(mesh: SymbolicMesh, found: Examination, name: str, folder: Path | None) -> tuple[Path, ...]:
-    """The pictures of an asset, written below a folder."""
     if folder is None:
         return ()
     paths = []

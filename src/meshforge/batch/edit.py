@@ -187,7 +187,6 @@ def _label_notes(followed: LabelTransfer) -> tuple[str, ...]:
 
 
 def _has_same_hulls(before: SymbolicMesh, after: SymbolicMesh) -> bool:
-    """Whether no hull was removed, made or reshaped."""
     return len(before.hulls) == len(after.hulls) and all(
         a.name == b.name and a.shape is b.shape for a, b in zip(before.hulls, after.hulls, strict=True)
     )

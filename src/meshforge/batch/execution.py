@@ -11,8 +11,9 @@ from dataclasses import replace
 from typing import Any
 
 from meshforge.batch import workers as processes
-from meshforge.batch.workers import ExecutionOptions, Item, Result, WorkerFailure, memory_share, run_isolated
+from meshforge.batch.workers import ExecutionOptions, Item, Result, WorkerFailure, run_isolated
 from meshforge.common import MeshForgeError, Plugin, PluginKind, adopt_plugins, collect_plugins
+from meshforge.common.processes import memory_share
 
 ITEMS_A_CHUNK = 32
 """Items for each processor of a chunk: a node that dies costs the work on so many, which another one does again."""

@@ -229,7 +229,6 @@ class OutputFolder:
 
 
 def _remove_empty_folders(folder: Path, root: Path) -> None:
-    """Remove folders that have become empty, up to the root."""
     while folder != root and not any(folder.iterdir()):
         folder.rmdir()
         folder = folder.parent

@@ -4,21 +4,17 @@ from __future__ import annotations
 
 import gc
 import os
-import signal
-import sys
 from collections import deque
 from collections.abc import Callable, Generator, Mapping, Sequence
 from concurrent.futures import Future, TimeoutError, wait
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import closing, suppress
+from contextlib import closing
 from dataclasses import dataclass
 from functools import partial
-from multiprocessing import get_context
-from multiprocessing.process import current_process
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 from meshforge.common import MeshForgeError, Plugin, PluginKind, StoppedError, adopt_plugins, collect_plugins
+from meshforge.common.processes import begin_isolated, describe_exit, limit_memory, worker_context
 
 if TYPE_CHECKING:
     from pebble import ProcessPool
@@ -40,10 +36,6 @@ _memory: int | None = None
 
 _BARREN_POOLS = 2  # so many in a row that give nothing are the last
 _POOL_CYCLE = 0.01  # seconds between two looks of a pool at its workers, all of which its end waits for
-_THREADS = Path("/proc/self/task")
-_USABLE_SHARE = 0.9  # of the machine's memory, for all workers together
-_CGROUP_LIMIT = Path("/sys/fs/cgroup/memory.max")
-_PROCESS_STATUS = Path("/proc/self/status")
 MIB = 1 << 20
 GIB = 1 << 30
 
@@ -163,6 +155,7 @@ def _begin_worker(
     function: Callable[[Any], Any], memory: int | None, plugins: Mapping[PluginKind, tuple[Plugin, ...]]
 ) -> None:
     """What each worker does first: the function comes once, not with every item, for it may hold much."""
+    begin_isolated()
     gc.freeze()  # what came with a fork is not looked through, so it stays shared
     adopt_plugins(plugins)
     global _function, _memory
@@ -195,63 +188,6 @@ def _count_done(progress: Callable[[], object], future: Future[Any]) -> None:
         progress()
 
 
-def worker_context() -> Any:
-    """How the workers of one pool start: on Linux by a fork of this process while it has one thread, which takes
-    milliseconds, else as those of `server_context`.
-
-    A fork copies the locks that other threads hold, so it is safe where there are none, those of libraries counted.
-    Pebble makes its first workers before it starts its threads; one that replaces them comes from the server.
-    """
-    return _make_context(can_fork=True)
-
-
-def server_context() -> Any:
-    """How the workers of one pool start beside threads: on Linux by a fork of a clean server process.
-
-    The server imports what this process has of MeshForge by now, which is about what workers will need: the first
-    worker is there in 0.45 s for `batch`, each further one in 0.02 s (0.45 s each when spawned).
-    """
-    return _make_context(can_fork=False)
-
-
-def _make_context(can_fork: bool) -> Any:
-    """The context of one pool, whose locks stay as long as the pool.
-
-    Pebble lets go of them before it stops its workers; one that was just starting would complain that they are gone.
-    """
-    context: Any = get_context("forkserver" if sys.platform == "linux" else "spawn")
-    own: Any = type(context)()
-    locks: list[Any] = []
-
-    def kept_lock() -> Any:
-        locks.append(context.RLock())
-        return locks[-1]
-
-    def start_process(**options: Any) -> Any:
-        if can_fork and _has_one_thread():
-            return get_context("fork").Process(**options)
-        if sys.platform == "linux":
-            context.set_forkserver_preload(["meshforge.batch.edit", *_list_modules()])
-        return context.Process(**options)
-
-    own.RLock, own.Process = kept_lock, start_process
-    return own
-
-
-def _has_one_thread() -> bool:
-    """Whether this process may be forked: it has one thread, and is no worker that runs the script it is for."""
-    try:
-        is_alone = sys.platform == "linux" and len(list(_THREADS.iterdir())) == 1
-    except OSError:  # the system does not tell
-        return False
-    return is_alone and not getattr(current_process(), "_inheriting", False)
-
-
-def _list_modules() -> list[str]:
-    """The modules of MeshForge that this process has imported, but for the command line's, which no worker runs."""
-    return [name for name in sys.modules if name.startswith("meshforge.") and not name.startswith("meshforge.cli")]
-
-
 def _collect(future: Future[Result], timeout: float | None) -> Result | WorkerFailure:
     from pebble import ProcessExpired  # lazy: 0.04 s, not needed in this process alone
 
@@ -260,43 +196,9 @@ def _collect(future: Future[Result], timeout: float | None) -> Result | WorkerFa
     except TimeoutError:
         return WorkerFailure(f"it took longer than {timeout:g} seconds and was stopped", timeout or 0.0)
     except ProcessExpired as error:
-        return WorkerFailure(f"its worker process died ({_describe_exit(error.exitcode)})")
+        return WorkerFailure(f"its worker process died ({describe_exit(error.exitcode)})")
 
 
 def _start_error(error: Exception) -> MeshForgeError:
     remedy = "In a script of your own, put the call below `if __name__ == '__main__':`, or pass workers=0."
     return MeshForgeError(f"worker processes do not start: {error}", remedy=remedy)
-
-
-def _describe_exit(code: int | None) -> str:
-    """How a process ended: negative codes are signals."""
-    try:
-        return signal.Signals(-code).name if code and code < 0 else f"exit code {code}"
-    except ValueError:
-        return f"signal {-(code or 0)}"
-
-
-def memory_share(workers: int) -> int | None:
-    """An even share [bytes] of the memory that this machine, or this container, has; None where it does not tell."""
-    try:
-        whole = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
-    except (AttributeError, ValueError, OSError):
-        return None
-    with suppress(OSError, ValueError):  # no container, or one without a bound
-        whole = min(whole, int(_CGROUP_LIMIT.read_text()))
-    return int(whole * _USABLE_SHARE) // max(workers, 1)
-
-
-def limit_memory(more: int) -> None:
-    """Let this process take so many bytes more than it has by now. Only Linux counts them; elsewhere nothing is bound.
-
-    What goes beyond that is a MemoryError, or the end of native code that does not expect one.
-    """
-    if not _PROCESS_STATUS.exists():
-        return
-    import resource  # lazy: Windows does not have it
-
-    row = next(line for line in _PROCESS_STATUS.read_text().splitlines() if line.startswith("VmData"))
-    most = int(row.split()[1]) * 1024 + more
-    hard = resource.getrlimit(resource.RLIMIT_DATA)[1]
-    resource.setrlimit(resource.RLIMIT_DATA, (most if hard == resource.RLIM_INFINITY else min(most, hard), hard))

@@ -44,7 +44,6 @@ def apply(given: ApplyArguments) -> None:
 
 
 def _run(given: ApplyArguments, work: ApplyWork, measures: CheckOptions | None) -> int:
-    """Run the program and print what became of each asset; the exit code."""
     if len(work.jobs) > 1:
         remark(str(batch.plan_run(work.jobs, work.out)))
     shown = work.project.reference_measures() if work.project else ()
@@ -95,14 +94,12 @@ def _run(given: ApplyArguments, work: ApplyWork, measures: CheckOptions | None) 
 def _print_lines(
     done: Iterable[batch.AssetOutcome], alarms: Alarms, standings: Mapping[str, Mapping[str, Any]]
 ) -> None:
-    """A line of JSON for each asset. standings: how sure each edit is, by asset."""
     for outcome in done:
         line = batch.to_json_line(outcome, alarms.get(outcome.asset, ()))
         print_json({**line, **standings.get(outcome.asset, {})}, compact=True)
 
 
 def _describe_outcome(outcome: batch.AssetOutcome) -> str:
-    """What became of an asset: a line, and its notes below it."""
     if isinstance(outcome, batch.Failed):
         return describe_failure(outcome)
     notes = (*(f"rule {r.rule}: {r.note}" for r in outcome.rules if r.note), *outcome.notes, *outcome.flags)
@@ -113,7 +110,6 @@ def _describe_outcome(outcome: batch.AssetOutcome) -> str:
 def _write_report(
     path: Path, work: ApplyWork, summary: batch.RunSummary, seconds: float, measures: CheckOptions | None
 ) -> None:
-    """Draw what a run made; of a project with how sure each result is."""
     if work.project:
         from meshforge.project import build_run_report  # lazy: 170 modules that a program file does not need
 

@@ -146,7 +146,6 @@ def _work_of_project(given: ApplyArguments, stack: ExitStack) -> ApplyWork:
 def _work_of_others(
     given: ApplyArguments, project: Project, new_options: NewAssetOptions, stack: ExitStack
 ) -> ApplyWork:
-    """What is run on assets that are given beside a project."""
     from meshforge.project import assess_new_assets  # lazy: as above
 
     if given.out is None:
@@ -180,7 +179,6 @@ def _work_of_others(
 
 
 def _review(project: Project, bar: float) -> ProjectReview:
-    """How a family stands now."""
     program = project.program()
     found = project.review(bar)
     if program != project.program():

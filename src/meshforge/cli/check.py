@@ -171,6 +171,5 @@ def _describe_check(outcome: batch.CheckOutcome) -> str:
 
 
 def _describe_work(outcome: batch.CheckOutcome) -> tuple[str, ...]:
-    """What was fixed, measured and written, a sentence each."""
     measured = outcome.examination.descriptions if outcome.examination else ()
     return (*describe_changes(outcome), *measured, *(f"wrote {picture}" for picture in outcome.pictures))

@@ -107,7 +107,6 @@ def _convert_one(source: Path, out: Path, given: ConvertArguments) -> None:
 
 
 def _to_json(source: Path, saved: SaveResult, hulls: int, notes: Sequence[str]) -> dict[str, Any]:
-    """The report as JSON has it."""
     report = saved.report
     return {
         "asset": str(source),

@@ -43,7 +43,7 @@ class DecomposeArguments:
         Path | None,
         typer.Option(
             "--labels",
-            help="With --by labels or --advise: the file of segmented points or faces, if not the one beside the mesh.",
+            help="With --by labels or --advise: the file of segmented points, if not the one beside the mesh.",
             show_default=False,
         ),
     ] = None
@@ -102,7 +102,6 @@ def decompose(given: DecomposeArguments) -> None:
 
 
 def _advise(given: DecomposeArguments, settings: DecomposeSettings) -> None:
-    """Print and draw what several settings come to."""
     from meshforge.inspection import advise_decomposition  # lazy: most runs of this command draw nothing
 
     picture = _picture_path(given.out, given.overwrite)

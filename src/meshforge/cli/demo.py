@@ -51,7 +51,6 @@ def demo(
 
 
 def _run_all(out: Path, workers: int | None) -> None:
-    """Everything at once, with what happened in a few lines."""
     project = create_tables(out)
     shown = project.demonstrations()
     typer.echo(

@@ -15,7 +15,7 @@ from meshforge.cli.console import print_table, progress
 from meshforge.cli.label_report import LabelPrinter
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import UsageError, join_names, pluralize
-from meshforge.labels import LabelFileOptions, LabelOutcome, PointAlignment, PointsOptions, Proposal, Proposals
+from meshforge.labels import LabelFileOptions, LabelOutcome, PointAlignment, Proposal, Proposals
 from meshforge.project import Project
 
 _MAX_NAMES = 3  # names of a row that are shown
@@ -51,9 +51,7 @@ class SourceOptions:
     def file_options(self) -> LabelFileOptions:
         """How files are read."""
         classes = tuple(word.strip() for word in self.classes.split(",")) if self.classes else ()
-        return LabelFileOptions(
-            self.meanings, PointsOptions(classes, PointAlignment(self.align or "check", self.points_up))
-        )
+        return LabelFileOptions(self.meanings, classes, PointAlignment(self.align or "check", self.points_up))
 
 
 def _parse_meaning(text: str) -> tuple[str, str]:
@@ -134,7 +132,6 @@ def label_from_sources(
 
 
 def _run_source(project: Project, options: SourceOptions, execution: ExecutionOptions, printer: LabelPrinter) -> str:
-    """Label; a closing sentence."""
     count = len(project.assets())
     if options.source == "propagate":
         result = project.propagate_labels(execution=execution, stage=progress, report=printer.print)

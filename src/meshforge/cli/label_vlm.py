@@ -113,7 +113,6 @@ def _announce_stop(stop: Callable[[], bool], text: str) -> Iterator[None]:
 
 
 def _describe_open(found: VlmResult, asset: str) -> list[str]:
-    """The hulls of an asset that got no label, by why."""
     by_reason: dict[str, list[str]] = defaultdict(list)
     for hull, why in found.open.get(asset, {}).items():
         by_reason[why].append(hull)
@@ -121,7 +120,6 @@ def _describe_open(found: VlmResult, asset: str) -> list[str]:
 
 
 def _print_end(project: Project, found: VlmResult, *, json: bool) -> None:
-    """Say what it all came to, and where it can be looked at."""
     pages = project.layout.vlm / "pages"
     if json:
         ending = {"ended": found.ended, "unasked": list(found.unasked), "blind": found.blind}

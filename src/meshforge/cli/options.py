@@ -99,7 +99,6 @@ Port = Annotated[int, typer.Option("--port", min=0, max=65535, help="Port on thi
 
 
 def _parse_gibibytes(text: str) -> int:
-    """Bytes of a number of GiB."""
     try:
         number = float(text)
     except ValueError:
@@ -181,7 +180,7 @@ By = Annotated[
     typer.Option(
         "--by",
         help="Decompose a mesh at once, or each of its parts by itself, so that no hull crosses from one to another: "
-        "its groups, nodes and materials, or what the labels of points or faces beside it (MESH.points.npz) say.",
+        "its groups, nodes and materials, or what the labels of points beside it (MESH.points.npz) say.",
     ),
 ]
 

@@ -205,7 +205,6 @@ def _select_assets(project: Project, assets: list[str] | None) -> tuple[str, ...
 
 
 def _undo_preparation(project: Project, assets: Iterable[str], *, everything: bool) -> Iterator[PreparationResult]:
-    """What became of assets whose preparation is taken back."""
     for asset in assets:
         try:
             yield project.unprepare(asset, everything=everything)

@@ -106,7 +106,6 @@ def describe_changes(examined: batch.CheckOutcome) -> tuple[str, ...]:
 
 
 def _to_report_assets(lines: Sequence[_ReportLine]) -> list[batch.ReportAsset]:
-    """The assets with their meshes, fixed ones before and after."""
     before: list[batch.MeshReader | None] = [
         None if line.error else partial(batch.read_job, line.job) for line in lines
     ]
@@ -130,7 +129,6 @@ def _to_report_assets(lines: Sequence[_ReportLine]) -> list[batch.ReportAsset]:
 
 
 def _describe_measures(measures: CheckOptions) -> str:
-    """What was looked at."""
     parts = ["legality"]
     parts += [f"limits of {measures.engine}"] if measures.engine else []
     parts += [name for name in ("fit", "clearance", "physics") if getattr(measures, name)]

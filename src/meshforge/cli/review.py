@@ -69,7 +69,6 @@ def review(given: ReviewArguments) -> None:
 
 
 def _print_review(project: Project, found: ProjectReview, word: str, *, asked: bool) -> None:
-    """How the family stands, and what to do; the question where no person was asked it."""
     question = found.assessment.question
     typer.echo(format_review(found))
     if question and not asked:

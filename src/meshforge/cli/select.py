@@ -48,7 +48,6 @@ def select(
 
 
 def _read_known_labels(asset: Path, labels: Path | None, project: Path | None) -> Collection[str]:
-    """The labels that the family of an asset has: of its project, or as its labels file says."""
     if project:
         from meshforge.project import Project  # lazy: 500 modules that only --project needs
 

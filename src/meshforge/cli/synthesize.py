@@ -112,7 +112,6 @@ def _converse(project: Project) -> LearningOutcome | None:
 
 
 def _is_interactive() -> bool:
-    """Whether a person sits at both ends."""
     return sys.stdin.isatty() and sys.stdout.isatty()
 
 
@@ -145,7 +144,6 @@ def _context_of(session: LearningSession, folder: Path, outcome: LearningOutcome
 
 
 def _print_answers(project: Project, folder: Path, json: bool) -> None:
-    """List all answers and repairs by their ids."""
     said = project.feedback().answers_and_fixes
     if json:
         print_json(_to_json(said))
@@ -160,7 +158,6 @@ def _print_answers(project: Project, folder: Path, json: bool) -> None:
 
 
 def _to_json(said: Mapping[str, AnswerEvent | LabelFixEvent]) -> dict[str, list[dict[str, Any]]]:
-    """Answers, repairs that were made and those that were refused, each with its id."""
     found: dict[str, list[dict[str, Any]]] = {"answers": [], "confirmed": [], "rejected": []}
     for name, event in said.items():
         line = event.model_dump(mode="json", by_alias=True, exclude={"event", "accepted"})

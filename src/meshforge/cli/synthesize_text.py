@@ -127,7 +127,6 @@ def _describe_failure(outcome: synthesis.NoProgram) -> Iterator[str]:
 
 
 def _describe_suggestion(outcome: synthesis.LearningOutcome, how: str) -> Iterator[str]:
-    """An orientation that is suggested, and how to take it."""
     if outcome.suggested:
         yield f"Another orientation {how}: {outcome.suggested.why}."
         yield "  in meshforge.toml write: orient = " + toml_value(orientation_text(outcome.suggested.orient))

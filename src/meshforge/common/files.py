@@ -130,6 +130,11 @@ def confine_reading(folder: Path) -> Iterator[None]:
         _REACH.reset(before)
 
 
+def reading_folder() -> Path | None:
+    """The folder to which reading is confined, None where it is not."""
+    return _REACH.get()
+
+
 def is_beyond_reach(path: Path) -> bool:
     """Whether a path leads out of the folder to which reading is confined, if it is."""
     folder = _REACH.get()

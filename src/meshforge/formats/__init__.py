@@ -41,18 +41,8 @@ if TYPE_CHECKING:
         to_mesh,
     )
     from meshforge.formats.segmentation.alignment import PointAlignment, align_points
-    from meshforge.formats.segmentation.base import (
-        POINTS_SUFFIXES,
-        SEMANTICS_FILE,
-        Segmentation,
-        class_files,
-        find_class_names,
-        points_beside,
-        read_semantics,
-    )
     from meshforge.formats.segmentation.parts import SegmentationFile, read_parts
-    from meshforge.formats.segmentation.reader import attach_own_mesh, read_segmentation
-    from meshforge.formats.segmentation.samples import PointSamples, samples_of_faces, samples_of_points
+    from meshforge.formats.segmentation.reader import POINTS_SUFFIXES, points_beside, read_segmentation
     from meshforge.formats.surface_parts import plain_part_name
     from meshforge.formats.trimesh_meshes import from_trimesh
     from meshforge.formats.visuals import VisualSurfaces
@@ -66,7 +56,6 @@ __all__ = [
     "NO_GEOMETRY",
     "PLUGIN_FORMATS",
     "POINTS_SUFFIXES",
-    "SEMANTICS_FILE",
     "SUFFIXES",
     "Collision",
     "DecomposeBy",
@@ -79,22 +68,17 @@ __all__ = [
     "MujocoTrial",
     "Output",
     "PointAlignment",
-    "PointSamples",
     "RawSurface",
     "ReadOptions",
     "SaveResult",
-    "Segmentation",
     "SegmentationFile",
     "Source",
     "VisualSurfaces",
     "align_points",
     "all_suffixes",
-    "attach_own_mesh",
-    "class_files",
     "convert",
     "decompose",
     "describe_collision",
-    "find_class_names",
     "format_for",
     "format_obj",
     "format_of",
@@ -114,12 +98,9 @@ __all__ = [
     "read",
     "read_parts",
     "read_segmentation",
-    "read_semantics",
     "read_surface",
     "read_triangles",
     "resolve_asset_path",
-    "samples_of_faces",
-    "samples_of_points",
     "save",
     "split_into_pieces",
     "to_mesh",

@@ -14,8 +14,8 @@ from meshforge.common import UsageError, join_names
 from meshforge.formats.mesh_reader import read_triangles
 from meshforge.formats.meshfile.surface import RawSurface, check_surfaces, stack_triangles
 from meshforge.formats.registry import format_of, labels_beside
-from meshforge.formats.segmentation.base import POINTS_MARK, points_beside
 from meshforge.formats.segmentation.parts import SegmentationFile, read_parts
+from meshforge.formats.segmentation.reader import POINTS_MARK, points_beside
 from meshforge.formats.surface_parts import parts_of_surfaces, plain_part_name
 from meshforge.formats.trimesh_meshes import WHERE, TrimeshObject, list_surfaces
 from meshforge.geometry import CoacdSettings, DecomposeSettings, Polytope, Pose, SurfaceParts
@@ -23,7 +23,7 @@ from meshforge.symbolic import Asset, Body, Document, Geom, Surface, SymbolicMes
 
 DecomposeBy = Literal["whole", "parts", "labels"]
 """Whether a surface is decomposed at once, or each of its parts by itself: those that its file names, or those that
-segmented points or faces say."""
+segmented points say."""
 
 
 def decompose(
@@ -41,7 +41,7 @@ def decompose(
 
     mesh: a mesh file (OBJ, STL, PLY, DAE, GLB), or a mesh or scene of trimesh. settings: `CoacdSettings` or
     `VhacdSettings`, by default CoACD's own; by: `parts` decomposes each group, node and material by itself, so that no
-    hull crosses from one to another, `labels` each connected patch of a class of segmented points or faces; labels:
+    hull crosses from one to another, `labels` each connected patch of a class of segmented points; labels:
     their file, None for the one beside the mesh (`mug.points.npz`); hollow: leave planar holes open, so that shells of
     one sheet are not filled; timeout [s]; cache: keep results, and use kept ones; progress: called with what the engine
     is at. The hulls are called `hull_0` and so on, or by their parts, `handle_0`, of one body; `.asset.notes` says what
@@ -93,7 +93,7 @@ def read_surface(mesh: str | os.PathLike[str] | TrimeshObject) -> tuple[Path, Su
 def label_surface(
     path: Path, surface: Surface, labels: SegmentationFile | None, note: Callable[[str], None]
 ) -> Surface:
-    """The surface of a mesh file with its parts by segmented points or faces, of the file beside it when None.
+    """The surface of a mesh file with its parts by segmented points, of the file beside it when None.
 
     Raises UsageError where there is none, AssetError where they do not fit the surface.
     """
@@ -101,10 +101,10 @@ def label_surface(
     file = labels or (SegmentationFile(beside) if beside else None)
     if file is None:
         name = f"{path.stem}{POINTS_MARK}.npz"
-        remedy = f"Put them beside it, in {name} (or .npy, .ply), or name their file: --labels FILE."
-        raise UsageError("no labels of points or faces lie beside it", where=str(path), remedy=remedy)
+        remedy = f"Put them beside it, in {name} (or .ply), or name their file: --labels FILE."
+        raise UsageError("no labels of points lie beside it", where=str(path), remedy=remedy)
     up = format_of(path).up if path.is_file() else None
-    (parts,) = read_parts([(surface.vertices, surface.faces)], file, path, up, note)
+    (parts,) = read_parts([(surface.vertices, surface.faces)], file, up, note)
     return replace(surface, parts=parts)
 
 

@@ -98,7 +98,7 @@ def advise_decomposition(
 ) -> DecompositionAdvice:
     """What three thresholds of CoACD, or most counts of V-HACD, make of a mesh file, as a whole and by known parts.
 
-    settings: all else about the engine; labels: segmented points or faces that say what the parts are, None for those
+    settings: all else about the engine; labels: segmented points that say what the parts are, None for those
     that the file names; timeout [s]: of each decomposition. Raises AssetError, GeometryError.
     """
     path, surface = read_surface(mesh)

@@ -11,7 +11,6 @@ if TYPE_CHECKING:
     from meshforge.formats import PointAlignment
     from meshforge.labels.by_hand import label_command
     from meshforge.labels.family_comparison import ignore_stage
-    from meshforge.labels.from_files.points import PointsOptions
     from meshforge.labels.from_files.read import LabelFileOptions, label_file_beside
     from meshforge.labels.label_by_consensus import LabelChange
     from meshforge.labels.label_by_plugin import LABELERS, AssetLabeler, check_labeler
@@ -41,7 +40,6 @@ __all__ = [
     "LabelledPart",
     "OfferCache",
     "PointAlignment",
-    "PointsOptions",
     "PropagationResult",
     "Proposal",
     "Proposals",

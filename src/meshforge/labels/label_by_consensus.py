@@ -9,20 +9,13 @@ from dataclasses import dataclass
 from meshforge.batch import ExecutionOptions
 from meshforge.common import AssetError
 from meshforge.label_model import evidence_of
-from meshforge.labels.family_comparison import (
-    FamilyComparison,
-    HullLabels,
-    Stage,
-    WriteBlock,
-    compare_assets,
-    write_labels,
-)
+from meshforge.labels import family_comparison
 from meshforge.labels.merge import LabelOutcome, LabelWriter, OutcomeCallback
 from meshforge.labels.summary import LabelEvidence, Proposals, group_evidence
 from meshforge.store import Store, iterate_survey
 from meshforge.symbolic import HUMAN_SOURCES, INFERRED_SOURCES, Label, match_labels
 
-_BeforeAndAfter = tuple[HullLabels, Mapping[str, Label | None]]
+_BeforeAndAfter = tuple[family_comparison.HullLabels, Mapping[str, Label | None]]
 """The labels of an asset, by hull, and those that were given to it."""
 
 
@@ -54,15 +47,15 @@ class ConsensusResult:
 def label_by_consensus(
     store: Store,
     execution: ExecutionOptions,
-    stage: Stage,
+    stage: family_comparison.Stage,
     report: OutcomeCallback,
-    write_block: WriteBlock = nullcontext,
+    write_block: family_comparison.WriteBlock = nullcontext,
 ) -> ConsensusResult:
     """Give each hull the label that all sources together speak for; see `LabelStore.label_by_consensus`."""
-    compared = compare_assets(store, store.vocabulary, evidence_of, execution, stage)
+    compared = family_comparison.compare_assets(store, store.vocabulary, evidence_of, execution, stage)
     labels = dict(_share_labels(compared))
     with write_block(compared.next):
-        reports = tuple(write_labels(store, labels, compared, _is_said_still, stage, report))
+        reports = tuple(family_comparison.write_labels(store, labels, compared, _is_said_still, stage, report))
     free = sum(len(hulls) for hulls in compared.hulls.values()) - sum(
         label.source in HUMAN_SOURCES for current in compared.current.values() for label in current.values()
     )
@@ -72,11 +65,11 @@ def label_by_consensus(
 
 
 def propose_consensus(
-    store: Store, vocabulary: Sequence[str] | None, execution: ExecutionOptions, stage: Stage
+    store: Store, vocabulary: Sequence[str] | None, execution: ExecutionOptions, stage: family_comparison.Stage
 ) -> Proposals:
     """What `label_by_consensus` would write, with nothing written."""
     words = store.vocabulary if vocabulary is None else tuple(vocabulary)
-    compared = compare_assets(store, words, evidence_of, execution, stage)
+    compared = family_comparison.compare_assets(store, words, evidence_of, execution, stage)
     found, labelled = list[LabelEvidence](), 0
     for asset, given in _share_labels(compared):
         current = compared.current[asset]
@@ -94,7 +87,7 @@ def _name_kind(current: Label | None, label: Label) -> str:
     return f"{by}, not {current.name}" if current and current.name != label.name else by
 
 
-def _share_labels(compared: FamilyComparison) -> Iterator[tuple[str, dict[str, Label]]]:
+def _share_labels(compared: family_comparison.FamilyComparison) -> Iterator[tuple[str, dict[str, Label]]]:
     """The label of each hull that all that is said speaks for, asset by asset; what a person said stays."""
     for asset, labels in compared.share_out(compared.found.agree(compared.said)):
         current = compared.current[asset]

@@ -46,7 +46,7 @@ class LabelStore(Store):
         execution: ExecutionOptions = IN_PROCESS,
         report: OutcomeCallback = ignore_report,
     ) -> tuple[LabelOutcome, ...]:
-        """Take labels from files: labels files, segmented points and meshes, and PartNet's semantics of links.
+        """Take labels from files: labels files, segmented points, and PartNet's semantics of links.
 
         source: a file for a single asset, a folder that mirrors the assets, or None for the files beside them. A
         project without a vocabulary takes that of the files. report: called with the outcome of each asset, as soon as

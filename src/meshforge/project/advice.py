@@ -69,7 +69,6 @@ class Adviser:
         return self._advise_labels(bare) if some else self._advise_label_source(self.assets)
 
     def _advise_labels(self, bare: Sequence[AssetStatus]) -> Advice:
-        """Labels for the assets that have none, where others have some."""
         if any(label_file_beside(self.paths[asset.id]) for asset in bare):
             say = f"{_name_assets(bare)} no label: take over the labels files beside the assets."
             return Advice(say, self._type("label --with file"))

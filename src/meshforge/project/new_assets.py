@@ -203,7 +203,6 @@ def _make_task(store: Store, assets: Sequence[NewAsset], options: NewAssetOption
 
 
 def _prepare_all(task: _Task, assets: Sequence[NewAsset], options: NewAssetOptions) -> Iterator[_WorkerOutcome | str]:
-    """Each asset as a worker prepared it, or why none could."""
     with options.stage(len(assets), "preparing") as advance:
         execution = replace(options.execution, progress=advance)
         for found in batch.execute(partial(_prepare, task), assets, execution):
@@ -211,7 +210,6 @@ def _prepare_all(task: _Task, assets: Sequence[NewAsset], options: NewAssetOptio
 
 
 def _prepare(task: _Task, work: NewAsset) -> _WorkerOutcome | str:
-    """What a worker makes of an asset, or why it failed."""
     try:
         seen = batch.record_digest(work.preparation) if work.preparation else None
         before = (batch.read_preparation(work.preparation) if work.preparation else None) or batch.Preparation()

@@ -98,7 +98,6 @@ def _count_names(store: Store) -> int:
 
 
 def _read_program(store: Store) -> tuple[Program | None, ApplyTask | None, str | None]:
-    """The program, what applying it means, and why it cannot be applied."""
     program = None
     try:
         program = store.program()
@@ -154,7 +153,6 @@ def _asset_status(
 
 
 def _list_spans(spans: Sequence[SpansFile], asset: str, facts: AssetFacts) -> dict[str, str]:
-    """The hulls of an asset that likely span parts, by name, in words."""
     return {hull: line.told for hull, line in likely_spans(spans, asset, dict(facts.hulls)).items()}
 
 
@@ -180,7 +178,6 @@ def _describe_carried(store: Store, asset: str, facts: AssetFacts) -> tuple[str,
 
 
 def _read_labels(store: Store, job: AssetJob) -> tuple[LabelFile, str | None]:
-    """The labels of an asset, and why they cannot be read."""
     try:
         return store.labels(job.id), None
     except MeshForgeError as error:

@@ -122,7 +122,6 @@ def _finish_undo(store: Store, asset: str) -> bool:
 
 
 def _read_or_empty(folder: Path) -> batch.Preparation:
-    """The preparation in a folder, an empty one where there is none or a damaged one."""
     try:
         return batch.read_preparation(folder) or batch.Preparation()
     except AssetError:

@@ -125,7 +125,6 @@ def _label(
     choice: ReviewChoice | None,
     reply: ReviewReply,
 ) -> None:
-    """Give labels to hulls."""
     given = dict.fromkeys(question.hulls, choice.label) if choice and choice.label else {}
     labels = dict[str, dict[str, str]]()
     for place, label in sorted({**given, **reply.exceptions}.items()):

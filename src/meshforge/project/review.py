@@ -112,7 +112,6 @@ def assess_family(
 
 
 def _read_meshes(store: Store) -> tuple[dict[str, SymbolicMesh], dict[str, str]]:
-    """The assets of the family by id, and why some cannot be read."""
     meshes, lost = dict[str, SymbolicMesh](), dict[str, str]()
     away = {asset for asset, one in store.feedback().exclusions.items() if one.reason == NOT_OF_FAMILY}
     for asset in (name for name in store.assets() if name not in away):

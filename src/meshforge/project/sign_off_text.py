@@ -93,7 +93,6 @@ def _format_held(held: Sequence[_AssetDoubt], most: int, rest: str = "") -> Iter
 
 
 def _format_range(shares: Sequence[float]) -> str:
-    """The least and the most of some probabilities."""
     return " to ".join(dict.fromkeys(map(format_share, (min(shares), max(shares)))))
 
 

@@ -241,7 +241,6 @@ class _Work:
 def _search_one(
     family: ReferenceFamily, how: SplitSettings, single: Mapping[str, Mapping[str, str]], work: _Work
 ) -> AssetSpans | str:
-    """What a worker finds of an asset, or why it failed."""
     try:
         seen = _Steps.of(work.files.preparation)
         own = family.without(work.asset)

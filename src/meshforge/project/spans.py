@@ -74,7 +74,6 @@ def choose_assets(store: Store, assets: Iterable[str] | None, sure: float) -> tu
 
 
 def _split_one(store: Store, asset: str, found: AssetSpans, dry_run: bool, engine: str | None) -> PreparationResult:
-    """What becomes of one asset."""
     plan, notes = found.plan, (*found.notes, *found.plan.notes)
     if not plan.splits:
         return PreparationResult(asset, notes=notes)
@@ -88,7 +87,6 @@ def _split_one(store: Store, asset: str, found: AssetSpans, dry_run: bool, engin
 
 
 def _keep_shapes(store: Store, asset: str, likely: Mapping[str, Split]) -> dict[str, SpanLine]:
-    """Keep the parts of hulls of an asset; what is known of each hull by its name."""
     lines = {hull: one.span for hull, one in likely.items()}
     if lines:
         shapes = {hull: one.shapes for hull, one in likely.items() if one.shapes}
@@ -97,7 +95,6 @@ def _keep_shapes(store: Store, asset: str, likely: Mapping[str, Split]) -> dict[
 
 
 def _write_likely(store: Store, likely: Mapping[str, dict[str, SpanLine]]) -> None:
-    """Keep which hulls likely span parts, of assets that are still there."""
     known = {asset: lines for asset, lines in likely.items() if lines and asset in store.found.ids}
     store.write_spans(SpansFile(assets=known))
 

@@ -110,7 +110,6 @@ def _read_steps(store: Store, asset: str) -> tuple[PreparationStep, ...]:
 
 
 def _list_parts(store: Store, asset: str) -> frozenset[str]:
-    """The hulls of an asset that some split made."""
     entries = (entry for step in _read_steps(store, asset) for entry in step.replaced if entry.kind == "hull")
     return frozenset(name for entry in entries for name in entry.made)
 

@@ -76,7 +76,6 @@ class Standings:
 
 
 def _is_accepted(asset: AssetStatus) -> bool:
-    """Whether a person accepted the result as it is now."""
     return asset.review == "accepted" and not _list_changes(asset)
 
 

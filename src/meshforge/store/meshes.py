@@ -180,7 +180,6 @@ def geometry_digest(hulls: Mapping[str, str]) -> str:
 
 
 def _read_memory(memory: Path, software: str) -> Mapping[str, AssetFacts]:
-    """The facts that were kept; none of them where the file is damaged or from another version."""
     try:
         kept = _parse_memory(memory, file_state(memory))
     except (OSError, ValidationError):

@@ -248,7 +248,6 @@ def create_folder(
 
 
 def _merge_events_by_lines(path: Path) -> None:
-    """Let git merge what people said on two branches by lines."""
     text = path.read_text("utf-8") if path.exists() else ""
     if ATTRIBUTES not in text:
         write_atomically(path, text + "\n" * (bool(text) and not text.endswith("\n")) + ATTRIBUTES)

@@ -78,7 +78,6 @@ class LabelChanges:
         )
 
     def _last_propagation(self, done: tuple[HistoryEntry, ...]) -> _Propagation | None:
-        """The last propagation."""
         last = next((k for k in reversed(range(len(done))) if done[k].edit.get("kind") == "propagate"), None)
         edit = {} if last is None else done[last].edit
         found = None if last is None else _Propagation(min(edit.get("used", last), last), edit.get("next"))

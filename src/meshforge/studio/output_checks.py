@@ -10,9 +10,10 @@ from typing import get_args
 
 from pydantic import TypeAdapter, ValidationError
 
-from meshforge.batch import ExecutionOptions, WorkerFailure, count_processors, memory_share, read_stamp, run_isolated
+from meshforge.batch import ExecutionOptions, WorkerFailure, count_processors, read_stamp, run_isolated
 from meshforge.checks import draw_examination, examine_mesh
 from meshforge.common import MeshForgeError, ProjectError, describe_error, write_atomically
+from meshforge.common.processes import memory_share
 from meshforge.project import Project
 from meshforge.rendering import LengthUnit, encode_png
 from meshforge.studio.errors import NotHereError
@@ -109,7 +110,6 @@ def _measure_part(task: MeasureTask, part: CheckPart, cache: ResultCache) -> Che
 
 
 def _measure_all(work: tuple[MeasureTask, ResultCache]) -> str | None:
-    """Measure what is missing; the first problem, None where there is none."""
     task, cache = work
     problem = None
     try:

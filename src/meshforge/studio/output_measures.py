@@ -70,7 +70,6 @@ def _to_checked(
 
 
 def _check_engines(pair: OutputPair) -> CheckResult:
-    """Findings about legality, and about the limits of each engine."""
     rows = []
     for engine in (None, *ENGINES):
         known = _findings_of(pair.before, engine)
@@ -96,7 +95,6 @@ def _to_row(found: Finding, engine: str | None, new: bool) -> CheckFinding:
 
 
 def _was_there(found: Finding, before: Iterable[Finding]) -> bool:
-    """Whether there was such a finding before, about these hulls or more."""
     return any(old.rule == found.rule and set(found.hulls) <= set(old.hulls) for old in before)
 
 

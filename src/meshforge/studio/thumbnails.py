@@ -108,7 +108,6 @@ def _draw(work: _DrawTask) -> bytes:
 
 
 def _remove_oldest(folder: Path) -> None:
-    """Remove the oldest pictures."""
     pictures = sorted(folder.glob("*.png"), key=lambda path: path.stat().st_mtime_ns)
     for path in pictures[:-MOST_THUMBNAILS]:
         path.unlink(missing_ok=True)

@@ -132,7 +132,6 @@ def find_assets(workers: Workers, home: Path) -> _Readable:
 
 
 def _find_problem(workers: Workers, path: Path, home: Path) -> str | None:
-    """Why an asset cannot be taken, None where it can."""
     try:
         files = workers.run(_files_of, path, home)
     except MeshForgeError as error:

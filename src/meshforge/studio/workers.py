@@ -9,8 +9,9 @@ from threading import Lock
 from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 from weakref import WeakSet
 
-from meshforge.batch import count_processors, server_context
+from meshforge.batch import count_processors
 from meshforge.common import MeshForgeError, StoppedError
+from meshforge.common.processes import begin_isolated, server_context
 from meshforge.project import Project
 
 if TYPE_CHECKING:
@@ -42,7 +43,9 @@ class Workers:
         with self._lock:
             if self._closed:
                 raise MeshForgeError("the studio is being closed")
-            self._pool = self._pool or ProcessPool(max_workers=self.count, context=server_context())
+            self._pool = self._pool or ProcessPool(
+                max_workers=self.count, context=server_context(), initializer=begin_isolated
+            )
             future: Future[Result] = self._pool.schedule(function, args=args, kwargs=kwargs, timeout=self._timeout)
             self._futures.add(future)
         return future

@@ -21,7 +21,8 @@ from meshforge.batch import (
     status_of,
 )
 from meshforge.batch.outcome import MOST_SHOWN, Unchanged
-from meshforge.batch.workers import MIB, memory_share
+from meshforge.batch.workers import MIB
+from meshforge.common.processes import memory_share
 from meshforge.language import Program
 from tests.unit.batch.families import PROGRAM, write_tables
 

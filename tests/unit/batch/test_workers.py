@@ -13,8 +13,9 @@ from threading import current_thread, main_thread
 
 import pytest
 
-from meshforge.batch import ExecutionOptions, WorkerFailure, hold_lock, run_isolated, worker_context, workers
-from meshforge.common import MeshForgeError
+from meshforge.batch import ExecutionOptions, WorkerFailure, hold_lock, run_isolated, workers
+from meshforge.common import MeshForgeError, processes
+from meshforge.common.processes import worker_context
 
 
 @pytest.fixture(params=["server", "fork"], autouse=True)
@@ -23,7 +24,7 @@ def start_method(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch
     if request.param == "fork" and sys.platform != "linux":
         pytest.skip("forks are for Linux")
     can_fork = request.param == "fork"
-    monkeypatch.setattr(workers, "_has_one_thread", lambda: can_fork and current_thread() is main_thread())
+    monkeypatch.setattr(processes, "_has_one_thread", lambda: can_fork and current_thread() is main_thread())
 
 
 def square(number: int) -> int:

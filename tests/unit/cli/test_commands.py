@@ -244,7 +244,7 @@ def test_advice_does_not_judge_one_solid_without_parts(run: Run) -> None:
         (("--advise", "--classes", "a,b"), "--classes says nothing without --labels FILE"),
         (("-o", "h.obj", "--labels", "row.points.npz"), "--labels says nothing without --by labels"),
         (("-o", "h.obj", "--by", "parts", "--align", "box"), "--align says nothing without --by labels"),
-        (("-o", "h.obj", "--by", "labels"), "no labels of points or faces lie beside it"),
+        (("-o", "h.obj", "--by", "labels"), "no labels of points lie beside it"),
         (("-o", "h.obj", "--by", "labels", "--labels", "gone.npz"), "gone.npz: cannot be read"),
         (("-o", "h.obj", "--by", "labels", "--labels", "row.obj"), ".obj is no kind of segmented points"),
         (("--advise", "-o", "h.obj"), "writes a picture, no hulls"),
@@ -257,7 +257,7 @@ def test_options_of_decompose_that_do_not_fit_are_refused(run: Run, words: tuple
 
 
 @pytest.mark.slow
-def test_hulls_by_labels_of_faces_are_called_by_their_classes(run: Run) -> None:
+def test_hulls_by_labels_of_points_are_called_by_their_classes(run: Run) -> None:
     Path("bar.obj").write_text(CUBE.format(*range(1, 9), name="bar", x=0, x1=3))
     half = np.arange(3000) / 1000
     sides = [np.column_stack([half, half * 7 % 1, np.full(3000, z)]) for z in (0.0, 1.0)]

@@ -118,7 +118,7 @@ def test_segmented_points_are_read_with_the_names_that_are_given(run: Run, tmp_p
     points = np.concatenate([hull.vertices for hull in mesh.hulls])
     kinds = np.repeat(np.arange(6) % 4, [len(hull.vertices) for hull in mesh.hulls])
     (tmp_path / "out/7119").mkdir(parents=True)
-    np.save(tmp_path / "out/7119/mobility.npy", np.column_stack([points * 2, kinds]))
+    np.savez(tmp_path / "out/7119/mobility.npz", points=points * 2, labels=kinds)
     refused = run("label", "p", "--labels", "out", "--dry-run")
     assert "nothing names them" in refused.out
     refused = run("label", "p", "--labels", "out", "--classes", "vocabulary")

@@ -1,4 +1,4 @@
-"""Projects whose assets are decomposed by segmented points or faces beside them."""
+"""Projects whose assets are decomposed by segmented points beside them."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import pytest
 from meshforge.batch import IN_PROCESS
 from meshforge.project import NewAssetOptions, Project
 from tests.unit.cli.in_process import Run, runner
-from tests.unit.formats.test_segmented_parts import FACES, KINDS, NAMES, VERTICES
+from tests.unit.formats.test_segmented_parts import FACES, KINDS, MIDDLES, NAMES, VERTICES
 
 URDF = """<robot name="table"><link name="base">
 <collision><geometry><mesh filename="{name}.obj"/></geometry></collision>
@@ -21,7 +21,7 @@ VOXELS = ("--decompose", "vhacd", "--set", "resolution=3000", "--set", "max_conv
 
 
 def put(name: str, **arrays: object) -> None:
-    """A URDF of the table and a box between its legs, and labels of the faces of the table."""
+    """A URDF of the table and a box between its legs, and labelled points on the table."""
     rows = [*(f"v {x!r} {y!r} {z!r}" for x, y, z in VERTICES.tolist()), *(f"f {a} {b} {c}" for a, b, c in FACES + 1)]
     Path("in").mkdir(exist_ok=True)
     Path(f"in/{name}.obj").write_text("\n".join(rows) + "\n")
@@ -30,7 +30,7 @@ def put(name: str, **arrays: object) -> None:
         np.savez(f"in/{name}.points.npz", **arrays)  # type: ignore[arg-type]
 
 
-SAID = {"vertices": VERTICES, "faces": FACES, "labels": KINDS, "names": NAMES}
+SAID = {"points": MIDDLES, "labels": np.repeat(KINDS, 5), "names": NAMES}
 
 
 @pytest.fixture
@@ -67,15 +67,12 @@ def test_an_asset_without_labels_is_decomposed_as_a_whole_and_that_is_told(run: 
     put("a")
     told = run("new", "p", "in/a.urdf", *VOXELS, "--workers", "1")
     assert told.code == 0
-    assert (
-        "no labels of points or faces lie beside a.urdf; no parts are known, so it was decomposed as a whole"
-        in told.out
-    )
+    assert "no labels of points lie beside a.urdf; no parts are known, so it was decomposed as a whole" in told.out
 
 
 def test_labels_that_do_not_fit_fail_the_asset_by_name_and_nothing_is_written(run: Run) -> None:
-    put("a", **{**SAID, "labels": KINDS[:-1]})
+    put("a", **{**SAID, "labels": KINDS})
     told = run("new", "p", "in/a.urdf", *VOXELS, "--workers", "1")
     assert told.code == 1
-    assert "a.points.npz: it has " in told.out and f", but {len(KINDS) - 1:,} classes\n" in told.out
+    assert "a.points.npz: it has " in told.out and f", but {len(KINDS):,} classes\n" in told.out
     assert not Path("p/prepared/a.urdf").exists() and Path("p/meshforge.toml").exists()

@@ -1,4 +1,4 @@
-"""The parts of a mesh by segmented points or faces beside it."""
+"""The parts of a mesh by segmented points beside it."""
 
 from __future__ import annotations
 
@@ -38,6 +38,10 @@ def mesh(tmp_path: Path) -> Path:
     return path
 
 
+MIDDLES = np.repeat(VERTICES[FACES].mean(axis=1), 5, axis=0)
+"""Points of which all near a triangle are of its class."""
+
+
 def put(folder: Path, **arrays: object) -> Path:
     path = folder / "table.points.npz"
     np.savez(path, **arrays)  # type: ignore[arg-type]
@@ -47,7 +51,7 @@ def put(folder: Path, **arrays: object) -> Path:
 def parts_of(path: Path, *notes: str, align: str = "check") -> SurfaceParts:
     told = list[str]()
     file = SegmentationFile(path, placing=PointAlignment(align))  # type: ignore[arg-type]
-    (found,) = read_parts([(VERTICES, FACES)], file, path.with_name("table.obj"), note=told.append)
+    (found,) = read_parts([(VERTICES, FACES)], file, note=told.append)
     assert [note for note in notes if not any(note in one for one in told)] == []
     assert len(told) == len(notes), told
     return found
@@ -60,20 +64,28 @@ def names_of(found: SurfaceParts) -> list[str]:
 TRUE = [NAMES[k] for k in KINDS]
 
 
-def test_classes_of_faces_are_parts_leg_by_leg(tmp_path: Path) -> None:
-    found = parts_of(put(tmp_path, vertices=VERTICES, faces=FACES, labels=KINDS, names=NAMES))
+def test_points_with_a_class_each_are_parts_leg_by_leg(tmp_path: Path) -> None:
+    middles = VERTICES[FACES].mean(axis=1)
+    found = parts_of(put(tmp_path, points=MIDDLES, labels=np.repeat(KINDS, 5), names=NAMES))
     assert names_of(found) == TRUE
     assert sorted(found.names[k] for k in found.numbers) == ["leg", "leg", "panel"], "each patch is a part of its own"
-    right = VERTICES[FACES].mean(axis=1)[:, 0] > 0
-    for side in (right, ~right):
+    for side in (middles[:, 0] > 0, middles[:, 0] < 0):
         assert len(np.unique(found.of_face[side & (KINDS == 1)])) == 1
 
 
-def test_classes_of_the_faces_of_the_mesh_itself_need_no_points(mesh: Path, tmp_path: Path) -> None:
-    np.save(tmp_path / "table.points.npy", KINDS)
-    assert names_of(parts_of(tmp_path / "table.points.npy")) == [f"part_{k}" for k in KINDS]
-    (tmp_path / "classes.txt").write_text("panel\nleg\n")
-    assert names_of(parts_of(tmp_path / "table.points.npy")) == TRUE
+def test_triangles_too_small_for_a_place_have_the_class_around_their_middle(tmp_path: Path) -> None:
+    """A sheet of one part, and on it two rows of tiny triangles amid points of another."""
+    square = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], dtype=float)
+    tiny = np.array([[0, 0, 0], [1e-5, 0, 0], [0, 1e-5, 0]])
+    at = np.array([[x, 0.5, 0.015] for x in np.linspace(0.3, 0.31, 20)])
+    vertices = np.concatenate([square, *(tiny + place for place in at)])
+    faces = np.array([[0, 1, 2], [0, 2, 3], *([4 + 3 * k, 5 + 3 * k, 6 + 3 * k] for k in range(20))])
+    rng = np.random.default_rng(3)
+    sheet = np.column_stack([rng.random((4000, 2)), np.zeros(4000)])
+    points, labels = np.concatenate([sheet, np.repeat(at, 5, axis=0)]), np.repeat([0, 1], [4000, 100])
+    path = put(tmp_path, points=points, labels=labels, names=("sheet", "crumb"))
+    (found,) = read_parts([(vertices, faces)], SegmentationFile(path))
+    assert names_of(found) == ["sheet"] * 2 + ["crumb"] * 20
 
 
 def test_points_of_which_a_tenth_is_wrong_give_each_face_its_class(tmp_path: Path) -> None:
@@ -124,13 +136,13 @@ def test_a_file_on_all_of_an_asset_fits_a_piece_of_it(tmp_path: Path) -> None:
     path = put(tmp_path, points=POINTS, labels=KINDS[PLACES], names=NAMES)
     legs, far = (VERTICES, FACES[own]), Aabb.of_points(VERTICES)
     with pytest.raises(AssetError, match="do not lie where the asset does"):
-        read_parts([legs], SegmentationFile(path), tmp_path)
-    (found,) = read_parts([legs], SegmentationFile(path), tmp_path, beside=[far])
+        read_parts([legs], SegmentationFile(path))
+    (found,) = read_parts([legs], SegmentationFile(path), beside=[far])
     assert names_of(found).count("leg") > 0.95 * own.sum()
 
 
 def test_no_hull_crosses_the_boundary_and_hulls_are_called_by_their_class(mesh: Path, tmp_path: Path) -> None:
-    put(tmp_path, vertices=VERTICES, faces=FACES, labels=KINDS, names=NAMES)
+    put(tmp_path, points=MIDDLES, labels=np.repeat(KINDS, 5), names=NAMES)
     made = decompose(mesh, QUICK, by="labels", cache=False)
     assert {hull.name.rpartition("_")[0] for hull in made.hulls} == {"panel", "leg"}
     for hull in made.hulls:
@@ -149,7 +161,7 @@ def test_labels_of_one_part_are_told(mesh: Path, tmp_path: Path) -> None:
 WRONG = {
     "no class each": (
         {"points": POINTS, "labels": KINDS[PLACES][:-1]},
-        "it has 4,000 points, but 3,999 classes\n  Each point needs one, or each face.",
+        "it has 4,000 points, but 3,999 classes\n  Each point needs one.",
     ),
     "nothing": ({"points": np.zeros((0, 3)), "labels": KINDS[:0]}, "there is nothing in this file that has a class"),
     "not finite": (
@@ -187,9 +199,9 @@ def test_labels_that_make_no_sense_have_one_message(tmp_path: Path, case: str) -
     assert caught.value.message == f"{path}: {text}"
 
 
-def test_classes_for_another_number_of_faces_are_refused(mesh: Path, tmp_path: Path) -> None:
-    np.save(tmp_path / "table.points.npy", KINDS[:-1])
-    with pytest.raises(AssetError, match=rf"it has {len(KINDS) - 1:,} classes, table.obj has {len(KINDS):,} faces"):
+def test_classes_of_faces_are_refused_with_what_is_read(mesh: Path, tmp_path: Path) -> None:
+    put(tmp_path, vertices=VERTICES, faces=FACES, labels=KINDS)
+    with pytest.raises(AssetError, match="it has faces, and only points with a class each are read"):
         decompose(mesh, QUICK, by="labels", cache=False)
 
 
@@ -197,8 +209,8 @@ def test_without_labels_it_is_said_where_they_would_lie(mesh: Path) -> None:
     with pytest.raises(UsageError) as caught:
         decompose(mesh, QUICK, by="labels", cache=False)
     assert caught.value.message == (
-        f"{mesh}: no labels of points or faces lie beside it\n"
-        "  Put them beside it, in table.points.npz (or .npy, .ply), or name their file: --labels FILE."
+        f"{mesh}: no labels of points lie beside it\n"
+        "  Put them beside it, in table.points.npz (or .ply), or name their file: --labels FILE."
     )
 
 

@@ -1,4 +1,4 @@
-"""Labels out of files of other tools: segmented points and meshes, and PartNet's semantics."""
+"""Labels out of files of other tools: segmented points, and PartNet's semantics."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import pytest
 from meshforge.common import AssetError, MeshForgeError, ProjectError, UsageError
 from meshforge.formats import PointAlignment, read
 from meshforge.geometry import Floats
-from meshforge.labels import LabelFileOptions, LabelOutcome, OfferCache, PointsOptions
+from meshforge.labels import LabelFileOptions, LabelOutcome, OfferCache
 from meshforge.project import Project
 from meshforge.symbolic import Label
 from tests.unit.batch.families import label_of, tree, write_table
@@ -127,7 +127,7 @@ def table(folder: Path, *vocabulary: str) -> Project:
 
 
 def named(classes: str) -> LabelFileOptions:
-    return LabelFileOptions(reading=PointsOptions(tuple(classes.split(","))))
+    return LabelFileOptions(classes=tuple(classes.split(",")))
 
 
 def right(project: Project, asset: str = "t.obj") -> bool:
@@ -145,17 +145,16 @@ def test_each_hull_is_what_most_of_its_points_are(tmp_path: Path) -> None:
     assert (again.taken, again.same) == (0, 6)
 
 
-def test_names_of_classes_come_from_the_user_or_the_file_or_beside_it(tmp_path: Path) -> None:
+def test_names_of_classes_come_from_the_user_or_the_file(tmp_path: Path) -> None:
     project = table(tmp_path, *NAMES)
     file = segmented(project, "t.obj", tmp_path / "given.npz")
     for how in (named("top,leg,misc"), named("vocabulary")):
         assert project.label_from_files(file, how)[0].problems == () and right(project)
-    (tmp_path / "classes.txt").write_text("leg\ntop\nmisc\n")
+    file = segmented(project, "t.obj", tmp_path / "given.npz", names=("leg", "top", "misc"))
     project.label_from_files(file)
     assert labels(project, "t.obj")["top"][0] == "leg"
-    (tmp_path / "given.classes.txt").write_text("top\nleg\nmisc\n")
-    project.label_from_files(file)
-    assert right(project)
+    project.label_from_files(file, named("top,leg,misc"))
+    assert right(project), "what is typed counts before the file"
 
 
 def test_classes_without_names_are_refused_with_the_ways_to_name_them(tmp_path: Path) -> None:
@@ -165,7 +164,7 @@ def test_classes_without_names_are_refused_with_the_ways_to_name_them(tmp_path: 
     assert report.problems == (
         f"{file}: its classes are numbers, and nothing names them\n"
         "  Name them in order: --classes drawer,handle,leg, or --classes vocabulary where they are those of the "
-        "vocabulary; or put them beside it, a name a line, in given.classes.txt or classes.txt.",
+        "vocabulary; or put `names` into the .npz file.",
     )
     (report,) = project.label_from_files(file, named("top,leg"))
     assert report.problems[0].startswith(f"{file}: class 2 has no name\n")
@@ -207,7 +206,7 @@ def test_points_elsewhere_are_refused_and_taken_when_the_way_is_said(tmp_path: P
     assert report.taken == 0 and len(report.problems) == 1
     assert "its points do not lie where the asset does" in report.problems[0]
     assert report.problems[0].endswith("They would fit with --points-up y --align box.")
-    how = LabelFileOptions(reading=PointsOptions(("vocabulary",), PointAlignment("box", "y")))
+    how = LabelFileOptions(classes=("vocabulary",), placing=PointAlignment("box", "y"))
     (report,) = project.label_from_files(tmp_path / "given.npz", how)
     assert report.taken == 6 and all(hull.startswith(label) for hull, (label, _, _) in labels(project).items())
 
@@ -220,21 +219,20 @@ def test_points_that_most_hulls_do_not_hold_are_refused_unless_they_are_to_be_ta
     np.savez(tmp_path / "given.npz", points=points, labels=np.zeros(500, int), names=["top"])
     (report,) = project.label_from_files(tmp_path / "given.npz")
     assert "of its points are in hulls: it may be turned, or of another asset" in report.problems[0]
-    (report,) = project.label_from_files(
-        tmp_path / "given.npz", LabelFileOptions(reading=PointsOptions(placing=PointAlignment("off")))
-    )
+    (report,) = project.label_from_files(tmp_path / "given.npz", LabelFileOptions(placing=PointAlignment("off")))
     assert report.taken > 0 and not report.problems
 
 
-def test_faces_of_the_asset_itself_need_no_points(tmp_path: Path) -> None:
+def test_what_other_segmentations_write_is_refused_with_what_is_read(tmp_path: Path) -> None:
+    """Classes of the faces of the asset, as PartField and SAMPart3D write them, beside it or given."""
     project = table(tmp_path, *NAMES)
-    faces = np.concatenate(
-        [np.full(len(geom.shape.faces), NAMES.index(label_of(geom.name))) for geom in read(project.path("t.obj")).geoms]
-    )
-    count = project.path("t.obj").read_text().count("\nf ")
-    np.save(tmp_path / "assets/t.points.npy", faces.reshape(count, -1)[:, 0])
-    (report,) = project.label_from_files(options=named("vocabulary"))
-    assert report.taken == 6 and right(project)
+    np.save(tmp_path / "assets/t.points.npy", np.zeros(72, dtype=int))
+    for source in (None, tmp_path / "assets/t.points.npy"):
+        (report,) = project.label_from_files(source, named("vocabulary"))
+        (problem,) = report.problems
+        assert problem.startswith(f"{tmp_path / 'assets/t.points.npy'}: .npy is no kind of segmented points\n")
+        assert "Points with a class each are read, from a .ply" in problem and "np.savez(" in problem
+    assert not project.labels("t.obj").labels
 
 
 def test_a_person_is_never_overwritten_and_a_machine_is(tmp_path: Path) -> None:

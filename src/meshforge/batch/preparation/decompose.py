@@ -118,14 +118,14 @@ def _decompose_source(
 def _label_sources(
     asset: Asset, sources: Sequence[record.DecompositionSource], note: Callable[[str], None]
 ) -> tuple[record.DecompositionSource, ...]:
-    """The sources with the parts that the segmented points or faces beside the asset say; where there are none, no
+    """The sources with the parts that the segmented points beside the asset say; where there are none, no
     parts are known."""
     beside = points_beside(labels_beside(asset.path))
     if beside is None:
-        note(f"no labels of points or faces lie beside {asset.path.name}")
+        note(f"no labels of points lie beside {asset.path.name}")
         return tuple(replace(one, surface=replace(one.surface, parts=None)) for one in sources)
     surfaces = [(one.surface.vertices, one.surface.faces) for one in sources]
-    found = read_parts(surfaces, SegmentationFile(beside), asset.path, asset.up, note, _list_boxes(asset, sources))
+    found = read_parts(surfaces, SegmentationFile(beside), asset.up, note, _list_boxes(asset, sources))
     rows = zip(sources, found, strict=True)
     return tuple(replace(one, surface=replace(one.surface, parts=parts)) for one, parts in rows)
 
@@ -152,7 +152,6 @@ def _name_by_parts(base: str, parts: Sequence[str], taken: set[str]) -> list[str
 
 
 def _drop_decompositions(before: record.Preparation, only: Sequence[str]) -> record.Preparation:
-    """What is prepared, without the decompositions that are to be done again."""
     kept = []
     for step in before.steps:
         stay = tuple(r for r in step.replaced if step.do != "decompose" or not _is_chosen(r.what, only))

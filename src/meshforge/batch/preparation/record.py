@@ -170,7 +170,6 @@ def find_surfaces(asset: Asset) -> dict[str, Surface]:
 
 
 def _stack(own: Sequence[Surface], body: str) -> Surface | None:
-    """Surfaces as one, None where there is none."""
     if not own:
         return None
     faces = [s.faces + start for s, start in zip(own, np.cumsum([0, *(len(s.vertices) for s in own)]), strict=False)]
@@ -239,7 +238,6 @@ def _drop_outdated_note(asset: Asset) -> Asset:
 
 
 def _find_problem(asset: Asset, entry: Replacement) -> str | None:
-    """Why a piece cannot be replaced any more, None where it can."""
     known = _source_digest(asset, entry)
     if known is None:
         return "has collision geometry now, or nothing to be seen" if entry.kind == "body" else "is gone"

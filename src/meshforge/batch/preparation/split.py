@@ -98,7 +98,6 @@ def divide_hulls(
 
 
 def _list_geoms(asset: Asset, before: record.Preparation) -> dict[str, Geom]:
-    """The hulls of an asset as it is prepared, by name."""
     return {geom.name: geom for geom in record.apply_preparation(asset, before).geoms}
 
 

@@ -80,7 +80,6 @@ def compare_outcomes(
 
 
 def _split_checks(found: Examination | WorkerFailure) -> tuple[Examination | None, tuple[str, ...]]:
-    """What was measured, or why it was not."""
     if isinstance(found, WorkerFailure):
         return None, (f"the checks did not come to an end: {found.why}",)
     return found, ()

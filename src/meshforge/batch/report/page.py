@@ -229,7 +229,6 @@ def _change_legend(assets: Sequence[contents.ReportAsset]) -> list[_LegendRow]:
 
 
 def _header_lines(program: Program) -> Iterator[tuple[str, str | None]]:
-    """The lines above the rules, with a sentence where they need one."""
     if program.labels:
         yield f"labels {', '.join(map(show_label, program.labels))}", None
     if program.contact is not None:

@@ -1,1 +1,1 @@
-"""Points and faces that another tool gave classes, and the names of these classes."""
+"""Points that another tool gave classes, and the names of these classes."""

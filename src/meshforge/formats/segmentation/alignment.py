@@ -8,14 +8,20 @@ from typing import Literal
 
 import numpy as np
 
-from meshforge.common import GeometryError
+from meshforge.common import AssetError
 from meshforge.geometry import Aabb, Floats
 
 AlignMode = Literal["check", "box", "off"]
 Up = Literal["y", "z"]
 _TO_Z = np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]])  # points as rows, Y up, to those with Z up
-_TRIED_MODES: tuple[AlignMode, ...] = ("check", "box")
-_AXES: tuple[Up | None, ...] = (None, "y", "z")
+_WAYS: dict[tuple[AlignMode, Up | None], str] = {
+    ("check", None): "neither --align nor --points-up",
+    ("check", "y"): "--points-up y",
+    ("check", "z"): "--points-up z",
+    ("box", None): "--align box",
+    ("box", "y"): "--points-up y --align box",
+    ("box", "z"): "--points-up z --align box",
+}
 _SLACK = 0.05  # of the diagonal of an asset: how far its box and that of its points may be apart at any side
 
 
@@ -29,40 +35,36 @@ class PointAlignment:
     up: Up | None = None
 
 
-def align_points(points: Floats, boxes: Sequence[Aabb], placing: PointAlignment, up: Up | None = None) -> Floats:
-    """Points (n, 3) in the frame of an asset; boxes: of its hulls, and of what it shows; up: the axis that its format
-    says points up, None where it says none: then it is the other one than that of the points.
+def align_points(
+    points: Floats, boxes: Sequence[Aabb], placing: PointAlignment, where: str, up: Up | None = None
+) -> Floats:
+    """Points (n, 3) in the frame of an asset; boxes: of its hulls, and of what it shows; where: the file of the points;
+    up: the axis that its format says points up, None where it says none: then it is the other one than theirs.
 
-    Raises GeometryError where the box of the points fits none of them, with what would make it fit.
+    Raises AssetError where the box of the points fits none of them, with what would make it fit.
     """
     own = _move(points, boxes, placing, up)
     if placing.align == "off" or _box_distance(own, boxes) <= _SLACK:
         return own
-    ways = (PointAlignment(align, axis) for align in _TRIED_MODES for axis in _AXES)
-    apart = {way: _box_distance(_move(points, boxes, way, up), boxes) for way in ways}
-    best = min(apart, key=lambda way: apart[way])
-    raise GeometryError(
+    apart = {way: _box_distance(_move(points, boxes, PointAlignment(*way), up), boxes) for way in _WAYS}
+    best = min(_WAYS, key=lambda way: apart[way])
+    raise AssetError(
         f"its points do not lie where the asset does: they are in a box {_describe_box(Aabb.of_points(own))}, "
         f"the hulls in a box {_describe_box(boxes[0])}",
-        remedy=f"They would fit with {_describe_options(best)}."
+        where=where,
+        remedy=f"They would fit with {_WAYS[best]}."
         if apart[best] <= _SLACK
         else "Export them in the frame of the asset, in metres.",
     )
 
 
 def _move(points: Floats, boxes: Sequence[Aabb], placing: PointAlignment, up: Up | None) -> Floats:
-    turn = np.eye(3) if placing.up in (None, up) else _TO_Z if placing.up == "y" else _TO_Z.T
-    turned = points @ turn
-    if placing.align != "box":
+    turned = points if placing.up in (None, up) else points @ (_TO_Z if placing.up == "y" else _TO_Z.T)
+    own = Aabb.of_points(turned)
+    if placing.align != "box" or not own.diagonal > 0:
         return turned
-    return min([_fit_box(turned, box) for box in boxes], key=lambda own: _box_distance(own, boxes))
-
-
-def _fit_box(points: Floats, box: Aabb) -> Floats:
-    """Points scaled evenly and moved so that their box has the diagonal and the middle of another."""
-    own = Aabb.of_points(points)
-    scale = box.diagonal / own.diagonal if own.diagonal > 0 else 1.0
-    return (points - own.center) * scale + box.center
+    fitted = [(turned - own.center) * (box.diagonal / own.diagonal) + box.center for box in boxes]
+    return min(fitted, key=lambda found: _box_distance(found, boxes))
 
 
 def _box_distance(points: Floats, boxes: Sequence[Aabb]) -> float:
@@ -76,9 +78,3 @@ def _box_distance(points: Floats, boxes: Sequence[Aabb]) -> float:
 def _describe_box(box: Aabb) -> str:
     size, middle = (" ".join(f"{x:.3g}" for x in values) for values in (box.size, box.center))
     return f"of {size} m around {middle}"
-
-
-def _describe_options(placing: PointAlignment) -> str:
-    given = [f"--points-up {placing.up}"] if placing.up else []
-    given += [f"--align {placing.align}"] if placing.align == "box" else []
-    return " ".join(given) or "neither --align nor --points-up"

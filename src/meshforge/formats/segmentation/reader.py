@@ -1,214 +1,143 @@
-"""Read segmented points and meshes of every kind: PLY files, arrays as NumPy leaves them (`.npz` with several, `.npy`
-with one), and classes of an asset's own mesh, as PartField and SAMPart3D leave them."""
+"""Points with a class each, as segmentations (Find3D) and datasets (PartNet) give them: where their files lie beside an
+asset, and what they hold."""
 
 from __future__ import annotations
 
-import tokenize
 import warnings
 import zipfile
-import zlib
-from collections.abc import Mapping
-from dataclasses import replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from meshforge.common import AssetError
-from meshforge.formats.mesh_reader import read_content, read_triangles
-from meshforge.formats.meshfile import obj, surface
-from meshforge.formats.meshfile.ply import PlyRows, PlyText, parse_ply
-from meshforge.formats.segmentation import base
+from meshforge.common import AssetError, pluralize
+from meshforge.formats.mesh_reader import read_content
+from meshforge.formats.meshfile.ply import parse_ply
 from meshforge.geometry import Floats, Ints
 
-_MESHES = (".obj", ".ply", ".stl", ".glb", ".gltf")
-_MESH_REMEDY = (
-    'Write the mesh with them: np.savez("NAME.points.npz", vertices=mesh.vertices, faces=mesh.faces, labels=classes)'
+POINTS_SUFFIXES = (".ply", ".npz", ".npy")
+"""The suffixes of segmented points; the last, which other segmentations write, is found so that it is refused."""
+POINTS_MARK = ".points"
+"""What their names end with before the suffix: `table.points.npz`."""
+
+_POINTS = ("points", "xyz", "coord", "coords", "pts", "vertices")
+_LABELS = ("label", "labels", "scalar_label", "part_id", "segment", "seg", "semantic", "class", "pred")
+_LARGEST = 2**31
+_MOST = 1 << 29  # bytes of arrays that an archive unpacks to: ten million points with classes
+_REMEDY = (
+    "Points with a class each are read, from a .ply whose points have a property `label`, or so: "
+    'np.savez("NAME.points.npz", points=xyz, labels=classes, names=["drawer", "handle"])'
 )
 
-Array = npt.NDArray[Any]
-_POINTS = ("points", "vertices", "verts", "xyz", "coords", "coord", "pos", "pts")
-_FACES = ("faces", "triangles", "face", "tris")
-_NAMES = ("names", "classes", "class_names", "label_names", "part_names", "labels_names")
-_MOST = 1 << 29  # bytes of arrays that an archive unpacks to: ten million points with classes and faces
-_DAMAGED = (
-    *(ValueError, EOFError, KeyError, SyntaxError, TypeError, NotImplementedError, RuntimeError, MemoryError),
-    *(zipfile.BadZipFile, zlib.error, tokenize.TokenError),
-)
-"""What NumPy and the libraries below it raise for damaged files."""
-_ARRAY_REMEDY = 'Write it so: np.savez("NAME.points.npz", points=xyz, labels=classes, names=["drawer", "handle"])'
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Segmentation:
+    """points: (n, 3) in the frame of the tool; classes: (n,) whole numbers, below zero for none; names: those of
+    classes 0, 1, ..., none where the file has none."""
+
+    points: Floats
+    classes: Ints
+    names: tuple[str, ...] = ()
+
+    def class_names(self, given: Sequence[str] = ()) -> Mapping[int, str]:
+        """The names of classes by their number: those given, of 0, 1, ..., else the file's; an empty one is none."""
+        return {k: name for k, name in enumerate(given or self.names) if name}
 
 
-def read_segmentation(path: Path) -> base.Segmentation:
-    """The points or faces in a `.ply`, `.npz` or `.npy` file, with the class of each.
+def points_beside(place: Path) -> Path | None:
+    """The file of segmented points beside an asset, None where there is none; place: that of its labels file."""
+    stem = place.name.removesuffix(".labels.json")
+    candidates = (place.with_name(f"{stem}{POINTS_MARK}{suffix}") for suffix in POINTS_SUFFIXES)
+    return next((path for path in candidates if path.is_file()), None)
 
-    Raises AssetError naming the file: unreadable, of another kind, without classes, with wrong lengths, not finite.
+
+def is_segmentation(path: Path) -> bool:
+    """Whether a file is one of segmented points of some asset by its name, `table.points.ply`."""
+    return path.suffix.lower() in POINTS_SUFFIXES and Path(path.stem).suffix.lower() == POINTS_MARK
+
+
+def read_segmentation(path: Path) -> Segmentation:
+    """The points in a `.ply` or `.npz` file, with the class of each.
+
+    Raises AssetError naming the file: unreadable, of another kind, with faces, without classes, not finite.
     """
+    where = str(path)
     match path.suffix.lower():
         case ".ply":
-            return read_ply(path)
-        case ".npz" | ".npy":
-            return read_arrays(path)
-    problem = f"{path.suffix or 'a file without suffix'} is no kind of segmented points"
-    raise AssetError(problem, where=str(path), remedy=f"It is one of {', '.join(base.POINTS_SUFFIXES)}.")
+            text = parse_ply(read_content(path), where)
+            arrays = {"points": text.vertices} | ({"faces": text.faces} if len(text.faces) else {})
+            rows = next(rows for rows in text.rows if rows.element.name == "vertex")
+            arrays |= {p.name.lower(): np.asarray(rows.values[p.name]) for p in rows.element.properties if not p.count}
+        case ".npz":
+            arrays = _read_archive(path)
+        case suffix:
+            problem = f"{suffix or 'a file without suffix'} is no kind of segmented points"
+            raise AssetError(problem, where=where, remedy=_REMEDY)
+    if len(np.atleast_1d(arrays.get("faces", ()))):
+        remedy = f"Spread points over the faces, with the class of the face for each. {_REMEDY}"
+        raise AssetError("it has faces, and only points with a class each are read", where=where, remedy=remedy)
+    points = _to_points(_require(arrays, _POINTS, where), where)
+    classes = _to_whole_numbers(_require(arrays, _LABELS, where), where)
+    if len(classes) != len(points):
+        problem = f"it has {pluralize(len(points), 'point')}, but {pluralize(len(classes), 'class', 'classes')}"
+        raise AssetError(problem, where=where, remedy="Each point needs one.")
+    if not len(points):
+        raise AssetError("there is nothing in this file that has a class", where=where)
+    names = np.ravel(arrays.get("names", ()))
+    texts = (str(n, "utf-8", "replace") if isinstance(n, bytes) else str(n) for n in names.tolist())
+    return Segmentation(points, classes, tuple(texts))
 
 
-def read_ply(path: Path) -> base.Segmentation:
-    """The points or faces of a PLY file with their classes; those of faces count where both have some.
-
-    Raises AssetError: damaged, or nothing in it is a class by its name.
-    """
-    where, data = str(path), read_content(path)
-    text = parse_ply(data, where)
-    names = base.parse_comments(data[: text.header.size].decode("utf-8", "replace").splitlines())
-    own = [rows for kind in ("face", "vertex") for rows in text.rows if rows.element.name == kind]
-    found = [(rows, key) for rows in own if (key := _find_property(rows))]
-    if not found:
-        raise _no_classes_error(text, where)
-    rows, key = next((pair for pair in found if pair[0].element.rows), found[0])
-    classes = base.to_whole_numbers(rows.values[key], where)
-    of_faces = rows.element.name == "face"
-    classes = classes[text.face_at] if of_faces else classes
-    return base.check_segmentation(base.Segmentation(classes, text.vertices, text.faces, names, of_faces), where)
-
-
-def _find_property(rows: PlyRows) -> str | None:
-    """The property that is most plainly one of classes."""
-    ranks = [
-        (rank, p.name)
-        for p in rows.element.properties
-        if not p.count and (rank := base.label_rank_of(p.name)) is not None
-    ]
-    return min(ranks)[1] if ranks else None
-
-
-def _no_classes_error(text: PlyText, where: str) -> AssetError:
-    known = [p.name for rows in text.rows for p in rows.element.properties if not p.count and p.name not in "xyz"]
-    holds = f"it has {', '.join(np.unique(known))}" if known else "it has none but coordinates"
-    remedy = "Export the class of each point or face as a number, called `label`; colours are not read."
-    return AssetError(f"no property of this file is a class by its name: {holds}", where=where, remedy=remedy)
-
-
-def read_arrays(path: Path) -> base.Segmentation:
-    """The points or faces in an `.npz` or `.npy` file with their classes. Raises AssetError."""
-    where, found = str(path), _load_arrays(path)
-    read = _from_archive(found, where) if isinstance(found, dict) else _from_array(found, where)
-    return base.check_segmentation(read, where)
-
-
-def _load_arrays(path: Path) -> Array | dict[str, Array]:
-    """What a file holds; pickled objects, which may run anything, are not read."""
+def _read_archive(path: Path) -> dict[str, npt.NDArray[Any]]:
+    """The arrays of an archive; pickled objects, which may run anything, are not read."""
     try:
-        with path.open("rb") as stream, warnings.catch_warnings(action="ignore"):  # that a header is of Python 2
-            found: Array | np.lib.npyio.NpzFile = np.load(stream, allow_pickle=False)
-            return _unpack_archive(found, path) if isinstance(found, np.lib.npyio.NpzFile) else found
-    except _DAMAGED as error:
-        problem = "these arrays cannot be read: the file is damaged, of another kind, or holds Python objects"
-        raise AssetError(problem, where=str(path), remedy=_ARRAY_REMEDY) from error
+        with zipfile.ZipFile(path) as listed:
+            size = sum(entry.file_size for entry in listed.infolist())
+        if size <= _MOST:
+            with warnings.catch_warnings(action="ignore"), np.load(path, allow_pickle=False) as archive:
+                return {key.lower(): archive[key] for key in archive.files}
     except OSError as error:
         raise AssetError(f"cannot be read: {error.strerror or error}", where=str(path)) from error
+    except Exception as error:  # NumPy and what it stands on raise a dozen kinds for damaged files
+        problem = "these arrays cannot be read: the file is damaged, of another kind, or holds Python objects"
+        raise AssetError(problem, where=str(path), remedy=_REMEDY) from error
+    problem = f"its arrays would take {size >> 20:,} MiB, more than the {_MOST >> 20} MiB that are read"
+    raise AssetError(problem, where=str(path), remedy="Thin the points out.")
 
 
-def _unpack_archive(archive: np.lib.npyio.NpzFile, path: Path) -> dict[str, Array]:
-    """The arrays of an archive. Raises AssetError: they are far larger than any asset's."""
-    with zipfile.ZipFile(path) as listed:
-        size = sum(entry.file_size for entry in listed.infolist())
-    if size > _MOST:
-        problem = f"its arrays would take {size >> 20:,} MiB, more than the {_MOST >> 20} MiB that are read"
-        raise AssetError(problem, where=str(path), remedy="Thin the points out.")
-    return {key.lower(): archive[key] for key in archive.files}
+def _require(arrays: Mapping[str, npt.NDArray[Any]], names: Sequence[str], where: str) -> npt.NDArray[Any]:
+    found = next((arrays[name] for name in names if name in arrays), None)
+    if found is None:
+        lacks = "points" if names is _POINTS else "labels"
+        raise AssetError(f"it has no {lacks}, but {', '.join(sorted(arrays))}", where=where, remedy=_REMEDY)
+    return found
 
 
-def _from_archive(arrays: Mapping[str, Array], where: str) -> base.Segmentation:
-    names = next((arrays[key] for key in _NAMES if key in arrays and arrays[key].dtype.kind in "US"), None)
-    ranks = [
-        (rank, key)
-        for key, array in arrays.items()
-        if array.ndim and array.dtype.kind in "iufb" and (rank := base.label_rank_of(key)) is not None
-    ]
-    points = next((arrays[key] for key in _POINTS if key in arrays), None)
-    if points is None or not ranks:
-        lacks = "points (or vertices)" if points is None else "labels"
-        holds = ", ".join(sorted(arrays)) or "nothing"
-        raise AssetError(f"it has no array {lacks}, but {holds}", where=where, remedy=_ARRAY_REMEDY)
-    faces = next((arrays[key] for key in _FACES if key in arrays), np.zeros((0, 3), dtype=np.int64))
-    classes, vertices = base.to_whole_numbers(arrays[min(ranks)[1]], where), _to_points(points, where)
-    if 0 < len(classes) == len(vertices) == len(faces):
-        problem = f"it has {len(faces):,} vertices and as many faces, so that it is open whose the classes are"
-        raise AssetError(problem, where=where, remedy="Leave the faces out if the classes are of vertices.")
-    of_faces = len(classes) == len(faces)
-    texts = [
-        str(n, "utf-8", "replace") if isinstance(n, bytes) else str(n) for n in ([] if names is None else names.flat)
-    ]
-    called = base.number_names(texts)
-    return base.Segmentation(classes, vertices, _to_faces(faces, where), called, of_faces=of_faces)
-
-
-def _from_array(array: Array, where: str) -> base.Segmentation:
-    if array.dtype.names:
-        ranks = [(rank, key) for key in array.dtype.names if (rank := base.label_rank_of(key)) is not None]
-        if not ranks or not {"x", "y", "z"} <= set(array.dtype.names):
-            holds = ", ".join(array.dtype.names)
-            problem = f"it needs the fields x, y, z and label, it has {holds}"
-            raise AssetError(problem, where=where, remedy=_ARRAY_REMEDY)
-        points = np.column_stack([array[axis].reshape(-1) for axis in "xyz"])
-        return base.Segmentation(base.to_whole_numbers(array[min(ranks)[1]], where), _to_points(points, where))
-    if array.ndim == 2 and array.shape[1] == 4:
-        return base.Segmentation(base.to_whole_numbers(array[:, 3], where), _to_points(array[:, :3], where))
-    if array.ndim == 1 or 1 in array.shape:
-        return base.Segmentation(base.to_whole_numbers(array, where))
-    shape = " x ".join(map(str, array.shape)) or "no"
-    problem = f"it has {shape} numbers, where a class each is expected, or x, y, z and a class each"
-    raise AssetError(problem, where=where, remedy=_ARRAY_REMEDY)
-
-
-def _to_points(array: Array, where: str) -> Floats:
+def _to_points(array: npt.NDArray[Any], where: str) -> Floats:
     if array.ndim != 2 or array.shape[1] != 3 or array.dtype.kind not in "iuf":
-        shape = " x ".join(map(str, array.shape)) or "no"
-        raise AssetError(f"its points are {shape} values of type {array.dtype}, not three numbers each", where=where)
-    return array.astype(np.float64)
+        problem = f"its points are {_describe_shape(array)}, not three numbers each"
+        raise AssetError(problem, where=where, remedy=_REMEDY)
+    points: Floats = array.astype(np.float64)
+    if not np.isfinite(points).all():
+        raise AssetError("a coordinate is not a finite number", where=where, remedy="Fix or export it again.")
+    return points
 
 
-def _to_faces(array: Array, where: str) -> Ints:
-    if array.ndim != 2 or array.shape[1] != 3 or array.dtype.kind not in "iu":
-        shape = " x ".join(map(str, array.shape)) or "no"
-        problem = f"its faces are {shape} values of type {array.dtype}, not three numbers of vertices each"
+def _to_whole_numbers(array: npt.NDArray[Any], where: str) -> Ints:
+    """Classes (n,) as whole numbers; one column of a table counts."""
+    if array.size != max(array.shape, default=0) or array.dtype.kind not in "iufb":
+        problem = f"its classes are {_describe_shape(array)}, not one whole number each"
+        raise AssetError(problem, where=where, remedy=_REMEDY)
+    numbers = array.reshape(-1).astype(np.float64)
+    odd = np.flatnonzero(~((np.abs(numbers) < _LARGEST) & (numbers == np.floor(numbers))))
+    if len(odd):
+        problem = f"the class of element {odd[0]} is {numbers[odd[0]]:g}, which is no whole number"
         raise AssetError(problem, where=where)
-    return array.astype(np.int64)
+    return numbers.astype(np.int64)
 
 
-def attach_own_mesh(found: base.Segmentation, asset: Path, where: str) -> base.Segmentation:
-    """Classes with the mesh that they are of; where: their file.
-
-    Raises AssetError: the asset is no single mesh, or has another number of faces, or polygons that tools cut up
-    in their own order.
-    """
-    if asset.suffix.lower() not in _MESHES:
-        problem = f"it has classes without points, and {asset.name} is no mesh file to which they could belong"
-        raise AssetError(problem, where=where, remedy=_MESH_REMEDY)
-    vertices, faces, polygon = _read_mesh(asset, where)
-    count, polygons = len(found.classes), int(polygon[-1]) + 1 if len(polygon) else 0
-    own = replace(found, vertices=vertices, faces=faces)
-    if count == polygons and count != len(vertices):
-        return replace(own, classes=found.classes[polygon], of_faces=True)
-    if count == len(vertices) and count != polygons:
-        return own
-    problem = f"it has {count:,} classes, {asset.name} has {polygons:,} faces and {len(vertices):,} vertices"
-    raise AssetError(problem, where=where, remedy=_MESH_REMEDY)
-
-
-def _read_mesh(asset: Path, where: str) -> tuple[Floats, Ints, Ints]:
-    """The vertices (n, 3) and triangles (m, 3) of a mesh file in its order, and the polygon (m,) of each triangle."""
-    if asset.suffix.lower() == ".obj":
-        text = obj.parse_obj(read_content(asset), str(asset))
-        return text.vertices, text.faces, np.unique(text.face_at, return_inverse=True)[1].reshape(-1)
-    if asset.suffix.lower() == ".ply":
-        rows = parse_ply(read_content(asset), str(asset))
-        return rows.vertices, rows.faces, rows.face_at
-    surfaces = read_triangles(asset)
-    if len(surfaces) > 1:
-        problem = f"it has classes without points, and {asset.name} has {len(surfaces)} meshes"
-        raise AssetError(problem, where=where, remedy=_MESH_REMEDY)
-    soup = surface.join_surfaces(surfaces)
-    return soup.vertices, soup.faces, np.arange(len(soup.faces))
+def _describe_shape(array: npt.NDArray[Any]) -> str:
+    return f"{' x '.join(map(str, array.shape)) or 'no'} values of type {array.dtype}"

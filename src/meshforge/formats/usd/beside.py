@@ -12,18 +12,9 @@ from meshforge.common import AssetError
 from meshforge.formats.base import Output
 from meshforge.formats.collision_pieces import names_to_keep
 from meshforge.formats.libraries import pxr
-from meshforge.formats.usd import colliders
+from meshforge.formats.usd import colliders, prims
 from meshforge.formats.usd.edit import edit_root_layer
 from meshforge.formats.usd.edit_stage import holds_volume, note_hulls
-from meshforge.formats.usd.prims import (
-    PrimSpace,
-    add_mesh,
-    add_native,
-    add_prim,
-    free_prim_name,
-    mark_collider,
-    set_place,
-)
 from meshforge.formats.usd.stage import UsdDocument, UsdStage
 from meshforge.symbolic import Asset, Geom, Opaque
 
@@ -69,35 +60,37 @@ class _BesideWriter:
             self._add_hull(piece, carrier, space)
         elif piece.plane is not None and (place := space.split_pose(piece.plane)) is not None:
             spec = self._add_prim(carrier, piece.name, "Plane")
-            set_place(spec, place[0], place[1])
+            prims.set_place(spec, place[0], place[1])
             self._mark(spec, piece.name, None)
         elif piece.surface is not None and len(piece.surface.faces):
             holder, name = self._scope_of(carrier), self._free_name(carrier, piece.name)
-            spec = add_mesh(holder, name, np.asarray(piece.surface.vertices), piece.surface.faces, space)
+            spec = prims.add_mesh(holder, name, np.asarray(piece.surface.vertices), piece.surface.faces, space)
             self._mark(spec, piece.name, "none")
 
-    def _add_hull(self, geom: Geom, carrier: Any, space: PrimSpace) -> None:
+    def _add_hull(self, geom: Geom, carrier: Any, space: prims.PrimSpace) -> None:
         holder, name = self._scope_of(carrier), self._free_name(carrier, geom.name)
-        spec, approximation = add_native(holder, name, geom.shape, space), None
+        spec, approximation = prims.add_native(holder, name, geom.shape, space), None
         if spec is None:
             if geom.shape.is_primitive:
                 self.hulled[geom.shape.kind] += 1
-            spec = add_mesh(holder, name, np.asarray(geom.shape.vertices), geom.shape.faces, space)
+            spec = prims.add_mesh(holder, name, np.asarray(geom.shape.vertices), geom.shape.faces, space)
             approximation = "convexHull"
         self._mark(spec, geom.name, approximation)
 
     def _mark(self, spec: Any, name: str, approximation: str | None) -> None:
         """Make a prim collide, and remember what it is called in the asset."""
-        mark_collider(spec, approximation)
+        prims.mark_collider(spec, approximation)
         spec.SetInfoDictionaryValue("customData", colliders.HULL_NAME, name)
         self.count += 1
 
     def _add_prim(self, carrier: Any, name: str, kind: str) -> Any:
-        return add_prim(self._scope_of(carrier), self._free_name(carrier, name), kind)
+        return prims.add_prim(self._scope_of(carrier), self._free_name(carrier, name), kind)
 
     def _free_name(self, carrier: Any, name: str) -> str:
         """The name of a prim in the scope of a carrier: the last part of a hull's."""
-        return free_prim_name(name.rsplit("/", 1)[-1], [child.name for child in self._scope_of(carrier).nameChildren])
+        return prims.free_prim_name(
+            name.rsplit("/", 1)[-1], [child.name for child in self._scope_of(carrier).nameChildren]
+        )
 
     def _find_carrier(self, path: str | None) -> Any:
         """The prim that a piece moves with: the nearest animated one at or above where it comes from, else the default
@@ -125,16 +118,16 @@ class _BesideWriter:
             holder = self.layer.pseudoRoot if is_root else pxr.Sdf.CreatePrimInLayer(self.layer, above.GetPath())
             taken = [child.GetName() for child in above.GetAllChildren()]
             taken += [child.name for child in holder.nameChildren]
-            spec = add_prim(holder, free_prim_name(_SCOPE, taken), "Xform" if beside else "Scope")
+            spec = prims.add_prim(holder, prims.free_prim_name(_SCOPE, taken), "Xform" if beside else "Scope")
             if beside:
                 _copy_movement(carrier, spec)
             self.scopes[path] = spec
         return self.scopes[path]
 
-    def _space_of(self, carrier: Any) -> PrimSpace:
+    def _space_of(self, carrier: Any) -> prims.PrimSpace:
         if carrier.IsPseudoRoot():
-            return PrimSpace(self.scene.metres * np.eye(3), np.zeros(3))
-        return PrimSpace(*self.scene.placement(carrier))
+            return prims.PrimSpace(self.scene.metres * np.eye(3), np.zeros(3))
+        return prims.PrimSpace(*self.scene.placement(carrier))
 
 
 def _copy_movement(prim: Any, spec: Any) -> None:

@@ -13,26 +13,15 @@ from meshforge.common import join_names, pluralize
 from meshforge.formats.base import Loss, Output
 from meshforge.formats.kinematic_tree import BodyTree, claim_name
 from meshforge.formats.libraries import pxr
+from meshforge.formats.usd import prims
 from meshforge.formats.usd.colliders import apply_schemas
 from meshforge.formats.usd.looks import StageLooks
-from meshforge.formats.usd.prims import (
-    PrimSpace,
-    add_joint,
-    add_mesh,
-    add_native,
-    add_prim,
-    free_prim_name,
-    mark_collider,
-    set_place,
-    set_value,
-    write_mass,
-)
 from meshforge.formats.usd.stage import BODY, export_layer, is_crate_wanted, pack_usdz, usd
 from meshforge.formats.visuals import linear_color, read_visual_surfaces
 from meshforge.geometry import Pose
 from meshforge.symbolic import Asset, Geom, Inertial, Joint, Opaque, Surface
 
-_ROOT = PrimSpace(np.eye(3), np.zeros(3))
+_ROOT = prims.PrimSpace(np.eye(3), np.zeros(3))
 _LIGHT = 1e-3  # [kg] of a link that stands between joints; engines cannot do with much less beside others
 _WORLDS = (BODY, "world")
 
@@ -52,7 +41,7 @@ class _Creator:
         self.asset, self.name = asset, name
         self.links = StageLinks.of(asset)
         self.layer = pxr.Sdf.Layer.CreateAnonymous(".usda")
-        self.root = add_prim(self.layer.pseudoRoot, free_prim_name(name.stem, ()), "Xform")
+        self.root = prims.add_prim(self.layer.pseudoRoot, prims.free_prim_name(name.stem, ()), "Xform")
         self.bodies: dict[str, Any] = {}
         self.names: dict[str, str] = {}
         self.lost: list[Loss] = []
@@ -79,24 +68,24 @@ class _Creator:
         return Output(main, pictures, notes=tuple(self._collect_notes()), names=self.names, lost=tuple(self.lost))
 
     def _add_body(self, link: str, pose: Pose) -> None:
-        spec = add_prim(self.root, self._free_name(self.root, link), "Xform")
-        set_place(spec, pose.translation, pose.rotation)
+        spec = prims.add_prim(self.root, self._free_name(self.root, link), "Xform")
+        prims.set_place(spec, pose.translation, pose.rotation)
         apply_schemas(spec, ["PhysicsRigidBodyAPI"])
         self.bodies[link] = spec
         inertial = next((known for known in self.asset.mechanism.inertials if known.body == link), None)
         if link in self.links.between:
             inertial = Inertial(link, _LIGHT, pose.translation, _LIGHT * 1e-3 * np.eye(3))
         if inertial is not None and inertial.mass > 0:
-            write_mass(spec, inertial, self._space(link))
+            prims.write_mass(spec, inertial, self._space(link))
 
     def _add_hull(self, geom: Geom) -> None:
         holder, name = self._find_holder(geom.name, geom.body)
         space = self._space(geom.body)
-        spec, approximation = add_native(holder, name, geom.shape, space), None
+        spec, approximation = prims.add_native(holder, name, geom.shape, space), None
         if spec is None:
             points = np.asarray(geom.shape.vertices)
-            spec, approximation = add_mesh(holder, name, points, geom.shape.faces, space), "convexHull"
-        mark_collider(spec, approximation, drawn=self.drawn)
+            spec, approximation = prims.add_mesh(holder, name, points, geom.shape.faces, space), "convexHull"
+        prims.mark_collider(spec, approximation, drawn=self.drawn)
         body = self.bodies.get(geom.body)
         own = str(spec.path).removeprefix(f"{body.path if body else self.root.path}/")
         read = f"{body.name if body else BODY}/{own}" if self.bodies else own
@@ -106,26 +95,26 @@ class _Creator:
     def _add_opaque(self, piece: Opaque) -> None:
         """Add a piece as its triangles, or as a plane; the report names one that is neither."""
         if piece.plane is not None:  # which USD does not let move
-            spec = add_prim(self.root, self._free_name(self.root, piece.name.rsplit("/", 1)[-1]), "Plane")
-            set_place(spec, piece.plane.translation, piece.plane.rotation)
-            mark_collider(spec, None)
+            spec = prims.add_prim(self.root, self._free_name(self.root, piece.name.rsplit("/", 1)[-1]), "Plane")
+            prims.set_place(spec, piece.plane.translation, piece.plane.rotation)
+            prims.mark_collider(spec, None)
             return
         holder, name = self._find_holder(piece.name, piece.body)
         space = self._space(piece.body)
         if piece.surface is not None and len(piece.surface.faces):
-            spec = add_mesh(holder, name, np.asarray(piece.surface.vertices), piece.surface.faces, space)
-            mark_collider(spec, "convexDecomposition" if piece.body in self.bodies else "none", drawn=self.drawn)
+            spec = prims.add_mesh(holder, name, np.asarray(piece.surface.vertices), piece.surface.faces, space)
+            prims.mark_collider(spec, "convexDecomposition" if piece.body in self.bodies else "none", drawn=self.drawn)
 
     def _find_holder(self, name: str, body: str) -> tuple[Any, str]:
         """The spec below which a hull goes, and its name there; what its name has of folders becomes scopes."""
         holder = self.bodies.get(body, self.root)
         *above, own = name.removeprefix(f"{body}/").split("/")
         for k, part in enumerate(above):
-            found = holder.nameChildren.get(free_prim_name(part, ()))
+            found = holder.nameChildren.get(prims.free_prim_name(part, ()))
             if found is not None and found.typeName != "Scope":
                 own = "_".join([*above[k:], own])
                 break
-            holder = found or add_prim(holder, free_prim_name(part, ()), "Scope")
+            holder = found or prims.add_prim(holder, prims.free_prim_name(part, ()), "Scope")
         return holder, self._free_name(holder, own)
 
     def _add_visuals(self) -> None:
@@ -142,10 +131,10 @@ class _Creator:
         joints = [j for j in self.links.joints if not (j.kind == "floating" and j.parent not in paths)]
         if not joints:
             return
-        holder = add_prim(self.root, self._free_name(self.root, "joints"), "Scope")
+        holder = prims.add_prim(self.root, self._free_name(self.root, "joints"), "Scope")
         for joint in joints:
             name = self._free_name(holder, joint.name or f"{joint.child}_joint")
-            spec = add_joint(holder, name, joint, paths, dict(self.links.poses))
+            spec = prims.add_joint(holder, name, joint, paths, dict(self.links.poses))
             if joint.kind == "fixed" and joint.parent not in paths and self._has_children(joint.child):
                 apply_schemas(spec, ["PhysicsArticulationRootAPI"])
         held = {joint.child for joint in joints}
@@ -175,13 +164,13 @@ class _Creator:
         if self.links.between:
             yield f"links of {_LIGHT:g} kg stand between joints of one body ({join_names(self.links.between, 3)})"
 
-    def _space(self, body: str) -> PrimSpace:
+    def _space(self, body: str) -> prims.PrimSpace:
         pose = self.links.poses.get(body)
-        return PrimSpace(pose.rotation, pose.translation) if pose else _ROOT
+        return prims.PrimSpace(pose.rotation, pose.translation) if pose else _ROOT
 
     @staticmethod
     def _free_name(holder: Any, wanted: str) -> str:
-        return free_prim_name(wanted, [child.name for child in holder.nameChildren])
+        return prims.free_prim_name(wanted, [child.name for child in holder.nameChildren])
 
 
 @dataclass(frozen=True, slots=True)
@@ -216,13 +205,15 @@ class StageLinks:
         return StageLinks(poses, tuple(joints), tuple(between))
 
 
-def add_visual(holder: Any, name: str, surface: Surface, space: PrimSpace) -> Any:
+def add_visual(holder: Any, name: str, surface: Surface, space: prims.PrimSpace) -> Any:
     """A mesh that is seen and does not collide, with its display colour."""
-    spec = add_mesh(holder, name, np.asarray(surface.vertices), surface.faces, space)
+    spec = prims.add_mesh(holder, name, np.asarray(surface.vertices), surface.faces, space)
     color = surface.rgba
     if color is None:
         return spec
-    set_value(spec, "primvars:displayColor", "Color3fArray", pxr.Vt.Vec3fArray([pxr.Gf.Vec3f(*linear_color(color))]))
+    prims.set_value(
+        spec, "primvars:displayColor", "Color3fArray", pxr.Vt.Vec3fArray([pxr.Gf.Vec3f(*linear_color(color))])
+    )
     if color[3] < 1:
-        set_value(spec, "primvars:displayOpacity", "FloatArray", pxr.Vt.FloatArray([float(color[3])]))
+        prims.set_value(spec, "primvars:displayOpacity", "FloatArray", pxr.Vt.FloatArray([float(color[3])]))
     return spec

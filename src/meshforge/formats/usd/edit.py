@@ -4,6 +4,7 @@ bodies keep their masses."""
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path, PurePosixPath
 from typing import Any
@@ -14,32 +15,29 @@ from meshforge.common import AssetError
 from meshforge.formats import collision_pieces
 from meshforge.formats.base import Mass, Output, note_renames
 from meshforge.formats.libraries import pxr
-from meshforge.formats.usd import colliders, edit_stage, layer_text, prims
+from meshforge.formats.usd import colliders, edit_stage, prims, stage
 from meshforge.formats.usd.mechanism import centre_of, moments_of, read_number
 from meshforge.formats.usd.read import PrimCollision, read_collisions
-from meshforge.formats.usd.stage import (
-    UsdDocument,
-    UsdStage,
-    export_layer,
-    is_crate,
-    is_crate_wanted,
-    pack_usdz,
-    unpack_usdz,
-    usd,
-)
 from meshforge.geometry import Floats, Polytope, Shape, inertia, is_closed
 from meshforge.symbolic import Asset, Inertial
 
 PACKAGE_SUFFIX = ".usdz"
 LAYER_SUFFIXES = (".usd", ".usda", ".usdc")
 
-LayerEdit = Callable[[UsdStage, Any], tuple[list[str], dict[str, str]]]
+LayerEdit = Callable[[stage.UsdStage, Any], tuple[list[str], dict[str, str]]]
 """Edits a copy of the root layer of a stage; returns notes, and what hulls read back as under another name."""
 
+_COMMENTS = re.compile(
+    r'"""(?:[^\\]|\\.)*?"""|"(?:[^"\\\n]|\\.)*"'
+    r"|'''(?:[^\\]|\\.)*?'''|'(?:[^'\\\n]|\\.)*'"
+    r"|@@@.*?@@@|@[^@\n]*@|(#[^\n]*|//[^\n]*|/\*.*?\*/)",
+    re.S,
+)
+"""Finds comments outside of texts and references; of these nothing."""
 _DENSITY = 1000.0  # [kg/m^3], where nothing says another one
 
 
-def write_usd(asset: Asset, document: UsdDocument, name: str, mass: Mass) -> Output:
+def write_usd(asset: Asset, document: stage.UsdDocument, name: str, mass: Mass) -> Output:
     """The files of an asset that was read from a USD file; without an edit, its own bytes.
 
     Raises AssetError: a file changed since the asset was read, or the edit cannot be made in its root layer.
@@ -50,7 +48,7 @@ def write_usd(asset: Asset, document: UsdDocument, name: str, mass: Mass) -> Out
         copies, far = _list_copies(asset)
         return Output(document.source, copies=copies, notes=tuple(far))
 
-    def author(scene: UsdStage, layer: Any) -> tuple[list[str], dict[str, str]]:
+    def author(scene: stage.UsdStage, layer: Any) -> tuple[list[str], dict[str, str]]:
         bodies = colliders.StageBodies(scene, document.physics)
         sources = list(read_collisions(scene, bodies, document.physics, []))
         edit = edit_stage.UsdEdit(scene, bodies, document, layer)
@@ -61,12 +59,12 @@ def write_usd(asset: Asset, document: UsdDocument, name: str, mass: Mass) -> Out
     return edit_root_layer(asset, document, PurePosixPath(name), author if edited else None)
 
 
-def is_stage_edited(asset: Asset, document: UsdDocument) -> bool:
+def is_stage_edited(asset: Asset, document: stage.UsdDocument) -> bool:
     """Whether the hulls of an asset are not those of its stage."""
     return collision_pieces.is_edited(asset, (piece for element in document.authored for piece in element.names))
 
 
-def edit_root_layer(asset: Asset, document: UsdDocument, name: PurePosixPath, author: LayerEdit | None) -> Output:
+def edit_root_layer(asset: Asset, document: stage.UsdDocument, name: PurePosixPath, author: LayerEdit | None) -> Output:
     """The files of a stage with an edit of a copy of its root layer; without one, the same in the form of a name.
 
     Raises AssetError: a file changed since the asset was read.
@@ -75,38 +73,26 @@ def edit_root_layer(asset: Asset, document: UsdDocument, name: PurePosixPath, au
     collision_pieces.refuse_changed_files(document.digests, str(asset.path))
     if not asset.path.is_file() or asset.path.read_bytes() != document.source:
         raise collision_pieces.change_error(asset.path.name, str(asset.path))
-    with usd(str(asset.path)):
-        scene = UsdStage.open(asset.path)
+    with stage.usd(str(asset.path)):
+        scene = stage.UsdStage.open(asset.path)
         layer = pxr.Sdf.Layer.CreateAnonymous(".usda")
         layer.TransferContent(scene.stage.GetRootLayer())
         notes, names = author(scene, layer) if author else ([], {})
-        return _build_output(layer, scene.stage.GetRootLayer(), asset, document, name, copies, [*far, *notes], names)
+        return _build_output(layer, asset, document, name, copies, [*far, *notes], names)
 
 
-def _layer_text(layer: Any, original: Any, source: bytes, notes: list[str]) -> bytes:
-    """A layer as text: the authored one with the edit where that can be done, else as the library writes it."""
-    after = layer.ExportToString()
-    if is_crate(source):
-        return bytes(after.encode())
-    text = source.decode("utf-8", "replace")
-    made = layer_text.patch_layer(text, original.ExportToString(), after)
-    if made is not None and "\ufffd" not in text:
-        check = pxr.Sdf.Layer.CreateAnonymous(".usda")
-        try:
-            if check.ImportFromString(made) and check.ExportToString() == after:
-                return made.encode()
-        except pxr.Tf.ErrorException:
-            pass
-    if layer_text.has_comments(text):
-        notes.append("comments in its text are not kept")
-    return bytes(after.encode())
+def _layer_text(layer: Any, source: bytes, notes: list[str]) -> bytes:
+    """A layer as text, as the library writes it: comments of an authored one are lost, with a note."""
+    comments = [] if stage.is_crate(source) else [*filter(None, _COMMENTS.findall(source.decode("utf-8", "replace")))]
+    if len(comments) > 1:  # the first is the line that says what the file is
+        notes.append("comments in its text are lost: USD's library writes an edited layer anew")
+    return stage.export_layer(layer, crate=False)
 
 
 def _build_output(
     layer: Any,
-    original: Any,
     asset: Asset,
-    document: UsdDocument,
+    document: stage.UsdDocument,
     name: PurePosixPath,
     copies: Mapping[str, Path],
     notes: list[str],
@@ -114,18 +100,19 @@ def _build_output(
 ) -> Output:
     """The files of an edited root layer, in the form that a name asks for."""
     suffix, was_package = name.suffix.lower(), asset.path.suffix.lower() == PACKAGE_SUFFIX
-    inside = unpack_usdz(document.source) if was_package else {}
+    inside = stage.unpack_usdz(document.source) if was_package else {}
     first = next(iter(inside), "")
     root = inside.pop(first) if first else document.source
     if suffix != PACKAGE_SUFFIX:
-        crate = is_crate_wanted(suffix, root)
-        main = export_layer(layer, crate=True) if crate else _layer_text(layer, original, root, notes)
+        crate = stage.is_crate_wanted(suffix, root)
+        main = stage.export_layer(layer, crate=True) if crate else _layer_text(layer, root, notes)
         return Output(main, inside, dict(copies), tuple(notes), names)
     if not was_package:
         inside, first = _read_files_beside(copies, asset), f"{name.stem}.usdc"
-    crate = is_crate_wanted(PurePosixPath(first).suffix.lower(), root)
-    main = export_layer(layer, crate=True) if crate else _layer_text(layer, original, root, notes)
-    return Output(pack_usdz({first: main, **inside}), {}, dict(copies) if was_package else {}, tuple(notes), names)
+    crate = stage.is_crate_wanted(PurePosixPath(first).suffix.lower(), root)
+    main = stage.export_layer(layer, crate=True) if crate else _layer_text(layer, root, notes)
+    package, beside = stage.pack_usdz({first: main, **inside}), dict(copies) if was_package else {}
+    return Output(package, {}, beside, tuple(notes), names)
 
 
 def _read_files_beside(copies: Mapping[str, Path], asset: Asset) -> dict[str, bytes]:
@@ -157,7 +144,7 @@ def _list_copies(asset: Asset) -> tuple[dict[str, Path], list[str]]:
 
 def _find_absolute_references(asset: Asset) -> frozenset[Path]:
     """The files that the layers of an asset refer to by absolute paths."""
-    with usd(str(asset.path)):
+    with stage.usd(str(asset.path)):
         layers = [asset.path, *(file for file in asset.files if file.suffix.lower() in LAYER_SUFFIXES)]
         texts = [
             text for layer in layers for kind in pxr.UsdUtils.ExtractExternalReferences(str(layer)) for text in kind
@@ -184,7 +171,7 @@ def keep_masses(edit: edit_stage.UsdEdit, sources: Sequence[PrimCollision]) -> l
     return notes
 
 
-def weigh(scene: UsdStage, prim: Any, body: str, sources: Sequence[PrimCollision]) -> Inertial | None:
+def weigh(scene: stage.UsdStage, prim: Any, body: str, sources: Sequence[PrimCollision]) -> Inertial | None:
     """What a body weighs by all that its stage says, colliders included; None where a volume is not known."""
     pieces = [(source, _solids_of(source.parts)) for source in sources]
     solids = [(source, shapes) for source, shapes in pieces if shapes]
@@ -220,7 +207,7 @@ def _solids_of(parts: Sequence[collision_pieces.CollisionPiece]) -> list[Shape] 
     return found if all(shape.volume > 0 for shape in found) else None
 
 
-def _mass_of(scene: UsdStage, body: Any, source: PrimCollision, shapes: Sequence[Shape]) -> float:
+def _mass_of(scene: stage.UsdStage, body: Any, source: PrimCollision, shapes: Sequence[Shape]) -> float:
     """The mass [kg] of a collider: its own, else by density, its own, its body's or its material's."""
     volume = sum(shape.volume for shape in shapes)
     own = read_number(scene, source.prim, "physics:mass") if source.prim != body else None

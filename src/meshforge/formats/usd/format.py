@@ -9,15 +9,8 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 from meshforge.common import AssetError
-from meshforge.formats.base import (
-    BODY_FEATURES,
-    SCENE_FEATURES,
-    Mass,
-    Output,
-    ReadOptions,
-    SceneFormat,
-    feature_of_tags,
-)
+from meshforge.common.processes import call_isolated
+from meshforge.formats import base
 from meshforge.formats.usd.stage import UsdDocument, UsdStage, usd
 from meshforge.symbolic import Asset, Feature, FeatureKind, Surface
 
@@ -32,7 +25,7 @@ _TYPES = {
 _LIGHTS = "Light"
 
 
-class UsdFormat(SceneFormat):
+class UsdFormat(base.SceneFormat):
     """Universal Scene Description, as text (.usda), crate (.usdc), either (.usd) or a package (.usdz)."""
 
     name = "usd"
@@ -42,35 +35,38 @@ class UsdFormat(SceneFormat):
     up = "z"
     marks = "as colliders of UsdPhysics"
     has_pictures = True
-    holds = BODY_FEATURES | {
+    holds = base.BODY_FEATURES | {
         *(FeatureKind.CAPSULES, FeatureKind.OPAQUE, FeatureKind.PLANES),
         *(FeatureKind.JOINTS, FeatureKind.BALL_JOINTS, FeatureKind.FIXED_JOINTS),
     }
-    could = SCENE_FEATURES | {
+    could = base.SCENE_FEATURES | {
         *(FeatureKind.VERTEX_COLORS, FeatureKind.TEXTURE_COORDINATES, FeatureKind.PAIRS, FeatureKind.ACTUATORS),
         *(FeatureKind.DYNAMICS, FeatureKind.ANIMATIONS, FeatureKind.SKINS, FeatureKind.COMMENTS),
     }
     instead: ClassVar[Mapping[FeatureKind, str]] = {FeatureKind.ELLIPSOIDS: "written as triangles"}
 
-    def read(self, path: Path, options: ReadOptions) -> Asset:
+    # The library runs in a process of its own, since a damaged file may crash it.
+    def read(self, path: Path, options: base.ReadOptions) -> Asset:
         from meshforge.formats.usd import read  # lazy: only USD needs it
 
-        return read.read_usd(path)
+        return call_isolated(read.read_usd, path, where=str(path))
 
-    def write(self, asset: Asset, name: str, mass: Mass = "keep") -> Output:
+    def write(self, asset: Asset, name: str, mass: base.Mass = "keep") -> base.Output:
         if not isinstance(asset.document, UsdDocument):
             raise AssetError("this asset was not read from a USD file", where=str(asset.path))
         from meshforge.formats.usd import edit  # lazy: only USD needs it
 
-        return edit.write_usd(asset, asset.document, name, mass)
+        return call_isolated(edit.write_usd, asset, asset.document, name, mass, where=str(asset.path))
 
-    def create(self, asset: Asset, name: str) -> Output:
+    def create(self, asset: Asset, name: str) -> base.Output:
         from meshforge.formats.usd import create  # lazy: only USD needs it
 
         return create.create_usd(asset, name)
 
     def features(self, asset: Asset) -> Iterable[Feature]:
-        return features_of(asset) if isinstance(asset.document, UsdDocument) else ()
+        if not isinstance(asset.document, UsdDocument):
+            return ()
+        return call_isolated(_read_features, asset.path, where=str(asset.path))
 
     def is_unmarked(self, asset: Asset) -> bool:
         return isinstance(asset.document, UsdDocument) and not asset.document.physics
@@ -85,19 +81,19 @@ class UsdFormat(SceneFormat):
         assert isinstance(asset.document, UsdDocument)
         from meshforge.formats.usd import read  # lazy: only USD needs it
 
-        return read.read_stage_surfaces(asset, asset.document)
+        return call_isolated(read.read_stage_surfaces, asset, asset.document, where=str(asset.path))
 
-    def write_beside(self, asset: Asset, name: str) -> Output:
+    def write_beside(self, asset: Asset, name: str) -> base.Output:
         assert isinstance(asset.document, UsdDocument)
         from meshforge.formats.usd import beside  # lazy: only USD needs it
 
-        return beside.write_usd_beside(asset, asset.document, name)
+        return call_isolated(beside.write_usd_beside, asset, asset.document, name, where=str(asset.path))
 
 
-def features_of(asset: Asset) -> list[Feature]:
+def _read_features(path: Path) -> list[Feature]:
     """The features of a USD file that its asset does not have."""
-    with usd(str(asset.path)):
-        return list(_list_features(UsdStage.open(asset.path)))
+    with usd(str(path)):
+        return list(_list_features(UsdStage.open(path)))
 
 
 def _list_features(scene: UsdStage) -> Iterator[Feature]:
@@ -111,7 +107,7 @@ def _list_features(scene: UsdStage) -> Iterator[Feature]:
             found.setdefault(what, []).append(prim.GetName())
         count.update(_features_of_attributes(prim))
     for what, names in found.items():
-        yield feature_of_tags(what, names)
+        yield base.feature_of_tags(what, names)
     for what, number in count.items():
         yield Feature(what, unnamed=number)
 

@@ -6,6 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, Protocol, runtime_checkable
 
+from meshforge.common.processes import call_isolated
 from meshforge.formats.temporary import make_folder
 from meshforge.formats.usd.stage import usd
 from meshforge.symbolic import Asset
@@ -47,7 +48,7 @@ def read_stage(stage: StageObject) -> Asset:
         else:
             path, flat = make_folder() / f"{name}.usda", True
             stage.Flatten().Export(str(path))
-    asset = read_usd(path)
+    asset = call_isolated(read_usd, path, where=str(path))
     return replace(asset, notes=(_FLAT, *asset.notes)) if flat else asset
 
 

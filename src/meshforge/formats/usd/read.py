@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from meshforge.common import AssetError, GeometryError, MeshForgeError, file_digest, is_file, join_names, pluralize
+from meshforge.common.processes import call_isolated, report_progress
 from meshforge.formats import collision_pieces, mesh_reader
 from meshforge.formats.libraries import pxr
 from meshforge.formats.meshfile.surface import GAMMA
@@ -45,7 +46,7 @@ def read_usd(path: Path) -> Asset:
     """
     source = mesh_reader.read_content(path)
     with usd(str(path)) as complaints:
-        guard.refuse_harmful_layers(path, source)
+        guard.refuse_far_references(path, source)
         scene = UsdStage.open(path)
         asset = _build_asset(scene, source)
     with usd(str(path)):  # which complains about missing files once more
@@ -212,15 +213,20 @@ class StageSurfaces(LazySurfaces):
 
     def _make(self) -> list[Surface]:
         try:
-            with usd(str(self._path)):
-                scene = UsdStage.open(self._path)
-                return [surface for path, body in self._bodies.items() for surface in _read_surfaces(scene, path, body)]
+            return call_isolated(_list_surfaces, self._path, self._bodies, where=str(self._path))
         except MeshForgeError:
             return []
 
 
+def _list_surfaces(path: Path, bodies: Mapping[str, str]) -> list[Surface]:
+    with usd(str(path)):
+        scene = UsdStage.open(path)
+        return [surface for prim, body in bodies.items() for surface in _read_surfaces(scene, prim, body)]
+
+
 def _read_surfaces(scene: UsdStage, path: str, body: str) -> Iterator[Surface]:
     prim = scene.stage.GetPrimAtPath(path)
+    report_progress()
     linear, offset = scene.placement(prim)
     if not (np.isfinite(linear).all() and np.isfinite(offset).all()):
         return

@@ -14,17 +14,19 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
+from importlib import import_module
 from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
 
 from meshforge.common import AssetError
+from meshforge.common.processes import report_progress
 from meshforge.formats.libraries import pxr
-from meshforge.formats.usd.crate import CRATE_MARK
 from meshforge.geometry import Floats, Pose
 from meshforge.symbolic import Document
 
+_CRATE_MARK = b"PXR-USDC"
 BODY = "body"
 """The name of the body of all collision that is part of no rigid body."""
 
@@ -63,7 +65,7 @@ class UsdDocument(Document):
 
 def is_crate(data: bytes) -> bool:
     """Whether bytes are a layer in the binary form."""
-    return data.startswith(CRATE_MARK)
+    return data.startswith(_CRATE_MARK)
 
 
 def export_layer(layer: Any, *, crate: bool) -> bytes:
@@ -123,23 +125,17 @@ _LONGEST = 300  # characters of a complaint in a message
 _CENTIMETRES = 0.01  # metersPerUnit of a stage that does not say it
 
 
-def require_usd(where: str) -> None:
-    """Raise AssetError where a package is not installed."""
-    try:
-        import lz4.block  # noqa: F401  # lazy: an optional package; fails here, with the remedy, rather than later
-        import pxr.Usd  # noqa: F401  # lazy: an optional package, and 0.3 s
-    except ImportError as error:
-        problem = f"USD files need the packages usd-core and lz4, and {error.name} is not installed"
-        raise AssetError(problem, where=where, remedy="Install it: pip install 'meshforge[usd]'.") from error
-
-
 @contextmanager
 def usd(where: str) -> Iterator[list[str]]:
     """The library, for one asset alone; the list gets what it complains about in between.
 
-    Raises AssetError at `where`, with its first complaint, where it gives up.
+    Raises AssetError at `where`, with its first complaint where it gives up, or where it is not installed.
     """
-    require_usd(where)
+    try:
+        import_module("pxr.Usd")  # lazy: an optional package, and 0.3 s
+    except ImportError as error:
+        problem = "USD files need the package usd-core, which is not installed"
+        raise AssetError(problem, where=where, remedy="Install it: pip install 'meshforge[usd]'.") from error
     complaints: list[str] = []
     with _LOCK:
         delegate = pxr.UsdUtils.CoalescingDiagnosticDelegate()
@@ -216,6 +212,7 @@ class UsdStage:
         predicate = pxr.Usd.TraverseInstanceProxies(pxr.Usd.PrimDefaultPredicate)
         below = iter(pxr.Usd.PrimRange(self.stage.GetPseudoRoot(), predicate))
         for prim in below:
+            report_progress()
             yield prim
             if prim.IsA(pxr.UsdGeom.PointInstancer):
                 below.PruneChildren()

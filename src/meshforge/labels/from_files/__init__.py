@@ -1,4 +1,4 @@
-"""Labels out of files: labels files, segmented points and meshes, and what a dataset says of its links."""
+"""Labels out of files: labels files, segmented points, and what a dataset says of its links."""
 
 from __future__ import annotations
 

@@ -10,7 +10,8 @@ from meshforge.batch import ExecutionOptions
 from meshforge.common import AssetError, ProjectError
 from meshforge.labels import merge
 from meshforge.labels.from_files import read
-from meshforge.labels.from_files.points import class_names_in_file
+from meshforge.labels.from_files.links import read_semantics
+from meshforge.labels.from_files.points import read_class_names
 from meshforge.labels.names.label_by_names import name_patterns
 from meshforge.labels.summary import LabelEvidence, Proposals, group_evidence
 from meshforge.store import Store
@@ -102,5 +103,5 @@ def _read_words(file: Path, options: read.LabelFileOptions) -> Iterable[str]:
             labels_file = read_labels(file)
             return (*labels_file.vocabulary, *(label.name for label in labels_file.labels.values()))
         case "points":
-            return class_names_in_file(file, options.reading.classes)
-    return read.read_link_names(file)
+            return read_class_names(file, options.classes)
+    return read_semantics(file).values()

@@ -3,7 +3,6 @@ semantics of links."""
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, field
@@ -11,16 +10,16 @@ from pathlib import Path
 from typing import Literal
 
 from meshforge.batch import AssetSet, ExecutionOptions, WorkerFailure, execute, read_prepared
-from meshforge.common import AssetError, MeshForgeError, UsageError, describe_error
-from meshforge.formats import POINTS_SUFFIXES, SEMANTICS_FILE, labels_beside, points_beside, read_semantics
-from meshforge.labels.from_files import points
-from meshforge.labels.names.label_by_names import HullNames, NamePattern, PatternPairs, names_of_mesh
-from meshforge.labels.names.words import EXACT
+from meshforge.common import MeshForgeError, UsageError, describe_error
+from meshforge.formats import POINTS_SUFFIXES, PointAlignment, labels_beside, points_beside
+from meshforge.labels.from_files.base import FileLabels
+from meshforge.labels.from_files.links import SEMANTICS_FILE, label_by_links, semantics_beside
+from meshforge.labels.from_files.points import label_by_points
+from meshforge.labels.names.label_by_names import NamePattern, PatternPairs
 from meshforge.store import AssetFacts, Store, hull_digests, iterate_survey
-from meshforge.symbolic import Label, SymbolicMesh, match_labels, read_labels
+from meshforge.symbolic import SymbolicMesh, match_labels, read_labels
 
 LabelFileKind = Literal["labels file", "points", "semantics"]
-_LINKS_SUFFIX = ".urdf"  # the format whose links semantics are about
 
 
 def find_label_files(found: AssetSet, source: Path | None) -> dict[str, Path]:
@@ -53,14 +52,14 @@ def kind_of(file: Path) -> LabelFileKind:
             return "semantics"
         case suffix if suffix in POINTS_SUFFIXES:
             return "points"
-    remedy = f"Labels files are .json, segmented points {', '.join(POINTS_SUFFIXES)}; PartNet's are {SEMANTICS_FILE}."
+    remedy = f"Labels files are .json, segmented points .ply or .npz; PartNet's are {SEMANTICS_FILE}."
     raise UsageError("this is no kind of file that labels are read from", where=str(file), remedy=remedy)
 
 
 def label_file_beside(asset: Path) -> Path | None:
     """The file beside an asset, None where there is none."""
     labels = labels_beside(asset)
-    return labels if labels.is_file() else points_beside(labels) or _semantics_beside(asset)
+    return labels if labels.is_file() else points_beside(labels) or semantics_beside(asset)
 
 
 def _file_in_mirror(place: Path, asset: Path) -> Path | None:
@@ -72,68 +71,19 @@ def _file_in_mirror(place: Path, asset: Path) -> Path | None:
         next((path for path in plain if path.is_file()), None)
         or points_beside(labels)
         or next((path for path in others if path != asset and path.is_file()), None)
-        or _semantics_beside(place)
+        or semantics_beside(place)
     )
-
-
-def _semantics_beside(asset: Path) -> Path | None:
-    file = asset.with_name(SEMANTICS_FILE)
-    return file if asset.suffix.lower() == _LINKS_SUFFIX and file.is_file() else None
-
-
-def label_by_links(
-    mesh: SymbolicMesh, path: Path, vocabulary: Sequence[str], patterns: Sequence[NamePattern]
-) -> points.FileLabels:
-    """What a file says of the hulls of an asset.
-
-    A hull whose own names say another label of the vocabulary, and that alone, is that: PartNet calls what is on a link
-    by its finer parts, `handle-7` on a drawer.
-    Raises AssetError: it cannot be read, or names no link of this asset.
-    """
-    semantics = {one.link: one.name for one in read_semantics(path)}
-    links = {body.name for body in mesh.asset.bodies} if mesh.asset else set()
-    if links.isdisjoint(semantics):
-        raise AssetError("it lists no link of this asset", where=str(path))
-    labels, names, odd = dict[str, Label](), dict[str, str](), Counter[str]()
-    for own in names_of_mesh(mesh):
-        if own.body not in semantics:
-            continue
-        name, meaning = _interpret(own, semantics[own.body], vocabulary, patterns)
-        names[own.hull] = name
-        if meaning is None:
-            odd[name] += 1
-        elif meaning.label:
-            labels[own.hull] = Label(meaning.label, meaning.sure, "file")
-    gone = [f"there is no link {link!r}" for link in semantics if link not in links]
-    return points.FileLabels(
-        labels, names, [*(points.describe_unknown_class(name, count, vocabulary) for name, count in odd.items()), *gone]
-    )
-
-
-def read_link_names(path: Path) -> list[str]:
-    """What links are, in the order of the file, each once."""
-    return list(dict.fromkeys(one.name for one in read_semantics(path)))
-
-
-def _interpret(
-    own: HullNames, semantic: str, vocabulary: Sequence[str], patterns: Sequence[NamePattern]
-) -> tuple[str, points.ClassMeaning | None]:
-    """What a hull is called, and what that means."""
-    of_link = points.meaning_of(semantic, vocabulary, patterns)
-    for _, name in own.own_names():
-        meaning = points.meaning_of(name, vocabulary, patterns)
-        if meaning and meaning.sure >= EXACT and not (of_link and meaning.label == of_link.label):
-            return name, meaning
-    return semantic, of_link
 
 
 @dataclass(frozen=True, slots=True)
 class LabelFileOptions:
     """How files are read. meanings: what names of classes mean, besides the patterns of the project, which they
-    precede; reading: how segmented points are read."""
+    precede; of segmented points, classes: the names of classes 0, 1, ..., or `vocabulary` alone where they are those of
+    the vocabulary, none where files say them; placing: how points come into the frame of an asset."""
 
     meanings: PatternPairs = ()
-    reading: points.PointsOptions = field(default_factory=points.PointsOptions)
+    classes: tuple[str, ...] = ()
+    placing: PointAlignment = field(default_factory=PointAlignment)
 
 
 @dataclass(frozen=True, slots=True)
@@ -141,7 +91,7 @@ class LabelFileContent:
     """What a file says of an asset. hulls: digests by name, in order; error: why the asset or its file is not read."""
 
     hulls: Mapping[str, str] = field(default_factory=dict)
-    given: points.FileLabels = field(default_factory=points.FileLabels)
+    given: FileLabels = field(default_factory=FileLabels)
     error: str | None = None
 
 
@@ -196,16 +146,15 @@ def _read_by_facts(facts: AssetFacts, file: Path) -> LabelFileContent:
         return LabelFileContent(facts.hulls, error=error.message)
     homes = match_labels(labels_file, facts.hulls)
     present = {name: homes.labels[name] for name in facts.hulls if name in homes.labels}
-    return LabelFileContent(
-        facts.hulls, points.FileLabels({name: labels_file.labels[name] for name in homes.gone} | present)
-    )
+    return LabelFileContent(facts.hulls, FileLabels({name: labels_file.labels[name] for name in homes.gone} | present))
 
 
 def _read_by_mesh(work: _Work) -> LabelFileContent:
     try:
         mesh = SymbolicMesh.of(read_prepared(work.path, work.preparation))
         if kind_of(work.file) == "points":
-            given = points.label_by_points(mesh, work.file, work.options.reading, work.vocabulary, work.patterns)
+            how = work.options
+            given = label_by_points(mesh, work.file, how.classes, how.placing, work.vocabulary, work.patterns)
         else:
             given = label_by_links(mesh, work.file, work.vocabulary, work.patterns)
         return LabelFileContent(hull_digests(mesh), given)

@@ -129,7 +129,6 @@ class LabelingCanvas:
         return np.where(hits.item < 0, trace_ink(behind, self._line_width), np.uint8(0)) if behind else None
 
     def _draw_visual(self, arrangement: Arrangement, camera: Camera) -> PagePixels | None:
-        """The visual mesh, where it can be shown."""
         visual = arrangement.cast_visual(camera)
         if visual is None:
             return None

@@ -105,7 +105,6 @@ class _PictureSeries:
             self._keep(picture)
 
     def _draw_close_up(self, left: list[int]) -> LabelingPicture:
-        """A picture that shows many of the hulls that are left."""
         return self._canvas.draw(
             *choose_best(list(propose_arrangements(self._subject, left)), left, self._least_share, self._aspect)
         )

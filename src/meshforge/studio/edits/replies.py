@@ -100,7 +100,6 @@ class ReplyToQuestion(Edit):
 
     @property
     def _labels(self) -> dict[HullPlace, str]:
-        """The labels that hulls get."""
         if self.later:
             return {}
         asked, choice = self._asked, self._choice

@@ -111,7 +111,6 @@ def _start_results(session: Session, written: Sequence[Card], signed_only: bool)
 def _list_left_out(
     cards: Sequence[Card], inside: Collection[str], chosen: Collection[str], held: Collection[str]
 ) -> Iterator[tuple[str, str]]:
-    """The assets that are not in the zip, each with why."""
     for card in cards:
         if card.asset in inside:
             continue
@@ -132,7 +131,6 @@ def _list_left_out(
 def _describe_results(
     cards: Sequence[Card], inside: Collection[str], held: Collection[str], left_out: dict[str, str]
 ) -> str:
-    """What is in the zip, what of it is to be looked at, and what is not in it."""
     parts = [f"{len(inside)} of {pluralize(len(cards), 'result')}" if left_out else pluralize(len(inside), "result")]
     counts = Counter(left_out.values())
     if left_out:

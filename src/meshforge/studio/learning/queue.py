@@ -102,7 +102,6 @@ class LatestOnlyQueue:
 
 
 def _outcome_of(done: Future[Any]) -> Any:
-    """What the call returned, or its error."""
     try:
         return wait_for(done)
     except Exception as error:  # whoever waits for the answer gets it, whatever it is

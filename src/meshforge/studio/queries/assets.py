@@ -81,7 +81,6 @@ def _try_replay(project: Project, asset: str, mesh: SymbolicMesh) -> tuple[Asset
 
 
 def _has_visual(source: Asset) -> bool:
-    """Whether there is a visual mesh, found out without reading its files where that is possible."""
     visuals = source.visuals
     return bool(visuals.visuals if isinstance(visuals, VisualSurfaces) else visuals)
 

@@ -153,7 +153,6 @@ def _has_hull(source: SymbolicMesh, hull: Hull) -> bool:
 
 
 def _names_not_in(mesh: SymbolicMesh, other: SymbolicMesh) -> tuple[str, ...]:
-    """The names of hulls that another mesh has not."""
     return tuple(hull.name for hull in mesh.hulls if hull.name not in other.index)
 
 
@@ -230,7 +229,6 @@ def _trace_lines(replay: AssetReplay) -> tuple[TraceLine, ...]:
 
 
 def _describe_problems(replay: AssetReplay) -> str | None:
-    """Why steps were left out, None where all were done."""
     return "; ".join(result.error for result in replay.results if result.error) or None
 
 

@@ -277,7 +277,6 @@ def build_project_view(
 
 
 def _rule_lines(project: Project) -> tuple[RuleLine, ...]:
-    """What is demonstrated, by rule."""
     shown = set(project.layout.ids_with("demonstrations"))
     steps = [(asset, step) for asset in project.assets() if asset in shown for step in project.steps(asset)]
     count = max((step.rule for _, step in steps), default=0)

@@ -138,6 +138,5 @@ def _apply_step(project: Project, replay: AssetReplay, step: Step, program: Prog
 
 
 def _rule_of(program: Program, step: Step) -> Rule | None:
-    """The rule of a program that does what a step says."""
     rules = program.rules[step.rule - 1 : step.rule]
     return next((r for r in rules if (strip_each(r.action), r.label) == (strip_each(step.action), step.label)), None)

@@ -124,7 +124,6 @@ class Refresher:
             self._report_progress()
 
     def _report_progress(self) -> None:
-        """Show how far the reading is, where there is any that takes time."""
         total, left = self._pages.count, self.queue.remaining
         if self._job is None and self._read and left:
             self._job = Job(id="read", kind="read", title="Reading assets", total=total)
