@@ -51,27 +51,12 @@ Rgba = tuple[float, float, float, float]
 """A colour as screens show it: four shares of 1, the last of them opacity."""
 
 
-@dataclass(frozen=True, slots=True)
-class Picture:
-    """An image file, PNG or JPEG: its bytes, and the suffix for them."""
-
-    data: bytes
-    suffix: Literal[".png", ".jpg"]
-
-    @staticmethod
-    def of(data: bytes) -> Picture | None:
-        """The picture in the bytes of a file; None for a file of another kind."""
-        if data.startswith(b"\x89PNG\r\n"):
-            return Picture(data, ".png")
-        return Picture(data, ".jpg") if data.startswith(b"\xff\xd8\xff") else None
-
-
 @dataclass(frozen=True, eq=False, slots=True)
 class Texture:
-    """A picture on a surface, in the place of its colour; coordinates: (n, 2) of each vertex, to the right and up."""
+    """A PNG on a surface, in the place of its colour; coordinates: (n, 2) of each vertex, to the right and up."""
 
     coordinates: Floats
-    picture: Picture
+    picture: bytes
 
 
 @dataclass(frozen=True, eq=False, slots=True)

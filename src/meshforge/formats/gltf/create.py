@@ -4,7 +4,6 @@ plain, or named for an engine."""
 from __future__ import annotations
 
 import copy
-import hashlib
 import json
 from pathlib import Path, PurePosixPath
 from typing import Literal
@@ -26,7 +25,7 @@ from meshforge.formats.meshfile.gltf_document import Container, Json
 from meshforge.formats.meshfile.gltf_scene import GltfScene
 from meshforge.formats.visuals import linear_color, read_visual_surfaces
 from meshforge.geometry import Floats, Ints
-from meshforge.symbolic import Asset, Geom, Opaque, Picture, Surface
+from meshforge.symbolic import Asset, Geom, Opaque, Surface
 
 _FAR = 1e4  # sizes of a hull away from its body, beyond which single precision would spoil it
 
@@ -204,16 +203,12 @@ def add_material(draft: SceneDraft, surface: Surface) -> int | None:
     return _number_of(draft.tree, "materials", wanted)
 
 
-def _add_picture(draft: SceneDraft, picture: Picture) -> int:
-    """The number of a texture of a picture; the picture is in the buffer, once."""
-    kind = "image/png" if picture.suffix == ".png" else "image/jpeg"
-    name = hashlib.blake2b(picture.data, digest_size=8).hexdigest()
-    images: list[Json] = draft.tree.setdefault("images", [])
-    known = next((k for k, image in enumerate(images) if image["name"] == name), None)
-    if known is None:
-        images.append({"name": name, "bufferView": draft.geometry.add_bytes(picture.data), "mimeType": kind})
-        known = len(images) - 1
-    return _number_of(draft.tree, "textures", {"source": known})
+def _add_picture(draft: SceneDraft, picture: bytes) -> int:
+    """The number of a texture of a picture, a PNG, which is in the buffer once."""
+    if picture not in draft.pictures:
+        image = {"bufferView": draft.geometry.add_bytes(picture), "mimeType": "image/png"}
+        draft.pictures[picture] = _number_of(draft.tree, "images", image)
+    return _number_of(draft.tree, "textures", {"source": draft.pictures[picture]})
 
 
 def _number_of(tree: Json, key: str, wanted: Json) -> int:

@@ -3,36 +3,19 @@ masses and visuals."""
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, ClassVar
 
 from meshforge.common import AssetError
-from meshforge.formats.base import (
-    BODY_FEATURES,
-    SCENE_FEATURES,
-    Mass,
-    Output,
-    ReadOptions,
-    SceneFormat,
-    feature_of_tags,
-)
+from meshforge.formats import base
 from meshforge.formats.usd.stage import UsdDocument, UsdStage, usd
 from meshforge.symbolic import Asset, Feature, FeatureKind, Surface
 
-_TYPES = {
-    "Material": FeatureKind.MATERIALS,
-    "Camera": FeatureKind.CAMERAS,
-    "SkelRoot": FeatureKind.SKINS,
-    "PhysicsScene": FeatureKind.SETTINGS,
-    "PhysicsCollisionGroup": FeatureKind.PAIRS,
-    "PhysicsDistanceJoint": FeatureKind.OTHERS,
-}
-_LIGHTS = "Light"
+_OTHERS = ("Material", "Camera", "SkelRoot", "PhysicsScene", "PhysicsCollisionGroup", "PhysicsDistanceJoint")
 
 
-class UsdFormat(SceneFormat):
+class UsdFormat(base.SceneFormat):
     """Universal Scene Description, as text (.usda), crate (.usdc), either (.usd) or a package (.usdz)."""
 
     name = "usd"
@@ -41,30 +24,22 @@ class UsdFormat(SceneFormat):
     suffixes = (".usda", ".usd", ".usdc", ".usdz")
     up = "z"
     marks = "as colliders of UsdPhysics"
-    has_pictures = True
-    holds = BODY_FEATURES | {
-        *(FeatureKind.CAPSULES, FeatureKind.OPAQUE, FeatureKind.PLANES),
-        *(FeatureKind.JOINTS, FeatureKind.BALL_JOINTS, FeatureKind.FIXED_JOINTS),
-    }
-    could = SCENE_FEATURES | {
-        *(FeatureKind.VERTEX_COLORS, FeatureKind.TEXTURE_COORDINATES, FeatureKind.PAIRS, FeatureKind.ACTUATORS),
-        *(FeatureKind.DYNAMICS, FeatureKind.ANIMATIONS, FeatureKind.SKINS, FeatureKind.COMMENTS),
-    }
+    holds = base.BODY_FEATURES | {FeatureKind.CAPSULES, FeatureKind.OPAQUE, FeatureKind.PLANES}
     instead: ClassVar[Mapping[FeatureKind, str]] = {FeatureKind.ELLIPSOIDS: "written as triangles"}
 
-    def read(self, path: Path, options: ReadOptions) -> Asset:
+    def read(self, path: Path, options: base.ReadOptions) -> Asset:
         from meshforge.formats.usd import read  # lazy: only USD needs it
 
         return read.read_usd(path)
 
-    def write(self, asset: Asset, name: str, mass: Mass = "keep") -> Output:
+    def write(self, asset: Asset, name: str, mass: base.Mass = "keep") -> base.Output:
         if not isinstance(asset.document, UsdDocument):
             raise AssetError("this asset was not read from a USD file", where=str(asset.path))
         from meshforge.formats.usd import edit  # lazy: only USD needs it
 
         return edit.write_usd(asset, asset.document, name, mass)
 
-    def create(self, asset: Asset, name: str) -> Output:
+    def create(self, asset: Asset, name: str) -> base.Output:
         from meshforge.formats.usd import create  # lazy: only USD needs it
 
         return create.create_usd(asset, name)
@@ -87,7 +62,7 @@ class UsdFormat(SceneFormat):
 
         return read.read_stage_surfaces(asset, asset.document)
 
-    def write_beside(self, asset: Asset, name: str) -> Output:
+    def write_beside(self, asset: Asset, name: str) -> base.Output:
         assert isinstance(asset.document, UsdDocument)
         from meshforge.formats.usd import beside  # lazy: only USD needs it
 
@@ -97,36 +72,22 @@ class UsdFormat(SceneFormat):
 def features_of(asset: Asset) -> list[Feature]:
     """The features of a USD file that its asset does not have."""
     with usd(str(asset.path)):
-        return list(_list_features(UsdStage.open(asset.path)))
+        return [
+            base.feature_of_others(kind for prim in UsdStage.open(asset.path).prims() for kind in _list_others(prim))
+        ]
 
 
-def _list_features(scene: UsdStage) -> Iterator[Feature]:
-    found: dict[FeatureKind, list[str]] = {}
-    count: Counter[FeatureKind] = Counter()
-    for prim in scene.prims():
-        what = _TYPES.get(str(prim.GetTypeName()))
-        if what is None and str(prim.GetTypeName()).endswith(_LIGHTS):
-            what = FeatureKind.LIGHTS
-        if what is not None:
-            found.setdefault(what, []).append(prim.GetName())
-        count.update(_features_of_attributes(prim))
-    for what, names in found.items():
-        yield feature_of_tags(what, names)
-    for what, number in count.items():
-        yield Feature(what, unnamed=number)
-
-
-def _features_of_attributes(prim: Any) -> Iterator[FeatureKind]:
-    """What the attributes of a prim are, each kind once."""
-    attributes = prim.GetAuthoredAttributes()
-    if any(attribute.GetNumTimeSamples() > 1 for attribute in attributes):
-        yield FeatureKind.ANIMATIONS
+def _list_others(prim: Any) -> Iterator[str]:
+    """What no conversion takes of a prim, each kind once."""
+    kind, attributes = str(prim.GetTypeName()), prim.GetAuthoredAttributes()
     names = {attribute.GetName() for attribute in attributes}
-    if prim.GetTypeName() == "Shader" and prim.GetAttribute("info:id").Get() == "UsdUVTexture":
-        yield FeatureKind.TEXTURES
-    if "primvars:st" in names:
-        yield FeatureKind.TEXTURE_COORDINATES
+    if kind in _OTHERS or kind.endswith("Light"):
+        yield kind
+    if any(attribute.GetNumTimeSamples() > 1 for attribute in attributes):
+        yield "time samples"
+    if kind == "Shader" and prim.GetAttribute("info:id").Get() == "UsdUVTexture":
+        yield "texture"
     if any("physics:dynamicFriction" in name or name.startswith("physxMaterial") for name in names):
-        yield FeatureKind.CONTACT
+        yield "contact setting"
     if any(name.startswith("drive:") for name in names):
-        yield FeatureKind.ACTUATORS
+        yield "drive"
