@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from meshforge.symbolic.asset import (
         Asset,
         Body,
+        Coupling,
         Document,
         Geom,
         Inertial,
@@ -68,6 +69,7 @@ __all__ = [
     "PRIMITIVE_FEATURES",
     "Asset",
     "Body",
+    "Coupling",
     "Document",
     "Feature",
     "FeatureKind",

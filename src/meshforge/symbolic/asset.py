@@ -90,6 +90,21 @@ class Opaque:
     mentions: Mentions = ()
 
 
+@dataclass(frozen=True, slots=True)
+class Coupling:
+    """How a joint follows another one: it is at the sum of coefficients[k] * x ** k, x being where the other one is.
+
+    Both count from zero [rad] or [m]; a linear coupling has two coefficients.
+    """
+
+    joint: str
+    coefficients: tuple[float, ...] = (0.0, 1.0)
+
+    @property
+    def is_linear(self) -> bool:
+        return len(self.coefficients) == 2
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class Joint:
     """How a body moves against another, described where all joints are at zero.
@@ -98,7 +113,8 @@ class Joint:
     anchor: (3,), a point of the axis, or the centre of a ball [m]; axis: (3,), of unit length, the normal of a planar
     joint; both in the root frame. limits: [rad] or [m] from zero, None where there are none.
     damping, friction: of the file, 0 where it has none; effort [N or Nm], velocity [m/s or rad/s]: the largest, None
-    where it has none. Several joints of one child act one after another, the first one nearest to the parent.
+    where it has none. coupling: by which it follows another one. Several joints of one child act one after another, the
+    first one nearest to the parent.
     """
 
     name: str
@@ -112,6 +128,7 @@ class Joint:
     friction: float = 0.0
     effort: float | None = None
     velocity: float | None = None
+    coupling: Coupling | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "anchor", freeze_floats(self.anchor, (3,)))

@@ -98,6 +98,7 @@ def _features_of_mechanism(asset: Asset) -> Iterator[Feature]:
         FeatureKind.FIXED_JOINTS, tuple(joint.name for joint in joints if joint.kind == "fixed" and joint.name)
     )
     yield _feature_of_names(FeatureKind.SPEEDS, (joint.name for joint in moving if joint.velocity is not None))
+    yield _feature_of_names(FeatureKind.MIMICS, (joint.name for joint in joints if joint.coupling))
     yield Feature(FeatureKind.MASSES, tuple(inertial.body for inertial in asset.mechanism.inertials))
 
 

@@ -16,8 +16,11 @@ from meshforge.symbolic import Asset, Feature, FeatureKind
 _ROOT = re.compile(r"[^<]*+(?:<(?>\?.*?\?>|!--.*?-->|![^-][^>]*>)[^<]*+)*+<([\w:.-]+)", re.S)
 """An XML text up to the tag of its first element."""
 
-_TAKEN = ("worldbody", "asset", "body", "frame", "replicate", "equality")
-_LEAVES = ("compiler", "default", "geom", "joint", "freejoint", "inertial", "mesh", "model", "attach", "include")
+_TAKEN = ("worldbody", "asset", "body", "frame", "replicate")
+_LEAVES = (
+    *("compiler", "default", "geom", "joint", "freejoint", "inertial", "mesh", "model", "attach", "include"),
+    "equality",  # of which couplings of joints are taken, see below
+)
 _CONTACT = ("contype", "conaffinity", "condim", "friction", "solref", "solimp", "solmix", "margin", "gap", "priority")
 _DYNAMICS = ("stiffness", "springref", "springdamper", "springlength", "armature")
 
@@ -32,7 +35,8 @@ class MjcfFormat(Format):
     title = "MJCF"
     up = "z"
     holds = BODY_FEATURES | {
-        *(FeatureKind.CAPSULES, FeatureKind.ELLIPSOIDS, FeatureKind.PLANES, FeatureKind.JOINTS, FeatureKind.BALL_JOINTS)
+        *(FeatureKind.CAPSULES, FeatureKind.ELLIPSOIDS, FeatureKind.PLANES),
+        *(FeatureKind.JOINTS, FeatureKind.BALL_JOINTS, FeatureKind.MIMICS),
     }
     instead: ClassVar[Mapping[FeatureKind, str]] = {FeatureKind.OPAQUE: "written as surfaces that do not collide"}
 
@@ -74,6 +78,10 @@ def features_of(document: MjcfDocument) -> Iterator[Feature]:
     """The features of an MJCF that its asset does not have, as its elements say; those that classes set count once."""
     root = document.tree.root
     others = [*list_others(root, _TAKEN, _LEAVES)]
+    constraints = [child for node in root.each("equality") for child in node.children]
+    coupled = [c.attributes.get("joint1") for c in constraints if c.is_coupling]
+    others += [f"equality {c.tag}" for c in constraints if not c.is_coupling]
+    others += ["second coupling of a joint"] * (len(coupled) - len(set(coupled)))
     for kind, tag, keys in (("contact setting", "geom", _CONTACT), ("spring or armature", "joint", _DYNAMICS)):
         others += [kind for node in root.walk() if node.tag == tag and any(key in node.attributes for key in keys)]
     others += ["comment"] * sum(source.raw.count(b"<!--") for source in document.sources)

@@ -31,6 +31,7 @@ class SdfFormat(base.Format):
     holds = base.BODY_FEATURES | {
         *(FeatureKind.CAPSULES, FeatureKind.ELLIPSOIDS, FeatureKind.OPAQUE, FeatureKind.PLANES),
         *(FeatureKind.JOINTS, FeatureKind.BALL_JOINTS, FeatureKind.FIXED_JOINTS, FeatureKind.SPEEDS),
+        FeatureKind.MIMICS,
     }
     shown_files = VISUAL_SUFFIXES
 
@@ -61,9 +62,6 @@ class SdfFormat(base.Format):
 def features_of(document: SdfDocument) -> Iterator[Feature]:
     """The features of an SDF, and of what it includes, that its asset does not have."""
     roots = [parse_root(source.text.data, "")[0] for source in document.sources]
-    joints = [element for root in roots for element in root.walk() if element.tag == "joint"]
-    coupled = [joint for joint in joints if any(axis.first("mimic") for axis in joint.children)]
-    yield base.feature_of(FeatureKind.MIMICS, (joint.attributes.get("name", "") for joint in coupled))
     others = [tag for root in roots for tag in base.list_others(root, _TAKEN, _LEAVES)]
     others += ["comment"] * sum(source.text.data.count(b"<!--") for source in document.sources)
     yield base.feature_of_others(others)

@@ -14,7 +14,7 @@ from meshforge.formats.references import Resolver, add_copy, note_absolute, plac
 from meshforge.formats.slots import ElementMaker, ElementPlan, Slot, assign_names
 from meshforge.formats.urdf.document import UrdfDocument, collisions, geometry_of, parse_robot, references
 from meshforge.geometry import Box, Cylinder, Pose, Sphere
-from meshforge.symbolic import Asset, Geom, Inertial
+from meshforge.symbolic import Asset, Coupling, Geom, Inertial
 
 UrdfShape = Box | Cylinder | Sphere
 """The shapes that every reader of URDF knows."""
@@ -79,8 +79,8 @@ def _replace_origin(data: bytes, collision: xml.Element, pose: Pose) -> xml.Spli
     return xml.replace_or_insert(data, collision, "origin", "geometry", origin_tag(pose))
 
 
-def joint_lines(made: LinkJoint) -> list[bytes]:
-    """The lines of a `<joint>`."""
+def joint_lines(made: LinkJoint, coupling: Coupling | None) -> list[bytes]:
+    """The lines of a `<joint>`, which may follow another one."""
     joint = made.joint
     kind = joint.kind if joint else "fixed"
     type_ = "continuous" if joint and kind == "revolute" and joint.limits is None else kind
@@ -101,6 +101,9 @@ def joint_lines(made: LinkJoint) -> list[bytes]:
     if joint and (joint.damping or joint.friction):
         losses = _text_of(joint.damping), _text_of(joint.friction)
         lines.append(b'    <dynamics damping="%s" friction="%s"/>' % losses)
+    if coupling:
+        numbers = tuple(_text_of(number) for number in reversed(coupling.coefficients))
+        lines.append(b'    <mimic joint="%s" multiplier="%s" offset="%s"/>' % (xml.escape(coupling.joint), *numbers))
     return [*lines, b"  </joint>"]
 
 

@@ -8,16 +8,7 @@ from pathlib import Path
 from typing import ClassVar
 
 from meshforge.common import AssetError
-from meshforge.formats.base import (
-    BODY_FEATURES,
-    Format,
-    Mass,
-    Output,
-    ReadOptions,
-    feature_of,
-    feature_of_others,
-    list_others,
-)
+from meshforge.formats import base
 from meshforge.formats.urdf.document import VISUAL_SUFFIXES, UrdfDocument, parse_robot
 from meshforge.formats.xml import XmlText
 from meshforge.symbolic import Asset, Feature, FeatureKind
@@ -29,8 +20,8 @@ _LEAVES = (
 )
 
 
-class UrdfFormat(Format):
-    """The Unified Robot Description Format."""
+class UrdfFormat(base.Format):
+    """The Unified Robot Description base.Format."""
 
     name = "urdf"
     engines = ("mujoco", "bullet")
@@ -38,7 +29,9 @@ class UrdfFormat(Format):
     is_description = True
     title = "URDF"
     up = "z"
-    holds = BODY_FEATURES | {FeatureKind.OPAQUE, FeatureKind.JOINTS, FeatureKind.FIXED_JOINTS, FeatureKind.SPEEDS}
+    holds = base.BODY_FEATURES | {
+        *(FeatureKind.OPAQUE, FeatureKind.JOINTS, FeatureKind.FIXED_JOINTS, FeatureKind.SPEEDS, FeatureKind.MIMICS)
+    }
     instead: ClassVar[Mapping[FeatureKind, str]] = {
         FeatureKind.CAPSULES: "written as triangles",
         FeatureKind.ELLIPSOIDS: "written as triangles",
@@ -46,19 +39,19 @@ class UrdfFormat(Format):
     }
     shown_files = VISUAL_SUFFIXES
 
-    def read(self, path: Path, options: ReadOptions) -> Asset:
+    def read(self, path: Path, options: base.ReadOptions) -> Asset:
         from meshforge.formats.urdf import read  # lazy: only URDF needs it
 
         return read.read_urdf(path, options)
 
-    def write(self, asset: Asset, name: str, mass: Mass = "keep") -> Output:
+    def write(self, asset: Asset, name: str, mass: base.Mass = "keep") -> base.Output:
         if not isinstance(asset.document, UrdfDocument):
             raise AssetError("this asset was not read from a URDF", where=str(asset.path))
         from meshforge.formats.urdf import edit  # lazy: only URDF needs it
 
         return edit.write_urdf(asset, asset.document, name)
 
-    def create(self, asset: Asset, name: str) -> Output:
+    def create(self, asset: Asset, name: str) -> base.Output:
         from meshforge.formats.urdf import create  # lazy: only URDF needs it
 
         return create.create_urdf(asset, name)
@@ -71,7 +64,4 @@ def features_of(document: UrdfDocument) -> Iterator[Feature]:
     """The features of a URDF that its asset does not have."""
     data = XmlText.of(document.source).data
     robot = parse_robot(data, "")
-    yield feature_of(
-        FeatureKind.MIMICS, (j.attributes.get("name", "") for j in robot.each("joint") if j.first("mimic"))
-    )
-    yield feature_of_others([*list_others(robot, _TAKEN, _LEAVES), *["comment"] * data.count(b"<!--")])
+    yield base.feature_of_others([*base.list_others(robot, _TAKEN, _LEAVES), *["comment"] * data.count(b"<!--")])
