@@ -197,12 +197,6 @@ class SceneFormat(Format):
         """
 
 
-def feature_of(kind: FeatureKind, names: Iterable[str]) -> Feature:
-    """A feature of things by their names, empty for those that have none."""
-    each = list(names)
-    return Feature(kind, tuple(name for name in each if name), sum(not name for name in each))
-
-
 def feature_of_others(kinds: Iterable[str]) -> Feature:
     """The feature of elements that no conversion takes: each kind is named once."""
     each = list(kinds)
