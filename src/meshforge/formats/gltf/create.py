@@ -121,13 +121,15 @@ def create_for_engine(asset: Asset, name: str, engine: CollisionNames) -> Output
     """
     path = PurePosixPath(name)
     found = name_bodies(asset, engine, path.stem)
-    main, made, names = _EngineCreator(asset, found, engine, path.suffix.lower() == ".glb").build_files(path.stem)
+    main, made, names = EngineCreator(asset, found, engine, path.suffix.lower() == ".glb").build_files(path.stem)
     return Output(main, made, names=names, lost=found.lost, notes=found.notes)
 
 
-class _EngineCreator:
+class EngineCreator:
+    """Makes a node for each body, and below it those of what collides, by the names of an engine."""
+
     def __init__(self, asset: Asset, found: EngineBodies, engine: CollisionNames, is_binary: bool) -> None:
-        self.found, self.engine, self.is_binary = found, engine, is_binary
+        self.asset, self.found, self.engine, self.is_binary = asset, found, engine, is_binary
         tree = new_tree()
         tree["scenes"][0]["nodes"] = list(range(len(found.each)))
         tree["nodes"] = [{"name": family.name, **pose_keys(family.body.pose)} for family in found.each]
@@ -137,12 +139,20 @@ class _EngineCreator:
         """The main file, the one of its buffer, and the names of hulls in it."""
         for node, family in enumerate(self.found.each):
             if family.surfaces:
-                self.draft.node(node)["mesh"] = self._add_visuals(family, node)
+                self._show(family, node, self._add_visuals(family, node))
             self._add_collision(family, node)
-        document = GltfDocument(b"", self.engine.engine, ())
+        document = self._build_document()
         misread = assign_names(self.draft, document, renames=False)  # by the names of the asset
         known = {geom: name for geom, name in misread.items() if geom in self.found.names}
         return *pack_new(self.draft, stem, self.is_binary), known
+
+    def _build_document(self) -> GltfDocument:
+        """What tells a reader how collision is marked."""
+        return GltfDocument(b"", self.engine.engine, ())
+
+    def _show(self, family: EngineBody, node: int, mesh: int) -> None:
+        """Show a mesh on the node of a body."""
+        self.draft.node(node)["mesh"] = mesh
 
     def _add_visuals(self, family: EngineBody, node: int) -> int:
         """One mesh of all that is seen of a body, a part for each surface."""
@@ -173,9 +183,13 @@ class _EngineCreator:
         if not self.engine.centred and np.abs(middle).max() < _FAR * reach:
             middle = np.zeros(3)
         mesh = self.draft.add_mesh({"name": name, "primitives": [self.draft.build_primitive(points - middle, faces)]})
-        node: Json = {"name": name, "mesh": mesh}
         placed = {"translation": middle.tolist()} if middle.any() else {}
-        self.draft.expected[self.draft.add_node({**node, **placed}, holder)] = (known,)
+        node = {"name": name, **self._build_collider(mesh, known), **placed}
+        self.draft.expected[self.draft.add_node(node, holder)] = (known,)
+
+    def _build_collider(self, mesh: int, known: str) -> Json:
+        """What makes a node collide with a mesh; known: the name of the piece in the asset."""
+        return {"mesh": mesh}
 
 
 def new_tree() -> Json:

@@ -117,7 +117,7 @@ class GltfForUnreal(EngineGltf):
 
 
 class GltfForGodot(EngineGltf):
-    """With suffixes: `leg-convcolonly`."""
+    """With suffixes: `leg-convcolonly`; rigid bodies, where anything moves, by OMI_physics_body."""
 
     engine = GodotNames()
     engines = ("godot",)
@@ -125,6 +125,11 @@ class GltfForGodot(EngineGltf):
     marks = "under names for Godot"
     holds = engine.holds
     instead = fallbacks_of(engine)
+
+    def create(self, asset: Asset, name: str) -> Output:
+        from meshforge.formats.gltf import rigid_bodies  # lazy: only glTF needs it
+
+        return rigid_bodies.create_for_godot(asset, name, self.engine)
 
 
 class GltfForUnity(EngineGltf):
