@@ -35,7 +35,7 @@ class _Creator(link_output.LinkCreator):
     lead = b"    "
 
     def build_output(self) -> Output:
-        names = assign_names([slot for own in self.slots.values() for slot in own])
+        names = assign_names([slot for own in self.slots.values() for slot in own], unique=True)
         files = self.maker.files
         head = [b'<?xml version="1.0"?>', b'<robot name="%s">' % escape(files.stem)]
         links = [line for link in self.chain.frames for line in self._link_lines(link)]

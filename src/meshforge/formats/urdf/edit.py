@@ -156,7 +156,7 @@ def write_urdf(asset: Asset, document: UrdfDocument, name: str) -> base.Output:
     )
     links = {link.attributes["name"]: link for link in robot.each("link")}
     plan = ElementPlan(asset, document.authored, [element for _, element in collisions(robot)], links, maker)
-    names = assign_names(plan.slots)
+    names = assign_names(plan.slots, unique=True)
     data = xml.apply_splices(text.data, plan.splices)
     main = document.source if data == text.data else text.encode(data)
     copies, far = _list_copies(parse_robot(data, str(asset.path)), document.resolver)
