@@ -43,7 +43,7 @@ NO_PARTICIPLE = frozenset(
 need seed feed embed exceed speed bed red shed proceed succeed breed string ring king bring thing during spring
 wing swing nothing anything everything something ceiling heading meaning setting building warning rating reading
 mapping encoding binding padding ordering spacing listing bounding finding rendering labeling
-learning ranked relabeling pending missing finished
+learning ranked relabeling coupling pending missing finished
 """,
     )
 )

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import os
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
 from meshforge.common import AssetError, join_names, pluralize
 from meshforge.symbolic import Asset, Feature, FeatureKind, Surface
@@ -27,10 +27,6 @@ BODY_FEATURES = frozenset(
     }
 )
 """What every format with bodies holds."""
-SCENE_FEATURES = frozenset(
-    {FeatureKind.MATERIALS, FeatureKind.TEXTURES, FeatureKind.CONTACT, FeatureKind.CAMERAS, FeatureKind.LIGHTS}
-)
-"""What every format of scenes could hold besides, and `create` leaves out."""
 Mass = Literal["keep", "recompute"]
 """Whether an edited body keeps the mass and inertia it had, or has those of its hulls, where a format derives them."""
 Collision = Literal["beside", "replace"]
@@ -56,7 +52,8 @@ class Loss:
         return len(self.names) + self.unnamed
 
     def __str__(self) -> str:
-        named = f" ({join_names(self.names, 3)})" if self.names else ""
+        shown = 3 if self.kind is not FeatureKind.OTHERS else len(self.names)
+        named = f" ({join_names(self.names, shown)})" if self.names else ""
         verb = "is" if self.count == 1 else "are"
         head = f"{pluralize(self.count, self.kind.one, self.kind.many)}{named}"
         return f"{head} {verb} {self.instead or 'left out'}: {self.why}"
@@ -101,8 +98,8 @@ class Format(ABC):
     is_folder: its assets are folders; then an output has no main file, and its paths are relative to the folder.
     writable: whether it can hold an edit, or what another format held.
     title: its name for people; up: the axis that points up in its files, None where the format does not say.
-    holds: what `create` takes over from other formats, besides hulls; could: what such files may hold and `create`
-    leaves out all the same; instead: how it writes what the format does not hold (`written as triangles`).
+    holds: what `create` takes over from other formats, besides hulls; instead: how it writes what it does not take over
+    (`written as triangles`).
     shown_files: suffixes of mesh files of visuals that go along as they are, and are shown with their materials.
     has_pictures: whether visuals are written with the pictures that are their base colours.
     engines: those that read its files themselves, by name (`meshforge.engines`).
@@ -116,7 +113,6 @@ class Format(ABC):
     title: ClassVar[str]
     up: ClassVar[Literal["y", "z"] | None] = None
     holds: ClassVar[frozenset[FeatureKind]] = frozenset()
-    could: ClassVar[frozenset[FeatureKind]] = frozenset()
     instead: ClassVar[Mapping[FeatureKind, str]] = {}
     shown_files: ClassVar[tuple[str, ...]] = ()
     has_pictures: ClassVar[bool] = False
@@ -201,17 +197,22 @@ class SceneFormat(Format):
         """
 
 
-def feature_of(kind: FeatureKind, names: Iterable[str]) -> Feature:
-    """A feature of things by their names, empty for those that have none."""
-    each = list(names)
-    return Feature(kind, tuple(name for name in each if name), sum(not name for name in each))
-
-
-def feature_of_tags(kind: FeatureKind, tags: Iterable[str]) -> Feature:
-    """A feature of things that are told apart by their tags only: each tag is named once."""
-    each = list(tags)
+def feature_of_others(kinds: Iterable[str]) -> Feature:
+    """The feature of elements that no conversion takes: each kind is named once."""
+    each = list(kinds)
     names = tuple(dict.fromkeys(each))
-    return Feature(kind, names, len(each) - len(names))
+    return Feature(FeatureKind.OTHERS, names, len(each) - len(names))
+
+
+def list_others(top: Any, taken: Collection[str], leaves: Collection[str]) -> Iterator[str]:
+    """The tags below an XML element that a conversion does not take; it takes those of `leaves` with all inside."""
+    waiting = [top]
+    while waiting:
+        for child in waiting.pop().children:
+            if child.tag in taken:
+                waiting.append(child)
+            elif child.tag not in leaves:
+                yield child.tag
 
 
 def note_renames(names: Mapping[str, str]) -> tuple[str, ...]:

@@ -9,19 +9,12 @@ from pathlib import Path
 
 from meshforge.common import join_names
 from meshforge.formats.base import Format, Loss, Output
-from meshforge.formats.looks import LOOK_SUFFIXES
 from meshforge.formats.references import find_companions
 from meshforge.formats.visuals import Visual, VisualSurfaces
 from meshforge.geometry import Pose
 from meshforge.symbolic import Asset, Body, Feature, FeatureKind, Opaque, Surface, features_of
 
 _WITH_MATERIALS = (".dae", ".glb", ".gltf", ".mtl")
-_WORDING = {
-    FeatureKind.OTHERS: "{title} has no place for them",
-    FeatureKind.SETTINGS: "{title} has no place for them",
-    FeatureKind.VISUALS: "{title} does not tell visuals from hulls",
-    FeatureKind.FIXED_JOINTS: "{title} has no named fixed joints",
-}
 
 _Z_FROM_Y = Pose([[1, 0, 0], [0, 0, -1], [0, 1, 0]], [0, 0, 0])
 
@@ -46,7 +39,7 @@ def report_conversion(
     own = [*output.lost, *_find_renamed(output, target), *_find_faded_materials(asset, target)]
     features = [_subtract_losses(feature, own) for feature in (*features_of(asset), *_visual_features(asset))]
     # a creator sees the asset, not the document: what only that holds is never converted
-    beyond = [_subtract_pictures(f, asset, target) for f in (source.features(asset) if source else ()) if f.count]
+    beyond = [feature for feature in (source.features(asset) if source else ()) if feature.count]
     lost = [f for f in features if f.count and f.kind not in target.holds]
     return ConversionReport(
         held=tuple(f for f in features if f.count and f.kind in target.holds),
@@ -63,38 +56,11 @@ def _subtract_losses(feature: Feature, losses: Sequence[Loss]) -> Feature:
     return Feature(feature.kind, tuple(n for n in feature.names if n not in names), unnamed, feature.reason)
 
 
-def _subtract_pictures(feature: Feature, asset: Asset, target: Format) -> Feature:
-    """A feature of a document without the pictures that visuals take along."""
-    if not target.has_pictures or isinstance(asset.visuals, VisualSurfaces):
-        return feature
-    shown = [surface.texture for surface in asset.visuals if surface.texture is not None]
-    if not shown:
-        return feature
-    match feature.kind:
-        case FeatureKind.MATERIALS:
-            why = f"MeshForge converts only their base colours and the pictures of these to {target.title}"
-            return replace(feature, reason=why)
-        case FeatureKind.TEXTURES:
-            count = len({texture.picture for texture in shown})
-        case FeatureKind.TEXTURE_COORDINATES:
-            count = len(shown)
-        case _:
-            return feature
-    return Feature(feature.kind, (), max(0, feature.count - count), feature.reason)
-
-
 def _explain_loss(feature: Feature, target: Format) -> Loss:
     """The loss of a feature that a format does not hold."""
-    what = feature.kind
-    if feature.reason:
-        why = feature.reason
-    elif what is FeatureKind.MATERIALS and FeatureKind.COLORS in target.holds:
-        why = f"MeshForge converts only their plain colours to {target.title}"
-    elif what in target.could | target.holds:
-        why = f"MeshForge does not convert {what.many} to {target.title}"
-    else:
-        why = _WORDING.get(what, "{title} has no {many}").format(title=target.title, many=what.many)
-    return Loss(what, feature.names, why, target.instead.get(what), feature.unnamed)
+    instead, many = target.instead.get(feature.kind), feature.kind.many
+    why = f"{target.title} has no {many}" if instead else f"MeshForge does not convert {many} to {target.title}"
+    return Loss(feature.kind, feature.names, feature.reason or why, instead, feature.unnamed)
 
 
 def _find_renamed(output: Output, target: Format) -> list[Loss]:
@@ -118,25 +84,16 @@ def _find_faded_materials(asset: Asset, target: Format) -> list[Loss]:
     """Mesh files of visuals whose own materials the target does not show, though it has the shapes."""
     if FeatureKind.VISUALS not in target.holds or not isinstance(asset.visuals, VisualSurfaces):
         return []
-    in_part: dict[Path, bool] = {}
-    for visual in asset.visuals.visuals:
-        if isinstance(visual.what, Path) and visual.what.suffix.lower() not in target.shown_files:
-            has_look = target.has_pictures and visual.rgba is None and visual.what.suffix.lower() in LOOK_SUFFIXES
-            in_part[visual.what] = in_part.get(visual.what, True) and has_look
-    parts = {file: (file, *find_companions(file).values()) for file in in_part}
-    faded = [file for file in in_part if any(part.suffix.lower() in _WITH_MATERIALS for part in parts[file])]
-    bare = tuple(file.name for file in faded if not in_part[file])
-    rest = tuple(file.name for file in faded if in_part[file])
-    losses = [
-        Loss(FeatureKind.MESH_MATERIALS, bare, f"{target.title} gets the shapes alone", "shown without these"),
-        Loss(
-            FeatureKind.MESH_MATERIALS,
-            rest,
-            "MeshForge converts nothing else of materials",
-            "shown with base colours and their pictures",
-        ),
+    files = {v.what for v in asset.visuals.visuals if isinstance(v.what, Path)}
+    others = sorted(file for file in files if file.suffix.lower() not in target.shown_files)
+    faded = [
+        file.name
+        for file in others
+        if any(part.suffix.lower() in _WITH_MATERIALS for part in (file, *find_companions(file).values()))
     ]
-    return [loss for loss in losses if loss.names]
+    instead = "shown with one picture or base colour a mesh" if target.has_pictures else "shown without these"
+    why = f"MeshForge does not convert the rest of materials to {target.title}"
+    return [Loss(FeatureKind.MESH_MATERIALS, tuple(faded), why, instead)] if faded else []
 
 
 def _merge_losses(losses: Sequence[Loss]) -> list[Loss]:

@@ -6,6 +6,7 @@ from abc import ABC, abstractmethod
 from types import UnionType
 
 from meshforge.formats import base, kinematic_tree, mesh_output
+from meshforge.formats.couplings import plan_couplings
 from meshforge.formats.slots import ElementMaker, Slot
 from meshforge.formats.visuals import unreadable_visuals, visuals_of
 from meshforge.geometry import Pose, Shape
@@ -20,6 +21,7 @@ class LinkCreator(ABC):
     """
 
     native: UnionType
+    title: str
     rules: kinematic_tree.JointRules
     visual_suffixes: tuple[str, ...]
     lead: bytes
@@ -34,6 +36,7 @@ class LinkCreator(ABC):
         used = {g.body for g in asset.geoms} | {o.body for o in asset.opaque} | {body for body, _ in visuals}
         bare = {body.name for body in asset.bodies} - used - set(self.inertials)
         self.chain = kinematic_tree.build_chain(asset, bare, self.rules)
+        self.couplings = plan_couplings(asset.mechanism.joints, self.title)
         self.links = self.name_links(bare)
         self.slots = self._build_slots()
         self.shown = {link: self._build_visuals(link) for link in self.links}
@@ -55,7 +58,7 @@ class LinkCreator(ABC):
 
     def collect_losses(self) -> tuple[base.Loss, ...]:
         """What the file does not hold."""
-        return (*self.chain.lost, *self.lost, *unreadable_visuals(self.visuals.refused))
+        return (*self.chain.lost, *self.couplings.lost, *self.lost, *unreadable_visuals(self.visuals.refused))
 
     def _build_slots(self) -> dict[str, list[Slot]]:
         slots: dict[str, list[Slot]] = {link: [] for link in self.links}

@@ -23,6 +23,7 @@ from meshforge.formats.xml import (
 from meshforge.geometry import Piece, Polytope, Pose, Shape
 from meshforge.symbolic import Asset, Geom, unique_names
 
+_MADE_UP = re.compile(r"geom\d+(#\d+)?(@\d+)?(~\d+)*")  # what a collision without a name is called, and hulls after it
 _TAG = re.compile(rb"<([^\s/>]+)")
 
 
@@ -256,15 +257,24 @@ def name_elements(
     return tuple(collision_pieces.CollisionElement(link, names) for (link, _, _), names in named)
 
 
-def assign_names(slots: Sequence[Slot]) -> dict[str, str]:
+def assign_names(slots: Sequence[Slot], *, unique: bool = False) -> dict[str, str]:
     """Name the elements, given in the order of the output, that would else read back under other names.
 
-    Returns the names that cannot be had all the same, with what they read back as: a hull of a format whose names do
-    not begin with the body, or an element that its author called like a piece of another.
+    unique: whether a name that MeshForge made up is left out where another element of the file has it, as some engines
+    want names unique in the file. Returns the names that cannot be had all the same, with what they read back as: a
+    hull of a format whose names do not begin with the body, or an element that its author called like a piece of
+    another.
     """
     for _ in range(4):
         for slot, _names in _find_misread(slots):
             slot.name = name_attribute_of(slot)
+    authored = {slot.source.attributes.get("name") for slot in slots if slot.source is not None and not slot.copy}
+    taken = set[str | None]()
+    for slot in slots if unique else ():
+        is_own = slot.source is not None and not slot.copy and slot.name == slot.source.attributes.get("name")
+        if slot.name and not is_own and _MADE_UP.fullmatch(slot.name) and slot.name in taken | authored:
+            slot.name = None
+        taken.add(slot.name)
     return {
         wanted: name for slot, names in _find_misread(slots) for wanted, name in zip(slot.names, names, strict=True)
     }

@@ -51,27 +51,12 @@ Rgba = tuple[float, float, float, float]
 """A colour as screens show it: four shares of 1, the last of them opacity."""
 
 
-@dataclass(frozen=True, slots=True)
-class Picture:
-    """An image file, PNG or JPEG: its bytes, and the suffix for them."""
-
-    data: bytes
-    suffix: Literal[".png", ".jpg"]
-
-    @staticmethod
-    def of(data: bytes) -> Picture | None:
-        """The picture in the bytes of a file; None for a file of another kind."""
-        if data.startswith(b"\x89PNG\r\n"):
-            return Picture(data, ".png")
-        return Picture(data, ".jpg") if data.startswith(b"\xff\xd8\xff") else None
-
-
 @dataclass(frozen=True, eq=False, slots=True)
 class Texture:
-    """A picture on a surface, in the place of its colour; coordinates: (n, 2) of each vertex, to the right and up."""
+    """A PNG on a surface, in the place of its colour; coordinates: (n, 2) of each vertex, to the right and up."""
 
     coordinates: Floats
-    picture: Picture
+    picture: bytes
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -105,6 +90,21 @@ class Opaque:
     mentions: Mentions = ()
 
 
+@dataclass(frozen=True, slots=True)
+class Coupling:
+    """How a joint follows another one: it is at the sum of coefficients[k] * x ** k, x being where the other one is.
+
+    Both count from zero [rad] or [m]; a linear coupling has two coefficients.
+    """
+
+    joint: str
+    coefficients: tuple[float, ...] = (0.0, 1.0)
+
+    @property
+    def is_linear(self) -> bool:
+        return len(self.coefficients) == 2
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class Joint:
     """How a body moves against another, described where all joints are at zero.
@@ -113,7 +113,8 @@ class Joint:
     anchor: (3,), a point of the axis, or the centre of a ball [m]; axis: (3,), of unit length, the normal of a planar
     joint; both in the root frame. limits: [rad] or [m] from zero, None where there are none.
     damping, friction: of the file, 0 where it has none; effort [N or Nm], velocity [m/s or rad/s]: the largest, None
-    where it has none. Several joints of one child act one after another, the first one nearest to the parent.
+    where it has none. coupling: by which it follows another one. Several joints of one child act one after another, the
+    first one nearest to the parent.
     """
 
     name: str
@@ -127,6 +128,7 @@ class Joint:
     friction: float = 0.0
     effort: float | None = None
     velocity: float | None = None
+    coupling: Coupling | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "anchor", freeze_floats(self.anchor, (3,)))

@@ -34,26 +34,8 @@ class FeatureKind(Enum):
     MASSES = "mass", "masses"
     VISUALS = "visual", "visuals"
     COLORS = "colour", "colours"
-    MATERIALS = "material", "materials"
     MESH_MATERIALS = "mesh file with materials", "mesh files with materials"
-    VERTEX_COLORS = "set of vertex colours", "sets of vertex colours"
-    TEXTURES = "texture", "textures"
-    TEXTURE_COORDINATES = "texture coordinate", "texture coordinates"
-    CONTACT = "contact setting", "contact settings"
-    PAIRS = "contact pair or exclusion", "contact pairs and exclusions"
-    DYNAMICS = "spring or armature of a joint", "springs and armatures of joints"
-    ACTUATORS = "actuator", "actuators"
-    SENSORS = "sensor", "sensors"
-    TENDONS = "tendon", "tendons"
-    SITES = "site", "sites"
-    CAMERAS = "camera", "cameras"
-    LIGHTS = "light", "lights"
-    KEYFRAMES = "keyframe", "keyframes"
-    ANIMATIONS = "animation", "animations"
-    SKINS = "skin or soft body", "skins and soft bodies"
-    SETTINGS = "simulation setting", "simulation settings"
     OTHERS = "other element", "other elements"
-    COMMENTS = "comment", "comments"
 
     @property
     def one(self) -> str:
@@ -116,6 +98,7 @@ def _features_of_mechanism(asset: Asset) -> Iterator[Feature]:
         FeatureKind.FIXED_JOINTS, tuple(joint.name for joint in joints if joint.kind == "fixed" and joint.name)
     )
     yield _feature_of_names(FeatureKind.SPEEDS, (joint.name for joint in moving if joint.velocity is not None))
+    yield _feature_of_names(FeatureKind.MIMICS, (joint.name for joint in joints if joint.coupling))
     yield Feature(FeatureKind.MASSES, tuple(inertial.body for inertial in asset.mechanism.inertials))
 
 

@@ -146,7 +146,7 @@ def test_the_khronos_validator_finds_no_error_in_named_files(sample: str, tmp_pa
 
 
 def test_what_is_seen_of_a_body_is_one_mesh_of_its_colours(tmp_path: Path) -> None:
-    saved = save(SAMPLES["doors"](), tmp_path / "a.glb", names="godot")
+    saved = save(SAMPLES["doors"](), tmp_path / "a.glb", names="unity")
     tree = tree_of(saved.path.read_bytes())
     door = next(node for node in tree["nodes"] if node["name"] == "door")
     assert [part["material"] for part in tree["meshes"][door["mesh"]]["primitives"]] == [0]

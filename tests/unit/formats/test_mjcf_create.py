@@ -251,7 +251,10 @@ def test_files_beside_a_visual_stay_beside_it(tmp_path: Path) -> None:
         "m--visuals/box.mtl",
         "m--visuals/pictures/a.png",
     }
-    assert "1 mesh file with materials (box.obj) is shown without these: MJCF gets the shapes alone" in saved.notes
+    assert (
+        "1 mesh file with materials (box.obj) is shown without these: "
+        "MeshForge does not convert the rest of materials to MJCF" in saved.notes
+    )
 
 
 def test_a_visual_that_is_sheared_is_written_as_it_looks(tmp_path: Path) -> None:

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from meshforge.common import AssetError
+from meshforge.formats import save
 from meshforge.formats.mjcf.document import MjcfDocument
 from meshforge.symbolic import Asset
 from tests.mjcf_engines import TETRAHEDRON, model, put, read
@@ -198,3 +199,50 @@ def test_settings_of_mujoco_are_as_before_after_a_reading(tmp_path: Path) -> Non
         assert heard
     finally:
         mujoco.set_mju_user_warning(None)
+
+
+BODY = """<worldbody><body name="top">
+<geom class="t" size=".5 .3 .02"/><geom pos="2 0 0" size=".1 .1 .1"/></body></worldbody>"""
+
+
+@pytest.mark.parametrize(
+    ("defaults", "kinds", "groups"),
+    [
+        ('<default><geom condim="1"/></default><default class="t"><geom type="box"/></default>', "box sphere", "0 0"),
+        ('<default class="t"><geom type="box"/></default>', "box box", "0 0"),
+        ('<default class="t"><geom type="box"/><default class="u"/></default>', "box box", "0 0"),
+        (
+            '<default><default class="t"><geom type="box"/></default></default>'
+            '<default><default class="t"><geom group="4"/></default></default>',
+            "box sphere",
+            "4 0",
+        ),
+        (
+            '<default><geom type="box"/></default><default class="t"/><default class="t"><geom group="4"/></default>',
+            "box box",
+            "4 0",
+        ),
+        ('<default><default><geom group="1"/></default><default class="t"/></default>', "sphere sphere", "0 0"),
+    ],
+)
+def test_defaults_that_only_older_versions_understand_are_read(
+    tmp_path: Path, defaults: str, kinds: str, groups: str
+) -> None:
+    path = tmp_path / "a.xml"
+    path.write_text(f"<mujoco>{defaults}{BODY}</mujoco>")
+    asset = read(path)
+    assert " ".join(geom.shape.kind for geom in asset.geoms) == kinds
+    assert " ".join(dict(geom.contact)["group"] for geom in asset.geoms) == groups
+    (note,) = [note for note in asset.notes if "MuJoCo refuses this file" in note]
+    assert "class" in note and note.endswith("read for its collision geometry only")
+    after = read(save(asset.with_geoms(asset.geoms[:1]), tmp_path / "out" / "a.xml").path)
+    assert [geom.shape.kind for geom in after.geoms] == [asset.geoms[0].shape.kind]
+
+
+def test_a_class_that_is_not_there_is_named_with_the_remedy(tmp_path: Path) -> None:
+    path = tmp_path / "a.xml"
+    path.write_text(f"<mujoco>\n{BODY}</mujoco>")
+    with pytest.raises(AssetError) as caught:
+        read(path)
+    assert caught.value.where == f"{path}:3" and "unknown default class name 't'" in caught.value.problem
+    assert "inside the first <default>" in (caught.value.remedy or "")

@@ -95,8 +95,9 @@ class _Namer:
         return EngineBody(body, name, surfaces, hulls, pieces)
 
     def _own_name_of(self, thing: Geom | Opaque) -> str:
-        """The name without the body, where there is only one."""
-        return thing.name.removeprefix(f"{thing.body}/") if len(self.asset.bodies) == 1 else thing.name
+        """The name without the body, where there is only one or the engine reads it below its body."""
+        alone = len(self.asset.bodies) == 1 or self.engine.in_bodies
+        return thing.name.removeprefix(f"{thing.body}/") if alone else thing.name
 
     def _claim_name(self, named: Callable[[str], str], wanted: str) -> str:
         """What `named` makes of a name, or of it with a number, that no other has; Unreal takes no notice of case."""

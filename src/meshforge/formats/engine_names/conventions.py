@@ -32,7 +32,8 @@ class CollisionNames(ABC):
 
     title: the engine's name for people; holds: what a scene says by them; shows: whether collision counts only where
     its body has a mesh to be seen; takes_opaque: whether a mesh that is no hull can collide as it is; centred: whether
-    the mesh of a hull may lie about its own middle, and its node in place.
+    the mesh of a hull may lie about its own middle, and its node in place; in_bodies: whether names of hulls are read
+    as those below their body.
     """
 
     engine: ClassVar[EngineName]
@@ -43,6 +44,7 @@ class CollisionNames(ABC):
     shows: ClassVar[bool] = False
     takes_opaque: ClassVar[bool] = True
     centred: ClassVar[bool] = True
+    in_bodies: ClassVar[bool] = False
 
     @abstractmethod
     def body(self, wanted: str) -> str:
@@ -72,7 +74,7 @@ def clean_name(name: str, not_taken: str) -> str:
 def fallbacks_of(names: CollisionNames) -> dict[FeatureKind, str]:
     """How a scene has what names do not say."""
     triangles = {what: "written as triangles" for what in PRIMITIVE_FEATURES.values() if what not in names.holds}
-    return {**triangles, FeatureKind.BODIES: "written as nodes"}
+    return triangles if FeatureKind.BODIES in names.holds else {**triangles, FeatureKind.BODIES: "written as nodes"}
 
 
 def unreal_kind(name: str | None) -> UnrealPrefix | None:
@@ -216,6 +218,7 @@ class GodotNames(CollisionNames):
 
     engine: ClassVar[EngineName] = "godot"
     title: ClassVar[str] = "Godot"
+    holds: ClassVar[frozenset[FeatureKind]] = CollisionNames.holds | {FeatureKind.BODIES, FeatureKind.MASSES}
 
     def body(self, wanted: str) -> str:
         """No word at its end that Godot makes something else of: `front_wheel` would be a wheel of a vehicle."""
@@ -227,6 +230,18 @@ class GodotNames(CollisionNames):
 
     def opaque(self, own: str) -> str:
         return f"{clean_name(own, _GODOT_REFUSED)}-colonly"
+
+
+class GodotBodyNames(GodotNames):
+    """Nodes of bodies that move: extensions say what collides, so that no name makes a static body of a node."""
+
+    in_bodies: ClassVar[bool] = True
+
+    def hull(self, body: str, geom: Geom, number: int, own: str) -> str:
+        return self.body(own)
+
+    def opaque(self, own: str) -> str:
+        return self.body(own)
 
 
 class UnityNames(CollisionNames):

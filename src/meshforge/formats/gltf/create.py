@@ -4,7 +4,6 @@ plain, or named for an engine."""
 from __future__ import annotations
 
 import copy
-import hashlib
 import json
 from pathlib import Path, PurePosixPath
 from typing import Literal
@@ -26,7 +25,7 @@ from meshforge.formats.meshfile.gltf_document import Container, Json
 from meshforge.formats.meshfile.gltf_scene import GltfScene
 from meshforge.formats.visuals import linear_color, read_visual_surfaces
 from meshforge.geometry import Floats, Ints
-from meshforge.symbolic import Asset, Geom, Opaque, Picture, Surface
+from meshforge.symbolic import Asset, Geom, Opaque, Surface
 
 _FAR = 1e4  # sizes of a hull away from its body, beyond which single precision would spoil it
 
@@ -122,13 +121,15 @@ def create_for_engine(asset: Asset, name: str, engine: CollisionNames) -> Output
     """
     path = PurePosixPath(name)
     found = name_bodies(asset, engine, path.stem)
-    main, made, names = _EngineCreator(asset, found, engine, path.suffix.lower() == ".glb").build_files(path.stem)
+    main, made, names = EngineCreator(asset, found, engine, path.suffix.lower() == ".glb").build_files(path.stem)
     return Output(main, made, names=names, lost=found.lost, notes=found.notes)
 
 
-class _EngineCreator:
+class EngineCreator:
+    """Makes a node for each body, and below it those of what collides, by the names of an engine."""
+
     def __init__(self, asset: Asset, found: EngineBodies, engine: CollisionNames, is_binary: bool) -> None:
-        self.found, self.engine, self.is_binary = found, engine, is_binary
+        self.asset, self.found, self.engine, self.is_binary = asset, found, engine, is_binary
         tree = new_tree()
         tree["scenes"][0]["nodes"] = list(range(len(found.each)))
         tree["nodes"] = [{"name": family.name, **pose_keys(family.body.pose)} for family in found.each]
@@ -138,12 +139,20 @@ class _EngineCreator:
         """The main file, the one of its buffer, and the names of hulls in it."""
         for node, family in enumerate(self.found.each):
             if family.surfaces:
-                self.draft.node(node)["mesh"] = self._add_visuals(family, node)
+                self._show(family, node, self._add_visuals(family, node))
             self._add_collision(family, node)
-        document = GltfDocument(b"", self.engine.engine, ())
+        document = self._build_document()
         misread = assign_names(self.draft, document, renames=False)  # by the names of the asset
         known = {geom: name for geom, name in misread.items() if geom in self.found.names}
         return *pack_new(self.draft, stem, self.is_binary), known
+
+    def _build_document(self) -> GltfDocument:
+        """What tells a reader how collision is marked."""
+        return GltfDocument(b"", self.engine.engine, ())
+
+    def _show(self, family: EngineBody, node: int, mesh: int) -> None:
+        """Show a mesh on the node of a body."""
+        self.draft.node(node)["mesh"] = mesh
 
     def _add_visuals(self, family: EngineBody, node: int) -> int:
         """One mesh of all that is seen of a body, a part for each surface."""
@@ -174,9 +183,13 @@ class _EngineCreator:
         if not self.engine.centred and np.abs(middle).max() < _FAR * reach:
             middle = np.zeros(3)
         mesh = self.draft.add_mesh({"name": name, "primitives": [self.draft.build_primitive(points - middle, faces)]})
-        node: Json = {"name": name, "mesh": mesh}
         placed = {"translation": middle.tolist()} if middle.any() else {}
-        self.draft.expected[self.draft.add_node({**node, **placed}, holder)] = (known,)
+        node = {"name": name, **self._build_collider(mesh, known), **placed}
+        self.draft.expected[self.draft.add_node(node, holder)] = (known,)
+
+    def _build_collider(self, mesh: int, known: str) -> Json:
+        """What makes a node collide with a mesh; known: the name of the piece in the asset."""
+        return {"mesh": mesh}
 
 
 def new_tree() -> Json:
@@ -204,16 +217,12 @@ def add_material(draft: SceneDraft, surface: Surface) -> int | None:
     return _number_of(draft.tree, "materials", wanted)
 
 
-def _add_picture(draft: SceneDraft, picture: Picture) -> int:
-    """The number of a texture of a picture; the picture is in the buffer, once."""
-    kind = "image/png" if picture.suffix == ".png" else "image/jpeg"
-    name = hashlib.blake2b(picture.data, digest_size=8).hexdigest()
-    images: list[Json] = draft.tree.setdefault("images", [])
-    known = next((k for k, image in enumerate(images) if image["name"] == name), None)
-    if known is None:
-        images.append({"name": name, "bufferView": draft.geometry.add_bytes(picture.data), "mimeType": kind})
-        known = len(images) - 1
-    return _number_of(draft.tree, "textures", {"source": known})
+def _add_picture(draft: SceneDraft, picture: bytes) -> int:
+    """The number of a texture of a picture, a PNG, which is in the buffer once."""
+    if picture not in draft.pictures:
+        image = {"bufferView": draft.geometry.add_bytes(picture), "mimeType": "image/png"}
+        draft.pictures[picture] = _number_of(draft.tree, "images", image)
+    return _number_of(draft.tree, "textures", {"source": draft.pictures[picture]})
 
 
 def _number_of(tree: Json, key: str, wanted: Json) -> int:

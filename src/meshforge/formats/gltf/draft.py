@@ -24,7 +24,7 @@ _POINTER = re.compile(r"/nodes/(\d+)(/.*)?")
 class SceneDraft:
     """The tree of a scene, to be edited; before: the chunk that new geometry follows, None for a buffer of its own.
 
-    expected: for each node with collision, the names that its pieces should read back as.
+    expected: for each node with collision, the names that its pieces should read back as; pictures: images by bytes.
     """
 
     def __init__(self, scene: GltfScene, tree: Json, before: bytes | None) -> None:
@@ -32,6 +32,7 @@ class SceneDraft:
         self.geometry = output.GeometryBuffer(tree, before)
         self.referred = SceneReferences(scene.tree)
         self.expected: dict[int, tuple[str, ...]] = {}
+        self.pictures: dict[bytes, int] = {}
         self._bodies = physics.body_nodes(scene)
 
     def node(self, index: int) -> Json:

@@ -5,31 +5,19 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import ClassVar
 
 from meshforge.common import AssetError
 from meshforge.engines import ENGINES
-from meshforge.formats.base import BODY_FEATURES, SCENE_FEATURES, Mass, Output, ReadOptions, SceneFormat, feature_of
+from meshforge.formats.base import BODY_FEATURES, Mass, Output, ReadOptions, SceneFormat, feature_of_others
 from meshforge.formats.collision_pieces import is_edited
 from meshforge.formats.engine_names.conventions import CollisionNames, GodotNames, UnityNames, UnrealNames, fallbacks_of
 from meshforge.formats.gltf.document import GltfDocument
 from meshforge.formats.meshfile.gltf_document import Json, entries, entry, extension, report_damage
 from meshforge.symbolic import Asset, Feature, FeatureKind, Surface
 
-_LISTS = {
-    "materials": FeatureKind.MATERIALS,
-    "textures": FeatureKind.TEXTURES,
-    "animations": FeatureKind.ANIMATIONS,
-    "skins": FeatureKind.SKINS,
-    "cameras": FeatureKind.CAMERAS,
-}
-_ATTRIBUTES = {"COLOR_0": FeatureKind.VERTEX_COLORS, "TEXCOORD_0": FeatureKind.TEXTURE_COORDINATES}
+_LISTS = ("materials", "textures", "animations", "skins", "cameras")
 _LIGHTS, _PHYSICS = "KHR_lights_punctual", "KHR_physics_rigid_bodies"
-
-_COULD_NAMED = SCENE_FEATURES - {FeatureKind.CONTACT} | {
-    *(FeatureKind.VERTEX_COLORS, FeatureKind.TEXTURE_COORDINATES, FeatureKind.ANIMATIONS, FeatureKind.SKINS)
-}
-"""What a file can hold and `create` leaves out, but for physics, which names do not say."""
 
 
 class GltfFormat(SceneFormat):
@@ -43,9 +31,6 @@ class GltfFormat(SceneFormat):
     engine: ClassVar[CollisionNames | None] = None
     has_pictures = True
     holds = BODY_FEATURES | {FeatureKind.CAPSULES, FeatureKind.OPAQUE, FeatureKind.PLANES}
-    could = _COULD_NAMED | {
-        *(FeatureKind.JOINTS, FeatureKind.BALL_JOINTS, FeatureKind.FIXED_JOINTS, FeatureKind.CONTACT, FeatureKind.PAIRS)
-    }
     instead: ClassVar[Mapping[FeatureKind, str]] = {FeatureKind.ELLIPSOIDS: "written as triangles"}
 
     def read(self, path: Path, options: ReadOptions) -> Asset:
@@ -110,7 +95,6 @@ class EngineGltf(GltfFormat):
     """glTF whose collision an engine knows by name."""
 
     engine: ClassVar[CollisionNames]
-    could = _COULD_NAMED
 
     def can_write_back(self, asset: Asset) -> bool:
         return isinstance(asset.document, GltfDocument) and asset.document.convention == self.engine.engine
@@ -133,7 +117,7 @@ class GltfForUnreal(EngineGltf):
 
 
 class GltfForGodot(EngineGltf):
-    """With suffixes: `leg-convcolonly`."""
+    """With suffixes: `leg-convcolonly`; rigid bodies, where anything moves, by OMI_physics_body."""
 
     engine = GodotNames()
     engines = ("godot",)
@@ -141,6 +125,11 @@ class GltfForGodot(EngineGltf):
     marks = "under names for Godot"
     holds = engine.holds
     instead = fallbacks_of(engine)
+
+    def create(self, asset: Asset, name: str) -> Output:
+        from meshforge.formats.gltf import rigid_bodies  # lazy: only glTF needs it
+
+        return rigid_bodies.create_for_godot(asset, name, self.engine)
 
 
 class GltfForUnity(EngineGltf):
@@ -164,15 +153,14 @@ def features_of(document: GltfDocument, asset: Asset) -> list[Feature]:
 
 
 def _list_features(tree: Json) -> Iterator[Feature]:
-    for key, what in _LISTS.items():
-        yield _feature_of(what, entries(tree, key))
-    yield _feature_of(FeatureKind.LIGHTS, entries(extension(tree, _LIGHTS) or {}, "lights"))
+    others = [key.removesuffix("s") for key in _LISTS for _ in entries(tree, key)]
+    others += ["light"] * len(entries(extension(tree, _LIGHTS) or {}, "lights"))
     parts = [part for mesh in entries(tree, "meshes") for part in entries(mesh, "primitives")]
-    for name, what in _ATTRIBUTES.items():
-        yield Feature(what, unnamed=sum(name in part.get("attributes", {}) for part in parts))
+    for name in ("COLOR_0", "TEXCOORD_0"):
+        others += [name] * sum(name in part.get("attributes", {}) for part in parts)
     physics = extension(tree, _PHYSICS) or {}
-    settings = [one for key in ("physicsMaterials", "collisionFilters") for one in entries(physics, key)]
-    yield Feature(FeatureKind.CONTACT, unnamed=len(settings))
+    others += ["contact setting" for key in ("physicsMaterials", "collisionFilters") for _ in entries(physics, key)]
+    yield feature_of_others(others)
     nodes = entries(tree, "nodes")
     joined = [
         n for n in nodes if "joint" in (extension(n, _PHYSICS) or {}) or extension(n, "OMI_physics_joint") is not None
@@ -189,7 +177,3 @@ def _list_missing_masses(tree: Json, document: GltfDocument, asset: Asset) -> It
     reasons = {name: explain_missing_mass(motion) for name, motion in motions.items() if "mass" in motion}
     for reason in dict.fromkeys(reasons.values()):
         yield Feature(FeatureKind.MASSES, tuple(name for name, why in reasons.items() if why == reason), reason=reason)
-
-
-def _feature_of(what: FeatureKind, things: list[Any]) -> Feature:
-    return feature_of(what, (str(thing.get("name") or "") for thing in things))

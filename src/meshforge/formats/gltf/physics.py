@@ -10,7 +10,7 @@ import numpy as np
 
 from meshforge.formats.collision_pieces import CollisionPiece, build_solid, end_points
 from meshforge.formats.gltf.document import Convention
-from meshforge.formats.kinematic_tree import BodyTree
+from meshforge.formats.kinematic_tree import BodyTree, drop_rounding
 from meshforge.formats.meshfile.gltf_document import Json, entry, extension, number, numbers
 from meshforge.formats.meshfile.gltf_meshes import rotations_of
 from meshforge.formats.meshfile.gltf_scene import GltfScene, Placement
@@ -160,19 +160,26 @@ _SIZES = {"inertiaDiagonal": 3, "inertiaTensor": 9}
 
 def motion_of(asset: Asset, body: Body) -> Json:
     """The `motion` of a body: kinematic where it is the fixed part of something with joints; its mass where known."""
-    tree = BodyTree.of(asset)
-    motion: Json = {"isKinematic": True} if asset.mechanism.joints and tree.is_static(body.name) else {}
+    kinematic = asset.mechanism.joints and BodyTree.of(asset).is_static(body.name)
+    return {"isKinematic": True, **mass_keys(asset, body)} if kinematic else mass_keys(asset, body)
+
+
+def mass_keys(asset: Asset, body: Body) -> Json:
+    """The mass of a body as a motion has it, moments about its own axes where these are principal ones."""
     inertial = next((known for known in asset.mechanism.inertials if known.body == body.name), None)
     if inertial is None or inertial.mass <= 0:
-        return motion
-    turn = body.pose.rotation
-    diagonal, axes = np.linalg.eigh(turn.T @ inertial.inertia @ turn)
-    axes = axes * np.sign(np.linalg.det(axes))
-    w, x, y, z = Pose(axes, np.zeros(3)).to_quaternion().tolist()
-    motion |= {"mass": inertial.mass, "centerOfMass": body.pose.inverse().apply(inertial.centre[None])[0].tolist()}
+        return {}
+    keys: Json = {"mass": inertial.mass}
+    keys["centerOfMass"] = body.pose.inverse().apply(inertial.centre[None])[0].tolist()
+    tensor = drop_rounding(body.pose.rotation.T @ inertial.inertia @ body.pose.rotation)
+    diagonal, axes = np.diag(tensor), np.eye(3)
+    if not np.array_equal(tensor, np.diag(diagonal)):
+        diagonal, axes = np.linalg.eigh(tensor)
+        axes = axes * np.sign(np.linalg.det(axes))
     if diagonal.min() > 0:
-        motion |= {"inertiaDiagonal": diagonal.tolist(), "inertiaOrientation": [x, y, z, w]}
-    return motion
+        w, x, y, z = Pose(axes, np.zeros(3)).to_quaternion().tolist()
+        keys |= {"inertiaDiagonal": diagonal.tolist(), "inertiaOrientation": [x, y, z, w]}
+    return keys
 
 
 def read_motion(node: Json) -> Json:

@@ -17,11 +17,12 @@ from meshforge.formats.gltf.colliders import CollisionReader, NodeCollision, con
 from meshforge.formats.gltf.document import BODY, Convention, GltfDocument, NodeRecord
 from meshforge.formats.gltf.physics import body_nodes, is_trigger, read_inertial, rigid_pose_of
 from meshforge.formats.meshfile.gltf_document import Json, entries, entry, report_damage
-from meshforge.formats.meshfile.gltf_looks import split_by_look
+from meshforge.formats.meshfile.gltf_meshes import GltfMesh
 from meshforge.formats.meshfile.gltf_scene import GltfScene
+from meshforge.formats.meshfile.surface import GAMMA
 from meshforge.formats.visuals import LazySurfaces
-from meshforge.geometry import Pose
-from meshforge.symbolic import Asset, Body, Mechanism, Mentions, Surface, unique_names
+from meshforge.geometry import Floats, Ints, Pose
+from meshforge.symbolic import Asset, Body, Mechanism, Mentions, Rgba, Surface, unique_names
 
 _DAMAGE = (ValueError, LookupError, TypeError, AttributeError)
 
@@ -146,12 +147,35 @@ class SceneSurfaces(LazySurfaces):
                 shown = [k for k, placement in scene.placements.items() if "mesh" in placement.node]
                 for index in shown if self._unmarked else visible_nodes(scene, convention_of(scene)):
                     mesh, linear, offset = scene.place_mesh(scene.placements[index])
-                    for part, rgba, texture in split_by_look(scene, scene.placements[index].node["mesh"], mesh):
-                        surface = place_surface(part.vertices, part.faces, linear, offset, self._bodies.get(index))
-                        found.append(replace(surface, rgba=rgba, texture=texture))
+                    for vertices, faces, rgba in _split_by_color(scene, scene.placements[index].node["mesh"], mesh):
+                        surface = place_surface(vertices, faces, linear, offset, self._bodies.get(index))
+                        found.append(replace(surface, rgba=rgba))
         except MeshForgeError:
             return []
         return found
+
+
+def _split_by_color(scene: GltfScene, mesh: int, whole: GltfMesh) -> Iterator[tuple[Floats, Ints, Rgba | None]]:
+    """The triangles of a mesh, apart where its parts have other base colours."""
+    materials = list(_materials(scene.tree, entry(scene.tree, "meshes", mesh)))
+    colors = [_read_color(materials[patch.index]) for patch in whole.patches]
+    if len(set(colors)) == 1:
+        yield whole.vertices, whole.faces, colors[0]
+        return
+    start = 0
+    for patch, rgba in zip(whole.patches, colors, strict=True):
+        yield whole.vertices[start : start + len(patch.points)], patch.faces, rgba
+        start += len(patch.points)
+
+
+def _read_color(material: Json) -> Rgba | None:
+    """The base colour of a material; None where it says none, or has a picture."""
+    shading = material.get("pbrMetallicRoughness", {})
+    factor = shading.get("baseColorFactor")
+    if factor is None or len(factor) != 4 or "baseColorTexture" in shading:
+        return None
+    red, green, blue = (np.clip(np.asarray(factor[:3], dtype=np.float64), 0, 1) ** (1 / GAMMA)).tolist()
+    return round(red, 4), round(green, 4), round(blue, 4), float(factor[3])
 
 
 def visible_nodes(scene: GltfScene, convention: Convention) -> list[int]:

@@ -11,7 +11,6 @@ import re
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -24,22 +23,6 @@ from meshforge.geometry import Floats, Ints
 _NOT_FINITE = re.compile(r"\b(nan|inf)", re.I)
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class LookPart:
-    """The triangles of one material in a geometry: vertices (n, 3), faces (m, 3).
-
-    rgba: its colour, shares of 1, None where it has none or a picture; image: the reference to that picture, empty for
-    none; places: (k, 2) texture coordinates, to the right and up; corners: (m, 3) those of each corner, None for none.
-    """
-
-    vertices: Floats
-    faces: Ints
-    rgba: tuple[float, float, float, float] | None
-    image: str
-    places: Floats
-    corners: Ints | None
-
-
 def parse_dae(data: bytes, where: str) -> list[RawSurface]:
     """The surfaces of a Collada file. Raises AssetError: not such a file, or no scene in it."""
     with _report_damage(where):
@@ -50,13 +33,6 @@ def parse_dae(data: bytes, where: str) -> list[RawSurface]:
         problem = f"its scene shows no triangle of {pluralize(len(document.geometries), 'geometry', 'geometries')}"
         raise AssetError(problem, where=where)
     return check_surfaces(found, where)
-
-
-def parse_dae_looks(data: bytes, where: str) -> list[LookPart]:
-    """The same triangles, apart where their materials are. Raises AssetError as `parse_dae` does."""
-    with _report_damage(where):
-        geometries = _list_geometries(_open_document(data, where))
-        return [_read_look(part, triangles) for bound, _ in geometries for part, triangles in _list_triangles(bound)]
 
 
 def _open_document(data: bytes, where: str) -> Any:
@@ -143,35 +119,3 @@ def _list_triangles(bound: Any) -> Iterator[tuple[Any, Any]]:
 
 def _read_triangles(triangles: Any) -> tuple[Floats, Ints]:
     return np.asarray(triangles.vertex, dtype=np.float64), np.asarray(triangles.vertex_index, dtype=np.int64)
-
-
-def _read_look(part: Any, triangles: Any) -> LookPart:
-    """A set of triangles with the diffuse colour or picture of its material."""
-    vertices, faces = _read_triangles(triangles)
-    diffuse = getattr(getattr(part.material, "effect", None), "diffuse", None)
-    if isinstance(diffuse, tuple):
-        return LookPart(vertices, faces, _read_color(diffuse), "", np.zeros((0, 2)), None)
-    image = getattr(getattr(getattr(diffuse, "sampler", None), "surface", None), "image", None)
-    number = _find_set(part, getattr(diffuse, "texcoord", ""))
-    if image is None or number >= len(triangles.texcoord_indexset):
-        return LookPart(vertices, faces, None, "", np.zeros((0, 2)), None)
-    places = np.asarray(triangles.texcoordset[number], dtype=np.float64)[:, :2]
-    corners = np.asarray(triangles.texcoord_indexset[number], dtype=np.int64)
-    return LookPart(vertices, faces, None, str(image.path), places, corners)
-
-
-def _read_color(diffuse: tuple[Any, ...]) -> tuple[float, float, float, float] | None:
-    """A colour of three or four shares; None for what is none."""
-    shares = np.clip(np.array([*diffuse[:4], 1.0][:4], dtype=np.float64), 0.0, 1.0)
-    if len(shares) != 4 or not np.isfinite(shares).all():
-        return None
-    red, green, blue, alpha = shares.tolist()
-    return red, green, blue, alpha
-
-
-def _find_set(part: Any, symbol: str) -> int:
-    """The place of the set of texture coordinates that a picture lies by, among those of a geometry."""
-    wanted = (part.inputmap or {}).get(symbol, ("TEXCOORD", "0"))[1]
-    sources = part.original.sources.get("TEXCOORD", []) if hasattr(part.original, "sources") else []
-    numbers = [source[3] for source in sources]
-    return numbers.index(wanted) if wanted in numbers else 0

@@ -11,6 +11,7 @@ import numpy as np
 from meshforge.common import join_names, pluralize
 from meshforge.formats import mesh_output, visuals, xml
 from meshforge.formats.base import Loss, Output
+from meshforge.formats.couplings import plan_couplings
 from meshforge.formats.kinematic_tree import BodyTree, claim_name
 from meshforge.formats.mjcf import document, elements, references
 from meshforge.geometry import Pose
@@ -52,6 +53,7 @@ class _Creator:
         self.poses = asset.body_poses
         self.inertials = {inertial.body: inertial for inertial in asset.mechanism.inertials}
         self.joint_names = self.tree.joint_names
+        self.couplings = plan_couplings(asset.mechanism.joints, "MJCF", polynomials=True)
         self.bodies = name_bodies(self.tree)
         self.named = name_geoms(asset, self.tree, self.bodies)
         self.made = NewGeomMaker(asset, stem, self.tree, {piece: name for piece, (name, _) in self.named.items()})
@@ -66,10 +68,10 @@ class _Creator:
         ]
         defaults = _DEFAULTS if self.made.shown or self.asset.opaque else []
         meshes, files = self.made.meshes, self.made.files
-        main = b"\n".join([*head, *defaults, *meshes.lines(), *body, b"</mujoco>", b""])
+        main = b"\n".join([*head, *defaults, *meshes.lines(), *body, *self._equality_lines(), b"</mujoco>", b""])
         reads = {geom.name: self.named[geom.name][1] for geom in self.asset.geoms}
         names = {name: read for name, read in reads.items() if read != name}
-        lost = (*self.made.losses(), *self.lost)
+        lost = (*self.made.losses(), *self.lost, *self.couplings.lost)
         return Output(main, dict(meshes.files.made), files.copies, self._collect_notes(), names, lost)
 
     def _body_lines(self) -> Iterator[bytes]:
@@ -97,6 +99,16 @@ class _Creator:
             waiting.append(lead + b"</body>")
             waiting += [(child, depth + 1) for child in reversed(below.get(body, []))]
         yield b"  </worldbody>"
+
+    def _equality_lines(self) -> Iterator[bytes]:
+        """The `<equality>` of joints that follow others."""
+        if not self.couplings.by_joint:
+            return
+        yield b"  <equality>"
+        for joint, coupling in self.couplings.by_joint.items():
+            numbers = xml.format_numbers([*coupling.coefficients, *[0.0] * (5 - len(coupling.coefficients))])
+            yield b"    " + elements.tag("joint", {"joint1": joint, "joint2": coupling.joint, "polycoef": numbers})
+        yield b"  </equality>"
 
     def _place_of(self, body: str) -> str:
         """The body in which the element of a body stands, empty for the world."""
@@ -145,7 +157,8 @@ class _Creator:
             yield elements.light_tag()
 
     def _collect_notes(self) -> tuple[str, ...]:
-        notes = [f"{text} ({join_names(bodies, 3)})" if bodies else text for text, bodies in self.notes.items()]
+        notes = [*self.couplings.notes]
+        notes += [f"{text} ({join_names(bodies, 3)})" if bodies else text for text, bodies in self.notes.items()]
         if not any(joint.kind == "floating" for joint in self.asset.mechanism.joints):
             roots = [self.bodies[root] for root in self.tree.roots if self.bodies[root] != WORLD]
             roots = roots or [b for b in self.tree.order if self.tree.parent(b) == WORLD and self.tree.is_static(b)]

@@ -135,6 +135,12 @@ class MjcfNode:
         """The direct children of that tag."""
         return (child for child in self.children if child.tag == tag)
 
+    @property
+    def is_coupling(self) -> bool:
+        """Whether it is an equality by which a joint follows another one."""
+        own = self.attributes
+        return self.tag == "joint" and "joint2" in own and own.get("active") != "false"
+
     def walk(self) -> Iterator[MjcfNode]:
         """This node and all below it, in document order."""
         waiting = [self]

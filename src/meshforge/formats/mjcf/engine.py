@@ -20,6 +20,7 @@ from meshforge.formats.mjcf.document import MjcfNode, MjcfTree, read_tree
 from meshforge.formats.mjcf.references import AssetFolders, read_submodels
 from meshforge.formats.xml import escape
 
+_UNKNOWN_CLASS = "Write a <default> of that class inside the first <default>, or take the class from the element."
 _LOCK = threading.RLock()  # where MuJoCo's messages go is a setting of the whole process
 _LINE = re.compile(r"\bline (?:number=)?(\d+)", re.I)
 _PARSER = re.compile(r"Error=\w+ ErrorID=\d+ \(0x\w+\) Line number=\d+: ")
@@ -151,7 +152,8 @@ def _error_of(message: str, tree: MjcfTree, flat: FlatText) -> AssetError:
     """MuJoCo's message in one line, about the authored file and line."""
     lines = [node for number in _LINE.findall(message) if (node := flat.node_at(f"line {number}"))]
     where = tree.where(lines[-1]) if lines else str(tree.main.path)
-    return AssetError(f"MuJoCo refuses this file: {_clean_message(message)}", where=where)
+    remedy = _UNKNOWN_CLASS if "unknown default class" in message else None
+    return AssetError(f"MuJoCo refuses this file: {_clean_message(message)}", where=where, remedy=remedy)
 
 
 def _clean_message(message: str) -> str:

@@ -9,30 +9,18 @@ from pathlib import Path
 from typing import ClassVar
 
 from meshforge.common import AssetError, require_mujoco
-from meshforge.formats.base import BODY_FEATURES, SCENE_FEATURES, Format, Mass, Output, ReadOptions, feature_of
-from meshforge.formats.mjcf.document import MjcfDocument, MjcfNode
+from meshforge.formats.base import BODY_FEATURES, Format, Mass, Output, ReadOptions, feature_of_others, list_others
+from meshforge.formats.mjcf.document import MjcfDocument
 from meshforge.symbolic import Asset, Feature, FeatureKind
 
 _ROOT = re.compile(r"[^<]*+(?:<(?>\?.*?\?>|!--.*?-->|![^-][^>]*>)[^<]*+)*+<([\w:.-]+)", re.S)
 """An XML text up to the tag of its first element."""
 
-_SECTIONS = {
-    "actuator": FeatureKind.ACTUATORS,
-    "sensor": FeatureKind.SENSORS,
-    "tendon": FeatureKind.TENDONS,
-    "equality": FeatureKind.MIMICS,
-    "contact": FeatureKind.PAIRS,
-    "keyframe": FeatureKind.KEYFRAMES,
-    "deformable": FeatureKind.SKINS,
-}
-_ELEMENTS = {
-    "site": FeatureKind.SITES,
-    "camera": FeatureKind.CAMERAS,
-    "light": FeatureKind.LIGHTS,
-    "flexcomp": FeatureKind.SKINS,
-}
-_SETTINGS = ("option", "size", "visual", "statistic")
-_OTHERS = ("extension", "custom")
+_TAKEN = ("worldbody", "asset", "body", "frame", "replicate")
+_LEAVES = (
+    *("compiler", "default", "geom", "joint", "freejoint", "inertial", "mesh", "model", "attach", "include"),
+    "equality",  # of which couplings of joints are taken, see below
+)
 _CONTACT = ("contype", "conaffinity", "condim", "friction", "solref", "solimp", "solmix", "margin", "gap", "priority")
 _DYNAMICS = ("stiffness", "springref", "springdamper", "springlength", "armature")
 
@@ -47,11 +35,8 @@ class MjcfFormat(Format):
     title = "MJCF"
     up = "z"
     holds = BODY_FEATURES | {
-        *(FeatureKind.CAPSULES, FeatureKind.ELLIPSOIDS, FeatureKind.PLANES, FeatureKind.JOINTS, FeatureKind.BALL_JOINTS)
-    }
-    could = SCENE_FEATURES | {
-        *(FeatureKind.MIMICS, FeatureKind.PAIRS, FeatureKind.SITES, FeatureKind.SKINS, FeatureKind.KEYFRAMES),
-        FeatureKind.COMMENTS,
+        *(FeatureKind.CAPSULES, FeatureKind.ELLIPSOIDS, FeatureKind.PLANES),
+        *(FeatureKind.JOINTS, FeatureKind.BALL_JOINTS, FeatureKind.MIMICS),
     }
     instead: ClassVar[Mapping[FeatureKind, str]] = {FeatureKind.OPAQUE: "written as surfaces that do not collide"}
 
@@ -92,20 +77,12 @@ class MjcfFormat(Format):
 def features_of(document: MjcfDocument) -> Iterator[Feature]:
     """The features of an MJCF that its asset does not have, as its elements say; those that classes set count once."""
     root = document.tree.root
-    for tag, what in _SECTIONS.items():
-        yield _feature_of(what, [node for section in root.children if section.tag == tag for node in section.children])
-    bodies = [node for world in root.children if world.tag == "worldbody" for node in world.walk()]
-    for tag, what in _ELEMENTS.items():
-        yield _feature_of(what, [node for node in bodies if node.tag == tag])
-    for what, tag, keys in ((FeatureKind.CONTACT, "geom", _CONTACT), (FeatureKind.DYNAMICS, "joint", _DYNAMICS)):
-        yield _feature_of(what, [n for n in root.walk() if n.tag == tag and any(key in n.attributes for key in keys)])
-    assets = [node for section in root.children if section.tag == "asset" for node in section.children]
-    yield _feature_of(FeatureKind.MATERIALS, [node for node in assets if node.tag == "material"])
-    yield _feature_of(FeatureKind.TEXTURES, [node for node in assets if node.tag == "texture"])
-    for what, tags in ((FeatureKind.SETTINGS, _SETTINGS), (FeatureKind.OTHERS, _OTHERS)):
-        yield Feature(what, tuple(dict.fromkeys(node.tag for node in root.children if node.tag in tags)))
-    yield Feature(FeatureKind.COMMENTS, unnamed=sum(source.raw.count(b"<!--") for source in document.sources))
-
-
-def _feature_of(what: FeatureKind, nodes: Iterable[MjcfNode]) -> Feature:
-    return feature_of(what, (node.attributes.get("name", "") for node in nodes))
+    others = [*list_others(root, _TAKEN, _LEAVES)]
+    constraints = [child for node in root.each("equality") for child in node.children]
+    coupled = [c.attributes.get("joint1") for c in constraints if c.is_coupling]
+    others += [f"equality {c.tag}" for c in constraints if not c.is_coupling]
+    others += ["second coupling of a joint"] * (len(coupled) - len(set(coupled)))
+    for kind, tag, keys in (("contact setting", "geom", _CONTACT), ("spring or armature", "joint", _DYNAMICS)):
+        others += [kind for node in root.walk() if node.tag == tag and any(key in node.attributes for key in keys)]
+    others += ["comment"] * sum(source.raw.count(b"<!--") for source in document.sources)
+    yield feature_of_others(others)

@@ -4,6 +4,7 @@ each geom is."""
 from __future__ import annotations
 
 from collections.abc import Hashable, Sequence
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
@@ -13,8 +14,9 @@ from meshforge.formats.libraries import mujoco
 from meshforge.formats.mjcf.document import GeomRecord, MjcfBody, MjcfTree, body_names, geom_names
 from meshforge.formats.mjcf.engine import EngineModel, FlatText
 from meshforge.formats.mjcf.shapes import MjcfShapes, body_poses, geom_poses
+from meshforge.formats.xml import parse_numbers
 from meshforge.geometry import Pose, rotation_of_quaternion
-from meshforge.symbolic import Geom, Inertial, Joint, JointKind, Mechanism, Mentions, Opaque
+from meshforge.symbolic import Coupling, Geom, Inertial, Joint, JointKind, Mechanism, Mentions, Opaque
 
 _INSIDE = {
     "replicate": "it is inside a <replicate>, which makes several geoms of one element",
@@ -122,13 +124,32 @@ class MjcfModel:
 
 def read_mechanism(reading: MjcfModel) -> Mechanism:
     """The mechanism of a model, `<exclude>` and `<pair>` too; a body without a joint is fixed to its parent."""
-    joints = [joint for k in range(1, reading.model.nbody) for joint in _read_joints(reading, k)]
+    couplings = _read_couplings(reading.tree)
+    joints = [
+        replace(joint, coupling=couplings.get(joint.name))
+        for k in range(1, reading.model.nbody)
+        for joint in _read_joints(reading, k)
+    ]
     inertials = [i for k in range(1, reading.model.nbody) if (i := _read_inertial(reading, k)) is not None]
     bodies, signatures = reading.body_names, map(int, reading.model.exclude_signature)
     excludes = [(bodies[s >> 16], bodies[s & 0xFFFF]) for s in signatures]  # as MuJoCo packs two numbers of bodies
     geoms = zip(reading.model.pair_geom1, reading.model.pair_geom2, strict=True)
     pairs = [(reading.names[int(first)], reading.names[int(second)]) for first, second in geoms]
     return Mechanism(tuple(joints), tuple(inertials), tuple(excludes), tuple(pairs))
+
+
+def _read_couplings(tree: MjcfTree) -> dict[str, Coupling]:
+    """The first coupling of each joint that follows another one; MuJoCo counts from the reference, as we do."""
+    found: dict[str, Coupling] = {}
+    for node in tree.root.each("equality"):
+        for child in node.children:
+            if child.is_coupling:
+                numbers = parse_numbers(child.attributes.get("polycoef", "")) or []
+                numbers += (0.0, 1.0, 0.0, 0.0, 0.0)[len(numbers) :]
+                count = max((k for k, number in enumerate(numbers) if number), default=0) + 1
+                coupling = Coupling(child.attributes["joint2"], tuple(numbers[: max(2, count)]))
+                found.setdefault(child.attributes.get("joint1", ""), coupling)
+    return found
 
 
 def _read_joints(reading: MjcfModel, body: int) -> list[Joint]:

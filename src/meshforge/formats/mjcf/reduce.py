@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import isnan
 from pathlib import Path
 from typing import Literal
@@ -97,7 +97,7 @@ def reduce_model(tree: MjcfTree, refusal: AssetError, masses: Literal["fixed", "
     masses: what stands for authored masses that are refused: ones that no geom changes, or those of the geoms.
     Raises AssetError: a collision mesh that is not there; else `refusal`, where the collision geometry is refused too.
     """
-    last = refusal
+    last, tree = refusal, _repair_defaults(tree)
     for attempt in (*_ATTEMPTS, _Attempt(True, masses)):
         flat = flatten(tree, attempt.keep)
         try:
@@ -126,6 +126,45 @@ def reduce_model(tree: MjcfTree, refusal: AssetError, masses: Literal["fixed", "
         remedy = f"Once that is fixed, the next problem is: {last.message}"
         refusal = AssetError(refusal.problem, where=refusal.where, remedy=remedy)
     raise refusal
+
+
+def _repair_defaults(tree: MjcfTree) -> MjcfTree:
+    """The tree with one top-level `<default>`, each class in it once, as older versions of MuJoCo understood others.
+
+    What a first one with a name says counts for all; further ones are classes inside it; a class that is there twice
+    is one; one without a name, which nothing can use, goes.
+    """
+    tops = [node for node in tree.root.children if node.tag == "default"]
+    if not tops:
+        return tree
+    main = MjcfNode(replace(tops[0].element, attributes={}), tops[0].source)
+    classes = {"main": main}
+    waiting = [(node, main, True) for node in reversed(tops)]
+    while waiting:
+        node, holder, is_top = waiting.pop()
+        name = node.attributes.get("class", "main" if is_top else "")
+        if not name:
+            continue
+        if name not in classes:
+            classes[name] = MjcfNode(node.element, node.source)
+            holder.children.append(classes[name])
+        target = main if node is tops[0] else classes[name]
+        for child in node.children:
+            if child.tag != "default":
+                _add_setting(target, child)
+        waiting += [(child, target, False) for child in reversed(node.children) if child.tag == "default"]
+    children = [main if node is tops[0] else node for node in tree.root.children if node not in tops[1:]]
+    return replace(tree, root=MjcfNode(tree.root.element, tree.root.source, children))
+
+
+def _add_setting(target: MjcfNode, child: MjcfNode) -> None:
+    """Add what a class says of one kind of element; a second time, it adds to what was said before."""
+    for k, known in enumerate(target.children):
+        if known.tag == child.tag:
+            element = replace(known.element, attributes={**known.attributes, **child.attributes})
+            target.children[k] = MjcfNode(element, known.source, known.children)
+            return
+    target.children.append(child)
 
 
 def _refuse_missing(tree: MjcfTree, flat: FlatText, spec: mujoco.MjSpec) -> None:

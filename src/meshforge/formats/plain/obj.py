@@ -11,7 +11,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from meshforge.formats.base import Output
+from meshforge.formats.base import Output, feature_of_others
 from meshforge.formats.engine_names import bodies, conventions
 from meshforge.formats.meshfile.obj import ObjText, parse_obj
 from meshforge.formats.meshfile.surface import Soup
@@ -22,12 +22,13 @@ from meshforge.geometry import Piece, Shape
 from meshforge.symbolic import Asset, Feature, FeatureKind, Geom, Surface
 
 _MATERIAL = re.compile(rb"^[ \t]*usemtl[ \t]+([^\r\n]+)", re.M)
-_COORDINATE = re.compile(rb"^[ \t]*vt[ \t]", re.M)
-_COLOR = re.compile(rb"^[ \t]*v(?:[ \t]+[^\s#]+){6}", re.M)
-_COMMENT = re.compile(rb"^[ \t]*#", re.M)
-_OTHER = re.compile(rb"^[ \t]*([lp])[ \t]", re.M)
-_KINDS = {b"l": "line", b"p": "point"}
-
+_OTHERS = {
+    "texture coordinate": re.compile(rb"^[ \t]*vt[ \t]", re.M),
+    "vertex colour": re.compile(rb"^[ \t]*v(?:[ \t]+[^\s#]+){6}", re.M),
+    "line": re.compile(rb"^[ \t]*l[ \t]", re.M),
+    "point": re.compile(rb"^[ \t]*p[ \t]", re.M),
+    "comment": re.compile(rb"^[ \t]*#", re.M),
+}
 _UNREAL = conventions.UnrealNames()
 _SCALE = (
     "numbers are metres: Unreal's importers of OBJ take them for centimetres, so import it with a uniform scale of 100"
@@ -42,15 +43,6 @@ class ObjFormat(PlainFormat):
     name = "obj"
     title = "OBJ"
     holds = frozenset({FeatureKind.NAMES, FeatureKind.OPAQUE})
-    could = frozenset(
-        {
-            FeatureKind.MATERIALS,
-            FeatureKind.TEXTURES,
-            FeatureKind.TEXTURE_COORDINATES,
-            FeatureKind.VERTEX_COLORS,
-            FeatureKind.COMMENTS,
-        }
-    )
     suffixes = (".obj",)
 
     def parse_soup(self, data: bytes, path: Path) -> Soup:
@@ -83,14 +75,9 @@ class ObjFormat(PlainFormat):
     def features(self, asset: Asset) -> Iterator[Feature]:
         if isinstance(asset.document, PlainDocument):
             data = asset.document.data
-            materials = dict.fromkeys(name.decode("utf-8", "replace").strip() for name in _MATERIAL.findall(data))
-            yield Feature(FeatureKind.MATERIALS, tuple(materials))
-            yield Feature(FeatureKind.TEXTURE_COORDINATES, unnamed=len(_COORDINATE.findall(data)))
-            yield Feature(FeatureKind.VERTEX_COLORS, unnamed=1 if _COLOR.search(data) else 0)
-            others = _OTHER.findall(data)
-            kinds = tuple(_KINDS[word] for word in dict.fromkeys(others))
-            yield Feature(FeatureKind.OTHERS, kinds, len(others) - len(kinds))
-            yield Feature(FeatureKind.COMMENTS, unnamed=len(_COMMENT.findall(data)))
+            others = [f"material {name.decode('utf-8', 'replace').strip()}" for name in {*_MATERIAL.findall(data)}]
+            others = [*sorted(others), *(kind for kind, found in _OTHERS.items() for _ in found.findall(data))]
+            yield feature_of_others(others)
 
 
 class ObjForUnreal(ObjFormat):

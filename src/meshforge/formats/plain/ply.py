@@ -12,12 +12,13 @@ import numpy as np
 import numpy.typing as npt
 
 from meshforge.common import AssetError
+from meshforge.formats.base import feature_of_others
 from meshforge.formats.meshfile.ply import INDEX_NAMES, PlyProperty, PlyRows, PlyText, parse_ply
 from meshforge.formats.meshfile.surface import Soup, join_surfaces, stack_triangles
 from meshforge.formats.plain.base import MeshFileEdit, PlainFormat
 from meshforge.formats.plain.parts import MeshPart, PlainDocument
 from meshforge.geometry import Floats, Ints
-from meshforge.symbolic import Asset, Feature, FeatureKind
+from meshforge.symbolic import Asset, Feature
 
 _HEADER = """ply
 format binary_little_endian 1.0
@@ -42,7 +43,6 @@ class PlyFormat(PlainFormat):
 
     name = "ply"
     title = "PLY"
-    could = frozenset({FeatureKind.VERTEX_COLORS, FeatureKind.TEXTURE_COORDINATES, FeatureKind.COMMENTS})
     suffixes = (".ply",)
 
     def parse_soup(self, data: bytes, path: Path) -> Soup:
@@ -54,7 +54,7 @@ class PlyFormat(PlainFormat):
     def features(self, asset: Asset) -> Iterator[Feature]:
         if isinstance(asset.document, PlainDocument):
             colors = len(_COLOR.findall(asset.document.data[:_HEAD].partition(b"end_header")[0]))
-            yield Feature(FeatureKind.VERTEX_COLORS, unnamed=colors)
+            yield feature_of_others(["vertex colour"] * colors)
 
     def format_parts(self, parts: Sequence[MeshPart]) -> bytes:
         vertices, faces = _stack_parts(parts, 0)

@@ -16,7 +16,7 @@ from meshforge.formats.slots import Slot, assign_names, name_attribute_of
 from meshforge.geometry import Pose
 from meshforge.symbolic import Asset, FeatureKind, Opaque
 
-_VERSION = (1, 8)
+_VERSION, _WITH_COUPLINGS = (1, 8), "1.11"
 _MAIN = "model.sdf"
 
 
@@ -31,6 +31,7 @@ def create_sdf(asset: Asset, name: str) -> Output:
 
 class _Creator(link_output.LinkCreator):
     native = elements.SdfShape
+    title = "SDF"
     rules = kinematic_tree.JointRules(("fixed", "revolute", "prismatic", "ball", "floating"), world=True)
     visual_suffixes = VISUAL_SUFFIXES
     lead = 3 * elements.STEP
@@ -56,11 +57,15 @@ class _Creator(link_output.LinkCreator):
         for joint in self.chain.joints:
             inside += self._joint_lines(joint)
         model = elements.nest_with_name("model", self.model, *inside)
-        head = [b'<?xml version="1.0"?>', b'<sdf version="%s">' % ".".join(map(str, _VERSION)).encode()]
+        version = (
+            b'<sdf version="%s">'
+            % (_WITH_COUPLINGS if self.couplings.by_joint else ".".join(map(str, _VERSION))).encode()
+        )
+        head = [b'<?xml version="1.0"?>', version]
         main = b"\n".join([*head, *(elements.STEP + line for line in model), b"</sdf>", b""])
         made = dict(self.maker.files.made)
         if self.name == _MAIN:
-            listed = b'<sdf version="%s">%s</sdf>' % (".".join(map(str, _VERSION)).encode(), xml.escape(self.name))
+            listed = b"%s%s</sdf>" % (version, xml.escape(self.name))
             config = elements.nest("model", elements.leaf("name", self.model), listed)
             made[CONFIG] = b"\n".join([b'<?xml version="1.0"?>', *config, b""])  # it makes the folder a Gazebo model
         return Output(main, made, self.visuals.copies, self._collect_notes(), names, self.collect_losses())
@@ -115,11 +120,12 @@ class _Creator(link_output.LinkCreator):
             why = "a link without a joint moves freely in SDF"
             self.lost.append(Loss(FeatureKind.JOINTS, (name,) * bool(name), why, None, not name))
             return []
-        return elements.joint_lines(made, self.links.get(made.parent, WORLD), self.links[made.child])
+        coupling = self.couplings.by_joint.get(made.name)
+        return elements.joint_lines(made, self.links.get(made.parent, WORLD), self.links[made.child], coupling)
 
     def _collect_notes(self) -> tuple[str, ...]:
         """What Gazebo makes of what the file does not say."""
-        notes = list(self.chain.notes) + self.maker.notes
+        notes = [*self.chain.notes, *self.couplings.notes, *self.maker.notes]
         renamed = [f"{link} as {name}" for link, name in self.links.items() if link != name]
         if renamed:
             notes.append(f"links that SDF has no such names for are written otherwise ({join_names(renamed, 3)})")

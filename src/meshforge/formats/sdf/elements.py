@@ -12,7 +12,7 @@ from meshforge.formats.mesh_output import LinkVisual
 from meshforge.formats.sdf.document import geometry_of
 from meshforge.formats.xml import Element, Splice, escape, format_numbers, line_gap, remove_element, replace_or_insert
 from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Floats, Pose, Sphere
-from meshforge.symbolic import Inertial
+from meshforge.symbolic import Coupling, Inertial
 
 SdfShape = Box | Capsule | Cylinder | Ellipsoid | Sphere
 """The shapes that SDF has of its own and MeshForge knows, the round ones from 1.8 on."""
@@ -94,8 +94,8 @@ def nest_with_name(tag: str, name: str, *inside: bytes, more: bytes = b"") -> li
     return [first[:-1] + b' name="%s"%s>' % (escape(name), more), *rest]
 
 
-def joint_lines(made: LinkJoint, parent: str, child: str) -> list[bytes]:
-    """The lines of a `<joint>`, whose frame is that of its child."""
+def joint_lines(made: LinkJoint, parent: str, child: str, coupling: Coupling | None = None) -> list[bytes]:
+    """The lines of a `<joint>`, whose frame is that of its child; coupling: to another joint, from 1.11 on."""
     joint = made.joint
     kind = joint.kind if joint else "fixed"
     inside = [leaf("parent", parent), leaf("child", child)]
@@ -107,7 +107,13 @@ def joint_lines(made: LinkJoint, parent: str, child: str) -> list[bytes]:
         limit += [_number_leaf(tag, number) for tag, number in most if number]
         dynamics = [_number_leaf(tag, number) for tag, number in losses if number]
         axis = [leaf("xyz", format_numbers(drop_rounding(made.axis))), *nest("limit", *limit)]
-        inside += nest("axis", *axis, *(nest("dynamics", *dynamics) if dynamics else []))
+        mimic = []
+        if coupling:
+            offset, factor = coupling.coefficients
+            numbers = (("multiplier", factor), ("offset", offset), ("reference", 0.0))
+            mimic = nest("mimic", *(_number_leaf(tag, number) for tag, number in numbers))
+            mimic[0] = b'<mimic joint="%s" axis="axis">' % escape(coupling.joint)
+        inside += nest("axis", *axis, *(nest("dynamics", *dynamics) if dynamics else []), *mimic)
     return nest_with_name("joint", made.name, *inside, more=b' type="%s"' % kind.encode())
 
 

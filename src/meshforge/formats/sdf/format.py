@@ -7,20 +7,16 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from meshforge.common import AssetError
-from meshforge.formats import base, xml
+from meshforge.formats import base
 from meshforge.formats.sdf.document import VISUAL_SUFFIXES, SdfDocument, is_main_file, parse_root
 from meshforge.symbolic import Asset, Feature, FeatureKind
 
-_ELEMENTS = {
-    "sensor": FeatureKind.SENSORS,
-    "light": FeatureKind.LIGHTS,
-    "frame": FeatureKind.SITES,
-    "actor": FeatureKind.ANIMATIONS,
-}
-_OTHERS = ("plugin", "gripper", "audio_source", "audio_sink", "battery", "particle_emitter", "projector")
-_SPRINGS = ("spring_stiffness", "spring_reference")
-_MAPS = ("albedo_map", "normal_map", "roughness_map", "metalness_map", "emissive_map", "light_map", "environment_map")
-_SETTINGS = ("physics", "scene", "gravity", "magnetic_field", "atmosphere", "wind", "spherical_coordinates", "gui")
+_TAKEN = ("world", "model", "link", "collision", "visual", "joint", "axis", "axis2", "dynamics", "material")
+_LEAVES = (
+    *("pose", "include", "inertial", "geometry", "parent", "child", "xyz", "limit", "damping", "friction", "mimic"),
+    *("ambient", "diffuse", "transparency", "placement_frame"),
+)
+_OFF = ("", "0", "false", "__default__")
 
 
 class SdfFormat(base.Format):
@@ -35,9 +31,7 @@ class SdfFormat(base.Format):
     holds = base.BODY_FEATURES | {
         *(FeatureKind.CAPSULES, FeatureKind.ELLIPSOIDS, FeatureKind.OPAQUE, FeatureKind.PLANES),
         *(FeatureKind.JOINTS, FeatureKind.BALL_JOINTS, FeatureKind.FIXED_JOINTS, FeatureKind.SPEEDS),
-    }
-    could = base.SCENE_FEATURES | {
-        *(FeatureKind.MIMICS, FeatureKind.DYNAMICS, FeatureKind.SENSORS, FeatureKind.SITES, FeatureKind.COMMENTS)
+        FeatureKind.MIMICS,
     }
     shown_files = VISUAL_SUFFIXES
 
@@ -67,30 +61,7 @@ class SdfFormat(base.Format):
 
 def features_of(document: SdfDocument) -> Iterator[Feature]:
     """The features of an SDF, and of what it includes, that its asset does not have."""
-    from meshforge.formats.sdf.frames import is_true  # lazy: only SDF needs it
-
     roots = [parse_root(source.text.data, "")[0] for source in document.sources]
-    every = [element for root in roots for element in root.walk()]
-    for tag, what in _ELEMENTS.items():
-        yield _feature_of(what, (e for e in every if e.tag == tag))
-    collisions = [e for e in every if e.tag == "collision"]
-    yield _feature_of(FeatureKind.CONTACT, (e for e in collisions if e.first("surface")))
-    joints = [e for e in every if e.tag == "joint"]
-    yield _feature_of(FeatureKind.MIMICS, (j for j in joints if any(a.first("mimic") for a in j.children)))
-    dynamics = [
-        (j, part) for j in joints for axis in j.children if (found := axis.first("dynamics")) for part in found.children
-    ]
-    springs = dict.fromkeys(j for j, part in dynamics if part.tag in _SPRINGS and part.text not in ("", "0"))
-    yield _feature_of(FeatureKind.DYNAMICS, springs)
-    yield _feature_of(FeatureKind.MATERIALS, (s for m in every if m.tag == "material" for s in m.each("script")))
-    maps = dict.fromkeys(e.text for e in every if e.tag in _MAPS and e.text and e.text != "__default__")
-    yield Feature(FeatureKind.TEXTURES, tuple(maps))
-    static = ["static" for e in every if e.tag == "static" and is_true(e.text)]
-    settings = [e.tag for e in every if e.tag in _SETTINGS and e.children]
-    yield base.feature_of_tags(FeatureKind.SETTINGS, [*static, *settings])
-    yield base.feature_of_tags(FeatureKind.OTHERS, (e.tag for e in every if e.tag in _OTHERS))
-    yield Feature(FeatureKind.COMMENTS, unnamed=sum(source.text.data.count(b"<!--") for source in document.sources))
-
-
-def _feature_of(what: FeatureKind, elements: Iterable[xml.Element]) -> Feature:
-    return base.feature_of(what, (element.attributes.get("name", "") for element in elements))
+    others = [tag for root in roots for tag in base.list_others(root, _TAKEN, _LEAVES)]
+    others += ["comment"] * sum(source.text.data.count(b"<!--") for source in document.sources)
+    yield base.feature_of_others(others)

@@ -14,7 +14,7 @@ from meshforge.formats.sdf.frames import WORLD, ModelScope, is_true, read_values
 from meshforge.formats.sdf.models import ModelTree, SdfLinks, pose_in_link
 from meshforge.formats.xml import Element, parse_numbers
 from meshforge.geometry import Floats, Pose, inertia
-from meshforge.symbolic import Body, Geom, Inertial, Joint, JointKind, Opaque, unit_vector
+from meshforge.symbolic import Body, Coupling, Geom, Inertial, Joint, JointKind, Opaque, unit_vector
 
 _KINDS: dict[str, tuple[JointKind, ...]] = {
     "fixed": ("fixed",),
@@ -137,9 +137,20 @@ def _read_joint_parts(
                 friction=_read_number(dynamics, "friction") or 0.0,
                 effort=_positive_or_none(_read_number(limit, "effort")),
                 velocity=_positive_or_none(_read_number(limit, "velocity")),
+                coupling=_read_coupling(scope, axis.first("mimic")) if axis else None,
             )
         )
     return found
+
+
+def _read_coupling(scope: ModelScope, mimic: Element | None) -> Coupling | None:
+    if mimic is None:
+        return None
+    joint = f"{scope.prefix}{mimic.attributes.get('joint', '')}"
+    if mimic.attributes.get("axis", "axis") == "axis2":
+        joint = f"{joint}_2"
+    factor = _number_or(mimic, "multiplier", 1.0)
+    return Coupling(joint, (_number_or(mimic, "offset", 0.0) - factor * _number_or(mimic, "reference", 0.0), factor))
 
 
 def _read_axis(scope: ModelScope, axis: Element | None, pose: Pose, links: SdfLinks) -> Floats:

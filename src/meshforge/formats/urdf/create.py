@@ -29,16 +29,21 @@ def create_urdf(asset: Asset, name: str) -> Output:
 
 class _Creator(link_output.LinkCreator):
     native = edit.UrdfShape
+    title = "URDF"
     rules = JointRules(("fixed", "revolute", "prismatic", "floating", "planar"))
     visual_suffixes = VISUAL_SUFFIXES
     lead = b"    "
 
     def build_output(self) -> Output:
-        names = assign_names([slot for own in self.slots.values() for slot in own])
+        names = assign_names([slot for own in self.slots.values() for slot in own], unique=True)
         files = self.maker.files
         head = [b'<?xml version="1.0"?>', b'<robot name="%s">' % escape(files.stem)]
         links = [line for link in self.chain.frames for line in self._link_lines(link)]
-        joints = [line for joint in self.chain.joints for line in edit.joint_lines(joint)]
+        joints = [
+            line
+            for joint in self.chain.joints
+            for line in edit.joint_lines(joint, self.couplings.by_joint.get(joint.name))
+        ]
         main = b"\n".join([*head, *links, *joints, b"</robot>", b""])
         lost = self.collect_losses()
         return Output(main, dict(files.made), self.visuals.copies, self._collect_notes(), names, lost)
@@ -66,7 +71,7 @@ class _Creator(link_output.LinkCreator):
 
     def _collect_notes(self) -> tuple[str, ...]:
         """What engines make of what the file does not say."""
-        notes = list(self.chain.notes)
+        notes = [*self.chain.notes, *self.couplings.notes]
         pieces = {piece.name for piece in self.asset.opaque}
         opaque = [name for own in self.slots.values() for slot in own for name in slot.names if name in pieces]
         if opaque:

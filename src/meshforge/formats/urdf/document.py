@@ -15,7 +15,7 @@ from meshforge.formats.kinematic_tree import TENSOR_NAMES, read_numbers, tensor_
 from meshforge.formats.references import Resolver
 from meshforge.formats.xml import Element, parse_xml
 from meshforge.geometry import Floats, Pose
-from meshforge.symbolic import Document, Inertial, Joint, JointKind, Mechanism, unit_vector
+from meshforge.symbolic import Coupling, Document, Inertial, Joint, JointKind, Mechanism, unit_vector
 
 VISUAL_SUFFIXES = (".obj", ".stl", ".dae")
 """The mesh files that ROS, PyBullet and others read."""
@@ -220,7 +220,16 @@ def _read_joint(element: Element, links: UrdfLinks) -> Joint:
         friction=_read_number(dynamics, "friction") or 0.0,
         effort=_read_number(limit, "effort") or None,
         velocity=_read_number(limit, "velocity") or None,
+        coupling=_read_coupling(element.first("mimic")),
     )
+
+
+def _read_coupling(mimic: Element | None) -> Coupling | None:
+    if mimic is None:
+        return None
+    factor = _read_number(mimic, "multiplier")
+    offset = _read_number(mimic, "offset") or 0.0
+    return Coupling(mimic.attributes.get("joint", ""), (offset, 1.0 if factor is None else factor))
 
 
 def _read_limits(limit: Element | None) -> tuple[float, float] | None:

@@ -8,24 +8,13 @@ from typing import assert_never
 
 import numpy as np
 
-from meshforge.formats import base, collision_pieces, mesh_output
+from meshforge.formats import base, collision_pieces, mesh_output, xml
 from meshforge.formats.kinematic_tree import LinkJoint, drop_rounding, name_moments, place_inertial
 from meshforge.formats.references import Resolver, add_copy, note_absolute, placement
 from meshforge.formats.slots import ElementMaker, ElementPlan, Slot, assign_names
 from meshforge.formats.urdf.document import UrdfDocument, collisions, geometry_of, parse_robot, references
-from meshforge.formats.xml import (
-    Element,
-    Splice,
-    XmlText,
-    apply_splices,
-    escape,
-    format_numbers,
-    newline_of,
-    replace_or_insert,
-    set_attribute,
-)
 from meshforge.geometry import Box, Cylinder, Pose, Sphere
-from meshforge.symbolic import Asset, Geom, Inertial
+from meshforge.symbolic import Asset, Coupling, Geom, Inertial
 
 UrdfShape = Box | Cylinder | Sphere
 """The shapes that every reader of URDF knows."""
@@ -49,7 +38,7 @@ def native_tag(shape: UrdfShape) -> bytes:
 
 def mesh_tag(reference: str) -> bytes:
     """The element of a mesh file in metres."""
-    return b'<mesh filename="%s"/>' % escape(reference)
+    return b'<mesh filename="%s"/>' % xml.escape(reference)
 
 
 def origin_tag(pose: Pose) -> bytes:
@@ -69,37 +58,37 @@ def _place_lines(pose: Pose, tag: bytes) -> list[bytes]:
     return [origin_tag(pose), b"<geometry>", b"  " + tag, b"</geometry>"]
 
 
-def replace_geometry(data: bytes, collision: Element, pose: Pose, tag: bytes) -> tuple[Splice, ...]:
+def replace_geometry(data: bytes, collision: xml.Element, pose: Pose, tag: bytes) -> tuple[xml.Splice, ...]:
     """The edits that give a copy of a collision element another pose and geometry, all else of it being inherited."""
     kind = geometry_of(collision)
     assert kind is not None  # only elements with pieces are copied
-    return _replace_origin(data, collision, pose), Splice(kind.start, kind.end, tag)
+    return _replace_origin(data, collision, pose), xml.Splice(kind.start, kind.end, tag)
 
 
-def replace_mesh(data: bytes, collision: Element, pose: Pose, reference: str) -> tuple[Splice, ...]:
+def replace_mesh(data: bytes, collision: xml.Element, pose: Pose, reference: str) -> tuple[xml.Splice, ...]:
     """The edits that give a copy a mesh file in metres: where the element has a mesh, its other attributes stay."""
     kind = geometry_of(collision)
     if kind is None or kind.tag != "mesh":
         return replace_geometry(data, collision, pose, mesh_tag(reference))
-    scale = [set_attribute(data, kind, "scale", None)] if "scale" in kind.attributes else []
-    return (_replace_origin(data, collision, pose), set_attribute(data, kind, "filename", reference), *scale)
+    scale = [xml.set_attribute(data, kind, "scale", None)] if "scale" in kind.attributes else []
+    return (_replace_origin(data, collision, pose), xml.set_attribute(data, kind, "filename", reference), *scale)
 
 
-def _replace_origin(data: bytes, collision: Element, pose: Pose) -> Splice:
+def _replace_origin(data: bytes, collision: xml.Element, pose: Pose) -> xml.Splice:
     """The edit that gives an element another origin."""
-    return replace_or_insert(data, collision, "origin", "geometry", origin_tag(pose))
+    return xml.replace_or_insert(data, collision, "origin", "geometry", origin_tag(pose))
 
 
-def joint_lines(made: LinkJoint) -> list[bytes]:
-    """The lines of a `<joint>`."""
+def joint_lines(made: LinkJoint, coupling: Coupling | None) -> list[bytes]:
+    """The lines of a `<joint>`, which may follow another one."""
     joint = made.joint
     kind = joint.kind if joint else "fixed"
     type_ = "continuous" if joint and kind == "revolute" and joint.limits is None else kind
     lines = [
-        b'  <joint name="%s" type="%s">' % (escape(made.name), type_.encode()),
+        b'  <joint name="%s" type="%s">' % (xml.escape(made.name), type_.encode()),
         b"    " + origin_tag(made.pose),
-        b'    <parent link="%s"/>' % escape(made.parent),
-        b'    <child link="%s"/>' % escape(made.child),
+        b'    <parent link="%s"/>' % xml.escape(made.parent),
+        b'    <child link="%s"/>' % xml.escape(made.child),
     ]
     if kind in ("revolute", "prismatic", "planar"):
         lines.append(b'    <axis xyz="%s"/>' % _text_of(*drop_rounding(made.axis)))
@@ -112,6 +101,9 @@ def joint_lines(made: LinkJoint) -> list[bytes]:
     if joint and (joint.damping or joint.friction):
         losses = _text_of(joint.damping), _text_of(joint.friction)
         lines.append(b'    <dynamics damping="%s" friction="%s"/>' % losses)
+    if coupling:
+        numbers = tuple(_text_of(number) for number in reversed(coupling.coefficients))
+        lines.append(b'    <mimic joint="%s" multiplier="%s" offset="%s"/>' % (xml.escape(coupling.joint), *numbers))
     return [*lines, b"  </joint>"]
 
 
@@ -146,7 +138,7 @@ def visual_lines(visual: mesh_output.LinkVisual, reference: str | None = None) -
 
 
 def _text_of(*values: float) -> bytes:
-    return format_numbers(values).encode()
+    return xml.format_numbers(values).encode()
 
 
 def write_urdf(asset: Asset, document: UrdfDocument, name: str) -> base.Output:
@@ -154,29 +146,31 @@ def write_urdf(asset: Asset, document: UrdfDocument, name: str) -> base.Output:
 
     Raises AssetError: a hull on a link that is not there, or a mesh file that changed since the asset was read.
     """
-    text = XmlText.of(document.source)
+    text = xml.XmlText.of(document.source)
     robot = parse_robot(text.data, str(asset.path))
     files = mesh_output.HullFiles(Path(name).stem, document.resolver)
     files.avoid(references(robot))
     meshes = collision_pieces.SourceMeshes(document.digests, str(asset.path))
-    maker = UrdfElementMaker(text.data, newline_of(text.data), files, files.folder_of(_find_first_mesh(robot)), meshes)
+    maker = UrdfElementMaker(
+        text.data, xml.newline_of(text.data), files, files.folder_of(_find_first_mesh(robot)), meshes
+    )
     links = {link.attributes["name"]: link for link in robot.each("link")}
     plan = ElementPlan(asset, document.authored, [element for _, element in collisions(robot)], links, maker)
-    names = assign_names(plan.slots)
-    data = apply_splices(text.data, plan.splices)
+    names = assign_names(plan.slots, unique=True)
+    data = xml.apply_splices(text.data, plan.splices)
     main = document.source if data == text.data else text.encode(data)
     copies, far = _list_copies(parse_robot(data, str(asset.path)), document.resolver)
     return base.Output(main, dict(files.made), copies, (*maker.notes, *far), names)
 
 
-def _find_first_mesh(robot: Element) -> str | None:
+def _find_first_mesh(robot: xml.Element) -> str | None:
     """The reference of the first collision mesh, in whose folder hulls of no mesh's kin go."""
     kinds = (geometry_of(collision) for _, collision in collisions(robot))
     meshes = (kind.attributes.get("filename") for kind in kinds if kind is not None and kind.tag == "mesh")
     return next(meshes, None)
 
 
-def _list_copies(robot: Element, resolver: Resolver) -> tuple[dict[str, Path], list[str]]:
+def _list_copies(robot: xml.Element, resolver: Resolver) -> tuple[dict[str, Path], list[str]]:
     """The input files that the output refers to, by where they go; and notes on those that stay where they are."""
     copies: dict[str, Path] = {}
     notes = []
@@ -197,11 +191,11 @@ class UrdfElementMaker(ElementMaker):
     __slots__ = ()
     title = "URDF"
 
-    def find_mesh(self, collision: Element) -> str | None:
+    def find_mesh(self, collision: xml.Element) -> str | None:
         mesh = geometry_of(collision)
         return mesh.attributes.get("filename") if mesh is not None and mesh.tag == "mesh" else None
 
-    def make_slot(self, geom: Geom, root_t_link: Pose, template: Element | None, lead: bytes) -> Slot:
+    def make_slot(self, geom: Geom, root_t_link: Pose, template: xml.Element | None, lead: bytes) -> Slot:
         shape = geom.shape.move(root_t_link.inverse())
         if isinstance(shape, UrdfShape):
             pose, tag = shape.pose, native_tag(shape)
@@ -214,10 +208,10 @@ class UrdfElementMaker(ElementMaker):
             return Slot(geom.body, (geom.name,), None, template, edits, copy=True)
         return Slot(geom.body, (geom.name,), text=build_collision(pose, tag, lead, self.line_end))
 
-    def extract_piece(self, element: Element, name: str, k: int) -> tuple[Splice, ...]:
+    def extract_piece(self, element: xml.Element, name: str, k: int) -> tuple[xml.Splice, ...]:
         mesh = geometry_of(element)
         assert mesh is not None  # only meshes have several pieces
         piece, made = self.make_piece(mesh.attributes["filename"], (), name, k)
         if piece.shape is None and collision_pieces.is_flat(piece.vertices):
             self.notes.append(f"flat piece {name!r} stays, now in a file of its own, which MuJoCo refuses")
-        return (set_attribute(self.data, mesh, "filename", made),)
+        return (xml.set_attribute(self.data, mesh, "filename", made),)

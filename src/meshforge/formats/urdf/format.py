@@ -8,17 +8,20 @@ from pathlib import Path
 from typing import ClassVar
 
 from meshforge.common import AssetError
-from meshforge.formats.base import BODY_FEATURES, Format, Mass, Output, ReadOptions, feature_of_tags
+from meshforge.formats import base
 from meshforge.formats.urdf.document import VISUAL_SUFFIXES, UrdfDocument, parse_robot
-from meshforge.formats.xml import Element, XmlText
+from meshforge.formats.xml import XmlText
 from meshforge.symbolic import Asset, Feature, FeatureKind
 
-_KNOWN_TAGS = ("link", "joint", "material")
-_JOINT_SETTINGS = ("safety_controller", "calibration")
+_TAKEN = ("link", "joint", "material", "visual")
+_LEAVES = (
+    *("inertial", "collision", "origin", "geometry", "color"),
+    *("parent", "child", "axis", "limit", "dynamics", "mimic"),
+)
 
 
-class UrdfFormat(Format):
-    """The Unified Robot Description Format."""
+class UrdfFormat(base.Format):
+    """The Unified Robot Description base.Format."""
 
     name = "urdf"
     engines = ("mujoco", "bullet")
@@ -26,10 +29,9 @@ class UrdfFormat(Format):
     is_description = True
     title = "URDF"
     up = "z"
-    holds = BODY_FEATURES | {FeatureKind.OPAQUE, FeatureKind.JOINTS, FeatureKind.FIXED_JOINTS, FeatureKind.SPEEDS}
-    could = frozenset(
-        {FeatureKind.MIMICS, FeatureKind.CONTACT, FeatureKind.COMMENTS, FeatureKind.MATERIALS, FeatureKind.TEXTURES}
-    )
+    holds = base.BODY_FEATURES | {
+        *(FeatureKind.OPAQUE, FeatureKind.JOINTS, FeatureKind.FIXED_JOINTS, FeatureKind.SPEEDS, FeatureKind.MIMICS)
+    }
     instead: ClassVar[Mapping[FeatureKind, str]] = {
         FeatureKind.CAPSULES: "written as triangles",
         FeatureKind.ELLIPSOIDS: "written as triangles",
@@ -37,19 +39,19 @@ class UrdfFormat(Format):
     }
     shown_files = VISUAL_SUFFIXES
 
-    def read(self, path: Path, options: ReadOptions) -> Asset:
+    def read(self, path: Path, options: base.ReadOptions) -> Asset:
         from meshforge.formats.urdf import read  # lazy: only URDF needs it
 
         return read.read_urdf(path, options)
 
-    def write(self, asset: Asset, name: str, mass: Mass = "keep") -> Output:
+    def write(self, asset: Asset, name: str, mass: base.Mass = "keep") -> base.Output:
         if not isinstance(asset.document, UrdfDocument):
             raise AssetError("this asset was not read from a URDF", where=str(asset.path))
         from meshforge.formats.urdf import edit  # lazy: only URDF needs it
 
         return edit.write_urdf(asset, asset.document, name)
 
-    def create(self, asset: Asset, name: str) -> Output:
+    def create(self, asset: Asset, name: str) -> base.Output:
         from meshforge.formats.urdf import create  # lazy: only URDF needs it
 
         return create.create_urdf(asset, name)
@@ -62,16 +64,4 @@ def features_of(document: UrdfDocument) -> Iterator[Feature]:
     """The features of a URDF that its asset does not have."""
     data = XmlText.of(document.source).data
     robot = parse_robot(data, "")
-    joints = list(robot.each("joint"))
-    yield Feature(FeatureKind.MIMICS, tuple(_name_of(joint) for joint in joints if joint.first("mimic")))
-    textures = (e.attributes.get("filename", "") for e in robot.walk() if e.tag == "texture")
-    yield Feature(FeatureKind.TEXTURES, tuple(dict.fromkeys(textures)))
-    yield Feature(FeatureKind.CONTACT, tuple(_name_of(link) for link in robot.each("link") if link.first("contact")))
-    others = [child.tag for child in robot.children if child.tag not in _KNOWN_TAGS]
-    others += [part.tag for joint in joints for part in joint.children if part.tag in _JOINT_SETTINGS]
-    yield feature_of_tags(FeatureKind.OTHERS, others)
-    yield Feature(FeatureKind.COMMENTS, unnamed=data.count(b"<!--"))
-
-
-def _name_of(element: Element) -> str:
-    return element.attributes.get("name", "")
+    yield base.feature_of_others([*base.list_others(robot, _TAKEN, _LEAVES), *["comment"] * data.count(b"<!--")])

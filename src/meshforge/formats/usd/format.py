@@ -3,7 +3,6 @@ masses and visuals."""
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, ClassVar
@@ -14,15 +13,7 @@ from meshforge.formats import base
 from meshforge.formats.usd.stage import UsdDocument, UsdStage, usd
 from meshforge.symbolic import Asset, Feature, FeatureKind, Surface
 
-_TYPES = {
-    "Material": FeatureKind.MATERIALS,
-    "Camera": FeatureKind.CAMERAS,
-    "SkelRoot": FeatureKind.SKINS,
-    "PhysicsScene": FeatureKind.SETTINGS,
-    "PhysicsCollisionGroup": FeatureKind.PAIRS,
-    "PhysicsDistanceJoint": FeatureKind.OTHERS,
-}
-_LIGHTS = "Light"
+_OTHERS = ("Material", "Camera", "SkelRoot", "PhysicsScene", "PhysicsCollisionGroup", "PhysicsDistanceJoint")
 
 
 class UsdFormat(base.SceneFormat):
@@ -34,15 +25,7 @@ class UsdFormat(base.SceneFormat):
     suffixes = (".usda", ".usd", ".usdc", ".usdz")
     up = "z"
     marks = "as colliders of UsdPhysics"
-    has_pictures = True
-    holds = base.BODY_FEATURES | {
-        *(FeatureKind.CAPSULES, FeatureKind.OPAQUE, FeatureKind.PLANES),
-        *(FeatureKind.JOINTS, FeatureKind.BALL_JOINTS, FeatureKind.FIXED_JOINTS),
-    }
-    could = base.SCENE_FEATURES | {
-        *(FeatureKind.VERTEX_COLORS, FeatureKind.TEXTURE_COORDINATES, FeatureKind.PAIRS, FeatureKind.ACTUATORS),
-        *(FeatureKind.DYNAMICS, FeatureKind.ANIMATIONS, FeatureKind.SKINS, FeatureKind.COMMENTS),
-    }
+    holds = base.BODY_FEATURES | {FeatureKind.CAPSULES, FeatureKind.OPAQUE, FeatureKind.PLANES}
     instead: ClassVar[Mapping[FeatureKind, str]] = {FeatureKind.ELLIPSOIDS: "written as triangles"}
 
     # The library runs in a process of its own, since a damaged file may crash it.
@@ -93,36 +76,20 @@ class UsdFormat(base.SceneFormat):
 def _read_features(path: Path) -> list[Feature]:
     """The features of a USD file that its asset does not have."""
     with usd(str(path)):
-        return list(_list_features(UsdStage.open(path)))
+        return [base.feature_of_others(kind for prim in UsdStage.open(path).prims() for kind in _list_others(prim))]
 
 
-def _list_features(scene: UsdStage) -> Iterator[Feature]:
-    found: dict[FeatureKind, list[str]] = {}
-    count: Counter[FeatureKind] = Counter()
-    for prim in scene.prims():
-        what = _TYPES.get(str(prim.GetTypeName()))
-        if what is None and str(prim.GetTypeName()).endswith(_LIGHTS):
-            what = FeatureKind.LIGHTS
-        if what is not None:
-            found.setdefault(what, []).append(prim.GetName())
-        count.update(_features_of_attributes(prim))
-    for what, names in found.items():
-        yield base.feature_of_tags(what, names)
-    for what, number in count.items():
-        yield Feature(what, unnamed=number)
-
-
-def _features_of_attributes(prim: Any) -> Iterator[FeatureKind]:
-    """What the attributes of a prim are, each kind once."""
-    attributes = prim.GetAuthoredAttributes()
-    if any(attribute.GetNumTimeSamples() > 1 for attribute in attributes):
-        yield FeatureKind.ANIMATIONS
+def _list_others(prim: Any) -> Iterator[str]:
+    """What no conversion takes of a prim, each kind once."""
+    kind, attributes = str(prim.GetTypeName()), prim.GetAuthoredAttributes()
     names = {attribute.GetName() for attribute in attributes}
-    if prim.GetTypeName() == "Shader" and prim.GetAttribute("info:id").Get() == "UsdUVTexture":
-        yield FeatureKind.TEXTURES
-    if "primvars:st" in names:
-        yield FeatureKind.TEXTURE_COORDINATES
+    if kind in _OTHERS or kind.endswith("Light"):
+        yield kind
+    if any(attribute.GetNumTimeSamples() > 1 for attribute in attributes):
+        yield "time samples"
+    if kind == "Shader" and prim.GetAttribute("info:id").Get() == "UsdUVTexture":
+        yield "texture"
     if any("physics:dynamicFriction" in name or name.startswith("physxMaterial") for name in names):
-        yield FeatureKind.CONTACT
+        yield "contact setting"
     if any(name.startswith("drive:") for name in names):
-        yield FeatureKind.ACTUATORS
+        yield "drive"

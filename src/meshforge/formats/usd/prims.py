@@ -1,4 +1,4 @@
-"""Prims as specs of a layer: shapes, meshes, joints and masses, in the space that they are put in."""
+"""Prims as specs of a layer: shapes, meshes and masses, in the space that they are put in."""
 
 from __future__ import annotations
 
@@ -9,26 +9,16 @@ from typing import Any
 
 import numpy as np
 
-from meshforge.formats.kinematic_tree import claim_name, drop_rounding, perpendicular_to
+from meshforge.formats.kinematic_tree import claim_name, drop_rounding
 from meshforge.formats.libraries import pxr
 from meshforge.formats.usd.colliders import COLLISION, DRAWN, MESH_COLLISION, apply_schemas
 from meshforge.formats.usd.stage import rotation_of
 from meshforge.geometry import Box, Capsule, Cylinder, Floats, Ints, Pose, Shape, Sphere, principal_axes
-from meshforge.symbolic import Inertial, Joint, JointKind
+from meshforge.symbolic import Inertial
 
 _SHEAR = 1e-9
 _EVEN = 1e-9
 _NOT_IN_NAMES = re.compile(r"[^\w]+")
-
-_JOINT_TYPES: dict[JointKind, str] = {
-    "fixed": "PhysicsFixedJoint",
-    "revolute": "PhysicsRevoluteJoint",
-    "prismatic": "PhysicsPrismaticJoint",
-    "ball": "PhysicsSphericalJoint",
-    "planar": "PhysicsJoint",
-    "floating": "PhysicsJoint",
-}
-_LOCKED = ("transZ", "rotX", "rotY")  # of a planar joint, whose normal is Z
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -170,61 +160,6 @@ def _set_extent(spec: Any, low: Floats, high: Floats) -> None:
         "Float3Array",
         pxr.Vt.Vec3fArray([pxr.Gf.Vec3f(*map(float, low)), pxr.Gf.Vec3f(*map(float, high))]),
     )
-
-
-def add_joint(holder: Any, name: str, joint: Joint, paths: dict[str, str], poses: dict[str, Pose]) -> Any:
-    """The prim of a joint; paths, poses: of the links, the world being none of them."""
-    spec = add_prim(holder, name, _JOINT_TYPES[joint.kind])
-    axis, frame = _joint_frame(joint, poses[joint.child])
-    for side, body in enumerate((joint.parent, joint.child)):
-        _add_end(spec, side, paths.get(body), poses.get(body, Pose.identity()).inverse() @ frame)
-    if joint.kind in ("revolute", "prismatic", "ball"):
-        set_value(spec, "physics:axis", "Token", axis, uniform=True)
-    if joint.limits and joint.kind in ("revolute", "prismatic"):
-        low, high = (float(np.degrees(end)) if joint.kind == "revolute" else end for end in joint.limits)
-        set_value(spec, "physics:lowerLimit", "Float", low)
-        set_value(spec, "physics:upperLimit", "Float", high)
-    _add_drive(spec, joint)
-    if joint.kind == "planar":
-        apply_schemas(spec, [f"PhysicsLimitAPI:{freedom}" for freedom in _LOCKED])
-        for freedom in _LOCKED:
-            set_value(spec, f"limit:{freedom}:physics:low", "Float", 1.0)
-            set_value(spec, f"limit:{freedom}:physics:high", "Float", -1.0)
-    return spec
-
-
-def _joint_frame(joint: Joint, child: Pose) -> tuple[str, Pose]:
-    """The axis of a joint, and root_T_joint: the frame of its child where the axis is one of that frame's."""
-    local = drop_rounding(child.rotation.T @ joint.axis)
-    for name, unit in zip("XYZ", np.eye(3), strict=True):
-        if joint.kind not in ("planar", "floating") and np.allclose(local, unit, atol=1e-9):
-            return name, Pose(child.rotation, joint.anchor)
-    side = perpendicular_to(local)
-    turn = np.column_stack([side, np.cross(local, side), local])  # takes Z onto the axis
-    return "Z", Pose(child.rotation @ turn, joint.anchor)
-
-
-def _add_end(spec: Any, side: int, path: str | None, pose: Pose) -> None:
-    """One end of a joint: the body, none for the world, and the frame of the joint there."""
-    if path is not None:
-        target = pxr.Sdf.RelationshipSpec(spec, f"physics:body{side}", False)
-        target.targetPathList.explicitItems = [pxr.Sdf.Path(path)]
-    w, x, y, z = pose.to_quaternion().tolist()
-    set_value(spec, f"physics:localPos{side}", "Point3f", pxr.Gf.Vec3f(*drop_rounding(pose.translation, 1.0).tolist()))
-    set_value(spec, f"physics:localRot{side}", "Quatf", pxr.Gf.Quatf(w, x, y, z))
-
-
-def _add_drive(spec: Any, joint: Joint) -> None:
-    """Damping and the largest effort of a joint, by a drive that aims at rest."""
-    if joint.kind not in ("revolute", "prismatic") or not (joint.damping or joint.effort):
-        return
-    drive, unit = ("angular", np.pi / 180) if joint.kind == "revolute" else ("linear", 1.0)
-    apply_schemas(spec, [f"PhysicsDriveAPI:{drive}"])
-    set_value(spec, f"drive:{drive}:physics:type", "Token", "force", uniform=True)
-    if joint.damping:
-        set_value(spec, f"drive:{drive}:physics:damping", "Float", joint.damping * unit)
-    if joint.effort:
-        set_value(spec, f"drive:{drive}:physics:maxForce", "Float", joint.effort)
 
 
 def write_mass(spec: Any, inertial: Inertial, body: PrimSpace, metres: float = 1.0, kilograms: float = 1.0) -> None:
