@@ -13,6 +13,7 @@ import typer
 from typer.core import TyperCommand, TyperGroup
 
 import meshforge
+from meshforge.cli.terminal import escape_output
 
 COMMANDS = {
     "demo": "The whole loop on the bundled tables",
@@ -109,6 +110,11 @@ def main() -> None:
     for stream in (sys.stdout, sys.stderr):  # names of files need not be text that a terminal can show
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")
+    with escape_output():
+        _run(debug)
+
+
+def _run(debug: bool) -> None:
     try:
         build_application()(prog_name="meshforge")
     except KeyboardInterrupt:
