@@ -40,6 +40,8 @@ _memory: int | None = None
 
 _BARREN_POOLS = 2  # so many in a row that give nothing are the last
 _POOL_CYCLE = 0.01  # seconds between two looks of a pool at its workers, all of which its end waits for
+_BY_COMMAND = "MESHFORGE_WORKERS"  # an environment variable, for it is the same in all processes of a command
+_SAFE_PATH = "PYTHONSAFEPATH"
 _THREADS = Path("/proc/self/task")
 _USABLE_SHARE = 0.9  # of the machine's memory, for all workers together
 _CGROUP_LIMIT = Path("/sys/fs/cgroup/memory.max")
@@ -52,8 +54,9 @@ GIB = 1 << 30
 class ExecutionOptions:
     """How work on many items, mostly assets, is executed.
 
-    workers: how many processes; None takes one a processor, never more than items; 0 works in this process, without
-    protection against crashes and without bounds. timeout: seconds for one item, None for no bound; memory: bytes that
+    workers: how many processes, never more than items; 0 works in this process, without protection against crashes and
+    without bounds. None takes one a processor in the commands and the studio, and 0 in Python, where each worker might
+    run a script again that has no main guard. timeout: seconds for one item, None for no bound; memory: bytes that
     a worker may take for one item, beyond what it has when that begins. stop: asked often whether to end all work in
     the midst. backend: the workers of this machine, or those of a Ray cluster; results are the same. progress: called
     whenever an item is finished, in any order, maybe from another thread.
@@ -89,7 +92,8 @@ def run_isolated(
 
     Raises MeshForgeError when worker processes cannot be started at all, StoppedError when `options.stop` said so.
     """
-    workers = min(count_processors() if options.workers is None else options.workers, len(items))
+    default = count_processors() if os.environ.get(_BY_COMMAND) else 0
+    workers = min(default if options.workers is None else options.workers, len(items))
     if workers > 0:
         yield from _run_pools(function, items, workers, options)
         return
@@ -232,10 +236,23 @@ def _make_context(can_fork: bool) -> Any:
             return get_context("fork").Process(**options)
         if sys.platform == "linux":
             context.set_forkserver_preload(["meshforge.batch.edit", *_list_modules()])
+            _start_server()
         return context.Process(**options)
 
     own.RLock, own.Process = kept_lock, start_process
     return own
+
+
+def _start_server() -> None:
+    """Start the server of forks, where there is none yet, so that it imports nothing from the present folder."""
+    from multiprocessing import forkserver  # lazy: Windows has none
+
+    before = os.environ.get(_SAFE_PATH)
+    os.environ[_SAFE_PATH] = "1"
+    try:
+        forkserver.ensure_running()
+    finally:
+        os.environ.pop(_SAFE_PATH) if before is None else os.environ.update({_SAFE_PATH: before})
 
 
 def _has_one_thread() -> bool:

@@ -104,6 +104,7 @@ def _read_root_options(
 def main() -> None:
     """Run the command that the words name; every error becomes one message and an exit code."""
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # with one thread, workers start by a fork
+    os.environ["MESHFORGE_WORKERS"] = "1"  # a command is guarded: work on many assets takes all processors
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "1")  # else it looks for them in every installed package
     debug = "--debug" in sys.argv[1:]
     sys.argv[1:] = [word for word in sys.argv[1:] if word != "--debug"]
