@@ -36,6 +36,7 @@ from meshforge.common.messages import (
     escape_name,
     escape_text,
     format_share,
+    is_text,
     join_and,
     join_names,
     nearest_name,
@@ -43,6 +44,7 @@ from meshforge.common.messages import (
     suggest_among,
     suggest_aside,
     suggest_name,
+    to_text,
 )
 from meshforge.common.plugins import (
     PLUGIN_KINDS,
@@ -94,6 +96,7 @@ __all__ = [
     "is_beyond_reach",
     "is_file",
     "is_link_cycle",
+    "is_text",
     "join_and",
     "join_names",
     "nearest_name",
@@ -106,6 +109,7 @@ __all__ = [
     "suggest_among",
     "suggest_aside",
     "suggest_name",
+    "to_text",
     "write_all_atomically",
     "write_atomically",
 ]

@@ -5,6 +5,7 @@ where, and what to do about it.
 from __future__ import annotations
 
 import difflib
+import os
 import re
 from collections.abc import Collection, Iterable, Sequence
 from typing import Any
@@ -28,6 +29,16 @@ def escape_text(text: str) -> str:
 def _escape(found: re.Match[str]) -> str:
     byte = ord(found[0]) - 0xDC00  # by which Python holds a byte that is not UTF-8
     return f"\\x{byte:02x}" if 0x80 <= byte <= 0xFF else found[0].encode("unicode_escape").decode("ascii")
+
+
+def is_text(name: str) -> bool:
+    """Whether a name can be written to a file: whether it holds no byte that is not UTF-8."""
+    return not any("\ud800" <= letter <= "\udfff" for letter in name)
+
+
+def to_text(name: str) -> str:
+    """A name of a file in which bytes that are not UTF-8 stand as `\\xff`, so that it can be written to a file."""
+    return name if is_text(name) else os.fsencode(name).decode("utf-8", "backslashreplace")
 
 
 def pluralize(number: int, one: str, many: str | None = None) -> str:
@@ -125,6 +136,9 @@ def describe_error(error: Exception, where: str | None = None, fault: str = "ple
         case MemoryError():
             what = "there is not enough memory for"
             return f"{escape_name(where)}: {what} it" if where else f"{what} this"
+        case UnicodeEncodeError(object=text, start=start) if not is_text(text):
+            near = escape_name(text[max(start - 40, 0) : start + 40])
+            return f"{where or 'in a file'}: a name is not UTF-8: {near}\n  Rename the file or folder."
         case OSError(filename=str() as name, strerror=str() as why):
             return f"{escape_name(name)}: {why}"
         case _:
