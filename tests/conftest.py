@@ -14,3 +14,6 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
 
 # No studio that a test starts is to be among the recent projects of whoever runs the tests.
 os.environ.setdefault("MESHFORGE_STATE", tempfile.mkdtemp(prefix="meshforge-state-"))
+
+# Tests of crashes, time-outs and memory count on workers, as commands do; scripts of users work in their own process.
+os.environ["MESHFORGE_WORKERS"] = "1"

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
-from meshforge.common import MeshForgeError, UsageError, expand_glob, is_link_cycle, plain_path, relative_name
+from meshforge.common import MeshForgeError, UsageError, expand_glob, is_link_cycle, plain_path, relative_name, to_text
 from meshforge.formats import MESH_SUFFIXES, all_suffixes, is_asset, is_description, read
 
 STATE = ".meshforge"
@@ -91,7 +91,7 @@ def expand(patterns: Iterable[str | Path], root: Path | None = None) -> AssetSet
 
 def asset_id(path: Path, base: Path) -> str:
     """The id of an asset: its path below the common folder, with forward slashes."""
-    return relative_name(path, base)
+    return to_text(relative_name(path, base))
 
 
 def common_folder(folders: Iterable[Path]) -> Path:

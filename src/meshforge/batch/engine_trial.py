@@ -100,7 +100,7 @@ def try_bullet(engine: str, path: Path | None, mesh: SymbolicMesh) -> EngineTria
         return EngineTrial(engine, _name_of(path))
     if find_spec("pybullet") is None:
         return _describe_absence(engine, path)
-    command = [sys.executable, "-c", _LOAD_IN_BULLET, str(path.absolute())]
+    command = [sys.executable, "-P", "-c", _LOAD_IN_BULLET, str(path.absolute())]
     try:
         done = subprocess.run(command, capture_output=True, text=True, errors="replace", timeout=_BULLET_SECONDS)
     except subprocess.TimeoutExpired:

@@ -36,6 +36,7 @@ _memory: int | None = None
 
 _BARREN_POOLS = 2  # so many in a row that give nothing are the last
 _POOL_CYCLE = 0.01  # seconds between two looks of a pool at its workers, all of which its end waits for
+_BY_COMMAND = "MESHFORGE_WORKERS"  # an environment variable, for it is the same in all processes of a command
 MIB = 1 << 20
 GIB = 1 << 30
 
@@ -44,8 +45,9 @@ GIB = 1 << 30
 class ExecutionOptions:
     """How work on many items, mostly assets, is executed.
 
-    workers: how many processes; None takes one a processor, never more than items; 0 works in this process, without
-    protection against crashes and without bounds. timeout: seconds for one item, None for no bound; memory: bytes that
+    workers: how many processes, never more than items; 0 works in this process, without protection against crashes and
+    without bounds. None takes one a processor in the commands and the studio, and 0 in Python, where each worker might
+    run a script again that has no main guard. timeout: seconds for one item, None for no bound; memory: bytes that
     a worker may take for one item, beyond what it has when that begins. stop: asked often whether to end all work in
     the midst. backend: the workers of this machine, or those of a Ray cluster; results are the same. progress: called
     whenever an item is finished, in any order, maybe from another thread.
@@ -81,7 +83,8 @@ def run_isolated(
 
     Raises MeshForgeError when worker processes cannot be started at all, StoppedError when `options.stop` said so.
     """
-    workers = min(count_processors() if options.workers is None else options.workers, len(items))
+    default = count_processors() if os.environ.get(_BY_COMMAND) else 0
+    workers = min(default if options.workers is None else options.workers, len(items))
     if workers > 0:
         yield from _run_pools(function, items, workers, options)
         return

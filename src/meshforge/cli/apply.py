@@ -20,7 +20,7 @@ from meshforge.cli.apply_work import Alarms, ApplyArguments, ApplyWork
 from meshforge.cli.console import progress
 from meshforge.cli.report import NOTHING_WRITTEN, describe_failure, write_report_page
 from meshforge.cli.terminal import print_json, remark
-from meshforge.common import UsageError, pluralize
+from meshforge.common import UsageError, escape_name, pluralize
 
 
 @options.takes(ApplyArguments)
@@ -71,7 +71,7 @@ def _run(given: ApplyArguments, work: ApplyWork, measures: CheckOptions | None) 
     alarms = summary.find_alarms()
     if not given.dry_run:
         for asset, why in work.finish(alarms).items():
-            remark(f"{asset} is no longer signed off: {why}")
+            remark(f"{escape_name(asset)} is no longer signed off: {why}")
     _print_lines(done, alarms, work.describe_standings() if done else {})
     remark_new(work.new)
     summary.held = work.held
@@ -79,7 +79,7 @@ def _run(given: ApplyArguments, work: ApplyWork, measures: CheckOptions | None) 
         if given.json:
             print_json({**held.to_json(), **work.describe_new(held.asset)}, compact=True)
         else:
-            typer.echo(f"{'held':10} {held.asset}: {held.why}")
+            typer.echo(f"{'held':10} {escape_name(held.asset)}: {held.why}")
     if not given.json:
         typer.echo(f"{summary}{NOTHING_WRITTEN if given.dry_run else ''}")
         if alarms:
@@ -103,7 +103,8 @@ def _describe_outcome(outcome: batch.AssetOutcome) -> str:
     if isinstance(outcome, batch.Failed):
         return describe_failure(outcome)
     notes = (*(f"rule {r.rule}: {r.note}" for r in outcome.rules if r.note), *outcome.notes, *outcome.flags)
-    line = f"{batch.status_of(outcome):10} {outcome.asset}: {outcome.before} -> {pluralize(outcome.after, 'hull')}"
+    hulls = f"{outcome.before} -> {pluralize(outcome.after, 'hull')}"
+    line = f"{batch.status_of(outcome):10} {escape_name(outcome.asset)}: {hulls}"
     return "\n".join([line, *(f"    note: {note}" for note in notes)])
 
 

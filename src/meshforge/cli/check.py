@@ -16,7 +16,7 @@ from meshforge.cli import options
 from meshforge.cli.console import progress
 from meshforge.cli.report import CheckReport, describe_changes
 from meshforge.cli.terminal import print_json, remark
-from meshforge.common import UsageError, pluralize
+from meshforge.common import UsageError, escape_name, pluralize
 
 _FEW = 5  # assets whose results one sees at a glance
 
@@ -160,7 +160,7 @@ def _to_row(journal: batch.CheckJournal | None, asset: str, outcome: batch.Check
 
 
 def _describe_check(outcome: batch.CheckOutcome) -> str:
-    path, found = outcome.path, outcome.examination
+    path, found = escape_name(str(outcome.path)), outcome.examination
     if found is None:
         return f"{path}: cannot be read\n  " + (outcome.error or "").replace("\n", "\n  ")
     lines = [*_describe_work(outcome)]
@@ -172,4 +172,8 @@ def _describe_check(outcome: batch.CheckOutcome) -> str:
 
 def _describe_work(outcome: batch.CheckOutcome) -> tuple[str, ...]:
     measured = outcome.examination.descriptions if outcome.examination else ()
-    return (*describe_changes(outcome), *measured, *(f"wrote {picture}" for picture in outcome.pictures))
+    return (
+        *describe_changes(outcome),
+        *measured,
+        *(f"wrote {escape_name(str(picture))}" for picture in outcome.pictures),
+    )

@@ -9,6 +9,9 @@ from contextlib import contextmanager
 from time import monotonic
 from typing import Any
 
+from meshforge.cli.terminal import escape_output
+from meshforge.common import escape_name
+
 _REFRESH_SECONDS = 0.1
 _TERMINAL_SETTINGS = frozenset({"FORCE_COLOR", "TTY_COMPATIBLE"})
 """Variables by which rich takes what is no terminal for one."""
@@ -16,7 +19,7 @@ _TERMINAL_SETTINGS = frozenset({"FORCE_COLOR", "TTY_COMPATIBLE"})
 
 def print_table(columns: Sequence[str], rows: Iterable[Sequence[Any]], *, right: Sequence[str] = ()) -> None:
     """A table on stdout; columns named in `right` are aligned to the right. Piped, no line is broken."""
-    texts = [["" if cell is None else str(cell) for cell in row] for row in rows]
+    texts = [["" if cell is None else escape_name(str(cell)) for cell in row] for row in rows]
     is_plain = all(text.isascii() and text.isprintable() for row in texts for text in row)
     if is_plain and not sys.stdout.isatty() and not _TERMINAL_SETTINGS.intersection(os.environ):
         _print_plain_table(columns, texts, right)
@@ -80,7 +83,7 @@ def progress(total: int | None, what: str) -> Iterator[Callable[[], None]]:
         disable=not console.is_terminal,
         auto_refresh=False,  # by a thread, beside which workers could not start by a fork
     ) as bar:
-        task, drawn = bar.add_task(what, total=total), 0.0
+        task, drawn = bar.add_task(escape_name(what), total=total), 0.0
 
         def advance() -> None:
             nonlocal drawn
@@ -89,7 +92,8 @@ def progress(total: int | None, what: str) -> Iterator[Callable[[], None]]:
                 drawn = now
                 bar.refresh()
 
-        yield advance
+        with escape_output():  # while the bar is there, stdout is rich's, which takes controls for its own
+            yield advance
 
 
 @contextmanager
@@ -101,5 +105,5 @@ def show_status(what: str) -> Iterator[None]:
     if not console.is_terminal:
         yield
         return
-    with console.status(what):
+    with console.status(escape_name(what)):
         yield

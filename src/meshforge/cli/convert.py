@@ -12,7 +12,7 @@ import typer
 from meshforge import formats
 from meshforge.cli import options
 from meshforge.cli.terminal import print_json, remark
-from meshforge.common import UsageError, pluralize
+from meshforge.common import UsageError, escape_name, pluralize
 from meshforge.formats import FORMATS, PLUGIN_FORMATS, Loss, SaveResult
 from meshforge.symbolic import Feature
 
@@ -103,7 +103,7 @@ def _convert_one(source: Path, out: Path, given: ConvertArguments) -> None:
     for note in (*read_notes, *saved.notes):
         remark(f"note: {note}")
     held = [pluralize(feature.count, feature.kind.one, feature.kind.many) for feature in saved.report.held]
-    remark(f"wrote {saved.path}: {', '.join([pluralize(len(mesh.hulls), 'hull'), *held])}")
+    remark(f"wrote {escape_name(str(saved.path))}: {', '.join([pluralize(len(mesh.hulls), 'hull'), *held])}")
 
 
 def _to_json(source: Path, saved: SaveResult, hulls: int, notes: Sequence[str]) -> dict[str, Any]:

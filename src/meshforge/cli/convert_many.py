@@ -14,7 +14,7 @@ from meshforge import batch
 from meshforge.cli.console import progress
 from meshforge.cli.report import NOTHING_WRITTEN, describe_failure, write_report_page
 from meshforge.cli.terminal import print_json, remark
-from meshforge.common import pluralize
+from meshforge.common import escape_name, pluralize
 from meshforge.language import Program
 
 
@@ -52,7 +52,7 @@ def _describe_outcome(outcome: batch.AssetOutcome) -> str:
     if isinstance(outcome, batch.Failed):
         return describe_failure(outcome)
     word = "skipped" if isinstance(outcome, batch.Skipped) else "written"
-    line = f"{word:10} {outcome.out}: {pluralize(outcome.after, 'hull')}"
+    line = f"{word:10} {escape_name(outcome.out)}: {pluralize(outcome.after, 'hull')}"
     return "\n".join([line, *(f"    note: {note}" for note in outcome.notes)])
 
 

@@ -12,7 +12,7 @@ from rich.console import Console
 from meshforge import formats
 from meshforge.cli import options
 from meshforge.cli.terminal import print_json, remark
-from meshforge.common import UsageError, pluralize
+from meshforge.common import UsageError, escape_name, pluralize
 from meshforge.geometry import DecomposeSettings
 
 _PICTURE = "advice.png"
@@ -84,7 +84,7 @@ def decompose(given: DecomposeArguments) -> None:
     options.refuse_options(given.context, ("json",), "--advise")
     if given.out is None:
         raise UsageError("nothing says what to write", remedy="Give --out FILE, or --advise for advice on settings.")
-    with Console(stderr=True).status(title := f"{given.method.value} on {given.mesh.name}") as status:
+    with Console(stderr=True).status(title := f"{given.method.value} on {escape_name(given.mesh.name)}") as status:
         made = formats.decompose(
             given.mesh,
             settings,
@@ -98,14 +98,14 @@ def decompose(given: DecomposeArguments) -> None:
     saved = formats.save(made, given.out, overwrite=given.overwrite)
     for note in (*(made.asset.notes if made.asset else ()), *saved.notes):
         remark(f"note: {note}")
-    remark(f"wrote {saved.path}: {pluralize(len(made.hulls), 'hull')}")
+    remark(f"wrote {escape_name(str(saved.path))}: {pluralize(len(made.hulls), 'hull')}")
 
 
 def _advise(given: DecomposeArguments, settings: DecomposeSettings) -> None:
     from meshforge.inspection import advise_decomposition  # lazy: most runs of this command draw nothing
 
     picture = _picture_path(given.out, given.overwrite)
-    title = f"{given.method.value} on {given.mesh.name}"
+    title = f"{given.method.value} on {escape_name(given.mesh.name)}"
     with Console(stderr=True).status(title) as status:
 
         def show(text: str) -> None:

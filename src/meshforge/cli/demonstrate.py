@@ -13,6 +13,7 @@ from meshforge.cli.extractors import is_extractor, labels_of_project, select_hul
 from meshforge.cli.hulls import find_hulls
 from meshforge.cli.options import asset_id
 from meshforge.cli.terminal import remark
+from meshforge.common import escape_name
 from meshforge.language import Program, apply_action, to_canonical_frame
 from meshforge.project import Project
 from meshforge.symbolic import SymbolicMesh, mask_of
@@ -41,7 +42,7 @@ def demonstrate(
     asset = asset_id(asset, opened)
     if clear:
         opened.demonstrate(asset, ())
-        remark(f"{asset}: nothing is demonstrated any more")
+        remark(f"{escape_name(asset)}: nothing is demonstrated any more")
         return
     if steps:
         opened.demonstrate(asset, _record_steps(opened, asset, steps))

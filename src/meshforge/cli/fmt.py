@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from meshforge.cli.terminal import print_exact
 from meshforge.common import write_atomically
 from meshforge.language import Program
 
@@ -23,6 +24,6 @@ def fmt(
         typer.echo(f"{program}: {'would change' if changed else 'canonical'}")
         raise typer.Exit(int(changed))
     if not in_place:
-        typer.echo(text, nl=False)
+        print_exact(text)
     elif changed:
         write_atomically(program, text)

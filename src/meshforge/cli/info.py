@@ -9,7 +9,7 @@ import typer
 
 from meshforge.cli.options import AssetFile, InProject, Json, LabelsPath, asset_id, open_asset
 from meshforge.cli.terminal import print_json
-from meshforge.common import pluralize
+from meshforge.common import escape_name, pluralize
 from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Shape, Sphere
 from meshforge.symbolic import Hull, SymbolicMesh
 
@@ -110,9 +110,9 @@ def _print_asset(mesh: SymbolicMesh, asset: str) -> None:
     bodies = len({h.body for h in mesh.hulls} | {o.body for o in opaque})
     head = [source.format if source else "", pluralize(len(mesh.hulls), "hull"), pluralize(bodies, "body", "bodies")]
     head += [pluralize(len(opaque), "non-convex piece")] if opaque else []
-    typer.echo(
-        f"{asset}: {', '.join(head)}, {pluralize(len(mesh.contacts), 'contact')}, diagonal {mesh.diagonal:.4g} m"
-    )
+    head += [pluralize(len(mesh.contacts), "contact")]
+    head += [f"diagonal {mesh.diagonal:.4g} m"] if mesh.hulls else []  # it is that of the hulls
+    typer.echo(f"{escape_name(asset)}: {', '.join(head)}")
     for note in source.notes if source else ():
         typer.echo(f"  note: {note}")
     if mesh.hulls:
@@ -128,11 +128,11 @@ def _print_asset(mesh: SymbolicMesh, asset: str) -> None:
     if opaque:
         typer.echo("\nNon-convex (never selected, written back untouched; `meshforge prepare` makes hulls of it):")
         for piece in opaque:
-            typer.echo(f"  {piece.name}: {piece.reason}")
+            typer.echo(f"  {escape_name(piece.name)}: {piece.reason}")
     if mesh.near_misses:
         typer.echo(f"\nNear misses (apart, yet within three times the contact distance {mesh.contact_distance:.3g} m):")
         for i, j, gap in mesh.near_misses[:12]:
-            typer.echo(f"  {mesh.hulls[i].name}  {mesh.hulls[j].name}  {gap:.3g} m")
+            typer.echo(f"  {escape_name(mesh.hulls[i].name)}  {escape_name(mesh.hulls[j].name)}  {gap:.3g} m")
         if len(mesh.near_misses) > 12:
             typer.echo(f"  and {len(mesh.near_misses) - 12} more (all with --json)")
     typer.echo("\nBoxes and contacts are those of the frame the file comes in.")

@@ -10,7 +10,7 @@ import typer
 from meshforge.cli.hulls import find_hulls
 from meshforge.cli.options import asset_id, list_typed
 from meshforge.cli.terminal import print_json
-from meshforge.common import UsageError, pluralize, quote_path, suggest_among
+from meshforge.common import UsageError, escape_name, pluralize, quote_path, suggest_among
 from meshforge.labels import label_command
 from meshforge.project import Project
 from meshforge.symbolic import Label, SymbolicMesh
@@ -57,7 +57,7 @@ def label_by_hand(
         print_json({"asset": asset, "labels": changed, "same": len(labels) - len(changed), "unlabelled": bare})
         return
     rest = f"{pluralize(bare, 'hull')} of {len(after)} without a label" if bare else "every hull has a label"
-    typer.echo(f"{entry.title if entry else f'{asset}: nothing to change'}; {rest}")
+    typer.echo(f"{entry.title if entry else f'{escape_name(asset)}: nothing to change'}; {rest}")
 
 
 def _parse_labels(texts: Sequence[str], mesh: SymbolicMesh, words: Sequence[str], see: str) -> dict[str, str | None]:

@@ -16,7 +16,7 @@ from meshforge.batch import MOST_PICTURED, LabelStatus, ReportAsset, ReportHeade
 from meshforge.cli.console import print_table, progress
 from meshforge.cli.report import write_report_page
 from meshforge.cli.terminal import print_json, remark
-from meshforge.common import MeshForgeError, pluralize
+from meshforge.common import MeshForgeError, escape_name, pluralize
 from meshforge.labels import LabelOutcome, Tally
 from meshforge.project import Project
 
@@ -147,7 +147,7 @@ class LabelPrinter:
         if self.json:
             print_json(asdict(outcome) | (more or {}), compact=True)
             return
-        typer.echo(f"{outcome.asset}: {_describe_outcome(outcome)}")
+        typer.echo(f"{escape_name(outcome.asset)}: {_describe_outcome(outcome)}")
         for problem in outcome.problems:
             typer.echo("    left out: " + problem.replace("\n", "\n    "))
         for note in notes:

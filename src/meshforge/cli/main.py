@@ -13,6 +13,7 @@ import typer
 from typer.core import TyperCommand, TyperGroup
 
 import meshforge
+from meshforge.cli.terminal import escape_output
 
 COMMANDS = {
     "demo": "The whole loop on the bundled tables",
@@ -103,12 +104,18 @@ def _read_root_options(
 def main() -> None:
     """Run the command that the words name; every error becomes one message and an exit code."""
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # with one thread, workers start by a fork
+    os.environ["MESHFORGE_WORKERS"] = "1"  # a command is guarded: work on many assets takes all processors
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "1")  # else it looks for them in every installed package
     debug = "--debug" in sys.argv[1:]
     sys.argv[1:] = [word for word in sys.argv[1:] if word != "--debug"]
     for stream in (sys.stdout, sys.stderr):  # names of files need not be text that a terminal can show
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")
+    with escape_output():
+        _run(debug)
+
+
+def _run(debug: bool) -> None:
     try:
         build_application()(prog_name="meshforge")
     except KeyboardInterrupt:

@@ -13,7 +13,7 @@ from meshforge.batch import ExecutionOptions
 from meshforge.cli import options
 from meshforge.cli.console import progress
 from meshforge.cli.terminal import print_json
-from meshforge.common import UsageError, describe_error, pluralize
+from meshforge.common import UsageError, describe_error, escape_name, pluralize
 from meshforge.geometry import DecomposeSettings
 from meshforge.project import MADE_ANEW, SPLIT_DEFAULTS, PreparationResult, Project, SplitSettings, forget_plan
 
@@ -167,7 +167,7 @@ def print_results(results: Iterable[PreparationResult], json: bool = False) -> i
 
 
 def _print_one(result: PreparationResult) -> None:
-    typer.echo(f"{result.asset}: {_describe_change(result)}")
+    typer.echo(f"{escape_name(result.asset)}: {_describe_change(result)}")
     for step in result.undone:
         typer.echo(f"    {step}")
     entries = result.made or result.planned

@@ -12,7 +12,7 @@ import typer
 from meshforge import inspection
 from meshforge.cli.options import AssetFile, InProject, LabelsPath, open_asset, takes
 from meshforge.cli.terminal import remark
-from meshforge.common import UsageError, pluralize
+from meshforge.common import UsageError, escape_name, pluralize
 from meshforge.rendering import (
     VIEWS,
     View,
@@ -97,7 +97,7 @@ def render(given: RenderArguments) -> None:
     inspection.render(
         mesh, given.out, views=views, color_by=given.color_by, size=size, ghost=given.ghost, names=given.names
     )
-    remark(f"wrote {given.out}")
+    remark(f"wrote {escape_name(str(given.out))}")
 
 
 def _write_turntable(given: RenderArguments, path: Path) -> None:
@@ -118,7 +118,7 @@ def _write_turntable(given: RenderArguments, path: Path) -> None:
     color_by = given.color_by or ("label" if mesh.labels else "hull")
     pictures = draw_turn([mesh], list_turns(), size=size, color_by=color_by)
     write_gif(path, [image for (image,) in pictures])
-    remark(f"wrote {path}")
+    remark(f"wrote {escape_name(str(path))}")
 
 
 def _refuse_looks(given: RenderArguments) -> None:

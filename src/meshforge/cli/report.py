@@ -14,6 +14,7 @@ from meshforge import batch
 from meshforge.checks import CheckOptions, Examination, Finding, Severity
 from meshforge.cli.console import progress
 from meshforge.cli.terminal import remark
+from meshforge.common import escape_name
 from meshforge.formats import load
 from meshforge.language import Program
 
@@ -30,12 +31,12 @@ def write_report_page(
     """Write a report with a progress bar on stderr, and say where it is."""
     with progress(len(assets), "drawing") as advance:
         batch.write_report(path, header, assets, program=program, options=replace(options, progress=advance))
-    remark(f"report: {path}")
+    remark(f"report: {escape_name(str(path))}")
 
 
 def describe_failure(outcome: batch.Failed) -> str:
     """That an asset failed, and why."""
-    return f"failed     {outcome.asset}\n    " + outcome.error.replace("\n", "\n    ")
+    return f"failed     {escape_name(outcome.asset)}\n    " + outcome.error.replace("\n", "\n    ")
 
 
 _FROM_JOURNAL = "kept in the journal from an earlier run"
@@ -102,7 +103,11 @@ def describe_changes(examined: batch.CheckOutcome) -> tuple[str, ...]:
     fixed = examined.fix_result
     if fixed is None:
         return ()
-    return (*(f"fixed: {change.description}" for change in fixed.changes), *fixed.left, f"wrote {examined.output}")
+    return (
+        *(f"fixed: {change.description}" for change in fixed.changes),
+        *fixed.left,
+        f"wrote {escape_name(str(examined.output))}",
+    )
 
 
 def _to_report_assets(lines: Sequence[_ReportLine]) -> list[batch.ReportAsset]:

@@ -17,6 +17,7 @@ from meshforge.cli.review_pictures import draw_question
 from meshforge.cli.review_session import ReviewSession
 from meshforge.cli.review_text import format_question, format_reply_help
 from meshforge.cli.terminal import print_json, remark
+from meshforge.common import escape_name
 from meshforge.project import Project, ProjectReview, format_review
 from meshforge.signoff import BAR
 
@@ -64,7 +65,7 @@ def review(given: ReviewArguments) -> None:
     else:
         _print_review(project, found, shlex.quote(str(given.project)), asked=asks)
     for asset, why in session.taken_back.items():
-        remark(f"{asset} is no longer signed off: {why}")
+        remark(f"{escape_name(asset)} is no longer signed off: {why}")
     raise typer.Exit(int(bool(found.assessment.held or missed)))
 
 

@@ -12,6 +12,7 @@ import typer
 from meshforge.cli.extractors import find_absent_labels, labels_of_project
 from meshforge.cli.options import AssetFile, InProject, Json, LabelsPath, open_asset
 from meshforge.cli.terminal import print_json, remark
+from meshforge.common import escape_name
 from meshforge.formats import labels_beside, resolve_asset_path
 from meshforge.language import parse_extractor
 from meshforge.symbolic import read_labels
@@ -41,7 +42,7 @@ def select(
         print_json({"hulls": names})
     else:
         for name in names:
-            typer.echo(name)
+            typer.echo(escape_name(name))
         remark(f"{len(names)} of {len(mesh.hulls)} hulls")
     for label in absent:
         remark(f"no hull here is labelled {label!r}")

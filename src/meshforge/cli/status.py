@@ -10,7 +10,7 @@ import typer
 from meshforge.cli.console import print_table, progress
 from meshforge.cli.options import Json
 from meshforge.cli.terminal import print_json
-from meshforge.common import pluralize
+from meshforge.common import escape_name, pluralize
 from meshforge.project import AssetStatus, Project, Status, format_status
 
 
@@ -52,7 +52,7 @@ def _print_status(found: Status, folder: Path) -> None:
         right=("hulls",),
     )
     for asset in found.lost:
-        typer.echo(f"kept for an asset that is not there: {asset}")
+        typer.echo(f"kept for an asset that is not there: {escape_name(asset)}")
     if found.rules is not None:
         typer.echo(f"\n{format_status(found)}")
     typer.echo(f"\nNext: {found.next.say}" + (f"\n  {found.next.command}" if found.next.command else ""))

@@ -1,4 +1,4 @@
-"""The terminal: JSON to stdout, remarks to stderr, and Ctrl-C."""
+"""The terminal: JSON to stdout, remarks to stderr, nothing that would control it, and Ctrl-C."""
 
 from __future__ import annotations
 
@@ -12,9 +12,52 @@ from types import FrameType
 from typing import Any
 
 
+class _EscapingStream:
+    """A text stream to which what would control a terminal is written as `\\x1b`; all else is that of the stream."""
+
+    def __init__(self, stream: Any) -> None:
+        self._stream = stream
+        self.rich_proxied_file = getattr(stream, "rich_proxied_file", stream)  # rich writes its own controls there
+
+    def write(self, text: str) -> int:
+        self._stream.write(_escape(text))
+        return len(text)
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._stream, name)
+
+
+def _escape(text: str) -> str:
+    if text.isascii() and text.replace("\n", "").isprintable():
+        return text
+    from meshforge.common import escape_text  # lazy: 0.04 s, not needed for the list of commands
+
+    return escape_text(text)
+
+
+@contextmanager
+def escape_output() -> Iterator[None]:
+    """Within the block, what names and files would do to a terminal is printed, not done, on stdout and stderr."""
+    before = sys.stdout, sys.stderr
+    sys.stdout, sys.stderr = _EscapingStream(sys.stdout), _EscapingStream(sys.stderr)
+    try:
+        yield
+    finally:
+        sys.stdout, sys.stderr = before
+
+
 def print_json(value: Any, *, compact: bool = False) -> None:
     """One JSON document: indented for reading, or on a single line."""
-    print(json.dumps(value, ensure_ascii=False, indent=None if compact else 2), flush=compact)
+    text = json.dumps(value, ensure_ascii=False, indent=None if compact else 2)
+    if _escape(text) != text:  # by escapes of JSON, with which it reads back as the same
+        text = "".join(one if _escape(one) == one else json.dumps(one)[1:-1] for one in text)
+    print(text, flush=compact)
+
+
+def print_exact(text: str) -> None:
+    """Text that a program may read: as it is where stdout is no terminal."""
+    stream = sys.stdout if sys.stdout.isatty() else getattr(sys.stdout, "rich_proxied_file", sys.stdout)
+    stream.write(text)
 
 
 def remark(text: str) -> None:

@@ -33,7 +33,10 @@ from meshforge.common.messages import (
     StoppedError,
     UsageError,
     describe_error,
+    escape_name,
+    escape_text,
     format_share,
+    is_text,
     join_and,
     join_names,
     nearest_name,
@@ -41,6 +44,7 @@ from meshforge.common.messages import (
     suggest_among,
     suggest_aside,
     suggest_name,
+    to_text,
 )
 from meshforge.common.plugins import (
     PLUGIN_KINDS,
@@ -78,6 +82,8 @@ __all__ = [
     "describe_error",
     "describe_invalid_field",
     "do_at_once",
+    "escape_name",
+    "escape_text",
     "expand_glob",
     "file_digest",
     "file_state",
@@ -90,6 +96,7 @@ __all__ = [
     "is_beyond_reach",
     "is_file",
     "is_link_cycle",
+    "is_text",
     "join_and",
     "join_names",
     "nearest_name",
@@ -102,6 +109,7 @@ __all__ = [
     "suggest_among",
     "suggest_aside",
     "suggest_name",
+    "to_text",
     "write_all_atomically",
     "write_atomically",
 ]

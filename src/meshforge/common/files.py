@@ -15,6 +15,8 @@ from contextvars import ContextVar
 from pathlib import Path
 from typing import TypeVar
 
+from meshforge.common.messages import escape_name
+
 _DRAFT_SUFFIX = ".tmp"
 _AT_ONCE = 32  # files that wait for the disk at the same time
 
@@ -154,7 +156,10 @@ def plain_path(path: Path) -> Path:
 def quote_path(path: Path) -> str:
     """A path as one types it here."""
     here = Path.cwd()
-    return shlex.quote(str(path.relative_to(here) if path.is_relative_to(here) else path))
+    text = str(path.relative_to(here) if path.is_relative_to(here) else path)
+    if escape_name(text) == text:
+        return shlex.quote(text)
+    return "$'" + escape_name(text.replace("\\", "\\\\").replace("'", "\\'")) + "'"
 
 
 def _mode_of(path: Path) -> int:

@@ -5,8 +5,40 @@ where, and what to do about it.
 from __future__ import annotations
 
 import difflib
+import os
+import re
 from collections.abc import Collection, Iterable, Sequence
 from typing import Any
+
+_UNSAFE = re.compile(
+    r"[\x00-\x1f\x7f-\x9f\u00ad\u061c\u180e\u200b-\u200f\u2028-\u202e\u2060-\u206f\ufeff\ufff9-\ufffb"
+    r"\ud800-\udfff\U000e0000-\U000e007f]"
+)  # control characters, those that reorder or hide text, and bytes of file names that are not UTF-8
+
+
+def escape_name(text: str) -> str:
+    """A name in one line that a terminal only shows: what would control or reorder it becomes `\\x1b` or `\\u202e`."""
+    return _UNSAFE.sub(_escape, text)
+
+
+def escape_text(text: str) -> str:
+    """As `escape_name`, for text of several lines: line ends and tabs stay."""
+    return _UNSAFE.sub(lambda found: found[0] if found[0] in "\n\t" else _escape(found), text)
+
+
+def _escape(found: re.Match[str]) -> str:
+    byte = ord(found[0]) - 0xDC00  # by which Python holds a byte that is not UTF-8
+    return f"\\x{byte:02x}" if 0x80 <= byte <= 0xFF else found[0].encode("unicode_escape").decode("ascii")
+
+
+def is_text(name: str) -> bool:
+    """Whether a name can be written to a file: whether it holds no byte that is not UTF-8."""
+    return not any("\ud800" <= letter <= "\udfff" for letter in name)
+
+
+def to_text(name: str) -> str:
+    """A name of a file in which bytes that are not UTF-8 stand as `\\xff`, so that it can be written to a file."""
+    return name if is_text(name) else os.fsencode(name).decode("utf-8", "backslashreplace")
 
 
 def pluralize(number: int, one: str, many: str | None = None) -> str:
@@ -16,13 +48,13 @@ def pluralize(number: int, one: str, many: str | None = None) -> str:
 
 def join_and(names: Sequence[str]) -> str:
     """All names in a row: `a`, `a and b`, `a, b and c`."""
-    return " and ".join(part for part in (", ".join(names[:-1]), *names[-1:]) if part)
+    return escape_name(" and ".join(part for part in (", ".join(names[:-1]), *names[-1:]) if part))
 
 
 def join_names(names: Sequence[str], most: int = 5) -> str:
     """Names in a row, of many the first ones: `a, b, c, d, e and 7 more`."""
     more = len(names) - most
-    return ", ".join(names) if more <= 0 else f"{', '.join(names[:most])} and {more} more"
+    return escape_name(", ".join(names) if more <= 0 else f"{', '.join(names[:most])} and {more} more")
 
 
 def nearest_name(name: str, available: Iterable[str]) -> str | None:
@@ -79,7 +111,7 @@ class MeshForgeError(Exception):
 
     @property
     def _head(self) -> str:
-        return f"{self.where}: {self.problem}" if self.where else self.problem
+        return f"{escape_name(self.where)}: {self.problem}" if self.where else self.problem
 
     def at(self, where: str) -> MeshForgeError:
         """The error, about `where` when it did not say yet what it is about."""
@@ -102,11 +134,15 @@ def describe_error(error: Exception, where: str | None = None, fault: str = "ple
         case MeshForgeError():
             return (error.at(where) if where else error).message
         case MemoryError():
-            return f"{where}: there is not enough memory for it" if where else "there is not enough memory for this"
+            what = "there is not enough memory for"
+            return f"{escape_name(where)}: {what} it" if where else f"{what} this"
+        case UnicodeEncodeError(object=text, start=start) if not is_text(text):
+            near = escape_name(text[max(start - 40, 0) : start + 40])
+            return f"{where or 'in a file'}: a name is not UTF-8: {near}\n  Rename the file or folder."
         case OSError(filename=str() as name, strerror=str() as why):
-            return f"{name}: {why}"
+            return f"{escape_name(name)}: {why}"
         case _:
-            head = f"{where}: " if where else ""
+            head = f"{escape_name(where)}: " if where else ""
             return f"{head}{type(error).__name__}: {error}\n  This is a fault of MeshForge; {fault}."
 
 

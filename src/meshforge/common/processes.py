@@ -28,6 +28,7 @@ PATIENCE = 60.0
 """Seconds without a sign of progress after which a call is taken to hang."""
 _BEAT = 1.0  # seconds between two signs of progress
 _REMEDY = "The file is damaged, or made to do harm: repair it, or export it anew."
+_SAFE_PATH = "PYTHONSAFEPATH"
 _THREADS = Path("/proc/self/task")
 _USABLE_SHARE = 0.9  # of the machine's memory, for all workers together
 _CGROUP_LIMIT = Path("/sys/fs/cgroup/memory.max")
@@ -187,10 +188,23 @@ def _make_context(can_fork: bool) -> Any:
             return get_context("fork").Process(**options)
         if sys.platform == "linux":
             context.set_forkserver_preload(["meshforge.batch.edit", *_list_modules()])
+            _start_server()
         return context.Process(**options)
 
     own.RLock, own.Process = kept_lock, start_process
     return own
+
+
+def _start_server() -> None:
+    """Start the server of forks, where there is none yet, so that it imports nothing from the present folder."""
+    from multiprocessing import forkserver  # lazy: Windows has none
+
+    before = os.environ.get(_SAFE_PATH)
+    os.environ[_SAFE_PATH] = "1"
+    try:
+        forkserver.ensure_running()
+    finally:
+        os.environ.pop(_SAFE_PATH) if before is None else os.environ.update({_SAFE_PATH: before})
 
 
 def _has_one_thread() -> bool:

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from meshforge.common import AssetError, Plugin, PluginError, Registry, UsageError, expand_glob, nearest_name
+from meshforge.common import AssetError, Plugin, PluginError, Registry, UsageError, expand_glob, is_text, nearest_name
 from meshforge.formats.base import Format, ReadOptions
 from meshforge.formats.engine_names.conventions import MarkName
 from meshforge.formats.gltf.format import GltfForGodot, GltfFormat, GltfForUnity, GltfForUnreal, PhysicsGltf
@@ -211,6 +211,9 @@ def read(source: Source, options: ReadOptions | None = None) -> Asset:
     options: None takes those of the environment. Raises AssetError; UsageError: nothing that can be read.
     """
     asset = _read_source(source, options or ReadOptions.from_environment())
+    for file in (path_of(source), *asset.files):
+        if not is_text(str(file)):
+            raise AssetError("this name is not UTF-8", where=str(file), remedy="Rename the file.")
     refuse_far(asset)
     note = note_if_odd_size(asset) if asset.geoms or asset.opaque else NO_GEOMETRY
     return replace(asset, notes=(*asset.notes, note)) if note else asset

@@ -10,7 +10,7 @@ from typing import TypeVar
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from meshforge.batch import RECORD_FILE, SETTINGS, STATE
-from meshforge.common import ProjectError, first_validation_error, write_atomically
+from meshforge.common import ProjectError, first_validation_error, to_text, write_atomically
 
 _JOURNAL = "selections.json"
 ATTRIBUTES = "events.jsonl merge=union\n"
@@ -150,13 +150,15 @@ class Layout:
     def ids_with(self, kind: str) -> tuple[str, ...]:
         """The ids of all assets that have a file in `labels`, `demonstrations` or `corrections`, sorted."""
         root = self.folder / kind
-        return tuple(sorted(path.relative_to(root).as_posix().removesuffix(".json") for path in root.rglob("*.json")))
+        return tuple(
+            sorted(to_text(path.relative_to(root).as_posix()).removesuffix(".json") for path in root.rglob("*.json"))
+        )
 
     def ids_with_preparation(self) -> tuple[str, ...]:
         """The ids of all assets that have a preparation, or one whose removal was cut short, sorted."""
         root = self.folder / "prepared"
         found = {path.parent for name in (RECORD_FILE, _JOURNAL) for path in root.rglob(name)}
-        return tuple(sorted(path.relative_to(root).as_posix() for path in found))
+        return tuple(sorted(to_text(path.relative_to(root).as_posix()) for path in found))
 
 
 class JsonFile(BaseModel):
