@@ -32,7 +32,8 @@ class PrepareArguments:
         options.EngineMethod | None,
         typer.Option(
             "--decompose",
-            help="Make hulls of what has none, by this engine. With --split-spanning or --rebuild-spanning: the engine "
+            help="Make hulls of what has none, by this engine; hull: the convex hull of each collision mesh. "
+            "With --split-spanning or --rebuild-spanning: the engine "
             "of the fine pieces that hulls are compared with; default coacd.",
         ),
     ] = None
@@ -122,12 +123,13 @@ def _divide_spanning(project: Project, given: PrepareArguments) -> int:
     options.refuse_with(
         given.context, ("option", "only", "again", "hollow", "by"), "--split-spanning and --rebuild-spanning"
     )
+    options.refuse_hull(given.method, "--split-spanning and --rebuild-spanning")
     results = project.split_spanning(
         [options.asset_id(asset, project) for asset in given.assets] if given.assets else None,
         SplitSettings(
             SPLIT_DEFAULTS.sure if given.min_confidence is None else given.min_confidence,
             given.rebuild_spanning,
-            given.method.value if given.method else SPLIT_DEFAULTS.pieces,
+            "vhacd" if given.method is options.EngineMethod.VHACD else "coacd",
         ),
         dry_run=given.dry_run,
         engine=given.limits,

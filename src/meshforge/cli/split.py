@@ -50,6 +50,7 @@ def split(given: SplitArguments) -> None:
     at, across, method = given.at, given.across, given.method
     if bool(at or across) == (method is not None) or bool(at) != bool(across):
         raise UsageError("say how: either --at X,Y,Z --across X,Y,Z or --decompose METHOD")
+    options.refuse_hull(method, "split")
     project = Project.open(given.project)
     asset = options.asset_id(given.asset, project)
     hull = given.hull

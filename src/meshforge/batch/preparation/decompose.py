@@ -15,7 +15,7 @@ from meshforge import geometry
 from meshforge.batch.preparation import record
 from meshforge.common import MeshForgeError, join_names, pluralize
 from meshforge.formats import DecomposeBy, SegmentationFile, labels_beside, plain_part_name, points_beside, read_parts
-from meshforge.geometry import Aabb, DecomposeSettings, Floats, Polytope
+from meshforge.geometry import Aabb, DecomposeSettings, Floats, HullSettings, Polytope
 from meshforge.symbolic import Asset, Surface
 
 _NEAR = 0.01  # of the diagonal: surface farther outside of all hulls than this is not covered
@@ -52,6 +52,8 @@ def decompose_asset(
 ) -> DecompositionResult:
     """Decompose all opaque pieces of an asset, and what bodies without collision geometry show.
 
+    With `HullSettings` each collision element that is no hull is one, whatever the pieces that it was read as.
+
     asset: as it was read; before: what is prepared already and stays as it is, as far as it still fits the asset;
     only: names, or patterns of them, of pieces and bodies, none for all; again: decompose anew what is decomposed;
     hollow: planar holes are not closed first, so that shells of one sheet are not filled; by: `parts` decomposes each
@@ -65,7 +67,8 @@ def decompose_asset(
     made: list[record.Replacement] = []
     hulls: list[Polytope] = []
     failed: list[record.PieceProblem] = []
-    bare, told = record.find_sources(fit.asset), list[str]()
+    is_hull = isinstance(settings, HullSettings) and by == "whole"  # which stands for a whole element, as engines do it
+    bare, told = record.find_sources(fit.asset, asset if is_hull else None), list[str]()
     if by == "labels" and bare:
         bare = _label_sources(fit.asset, bare, told.append)
     missed = _describe_no_match(only, [*(source.what for source in bare), *kept.source_names])
@@ -108,10 +111,11 @@ def _decompose_source(
         names = _name_by_parts(source.base, [surface.parts.names[one.part] for one in found], taken)
     else:
         hulls = decompose_surface(surface, settings, source.what, hollow=hollow, cache=cache, note=notes.append)
-        names = record.free_names(source.base, len(hulls), taken)
+        is_free = source.kind == "element" and len(hulls) == 1 and source.base not in taken
+        names = [source.base] if is_free else record.free_names(source.base, len(hulls), taken)
         notes += [] if by == "whole" else ["no parts are known, so it was decomposed as a whole"]
     made = dict(zip(names, map(record.hull_digest, hulls), strict=True))
-    remarks = "; ".join([describe_fit(source.surface, hulls, solid=source.kind == "opaque" and not hollow), *notes])
+    remarks = "; ".join([describe_fit(source.surface, hulls, solid=source.kind != "body" and not hollow), *notes])
     return record.Replacement(source.what, source.kind, record.surface_digest(source.surface), made, remarks), hulls
 
 
