@@ -57,7 +57,7 @@ if TYPE_CHECKING:
         status_of,
         to_json_line,
     )
-    from meshforge.batch.preparation.decompose import DecompositionResult, decompose_asset
+    from meshforge.batch.preparation.decompose import Concave, DecompositionResult, decompose_asset, replace_concave
     from meshforge.batch.preparation.record import (
         Preparation,
         Replacement,
@@ -145,6 +145,7 @@ __all__ = [
     "CheckJournal",
     "CheckOutcome",
     "CheckTask",
+    "Concave",
     "Correction",
     "DecompositionResult",
     "EarlierExamination",
@@ -212,6 +213,7 @@ __all__ = [
     "read_template",
     "record_digest",
     "remove_preparation",
+    "replace_concave",
     "replay_corrections",
     "replay_preparation",
     "run_isolated",

@@ -18,6 +18,7 @@ from meshforge.batch.inputs import inputs_of
 from meshforge.batch.jobs import APPLY_DEFAULTS, ApplyOptions, ApplyTask, AssetJob
 from meshforge.batch.lock import hold_lock
 from meshforge.batch.outcome import AssetOutcome, Edited, Failed, RuleEffect, Unchanged
+from meshforge.batch.preparation.decompose import replace_concave
 from meshforge.batch.preparation.storage import prepare_from_folder
 from meshforge.batch.workers import EXECUTION_DEFAULTS, ExecutionOptions, WorkerFailure
 from meshforge.common import AssetError, UsageError, describe_error, join_names
@@ -117,6 +118,7 @@ def edit_asset(task: ApplyTask, job: AssetJob) -> outputs.WorkerResult:
         asset = read(job.path)
         inputs = inputs_of(task, job, provenance.asset_digests(job.path, asset.files, job.base))
         ready = prepare_from_folder(asset, job.preparation) if job.preparation else asset
+        ready = replace_concave(ready, task.options.concave)
         return _run_program(task, job, ready, inputs, started)
     except MemoryError:
         why = f"{job.path}: there is not enough memory for it\n  {_MEMORY}"

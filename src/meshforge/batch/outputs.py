@@ -66,19 +66,24 @@ def write_draft(
     main = plan.folder / plan.main
     saved = save(mesh, main, mass=options.mass, link=options.link, names=options.names, collision=options.collision)
     written = mesh.with_hulls(replace(hull, name=saved.names.get(hull.name, hull.name)) for hull in mesh.hulls)
-    order = _read_back(main, written)
+    remedy = "Make a hull of each: meshforge prepare PROJECT --decompose hull, or convert --concave hull."
+    saved.report.refuse_lost_collision(str(main), remedy)
+    order = _read_back(main, written, saved.hulled)
     if written.labels:
         write_labels(labels_beside(main), written, vocabulary)
     files = sorted(path for path in plan.folder.rglob("*") if path.is_file())
     digests = {path.relative_to(plan.folder).as_posix(): file_digest(path) for path in files}
-    labels = tuple(written.hull_of(name).label for name in order)
+    labels = tuple(written.hull_of(name).label if name in written.index else None for name in order)
     return provenance.OutputDraft(plan.folder, plan.main, digests, saved.notes, labels)
 
 
-def _read_back(main: Path, mesh: SymbolicMesh) -> list[str]:
-    """The names that the file reads back as; labels are keyed by them, so these must be those of the mesh."""
+def _read_back(main: Path, mesh: SymbolicMesh, hulled: tuple[str, ...]) -> list[str]:
+    """The names that the file reads back as; labels are keyed by them, so these must be those of the mesh.
+
+    hulled: of the hulls that the engine makes of non-convex pieces, which are there, too.
+    """
     back = [geom.name for geom in read(main).geoms]
-    wanted = [hull.name for hull in mesh.hulls]
+    wanted = [*(hull.name for hull in mesh.hulls), *hulled]
     if sorted(back) != sorted(wanted):
         odd = ", ".join(sorted(set(back) ^ set(wanted))[:5])
         remedy = "This is a fault of MeshForge; nothing was written. Please report the asset."

@@ -5,19 +5,22 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from fnmatch import fnmatchcase
+from glob import escape
 from importlib.metadata import version
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
 from meshforge import geometry
 from meshforge.batch.preparation import record
-from meshforge.common import MeshForgeError, join_names, pluralize
+from meshforge.common import GeometryError, MeshForgeError, join_names, pluralize
 from meshforge.formats import DecomposeBy, SegmentationFile, labels_beside, plain_part_name, points_beside, read_parts
-from meshforge.geometry import Aabb, DecomposeSettings, Floats, HullSettings, Polytope
+from meshforge.geometry import Aabb, CoacdSettings, DecomposeSettings, Floats, HullSettings, Polytope
 from meshforge.symbolic import Asset, Surface
 
+Concave = Literal["keep", "hull", "decompose"]
+"""What is done with collision meshes that are not convex."""
 _NEAR = 0.01  # of the diagonal: surface farther outside of all hulls than this is not covered
 _POINTS = 4000
 _SKIN = 0.01  # a surface that encloses less of its hulls is a sheet with two sides, which has no volume to speak of
@@ -90,6 +93,24 @@ def decompose_asset(
         step = record.PreparationStep("decompose", used, software_versions(settings), tuple(made))
         kept = kept.with_step(step, hulls)
     return DecompositionResult(kept, tuple(made), tuple(failed), fit.lost, missed)
+
+
+def replace_concave(asset: Asset, how: Concave) -> Asset:
+    """An asset with hulls in the place of its non-convex collision meshes; what has no triangles stays.
+
+    how: `hull` makes one of each collision element that is not convex, as MuJoCo and Bullet do, `decompose` several by
+    CoACD, `keep` none. Raises GeometryError naming a piece of which none can be made.
+    """
+    pieces = [piece for piece in asset.opaque if piece.surface is not None and len(piece.surface.faces)]
+    names = {piece.element if piece.element and how == "hull" else piece.name for piece in pieces}
+    if how == "keep" or not names:
+        return asset
+    settings = HullSettings() if how == "hull" else CoacdSettings()
+    only = [escape(name) for name in sorted(names)]
+    done = decompose_asset(asset, record.Preparation(), settings, only=only, cache=geometry.cache_folder())
+    for lost in done.failed:
+        raise GeometryError(lost.why, where=lost.what)
+    return record.apply_preparation(asset, done.preparation)
 
 
 def _decompose_source(

@@ -4,9 +4,8 @@ masses and visuals."""
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from pathlib import Path
-from typing import ClassVar
 
 from meshforge.common import AssetError, require_mujoco
 from meshforge.formats.base import BODY_FEATURES, SCENE_FEATURES, Format, Mass, Output, ReadOptions, feature_of
@@ -47,13 +46,13 @@ class MjcfFormat(Format):
     title = "MJCF"
     up = "z"
     holds = BODY_FEATURES | {
-        *(FeatureKind.CAPSULES, FeatureKind.ELLIPSOIDS, FeatureKind.PLANES, FeatureKind.JOINTS, FeatureKind.BALL_JOINTS)
+        *(FeatureKind.CAPSULES, FeatureKind.ELLIPSOIDS, FeatureKind.PLANES, FeatureKind.OPAQUE),
+        *(FeatureKind.JOINTS, FeatureKind.BALL_JOINTS),
     }
     could = SCENE_FEATURES | {
         *(FeatureKind.MIMICS, FeatureKind.PAIRS, FeatureKind.SITES, FeatureKind.SKINS, FeatureKind.KEYFRAMES),
         FeatureKind.COMMENTS,
     }
-    instead: ClassVar[Mapping[FeatureKind, str]] = {FeatureKind.OPAQUE: "written as surfaces that do not collide"}
 
     def matches_head(self, head: bytes) -> bool:
         root = _ROOT.match(head.decode("utf-8", "replace").replace("\0", ""))
