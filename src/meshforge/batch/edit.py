@@ -149,9 +149,8 @@ def _run_program(
     mesh, flags = replay_corrections(job.corrections, source, result.mesh, task.program, task.templates)
     draft = outputs.plan_draft(task, job, asset)
     if task.options.dry_run:
-        draft = replace(
-            draft, notes=describe_collision(mesh, draft.folder / draft.main, task.options.names, task.options.collision)
-        )
+        where = describe_collision(mesh, draft.folder / draft.main, task.options.names, task.options.collision)
+        draft = replace(draft, notes=where, reading=asset.notes)
     else:
         draft = outputs.write_draft(draft, mesh, labels.vocabulary or task.program.labels, task.options)
     outcome = (Unchanged if _has_same_hulls(source, mesh) and not job.preparation else Edited)(
@@ -161,7 +160,7 @@ def _run_program(
         before=len(source.hulls),
         after=len(mesh.hulls),
         seconds=time.perf_counter() - started,
-        notes=(*job.notes, *asset.notes, *_opaque_notes(asset), *_label_notes(followed), *draft.notes),
+        notes=(*job.notes, *draft.reading, *_opaque_notes(asset), *_label_notes(followed), *draft.notes),
         flags=flags,
         measures=measure_edit(source, mesh),
         labels=tuple(sorted({hull.label for hull in source.hulls if hull.label})),

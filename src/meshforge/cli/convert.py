@@ -115,6 +115,8 @@ def _convert_one(source: Path, out: Path, given: ConvertArguments) -> None:
         mesh, out, link=given.link, overwrite=given.overwrite, names=given.names, collision=given.collision
     )
     read_notes = mesh.asset.notes if mesh.asset else ()
+    if given.concave != "keep" and mesh.asset:
+        read_notes = formats.notes_after(mesh.asset, formats.read(saved.path))
     if given.json:
         print_json(_to_json(source, saved, len(mesh.hulls), read_notes))
     else:
