@@ -62,7 +62,7 @@ def split(given: SplitArguments) -> None:
     else:
         settings = options.parse_engine_settings(method, given.option)
         result = project.split(asset, hull, settings, hollow=given.hollow)
-    print_results([result], given.json)
+    print_results(project, [result], given.json)
 
 
 def _parse_vector(text: str, option: str) -> tuple[float, float, float]:
