@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     __version__: str
     from meshforge.common import MeshForgeError
     from meshforge.formats import convert, decompose, from_trimesh, load, load_many, save
-    from meshforge.geometry import CoacdSettings, VhacdSettings
+    from meshforge.geometry import CoacdSettings, HullSettings, VhacdSettings
     from meshforge.inspection import check, diff, render
     from meshforge.language import (
         Add,
@@ -48,6 +48,7 @@ __all__ = [
     "Each",
     "Geo",
     "Hull",
+    "HullSettings",
     "Intersect",
     "Is",
     "Label",
@@ -79,7 +80,7 @@ __all__ = [
 _PACKAGES = {
     "common": ("MeshForgeError",),
     "formats": ("convert", "decompose", "from_trimesh", "load", "load_many", "save"),
-    "geometry": ("CoacdSettings", "VhacdSettings"),
+    "geometry": ("CoacdSettings", "HullSettings", "VhacdSettings"),
     "inspection": ("check", "diff", "render"),
     "language": (
         *("All", "Attach", "Diff", "Geo", "Intersect", "Is", "Union"),

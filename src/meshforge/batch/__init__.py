@@ -57,7 +57,7 @@ if TYPE_CHECKING:
         status_of,
         to_json_line,
     )
-    from meshforge.batch.preparation.decompose import DecompositionResult, decompose_asset
+    from meshforge.batch.preparation.decompose import Concave, DecompositionResult, decompose_asset, replace_concave
     from meshforge.batch.preparation.record import (
         Preparation,
         Replacement,
@@ -142,6 +142,7 @@ __all__ = [
     "CheckJournal",
     "CheckOutcome",
     "CheckTask",
+    "Concave",
     "Correction",
     "DecompositionResult",
     "EarlierExamination",
@@ -208,6 +209,7 @@ __all__ = [
     "read_template",
     "record_digest",
     "remove_preparation",
+    "replace_concave",
     "replay_corrections",
     "replay_preparation",
     "run_isolated",

@@ -18,6 +18,7 @@ from meshforge.batch.inputs import inputs_of
 from meshforge.batch.jobs import APPLY_DEFAULTS, ApplyOptions, ApplyTask, AssetJob
 from meshforge.batch.lock import hold_lock
 from meshforge.batch.outcome import AssetOutcome, Edited, Failed, RuleEffect, Unchanged
+from meshforge.batch.preparation.decompose import replace_concave
 from meshforge.batch.preparation.storage import prepare_from_folder
 from meshforge.batch.workers import EXECUTION_DEFAULTS, ExecutionOptions, WorkerFailure
 from meshforge.common import AssetError, UsageError, describe_error, join_names
@@ -117,6 +118,7 @@ def edit_asset(task: ApplyTask, job: AssetJob) -> outputs.WorkerResult:
         asset = read(job.path)
         inputs = inputs_of(task, job, provenance.asset_digests(job.path, asset.files, job.base))
         ready = prepare_from_folder(asset, job.preparation) if job.preparation else asset
+        ready = replace_concave(ready, task.options.concave)
         return _run_program(task, job, ready, inputs, started)
     except MemoryError:
         why = f"{job.path}: there is not enough memory for it\n  {_MEMORY}"
@@ -147,9 +149,8 @@ def _run_program(
     mesh, flags = replay_corrections(job.corrections, source, result.mesh, task.program, task.templates)
     draft = outputs.plan_draft(task, job, asset)
     if task.options.dry_run:
-        draft = replace(
-            draft, notes=describe_collision(mesh, draft.folder / draft.main, task.options.names, task.options.collision)
-        )
+        where = describe_collision(mesh, draft.folder / draft.main, task.options.names, task.options.collision)
+        draft = replace(draft, notes=where, reading=asset.notes)
     else:
         draft = outputs.write_draft(draft, mesh, labels.vocabulary or task.program.labels, task.options)
     outcome = (Unchanged if _has_same_hulls(source, mesh) and not job.preparation else Edited)(
@@ -159,7 +160,7 @@ def _run_program(
         before=len(source.hulls),
         after=len(mesh.hulls),
         seconds=time.perf_counter() - started,
-        notes=(*job.notes, *asset.notes, *_opaque_notes(asset), *_label_notes(followed), *draft.notes),
+        notes=(*job.notes, *draft.reading, *_opaque_notes(asset), *_label_notes(followed), *draft.notes),
         flags=flags,
         measures=measure_edit(source, mesh),
         labels=tuple(sorted({hull.label for hull in source.hulls if hull.label})),

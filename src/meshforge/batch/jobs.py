@@ -11,6 +11,7 @@ from pathlib import Path
 
 from meshforge.batch.corrections import Correction, RuleSelection
 from meshforge.batch.discovery import AssetSet, asset_id
+from meshforge.batch.preparation.decompose import Concave
 from meshforge.batch.provenance import stamp_path
 from meshforge.batch.workers import GIB, MIB
 from meshforge.common import ProgramError, UsageError, pluralize
@@ -46,6 +47,7 @@ class ApplyOptions:
     become hard links; dry_run: nothing is written; resume: an output that is whole and was made from the same is
     skipped; to: the suffix of the format that all are written in, each one's own when None; names: how collision is
     marked; collision: where the hulls of scenes go in which nothing is marked. The last two are as of `formats.save`.
+    concave: what is done with non-convex collision meshes first, see `replace_concave`.
     """
 
     mass: Mass = "keep"
@@ -55,6 +57,7 @@ class ApplyOptions:
     to: str | None = None
     names: MarkName | None = None
     collision: Collision | None = "beside"
+    concave: Concave = "keep"
 
 
 APPLY_DEFAULTS = ApplyOptions()

@@ -4,6 +4,7 @@ and no file of anyone else's harmed."""
 from __future__ import annotations
 
 import errno
+import os
 import secrets
 import shutil
 from collections.abc import Iterable, Iterator, Mapping
@@ -16,7 +17,7 @@ from meshforge.batch.discovery import STATE
 from meshforge.batch.jobs import ApplyOptions, ApplyTask, AssetJob
 from meshforge.batch.outcome import AssetOutcome, Failed
 from meshforge.common import AssetError, MeshForgeError, file_digest
-from meshforge.formats import labels_beside, output_path_of, read, save
+from meshforge.formats import labels_beside, notes_after, output_path_of, read, save
 from meshforge.symbolic import Asset, SymbolicMesh, write_labels
 
 DRAFT_FILES, DRAFT_STAMP = "files", "stamp.json"
@@ -66,19 +67,27 @@ def write_draft(
     main = plan.folder / plan.main
     saved = save(mesh, main, mass=options.mass, link=options.link, names=options.names, collision=options.collision)
     written = mesh.with_hulls(replace(hull, name=saved.names.get(hull.name, hull.name)) for hull in mesh.hulls)
-    order = _read_back(main, written)
+    remedy = "Make a hull of each: meshforge prepare PROJECT --decompose hull, or convert --concave hull."
+    saved.report.refuse_lost_collision(str(main), remedy)
+    back = read(main)
+    order = _check_hulls(back, written, saved.hulled)
     if written.labels:
         write_labels(labels_beside(main), written, vocabulary)
     files = sorted(path for path in plan.folder.rglob("*") if path.is_file())
     digests = {path.relative_to(plan.folder).as_posix(): file_digest(path) for path in files}
-    labels = tuple(written.hull_of(name).label for name in order)
-    return provenance.OutputDraft(plan.folder, plan.main, digests, saved.notes, labels)
+    labels = tuple(written.hull_of(name).label if name in written.index else None for name in order)
+    reading = notes_after(mesh.asset, back) if mesh.asset else ()
+    here = tuple(note.replace(f"{plan.folder}{os.sep}", "") for note in reading)
+    return provenance.OutputDraft(plan.folder, plan.main, digests, saved.notes, labels, here)
 
 
-def _read_back(main: Path, mesh: SymbolicMesh) -> list[str]:
-    """The names that the file reads back as; labels are keyed by them, so these must be those of the mesh."""
-    back = [geom.name for geom in read(main).geoms]
-    wanted = [hull.name for hull in mesh.hulls]
+def _check_hulls(written: Asset, mesh: SymbolicMesh, hulled: tuple[str, ...]) -> list[str]:
+    """The names that the file reads back as; labels are keyed by them, so these must be those of the mesh.
+
+    hulled: of the hulls that the engine makes of non-convex pieces, which are there, too.
+    """
+    back = [geom.name for geom in written.geoms]
+    wanted = [*(hull.name for hull in mesh.hulls), *hulled]
     if sorted(back) != sorted(wanted):
         odd = ", ".join(sorted(set(back) ^ set(wanted))[:5])
         remedy = "This is a fault of MeshForge; nothing was written. Please report the asset."

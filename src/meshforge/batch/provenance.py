@@ -222,7 +222,8 @@ class OutputDraft:
     """An output that lies aside: its files, and beside their folder the stamp that is to vouch for them.
 
     files: the digest of each file by its path in `folder`; main: the path of the main one; notes: what the format
-    could not hold, or holds in another form; labels: of its hulls, in the order that the main file reads back in.
+    could not hold, or holds in another form; labels: of its hulls, in the order that the main file reads back in;
+    reading: what is to be known about how the asset is read, of its own format as it is now.
     """
 
     folder: Path
@@ -230,6 +231,7 @@ class OutputDraft:
     files: Mapping[str, str] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
     labels: tuple[str | None, ...] = ()
+    reading: tuple[str, ...] = ()
 
     @property
     def root(self) -> Path:

@@ -128,6 +128,8 @@ def _work_of_project(given: ApplyArguments, stack: ExitStack) -> ApplyWork:
     if given.labels and not given.assets:
         raise UsageError("a project has its own labels", remedy="Leave out --labels.")
     project = Project.open(given.program)
+    if project.program() is None and project.work(()):  # else it raises
+        remark("There is no program yet: assets are written as they are prepared, and nothing else is edited.")
     new_options = NewAssetOptions(split=not given.no_split, execution=given.execution.to_options())
     if given.assets:
         return _work_of_others(given, project, new_options, stack)

@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 import typer
 
 from meshforge import formats
 from meshforge.cli import options
 from meshforge.cli.terminal import print_json, remark
-from meshforge.common import UsageError, escape_name, pluralize
+from meshforge.common import AssetError, UsageError, escape_name, pluralize
 from meshforge.formats import FORMATS, PLUGIN_FORMATS, Loss, SaveResult
-from meshforge.symbolic import Feature
+from meshforge.symbolic import Feature, SymbolicMesh
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,6 +33,13 @@ class ConvertArguments:
     ] = None
     names: options.MarkNames = None
     collision: options.CollisionPlace = None
+    concave: Annotated[
+        Literal["keep", "hull", "decompose"],
+        typer.Option(
+            "--concave",
+            help="Collision meshes that are not convex: as they are, each as its convex hull, or decomposed by CoACD.",
+        ),
+    ] = "keep"
     labels: options.LabelsPath = None
     link: Annotated[bool, typer.Option("--link", help="Hard-link files that are only copied.")] = False
     overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace files that are there already.")] = False
@@ -49,7 +56,8 @@ def convert(given: ConvertArguments) -> None:
     Bodies, joints, masses and visuals are kept where the format has them. Labels go beside the file, under the
     names that the hulls have there. A file that goes into its own format stays as it is, unless --names or
     --collision asks for marks of what collides. With --to, folders and globs are taken, too, OUT mirrors their tree,
-    a run that was stopped goes on where it was, and the exit code is 1 when some failed.
+    a run that was stopped goes on where it was, and the exit code is 1 when some failed. It is 1 as well where a mesh
+    that collided would not collide any more.
     """
     if len(given.paths) < 2:
         raise UsageError("there is nothing to write to", remedy="meshforge convert ASSET OUT")
@@ -72,7 +80,12 @@ def convert(given: ConvertArguments) -> None:
     from meshforge.cli.convert_many import convert_many  # lazy: 250 modules that only --to needs
 
     run_options = ApplyOptions(
-        link=given.link, dry_run=given.dry_run, to=suffix, names=given.names, collision=given.collision
+        link=given.link,
+        dry_run=given.dry_run,
+        to=suffix,
+        names=given.names,
+        collision=given.collision,
+        concave=given.concave,
     )
     execution = given.execution.to_options()
     convert_many(sources, Path(out), given.labels, run_options, execution, given.report, json=given.json)
@@ -93,17 +106,29 @@ def _parse_suffix(to: str) -> str:
 
 def _convert_one(source: Path, out: Path, given: ConvertArguments) -> None:
     mesh = formats.load(source, labels=given.labels)
+    if given.concave != "keep" and mesh.asset:
+        from meshforge.batch import replace_concave  # lazy: 250 modules that only --concave needs
+
+        ready = SymbolicMesh.of(replace_concave(mesh.asset, given.concave))
+        mesh = ready.with_labels({name: label for name, label in mesh.labels.items() if name in ready.index})
     saved = formats.convert(
         mesh, out, link=given.link, overwrite=given.overwrite, names=given.names, collision=given.collision
     )
     read_notes = mesh.asset.notes if mesh.asset else ()
+    if given.concave != "keep" and mesh.asset:
+        read_notes = formats.notes_after(mesh.asset, formats.read(saved.path))
     if given.json:
         print_json(_to_json(source, saved, len(mesh.hulls), read_notes))
-        return
-    for note in (*read_notes, *saved.notes):
-        remark(f"note: {note}")
-    held = [pluralize(feature.count, feature.kind.one, feature.kind.many) for feature in saved.report.held]
-    remark(f"wrote {escape_name(str(saved.path))}: {', '.join([pluralize(len(mesh.hulls), 'hull'), *held])}")
+    else:
+        for note in (*read_notes, *saved.notes):
+            remark(f"note: {note}")
+        held = [pluralize(feature.count, feature.kind.one, feature.kind.many) for feature in saved.report.held]
+        remark(f"wrote {escape_name(str(saved.path))}: {', '.join([pluralize(len(mesh.hulls), 'hull'), *held])}")
+    try:
+        saved.report.refuse_lost_collision(str(source), "Make a hull of each: --concave hull.")
+    except AssetError as error:
+        remark(f"error: {error.message}")
+        raise typer.Exit(1) from None
 
 
 def _to_json(source: Path, saved: SaveResult, hulls: int, notes: Sequence[str]) -> dict[str, Any]:

@@ -77,6 +77,7 @@ def decompose(given: DecomposeArguments) -> None:
         options.refuse_options(given.context, ("labels", *_OF_POINTS), "--by labels")
     if given.advise:
         options.refuse_with(given.context, ("by",), "--advise, which tries both")
+        options.refuse_hull(given.method, "--advise")
         if given.labels is None:
             options.refuse_options(given.context, _OF_POINTS, "--labels FILE")
         _advise(given, settings)

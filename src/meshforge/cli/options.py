@@ -9,7 +9,7 @@ from enum import StrEnum
 from functools import partial, wraps
 from inspect import Parameter, Signature
 from pathlib import Path, PurePath
-from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeVar, get_type_hints
+from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeVar, get_args, get_type_hints
 
 import typer
 
@@ -201,26 +201,35 @@ PointsUp = Annotated[
 
 
 class EngineMethod(StrEnum):
-    """The decomposition engines."""
+    """The decomposition engines; `hull` makes one convex hull of each mesh."""
 
     COACD = "coacd"
     VHACD = "vhacd"
+    HULL = "hull"
+
+
+def refuse_hull(method: EngineMethod | None, what: str) -> None:
+    """Raise UsageError where one convex hull is asked for of what is to be divided."""
+    if method is EngineMethod.HULL:
+        raise UsageError(f"--decompose hull divides nothing: it does not go with {what}", remedy="Try coacd or vhacd.")
 
 
 def parse_engine_settings(method: EngineMethod, given: list[str] | None) -> DecomposeSettings:
     """The settings of an engine with some given as `NAME=VALUE`. Raises UsageError, listing what there is to set."""
-    from meshforge.geometry import CoacdSettings, VhacdSettings  # lazy: most commands decompose nothing
+    from meshforge.geometry import DecomposeSettings  # lazy: most commands decompose nothing
 
-    kind = CoacdSettings if method is EngineMethod.COACD else VhacdSettings
+    kind = next(one for one in get_args(DecomposeSettings) if one.engine == method)
     known = {f.name: f for f in fields(kind)}
     values: dict[str, Any] = {}
     for text in given or []:
         name, _, value = text.partition("=")
         if name not in known:
-            listed = "\n".join(f"    {f.name}={f.default}  {f.metadata['help']}" for f in known.values())
-            raise UsageError(f"--set {text}: {method.value} has no option {name!r}", remedy=f"Its options:\n{listed}")
+            listed = "".join(f"\n    {f.name}={f.default}  {f.metadata['help']}" for f in known.values())
+            remedy = f"Its options:{listed}" if listed else "It has none."
+            raise UsageError(f"--set {text}: {method.value} has no option {name!r}", remedy=remedy)
         values[name] = _parse_value(text, value, type(known[name].default))
-    return kind(**values)
+    settings: DecomposeSettings = kind(**values)
+    return settings
 
 
 def split_words(text: str) -> list[str]:

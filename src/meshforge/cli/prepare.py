@@ -12,8 +12,8 @@ import typer
 from meshforge.batch import ExecutionOptions
 from meshforge.cli import options
 from meshforge.cli.console import progress
-from meshforge.cli.terminal import print_json
-from meshforge.common import UsageError, describe_error, escape_name, pluralize
+from meshforge.cli.terminal import print_json, remark
+from meshforge.common import UsageError, describe_error, escape_name, pluralize, quote_path
 from meshforge.geometry import DecomposeSettings
 from meshforge.project import MADE_ANEW, SPLIT_DEFAULTS, PreparationResult, Project, SplitSettings, forget_plan
 
@@ -32,7 +32,8 @@ class PrepareArguments:
         options.EngineMethod | None,
         typer.Option(
             "--decompose",
-            help="Make hulls of what has none, by this engine. With --split-spanning or --rebuild-spanning: the engine "
+            help="Make hulls of what has none, by this engine; hull: the convex hull of each collision mesh. "
+            "With --split-spanning or --rebuild-spanning: the engine "
             "of the fine pieces that hulls are compared with; default coacd.",
         ),
     ] = None
@@ -98,7 +99,7 @@ def prepare(given: PrepareArguments) -> None:
         results = _undo_preparation(project, _select_assets(project, given.assets), everything=given.remove)
         if given.remove and not given.assets:
             forget_plan(project)
-        raise typer.Exit(print_results(results, given.json))
+        raise typer.Exit(print_results(project, results, given.json))
     settings = options.parse_engine_settings(given.method, given.option)
     assets = [options.asset_id(asset, project) for asset in given.assets or ()]
     raise typer.Exit(
@@ -122,19 +123,20 @@ def _divide_spanning(project: Project, given: PrepareArguments) -> int:
     options.refuse_with(
         given.context, ("option", "only", "again", "hollow", "by"), "--split-spanning and --rebuild-spanning"
     )
+    options.refuse_hull(given.method, "--split-spanning and --rebuild-spanning")
     results = project.split_spanning(
         [options.asset_id(asset, project) for asset in given.assets] if given.assets else None,
         SplitSettings(
             SPLIT_DEFAULTS.sure if given.min_confidence is None else given.min_confidence,
             given.rebuild_spanning,
-            given.method.value if given.method else SPLIT_DEFAULTS.pieces,
+            "vhacd" if given.method is options.EngineMethod.VHACD else "coacd",
         ),
         dry_run=given.dry_run,
         engine=given.limits,
         execution=ExecutionOptions(workers=given.workers, timeout=given.timeout),
         stage=progress,
     )
-    return print_results(results, given.json)
+    return print_results(project, results, given.json)
 
 
 def decompose_assets(
@@ -151,18 +153,21 @@ def decompose_assets(
     ids = tuple(dict.fromkeys(assets))
     with progress(len(ids), "decomposing") as advance:
         execution = ExecutionOptions(workers=workers, timeout=timeout, progress=advance)
-        return print_results(project.decompose(ids, settings, execution=execution, **more), json)
+        return print_results(project, project.decompose(ids, settings, execution=execution, **more), json)
 
 
-def print_results(results: Iterable[PreparationResult], json: bool = False) -> int:
-    """Print what became of assets; 1 where one has a problem, else 0."""
-    failed = False
+def print_results(project: Project, results: Iterable[PreparationResult], json: bool = False) -> int:
+    """Print what became of assets, and what writes it; 1 where one has a problem, else 0."""
+    failed = has_made = False
     for result in results:
         failed |= bool(result.problems)
+        has_made |= bool(result.made)
         if json:
             print_json(asdict(result) | {"hulls": list(result.hulls)}, compact=True)
         else:
             _print_one(result)
+    if has_made and not json:
+        remark(f"Next: meshforge apply {quote_path(project.folder)} writes what is prepared, also without a program")
     return int(failed)
 
 

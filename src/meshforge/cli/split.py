@@ -50,6 +50,7 @@ def split(given: SplitArguments) -> None:
     at, across, method = given.at, given.across, given.method
     if bool(at or across) == (method is not None) or bool(at) != bool(across):
         raise UsageError("say how: either --at X,Y,Z --across X,Y,Z or --decompose METHOD")
+    options.refuse_hull(method, "split")
     project = Project.open(given.project)
     asset = options.asset_id(given.asset, project)
     hull = given.hull
@@ -61,7 +62,7 @@ def split(given: SplitArguments) -> None:
     else:
         settings = options.parse_engine_settings(method, given.option)
         result = project.split(asset, hull, settings, hollow=given.hollow)
-    print_results([result], given.json)
+    print_results(project, [result], given.json)
 
 
 def _parse_vector(text: str, option: str) -> tuple[float, float, float]:

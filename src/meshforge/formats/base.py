@@ -81,6 +81,7 @@ class Output:
     notes: what the format could not hold, or holds in another form (a capsule written as a hull mesh).
     names: of geoms that the written file reads back under another name, that name (formats without names).
     lost: by a created output, what it does not hold of an asset beyond what its format never holds.
+    hulled: the names by which the file reads non-convex pieces back as the hulls that its engine makes of them.
     """
 
     main: bytes
@@ -89,6 +90,7 @@ class Output:
     notes: tuple[str, ...] = ()
     names: dict[str, str] = field(default_factory=dict)
     lost: tuple[Loss, ...] = ()
+    hulled: tuple[str, ...] = ()
 
 
 class Format(ABC):

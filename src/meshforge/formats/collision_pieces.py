@@ -43,6 +43,11 @@ class CollisionElement:
     link: str
     names: tuple[str, ...]
 
+    @property
+    def element(self) -> str:
+        """What its pieces have for `element`."""
+        return element_of(self.names)
+
 
 ElementPieces = Sequence[Sequence[CollisionPiece]]
 """The pieces of each element, in order."""
@@ -126,10 +131,19 @@ def name_pieces(bases: Iterable[tuple[str, int]]) -> list[tuple[str, ...]]:
     return [tuple(next(unique) for _ in names) for names in each]
 
 
+def element_of(names: Sequence[str]) -> str:
+    """The name of an element of several pieces by theirs; empty where it has one."""
+    return names[0].removesuffix("#0") if len(names) > 1 else ""
+
+
 def geoms_of(authored: Sequence[CollisionElement], parts: ElementPieces, mentions: ElementMentions) -> tuple[Geom, ...]:
     """The pieces that are hulls."""
     pieces = _iterate_pieces(authored, parts, mentions)
-    return tuple(Geom(name, body, part.shape, mentions=own) for name, body, part, own in pieces if part.shape)
+    return tuple(
+        Geom(name, one.link, part.shape, mentions=own, element=one.element)
+        for name, one, part, own in pieces
+        if part.shape
+    )
 
 
 def opaque_of(
@@ -137,19 +151,19 @@ def opaque_of(
 ) -> tuple[Opaque, ...]:
     """The pieces that are no hulls."""
     return tuple(
-        Opaque(name, body, part.reason, part.surface, part.plane, own)
-        for name, body, part, own in _iterate_pieces(authored, parts, mentions)
+        Opaque(name, one.link, part.reason, part.surface, part.plane, own, one.element)
+        for name, one, part, own in _iterate_pieces(authored, parts, mentions)
         if part.shape is None
     )
 
 
 def _iterate_pieces(
     authored: Sequence[CollisionElement], parts: ElementPieces, mentions: ElementMentions
-) -> Iterator[tuple[str, str, CollisionPiece, Mentions]]:
-    """Name, body and mentions of each piece."""
+) -> Iterator[tuple[str, CollisionElement, CollisionPiece, Mentions]]:
+    """Name, element and mentions of each piece."""
     for element, own, words in zip(authored, parts, mentions, strict=True):
         for name, part, said in zip(element.names, own, words, strict=True):
-            yield name, element.link, part, said
+            yield name, element, part, said
 
 
 @dataclass(frozen=True, slots=True)

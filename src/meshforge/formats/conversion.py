@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from meshforge.common import join_names
+from meshforge.common import AssetError, join_names
 from meshforge.formats.base import Format, Loss, Output
 from meshforge.formats.references import find_companions
 from meshforge.formats.visuals import Visual, VisualSurfaces
@@ -30,6 +30,12 @@ class ConversionReport:
     @property
     def sentences(self) -> tuple[str, ...]:
         return (*self.remarks, *map(str, self.lost))
+
+    def refuse_lost_collision(self, where: str, remedy: str) -> None:
+        """Raise AssetError where non-convex pieces, which collided, do not any more."""
+        if lost := [loss for loss in self.lost if loss.kind is FeatureKind.OPAQUE]:
+            names = join_names([name for loss in lost for name in loss.names], 3)
+            raise AssetError(f"{names} would collide no more: {lost[0].why}", where=where, remedy=remedy)
 
 
 def report_conversion(

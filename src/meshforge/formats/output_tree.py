@@ -35,6 +35,7 @@ class SaveResult:
     """What was written: the main file or folder, all files of its tree, and what the format could not hold.
 
     names: of hulls that the file reads back under another name, that name.
+    hulled: the names of the hulls that it reads back besides, which its engine makes of non-convex pieces.
     report: on an asset that was read from another format, what this one holds and what it does not.
     """
 
@@ -42,6 +43,7 @@ class SaveResult:
     files: tuple[Path, ...]
     notes: tuple[str, ...] = ()
     names: Mapping[str, str] = field(default_factory=dict)
+    hulled: tuple[str, ...] = ()
     report: ConversionReport = field(default=ConversionReport())
 
 
@@ -83,7 +85,7 @@ def save(
             _put_file(place / target.relative_to(out) if target.is_relative_to(out) else target, content, link)
     for path in extra:
         path.unlink()
-    return SaveResult(out, tuple(plan), report.sentences, output.names, report)
+    return SaveResult(out, tuple(plan), report.sentences, output.names, output.hulled, report)
 
 
 def make_output(mesh: SymbolicMesh, kind: str, name: str) -> Output:

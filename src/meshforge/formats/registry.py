@@ -219,6 +219,12 @@ def read(source: Source, options: ReadOptions | None = None) -> Asset:
     return replace(asset, notes=(*asset.notes, note)) if note else asset
 
 
+def notes_after(before: Asset, written: Asset) -> tuple[str, ...]:
+    """What is to be known about how an asset was read, now that it is written: in its own format, of what is there now,
+    since an edit may have dealt with what was to be said of the input."""
+    return written.notes if written.format == before.format else before.notes
+
+
 def _read_source(source: Source, options: ReadOptions) -> Asset:
     if path := path_of(source):
         return format_of(path).read(path, options)

@@ -20,7 +20,13 @@ if TYPE_CHECKING:
     from meshforge.geometry.connectivity import component_roots, components_by_vertices, weld
     from meshforge.geometry.convex import FLATNESS, convex_hull, measure_extents, principal_extents, spans_volume
     from meshforge.geometry.decomposition.by_parts import decompose_by_parts
-    from meshforge.geometry.decomposition.engines import CoacdSettings, DecomposeSettings, EngineControl, VhacdSettings
+    from meshforge.geometry.decomposition.engines import (
+        CoacdSettings,
+        DecomposeSettings,
+        EngineControl,
+        HullSettings,
+        VhacdSettings,
+    )
     from meshforge.geometry.decomposition.fine import FINE_SETTINGS, PieceEngine, decompose_finely
     from meshforge.geometry.decomposition.parts import SurfaceParts, separate_parts, stack_parts
     from meshforge.geometry.decomposition.regions import FinePiece
@@ -83,6 +89,7 @@ __all__ = [
     "HullBudget",
     "HullFault",
     "HullPart",
+    "HullSettings",
     "Ints",
     "Piece",
     "PieceEngine",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from meshforge.common import pluralize, quote_path
@@ -35,7 +35,7 @@ class Adviser:
         """The first thing that is missing on the way from assets to results that are signed off."""
         if self.problem:
             return Advice(f"The program cannot be applied: {self.problem}")
-        return (
+        found = (
             self._advise_hulls()
             or (self._advise_before_learning() if self.rules is None else None)
             or self._advise_program()
@@ -43,6 +43,11 @@ class Adviser:
             or self._advise_output()
             or self._advise_review()
         )
+        if self.rules is None and any(asset.prepared and not asset.is_done for asset in self.assets):
+            return replace(
+                found, say=f"{found.say} Or write what is prepared, without a program: {self._type('apply')}"
+            )
+        return found
 
     def _advise_hulls(self) -> Advice | None:
         bare = [asset for asset in self.assets if asset.hulls == 0 and asset.sources]

@@ -53,18 +53,23 @@ def build_work(
 ) -> tuple[Program, tuple[batch.AssetJob, ...], Mapping[str, Template]]:
     """What `apply` runs on all assets that are not excluded, or on some: the program, their jobs, and the templates.
 
-    Raises ProjectError: no program yet, or no such asset.
+    Where there is no program, but something is prepared, it is one without rules, which writes what is prepared.
+    Raises ProjectError: no program yet and nothing prepared, or no such asset.
     """
     for asset in only or ():
         store.path(asset)
-    program = store.program()
+    program = store.program() or writing_program(store)
     if program is None:
-        raise ProjectError(
-            "there is no program yet", where=str(store.folder), remedy=f"Learn it: meshforge synthesize {store.folder}"
-        )
+        remedy = f"Learn it: meshforge synthesize {store.folder}"
+        raise ProjectError("there is no program yet, and nothing is prepared", where=str(store.folder), remedy=remedy)
     away = store.feedback().exclusions.keys() - set(only or ())
     jobs = tuple(job for job in build_jobs(store, only) if job.id not in away)
     return program, jobs, build_task(store, program).templates
+
+
+def writing_program(store: Store) -> Program | None:
+    """A program without rules, by which assets are written as they are prepared; None where nothing is."""
+    return Program() if store.found.ids.keys() & set(store.layout.ids_with_preparation()) else None
 
 
 def mesh_before_rule(

@@ -37,6 +37,7 @@ class Geom:
     whose contact attributes it inherits.
     contact: those attributes of a geom of the file, by the format's names for them, where it has them geom by geom.
     mentions: what else the file calls it, which may tell what it is; a writer takes no notice of it.
+    element: the collision element of the file that it is one of several pieces of, empty where it is all of it.
     """
 
     name: str
@@ -45,6 +46,7 @@ class Geom:
     parent: str | None = None
     contact: tuple[tuple[str, str], ...] = ()
     mentions: Mentions = ()
+    element: str = ""
 
 
 Rgba = tuple[float, float, float, float]
@@ -79,7 +81,7 @@ class Surface:
 class Opaque:
     """Collision geometry that is no convex hull: shown with its reason, never selected, written back untouched.
 
-    plane: root_T_plane of one that is an endless plane, whose normal is Z; mentions: see `Geom`.
+    plane: root_T_plane of one that is an endless plane, whose normal is Z; mentions, element: see `Geom`.
     """
 
     name: str
@@ -88,6 +90,7 @@ class Opaque:
     surface: Surface | None = None
     plane: Pose | None = None
     mentions: Mentions = ()
+    element: str = ""
 
 
 @dataclass(frozen=True, slots=True)

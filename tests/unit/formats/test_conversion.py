@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from meshforge.formats import read, save
-from meshforge.geometry import Floats
+from meshforge.geometry import Floats, convex_hull
 from meshforge.symbolic import Asset
 from tests.asset_bounds import bounds_of
 from tests.conversion_samples import SAMPLES
@@ -29,9 +29,14 @@ def turn(source: str, target: str) -> Floats:
     return np.array(TURNS.get((UP.get(source, ""), UP.get(target, "")), np.eye(3)), dtype=float)
 
 
-def assert_same_hulls(before: Asset, after: Asset, names: dict[str, str], linear: Floats) -> None:
-    """The hulls of two assets have the same places and sizes."""
-    by_name = {geom.name: geom.shape for geom in after.geoms}
+def assert_same_hulls(
+    before: Asset, after: Asset, names: dict[str, str], linear: Floats, hulled: tuple[str, ...] = ()
+) -> None:
+    """The hulls of two assets have the same places and sizes; hulled: those that an engine makes besides."""
+    assert set(hulled) <= {geom.name for geom in after.geoms} and (
+        not hulled or len(hulled) == sum(piece.surface is not None for piece in before.opaque)
+    )
+    by_name = {geom.name: geom.shape for geom in after.geoms if geom.name not in hulled}
     assert len(by_name) == len(before.geoms)
     slack = SINGLE * bounds_of(before).diagonal
     for geom in before.geoms:
@@ -53,7 +58,7 @@ def test_every_pair_of_formats_keeps_the_hulls(source: str, target: str, sample:
     before = read(written(sample, source, tmp_path))
     saved = save(before, tmp_path / "second" / f"thing{target}")
     after = read(saved.path)
-    assert_same_hulls(before, after, dict(saved.names), turn(source, target))
+    assert_same_hulls(before, after, dict(saved.names), turn(source, target), saved.hulled)
     if target not in PLAIN:
         bodies = {geom.name: geom.body for geom in after.geoms}
         assert {bodies[saved.names.get(g.name, g.name)] for g in before.geoms} == {g.body for g in before.geoms}
@@ -76,11 +81,15 @@ def test_opaque_pieces_with_a_surface_come_back_as_such(target: str, tmp_path: P
     assert len(after.geoms) == 1
 
 
-def test_mujoco_does_not_get_the_convex_hull_of_an_opaque_piece_to_collide_with(tmp_path: Path) -> None:
-    after = read(save(SAMPLES["opaque"](), tmp_path / "thing.xml").path)
-    assert [geom.name for geom in after.geoms] == ["room/stool"]
+def test_mujoco_collides_with_the_convex_hull_of_an_opaque_piece(tmp_path: Path) -> None:
+    before = SAMPLES["opaque"]()
+    saved = save(before, tmp_path / "thing.xml")
+    after = read(saved.path)
+    assert [geom.name for geom in after.geoms] == ["room/stool", "room/walls"] and saved.hulled == ("room/walls",)
     assert [(piece.name, piece.plane is not None) for piece in after.opaque] == [("room/floor", True)]
-    assert [surface.body for surface in after.visuals] == ["room"]
+    (walls,) = (piece.surface for piece in before.opaque if piece.surface)
+    assert after.geoms[1].shape.volume == pytest.approx(convex_hull(walls.vertices).volume, rel=1e-6)
+    assert any(note.endswith("MuJoCo will collide with its hull (71% full)") for note in saved.notes)
 
 
 @pytest.mark.parametrize("target", [".urdf", ".xml", ".sdf", ".glb"])

@@ -10,6 +10,7 @@ import mujoco
 import numpy as np
 import pytest
 
+from meshforge.common import AssetError
 from meshforge.formats import SaveResult, read, save
 from meshforge.formats.visuals import Visual, VisualSurfaces
 from meshforge.geometry import Aabb, Box, Pose, Sphere, convex_hull
@@ -266,19 +267,38 @@ def test_a_visual_that_is_sheared_is_written_as_it_looks(tmp_path: Path) -> None
     np.testing.assert_allclose(after.visuals[0].vertices, asset.visuals[0].vertices, atol=1e-5)
 
 
-def test_an_opaque_piece_shows_where_its_body_shows_nothing_else(tmp_path: Path) -> None:
+def test_an_opaque_piece_is_the_mesh_that_mujoco_hulls_whatever_its_body_shows(tmp_path: Path) -> None:
     surface = Surface(*angle())
     pieces = (Opaque("base/shell", "base", "not convex", surface), Opaque("arm/shell", "arm", "not convex", surface))
     asset = replace(shown(tmp_path, "box.obj", ONE), opaque=pieces)
     after, model, saved = made(asset, tmp_path)
-    assert [visual.body for visual in after.visuals] == ["base", "arm"]
-    assert int((model.geom_contype != 0).sum()) == 2
-    assert [note for note in saved.notes if "opaque" in note] == [
-        "1 opaque piece (base/shell) is left out: MuJoCo would collide with the convex hull, and the body shows a "
-        "visual already",
-        "1 opaque piece (arm/shell) is written as a surface that does not collide: MuJoCo would collide with the "
-        "convex hull",
+    assert [visual.body for visual in after.visuals] == ["base"]
+    assert int((model.geom_contype != 0).sum()) == 4
+    assert [geom.name for geom in after.geoms] == ["base/foot", "base/shell", "arm/bone", "arm/shell"]
+    assert saved.hulled == ("base/shell", "arm/shell")
+    assert [note for note in saved.notes if "convex" in note] == [
+        "each of 2 non-convex pieces (base/shell, arm/shell) is written as it is: MuJoCo will collide with its hull "
+        "(71% full)"
     ]
+
+
+def test_a_flat_opaque_piece_which_mujoco_refuses_is_lost_and_said_to_be(tmp_path: Path) -> None:
+    points = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0.9, 0.1, 0]], dtype=float)
+    flat = Opaque("arm/sheet", "arm", "flat", Surface(points, np.array([[0, 1, 3], [1, 2, 3]])))
+    after, _, saved = made(replace(pair(), opaque=(flat,)), tmp_path)
+    assert [geom.name for geom in after.geoms] == ["base/foot", "arm/bone"] and saved.hulled == ()
+    assert "1 opaque piece (arm/sheet) is left out: MuJoCo refuses a mesh that is flat" in saved.notes
+    with pytest.raises(AssetError, match="arm/sheet would collide no more: MuJoCo refuses a mesh that is flat"):
+        saved.report.refuse_lost_collision("here", "Make a hull of it.")
+
+
+def test_a_body_of_a_mesh_alone_has_the_mass_of_its_hull(tmp_path: Path) -> None:
+    surface = Surface(*angle())
+    asset = replace(pair(), opaque=(Opaque("arm/shell", "arm", "not convex", surface),))
+    asset = replace(asset, geoms=asset.geoms[:1])
+    _, model, saved = made(asset, tmp_path)
+    assert model.body("arm").mass[0] == pytest.approx(1000 * convex_hull(surface.vertices).volume)
+    assert "MuJoCo computes the masses that the file does not say, at 1000 kg/m^3 (base, arm)" in saved.notes
 
 
 def test_without_visuals_hulls_are_shown_and_with_them_they_are_in_group_three(tmp_path: Path) -> None:

@@ -106,7 +106,7 @@ def test_opaque_pieces_are_meshes_as_they_are_unless_they_are_flat(flat: bool, t
     assert [n for n in said if "lid/open" in n] == [
         "1 opaque piece (lid/open) is left out: engines refuse a mesh that is flat"
         if flat
-        else "of non-convex pieces (lid/open) engines take the convex hull"
+        else "1 non-convex piece (lid/open) is written as it is: MuJoCo and Bullet will collide with its hull"
     ]
 
 

@@ -5,19 +5,22 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from fnmatch import fnmatchcase
+from glob import escape
 from importlib.metadata import version
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
 from meshforge import geometry
 from meshforge.batch.preparation import record
-from meshforge.common import MeshForgeError, join_names, pluralize
+from meshforge.common import GeometryError, MeshForgeError, join_names, pluralize
 from meshforge.formats import DecomposeBy, SegmentationFile, labels_beside, plain_part_name, points_beside, read_parts
-from meshforge.geometry import Aabb, DecomposeSettings, Floats, Polytope
+from meshforge.geometry import Aabb, CoacdSettings, DecomposeSettings, Floats, HullSettings, Polytope
 from meshforge.symbolic import Asset, Surface
 
+Concave = Literal["keep", "hull", "decompose"]
+"""What is done with collision meshes that are not convex."""
 _NEAR = 0.01  # of the diagonal: surface farther outside of all hulls than this is not covered
 _POINTS = 4000
 _SKIN = 0.01  # a surface that encloses less of its hulls is a sheet with two sides, which has no volume to speak of
@@ -52,6 +55,8 @@ def decompose_asset(
 ) -> DecompositionResult:
     """Decompose all opaque pieces of an asset, and what bodies without collision geometry show.
 
+    With `HullSettings` each collision element that is no hull is one, whatever the pieces that it was read as.
+
     asset: as it was read; before: what is prepared already and stays as it is, as far as it still fits the asset;
     only: names, or patterns of them, of pieces and bodies, none for all; again: decompose anew what is decomposed;
     hollow: planar holes are not closed first, so that shells of one sheet are not filled; by: `parts` decomposes each
@@ -65,7 +70,8 @@ def decompose_asset(
     made: list[record.Replacement] = []
     hulls: list[Polytope] = []
     failed: list[record.PieceProblem] = []
-    bare, told = record.find_sources(fit.asset), list[str]()
+    is_hull = isinstance(settings, HullSettings) and by == "whole"  # which stands for a whole element, as engines do it
+    bare, told = record.find_sources(fit.asset, asset if is_hull else None), list[str]()
     if by == "labels" and bare:
         bare = _label_sources(fit.asset, bare, told.append)
     missed = _describe_no_match(only, [*(source.what for source in bare), *kept.source_names])
@@ -89,6 +95,24 @@ def decompose_asset(
     return DecompositionResult(kept, tuple(made), tuple(failed), fit.lost, missed)
 
 
+def replace_concave(asset: Asset, how: Concave) -> Asset:
+    """An asset with hulls in the place of its non-convex collision meshes; what has no triangles stays.
+
+    how: `hull` makes one of each collision element that is not convex, as MuJoCo and Bullet do, `decompose` several by
+    CoACD, `keep` none. Raises GeometryError naming a piece of which none can be made.
+    """
+    pieces = [piece for piece in asset.opaque if piece.surface is not None and len(piece.surface.faces)]
+    names = {piece.element if piece.element and how == "hull" else piece.name for piece in pieces}
+    if how == "keep" or not names:
+        return asset
+    settings = HullSettings() if how == "hull" else CoacdSettings()
+    only = [escape(name) for name in sorted(names)]
+    done = decompose_asset(asset, record.Preparation(), settings, only=only, cache=geometry.cache_folder())
+    for lost in done.failed:
+        raise GeometryError(lost.why, where=lost.what)
+    return record.apply_preparation(asset, done.preparation)
+
+
 def _decompose_source(
     source: record.DecompositionSource,
     settings: DecomposeSettings,
@@ -108,10 +132,11 @@ def _decompose_source(
         names = _name_by_parts(source.base, [surface.parts.names[one.part] for one in found], taken)
     else:
         hulls = decompose_surface(surface, settings, source.what, hollow=hollow, cache=cache, note=notes.append)
-        names = record.free_names(source.base, len(hulls), taken)
+        is_free = source.kind == "element" and len(hulls) == 1 and source.base not in taken
+        names = [source.base] if is_free else record.free_names(source.base, len(hulls), taken)
         notes += [] if by == "whole" else ["no parts are known, so it was decomposed as a whole"]
     made = dict(zip(names, map(record.hull_digest, hulls), strict=True))
-    remarks = "; ".join([describe_fit(source.surface, hulls, solid=source.kind == "opaque" and not hollow), *notes])
+    remarks = "; ".join([describe_fit(source.surface, hulls, solid=source.kind != "body" and not hollow), *notes])
     return record.Replacement(source.what, source.kind, record.surface_digest(source.surface), made, remarks), hulls
 
 

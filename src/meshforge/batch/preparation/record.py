@@ -13,10 +13,11 @@ import numpy as np
 from meshforge.common import AssetError, join_names, pluralize
 from meshforge.formats import NO_GEOMETRY
 from meshforge.geometry import Polytope, SurfaceParts, digest, is_line, stack_parts
-from meshforge.symbolic import Asset, Geom, Surface
+from meshforge.symbolic import Asset, Geom, Opaque, Surface
 
-SourceKind = Literal["opaque", "body", "hull"]
-"""What is replaced: an opaque piece; nothing, by what a body without collision geometry shows; or a hull."""
+SourceKind = Literal["opaque", "element", "body", "hull"]
+"""What is replaced: an opaque piece; all pieces of a collision element; nothing, by what a body shows that
+has no collision geometry; or a hull."""
 
 _GRID = 1.4142135e-7
 """[m] Coordinates are compared in these steps; no round number, so that rounding errors tip no round coordinates."""
@@ -26,9 +27,9 @@ _GRID = 1.4142135e-7
 class Replacement:
     """One piece and the hulls that stand in its place.
 
-    what: the name of the piece, or of the body; source: the digest of its geometry, by which a change is noticed;
-    made: the digest of each hull by its name; told: how well they fit, for people; with_body: whether it is replaced
-    only because all hulls of its body are.
+    what: the name of the piece, the element or the body; source: the digest of its geometry, by which a change is
+    noticed; made: the digest of each hull by its name; told: how well they fit, for people; with_body: whether it is
+    replaced only because all hulls of its body are.
     """
 
     what: str
@@ -115,7 +116,8 @@ def free_names(base: str, count: int, taken: Iterable[str]) -> list[str]:
 class DecompositionSource:
     """Geometry without hulls.
 
-    what: the name of the opaque piece or the body; base: what names of its hulls begin with; surface: its triangles.
+    what: the name of the opaque piece, the element or the body; base: what names of its hulls begin with;
+    surface: its triangles.
     """
 
     what: str
@@ -130,14 +132,38 @@ class DecompositionSource:
         return is_line(self.surface.vertices[self.surface.faces].reshape(-1, 3))
 
 
-def find_sources(asset: Asset) -> tuple[DecompositionSource, ...]:
-    """All that can be decomposed, in the order of the file; planes and the like, which have no triangles, stay."""
+def find_sources(asset: Asset, as_read: Asset | None = None) -> tuple[DecompositionSource, ...]:
+    """All that can be decomposed, in the order of the file; planes and the like, which have no triangles, stay.
+
+    as_read: where it is given, a collision element of which all pieces are still as they were read is one source.
+    """
+    whole = _find_elements(as_read) if as_read else {}
+    elements = {e: own for e, own in _find_elements(asset).items() if len(own) == len(whole.get(e, ()))}
+    joined = (_join_element(element, own) for element, own in elements.items())
     pieces = (
         DecompositionSource(piece.name, "opaque", piece.body, piece.name, piece.surface)
         for piece in asset.opaque
-        if piece.surface is not None and len(piece.surface.faces)
+        if piece.surface is not None and len(piece.surface.faces) and piece.element not in elements
     )
-    return (*pieces, *_find_bare_bodies(asset))
+    return (*(source for source in joined if source), *pieces, *_find_bare_bodies(asset))
+
+
+def _find_elements(asset: Asset) -> dict[str, list[Geom | Opaque]]:
+    """The pieces of each collision element that has several."""
+    found = dict[str, list[Geom | Opaque]]()
+    pieces: list[Geom | Opaque] = [*asset.geoms, *asset.opaque]
+    for piece in pieces:
+        if piece.element:
+            found.setdefault(piece.element, []).append(piece)
+    return found
+
+
+def _join_element(element: str, pieces: Sequence[Geom | Opaque]) -> DecompositionSource | None:
+    body = pieces[0].body
+    hulls = [piece.shape.tessellate() for piece in pieces if isinstance(piece, Geom)]
+    shown = [piece.surface for piece in pieces if isinstance(piece, Opaque) and piece.surface]
+    joined = _stack([*(Surface(hull.vertices, hull.faces) for hull in hulls), *shown], body)
+    return DecompositionSource(element, "element", body, element, joined) if joined else None
 
 
 def _find_bare_bodies(asset: Asset) -> Iterable[DecompositionSource]:
@@ -247,9 +273,10 @@ def _find_problem(asset: Asset, entry: Replacement) -> str | None:
 def _source_digest(asset: Asset, entry: Replacement) -> str | None:
     if entry.kind == "hull":
         return next((digest(geom.shape) for geom in asset.geoms if geom.name == entry.what), None)
-    if entry.kind == "opaque":
+    if entry.kind in ("opaque", "element"):
         asset = replace(asset, bodies=())  # so that visuals are not read
-    found = (s for s in find_sources(asset) if (s.kind, s.what) == (entry.kind, entry.what))
+    sources = find_sources(asset, asset if entry.kind == "element" else None)
+    found = (s for s in sources if (s.kind, s.what) == (entry.kind, entry.what))
     return next((surface_digest(source.surface) for source in found), None)
 
 
@@ -261,10 +288,16 @@ def _replace_piece(asset: Asset, entry: Replacement, preparation: Preparation, a
         parent = old.parent or (old.name if old.name in authored else None)
         parts = [Geom(name, old.body, shape, parent, mentions=old.mentions) for name, shape in shapes.items()]
         return asset.with_geoms(part for geom in asset.geoms for part in (parts if geom is old else [geom]))
-    gone = next((piece for piece in asset.opaque if piece.name == entry.what), None) if entry.kind == "opaque" else None
-    body, parent = (gone.body, gone.name) if gone else (entry.what, None)
-    mentions = gone.mentions if gone else ()
+    gone: Sequence[Geom | Opaque] = ()
+    if entry.kind == "element":
+        gone = _find_elements(asset)[entry.what]
+    elif entry.kind == "opaque":
+        gone = [piece for piece in asset.opaque if piece.name == entry.what]
+    body, parent = (gone[0].body, gone[0].name) if gone else (entry.what, None)
+    mentions = tuple(one for one in gone[0].mentions if len(gone) == 1 or one[0] != "group") if gone else ()
     made = (Geom(name, body, shape, parent, mentions=mentions) for name, shape in shapes.items())
     return replace(
-        asset, geoms=(*asset.geoms, *made), opaque=tuple(piece for piece in asset.opaque if piece is not gone)
+        asset,
+        geoms=(*(geom for geom in asset.geoms if geom not in gone), *made),
+        opaque=tuple(piece for piece in asset.opaque if piece not in gone),
     )

@@ -11,11 +11,13 @@ import numpy as np
 from meshforge.common import join_names, pluralize
 from meshforge.formats import mesh_output, visuals, xml
 from meshforge.formats.base import Loss, Output
+from meshforge.formats.collision_pieces import is_flat
+from meshforge.formats.concave import note_hulled
 from meshforge.formats.couplings import plan_couplings
 from meshforge.formats.kinematic_tree import BodyTree, claim_name
 from meshforge.formats.mjcf import document, elements, references
-from meshforge.geometry import Pose
-from meshforge.symbolic import Asset, FeatureKind, Geom, Joint, Opaque, Rgba, Surface
+from meshforge.geometry import Aabb, Pose, convex_hull
+from meshforge.symbolic import Asset, FeatureKind, Geom, Joint, Opaque, Rgba
 
 WORLD = "world"
 """What MuJoCo calls the body that never moves; no other may have this name."""
@@ -41,7 +43,8 @@ def create_mjcf(asset: Asset, name: str) -> Output:
     """The files of an asset that came from another format.
 
     Bodies are nested as joints have it, those without a joint stand in the world and do not move. Hulls become native
-    geoms or meshes, one a file; non-convex pieces and visuals geoms that do not collide.
+    geoms or meshes, one a file; non-convex pieces meshes as they are, with whose hulls MuJoCo collides; visuals geoms
+    that do not collide.
     """
     return _Creator(asset, Path(name).stem).build_output()
 
@@ -66,13 +69,14 @@ class _Creator:
             elements.tag("mujoco", {"model": self.stem}, closed=False),
             b"  " + elements.tag("compiler", {"angle": "radian"}),
         ]
-        defaults = _DEFAULTS if self.made.shown or self.asset.opaque else []
+        defaults = _DEFAULTS if self.made.shown else []
         meshes, files = self.made.meshes, self.made.files
         main = b"\n".join([*head, *defaults, *meshes.lines(), *body, *self._equality_lines(), b"</mujoco>", b""])
         reads = {geom.name: self.named[geom.name][1] for geom in self.asset.geoms}
         names = {name: read for name, read in reads.items() if read != name}
         lost = (*self.made.losses(), *self.lost, *self.couplings.lost)
-        return Output(main, dict(meshes.files.made), files.copies, self._collect_notes(), names, lost)
+        hulled = tuple(self.named[piece.name][1] for piece, _ in self.made.hulled)
+        return Output(main, dict(meshes.files.made), files.copies, self._collect_notes(), names, lost, hulled)
 
     def _body_lines(self) -> Iterator[bytes]:
         """The `<worldbody>`, bodies nested in it."""
@@ -124,12 +128,12 @@ class _Creator:
         joints = [part for joint in self.tree.joints[body] for part in self._split_joint(joint, top)]
         own = [geom for geom in self.asset.geoms if geom.body == body]
         yield from (lead + elements.joint_tag(joint, self.poses[body]) for joint in joints)
-        lines = [*self._mass_lines(body, bool(joints), sum(geom.shape.volume for geom in own))]
-        lines += [self.made.make_hull(geom) for geom in own]
         pieces = [piece for piece in self.asset.opaque if piece.body == body]
-        lines += [text for piece in pieces if piece.plane for text in self.made.make_plane(piece, piece.plane)]
-        lines += self.made.make_visuals(body)
-        lines += [text for piece in pieces if piece.surface for text in self.made.make_surface(piece, piece.surface)]
+        hulls = [self.made.make_hull(geom) for geom in own]
+        for piece in pieces:
+            hulls += self.made.make_plane(piece, piece.plane) if piece.plane else self.made.make_surface(piece)
+        volume = sum(geom.shape.volume for geom in own) + sum(v for piece, v in self.made.hulled if piece.body == body)
+        lines = [*self._mass_lines(body, bool(joints), volume), *hulls, *self.made.make_visuals(body)]
         yield from (lead + text for text in lines)
 
     def _split_joint(self, joint: Joint, top: bool) -> Sequence[Joint]:
@@ -159,6 +163,7 @@ class _Creator:
     def _collect_notes(self) -> tuple[str, ...]:
         notes = [*self.couplings.notes]
         notes += [f"{text} ({join_names(bodies, 3)})" if bodies else text for text, bodies in self.notes.items()]
+        notes += note_hulled([piece for piece, _ in self.made.hulled], "MuJoCo")
         if not any(joint.kind == "floating" for joint in self.asset.mechanism.joints):
             roots = [self.bodies[root] for root in self.tree.roots if self.bodies[root] != WORLD]
             roots = roots or [b for b in self.tree.order if self.tree.parent(b) == WORLD and self.tree.is_static(b)]
@@ -171,7 +176,8 @@ class _Creator:
 
 
 class NewGeomMaker:
-    """Makes elements for one asset; names: of hulls and planes their attributes; lost: what cannot be made of it."""
+    """Makes elements for one asset; names: of what collides its attributes; lost: what cannot be made of it;
+    hulled: the non-convex pieces that are made, each with the volume [m^3] of its hull."""
 
     def __init__(self, asset: Asset, stem: str, tree: BodyTree, names: dict[str, str]) -> None:
         self.tree, self.poses, self.names = tree, asset.body_poses, names
@@ -180,19 +186,20 @@ class NewGeomMaker:
         self.files = mesh_output.VisualFiles(self.meshes.files, references.is_shown_whole)
         self.files.gather(self.shown)
         self.lost: list[Loss] = []
+        self.hulled: list[tuple[Opaque, float]] = []
 
     def make_hull(self, geom: Geom) -> bytes:
         """The geom of a hull."""
-        named = self._name_attribute(geom.name)
-        class_ = {"class": "collision"} if self.shown else {}
-        body_t_root = self.poses[geom.body].inverse()
-        shape = geom.shape.move(body_t_root)
+        shape = geom.shape.move(self.poses[geom.body].inverse())
         if isinstance(shape, elements.MjcfShape):
-            return elements.tag("geom", {**named, **class_, **elements.geom_attributes(shape)})
-        middle = shape.aabb.center
-        place = Pose.of_translation(middle if np.linalg.norm(middle) > _FAR * shape.aabb.diagonal else np.zeros(3))
+            return elements.tag("geom", {**self._head_of(geom.name), **elements.geom_attributes(shape)})
+        place = _place_mesh(shape.aabb)
         mesh = self.meshes.add_hull(geom.name, shape.move(place.inverse()).tessellate())
-        return elements.tag("geom", {**named, **class_, **elements.mesh_geom_attributes(mesh, place)})
+        return elements.tag("geom", {**self._head_of(geom.name), **elements.mesh_geom_attributes(mesh, place)})
+
+    def _head_of(self, piece: str) -> dict[str, str]:
+        """The first attributes of a geom that collides."""
+        return self._name_attribute(piece) | ({"class": "collision"} if self.shown else {})
 
     def _name_attribute(self, piece: str) -> dict[str, str]:
         return {"name": self.names[piece]} if self.names[piece] else {}
@@ -220,25 +227,35 @@ class NewGeomMaker:
         place = elements.pose_attributes(self.poses[piece.body].inverse() @ plane)
         yield elements.tag("geom", {**self._name_attribute(piece.name), "type": "plane", "size": "0 0 1", **place})
 
-    def make_surface(self, piece: Opaque, surface: Surface) -> Iterator[bytes]:
-        """A non-convex surface to look at, where its body shows nothing else."""
-        why = "MuJoCo would collide with the convex hull"
-        if any(body == piece.body for body, _ in self.shown):
-            self.lost.append(Loss(FeatureKind.OPAQUE, (piece.name,), f"{why}, and the body shows a visual already"))
+    def make_surface(self, piece: Opaque) -> Iterator[bytes]:
+        """The mesh of a non-convex surface, as it is: MuJoCo collides with its convex hull."""
+        if piece.name not in self.names or piece.surface is None:
+            if piece.surface is not None:
+                self.lost.append(Loss(FeatureKind.OPAQUE, (piece.name,), "MuJoCo refuses a mesh that is flat"))
             return
-        seen = self.files.add_visual(piece.name, surface, self.poses[piece.body])
-        assert seen is not None and isinstance(seen.what, str)  # a surface becomes a file, which can be read
-        self.lost.append(Loss(FeatureKind.OPAQUE, (piece.name,), why, "written as a surface that does not collide"))
-        yield _visual_tag(elements.mesh_geom_attributes(self.meshes.add_visual(seen.what, seen.scale), seen.pose), None)
+        vertices = self.poses[piece.body].inverse().apply(piece.surface.vertices)
+        place, volume = _place_mesh(Aabb.of_points(vertices)), convex_hull(vertices, name=piece.name).volume
+        mesh = self.meshes.add_surface(piece.name, place.inverse().apply(vertices), piece.surface.faces, volume)
+        self.hulled.append((piece, volume))
+        yield elements.tag("geom", {**self._head_of(piece.name), **elements.mesh_geom_attributes(mesh, place)})
 
     def losses(self) -> tuple[Loss, ...]:
         """What is lost, visuals without a file that can be read included."""
         return (*visuals.unreadable_visuals(self.files.refused), *self.lost)
 
 
+def _place_mesh(box: Aabb) -> Pose:
+    """Where the file of a mesh in a box is placed in its body."""
+    return Pose.of_translation(box.center if np.linalg.norm(box.center) > _FAR * box.diagonal else np.zeros(3))
+
+
 def _visual_tag(attributes: dict[str, str], rgba: Rgba | None) -> bytes:
     color = {"rgba": xml.format_numbers(rgba)} if rgba else {}
     return elements.tag("geom", {"class": "visual", **attributes, **color})
+
+
+def _can_collide(piece: Opaque) -> bool:
+    return piece.surface is not None and len(piece.surface.faces) > 0 and not is_flat(piece.surface.vertices)
 
 
 def name_bodies(tree: BodyTree) -> dict[str, str]:
@@ -249,12 +266,12 @@ def name_bodies(tree: BodyTree) -> dict[str, str]:
 
 
 def name_geoms(asset: Asset, tree: BodyTree, bodies: dict[str, str]) -> dict[str, tuple[str, str]]:
-    """For each hull and plane the name attribute, empty where it needs none, and the name that it reads back as.
+    """For each hull, plane and mesh the name attribute, empty where it needs none, and the name that it reads back as.
 
     bodies: what the bodies of the tree are called.
     """
     pieces = [(geom.name, geom.body) for geom in asset.geoms]
-    pieces += [(piece.name, piece.body) for piece in asset.opaque if piece.plane]
+    pieces += [(piece.name, piece.body) for piece in asset.opaque if piece.plane or _can_collide(piece)]
     ordered = [(name, own) for body in tree.order for name, own in pieces if own == body]
     plain = [name.removeprefix(f"{body}/") for name, body in ordered]
     holders = [bodies[body] for _, body in ordered]

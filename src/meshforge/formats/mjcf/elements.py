@@ -15,7 +15,7 @@ from meshforge.formats.mesh_output import HullFiles
 from meshforge.formats.mjcf.document import MjcfNode, MjcfTree
 from meshforge.formats.mjcf.model import MjcfModel
 from meshforge.formats.xml import Splice, escape, format_numbers, line_gap, remove_element, set_attribute
-from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Floats, Polytope, Pose, Sphere, principal_axes
+from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Floats, Ints, Polytope, Pose, Sphere, principal_axes
 from meshforge.symbolic import Inertial, Joint, JointKind
 
 MjcfShape = Box | Capsule | Cylinder | Ellipsoid | Sphere
@@ -93,6 +93,11 @@ class MeshAssets:
         """The name of the mesh of a hull, whose file is made."""
         extra = {"inertia": "shell"} if shape.volume < _TINY else {}
         return self._add(self.files.add(name, "", shape.vertices, shape.faces), extra)
+
+    def add_surface(self, name: str, vertices: Floats, faces: Ints, volume: float) -> str:
+        """The name of the mesh of a non-convex surface, whose file is made; volume: of its hull [m^3]."""
+        inertia = "shell" if volume < _TINY else "convex"
+        return self._add(self.files.add(name, "", vertices, faces), {"inertia": inertia})
 
     def add_visual(self, file: str, scale: Floats) -> str:
         """The name of the mesh of a visual file under scales (3,); nothing of it counts for masses or collisions."""

@@ -4,9 +4,8 @@ masses and visuals."""
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from pathlib import Path
-from typing import ClassVar
 
 from meshforge.common import AssetError, require_mujoco
 from meshforge.formats.base import BODY_FEATURES, Format, Mass, Output, ReadOptions, feature_of_others, list_others
@@ -35,10 +34,9 @@ class MjcfFormat(Format):
     title = "MJCF"
     up = "z"
     holds = BODY_FEATURES | {
-        *(FeatureKind.CAPSULES, FeatureKind.ELLIPSOIDS, FeatureKind.PLANES),
+        *(FeatureKind.CAPSULES, FeatureKind.ELLIPSOIDS, FeatureKind.PLANES, FeatureKind.OPAQUE),
         *(FeatureKind.JOINTS, FeatureKind.BALL_JOINTS, FeatureKind.MIMICS),
     }
-    instead: ClassVar[Mapping[FeatureKind, str]] = {FeatureKind.OPAQUE: "written as surfaces that do not collide"}
 
     def matches_head(self, head: bytes) -> bool:
         root = _ROOT.match(head.decode("utf-8", "replace").replace("\0", ""))

@@ -90,14 +90,20 @@ class PlainFormat(Format):
         document, found, soup = self._parse(mesh_reader.read_content(path), path)
         named = [(name, piece, _mentions_of(soup, piece)) for name, piece in zip(document.names, found, strict=True)]
         shapes, notes = self.interpret_hulls(document, found)
+        own = [[name for name, piece, _ in named if piece.group == group] for group in range(len(soup.names))]
+        elements = [collision_pieces.element_of(names) if names else "" for names in own]
         return Asset(
             path=path,
             format=self.name,
             bodies=(Body(BODY, Pose.identity()),),
-            geoms=tuple(Geom(name, BODY, shapes[name], mentions=said) for name, _, said in named if name in shapes),
+            geoms=tuple(
+                Geom(name, BODY, shapes[name], mentions=said, element=elements[piece.group])
+                for name, piece, said in named
+                if name in shapes
+            ),
             document=document,
             opaque=tuple(
-                Opaque(name, BODY, piece.reason or "", _surface_of(soup, piece), mentions=said)
+                Opaque(name, BODY, piece.reason or "", _surface_of(soup, piece), None, said, elements[piece.group])
                 for name, piece, said in named
                 if not piece.shape
             ),

@@ -105,7 +105,8 @@ class FolderFormat(Format):
 def _rename(piece: GeomOrOpaque, name: str) -> GeomOrOpaque:
     """A piece of a file with its name in the folder; a name that its file alone has is not forgotten."""
     own: Mentions = () if piece.name in name or piece.name.startswith("geom") else (("group", piece.name),)
-    return replace(piece, name=name, mentions=(*own, *piece.mentions))
+    element = name.rpartition("#")[0] if piece.element else ""
+    return replace(piece, name=name, mentions=(*own, *piece.mentions), element=element)
 
 
 @dataclass(frozen=True, eq=False, slots=True)

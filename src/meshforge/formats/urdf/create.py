@@ -9,6 +9,7 @@ import numpy as np
 from meshforge.common import join_names, pluralize
 from meshforge.formats import collision_pieces, link_output, mesh_output
 from meshforge.formats.base import Loss, Output
+from meshforge.formats.concave import note_hulled
 from meshforge.formats.kinematic_tree import LIGHT_INERTIAL, JointRules
 from meshforge.formats.slots import Slot, assign_names
 from meshforge.formats.urdf import edit
@@ -72,10 +73,8 @@ class _Creator(link_output.LinkCreator):
     def _collect_notes(self) -> tuple[str, ...]:
         """What engines make of what the file does not say."""
         notes = [*self.chain.notes, *self.couplings.notes]
-        pieces = {piece.name for piece in self.asset.opaque}
-        opaque = [name for own in self.slots.values() for slot in own for name in slot.names if name in pieces]
-        if opaque:
-            notes.append(f"of non-convex pieces ({join_names(opaque, 3)}) engines take the convex hull")
+        written = {name for own in self.slots.values() for slot in own for name in slot.names}
+        notes += note_hulled([p for p in self.asset.opaque if p.name in written], "MuJoCo and Bullet")
         sliding = [made for made in self.chain.joints if made.joint and made.joint.kind == "prismatic"]
         unlimited = join_names([made.name for made in sliding if made.joint and not made.joint.limits], 3)
         if unlimited:

@@ -117,7 +117,8 @@ def _build_geoms(
         contact = colliders.contact_attributes(source.prim)
         for name, part in zip(element.names, source.parts, strict=True):
             if part.shape is not None:
-                yield Geom(name, element.body, part.shape, contact=contact, mentions=own)
+                whole = collision_pieces.element_of(element.names)
+                yield Geom(name, element.body, part.shape, contact=contact, mentions=own, element=whole)
 
 
 def find_files(path: Path) -> tuple[tuple[Path, ...], tuple[str, ...]]:

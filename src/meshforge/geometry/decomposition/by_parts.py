@@ -167,6 +167,8 @@ def _share_settings(
 ) -> dict[int, engines.DecomposeSettings]:
     """The settings of each part, by its number, so that they mean for it what they mean for the whole."""
     numbers = parts.numbers
+    if isinstance(settings, engines.HullSettings):
+        return dict.fromkeys(numbers, settings)
     sizes = {k: np.ptp(points[np.unique(triangles[parts.of_face == k])], axis=0) for k in numbers}
     whole = np.ptp(points[np.unique(triangles)], axis=0)
     most = settings.max_convex_hull if isinstance(settings, engines.CoacdSettings) else settings.max_convex_hulls
@@ -181,6 +183,8 @@ def scale_settings(
 ) -> engines.DecomposeSettings:
     """The settings of a part of some extents (3,) [m] of a whole of others, so that they mean for it what they mean for
     the whole; most: its share of the hulls."""
+    if isinstance(settings, engines.HullSettings):
+        return settings
     if isinstance(settings, engines.CoacdSettings):
         ratio = float(whole.max() / size.max()) if size.max() > 0 and not settings.real_metric else 1.0
         threshold = settings.threshold if ratio == 1.0 else float(np.clip(settings.threshold * ratio, _LOW, _HIGH))

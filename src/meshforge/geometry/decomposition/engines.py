@@ -105,7 +105,15 @@ class VhacdSettings(_Settings):
     find_best_plane: bool = _option(False, "Search the best cut instead of the middle (slow).")
 
 
-DecomposeSettings = CoacdSettings | VhacdSettings
+@dataclass(frozen=True, slots=True)
+class HullSettings(_Settings):
+    """One convex hull of all there is, by Qhull: what MuJoCo and Bullet make of a mesh. There is nothing to set."""
+
+    engine: ClassVar[str] = "hull"
+    package: ClassVar[str] = "scipy"
+
+
+DecomposeSettings = CoacdSettings | VhacdSettings | HullSettings
 
 
 EnginePiece = tuple[Floats, Ints]

@@ -13,7 +13,10 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from meshforge.common import GeometryError, pluralize, write_atomically
+from meshforge.geometry.arrays import freeze_floats, freeze_ints
 from meshforge.geometry.convex import FLATNESS, convex_hull, principal_extents
 from meshforge.geometry.decomposition import engines
 from meshforge.geometry.decomposition.triangles import TriangleMesh, cap_holes, clean_triangles
@@ -42,6 +45,9 @@ def decompose(
     Raises GeometryError: a mesh that cannot be decomposed, an engine that crashed or took too long;
     DecompositionCancelledError: `control` stopped it.
     """
+    if isinstance(settings, engines.HullSettings):
+        used = freeze_floats(vertices, (-1, 3))[np.unique(freeze_ints(faces, (-1, 3)))]
+        return [convex_hull(used, name="the mesh", thicken=FLATNESS * float(np.linalg.norm(np.ptp(used, axis=0))))]
     mesh = read_solid(vertices, faces, settings or engines.CoacdSettings(), close, note)
     (hulls,) = decompose_solids([mesh], cache, note, control)
     if isinstance(hulls, GeometryError):

@@ -1,0 +1,82 @@
+"""What is prepared, written without a program: the command says so, and status, prepare and split propose it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from meshforge.formats import load
+from meshforge.project import Project
+from tests.unit.batch.preparation.samples import write_boxes, write_stand
+from tests.unit.cli.in_process import Run, runner
+
+HULL = ("--decompose", "hull", "--workers", "1")
+SAID = "There is no program yet: assets are written as they are prepared, and nothing else is edited."
+
+
+@pytest.fixture
+def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Run:
+    """Runs the command line in a folder with a project `p` of a URDF with an opaque piece and an OBJ of three hulls."""
+    monkeypatch.chdir(tmp_path)
+    write_stand(Path("in"))
+    write_boxes(Path("in/row.obj"))
+    run = runner(monkeypatch, capsys)
+    assert run("new", "p", "in/stand.urdf", "in/row.obj", "--vocabulary", "a,b").code == 0
+    return run
+
+
+def names(path: str) -> list[str]:
+    return sorted(hull.name for hull in load(path).hulls)
+
+
+def test_nothing_is_prepared_so_there_is_nothing_to_write(run: Run) -> None:
+    told = run("apply", "p")
+    assert told.code == 2 and "there is no program yet, and nothing is prepared" in told.err
+    assert "Or write what is prepared" not in run("status", "p").out
+
+
+def test_what_is_prepared_is_written_and_said_to_be_without_a_program(run: Run) -> None:
+    told = run("prepare", "p", "stand.urdf", *HULL)
+    assert "Next: meshforge apply p writes what is prepared, also without a program" in told.err
+    assert "Or write what is prepared, without a program: meshforge apply p" in run("status", "p").out
+    told = run("apply", "p")
+    assert told.code == 0 and SAID in told.err
+    assert names("p/edited/stand.urdf") == ["cover/geom0#0", "frame/body#0", "frame/foot"]
+    assert Path("p/edited/row.obj").read_bytes() == Path("in/row.obj").read_bytes()
+    assert not Path("p/program.mf").exists()
+    assert "Or write what is prepared" not in run("status", "p").out
+    assert "2 skipped" in run("apply", "p").out
+
+
+def test_a_split_is_written_and_the_output_is_stale_after_another(run: Run) -> None:
+    cut = ("split", "p", "row.obj")
+    told = run(*cut, "geom0#0", "--at", "0.5,0.5,0.5", "--across", "1,0,0")
+    assert told.code == 0 and "meshforge apply p" in told.err
+    assert run("apply", "p").code == 0
+    assert len(names("p/edited/row.obj")) == 4
+    assert "stale" not in run("status", "p").out
+    assert run(*cut, "geom0#1", "--at", "2,0.5,0.5", "--across", "1,0,0").code == 0
+    stood = run("status", "p").out
+    assert "stale: preparation changed" in stood and "Or write what is prepared" in stood
+    assert run("apply", "p").code == 0 and len(names("p/edited/row.obj")) == 5
+
+
+def test_new_assets_beside_the_project_are_prepared_and_written(run: Run) -> None:
+    assert run("prepare", "p", "stand.urdf", *HULL).code == 0
+    write_stand(Path("more"), "later.urdf")
+    told = run("apply", "p", "more/later.urdf", "--out", "out", "--workers", "1")
+    assert told.code == 0 and SAID in told.err
+    assert names("out/later.urdf") == ["cover/geom0#0", "frame/body#0", "frame/foot"]
+
+
+def test_in_python_too(run: Run) -> None:
+    assert run("prepare", "p", "stand.urdf", *HULL).code == 0
+    outcomes = {one.asset: type(one).__name__ for one in Project.open("p").apply()}
+    assert outcomes == {"stand.urdf": "Edited", "row.obj": "Unchanged"}
+
+
+def test_nothing_follows_where_nothing_was_made(run: Run) -> None:
+    assert run("prepare", "p", "stand.urdf", *HULL).code == 0
+    assert run("prepare", "p", "stand.urdf", *HULL).err == ""
+    assert run("prepare", "p", "--remove").err == ""
