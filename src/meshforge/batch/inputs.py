@@ -18,6 +18,7 @@ def inputs_of(task: ApplyTask, job: AssetJob, files: dict[str, str]) -> provenan
     options, edits = task.options, (one.action for one in job.corrections)
     names = {*task.program.templates, *(name for action in edits for name in action.templates)}
     written = {"to": options.to, "names": options.names, "collision": options.collision}
+    written["urdf_capsules"] = "yes" if options.urdf_capsules else None
     return provenance.OutputInputs(
         asset=files,
         preparation=record_digest(job.preparation) if job.preparation else None,

@@ -45,7 +45,8 @@ class ApplyOptions:
     mass: whether bodies keep their masses where a format derives them from geometry; link: files that are only copied
     become hard links; dry_run: nothing is written; resume: an output that is whole and was made from the same is
     skipped; to: the suffix of the format that all are written in, each one's own when None; names: how collision is
-    marked; collision: where the hulls of scenes go in which nothing is marked. The last two are as of `formats.save`.
+    marked; collision: where the hulls of scenes go in which nothing is marked; urdf_capsules: whether URDFs get
+    `<capsule>`. The last three are as of `formats.save`.
     """
 
     mass: Mass = "keep"
@@ -55,6 +56,7 @@ class ApplyOptions:
     to: str | None = None
     names: MarkName | None = None
     collision: Collision | None = "beside"
+    urdf_capsules: bool = False
 
 
 APPLY_DEFAULTS = ApplyOptions()

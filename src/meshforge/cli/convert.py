@@ -33,6 +33,7 @@ class ConvertArguments:
     ] = None
     names: options.MarkNames = None
     collision: options.CollisionPlace = None
+    urdf_capsules: options.UrdfCapsules = False
     labels: options.LabelsPath = None
     link: Annotated[bool, typer.Option("--link", help="Hard-link files that are only copied.")] = False
     overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace files that are there already.")] = False
@@ -72,7 +73,12 @@ def convert(given: ConvertArguments) -> None:
     from meshforge.cli.convert_many import convert_many  # lazy: 250 modules that only --to needs
 
     run_options = ApplyOptions(
-        link=given.link, dry_run=given.dry_run, to=suffix, names=given.names, collision=given.collision
+        link=given.link,
+        dry_run=given.dry_run,
+        to=suffix,
+        names=given.names,
+        collision=given.collision,
+        urdf_capsules=given.urdf_capsules,
     )
     execution = given.execution.to_options()
     convert_many(sources, Path(out), given.labels, run_options, execution, given.report, json=given.json)
@@ -94,7 +100,13 @@ def _parse_suffix(to: str) -> str:
 def _convert_one(source: Path, out: Path, given: ConvertArguments) -> None:
     mesh = formats.load(source, labels=given.labels)
     saved = formats.convert(
-        mesh, out, link=given.link, overwrite=given.overwrite, names=given.names, collision=given.collision
+        mesh,
+        out,
+        link=given.link,
+        overwrite=given.overwrite,
+        names=given.names,
+        collision=given.collision,
+        urdf_capsules=given.urdf_capsules,
     )
     read_notes = mesh.asset.notes if mesh.asset else ()
     if given.json:
