@@ -12,6 +12,7 @@ import pytest
 import yourdfpy
 
 from meshforge.formats import SaveResult, read, save
+from meshforge.formats.urdf.edit import CAPSULE_READERS
 from meshforge.geometry import (
     Aabb,
     Box,
@@ -119,7 +120,7 @@ def test_yourdfpy_finds_it_in_a_urdf(kind: str, tmp_path: Path) -> None:
 def test_in_a_urdf_a_capsule_is_a_hull_and_noted(tmp_path: Path) -> None:
     saved, shape = edited(tmp_path, "stool.urdf", "capsule")
     made = made_geom(saved)
-    assert saved.notes == (f"URDF has no capsule: {made.name!r} is written as a hull of 50 vertices",)
+    assert saved.notes == (f"{CAPSULE_READERS}: {made.name!r} is written as a hull of 50 vertices",)
     assert_is_hull_of(made.shape, shape)
 
 

@@ -64,6 +64,8 @@ def _notes(rows: Sequence[Row], refused: Sequence[Refused]) -> Iterator[str]:
         said += [f"Left out, {name}: {why}." for name, why in limits.items()]
         if any(said):
             yield f"- {row.reader.title}: {' '.join(filter(None, said))}"
+    yield "- .urdf with `<capsule>`, which `--urdf-capsules` writes: MuJoCo 4.0 and PyBullet 3.2.7 find it as a"
+    yield '  capsule of that radius and length; Drake documents it; yourdfpy 0.0.60 ends with "Unknown tag".'
     yield "- .glb, .gltf: where a scene has visuals, only `KHR_physics_rigid_bodies` marks its colliders, which no"
     yield "  reader here supports: such samples are left out. Polytopes stand for round shapes, up to 6% of"
     yield "  their width inside."

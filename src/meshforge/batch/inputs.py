@@ -19,6 +19,7 @@ def inputs_of(task: ApplyTask, job: AssetJob, files: dict[str, str]) -> provenan
     names = {*task.program.templates, *(name for action in edits for name in action.templates)}
     written = {"to": options.to, "names": options.names, "collision": options.collision}
     written |= {} if options.concave == "keep" else {"concave": options.concave}
+    written |= {"urdf_capsules": "yes"} if options.urdf_capsules else {}
     return provenance.OutputInputs(
         asset=files,
         preparation=record_digest(job.preparation) if job.preparation else None,

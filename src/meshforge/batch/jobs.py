@@ -46,8 +46,9 @@ class ApplyOptions:
     mass: whether bodies keep their masses where a format derives them from geometry; link: files that are only copied
     become hard links; dry_run: nothing is written; resume: an output that is whole and was made from the same is
     skipped; to: the suffix of the format that all are written in, each one's own when None; names: how collision is
-    marked; collision: where the hulls of scenes go in which nothing is marked. The last two are as of `formats.save`.
-    concave: what is done with non-convex collision meshes first, see `replace_concave`.
+    marked; collision: where the hulls of scenes go in which nothing is marked; urdf_capsules: whether URDFs get
+    `<capsule>`. The last three are as of `formats.save`. concave: what is done with non-convex collision meshes first,
+    see `replace_concave`.
     """
 
     mass: Mass = "keep"
@@ -58,6 +59,7 @@ class ApplyOptions:
     names: MarkName | None = None
     collision: Collision | None = "beside"
     concave: Concave = "keep"
+    urdf_capsules: bool = False
 
 
 APPLY_DEFAULTS = ApplyOptions()

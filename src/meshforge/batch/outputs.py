@@ -65,7 +65,15 @@ def write_draft(
     Raises AssetError where the format cannot hold the mesh, or what was written reads back as other hulls.
     """
     main = plan.folder / plan.main
-    saved = save(mesh, main, mass=options.mass, link=options.link, names=options.names, collision=options.collision)
+    saved = save(
+        mesh,
+        main,
+        mass=options.mass,
+        link=options.link,
+        names=options.names,
+        collision=options.collision,
+        urdf_capsules=options.urdf_capsules,
+    )
     written = mesh.with_hulls(replace(hull, name=saved.names.get(hull.name, hull.name)) for hull in mesh.hulls)
     remedy = "Make a hull of each: meshforge prepare PROJECT --decompose hull, or convert --concave hull."
     saved.report.refuse_lost_collision(str(main), remedy)

@@ -49,7 +49,13 @@ def _run(given: ApplyArguments, work: ApplyWork, measures: CheckOptions | None) 
     shown = work.project.reference_measures() if work.project else ()
     summary, started, done = batch.RunSummary(shown=shown), perf_counter(), list[batch.AssetOutcome]()
     run_options = batch.ApplyOptions(
-        given.mass, given.link, given.dry_run, resume=not given.again, names=given.names, collision=given.collision
+        given.mass,
+        given.link,
+        given.dry_run,
+        resume=not given.again,
+        names=given.names,
+        collision=given.collision,
+        urdf_capsules=given.urdf_capsules or (work.project is not None and work.project.settings.urdf_capsules),
     )
     for failed in work.failed:
         summary.add(failed)

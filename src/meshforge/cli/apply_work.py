@@ -46,6 +46,7 @@ class ApplyArguments:
     ] = "keep"
     names: options.MarkNames = None
     collision: options.CollisionPlace = "beside"
+    urdf_capsules: options.UrdfCapsules = False
     link: Annotated[bool, typer.Option("--link", help="Hard-link files that are only copied.")] = False
     dry_run: options.DryRun = False
     again: Annotated[bool, typer.Option("--again", help="Do again what an earlier run has done.")] = False

@@ -40,6 +40,7 @@ class ConvertArguments:
             help="Collision meshes that are not convex: as they are, each as its convex hull, or decomposed by CoACD.",
         ),
     ] = "keep"
+    urdf_capsules: options.UrdfCapsules = False
     labels: options.LabelsPath = None
     link: Annotated[bool, typer.Option("--link", help="Hard-link files that are only copied.")] = False
     overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace files that are there already.")] = False
@@ -86,6 +87,7 @@ def convert(given: ConvertArguments) -> None:
         names=given.names,
         collision=given.collision,
         concave=given.concave,
+        urdf_capsules=given.urdf_capsules,
     )
     execution = given.execution.to_options()
     convert_many(sources, Path(out), given.labels, run_options, execution, given.report, json=given.json)
@@ -112,7 +114,13 @@ def _convert_one(source: Path, out: Path, given: ConvertArguments) -> None:
         ready = SymbolicMesh.of(replace_concave(mesh.asset, given.concave))
         mesh = ready.with_labels({name: label for name, label in mesh.labels.items() if name in ready.index})
     saved = formats.convert(
-        mesh, out, link=given.link, overwrite=given.overwrite, names=given.names, collision=given.collision
+        mesh,
+        out,
+        link=given.link,
+        overwrite=given.overwrite,
+        names=given.names,
+        collision=given.collision,
+        urdf_capsules=given.urdf_capsules,
     )
     read_notes = mesh.asset.notes if mesh.asset else ()
     if given.concave != "keep" and mesh.asset:

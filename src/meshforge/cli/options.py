@@ -80,6 +80,10 @@ MarkNames = Annotated[
         show_default=False,
     ),
 ]
+UrdfCapsules = Annotated[
+    bool,
+    typer.Option("--urdf-capsules", help="Write capsules as <capsule> in URDFs, which not all readers know."),
+]
 CollisionPlace = Annotated[
     Collision | None,
     typer.Option(

@@ -22,17 +22,20 @@ def convert(
     overwrite: bool = False,
     names: MarkName | None = None,
     collision: Collision | None = None,
+    urdf_capsules: bool = False,
 ) -> SaveResult:
     """Write an asset in the format that the suffix of `out` names, or unchanged in its own; its labels beside it.
 
     asset: a mesh, or what `load` reads. link: files that are only copied become hard links; overwrite: existing files
     may be replaced. names: how the file marks collision; collision: where the hulls of a scene go in which nothing is
-    marked: both as `save` has them.
+    marked; urdf_capsules: whether a URDF gets `<capsule>`: all as `save` has them.
     The result says what the format cannot hold, in `.notes` and `.report`. Labels keep the names that hulls have there.
     Raises AssetError and UsageError as `load` and `save` do.
     """
     mesh = to_mesh(asset)
-    saved = save(mesh, out, link=link, overwrite=overwrite, names=names, collision=collision)
+    saved = save(
+        mesh, out, link=link, overwrite=overwrite, names=names, collision=collision, urdf_capsules=urdf_capsules
+    )
     return _write_labels(mesh, saved, overwrite) if mesh.labels else saved
 
 

@@ -17,7 +17,7 @@ from meshforge.engines import note_limits
 from meshforge.formats.base import Collision, Format, Mass, Output, SceneFormat
 from meshforge.formats.conversion import ConversionReport, report_conversion, turn_upright
 from meshforge.formats.engine_names.conventions import MarkName
-from meshforge.formats.registry import FOLDER, SUFFIXES, format_for, format_named, format_with_names
+from meshforge.formats.registry import FOLDER, SUFFIXES, URDF_WITH_CAPSULES, format_for, format_named, format_with_names
 from meshforge.geometry import Pose
 from meshforge.symbolic import Asset, Body, Document, Geom, SymbolicMesh
 
@@ -56,6 +56,7 @@ def save(
     overwrite: bool = False,
     names: MarkName | None = None,
     collision: Collision | None = None,
+    urdf_capsules: bool = False,
 ) -> SaveResult:
     """Write an asset, in the format it was read from where the suffix of `out` fits it, else made anew.
 
@@ -65,13 +66,16 @@ def save(
     names: how the file marks collision: by the names of an engine, "khr" or "usd"; one that does so already is edited,
     others are made anew. collision: for scenes (glTF, USD) in which nothing is marked, whether hulls are written beside
     what is seen, all of which stays, or in its place; None writes them beside it if an edit changed them or there are
-    `names`, and else leaves such a file as it is.
+    `names`, and else leaves such a file as it is. urdf_capsules: whether a URDF gets `<capsule>`, which not all readers
+    know; one that has some gets more of them in any case.
     Raises AssetError: the format cannot hold the hulls, or a file of the input, or another one that exists, would be
     overwritten. Raises UsageError: collision cannot be marked so in files of this format.
     """
     asset = _to_asset(what)
     out = Path(os.path.normpath(out))
     known = _format_of_output(out, asset, names)
+    if urdf_capsules and known.name == "urdf":
+        known = URDF_WITH_CAPSULES
     where = _place_collision(asset, known, names, collision)
     output, report = _make_output(asset, known, out.name, mass, where)
     limits = _note_limits(asset, known, where, output.names)

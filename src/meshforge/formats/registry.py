@@ -22,7 +22,7 @@ from meshforge.formats.plugin_format import guard_format
 from meshforge.formats.sdf.document import CONFIG, find_main_file
 from meshforge.formats.sdf.format import SdfFormat
 from meshforge.formats.segmentation.reader import is_segmentation
-from meshforge.formats.urdf.format import UrdfFormat
+from meshforge.formats.urdf.format import UrdfFormat, UrdfWithCapsules
 from meshforge.formats.urdf.xacro import XacroFormat
 from meshforge.formats.usd.format import UsdFormat
 from meshforge.formats.usd.live_stage import StageObject, read_stage
@@ -141,6 +141,10 @@ def is_asset(path: Path) -> bool:
     except PluginError:  # its reading says why
         return True
     return any(known.matches_head(_read_head(path)) and known.is_main(path) for known in formats)
+
+
+URDF_WITH_CAPSULES = UrdfWithCapsules()
+"""URDF for readers that know `<capsule>`."""
 
 
 def format_for(path: Path, own: str) -> Format:

@@ -97,6 +97,10 @@ class ElementMaker(ABC):
     def extract_piece(self, element: Element, name: str, k: int) -> tuple[Splice, ...]:
         """The edits that leave of an element its k-th piece alone, triangles as authored; name: of that piece."""
 
+    def explain_hull(self, shape: Shape) -> str:
+        """Why a native shape is written as a hull."""
+        return f"{self.title} has no {shape.kind}"
+
     def make_piece(self, reference: str, part: tuple[str, ...], name: str, k: int) -> tuple[Piece, str]:
         """The k-th piece of a mesh, or of a part of it, and the reference to a file of its own, which is made."""
         assert self.files.resolver is not None and self.meshes is not None  # only meshes have several pieces
@@ -107,7 +111,7 @@ class ElementMaker(ABC):
         """The reference to the mesh file of a hull, which is made."""
         if not isinstance(shape, Polytope):
             corners = pluralize(len(shape.vertices), "vertex", "vertices")
-            self.notes.append(f"{self.title} has no {shape.kind}: {geom.name!r} is written as a hull of {corners}")
+            self.notes.append(f"{self.explain_hull(shape)}: {geom.name!r} is written as a hull of {corners}")
         beside = self.find_mesh(template) if template else None
         folder = self.files.folder_of(beside) if beside else self.folder
         return self.files.add(geom.name, folder, shape.vertices, shape.faces)

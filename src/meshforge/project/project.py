@@ -105,6 +105,7 @@ class Project(LabelStore):
         Raises ProjectError for an asset that is not there, and what `meshforge.batch.apply` raises.
         """
         program, work, templates = self.work(only)
+        options = replace(options, urdf_capsules=options.urdf_capsules or self.settings.urdf_capsules)
         out = out or self.layout.edited
         return batch.apply(program, work, out, templates=templates, options=options, execution=execution)
 

@@ -45,7 +45,8 @@ def build_task(store: Store, program: Program) -> batch.ApplyTask:
     edits = (edit for asset in sorted(corrected) for edit in store.corrections(asset))
     by_hand = (name for edit in edits for name in edit.action.templates)
     templates = store.templates(dict.fromkeys([*program.templates, *by_hand]))
-    return batch.ApplyTask(program, templates, store.layout.edited)
+    options = batch.ApplyOptions(urdf_capsules=store.settings.urdf_capsules)
+    return batch.ApplyTask(program, templates, store.layout.edited, options)
 
 
 def build_work(

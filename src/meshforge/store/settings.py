@@ -74,7 +74,7 @@ class Settings(BaseModel):
     orient: the directive as a program has it, without the word `orient`; empty for none.
     names: the label that names mean, by patterns of names, in their order; empty for none.
     left_out: ids of assets that are kept, but not as part of the family; removed: ids of assets that `assets` means and
-    that do not belong to the project.
+    that do not belong to the project; urdf_capsules: whether written URDFs get `<capsule>`.
     """
 
     model_config = ConfigDict(extra="allow", frozen=True)
@@ -89,6 +89,7 @@ class Settings(BaseModel):
     names: dict[str, str] = {}
     left_out: tuple[str, ...] = ()
     removed: tuple[str, ...] = ()
+    urdf_capsules: bool = False
 
 
 def read_settings(folder: Path) -> Settings:

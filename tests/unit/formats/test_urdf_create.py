@@ -12,6 +12,7 @@ import pytest
 from meshforge.formats import save
 from meshforge.formats.base import Output
 from meshforge.formats.conversion import report_conversion
+from meshforge.formats.urdf.edit import CAPSULE_READERS
 from meshforge.formats.urdf.format import UrdfFormat
 from meshforge.formats.visuals import Visual, VisualSurfaces
 from meshforge.geometry import Aabb, Box, Capsule, Cylinder, Pose, Shape, Sphere
@@ -65,7 +66,7 @@ def test_bodies_hulls_and_names_come_back(tmp_path: Path) -> None:
         np.testing.assert_allclose(new.shape.aabb.max, shape.aabb.max, atol=1e-12)
     assert told(CART, output) == (
         "3 links without a mass (frame, wheel <1>, lid): PyBullet takes 1 kg, MuJoCo computes it from the hulls",
-        "1 capsule (lid/rod) is written as triangles: URDF has no capsules",
+        f"1 capsule (lid/rod) is written as triangles: {CAPSULE_READERS}",
     )
 
 

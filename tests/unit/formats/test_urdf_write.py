@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from meshforge.common import AssetError
+from meshforge.formats.urdf.edit import CAPSULE_READERS
 from meshforge.geometry import Aabb, Box, Capsule, Cylinder, Ellipsoid, Polytope, Pose, Shape, Sphere, is_same_shape
 from meshforge.symbolic import Asset, Geom
 from tests.urdf_sample import HULLS, SAMPLE, THREE, corner_obj, link, made, put, read, robot, sample, without, write
@@ -112,9 +113,10 @@ def test_other_shapes_become_hulls_in_files_of_their_own_noted_unless_they_are_h
     output = write(edited)
     assert list(output.made) == ["meshes/cart--base_posts_2_1.obj", "meshes/cart--wheel_tyre_7.obj"]
     count = len(shape.vertices)
+    why = CAPSULE_READERS if isinstance(shape, Capsule) else f"URDF has no {shape.kind}"
     expected = () if isinstance(shape, Polytope) else (
-        f"URDF has no {shape.kind}: 'base/posts#2~1' is written as a hull of {count} vertices",
-        f"URDF has no {shape.kind}: 'wheel/tyre~7' is written as a hull of {count} vertices",
+        f"{why}: 'base/posts#2~1' is written as a hull of {count} vertices",
+        f"{why}: 'wheel/tyre~7' is written as a hull of {count} vertices",
     )  # fmt: skip
     assert output.notes == expected
     for geom in rewritten(edited, tmp_path).geoms:

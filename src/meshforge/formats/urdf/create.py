@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -15,17 +16,21 @@ from meshforge.formats.slots import Slot, assign_names
 from meshforge.formats.urdf import edit
 from meshforge.formats.urdf.document import VISUAL_SUFFIXES
 from meshforge.formats.xml import escape
-from meshforge.geometry import Pose
+from meshforge.geometry import Capsule, Pose
 from meshforge.symbolic import Asset, FeatureKind, Opaque
 
 
-def create_urdf(asset: Asset, name: str) -> Output:
-    """The files of an asset that came from another format.
+def create_urdf(asset: Asset, name: str, *, capsules: bool = False) -> Output:
+    """The files of an asset that came from another format; capsules: whether they are written as such.
 
     Bodies become links, each with its frame on the joint that leads to it, so that at zero all is where it was; hulls
     become native shapes or mesh files, non-convex pieces meshes as they are.
     """
-    return _Creator(asset, edit.UrdfElementMaker(b"", b"\n", mesh_output.HullFiles(Path(name).stem))).build_output()
+    files = mesh_output.HullFiles(Path(name).stem)
+    output = _Creator(asset, edit.UrdfElementMaker(b"", b"\n", files, capsules=capsules)).build_output()
+    hulled = tuple(geom.name for geom in asset.geoms if isinstance(geom.shape, Capsule) and not capsules)
+    loss = Loss(FeatureKind.CAPSULES, hulled, edit.CAPSULE_READERS, "written as triangles")
+    return replace(output, lost=(*output.lost, loss)) if hulled else output
 
 
 class _Creator(link_output.LinkCreator):

@@ -3,6 +3,7 @@ XML text of elements: collisions new or edited, joints, masses and visuals."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import assert_never
 
@@ -13,23 +14,27 @@ from meshforge.formats.kinematic_tree import LinkJoint, drop_rounding, name_mome
 from meshforge.formats.references import Resolver, add_copy, note_absolute, placement
 from meshforge.formats.slots import ElementMaker, ElementPlan, Slot, assign_names
 from meshforge.formats.urdf.document import UrdfDocument, collisions, geometry_of, parse_robot, references
-from meshforge.geometry import Box, Cylinder, Pose, Sphere
+from meshforge.geometry import Box, Capsule, Cylinder, Pose, Shape, Sphere
 from meshforge.symbolic import Asset, Coupling, Geom, Inertial
 
 UrdfShape = Box | Cylinder | Sphere
 """The shapes that every reader of URDF knows."""
+CAPSULE_READERS = "URDF without --urdf-capsules (MuJoCo 4, Bullet and Drake read <capsule>, yourdfpy 0.0.60 refuses it)"
+"""Why a capsule is written as a hull, and who reads what would be written else."""
 
 UNLIMITED_TRAVEL = 1000.0  # [m] either way, for a prismatic joint without limits, which URDF does not know
 _UNKNOWN_MAXIMUM = 1000.0  # [N, Nm, m/s, rad/s], for joints of which no largest effort or velocity is known
 
 
-def native_tag(shape: UrdfShape) -> bytes:
+def native_tag(shape: UrdfShape | Capsule) -> bytes:
     """The element of a native shape, without its pose."""
     match shape:
         case Box():
             return b'<box size="%s"/>' % _text_of(*2 * shape.half)
         case Cylinder():
             return b'<cylinder radius="%s" length="%s"/>' % (_text_of(shape.radius), _text_of(2 * shape.half_length))
+        case Capsule():  # of which the length is that of the cylinder in it
+            return b'<capsule radius="%s" length="%s"/>' % (_text_of(shape.radius), _text_of(2 * shape.half_length))
         case Sphere():
             return b'<sphere radius="%s"/>' % _text_of(shape.radius)
         case _:
@@ -141,8 +146,10 @@ def _text_of(*values: float) -> bytes:
     return xml.format_numbers(values).encode()
 
 
-def write_urdf(asset: Asset, document: UrdfDocument, name: str) -> base.Output:
+def write_urdf(asset: Asset, document: UrdfDocument, name: str, *, capsules: bool = False) -> base.Output:
     """The files of an asset that was read from a URDF; without an edit, its own bytes.
+
+    capsules: whether they are written as such, which they are in any case where the file has one.
 
     Raises AssetError: a hull on a link that is not there, or a mesh file that changed since the asset was read.
     """
@@ -151,9 +158,10 @@ def write_urdf(asset: Asset, document: UrdfDocument, name: str) -> base.Output:
     files = mesh_output.HullFiles(Path(name).stem, document.resolver)
     files.avoid(references(robot))
     meshes = collision_pieces.SourceMeshes(document.digests, str(asset.path))
-    maker = UrdfElementMaker(
-        text.data, xml.newline_of(text.data), files, files.folder_of(_find_first_mesh(robot)), meshes
-    )
+    folder = files.folder_of(_find_first_mesh(robot))
+    kinds = (geometry_of(collision) for _, collision in collisions(robot))
+    capsules = capsules or any(kind is not None and kind.tag == "capsule" for kind in kinds)
+    maker = UrdfElementMaker(text.data, xml.newline_of(text.data), files, folder, meshes, capsules=capsules)
     links = {link.attributes["name"]: link for link in robot.each("link")}
     plan = ElementPlan(asset, document.authored, [element for _, element in collisions(robot)], links, maker)
     names = assign_names(plan.slots, unique=True)
@@ -185,11 +193,18 @@ def _list_copies(robot: xml.Element, resolver: Resolver) -> tuple[dict[str, Path
     return copies, notes
 
 
+@dataclass(frozen=True, eq=False, slots=True)
 class UrdfElementMaker(ElementMaker):
-    """Makes elements for one document."""
+    """Makes elements for one document; capsules: whether they are written as such."""
 
-    __slots__ = ()
-    title = "URDF"
+    capsules: bool = False
+
+    @property
+    def title(self) -> str:
+        return "URDF"
+
+    def explain_hull(self, shape: Shape) -> str:
+        return CAPSULE_READERS if isinstance(shape, Capsule) else f"{self.title} has no {shape.kind}"
 
     def find_mesh(self, collision: xml.Element) -> str | None:
         mesh = geometry_of(collision)
@@ -197,7 +212,7 @@ class UrdfElementMaker(ElementMaker):
 
     def make_slot(self, geom: Geom, root_t_link: Pose, template: xml.Element | None, lead: bytes) -> Slot:
         shape = geom.shape.move(root_t_link.inverse())
-        if isinstance(shape, UrdfShape):
+        if isinstance(shape, UrdfShape) or (self.capsules and isinstance(shape, Capsule)):
             pose, tag = shape.pose, native_tag(shape)
             edits = replace_geometry(self.data, template, pose, tag) if template else ()
         else:

@@ -60,6 +60,26 @@ class UrdfFormat(base.Format):
         return features_of(asset.document) if isinstance(asset.document, UrdfDocument) else ()
 
 
+class UrdfWithCapsules(UrdfFormat):
+    """URDF with `<capsule>`, which not all readers know."""
+
+    holds = UrdfFormat.holds | {FeatureKind.CAPSULES}
+    instead: ClassVar[Mapping[FeatureKind, str]] = {
+        kind: text for kind, text in UrdfFormat.instead.items() if kind is not FeatureKind.CAPSULES
+    }
+
+    def write(self, asset: Asset, name: str, mass: base.Mass = "keep") -> base.Output:
+        from meshforge.formats.urdf import edit  # lazy: only URDF needs it
+
+        assert isinstance(asset.document, UrdfDocument)
+        return edit.write_urdf(asset, asset.document, name, capsules=True)
+
+    def create(self, asset: Asset, name: str) -> base.Output:
+        from meshforge.formats.urdf import create  # lazy: only URDF needs it
+
+        return create.create_urdf(asset, name, capsules=True)
+
+
 def features_of(document: UrdfDocument) -> Iterator[Feature]:
     """The features of a URDF that its asset does not have."""
     data = XmlText.of(document.source).data
