@@ -201,6 +201,12 @@ PointsUp = Annotated[
 ]
 
 
+MaxVertices = Annotated[
+    int | None,
+    typer.Option("--max-vertices", min=8, help="The most vertices that a hull may have.", show_default=False),
+]
+
+
 class EngineMethod(StrEnum):
     """The decomposition engines."""
 
@@ -208,8 +214,13 @@ class EngineMethod(StrEnum):
     VHACD = "vhacd"
 
 
-def parse_engine_settings(method: EngineMethod, given: list[str] | None) -> DecomposeSettings:
-    """The settings of an engine with some given as `NAME=VALUE`. Raises UsageError, listing what there is to set."""
+def parse_engine_settings(
+    method: EngineMethod, given: list[str] | None, max_vertices: int | None = None
+) -> DecomposeSettings:
+    """The settings of an engine with some given as `NAME=VALUE`, and with the most vertices that a hull may have.
+
+    Raises UsageError, listing what there is to set.
+    """
     from meshforge.geometry import CoacdSettings, VhacdSettings  # lazy: most commands decompose nothing
 
     kind = CoacdSettings if method is EngineMethod.COACD else VhacdSettings
@@ -221,6 +232,12 @@ def parse_engine_settings(method: EngineMethod, given: list[str] | None) -> Deco
             listed = "\n".join(f"    {f.name}={f.default}  {f.metadata['help']}" for f in known.values())
             raise UsageError(f"--set {text}: {method.value} has no option {name!r}", remedy=f"Its options:\n{listed}")
         values[name] = _parse_value(text, value, type(known[name].default))
+    if max_vertices is not None:
+        is_coacd = method is EngineMethod.COACD
+        limit = {"decimate": True, "max_ch_vertex": max_vertices} if is_coacd else {"max_hull_vertices": max_vertices}
+        if twice := limit.keys() & values.keys():
+            raise UsageError(f"--max-vertices and --set {min(twice)} say the same", remedy="Give one of them.")
+        values |= limit
     return kind(**values)
 
 

@@ -84,6 +84,11 @@ class CoacdSettings(_Settings):
     real_metric: bool = _option(False, "Read threshold in metres instead of relative to the size.")
     seed: int = _option(0, "Seed of the search; the same seed gives the same hulls.", 0, 2**31 - 1)
 
+    @property
+    def max_vertices(self) -> int | None:
+        """The most vertices of a hull, None without a limit."""
+        return self.max_ch_vertex if self.decimate else None
+
 
 @dataclass(frozen=True, slots=True)
 class VhacdSettings(_Settings):
@@ -103,6 +108,11 @@ class VhacdSettings(_Settings):
     max_hull_vertices: int = _option(64, "Most vertices of a hull.", 4, 2048)
     min_edge_length: int = _option(2, "Parts of fewer voxels than this along every side are not split.", 1, 64)
     find_best_plane: bool = _option(False, "Search the best cut instead of the middle (slow).")
+
+    @property
+    def max_vertices(self) -> int | None:
+        """The most vertices of a hull."""
+        return self.max_hull_vertices
 
 
 DecomposeSettings = CoacdSettings | VhacdSettings
