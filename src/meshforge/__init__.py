@@ -29,6 +29,7 @@ if TYPE_CHECKING:
         Replace,
         Rule,
         Scale,
+        Shrink,
         Template,
         Union,
     )
@@ -60,6 +61,7 @@ __all__ = [
     "Replace",
     "Rule",
     "Scale",
+    "Shrink",
     "Step",
     "SymbolicMesh",
     "Template",
@@ -84,7 +86,7 @@ _PACKAGES = {
     "inspection": ("check", "diff", "render"),
     "language": (
         *("All", "Attach", "Diff", "Geo", "Intersect", "Is", "Union"),
-        *("Add", "Delete", "Each", "Merge", "Program", "Replace", "Rule", "Scale", "Template"),
+        *("Add", "Delete", "Each", "Merge", "Program", "Replace", "Rule", "Scale", "Shrink", "Template"),
     ),
     "project": ("Project",),
     "symbolic": ("Hull", "Label", "SymbolicMesh"),

@@ -116,3 +116,32 @@ def test_the_same_hull_gives_the_same_bytes() -> None:
     points = np.random.default_rng(3).normal(size=(200, 3))
     first, second = (enclose(convex_hull(points), HullBudget(24)) for _ in range(2))
     assert first and second and first.hull.vertices.tobytes() == second.hull.vertices.tobytes()
+
+
+def covering_bound(count: int) -> float:
+    """How far a polytope of so many faces, or of so many vertices, around a ball of radius 1 sticks out at least
+    (L. Fejes Tóth's bound on coverings of the sphere by equal caps; vertices by polarity)."""
+    return float(np.sqrt(3) * np.tan(count * np.pi / (6 * (count - 2))) - 1)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("budget", "count"),
+    [
+        (HullBudget(vertices=16), 16),
+        (HullBudget(vertices=32), 32),
+        (HullBudget(vertices=64), 64),
+        (HullBudget(polygons=32), 32),
+        (HullBudget(polygons=64), 64),
+        (HullBudget(64, 64, 32), 34),  # with three faces at a vertex, 64 vertices are 34 faces
+    ],
+)
+def test_a_ball_is_met_within_one_and_a_half_times_of_what_is_possible(budget: HullBudget, count: int) -> None:
+    turn = np.arange(642) * np.pi * (3 - np.sqrt(5))
+    height = 1 - (np.arange(642) + 0.5) * 2 / 642
+    across = np.sqrt(1 - height**2)
+    ball = convex_hull(np.column_stack([across * np.cos(turn), across * np.sin(turn), height]))
+    found = enclose(ball, budget)
+    assert found is not None and found.error <= 1.5 * covering_bound(count)
+    assert len(found.hull.vertices) <= budget.vertices and len(polygon_sizes(found.hull)) <= budget.polygons
+    assert heights(ball.vertices, found.hull).max() <= 1e-12

@@ -101,13 +101,14 @@ class CheckTask:
     """What is to be done with each asset.
 
     out: the folder for fixed assets, None where nothing is to be fixed; tolerance: how far a fixed hull may stick out
-    [m], None for the default of `fix`.
+    [m], None for the default of `fix`; max_vertices: the most vertices that a fixed hull may have.
     against: a folder with the assets as they were, or the one asset as it was; pictures: a folder for pictures.
     """
 
     measures: CheckOptions
     out: Path | None = None
     tolerance: float | None = None
+    max_vertices: int | None = None
     overwrite: bool = False
     against: Path | None = None
     pictures: Path | None = None
@@ -159,8 +160,8 @@ def check_asset(path: Path, base: Path, labels: Path | None, task: CheckTask) ->
     try:
         mesh = load(path, labels=labels)
         before = _load_before(path, base, task.against)
-        if task.out and engine:
-            fixed = fix(mesh, engine, task.tolerance)
+        if task.out:
+            fixed = fix(mesh, engine, task.tolerance, task.max_vertices)
             before, mesh = before or (mesh if fixed.changes else None), fixed.mesh
             written = write_fixed(mesh, base, task.out, overwrite=task.overwrite)
         found = examine_file(written or path, mesh, task.measures, before)

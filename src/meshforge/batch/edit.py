@@ -32,7 +32,7 @@ from meshforge.formats import (
     resolve_asset_path,
 )
 from meshforge.geometry import proximity  # noqa: F401  # coal is there when workers are forked
-from meshforge.language import Program, Template
+from meshforge.language import Program, RuleTrace, Template
 from meshforge.signoff import measure_edit
 from meshforge.symbolic import Asset, LabelFile, LabelTransfer, SymbolicMesh, read_labels, transfer_labels
 
@@ -156,7 +156,7 @@ def _run_program(
     outcome = (Unchanged if _has_same_hulls(source, mesh) and not job.preparation else Edited)(
         asset=job.id,
         out=str(task.out / draft.main),
-        rules=tuple(RuleEffect(line.rule, line.selected, line.made, line.note) for line in result.trace),
+        rules=tuple(_list_effects(source, mesh, result.trace)),
         before=len(source.hulls),
         after=len(mesh.hulls),
         seconds=time.perf_counter() - started,
@@ -169,6 +169,16 @@ def _run_program(
         return outputs.WorkerResult(outcome)
     provenance.Stamp.of(outcome, inputs, draft).write(draft.root / outputs.DRAFT_STAMP)
     return outputs.WorkerResult(replace(outcome, seconds=time.perf_counter() - started), draft=draft)
+
+
+def _list_effects(source: SymbolicMesh, mesh: SymbolicMesh, trace: Iterable[RuleTrace]) -> Iterator[RuleEffect]:
+    """What each rule did, in the names of the file that is written."""
+    named = mesh.names_in_file
+    left = {named.get(hull.name, hull.name) for hull in mesh.hulls}
+    for line in trace:
+        gone = tuple(name for name in line.selected if line.made and name in source.index and name not in left)
+        made = tuple(named.get(name, name) for name in line.made)
+        yield RuleEffect(line.rule, line.selected, made, line.note, gone)
 
 
 def _opaque_notes(asset: Asset) -> tuple[str, ...]:

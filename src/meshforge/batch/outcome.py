@@ -22,12 +22,16 @@ _MOST_ALARMED = 5
 
 @dataclass(frozen=True, slots=True)
 class RuleEffect:
-    """What one rule did on one asset: names of the hulls it selected and made; rule counts from 1."""
+    """What one rule did on one asset: names of the hulls it selected and made; rule counts from 1.
+
+    gone: names of hulls that it replaced, which no hull has any more.
+    """
 
     rule: int
     selected: tuple[str, ...]
     made: tuple[str, ...] = ()
     note: str | None = None
+    gone: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -141,7 +145,8 @@ def to_json_line(outcome: AssetOutcome, alarms: Sequence[str] | None = None) -> 
 
 
 def _rule_to_json(line: RuleEffect) -> dict[str, Any]:
-    return {"rule": line.rule, "selected": list(line.selected), "made": list(line.made), "note": line.note}
+    found = {"rule": line.rule, "selected": list(line.selected), "made": list(line.made), "note": line.note}
+    return found | ({"gone": list(line.gone)} if line.gone else {})
 
 
 @dataclass(eq=False, slots=True)

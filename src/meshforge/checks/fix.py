@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from meshforge import geometry
 from meshforge.checks.legality import check_legality
-from meshforge.engines import Engine, Limit
+from meshforge.engines import Engine, Limit, make_limit
 from meshforge.symbolic import Hull, SymbolicMesh
 
 TOLERANCE = 0.01
@@ -21,13 +22,12 @@ _MARGIN = 1e-6  # beyond the thickness that is asked for, against rounding
 
 @dataclass(frozen=True, slots=True)
 class HullFix:
-    """A hull that another one took the place of; error: how far that sticks out of it [m].
+    """A hull that another one of its name took the place of; error: how far that sticks out of it [m].
 
     vertices, polygons: numbers before and after.
     """
 
     hull: str
-    made: str
     rules: tuple[str, ...]
     error: float
     vertices: tuple[int, int]
@@ -37,7 +37,7 @@ class HullFix:
     def description(self) -> str:
         """The change in a sentence."""
         before, after = (f"{self.vertices[k]} vertices on {self.polygons[k]} flat faces" for k in (0, 1))
-        return f"{self.hull}: {before}; now {self.made}: {after}, which sticks out by {self.error:.3g} m at most"
+        return f"{self.hull}: {before}; now {after}, which sticks out by {self.error:.3g} m at most"
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -53,7 +53,6 @@ class FixResult:
         rows = [
             {
                 "hull": change.hull,
-                "made": change.made,
                 "rules": list(change.rules),
                 "error": change.error,
                 "vertices": {"before": change.vertices[0], "after": change.vertices[1]},
@@ -64,29 +63,31 @@ class FixResult:
         return {"changes": rows, "left": list(self.left)}
 
 
-def fix(mesh: SymbolicMesh, engine: Engine, tolerance: float | None = None) -> FixResult:
-    """The mesh with fewer vertices where a hull has too many, and more thickness where it has too little.
+def fix(
+    mesh: SymbolicMesh, engine: Engine | None, tolerance: float | None = None, max_vertices: int | None = None
+) -> FixResult:
+    """The mesh with fewer vertices where a hull has too many, and more thickness where it has too little, for an engine
+    or a number of vertices.
 
-    A new hull is convex, holds all of the old one, and takes over its label, body and contact attributes under a name
-    of its own. It is left as it is where the new one would stick out by more than `tolerance` [m], by default 1% of
-    the mesh's diagonal, or would come to overlap a hull of another body.
+    A new hull is convex, holds all of the old one, and takes over its name, label, body and contact attributes. It is
+    left as it is where the new one would stick out by more than `tolerance` [m], by default 1% of the mesh's diagonal
+    (without an end where `max_vertices` is given), or would come to overlap a hull of another body.
     """
-    allowed = TOLERANCE * mesh.diagonal if tolerance is None else tolerance
+    allowed = tolerance if tolerance is not None else np.inf if max_vertices else TOLERANCE * mesh.diagonal
+    asked = [make_limit("vertices", max_vertices, "error", "", "")] if max_vertices else []
+    limits = (*asked, *(engine.limits if engine else ()))
     faulty, _ = check_legality(mesh)
-    taken = {hull.name for hull in mesh.hulls}
     hulls, changes, left = list(mesh.hulls), [], []
     for k, hull in enumerate(mesh.hulls):
-        broken = [] if hull.name in faulty else _find_broken_limits(engine, hull)
+        broken = [] if hull.name in faulty else _find_broken_limits(limits, hull)
         if not broken:
             continue
-        made = _enclose_within_limits(hull, engine, broken)
-        why = _find_objection(made, hull, engine, allowed, hulls)
+        made = _enclose_within_limits(hull, limits, broken)
+        why = _find_objection(made, hull, limits, allowed, hulls)
         if made is None or why:
             left.append(f"{hull.name}: left as it is, since {why}")
             continue
-        name = _free_name(hull.name, taken)
-        taken.add(name)
-        hulls[k] = Hull(name, hull.body, made.hull, hull.annotation, hull.parent or hull.name)
+        hulls[k] = replace(hull, shape=made.hull, parent=hull.parent or hull.name)
         changes.append(_describe_fix(hull, hulls[k], broken, made.error))
     return FixResult(mesh.with_hulls(hulls) if changes else mesh, tuple(changes), tuple(left))
 
@@ -95,53 +96,48 @@ def _describe_fix(old: Hull, new: Hull, broken: list[Limit], error: float) -> Hu
     rules = tuple(limit.rule for limit in broken)
     vertices = len(old.vertices), len(new.vertices)
     polygons = len(geometry.polygon_sizes(old.shape.tessellate())), len(geometry.polygon_sizes(new.shape.tessellate()))
-    return HullFix(old.name, new.name, rules, error, vertices, polygons)
+    return HullFix(old.name, rules, error, vertices, polygons)
 
 
-def _find_broken_limits(engine: Engine, hull: Hull) -> list[Limit]:
+def _find_broken_limits(limits: Sequence[Limit], hull: Hull) -> list[Limit]:
     """The limits that a hull keeps not to and that could be fixed; `volume` asks for more than a new shape."""
     shape = hull.shape
     if not isinstance(shape, geometry.Polytope):
         return []
-    fixable = (limit for limit in engine.limits if limit.rule in (*_COUNTS, "thin"))
+    fixable = (limit for limit in limits if limit.rule in (*_COUNTS, "thin"))
     return [limit for limit in fixable if limit.is_broken(limit.measure(shape))]
 
 
-def _enclose_within_limits(hull: Hull, engine: Engine, broken: list[Limit]) -> geometry.Enclosure | None:
+def _enclose_within_limits(hull: Hull, limits: Sequence[Limit], broken: list[Limit]) -> geometry.Enclosure | None:
     """A hull around another that keeps to the limits, all of them; None where there is none."""
     made = geometry.Enclosure(hull.shape.tessellate(), 0.0)
     for limit in broken:
         if limit.rule == "thin":
             made = thicken(made.hull, limit.number)
     if any(limit.rule in _COUNTS for limit in broken):
-        counts = {_COUNTS[limit.rule]: limit.number for limit in engine.limits if limit.rule in _COUNTS}
+        counts: dict[str, float] = {}
+        for rule, name in _COUNTS.items():
+            counts[name] = min((limit.number for limit in limits if limit.rule == rule), default=np.inf)
         found = geometry.enclose(made.hull, geometry.HullBudget(**counts))
         return geometry.Enclosure(found.hull, made.error + found.error) if found else None
     return made
 
 
 def _find_objection(
-    made: geometry.Enclosure | None, hull: Hull, engine: Engine, allowed: float, hulls: list[Hull]
+    made: geometry.Enclosure | None, hull: Hull, limits: Sequence[Limit], allowed: float, hulls: list[Hull]
 ) -> str | None:
     """Why a fixed hull must not take the place of another; None where it may."""
     if made is None:
         return "no simpler hull around it was found"
     if made.error > allowed:
         return f"a hull within the limits would stick out by {made.error:.3g} m, more than {allowed:.3g} m"
-    if any(limit.is_broken(limit.measure(made.hull)) for limit in _find_broken_limits(engine, Hull("", "", made.hull))):
+    if any(limit.is_broken(limit.measure(made.hull)) for limit in _find_broken_limits(limits, Hull("", "", made.hull))):
         return "no hull that keeps to all limits was found"
     for other in hulls:
         meets = other.body != hull.body and made.hull.aabb.touches(other.aabb)
         if meets and geometry.distance(made.hull, other.shape) == 0.0 < geometry.distance(hull.shape, other.shape):
             return f"it would come to overlap {other.name} of body {other.body}"
     return None
-
-
-def _free_name(name: str, taken: set[str]) -> str:
-    number = 1
-    while (found := f"{name}~{number}") in taken:
-        number += 1
-    return found
 
 
 def thicken(hull: geometry.Polytope, thickness: float) -> geometry.Enclosure:

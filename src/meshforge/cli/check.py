@@ -57,7 +57,11 @@ class CheckArguments:
         Path | None, typer.Option("--pictures", help="Folder for heat maps and pictures of what is closed.")
     ] = None
     fix: Annotated[
-        bool, typer.Option("--fix", help="Fix what is beyond the engine's limits, as far as safe; write to --out.")
+        bool,
+        typer.Option(
+            "--fix",
+            help="Fix what is beyond the engine's limits, or has too many vertices; write to --out.",
+        ),
     ] = False
     out: Annotated[Path | None, typer.Option("-o", "--out", help="Folder for the fixed assets.")] = None
     tolerance: Annotated[
@@ -65,9 +69,11 @@ class CheckArguments:
         typer.Option(
             "--tolerance",
             min=0.0,
-            help="How far a fixed hull may stick out of the old one [m]; default 1% of the diagonal.",
+            help="How far a fixed hull may stick out of the old one [m]; default 1% of the diagonal, or as far as "
+            "--max-vertices asks for.",
         ),
     ] = None
+    max_vertices: options.MaxVertices = None
     overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace files in --out.")] = False
     journal: Annotated[
         Path | None,
@@ -93,7 +99,9 @@ def check(given: CheckArguments) -> None:
     asked = CheckOptions(given.engine, given.fit, given.clearance, given.physics, given.cell)
     measures = asked.with_checks(given.check or ())
     _refuse_stray_options(given, measures)
-    task = batch.CheckTask(measures, given.out, given.tolerance, given.overwrite, given.against, given.pictures)
+    task = batch.CheckTask(
+        measures, given.out, given.tolerance, given.max_vertices, given.overwrite, given.against, given.pictures
+    )
     jobs = batch.make_jobs(batch.expand(given.assets), given.labels)
     if len(jobs) > _FEW:
         remark(str(batch.plan_run(jobs, given.out)))
@@ -126,11 +134,20 @@ def check(given: CheckArguments) -> None:
 
 def _refuse_stray_options(given: CheckArguments, measures: CheckOptions) -> None:
     """Raise UsageError for an option that was given without the one that it belongs to."""
-    if given.fix and not (measures.engine and given.out):
+    if given.fix and not ((measures.engine or given.max_vertices) and given.out):
         remedy = "meshforge check ASSETS... --engine NAME --fix --out DIR"
-        raise UsageError("--fix needs --engine and --out", remedy=remedy)
+        raise UsageError("--fix needs --engine or --max-vertices, and --out", remedy=remedy)
     overwrite = given.overwrite or None
-    _refuse({"--out": given.out, "--tolerance": given.tolerance, "--overwrite": overwrite}, given.fix, "--fix")
+    _refuse(
+        {
+            "--out": given.out,
+            "--tolerance": given.tolerance,
+            "--overwrite": overwrite,
+            "--max-vertices": given.max_vertices,
+        },
+        given.fix,
+        "--fix",
+    )
     on_grid = measures.fit or measures.clearance
     _refuse({"--cell": given.cell, "--pictures": given.pictures}, on_grid, "--fit or --clearance")
     against = measures.clearance or measures.physics or bool(measures.plugins)

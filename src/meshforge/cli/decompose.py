@@ -38,6 +38,7 @@ class DecomposeArguments:
         options.EngineMethod.COACD
     )
     option: options.EngineOptions = None
+    max_vertices: options.MaxVertices = None
     by: options.By = "whole"
     labels: Annotated[
         Path | None,
@@ -72,7 +73,7 @@ class DecomposeArguments:
 @options.takes(DecomposeArguments)
 def decompose(given: DecomposeArguments) -> None:
     """Decompose a mesh into convex hulls by CoACD or V-HACD; the same input gives the same hulls."""
-    settings = options.parse_engine_settings(given.method, given.option)
+    settings = options.parse_engine_settings(given.method, given.option, given.max_vertices)
     if given.by != "labels" and not given.advise:
         options.refuse_options(given.context, ("labels", *_OF_POINTS), "--by labels")
     if given.advise:

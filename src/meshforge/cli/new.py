@@ -29,6 +29,7 @@ class NewArguments:
         typer.Option("--decompose", help="Make hulls of non-convex pieces, and of bodies without collision geometry."),
     ] = None
     option: options.EngineOptions = None
+    max_vertices: options.MaxVertices = None
     hollow: options.Hollow = False
     by: options.By = "whole"
     workers: options.Workers = None
@@ -42,8 +43,10 @@ def new(given: NewArguments) -> None:
     With --decompose, exit code 1 when some pieces could not be decomposed (each named); the project is there.
     """
     if given.method is None:
-        options.refuse_options(given.context, ("option", "hollow", "by", "workers", "timeout"), "--decompose METHOD")
-    settings = options.parse_engine_settings(given.method, given.option) if given.method else None
+        options.refuse_options(
+            given.context, ("option", "max_vertices", "hollow", "by", "workers", "timeout"), "--decompose METHOD"
+        )
+    settings = options.parse_engine_settings(given.method, given.option, given.max_vertices) if given.method else None
     vocabulary = options.split_words(given.vocabulary)
     project = Project.create(given.project, given.assets, vocabulary=vocabulary, orient=given.orient)
     assets = project.assets()

@@ -204,6 +204,12 @@ PointsUp = Annotated[
 ]
 
 
+MaxVertices = Annotated[
+    int | None,
+    typer.Option("--max-vertices", min=8, help="The most vertices that a hull may have.", show_default=False),
+]
+
+
 class EngineMethod(StrEnum):
     """The decomposition engines; `hull` makes one convex hull of each mesh."""
 
@@ -218,8 +224,13 @@ def refuse_hull(method: EngineMethod | None, what: str) -> None:
         raise UsageError(f"--decompose hull divides nothing: it does not go with {what}", remedy="Try coacd or vhacd.")
 
 
-def parse_engine_settings(method: EngineMethod, given: list[str] | None) -> DecomposeSettings:
-    """The settings of an engine with some given as `NAME=VALUE`. Raises UsageError, listing what there is to set."""
+def parse_engine_settings(
+    method: EngineMethod, given: list[str] | None, max_vertices: int | None = None
+) -> DecomposeSettings:
+    """The settings of an engine with some given as `NAME=VALUE`, and with the most vertices that a hull may have.
+
+    Raises UsageError, listing what there is to set.
+    """
     from meshforge.geometry import DecomposeSettings  # lazy: most commands decompose nothing
 
     kind = next(one for one in get_args(DecomposeSettings) if one.engine == method)
@@ -229,9 +240,13 @@ def parse_engine_settings(method: EngineMethod, given: list[str] | None) -> Deco
         name, _, value = text.partition("=")
         if name not in known:
             listed = "".join(f"\n    {f.name}={f.default}  {f.metadata['help']}" for f in known.values())
-            remedy = f"Its options:{listed}" if listed else "It has none."
-            raise UsageError(f"--set {text}: {method.value} has no option {name!r}", remedy=remedy)
+            raise UsageError(f"--set {text}: {method.value} has no option {name!r}", remedy=f"Its options:{listed}")
         values[name] = _parse_value(text, value, type(known[name].default))
+    if max_vertices is not None:
+        limit = kind.limit_vertices(max_vertices)
+        if twice := limit.keys() & values.keys():
+            raise UsageError(f"--max-vertices and --set {min(twice)} say the same", remedy="Give one of them.")
+        values |= limit
     settings: DecomposeSettings = kind(**values)
     return settings
 

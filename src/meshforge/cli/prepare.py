@@ -38,6 +38,7 @@ class PrepareArguments:
         ),
     ] = None
     option: options.EngineOptions = None
+    max_vertices: options.MaxVertices = None
     only: Annotated[
         list[str] | None, typer.Option("--only", help="Only pieces and bodies of this name or pattern; repeatable.")
     ] = None
@@ -94,13 +95,13 @@ def prepare(given: PrepareArguments) -> None:
     if spanning:
         raise typer.Exit(_divide_spanning(project, given))
     if given.method is None:
-        only_with_method = ("option", "only", "again", "hollow", "by", "workers", "timeout")
+        only_with_method = ("option", "max_vertices", "only", "again", "hollow", "by", "workers", "timeout")
         options.refuse_options(given.context, only_with_method, "--decompose METHOD")
         results = _undo_preparation(project, _select_assets(project, given.assets), everything=given.remove)
         if given.remove and not given.assets:
             forget_plan(project)
         raise typer.Exit(print_results(project, results, given.json))
-    settings = options.parse_engine_settings(given.method, given.option)
+    settings = options.parse_engine_settings(given.method, given.option, given.max_vertices)
     assets = [options.asset_id(asset, project) for asset in given.assets or ()]
     raise typer.Exit(
         decompose_assets(
@@ -121,7 +122,9 @@ def prepare(given: PrepareArguments) -> None:
 def _divide_spanning(project: Project, given: PrepareArguments) -> int:
     """Split hulls that span parts, or rebuild their bodies, and print what became of each asset; the exit code."""
     options.refuse_with(
-        given.context, ("option", "only", "again", "hollow", "by"), "--split-spanning and --rebuild-spanning"
+        given.context,
+        ("option", "max_vertices", "only", "again", "hollow", "by"),
+        "--split-spanning and --rebuild-spanning",
     )
     options.refuse_hull(given.method, "--split-spanning and --rebuild-spanning")
     results = project.split_spanning(

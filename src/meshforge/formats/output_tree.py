@@ -89,7 +89,9 @@ def save(
             _put_file(place / target.relative_to(out) if target.is_relative_to(out) else target, content, link)
     for path in extra:
         path.unlink()
-    return SaveResult(out, tuple(plan), report.sentences, output.names, output.hulled, report)
+    kept = {} if isinstance(what, Asset) else what.names_in_file
+    found = output.names | {name: output.names.get(own, own) for name, own in kept.items()}
+    return SaveResult(out, tuple(plan), report.sentences, found, output.hulled, report)
 
 
 def make_output(mesh: SymbolicMesh, kind: str, name: str) -> Output:
@@ -173,7 +175,8 @@ def _make_output(
 def _asset_of_mesh(mesh: SymbolicMesh) -> Asset:
     """An asset of the hulls of a mesh that was not read from a file."""
     bodies = dict.fromkeys(hull.body for hull in mesh.hulls)
-    geoms = tuple(Geom(hull.name, hull.body, hull.shape) for hull in mesh.hulls)
+    named = mesh.names_in_file
+    geoms = tuple(Geom(named.get(hull.name, hull.name), hull.body, hull.shape) for hull in mesh.hulls)
     return Asset(Path("memory"), "memory", tuple(Body(b, Pose.identity()) for b in bodies), geoms, Document())
 
 

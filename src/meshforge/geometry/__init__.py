@@ -34,9 +34,18 @@ if TYPE_CHECKING:
     from meshforge.geometry.decomposition.triangles import is_line, is_sheet, sheet_hulls, volume_inside
     from meshforge.geometry.division import HullPart, divide
     from meshforge.geometry.faults import HullFault, describe_fault, find_fault
-    from meshforge.geometry.fill import aabb_box, aabb_capsule, aabb_cylinder, aabb_sphere, longest_axis, map_to_box
+    from meshforge.geometry.fill import (
+        aabb_box,
+        aabb_capsule,
+        aabb_cylinder,
+        aabb_sphere,
+        longest_axis,
+        map_to_box,
+        shape_of_radius,
+    )
     from meshforge.geometry.fit import tight_box, tight_capsule, tight_cylinder
-    from meshforge.geometry.native import native_capsule, native_cylinder, native_sphere
+    from meshforge.geometry.inner_shapes import inscribe, shrink
+    from meshforge.geometry.native import find_cylinder_axis, native_capsule, native_cylinder, native_sphere
     from meshforge.geometry.piece_groups import merge_pieces
     from meshforge.geometry.pieces import Piece, split_pieces
     from meshforge.geometry.pose import (
@@ -118,11 +127,13 @@ __all__ = [
     "distance",
     "divide",
     "enclose",
+    "find_cylinder_axis",
     "find_fault",
     "freeze_floats",
     "freeze_ints",
     "heights_above",
     "inertia",
+    "inscribe",
     "is_closed",
     "is_convex",
     "is_convex_hull",
@@ -153,7 +164,9 @@ __all__ = [
     "rotation_of_quaternion",
     "sample_surface",
     "separate_parts",
+    "shape_of_radius",
     "sheet_hulls",
+    "shrink",
     "smallest_rotation",
     "snap_rotation",
     "spans_volume",

@@ -9,7 +9,14 @@ import numpy as np
 from meshforge.common import GeometryError
 from meshforge.geometry.arrays import Aabb, Floats, Ints
 from meshforge.geometry.pose import Pose
-from meshforge.geometry.round_shapes import Capsule, Cylinder, Sphere, tessellate_capsule, unit_cylinder, unit_sphere
+from meshforge.geometry.round_shapes import (
+    Capsule,
+    Cylinder,
+    Ellipsoid,
+    Sphere,
+    tessellate_capsule,
+    unit_cylinder,
+)
 from meshforge.geometry.shape import Box, Polytope, Shape
 
 ROUND = 0.01
@@ -30,38 +37,56 @@ def aabb_box(bounds: Aabb) -> Box:
     return Box.of_bounds(bounds)
 
 
-def aabb_cylinder(bounds: Aabb) -> Cylinder | Polytope:
-    """The cylinder along the longest side that fills `bounds`: native where it is round, else of 64 vertices."""
-    axis = check_extent(bounds)
+def aabb_cylinder(bounds: Aabb, axis: int | None = None) -> Cylinder | Polytope:
+    """The cylinder along an axis, that of the longest side by default, that fills `bounds`: native where it is round,
+    else of 64 vertices."""
+    axis = choose_axis(bounds, axis)
     across = np.delete(bounds.size, axis)
     if _are_equal(across):
         return Cylinder(pose_along(axis, bounds), float(across.mean()) / 2, float(bounds.size[axis]) / 2)
     return _stretch(*unit_cylinder(), axis, bounds)
 
 
-def aabb_capsule(bounds: Aabb) -> Capsule | Sphere | Polytope:
-    """The capsule along the longest side that fills `bounds`: native where it is round, else of 50 vertices.
+def aabb_capsule(bounds: Aabb, axis: int | None = None) -> Capsule | Sphere | Ellipsoid | Polytope:
+    """The capsule along an axis, that of the longest side by default, that fills `bounds`: native where it is round,
+    else of 50 vertices.
 
-    One without a straight part is a sphere. The ends of a polytope rise by the mean of its half widths.
+    One without a straight part is a sphere or an ellipsoid. The ends of a polytope rise by the mean of its half widths.
     """
-    axis = check_extent(bounds)
+    axis = choose_axis(bounds, axis)
     across, length = np.delete(bounds.size, axis), float(bounds.size[axis])
     radius = float(across.mean()) / 2
     straight = length / 2 - radius
+    if straight <= SAME_LENGTH * length:
+        return aabb_sphere(bounds)
     if not _are_equal(across):
         points, faces = tessellate_capsule(1.0, straight / radius)
         return _stretch(points / [1.0, 1.0, 1.0 + straight / radius], faces, axis, bounds)
-    if straight <= SAME_LENGTH * length:
-        return Sphere(Pose.of_translation(bounds.center), radius)
     return Capsule(pose_along(axis, bounds), radius, straight)
 
 
-def aabb_sphere(bounds: Aabb) -> Sphere | Polytope:
-    """The ellipsoid that fills `bounds`: a native sphere where it is round, else a polytope of 58 vertices."""
-    axis = check_extent(bounds)
+def aabb_sphere(bounds: Aabb) -> Sphere | Ellipsoid:
+    """The ellipsoid that fills `bounds`; a sphere where it is round."""
+    check_extent(bounds)
     if _are_equal(bounds.size):
         return Sphere(Pose.of_translation(bounds.center), float(bounds.size.mean()) / 2)
-    return _stretch(*unit_sphere(), axis, bounds)
+    return Ellipsoid(Pose.of_translation(bounds.center), bounds.size / 2)
+
+
+def shape_of_radius(
+    primitive: str, radius: float, bounds: Aabb, axis: int | None = None
+) -> Capsule | Cylinder | Sphere:
+    """The cylinder, capsule or sphere of a radius [m] about the centre of `bounds`, as long along an axis as these.
+
+    A capsule that is no longer than it is wide is a sphere.
+    """
+    axis = choose_axis(bounds, axis)
+    half = float(bounds.size[axis]) / 2
+    if primitive == "cylinder":
+        return Cylinder(pose_along(axis, bounds), radius, half)
+    if primitive == "sphere" or half - radius <= SAME_LENGTH * half:
+        return Sphere(Pose.of_translation(bounds.center), radius)
+    return Capsule(pose_along(axis, bounds), radius, half - radius)
 
 
 def map_to_box(shapes: Iterable[Shape], source: Aabb, target: Aabb) -> tuple[Shape, ...]:
@@ -82,6 +107,12 @@ def check_extent(bounds: Aabb) -> int:
         sides = " x ".join(f"{side:.3g}" for side in bounds.size)
         raise GeometryError(f"a bounding box of {sides} m cannot be filled", remedy="Give it a thickness first.")
     return longest_axis(bounds)
+
+
+def choose_axis(bounds: Aabb, axis: int | None) -> int:
+    """The axis itself, that of the longest side for None. Raises GeometryError as `check_extent` does."""
+    longest = check_extent(bounds)
+    return longest if axis is None else axis
 
 
 def _are_equal(sides: Floats) -> bool:

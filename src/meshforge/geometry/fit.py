@@ -145,7 +145,7 @@ def tight_cylinder(points: Floats, *, name: str = "points", thicken: float | Non
     """
     corners, everything, middle, size, axes = _prepare(points, name, thicken)
     line = _minimize_volume(lambda lines: _cylinder_volumes(corners, lines), corners, axes, 6)
-    frame = _frame_of_axis(line[:3])
+    frame = frame_of_axis(line[:3])
     center, _ = smallest_ball((corners @ frame.T)[:, :2])
     local = everything @ frame.T
     radius = float(np.linalg.norm(local[:, :2] - center, axis=1).max())
@@ -164,7 +164,7 @@ def tight_capsule(points: Floats, *, name: str = "points", thicken: float | None
     line = _minimize_volume(lambda lines: _measure_capsules(corners, lines)[0], corners, axes, 7)
     _, radii, lows, highs = _measure_capsules(everything, line[None])
     radius, low, high = float(radii[0]), float(lows[0]), float(highs[0])
-    frame, along = _frame_of_axis(line[:3]), line[:3] / np.linalg.norm(line[:3])
+    frame, along = frame_of_axis(line[:3]), line[:3] / np.linalg.norm(line[:3])
     origin = middle + size * (line[3:6] - along * (line[3:6] @ along) + along * ((low + high) / 2))
     if high - low <= 1e-9:
         return Sphere(Pose.of_translation(origin), size * (radius + (high - low) / 2))
@@ -243,7 +243,7 @@ def _measure_capsules(corners: Floats, lines: Floats) -> tuple[Floats, Floats, F
     return radii**2 * (highs - lows + 4 / 3 * radii), radii, lows, highs
 
 
-def _frame_of_axis(axis: Floats) -> Floats:
+def frame_of_axis(axis: Floats) -> Floats:
     """A rotation (3, 3) whose last row is the axis, turned upwards, and whose first is as near to X as can be."""
     third = axis / np.linalg.norm(axis)
     third = third * (1.0 if third[np.argmax(np.abs(third))] > 0 else -1.0)

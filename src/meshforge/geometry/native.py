@@ -4,14 +4,14 @@ tessellation stands in for what is round.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
 
 from meshforge.geometry.arrays import Aabb, Bools, Floats
-from meshforge.geometry.fill import SAME_LENGTH, check_extent, pose_along
+from meshforge.geometry.fill import SAME_LENGTH, check_extent, choose_axis, pose_along
 from meshforge.geometry.pose import Pose
 from meshforge.geometry.round_shapes import Capsule, Cylinder, Ellipsoid, Sphere
 from meshforge.geometry.shape import Shape
@@ -19,27 +19,42 @@ from meshforge.geometry.smallest_ball import smallest_ball
 
 _RIM_CORNERS = 1024  # of the polygon around a rim that lies askew; 5e-6 of its radius larger
 _MERIDIANS = 192  # of the polyhedron around an ellipsoid; 3e-4 of its radii larger
+_SAME_VOLUME = 1e-6  # what encloses less by no more than this share is no reason for another axis
 _PARALLEL = 1e-9  # [rad] between axes that are one
 _ROUNDING = 1e-13  # relative, of squares: what is this near the wall touches it
 
 
-def native_cylinder(shapes: Iterable[Shape], bounds: Aabb) -> Cylinder:
-    """The cylinder along the longest side of `bounds`, as long as that side, of the least radius around the shapes.
+def native_cylinder(shapes: Iterable[Shape], bounds: Aabb, axis: int | None = None) -> Cylinder:
+    """The cylinder along an axis, as long as that side of `bounds`, of the least radius around the shapes.
 
-    bounds: the box around them all. Raises GeometryError where a side of it has no extent; so do the others here.
+    bounds: the box around them all; axis: that of its longest side by default. Raises GeometryError where a side of it
+    has no extent; so do the others here.
     """
-    pose, parts = _split_shapes(shapes, bounds)
-    center, radius = _fit_line(parts, bounds)
-    return Cylinder(pose @ Pose.of_translation([*center, 0.0]), radius, float(bounds.size.max()) / 2)
+    axis = choose_axis(bounds, axis)
+    pose, parts = _split_shapes(shapes, bounds, axis)
+    center, radius = _fit_line(parts, bounds, axis)
+    return Cylinder(pose @ Pose.of_translation([*center, 0.0]), radius, float(bounds.size[axis]) / 2)
 
 
-def native_capsule(shapes: Iterable[Shape], bounds: Aabb) -> Capsule | Sphere:
-    """The capsule along the longest side of `bounds` around the shapes: of the least radius, then the shortest.
+def find_cylinder_axis(shapes: Sequence[Shape], bounds: Aabb) -> int:
+    """The axis (0, 1, 2) along which the native cylinder around shapes has the least volume: a disc is a disc.
+
+    Of equal ones that along the longest side of `bounds`, then Z, then Y, then X.
+    """
+    volumes = [native_cylinder(shapes, bounds, axis).volume for axis in range(3)]
+    least = [axis for axis in range(3) if volumes[axis] <= min(volumes) * (1 + _SAME_VOLUME)]
+    longest = check_extent(bounds)
+    return longest if longest in least else least[-1]
+
+
+def native_capsule(shapes: Iterable[Shape], bounds: Aabb, axis: int | None = None) -> Capsule | Sphere:
+    """The capsule along an axis, the default as above, around the shapes: of the least radius, then the shortest.
 
     A sphere where no straight part is needed.
     """
-    pose, parts = _split_shapes(shapes, bounds)
-    center, radius = _fit_line(parts, bounds)
+    axis = choose_axis(bounds, axis)
+    pose, parts = _split_shapes(shapes, bounds, axis)
+    center, radius = _fit_line(parts, bounds, axis)
     low, high = parts.measure_straight_part(center, radius)
     place = pose @ Pose.of_translation([*center, (low + high) / 2])
     if high - low <= SAME_LENGTH * float(bounds.size.max()):
@@ -49,7 +64,7 @@ def native_capsule(shapes: Iterable[Shape], bounds: Aabb) -> Capsule | Sphere:
 
 def native_sphere(shapes: Iterable[Shape], bounds: Aabb) -> Sphere:
     """The smallest sphere around the shapes; bounds: the box around them all."""
-    pose, parts = _split_shapes(shapes, bounds, discs=False)
+    pose, parts = _split_shapes(shapes, bounds, check_extent(bounds), discs=False)
     center, radius = smallest_ball(parts.centers, parts.radii)
     return Sphere(Pose.of_translation(pose.apply(center[None])[0]), radius)
 
@@ -78,12 +93,12 @@ class _Parts:
         return float((heights + rise).min()), float((heights - rise).max())
 
 
-def _split_shapes(shapes: Iterable[Shape], bounds: Aabb, *, discs: bool = True) -> tuple[Pose, _Parts]:
-    """The pose at the middle of `bounds` with Z along its longest side, and the parts of the shapes in that frame.
+def _split_shapes(shapes: Iterable[Shape], bounds: Aabb, axis: int, *, discs: bool = True) -> tuple[Pose, _Parts]:
+    """The pose at the middle of `bounds` with Z along an axis, and the parts of the shapes in that frame.
 
     discs: whether cylinders along Z become discs, else points, as others do.
     """
-    pose = pose_along(check_extent(bounds), bounds)
+    pose = pose_along(axis, bounds)
     back = pose.inverse()
     each = [_split_shape(shape.move(back), discs) for shape in shapes]
     radii = np.concatenate([np.full(len(points), radius) for points, radius, _ in each])
@@ -136,10 +151,10 @@ def _around_sphere() -> Floats:
     return points
 
 
-def _fit_line(parts: _Parts, bounds: Aabb) -> tuple[Floats, float]:
+def _fit_line(parts: _Parts, bounds: Aabb, axis: int) -> tuple[Floats, float]:
     """Where (2,) the line along Z is that has the parts nearest, and how far they reach from it.
 
     At least half the width of `bounds`: one without a width of its own was given one.
     """
     center, radius = smallest_ball(parts.centers[:, :2], parts.radii)
-    return center, max(radius, float(np.sort(bounds.size)[1]) / 2)
+    return center, max(radius, float(np.delete(bounds.size, axis).max()) / 2)

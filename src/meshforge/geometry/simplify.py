@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
+from functools import partial
 from math import inf
 
 import numpy as np
 
 from meshforge.common import GeometryError
+from meshforge.geometry import minimax
 from meshforge.geometry.arrays import Floats, Ints, nearest_on_triangles
 from meshforge.geometry.convex import convex_hull, principal_extents
 from meshforge.geometry.shape import Polytope
@@ -43,23 +45,55 @@ class Enclosure:
 def enclose(hull: Polytope, budget: HullBudget) -> Enclosure | None:
     """A convex hull within a budget that holds all of another hull and sticks out little; None where none was found.
 
-    Found in two ways, of which the better one counts: planes around the hull, more and more of them; and edges
-    contracted outwards, fewer and fewer of them, of the hull itself or, where that has very many, of planes around it.
+    Found in two ways, of which the better one counts: planes around the hull, more and more of them, then turned; and,
+    where the hull has few vertices too many, edges contracted outwards. Then vertices move, where the budget allows the
+    triangles that this makes of flat faces.
     """
-    found = [made for made in (_enclose_by_planes(hull, budget), _enclose_by_contraction(hull, budget)) if made]
-    return min(found, key=lambda made: made.error, default=None)
+    best, least = _enclose_by_contraction(hull, budget), _SAME * float(np.ptp(hull.vertices, axis=0).max())
+    if best is None or best.error > least:
+        found = [made for made in (best, _enclose_by_planes(hull, budget)) if made]
+        best = min(found, key=lambda made: made.error, default=None)
+    if best is None or best.error <= least:
+        return best
+    if 2 * len(best.hull.vertices) - 4 > budget.polygons:
+        return best
+    moved = _check_improved(hull, partial(minimax.move_vertices, best.hull.vertices, hull), budget)
+    return moved if moved and moved.error < best.error else best
+
+
+def _check_improved(hull: Polytope, improve: Callable[[], Floats], budget: HullBudget) -> Enclosure | None:
+    """What an improvement makes, where it comes to an end and is within the budget."""
+    from scipy.spatial import QhullError  # lazy: slow to import, only simplifying needs it
+
+    try:
+        return _grow_to_enclose(hull, improve(), budget)
+    except (QhullError, GeometryError, np.linalg.LinAlgError):
+        return None
+
+
+def _grow_to_enclose(hull: Polytope, corners: Floats, budget: HullBudget) -> Enclosure | None:
+    """The hull of corners, grown about the middle of a hull by as little as rounding asks for, to hold that."""
+    middle = hull.vertices.mean(axis=0)
+    tries = (_check_enclosure(hull, middle + (corners - middle) * (1 + growth), budget) for growth in _GROWTH)
+    return next((made for made in tries if made), None)
 
 
 def _enclose_by_planes(hull: Polytope, budget: HullBudget) -> Enclosure | None:
     """From a box around the hull, the farthest corner is cut off again and again by the plane that supports the hull
-    below it, as long as the budget holds (a sandwich algorithm, see Kamenev, 1992): the error falls about as one
-    over the number of planes, which no other placement beats by more than a factor.
+    below it, as long as the budget holds (a sandwich algorithm, see Kamenev, 1992); then all planes turn.
     """
     if budget.vertices < 8 or budget.polygons < 6 or budget.polygon_vertices < 4:
         return None  # a box has more
-    middle, axes, extents = principal_extents(hull.vertices)
-    search = _PlaneSearch((hull.vertices - middle) @ axes.T, hull.faces, extents, budget)
-    search.run()
+    middle, principal, extents = principal_extents(hull.vertices)
+    found = []
+    for axes, sides in ((principal, extents), (np.eye(3), np.ptp(hull.vertices, axis=0))):
+        search = _PlaneSearch((hull.vertices - middle) @ axes.T, hull.faces, sides, budget)
+        search.run()
+        normals = search.normals @ axes
+        turned = _check_improved(hull, partial(minimax.turn_planes, normals, hull), budget)
+        found += [turned] if turned else []
+    if found:
+        return min(found, key=lambda made: made.error)
     while True:
         for growth in _GROWTH:
             if made := _check_enclosure(hull, search.corners(growth) @ axes + middle, budget):
@@ -71,24 +105,17 @@ def _enclose_by_planes(hull: Polytope, budget: HullBudget) -> Enclosure | None:
 def _enclose_by_contraction(hull: Polytope, budget: HullBudget) -> Enclosure | None:
     """Edges contracted outwards until the budget is kept to; in the hull's own size, against rounding."""
     most = min(budget.vertices, budget.polygons)  # more can be, where many edges meet in few vertices
-    start: Polytope | None = hull
     if len(hull.vertices) > most + min(most, _ROUNDS):
-        nearer = _enclose_by_planes(hull, HullBudget(most + min(most, _ROUNDS)))
-        start = nearer.hull if nearer else None
-    if start is None:
         return None
     middle, size = hull.vertices.mean(axis=0), float(np.ptp(hull.vertices, axis=0).max())
-    goal = ((hull.vertices - middle) / size)[hull.faces]
+    points = (hull.vertices - middle) / size
 
     def are_few(points: Floats) -> bool:
         made = _try_hull(points) if len(points) <= budget.vertices else None
         return made is not None and _is_within_budget(made, budget)
 
-    corners = contract_edges((start.vertices - middle) / size, goal, are_few)
-    if corners is None:
-        return None
-    tries = (_check_enclosure(hull, corners * (1 + growth) * size + middle, budget) for growth in _GROWTH)
-    return next((made for made in tries if made), None)
+    corners = contract_edges(points, points[hull.faces], are_few)
+    return None if corners is None else _grow_to_enclose(hull, corners * size + middle, budget)
 
 
 def _check_enclosure(hull: Polytope, corners: Floats, budget: HullBudget) -> Enclosure | None:

@@ -15,10 +15,12 @@ if TYPE_CHECKING:
         FactorArgument,
         FileArgument,
         FlagArgument,
+        LengthArgument,
+        OptionArgument,
         PrimitiveOrFileArgument,
         WordArgument,
     )
-    from meshforge.language.actions.basic import Add, Delete, Each, Merge, Replace, Scale
+    from meshforge.language.actions.basic import Add, Delete, Each, Merge, Replace, Scale, Shrink
     from meshforge.language.actions.edit import GroupEdit, HullGroup, NewShape, Template
     from meshforge.language.actions.registry import ACTIONS, make_action, plugin_of
     from meshforge.language.apply import (
@@ -93,8 +95,10 @@ __all__ = [
     "Intersect",
     "Is",
     "LandmarkPair",
+    "LengthArgument",
     "Merge",
     "NewShape",
+    "OptionArgument",
     "Orient",
     "PrimitiveOrFileArgument",
     "Program",
@@ -103,6 +107,7 @@ __all__ = [
     "RuleTrace",
     "RunResult",
     "Scale",
+    "Shrink",
     "Template",
     "Union",
     "WordArgument",

@@ -82,16 +82,19 @@ def apply_action(
             _verify_edits(plugin, groups, edits)
     taken = set(used | names_in_use(mesh))
     made = [
-        (hull, m) for edit in edits for m in edit.made for hull in [_make_hull(m, label, taken, reference_length(mesh))]
+        (_make_hull(m, label, taken, reference_length(mesh), is_alone=edit.replaces_one(m)), m)
+        for edit in edits
+        for m in edit.made
     ]
     gone = {hull.name for group, edit in zip(groups, edits, strict=True) if edit.removes for hull in group.hulls}
     renamed = _relabel(groups, edits, label)
     kept = [renamed.get(hull.name, hull) for hull in mesh.hulls if hull.name not in gone]
-    notes = dict.fromkeys([*(edit.note for edit in edits if edit.note), *inheritance_notes((m for _, m in made), mesh)])
+    notes = [action.note_on(mesh, selected_mask), *(edit.note for edit in edits)]
+    notes += [*inheritance_notes((m for _, m in made), mesh), describe_lost_gaps(mesh, selected_mask, made)]
     return ActionResult(
         mesh.with_hulls([*kept, *(hull for hull, _ in made)]) if made or gone or renamed else mesh,
         tuple(hull.name for hull, _ in made),
-        "; ".join(notes) or None,
+        "; ".join(dict.fromkeys(note for note in notes if note)) or None,
         tuple(tuple(source.name for source in m.sources) for _, m in made),
         frozenset(taken),
     )
@@ -115,7 +118,7 @@ def names_in_use(mesh: SymbolicMesh) -> frozenset[str]:
     return frozenset([hull.name for hull in mesh.hulls] + [geom.name for geom in source])
 
 
-def _make_hull(made: NewShape, label: str | None, taken: set[str], reference: float) -> Hull:
+def _make_hull(made: NewShape, label: str | None, taken: set[str], reference: float, *, is_alone: bool) -> Hull:
     """The hull of a made shape, verified and named; its name is added to those taken."""
     heir = made.heir
     shape = ensure_valid(made.shape, heir.name, geometry.FLATNESS * reference)
@@ -124,7 +127,8 @@ def _make_hull(made: NewShape, label: str | None, taken: set[str], reference: fl
     while f"{stem}~{count}" in taken:
         count += 1
     taken.add(f"{stem}~{count}")
-    return Hull(f"{stem}~{count}", heir.body, shape, _label_of_new(heir, label), heir.parent or heir.name)
+    keeps_name = is_alone and (heir.parent is None or heir.keeps_name)
+    return Hull(f"{stem}~{count}", heir.body, shape, _label_of_new(heir, label), heir.parent or heir.name, keeps_name)
 
 
 def _label_of_new(heir: Hull, label: str | None) -> Label | None:
@@ -156,6 +160,34 @@ def _inheritance_note(made: NewShape, known: dict[str, dict[str, str]]) -> str |
     if not differing:
         return None
     return f"{join_names(differing)} as {made.heir.name} has it; the hulls beside it have another"
+
+
+def describe_lost_gaps(mesh: SymbolicMesh, selected_mask: int, made: Iterable[tuple[Hull, NewShape]]) -> str | None:
+    """A sentence on the gaps to hulls beside a selection that made primitives narrow, by more than a tenth and by more
+    than the contact distance; None where there is none."""
+    beside = [hull for k, hull in enumerate(mesh.hulls) if not selected_mask >> k & 1]
+    made = [(new, one) for new, one in made if new.primitive]
+    if not beside or not made:
+        return None
+    lost, (low, high) = [], geometry.bounds([hull.aabb for hull in beside])
+    for new, one in made:
+        reach = new.aabb.diagonal  # a wider gap is no matter of this part
+        apart = np.maximum(low - new.aabb.max, new.aabb.min - high).max(axis=1)
+        near = [beside[k] for k in np.flatnonzero(apart < reach)]
+        shapes = [new.shape, *(hull.shape for hull in one.sources), *(hull.shape for hull in near)]
+        first = 1 + len(one.sources)
+        pairs = geometry.close_pairs(shapes, reach, frozenset(range(first, len(shapes))))
+        for k, hull in enumerate(near, first):
+            was = min(pairs.get((source, k), reach) for source in range(1, first))
+            now = pairs.get((0, k), reach)
+            if was - now > max(was / 10, mesh.contact_distance):
+                name = (new.keeps_name and new.parent) or new.name
+                lost.append((was - now, was, now, name, hull.name))
+    if not lost:
+        return None
+    _, was, now, name, other = max(lost)
+    more = f" (and {len(lost) - 1} more)" if len(lost) > 1 else ""
+    return f"the gap between {name} and {other} shrinks from {was:.3g} m to {now:.3g} m{more}"
 
 
 def ensure_valid(shape: geometry.Shape, name: str, thickness: float) -> geometry.Shape:

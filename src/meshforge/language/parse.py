@@ -4,8 +4,8 @@ line, its column and a caret."""
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
-from functools import cache
+from collections.abc import Iterable, Mapping, Sequence
+from functools import cache, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
@@ -198,13 +198,67 @@ def build_action(text: TreeReader, tree: Node) -> base.Action:
     kind = text.locate_errors(name, lambda: ACTIONS.get(name))
     if kind is None:
         raise _unknown_action(text, name)
-    takes = list(kind.arguments().values())
-    if len(parts) > len(takes):
-        raise text.error_at(parts[len(takes)], f"{name} takes no further argument", f"Write {kind.usage()}.")
-    if len(parts) < kind.min_arguments():
+    _refuse_planned(text, kind, parts)
+    takes, needed = kind.arguments(), kind.min_arguments()
+    if len(parts) < needed:
         raise text.error_at(name, f"{name} lacks an argument", f"Write {kind.usage()}.")
-    values = [_build_argument(text, kind, argument, part) for argument, part in zip(takes, parts, strict=False)]
-    return text.locate_errors(tree, lambda: make_action(kind, values))
+    given = {
+        field: _build_argument(text, kind, argument, part)
+        for part, (field, argument) in zip(parts, list(takes.items())[:needed], strict=False)
+    }
+    made = text.locate_errors(tree, lambda: make_action(kind, given))
+    for part in parts[needed:]:
+        given |= [_build_option(text, kind, given, part)]
+        made = text.locate_errors(part, partial(make_action, kind, dict(given)))
+    return made
+
+
+def _refuse_planned(text: TreeReader, kind: type[base.Action], parts: Iterable[Node | Token]) -> None:
+    """Raise ProgramError for an option of the language that this version does not run."""
+    for part in parts:
+        word = text.source.piece_at(program_text.start_of(part))
+        if word in kind.planned:
+            problem = f"this version does not run the option {quote_code(word)} of {kind.__name__}"
+            raise text.error_at(part, problem, "Leave it out.")
+
+
+def _build_option(
+    text: TreeReader, kind: type[base.Action], given: Mapping[str, Any], part: Node | Token
+) -> tuple[str, Any]:
+    """The field and the value of an argument that may be left out. Raises ProgramError for one that the action does
+    not take, takes once only, or takes in another form."""
+    named = None if isinstance(part, str) or part.data != "option" else part
+    is_named, (word, value) = named is not None, named.children if named else (_bare_token(part), part)
+    takes, taken = list(kind.arguments().items())[kind.min_arguments() :], None
+    for field, argument in takes:
+        needs_value = isinstance(argument, base.OptionArgument)
+        if word in argument.choices and needs_value != is_named:
+            problem = f"{word} {'lacks its value' if needs_value else 'takes no value'}"
+            raise text.error_at(part, problem, f"Write {argument.usage if needs_value else word}.")
+        if needs_value:
+            found = _build_argument(text, kind, argument, value) if word in argument.choices else None
+        else:
+            found = None if is_named else _read_argument(text, argument, value)
+        if found is not None and field not in given:
+            return field, found
+        taken = argument if found is not None else taken
+    if taken:
+        several = f"{kind.__name__} takes one of {base.join_alternatives(taken.choices)} only"
+        problem = several if len(taken.choices) > 1 else f"{word} is given twice"
+        raise text.error_at(part, problem, "Leave one of them out.")
+    raise _unknown_option(text, kind, part, [argument for _, argument in takes])
+
+
+def _unknown_option(
+    text: TreeReader, kind: type[base.Action], part: Node | Token, takes: Sequence[base.ArgumentType]
+) -> ProgramError:
+    thing = quote_code(text.source.piece_at(program_text.start_of(part)))
+    if not takes:
+        return text.error_at(part, f"{kind.__name__} takes no further argument, not {thing}", f"Write {kind.usage()}.")
+    words = [word for argument in takes for word in argument.choices or (argument.usage,)]
+    like = likely_word(thing.strip("`"), words)
+    remedy = f"{f'Did you mean {like}? ' if like else ''}Write {kind.usage()}."
+    return text.error_at(part, f"{kind.__name__} takes {base.join_alternatives(words)} here, not {thing}", remedy)
 
 
 def _unknown_action(text: TreeReader, name: Token) -> ProgramError:
@@ -219,19 +273,26 @@ def _build_argument(text: TreeReader, kind: type[base.Action], argument: base.Ar
     """The value of an argument, read as its kind says."""
     if isinstance(argument, base.ActionArgument) and not isinstance(given, str):
         return build_action(text, given)
+    value = _read_argument(text, argument, given)
+    if value is None:
+        raise _misfit_error(text, kind, argument, given)
+    return value
+
+
+def _read_argument(text: TreeReader, argument: base.ArgumentType, given: Node | Token) -> Any | None:
+    """The value of an argument, None where it is no such."""
     token = _bare_token(given)
-    if token is not None:
-        content = text.unquote(token) if token.type == "STRING" else str(token)
-        value = argument.read(_TOKEN_KINDS[token.type], content)
-        if value is not None:
-            return value
-    raise _misfit_error(text, kind, argument, given)
+    if token is None:
+        return None
+    return argument.read(_TOKEN_KINDS[token.type], text.unquote(token) if token.type == "STRING" else str(token))
 
 
 def _bare_token(given: Node | Token) -> Token | None:
     """The piece of text that an argument is; None where it has arguments of its own."""
     if isinstance(given, str):
         return given
+    if given.data == "option":
+        return None
     return tokens_of(given)[0] if subtrees_of(given) == [] and len(tokens_of(given)) == 1 else None
 
 

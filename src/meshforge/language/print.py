@@ -9,7 +9,7 @@ from typing import assert_never
 from meshforge.common import ProgramError
 from meshforge.language import syntax
 from meshforge.language.actions.base import PRIMITIVES, Action, show_number
-from meshforge.language.actions.basic import Add, Delete, Each, Merge, Replace, Scale
+from meshforge.language.actions.basic import Add, Delete, Each, Merge, Replace, Scale, Shrink
 from meshforge.language.labels import WORD, check_label, show_label
 from meshforge.language.syntax import All, Attach, BaseExtractor, Diff, Extractor, Geo, Intersect, Is, Orient, Union
 
@@ -168,6 +168,8 @@ def _action_phrase(action: Action, whose: str) -> str:
         case Scale():
             where = "in every direction" if action.axis == "all" else f"along {action.axis}"
             return f"scaled by {show_number(action.factor)} {where}, about {whose} common centre"
+        case Shrink():
+            return f"made smaller all round by {show_number(action.distance)} m"
         case _:
             return f"edited by {action}"  # of a plug-in
 
@@ -177,14 +179,29 @@ def _substitute_phrase(action: Replace, whose: str) -> str:
         turned = " turned lengthwise and" if action.fit == "longest" else ""
         return f"“{action.geometry}”,{turned} stretched to fill {whose} bounding box"
     solid, around = _SOLID_WORDS[action.geometry], f"around {'it' if whose == 'its' else 'them'}"
-    if action.fit == "tight":
-        return f"the smallest {solid} {around}, at any angle"
-    if action.fit == "native":
-        return _native_phrase(action.geometry, whose, around)
-    return f"a {solid} that fills {whose} bounding box"
+    along = f", along {action.axis}" if action.axis else ""
+    if action.radius:
+        size = f"radius {show_number(action.radius)} m"
+        return f"a {action.geometry} of {size} at the middle of {whose} bounding box{along}"
+    match action.fit:
+        case "tight":
+            return f"the smallest {solid} {around}, at any angle"
+        case "native":
+            return _native_phrase(action, whose, around)
+        case "inscribed":
+            return f"the largest {action.geometry} inside {whose} convex hull{along}"
+        case "volume":
+            return f"a {action.geometry} of {whose} volume{along}"
+        case "longest":
+            return f"a sphere as wide as the longest side of {whose} bounding box"
+        case _:
+            return f"a {solid} that fills {whose} bounding box{along}"
 
 
-def _native_phrase(primitive: str, whose: str, around: str) -> str:
-    if primitive == "sphere":
+def _native_phrase(action: Replace, whose: str, around: str) -> str:
+    if action.geometry == "sphere":
         return f"the smallest sphere {around}"
-    return f"the thinnest {primitive} {around}, along the longest side of {whose} bounding box"
+    if action.geometry == "cylinder" and not action.axis:
+        return f"the smallest cylinder {around} along X, Y or Z"
+    side = action.axis or f"the longest side of {whose} bounding box"
+    return f"the thinnest {action.geometry} {around}, along {side}"

@@ -25,7 +25,7 @@ T = TypeVar("T")
 
 HEADERS = ("labels", "contact", "extremity", "orient")
 QUOTE_NAMES = "Put names with other characters than letters, digits and _ in double quotes."
-_SIGNS = {"COMMA": ",", "COLON": ":", "LPAR": "(", "RPAR": ")", "_TO": "->", "_ARROW": "=>"}
+_SIGNS = {"COMMA": ",", "COLON": ":", "LPAR": "(", "RPAR": ")", "_EQUALS": "=", "_TO": "->", "_ARROW": "=>"}
 _WORDS = {f"_{word.upper()}": word for word in (*HEADERS, *OPERATORS, "as")} | {"SNAP": "snap"}
 
 

@@ -14,6 +14,7 @@ from meshforge.rendering.compare import (
     draw_difference,
     draw_heat_map,
     draw_volumes,
+    find_replaced,
 )
 
 if TYPE_CHECKING:
@@ -72,6 +73,7 @@ __all__ = [
     "encode_gif",
     "encode_png",
     "encode_webp",
+    "find_replaced",
     "hull_numbers",
     "label_color",
     "label_colors",

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from meshforge.common import pluralize
-from meshforge.geometry import Aabb, Floats, Ints, Shape
+from meshforge.geometry import Aabb, Floats, Ints, Shape, is_same_shape
 from meshforge.rendering import colors as palette
 from meshforge.rendering import picture
 from meshforge.rendering.camera import Up, View
@@ -144,21 +144,33 @@ def draw_difference(
     up: Up | None = None,
 ) -> Image:
     """What an edit did: made hulls green, kept ones grey, removed ones as red, striped shells."""
-    gone = [h for h in before.hulls if h.name not in after.index]
-    colors = np.array([rgb(palette.KEPT if h.name in before.index else palette.MADE) for h in after.hulls]).reshape(
+    gone, fresh = find_replaced(before, after)
+    colors = np.array([rgb(palette.MADE if k in fresh else palette.KEPT) for k in range(len(after.hulls))]).reshape(
         -1, 3
     )
-    made = sum(h.name not in before.index for h in after.hulls)
+    made = len(fresh)
     entries = (LegendEntry(palette.REMOVED, "removed", len(gone)), LegendEntry(palette.MADE, "made", made))
     coloring = HullColors(colors, (*entries, LegendEntry(palette.KEPT, "kept", len(after.hulls) - made)))
     caption = f"{pluralize(len(before.hulls), 'hull')} before, {len(after.hulls)} after"
     canvas = Canvas(size, background, title, caption if legend else None, coloring if legend else HullColors(colors))
-    fresh = frozenset(k for k, h in enumerate(after.hulls) if h.name not in before.index)
     what = _with_removed(build_subject(after, coloring, up=up), gone, fresh)
     draw_on_canvas(canvas, what, joint_bounds(before, after), view)
     if not before.hulls and not after.hulls:
         canvas.write_message("no hulls", canvas.room)
     return canvas.image
+
+
+def find_replaced(before: SymbolicMesh, after: SymbolicMesh) -> tuple[list[Hull], frozenset[int]]:
+    """The hulls that an edit took away, and the numbers of those that it made; one that it replaced may have its name
+    still, but not its shape."""
+    near = 1e-6 * max(before.diagonal, after.diagonal)
+    same = {
+        hull.name
+        for hull in before.hulls
+        if hull.name in after.index and is_same_shape(hull.shape, after.hull_of(hull.name).shape, near)
+    }
+    gone = [hull for hull in before.hulls if hull.name not in same]
+    return gone, frozenset(k for k, hull in enumerate(after.hulls) if hull.name not in same)
 
 
 def joint_bounds(*meshes: SymbolicMesh) -> Aabb | None:

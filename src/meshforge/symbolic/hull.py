@@ -47,7 +47,8 @@ class Label:
 class Hull:
     """One node of the symbolic mesh (paper, definition of the symbolic collision mesh).
 
-    shape: in the mesh's frame; parent: see `Geom`, None for a hull of the file.
+    shape: in the mesh's frame; parent: see `Geom`, None for a hull of the file; keeps_name: whether it alone took the
+    place of its parent alone, whose name it gets in a file.
     """
 
     name: str
@@ -55,6 +56,7 @@ class Hull:
     shape: Shape
     annotation: Label | None = None
     parent: str | None = None
+    keeps_name: bool = False
 
     def __repr__(self) -> str:
         kind = type(self.primitive).__name__.lower() if self.primitive else f"{len(self.vertices)} vertices"

@@ -203,7 +203,14 @@ class SymbolicMesh:
         """The asset with the hulls of this mesh as its geoms. Raises MeshForgeError for a mesh made in memory."""
         if self.asset is None:
             raise MeshForgeError("this mesh was made in memory and has no file to be written back to")
-        return self.asset.with_geoms(Geom(h.name, h.body, h.shape, h.parent) for h in self.hulls)
+        named = self.names_in_file
+        return self.asset.with_geoms(Geom(named.get(h.name, h.name), h.body, h.shape, h.parent) for h in self.hulls)
+
+    @property
+    def names_in_file(self) -> dict[str, str]:
+        """The names of hulls that alone took the place of one, with the name of that, which they get in a file."""
+        alone = {h.name: h.parent for h in self.hulls if h.keeps_name and h.parent}
+        return {name: parent for name, parent in alone.items() if parent not in self.index}
 
 
 def _find_above(module: str, name: str) -> Any:

@@ -29,8 +29,8 @@ def test_a_hull_of_too_many_vertices_is_replaced_by_one_that_the_engine_takes() 
     before = mesh(ball(300), Box.of_bounds(Aabb([1, 0, 0], [2, 1, 1])))
     fixed = fix(before, find_engine("physx-gpu"))
     (change,) = fixed.changes
-    assert (change.hull, change.made, change.rules) == ("h0", "h0~1", ("vertices", "polygons"))
-    made = fixed.mesh.hull_of("h0~1")
+    assert (change.hull, change.rules) == ("h0", ("vertices", "polygons"))
+    made = fixed.mesh.hull_of("h0")
     assert (made.parent, made.label, made.body) == ("h0", "knob", "b0")
     assert change.vertices == (300, len(made.vertices)) and len(made.vertices) <= 64
     assert len(polygon_sizes(made.shape.tessellate())) <= 64
@@ -62,6 +62,22 @@ def test_a_hull_that_is_too_thin_is_thickened_to_both_sides() -> None:
     assert made.center[2] == pytest.approx(0.0002)
     assert fixed.changes[0].error == pytest.approx(0.0003, rel=1e-5)
     assert [f.rule for f in check(fixed.mesh, "physx-gpu")] == ["physx-gpu-oblong"]  # of that nothing safe is known
+
+
+def test_a_number_of_vertices_is_kept_to_however_far_a_hull_sticks_out() -> None:
+    before = mesh(ball(100), ball(20))
+    fixed = fix(before, None, max_vertices=24)
+    (change,) = fixed.changes
+    assert change.hull == "h0" and change.vertices[0] == 100 and change.vertices[1] <= 24
+    assert change.error > 0.01 * before.diagonal and len(fixed.mesh.hulls[0].vertices) == change.vertices[1]
+    assert fixed.mesh.hulls[1] is before.hulls[1]
+    strict = fix(before, None, tolerance=0.0001, max_vertices=24)
+    assert strict.mesh is before and "would stick out by" in strict.left[0]
+
+
+def test_of_two_limits_of_vertices_the_smaller_counts() -> None:
+    fixed = fix(mesh(ball(100)), find_engine("physx-gpu"), max_vertices=24)
+    assert len(fixed.mesh.hulls[0].vertices) <= 24 and len(polygon_sizes(fixed.mesh.hulls[0].shape.tessellate())) <= 64
 
 
 def test_a_mesh_within_the_limits_stays_the_same_object() -> None:
@@ -98,8 +114,8 @@ def test_the_command_line_writes_mended_files_and_leaves_the_input(run: Run) -> 
 @pytest.mark.parametrize(
     ("words", "problem"),
     [
-        (("--fix",), "--fix needs --engine and --out"),
-        (("--fix", "--out", "out"), "--fix needs --engine and --out"),
+        (("--fix",), "--fix needs --engine or --max-vertices, and --out"),
+        (("--fix", "--out", "out"), "--fix needs --engine or --max-vertices, and --out"),
         (("--engine", "unreal", "--out", "out"), "--out says nothing without --fix"),
         (("--engine", "unreal", "--tolerance", "1"), "--tolerance says nothing without --fix"),
     ],

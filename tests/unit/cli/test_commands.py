@@ -543,7 +543,7 @@ def test_the_loop_of_a_project_from_the_command_line(run: Run) -> None:
     assert learned["status"] == "found"
     assert [reading["extractor"] for reading in learned["readings"]] == ["Is(leg)", "Is(panel)"]
     assert run("apply", "rows", "--workers", "1").code == 0
-    assert json.loads(Path("rows/edited/row.labels.json").read_text())["hulls"]["middle~1"]["label"] == "panel"
+    assert json.loads(Path("rows/edited/row.labels.json").read_text())["hulls"]["middle"]["label"] == "panel"
     assert run("status", "rows", "--json").json["assets"][0]["output"] == "edited"
     assert run("demonstrate", "rows", "row.obj", "--clear").code == 0
     assert run("demonstrate", "rows", "row.obj").out == ""

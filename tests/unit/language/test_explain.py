@@ -36,9 +36,18 @@ _SENTENCES = [
     ),
     (
         "Is(leg) => Each(Replace(cylinder, native))",
-        "Each connected group of leg hulls is replaced by the thinnest cylinder around it, along the longest side of"
-        " its bounding box.",
+        "Each connected group of leg hulls is replaced by the smallest cylinder around it along X, Y or Z.",
     ),
+    ("Is(leg) => Each(Replace(cylinder, native, Z))", "replaced by the thinnest cylinder around it, along Z."),
+    ("Is(leg) => Each(Replace(capsule, X))", "replaced by a capsule that fills its bounding box, along X."),
+    ("Is(leg) => Each(Replace(box, inscribed))", "replaced by the largest box inside its convex hull."),
+    ("Is(leg) => Each(Replace(capsule, volume))", "replaced by a capsule of its volume."),
+    (
+        "Is(leg) => Each(Replace(sphere, radius = 0.05))",
+        "replaced by a sphere of radius 0.05 m at the middle of its bounding box.",
+    ),
+    ("Is(leg) => Each(Replace(sphere, longest))", "a sphere as wide as the longest side of its bounding box."),
+    ("Is(leg) => Shrink(0.002)", "The leg hulls are made smaller all round by 0.002 m."),
     (
         "Is(leg) => Replace(sphere, native)",
         "The leg hulls are replaced by the smallest sphere around them, one for each body.",
@@ -64,7 +73,7 @@ def test_a_rule_reads_as_a_sentence(text: str, sentence: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "usage", ["Delete", "Merge", "Scale(X, 2)", "Replace(sphere)", 'Add(-Z, "a.obj")', "Each(Delete)"]
+    "usage", ["Delete", "Merge", "Scale(X, 2)", "Shrink(0.002)", "Replace(sphere)", 'Add(-Z, "a.obj")', "Each(Delete)"]
 )
 def test_every_action_has_words(usage: str) -> None:
     assert explain(Rule(parse_extractor("All"), parse_action(usage))).endswith(".")
@@ -73,8 +82,8 @@ def test_every_action_has_words(usage: str) -> None:
 
 def test_no_action_is_without_words() -> None:
     said = {text.partition("=> ")[2].partition("(")[0].split(" ")[0] for text, _ in _SENTENCES}
-    assert said >= set(ACTIONS) - {"Add", "Replace", "Scale"}
-    assert {"Add", "Replace", "Scale"} <= set(ACTIONS)
+    assert said >= set(ACTIONS) - {"Add", "Replace", "Scale", "Shrink"}
+    assert {"Add", "Replace", "Scale", "Shrink"} <= set(ACTIONS)
 
 
 def test_an_orientation_says_what_will_point_where() -> None:

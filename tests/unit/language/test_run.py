@@ -161,7 +161,7 @@ def test_names_of_the_file_are_not_given_again_though_their_hulls_are_gone() -> 
 
 def test_an_edited_mesh_lowers_to_an_asset_whose_made_geoms_name_their_parent() -> None:
     geoms = Program.parse(TABLES).run(in_file(table())).mesh.to_asset().geoms
-    assert [(g.name, g.parent) for g in geoms][:2] == [("top~1", "top"), ("leg0_high~1", "leg0_high")]
+    assert [(g.name, g.parent) for g in geoms][:2] == [("top", "top"), ("leg0_high~1", "leg0_high")]
 
 
 def test_replaying_rule_by_rule_gives_what_the_run_gives() -> None:

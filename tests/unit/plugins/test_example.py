@@ -17,12 +17,12 @@ from tests.unit.batch.families import write_table
 
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A folder with `table.obj`, its labels and `shrink.mf`; the example is on the path of what is started in it."""
+    """A folder with `table.obj`, its labels and `contract.mf`; the example is on the path of what is started in it."""
     site = unpack(build_example(tmp_path / "wheels"), tmp_path / "site")
     put_on_path(site, monkeypatch)
     work = tmp_path / "work"
     write_table(work / "table.obj")
-    (work / "shrink.mf").write_text(page_files()["shrink.mf"].replace("top, leg", "top, leg, misc"))
+    (work / "contract.mf").write_text(page_files()["contract.mf"].replace("top, leg", "top, leg, misc"))
     return work
 
 
@@ -42,7 +42,7 @@ def test_every_command_of_the_page_runs(folder: Path) -> None:
     assert set(edited) == {
         "top",
         "crumb",
-        *(f"{side}_{part}~1" for side in ("left", "right") for part in ("low", "high")),
+        *(f"{side}_{part}" for side in ("left", "right") for part in ("low", "high")),
     }
     assert edited["top"] == before["top"]
     labelled = json.loads((folder / "tables" / "labels" / "table.obj.json").read_text())["hulls"]
@@ -67,9 +67,9 @@ def test_a_plug_ins_action_is_demonstrated_learned_and_run_in_workers(folder: Pa
     meshforge("new", "home", "table.obj", "two/table.obj", cwd=folder)
     meshforge("label", "home", "--vocabulary", "top,leg,misc", cwd=folder)
     legs = "left_low,left_high,right_low,right_high"
-    meshforge("demonstrate", "home", "table.obj", f"{legs} => Shrink(0.5)", cwd=folder)
+    meshforge("demonstrate", "home", "table.obj", f"{legs} => Contract(0.5)", cwd=folder)
     learned = meshforge("synthesize", "home", cwd=folder)
-    assert "Is(leg) => Shrink(0.5)" in (folder / "home" / "program.mf").read_text(), learned
+    assert "Is(leg) => Contract(0.5)" in (folder / "home" / "program.mf").read_text(), learned
     rows = meshforge("apply", "home", "--workers", "2", "--json", cwd=folder).lines
     assert [row["status"] for row in rows] == ["edited", "edited"]
     assert all(len(row["rules"][0]["made"]) == 4 for row in rows)
@@ -84,7 +84,7 @@ def test_pip_installs_the_package_and_the_list_names_it(tmp_path: Path, monkeypa
     rows = meshforge("plugins", "--json", cwd=tmp_path).json
     assert [(row["kind"], row["name"]) for row in rows] == [
         ("formats", "hulls"),
-        ("actions", "Shrink"),
+        ("actions", "Contract"),
         ("labelers", "flat"),
         ("checks", "few-hulls"),
     ]

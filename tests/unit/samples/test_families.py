@@ -25,7 +25,7 @@ NAMES = tuple(family.name for family in FAMILIES)
 CUPS = Program.parse(
     "labels base, wall, handle, lid\n\n"
     "Is(base) => Merge\n"
-    "Diff(Is(handle), Attach(Is(handle), Is(wall))) => Each(Replace(capsule, tight))\n"
+    "Diff(Is(handle), Attach(Is(handle), Is(wall))) => Each(Replace(capsule, volume))\n"
 )
 LEGS = Program.parse("labels seat, leg, back, arm, rail\n\nIs(leg) => Each(Merge)\n")
 LEG_COUNTS = {"stool": 3, "bench": 6}

@@ -10,12 +10,13 @@ from meshforge.studio.wire.program import ActionForm
 from tests.program_parts import parse_action
 
 VIEW = build_language_view()
-VALUES = {"file": '"part.obj"', "factor": "2", "shape": "capsule"}
+VALUES = {"file": '"part.obj"', "factor": "2", "length": "0.01", "shape": "capsule"}
 
 
 def written(form: ActionForm, required: bool) -> str:
     """An action filled into its form, with a capsule and else the first choice everywhere."""
-    given = [VALUES.get(a.kind) or a.choices[0] for a in form.arguments if a.required or not required]
+    wanted = [a for a in form.arguments if a.kind != "option" and (a.required or not required)]
+    given = [VALUES.get(a.kind) or a.choices[0] for a in wanted]
     return f"{form.name}({', '.join(given)})" if given else form.name
 
 
@@ -35,7 +36,7 @@ def test_a_form_makes_text_that_parses(form: ActionForm) -> None:
 def test_a_form_with_everything_filled_in_parses_where_its_words_go_together() -> None:
     texts = {form.name: written(form, required=False) for form in VIEW.actions}
     assert texts["Add"] == 'Add(+X, "part.obj", keep)'
-    assert texts["Replace"] == "Replace(capsule, native)"
+    assert texts["Replace"] == "Replace(capsule, native, X)"
     for text in texts.values():
         parse_action(text)
 

@@ -14,6 +14,7 @@ export const ACTION_KEYS: Readonly<Record<string, string>> = {
   Add: "Shift+A",
   Merge: "M",
   Scale: "S",
+  Shrink: "Shift+S",
 };
 
 const isHere = (): boolean => useWorkspace.getState().stage === "demonstrate" && useWorkspace.getState().asset !== null;

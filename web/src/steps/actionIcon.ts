@@ -1,5 +1,5 @@
 // The picture of each action.
-import { Combine, type LucideIcon, PackagePlus, Replace, Scaling, Shapes, Trash2 } from "lucide-react";
+import { Combine, type LucideIcon, Minimize2, PackagePlus, Replace, Scaling, Shapes, Trash2 } from "lucide-react";
 
 const ICONS: Readonly<Record<string, LucideIcon>> = {
   Delete: Trash2,
@@ -7,6 +7,7 @@ const ICONS: Readonly<Record<string, LucideIcon>> = {
   Add: PackagePlus,
   Merge: Combine,
   Scale: Scaling,
+  Shrink: Minimize2,
 };
 
 /** The icon of an action, by its name or by the text of a step. */

@@ -22,7 +22,9 @@ const form = (name: string, ...args: Argument[]): ActionForm => ({
 const replace = form(
   "Replace",
   argument("geometry", "shape", ["box", "cylinder", "capsule", "sphere"]),
-  argument("fit", "words", ["native", "tight", "longest"], false),
+  argument("fit", "words", ["native", "tight", "inscribed", "volume", "longest"], false),
+  argument("axis", "words", ["X", "Y", "Z"], false),
+  argument("radius", "option", ["radius"], false),
 );
 const add = form(
   "Add",
@@ -31,7 +33,8 @@ const add = form(
   argument("keep", "flag", ["keep"], false),
 );
 const scale = form("Scale", argument("axis", "words", ["all", "X", "Y", "Z"]), argument("factor", "factor"));
-const forms = [form("Delete"), form("Merge"), replace, add, scale];
+const shrink = form("Shrink", argument("distance", "length"));
+const forms = [form("Delete"), form("Merge"), replace, add, scale, shrink];
 const draft = (more: Partial<Draft>): Draft => ({
   action: "Delete",
   arguments: {},
@@ -53,13 +56,22 @@ describe("the text of a step, read as a draft and written again", () => {
     'Add(-Z, "a \\"b\\".obj", keep)',
     'Add(+X, "knob.obj") as knob',
     "Scale(Z, 0.5)",
+    "Replace(sphere, radius = 0.05)",
+    "Each(Replace(cylinder, native, Z))",
+    "Replace(capsule, X, radius = 0.01) as grip",
+    "Shrink(0.002)",
   ])("is the same: %s", (text) => {
     const parts = parseAction(text, forms);
     const order = forms.find(({ name }) => name === parts?.action)?.arguments ?? [];
     expect(parts && draftText(draft(parts), order)).toBe(text);
   });
 
-  it.each(["", "Explode", "Replace(pyramid)", "Scale(Z, 0)", "Scale(0.5, Z)", "Each("])("is no draft: %j", (text) => {
+  it("has its options in any order, and in that of the form when written again", () => {
+    const parts = parseAction("Replace(capsule, radius=0.01, X)", forms);
+    expect(parts && draftText(draft(parts), replace.arguments)).toBe("Replace(capsule, X, radius = 0.01)");
+  });
+
+  it.each(["Replace(sphere, radius)", "Replace(sphere, radius = 0)", "Replace(box, X, X)", "Shrink(0)", "", "Explode", "Replace(pyramid)", "Scale(Z, 0)", "Scale(0.5, Z)", "Each("])("is no draft: %j", (text) => {
     expect(parseAction(text, forms)).toBeNull();
   });
 });
@@ -86,6 +98,10 @@ describe("arguments", () => {
     expect(goesWith("native", { geometry: "sphere" })).toBe(true);
     expect(goesWith("native", { geometry: "bar.obj" })).toBe(false);
     expect(goesWith("longest", { geometry: "bar.obj" })).toBe(true);
+    expect(goesWith("radius", { geometry: "box" })).toBe(false);
+    expect(withArgument({ geometry: "capsule", fit: "tight" }, "radius", 0.1)).toEqual({ geometry: "capsule", radius: 0.1 });
+    expect(withArgument({ geometry: "capsule", axis: "X" }, "fit", "tight")).toEqual({ geometry: "capsule", fit: "tight" });
+    expect(withArgument({ geometry: "sphere", radius: 0.1 }, "geometry", "box")).toEqual({ geometry: "box" });
   });
 });
 

@@ -12,26 +12,37 @@ export function parseAction(text: string, forms: readonly ActionForm[]): Parts |
   const call = /^(\w+)(?:\((.*)\))?$/.exec(inner?.[1] ?? whole?.[1] ?? "");
   const form = forms.find(({ name }) => name === call?.[1]);
   if (!call || !form) return null;
-  const given = assignWords(call[2]?.match(/"(?:[^"\\]|\\.)*"|[^\s,]+/g) ?? [], form.arguments);
+  const given = assignWords(call[2]?.match(/"(?:[^"\\]|\\.)*"|\w+\s*=\s*[^\s,]+|[^\s,]+/g) ?? [], form.arguments);
   return given && { action: form.name, arguments: given, each: inner !== null, label: unquote(whole?.[2] ?? "") };
 }
 
-/** Each written argument goes to the next of the form's that takes it. */
+/** Required arguments in their order, then options in any: each goes to the first of the form's that takes it. */
 function assignWords(words: readonly string[], wanted: readonly Argument[]): Record<string, Value> | null {
   const given: Record<string, Value> = {};
-  let at = 0;
+  const left = [...wanted];
   for (const word of words) {
-    while (at < wanted.length && !accepts(wanted[at], word)) at += 1;
-    const argument = wanted[at++];
+    const places = left[0]?.required ? left.slice(0, 1) : left;
+    const argument = places.find((one) => accepts(one, word));
     if (!argument) return null;
-    given[argument.name] = argument.kind === "flag" ? true : argument.kind === "factor" ? Number(word) : unquote(word);
+    left.splice(left.indexOf(argument), 1);
+    given[argument.name] = valueOf(argument, word);
   }
   return given;
 }
 
+function valueOf({ kind }: Argument, word: string): Value {
+  if (kind === "flag") return true;
+  return NUMBERS.has(kind) ? Number(word.slice(word.indexOf("=") + 1)) : unquote(word);
+}
+
+/** The kinds of arguments that are numbers above 0. */
+export const NUMBERS: ReadonlySet<string> = new Set(["factor", "length", "option"]);
+
 function accepts(argument: Argument | undefined, word: string): boolean {
   if (!argument) return false;
-  if (argument.kind === "factor") return Number(word) > 0;
+  if (argument.kind === "option")
+    return word.includes("=") && word.split("=")[0]?.trim() === argument.name && Number(valueOf(argument, word)) > 0;
+  if (NUMBERS.has(argument.kind)) return Number(word) > 0;
   if (argument.kind === "flag") return word === argument.name;
   const quoted = word.startsWith('"');
   if (argument.kind === "words" || !quoted) return argument.choices.includes(word);
@@ -45,31 +56,47 @@ function unquote(word: string): string {
 /** The arguments that an action begins with. */
 export function defaultArguments(form: ActionForm, templates: readonly string[]): Record<string, Value> {
   const usual = ({ kind, choices }: Argument): Value =>
-    kind === "factor" ? 0.9 : kind === "file" ? (templates[0] ?? "") : (choices[0] ?? "");
+    kind === "factor" ? 0.9 : kind === "length" ? 0.002 : kind === "file" ? (templates[0] ?? "") : (choices[0] ?? "");
   const required = form.arguments.filter((argument) => argument.required);
   return Object.fromEntries(required.map((argument) => [argument.name, usual(argument)]));
 }
 
-/** Whether a word goes with the shape that is chosen: `native` is for round ones, `longest` for templates. */
+const LONG = ["native", "tight", "inscribed", "volume", "X", "Y", "Z", "radius"];
+const OPTIONS: Readonly<Record<string, readonly string[]>> = {
+  box: ["tight", "inscribed", "volume"],
+  cylinder: LONG,
+  capsule: LONG,
+  sphere: ["native", "inscribed", "volume", "longest", "radius"],
+};
+const ALL_OPTIONS: ReadonlySet<string> = new Set(Object.values(OPTIONS).flat());
+
+/** Whether a word goes with the shape that is chosen, where it is an option of `Replace`. */
 export function goesWith(word: string, { geometry = "" }: Draft["arguments"]): boolean {
-  const shape = String(geometry);
-  if (word === "native") return ["cylinder", "capsule", "sphere"].includes(shape);
-  if (word === "tight") return ["box", "cylinder", "capsule"].includes(shape);
-  if (word === "longest") return shape !== "" && !PRIMITIVES.has(shape);
-  return true;
+  if (!ALL_OPTIONS.has(word)) return true;
+  return geometry !== "" && (OPTIONS[String(geometry)] ?? ["longest"]).includes(word);
 }
+
+/** The options that another one takes the place of. */
+const CLASHES: Readonly<Record<string, (given: Draft["arguments"]) => string[]>> = {
+  fit: ({ fit }) => ["radius", ...(fit === "tight" ? ["axis"] : [])],
+  radius: () => ["fit"],
+  axis: ({ fit }) => (fit === "tight" ? ["fit"] : []),
+};
 
 /** The arguments with one of them changed, less those that no longer go with it. */
 export function withArgument(given: Draft["arguments"], name: string, value: Value): Draft["arguments"] {
   const after = { ...given, [name]: value };
-  return Object.fromEntries(Object.entries(after).filter(([, word]) => goesWith(String(word), after)));
+  const others = value ? (CLASHES[name]?.(after) ?? []) : [];
+  const stays = ([key, word]: [string, unknown]) =>
+    !others.includes(key) && goesWith(key === "radius" ? key : String(word), after);
+  return Object.fromEntries(Object.entries(after).filter(stays));
 }
 
 /** The first argument that is still to be given. */
 export function missingArgument(draft: Draft, form: ActionForm): Argument | undefined {
   return form.arguments.find(({ name, kind, required }) => {
     const value = draft.arguments[name];
-    if (kind === "factor" && value !== undefined)
+    if (NUMBERS.has(kind) && value !== undefined && (required || value !== ""))
       return !(typeof value === "number" && value > 0 && Number.isFinite(value));
     return required && (value === undefined || value === "");
   });
@@ -81,6 +108,7 @@ export function draftText(draft: Draft, order: readonly { name: string; kind: st
     const value = draft.arguments[name];
     if (value === undefined || value === "" || value === false) return [];
     if (kind === "flag") return [name];
+    if (kind === "option") return [`${name} = ${value}`];
     const isWord = kind !== "file" && (kind !== "shape" || PRIMITIVES.has(String(value)));
     return [isWord ? String(value) : JSON.stringify(value)];
   });
@@ -91,7 +119,7 @@ export function draftText(draft: Draft, order: readonly { name: string; kind: st
 
 const PRIMITIVES: ReadonlySet<string> = new Set(["box", "cylinder", "capsule", "sphere"]);
 
-const RESERVED = new Set("All Is Attach Geo Union Intersect Diff Delete Replace Add Merge Scale Each".split(" "));
+const RESERVED = new Set("All Is Attach Geo Union Intersect Diff Delete Replace Add Merge Scale Shrink Each".split(" "));
 
 /** A label as programs write it: quoted where it is no single word, or a word of the language. */
 export function labelText(label: string): string {

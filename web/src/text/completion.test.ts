@@ -2,7 +2,7 @@ import { describe, expect, it } from "vitest";
 import { labelText } from "../store/actions";
 import { wordBefore, type Context, openCall, suggestions } from "./completion";
 
-const argument = (name: string, kind: "shape" | "words" | "factor", choices: string[], required = true) => ({
+const argument = (name: string, kind: "shape" | "words" | "factor" | "option", choices: string[], required = true) => ({
   name,
   kind,
   wants: "",
@@ -18,7 +18,7 @@ const context: Context = {
         summary: "Replaces.",
         usage: "Replace(box)",
         makes: true,
-        arguments: [argument("geometry", "shape", ["box", "sphere"]), argument("fit", "words", ["tight"], false)],
+        arguments: [argument("geometry", "shape", ["box", "sphere"]), argument("fit", "words", ["tight"], false), argument("radius", "option", ["radius"], false)],
       },
     ],
     operators: ["All", "Is(label)", "Attach(left, right)", "Geo(base, direction)"].map((usage) => ({
@@ -44,7 +44,8 @@ describe("what may follow in a program", () => {
     ["Is(leg) => ", ["Delete", "Replace", "Each"]],
     ["Is(leg) => Each(Re", ["Delete", "Replace"]],
     ["Is(leg) => Replace(", ["box", "sphere", '"tray.obj"']],
-    ["Is(leg) => Each(Replace(box, ", ["tight"]],
+    ["Is(leg) => Each(Replace(box, ", ["tight", "radius = "]],
+    ["Is(leg) => Replace(box, tight, ", ["tight", "radius = "]],
     ["Is(leg) => Replace(box) as ", ["leg", '"table top"']],
     ["labels leg", []],
     ["orient ", ["+X", "-X", "All", "Is"]],

@@ -54,10 +54,14 @@ function forAction(before: string, context: Context): Suggestion[] {
   const call = openCall(before);
   if (!call || call.name === "Each") return [...actions(context), ...(call ? [] : each)];
   const form = context.language.actions.find(({ name }) => name === call.name);
-  const argument = form?.arguments[call.commas];
-  if (!argument) return [];
-  const words = argument.choices.map((label) => ({ label, detail: argument.name }));
-  const files = argument.kind === "file" || argument.kind === "shape" ? context.templates : [];
+  const all = form?.arguments ?? [];
+  const next = all[call.commas];
+  const argument = next?.required ? next : undefined;
+  const takes = argument ? [argument] : all.filter(({ required }) => !required);
+  const words = takes.flatMap(({ name, kind, choices }) =>
+    choices.map((word) => ({ label: kind === "option" ? `${word} = ` : word, detail: name })),
+  );
+  const files = argument?.kind === "file" || argument?.kind === "shape" ? context.templates : [];
   return [...words, ...files.map((file) => ({ label: JSON.stringify(file), detail: "template" }))];
 }
 

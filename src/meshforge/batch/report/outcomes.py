@@ -9,11 +9,12 @@ from pathlib import Path
 
 from meshforge.batch.engine_trial import examine_file
 from meshforge.batch.execution import execute
-from meshforge.batch.outcome import MOST_SHOWN, AssetOutcome, Failed, RunSummary, status_of
+from meshforge.batch.outcome import MOST_SHOWN, AssetOutcome, Failed, RuleEffect, RunSummary, status_of
 from meshforge.batch.provenance import read_stamp
 from meshforge.batch.report.contents import READ_TIMEOUT, MeshReader, ReportAsset, read_again
 from meshforge.batch.workers import EXECUTION_DEFAULTS, ExecutionOptions, WorkerFailure
 from meshforge.checks import CheckOptions, Examination
+from meshforge.common import join_names
 from meshforge.formats import load
 from meshforge.language import Program, RuleTrace, to_canonical_frame
 from meshforge.symbolic import SymbolicMesh
@@ -74,9 +75,15 @@ def compare_outcomes(
         else:
             was, pose = to_canonical_frame(was, program.orient, program.contact)
             now = replace(now, hulls=tuple(hull.move(pose) for hull in now.hulls))
-        trace = tuple(RuleTrace(line.rule, line.selected, line.made, line.note) for line in outcome.rules)
+        trace = tuple(RuleTrace(line.rule, line.selected, line.made, _describe(line)) for line in outcome.rules)
         told = (alarms or {}).get(name, ())
         yield ReportAsset(name, was, now, trace, status_of(outcome), None, is_shown, notes, checked, told)
+
+
+def _describe(line: RuleEffect) -> str | None:
+    """The note on what a rule did, with the names that are gone."""
+    gone = f"names that are gone: {join_names(line.gone, 5)}" if line.gone else None
+    return "; ".join(filter(None, [line.note, gone])) or None
 
 
 def _split_checks(found: Examination | WorkerFailure) -> tuple[Examination | None, tuple[str, ...]]:

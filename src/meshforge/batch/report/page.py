@@ -17,7 +17,7 @@ from meshforge.batch.workers import IN_PROCESS, ExecutionOptions, WorkerFailure
 from meshforge.checks import Finding
 from meshforge.common import join_names, pluralize, write_atomically
 from meshforge.language import ACTIONS, OPERATORS, Program, Rule, explain, show, show_label
-from meshforge.rendering import DIFFERENCE_COLORS, SELECTED, UNLABELLED, UNSURE, label_colors
+from meshforge.rendering import DIFFERENCE_COLORS, SELECTED, UNLABELLED, UNSURE, find_replaced, label_colors
 
 MOST_PICTURED = 120
 """Assets with pictures by default: about 60 kB each in the page."""
@@ -221,10 +221,9 @@ def _label_legend(assets: Sequence[contents.ReportAsset], colors: Mapping[str, s
 def _change_legend(assets: Sequence[contents.ReportAsset]) -> list[_LegendRow]:
     """What the colours of the pictures of changes mean, and how many hulls are of each kind."""
     pairs = [(asset.before, asset.after) for asset in assets if asset.before and asset.after]
-    removed = sum(hull.name not in after.index for before, after in pairs for hull in before.hulls)
-    kept = sum(hull.name in before.index for before, after in pairs for hull in after.hulls)
-    made = sum(len(after.hulls) for _, after in pairs) - kept
-    counts = (("removed", removed), ("made", made), ("kept", kept))
+    found = [find_replaced(before, after) for before, after in pairs]
+    removed, made = sum(len(gone) for gone, _ in found), sum(len(fresh) for _, fresh in found)
+    counts = (("removed", removed), ("made", made), ("kept", sum(len(after.hulls) for _, after in pairs) - made))
     return [_LegendRow.of(word, DIFFERENCE_COLORS[word], n, n) for word, n in counts]
 
 

@@ -104,7 +104,7 @@ class MjcfEdit:
         self.tree = plan.tree
         self.weighs: list[int] = []
         self.expected = plan.predict_geoms()
-        taken = {geom.name for geom in authored.spec_geoms}
+        taken = self._names_of_kept()
         for entry in self.expected:
             if isinstance(entry, NewGeom):
                 _name_slot(entry.slot, entry.slot.names[0], taken)
@@ -148,11 +148,15 @@ class MjcfEdit:
         for _ in range(_ROUNDS):
             after = read_model(self._build_tree(), self.is_whole)
             misread = list(self._find_misread(after))
-            taken = {geom.name for geom in (*after.spec_geoms, *self.authored.spec_geoms)}
+            taken = {geom.name for geom in after.spec_geoms} | self._names_of_kept()
             named = [_name_slot(slot, wanted, taken) for slot, wanted, _ in misread if slot is not None]
             if not any(named):
                 break
         return after, {wanted: read for _, wanted, read in misread}
+
+    def _names_of_kept(self) -> set[str]:
+        """The name attributes of the geoms that stay."""
+        return {self.authored.spec_geoms[e.number].name for e in self.expected if isinstance(e, OldGeom)}
 
     def _build_tree(self) -> MjcfTree:
         main = self.tree.main.path

@@ -71,8 +71,9 @@ def find_differences(
     yield from _compare_meshes(before.model, after.model, is_whole)
     number = {entry.number: k for k, entry in enumerate(expected) if isinstance(entry, OldGeom)}
     yield from _compare_kept(before, after, number)
-    yield from _compare_references(before.model, after.model, number)
     made = {k: entry for k, entry in enumerate(expected) if isinstance(entry, NewGeom)}
+    renewed = {before.names.index(e.geom.name): k for k, e in made.items() if e.geom.name in before.names}
+    yield from _compare_references(before.model, after.model, renewed | number)
     yield from _compare_new_geoms(before, after, made)
 
 

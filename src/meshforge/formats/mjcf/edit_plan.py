@@ -143,7 +143,7 @@ class MjcfPlan:
 
     def _refuse_fixed(self, kept: Container[str]) -> None:
         """Raise AssetError where what is removed is not one element of the files, or is referred to."""
-        removed = []
+        removed, renewed = [], {geom.name for geom in new_hulls(self.asset, self.owner)}
         for place in self.places:
             if place.own is not None:
                 continue
@@ -151,7 +151,7 @@ class MjcfPlan:
             if place.authored.fixed or place.node is None:
                 where = self.tree.where(place.node) if place.node else str(self.tree.main.path)
                 raise AssetError(f"hull {hull!r} cannot be changed: {place.authored.fixed}", where=where)
-            if name := place.node.attributes.get("name"):
+            if (name := place.node.attributes.get("name")) and hull not in renewed:
                 removed.append((name, hull))
         refuse_referenced(self.tree, removed)
 

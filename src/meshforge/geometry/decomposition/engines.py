@@ -84,6 +84,16 @@ class CoacdSettings(_Settings):
     real_metric: bool = _option(False, "Read threshold in metres instead of relative to the size.")
     seed: int = _option(0, "Seed of the search; the same seed gives the same hulls.", 0, 2**31 - 1)
 
+    @property
+    def max_vertices(self) -> int | None:
+        """The most vertices of a hull, None without a limit."""
+        return self.max_ch_vertex if self.decimate else None
+
+    @staticmethod
+    def limit_vertices(most: int) -> dict[str, int]:
+        """The fields that say how many vertices a hull may have."""
+        return {"decimate": True, "max_ch_vertex": most}
+
 
 @dataclass(frozen=True, slots=True)
 class VhacdSettings(_Settings):
@@ -104,13 +114,31 @@ class VhacdSettings(_Settings):
     min_edge_length: int = _option(2, "Parts of fewer voxels than this along every side are not split.", 1, 64)
     find_best_plane: bool = _option(False, "Search the best cut instead of the middle (slow).")
 
+    @property
+    def max_vertices(self) -> int | None:
+        """The most vertices of a hull."""
+        return self.max_hull_vertices
+
+    @staticmethod
+    def limit_vertices(most: int) -> dict[str, int]:
+        """The field that says how many vertices a hull may have."""
+        return {"max_hull_vertices": most}
+
 
 @dataclass(frozen=True, slots=True)
 class HullSettings(_Settings):
-    """One convex hull of all there is, by Qhull: what MuJoCo and Bullet make of a mesh. There is nothing to set."""
+    """One convex hull of all there is, by Qhull: what MuJoCo and Bullet make of a mesh."""
 
     engine: ClassVar[str] = "hull"
     package: ClassVar[str] = "scipy"
+    max_hull_vertices: int = _option(0, "Most vertices of the hull; 0 sets no limit.", 0)
+
+    @property
+    def max_vertices(self) -> int | None:
+        """The most vertices of the hull, None without a limit."""
+        return self.max_hull_vertices or None
+
+    limit_vertices = VhacdSettings.limit_vertices
 
 
 DecomposeSettings = CoacdSettings | VhacdSettings | HullSettings

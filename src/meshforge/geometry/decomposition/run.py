@@ -22,6 +22,7 @@ from meshforge.geometry.decomposition import engines
 from meshforge.geometry.decomposition.triangles import TriangleMesh, cap_holes, clean_triangles
 from meshforge.geometry.decomposition.worker import pack_pieces
 from meshforge.geometry.shape import Polytope
+from meshforge.geometry.simplify import HullBudget, enclose
 
 _CHECKSUM_SIZE = 16  # bytes
 UNCONTROLLED = engines.EngineControl()
@@ -47,7 +48,8 @@ def decompose(
     """
     if isinstance(settings, engines.HullSettings):
         used = freeze_floats(vertices, (-1, 3))[np.unique(freeze_ints(faces, (-1, 3)))]
-        return [convex_hull(used, name="the mesh", thicken=FLATNESS * float(np.linalg.norm(np.ptp(used, axis=0))))]
+        thickness = FLATNESS * float(np.linalg.norm(np.ptp(used, axis=0)))
+        return [_limit_vertices(convex_hull(used, name="the mesh", thicken=thickness), settings.max_vertices)]
     mesh = read_solid(vertices, faces, settings or engines.CoacdSettings(), close, note)
     (hulls,) = decompose_solids([mesh], cache, note, control)
     if isinstance(hulls, GeometryError):
@@ -91,7 +93,7 @@ def decompose_solids(
                 raise pieces
             if cache and number in made:
                 _keep(cache, keys[number], pieces, note)
-            found.append(_make_hulls(pieces, mesh.diagonal, settings.engine, note))
+            found.append(_make_hulls(pieces, mesh.diagonal, settings, note))
         except GeometryError as error:
             found.append(error)
     return found
@@ -119,10 +121,20 @@ def _check_openness(mesh: TriangleMesh, settings: engines.DecomposeSettings, not
     note(f"{problem}: the engine closes it by voxels, so its hulls may be thicker than the surface, or fill it")
 
 
+def _limit_vertices(hull: Polytope, most: int | None) -> Polytope:
+    """The hull, or one around it of at most so many vertices."""
+    simpler = enclose(hull, HullBudget(most)) if most and len(hull.vertices) > most else None
+    return simpler.hull if simpler else hull
+
+
 def _make_hulls(
-    pieces: list[engines.EnginePiece], diagonal: float, engine: str, note: Callable[[str], None]
+    pieces: list[engines.EnginePiece],
+    diagonal: float,
+    settings: engines.DecomposeSettings,
+    note: Callable[[str], None],
 ) -> list[Polytope]:
-    """The convex hull of each piece: sheets get a thickness, needles and crumbs without an area are dropped.
+    """The convex hull of each piece, or one around it of as many vertices as a hull may have: sheets get a thickness,
+    needles and crumbs without an area are dropped.
 
     Raises GeometryError where no hull is left.
     """
@@ -132,11 +144,11 @@ def _make_hulls(
         if len(points) < 3 or principal_extents(points)[2][1] < thickness:
             dropped += 1
             continue
-        hulls.append(convex_hull(points, name=f"piece {k}", thicken=thickness))
+        hulls.append(_limit_vertices(convex_hull(points, name=f"piece {k}", thicken=thickness), settings.max_vertices))
     if dropped:
         note(f"{dropped} of {len(pieces)} pieces were thinner than {thickness:.2g} m in two directions: left out")
     if not hulls:
-        raise GeometryError(f"{engine} made no hull", remedy="Try a finer resolution, or the other engine.")
+        raise GeometryError(f"{settings.engine} made no hull", remedy="Try a finer resolution, or the other engine.")
     return hulls
 
 

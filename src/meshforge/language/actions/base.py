@@ -147,8 +147,8 @@ class PrimitiveOrFileArgument(FileArgument):
 class FactorArgument(ArgumentType):
     """A number above 0."""
 
-    usage = "factor"
-    wants = "a number above 0"
+    usage: str = "factor"
+    wants: str = "a number above 0"
 
     def read(self, kind: TokenKind, text: str) -> float | None:
         return float(text) if kind == "number" and self.fits(float(text)) else None
@@ -160,6 +160,43 @@ class FactorArgument(ArgumentType):
         return show_number(value)
 
 
+@dataclass(frozen=True, slots=True)
+class LengthArgument(FactorArgument):
+    """A length above 0 [m]."""
+
+    usage: str = "metres"
+    wants: str = "a length in metres above 0"
+
+
+@dataclass(frozen=True, slots=True)
+class OptionArgument(ArgumentType):
+    """An option with a value: `word = value`."""
+
+    word: str
+    value: ArgumentType
+
+    @property
+    def usage(self) -> str:
+        return f"{self.word} = {self.value.usage}"
+
+    @property
+    def wants(self) -> str:
+        return f"{self.value.wants} as its {self.word}"
+
+    @property
+    def choices(self) -> tuple[str, ...]:
+        return (self.word,)
+
+    def read(self, kind: TokenKind, text: str) -> Any | None:
+        return self.value.read(kind, text)
+
+    def fits(self, value: Any) -> bool:
+        return self.value.fits(value)
+
+    def show(self, value: Any) -> str:
+        return f"{self.word} = {self.value.show(value)}"
+
+
 DIRECTION = WordArgument(DIRECTIONS, kind="direction")
 
 
@@ -169,6 +206,8 @@ class Action(ABC):
     __slots__ = ()
     by_body: ClassVar[bool] = False
     """Whether it acts on each body's hulls separately, since what it makes is one part."""
+    planned: ClassVar[tuple[str, ...]] = ()
+    """Options that the language has, and that this version does not run."""
 
     def __post_init__(self) -> None:
         for name, argument in self.arguments().items():
@@ -187,6 +226,10 @@ class Action(ABC):
     def groups(self, mesh: SymbolicMesh, mask: int) -> list[int]:
         """The parts of a selection that are edited one by one, as bit sets."""
         return split_by_body(mesh, mask) if self.by_body else [mask] if mask else []
+
+    def note_on(self, mesh: SymbolicMesh, mask: int) -> str | None:
+        """What a user should know of acting on a selection, besides the notes on its parts."""
+        return None
 
     @abstractmethod
     def edit(self, group: HullGroup) -> GroupEdit:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import ClassVar, Literal, get_args
 
@@ -24,20 +24,16 @@ from meshforge.language.actions.edit import GroupEdit, HullGroup, NewShape
 from meshforge.language.words import Direction
 from meshforge.symbolic import SymbolicMesh, split_by_contact
 
-_FILL_SHAPES: Mapping[str, Callable[[Aabb], Shape]] = {
-    "box": geometry.aabb_box,
-    "cylinder": geometry.aabb_cylinder,
-    "capsule": geometry.aabb_capsule,
-    "sphere": geometry.aabb_sphere,
+Fit = Literal["native", "tight", "inscribed", "volume", "longest"]
+Side = Literal["X", "Y", "Z"]
+_LONG = ("native", "tight", "inscribed", "volume", "X", "Y", "Z", "radius")
+_OPTIONS: Mapping[str, tuple[str, ...]] = {
+    "box": ("tight", "inscribed", "volume"),
+    "cylinder": _LONG,
+    "capsule": _LONG,
+    "sphere": ("native", "inscribed", "volume", "longest", "radius"),
 }
 _TIGHT_FITS = {"box": geometry.tight_box, "cylinder": geometry.tight_cylinder, "capsule": geometry.tight_capsule}
-_NATIVE_FITS: Mapping[str, Callable[[Iterable[Shape], Aabb], Shape]] = {
-    "cylinder": geometry.native_cylinder,
-    "capsule": geometry.native_capsule,
-    "sphere": geometry.native_sphere,
-}
-_FITS = (("native", _NATIVE_FITS), ("tight", _TIGHT_FITS))
-Fit = Literal["native", "tight", "longest"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,19 +41,26 @@ class Replace(base.Action):
     """Replaces the selected hulls of each body by a primitive or a template that fills their bounding box."""
 
     by_body: ClassVar[bool] = True
+    planned: ClassVar[tuple[str, ...]] = ("within", "clear", "to")
     geometry: str = field(metadata={"argument": base.PrimitiveOrFileArgument()})
-    fit: Fit | None = field(default=None, metadata={"argument": base.WordArgument(get_args(Fit))})
+    fit: Fit | None = field(default=None, metadata={"argument": WordArgument(get_args(Fit))})
+    axis: Side | None = field(default=None, metadata={"argument": WordArgument(get_args(Side))})
+    radius: float | None = field(
+        default=None, metadata={"argument": base.OptionArgument("radius", base.LengthArgument())}
+    )
 
     def conflict(self) -> str | None:
-        if self.fit == "native" and self.geometry == "box":
-            return "native is for cylinder, capsule and sphere: a box always is a native one"
-        if self.fit == "native" and self.geometry not in _NATIVE_FITS:
-            return f"native is for cylinder, capsule and sphere, not {self.geometry}"
-        if self.fit == "tight" and self.geometry not in _TIGHT_FITS:
-            return f"tight is for box, cylinder and capsule, not {self.geometry}"
-        if self.fit == "longest" and self.geometry in base.PRIMITIVES:
-            return f"longest is for template files, not {self.geometry}"
-        return None
+        takes = ("longest",) if self.templates else _OPTIONS[self.geometry]
+        given = [word for word in (self.fit, self.axis, "radius" if self.radius else None) if word]
+        if wrong := next((word for word in given if word not in takes), None):
+            return f"Replace({self._shown_geometry}) takes {join_alternatives(takes)}, not {wrong}"
+        if self.axis and self.fit == "tight":
+            return f"{self.axis} does not go with tight, which finds its own direction"
+        return f"radius does not go with {self.fit}, which finds its own" if self.radius and self.fit else None
+
+    @property
+    def _shown_geometry(self) -> str:
+        return self.arguments()["geometry"].show(self.geometry)
 
     @property
     def templates(self) -> tuple[str, ...]:
@@ -65,32 +68,83 @@ class Replace(base.Action):
 
     @property
     def depends_on_frame(self) -> bool:
-        return self.fit != "tight" and (self.geometry, self.fit) != ("sphere", "native")
+        is_free = self.axis is None and self.fit in ("tight", "volume")
+        return not is_free and (self.geometry, self.fit) not in (("sphere", "native"), ("sphere", "inscribed"))
 
     def edit(self, group: HullGroup) -> GroupEdit:
         if self.templates:
             return GroupEdit.insert(fit_template(group, self.geometry, turned=self.fit == "longest"), group)
-        shape, note = fit_primitive(group, self.geometry, self.fit)
-        return GroupEdit.insert((shape,), group, note=note)
+        shape = fit_primitive(group, self)
+        return GroupEdit.insert((shape,), group, note=_note_on_fit(group, self, shape))
 
 
-def fit_primitive(group: HullGroup, primitive: str, fit: Fit | None) -> tuple[Shape, str | None]:
-    """The primitive that replaces a group, and a note on what a user should know.
+def fit_primitive(group: HullGroup, action: Replace) -> Shape:
+    """The primitive that replaces a group."""
+    shapes, bounds, primitive = [hull.shape for hull in group.hulls], group.bounds, action.geometry
+    axis = _choose_axis(shapes, bounds, action)
+    if action.radius is not None:
+        return geometry.shape_of_radius(primitive, action.radius, bounds, axis)
+    match action.fit:
+        case "tight":
+            return _fit_tight(group, primitive)
+        case "inscribed":
+            hull = convex_hull(group.points, name=group.largest.name, thicken=group.thickness)
+            return geometry.inscribe(primitive, hull, axis)
+        case "volume":
+            is_tight = primitive != "sphere" and axis is None
+            around = _fit_tight(group, primitive) if is_tight else _fit_native(shapes, bounds, primitive, axis)
+            factor = (geometry.volume_of_union(shapes) / around.volume) ** (1 / 3)
+            return around.transform(np.eye(3) * factor, around.centroid * (1 - factor))
+        case "native":
+            return _fit_native(shapes, bounds, primitive, axis)
+        case "longest":
+            return geometry.shape_of_radius(primitive, float(bounds.size.max()) / 2, bounds)
+        case _:
+            return _fill_bounds(bounds, primitive, axis)
 
-    fit: None fills the bounding box; native: along the longest side of that box, of the least radius around the
-    hulls; tight: the smallest one around their points.
-    """
-    if fit == "native":
-        return _NATIVE_FITS[primitive]((hull.shape for hull in group.hulls), group.bounds), None
-    if fit == "tight":
-        note = "round primitives were fitted by their tessellated points" if group.has_round else None
-        return _TIGHT_FITS[primitive](group.points, name=group.largest.name, thicken=group.thickness), note
-    shape = _FILL_SHAPES[primitive](group.bounds)
-    if shape.is_primitive:
-        return shape, None
-    others = [f"Replace({primitive}, {word})" for word, fits in _FITS if primitive in fits]
-    made = f"{join_alternatives(others)} makes a native {primitive}"
-    return shape, f"sides of the {primitive} differ by more than 1%, so it is a hull mesh ({made})"
+
+def _choose_axis(shapes: Sequence[Shape], bounds: Aabb, action: Replace) -> int | None:
+    """The axis (0, 1, 2) that is given, or along which a cylinder encloses less; None where the fit finds its own."""
+    if action.axis is not None:
+        return "XYZ".index(action.axis)
+    finds_its_own = action.geometry != "cylinder" or action.fit in ("tight", "inscribed", "volume")
+    return None if finds_its_own else geometry.find_cylinder_axis(shapes, bounds)
+
+
+def _fit_tight(group: HullGroup, primitive: str) -> Shape:
+    return _TIGHT_FITS[primitive](group.points, name=group.largest.name, thicken=group.thickness)
+
+
+def _fit_native(shapes: Sequence[Shape], bounds: Aabb, primitive: str, axis: int | None) -> Shape:
+    if primitive == "sphere":
+        return geometry.native_sphere(shapes, bounds)
+    fit = geometry.native_cylinder if primitive == "cylinder" else geometry.native_capsule
+    return fit(shapes, bounds, axis)
+
+
+def _fill_bounds(bounds: Aabb, primitive: str, axis: int | None) -> Shape:
+    match primitive:
+        case "box":
+            return geometry.aabb_box(bounds)
+        case "cylinder":
+            return geometry.aabb_cylinder(bounds, axis)
+        case "capsule":
+            return geometry.aabb_capsule(bounds, axis)
+        case _:
+            return geometry.aabb_sphere(bounds)
+
+
+def _note_on_fit(group: HullGroup, action: Replace, made: Shape) -> str | None:
+    """What a user should know of the primitive that an action makes."""
+    if action.fit in ("tight", "inscribed", "volume") and group.has_round:
+        return "round primitives were fitted by their tessellated points"
+    if made.is_primitive:
+        return None
+    others = join_alternatives(f"Replace({action.geometry}, {word})" for word in ("native", "tight"))
+    return (
+        f"sides of the {action.geometry} differ by more than 1%, so it is a hull mesh "
+        f"({others} makes a native {action.geometry})"
+    )
 
 
 def fit_template(group: HullGroup, name: str, *, turned: bool) -> tuple[Shape, ...]:
@@ -184,8 +238,16 @@ class Merge(Action):
 class Scale(Action):
     """Scales the selected hulls as one group about the centre of their bounding box, along one axis or all."""
 
+    planned: ClassVar[tuple[str, ...]] = ("to",)
     axis: Axis = field(metadata={"argument": WordArgument(AXES)})
     factor: float = field(metadata={"argument": FactorArgument()})
+
+    def note_on(self, mesh: SymbolicMesh, mask: int) -> str | None:
+        parts = len(split_by_contact(mesh, mask))
+        if parts < 2:
+            return None
+        moved = f"{parts} parts that do not touch were scaled as one group, which moves them"
+        return f"{moved} (Each({self}) scales each in place)"
 
     @property
     def depends_on_frame(self) -> bool:
@@ -203,9 +265,24 @@ class Scale(Action):
 
 
 @dataclass(frozen=True, slots=True)
+class Shrink(Action):
+    """Moves the surface of each selected hull inwards by a distance."""
+
+    distance: float = field(metadata={"argument": base.LengthArgument()})
+
+    def edit(self, group: HullGroup) -> GroupEdit:
+        return GroupEdit(
+            tuple(
+                NewShape(geometry.shrink(hull.shape, self.distance, hull.name), hull, (hull,)) for hull in group.hulls
+            )
+        )
+
+
+@dataclass(frozen=True, slots=True)
 class Each(Action):
     """Does the action to every connected component of the selected hulls, body by body."""
 
+    planned: ClassVar[tuple[str, ...]] = ("by",)
     action: Action = field(metadata={"argument": ActionArgument()})
 
     def conflict(self) -> str | None:

@@ -81,6 +81,10 @@ class GroupEdit:
     removes: bool = True
     note: str | None = None
 
+    def replaces_one(self, made: NewShape) -> bool:
+        """Whether a made shape takes the place of one hull alone."""
+        return self.removes and len(made.sources) == 1 and sum(one.heir is made.heir for one in self.made) == 1
+
     @staticmethod
     def insert(
         shapes: tuple[Shape, ...], group: HullGroup, *, removes: bool = True, note: str | None = None

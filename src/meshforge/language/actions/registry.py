@@ -6,14 +6,14 @@ from __future__ import annotations
 import copyreg
 import pickle
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields, is_dataclass
 from inspect import isabstract
 from typing import Any
 
 from meshforge.common import Plugin, PluginError, Registry, blame
 from meshforge.language.actions.base import Action, ArgumentType
-from meshforge.language.actions.basic import Add, Delete, Each, Merge, Replace, Scale
+from meshforge.language.actions.basic import Add, Delete, Each, Merge, Replace, Scale, Shrink
 from meshforge.language.actions.edit import GroupEdit, HullGroup
 from meshforge.language.words import OPERATORS
 
@@ -70,20 +70,21 @@ def _find_misfit(name: str, kind: Any) -> str | None:
     return f'its field {lacking[0]} lacks metadata={{"argument": ...}}, the kind of argument' if lacking else None
 
 
+_BUILT_IN: tuple[type[Action], ...] = (Delete, Replace, Add, Merge, Scale, Shrink, Each)
 ACTIONS: Registry[type[Action]] = Registry(
-    "actions", {kind.__name__: kind for kind in (Delete, Replace, Add, Merge, Scale, Each)}, _adopt, reserved=OPERATORS
+    "actions", {kind.__name__: kind for kind in _BUILT_IN}, _adopt, reserved=OPERATORS
 )
 
 
-def make_action(kind: type[Action], values: Iterable[Any]) -> Action:
-    """An action of its arguments, in order. Raises ProgramError where they do not go together."""
+def make_action(kind: type[Action], values: Mapping[str, Any]) -> Action:
+    """An action of its arguments by name. Raises ProgramError where they do not go together."""
     with blame(_owners.get(kind)):
-        return kind(*values)
+        return kind(**values)
 
 
 def _reduce_action(action: Action) -> tuple[Callable[..., Action], tuple[Plugin, str, bytes]]:
     """An action for another process: its values are unpickled there only once its class is found."""
-    values = tuple(getattr(action, name) for name in action.arguments())
+    values = {name: getattr(action, name) for name in action.arguments()}
     return _rebuild_action, (_owners[type(action)], str(action), pickle.dumps(values))
 
 

@@ -21,7 +21,7 @@ from meshforge.synthesis import Demonstration, advance, begin_replay
 
 _POSITION = re.compile(r".*:(\d+):(\d+)")
 
-ArgumentKind = Literal["words", "flag", "file", "shape", "factor"]
+ArgumentKind = Literal["words", "flag", "file", "shape", "factor", "length", "option"]
 
 _KINDS: Mapping[type[language.ArgumentType], tuple[ArgumentKind, Any]] = {
     language.WordArgument: ("words", None),
@@ -29,6 +29,8 @@ _KINDS: Mapping[type[language.ArgumentType], tuple[ArgumentKind, Any]] = {
     language.FileArgument: ("file", "part.obj"),
     language.PrimitiveOrFileArgument: ("shape", "box"),
     language.FactorArgument: ("factor", 1.0),
+    language.LengthArgument: ("length", 0.001),
+    language.OptionArgument: ("option", None),
 }
 """What the page calls each kind of argument, and a value of it; of words, the first is one."""
 
@@ -118,7 +120,7 @@ def _has_fields(kind: type[language.Action]) -> bool:
 def _action_form(name: str, kind: type[language.Action]) -> wire.ActionForm:
     given = kind.arguments()
     required = list(given)[: kind.min_arguments()]
-    example = language.make_action(kind, [_example_value(given[one]) for one in required])
+    example = language.make_action(kind, {one: _example_value(given[one]) for one in required})
     return wire.ActionForm(
         name=name,
         summary=kind.summary(),

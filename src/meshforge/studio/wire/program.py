@@ -152,10 +152,11 @@ class Guesses(Wire):
 
 class Argument(Wire):
     """One argument of an action. kind: one of some `words`, a `flag` that is there or not, the `file` of a template, a
-    `shape` (a primitive or a template), or a `factor` above 0."""
+    `shape` (a primitive or a template), a `factor` above 0, a `length` above 0 [m], or an `option` with a length [m],
+    which is written `name = value`."""
 
     name: str
-    kind: Literal["words", "flag", "file", "shape", "factor"]
+    kind: Literal["words", "flag", "file", "shape", "factor", "length", "option"]
     wants: str
     choices: tuple[str, ...] = ()
     required: bool = True

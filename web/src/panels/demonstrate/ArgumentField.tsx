@@ -29,6 +29,7 @@ export function ArgumentField({ argument, value, given, onChange }: ArgumentFiel
   }
   const words = wordsOf(argument, given);
   if (kind === "words" && words.length < 2 && !argument.required) return null;
+  if (kind === "option" && !goesWith(name, given)) return null;
   return (
     <Field
       name={NAMES[name] ?? capital(name)}
@@ -37,6 +38,9 @@ export function ArgumentField({ argument, value, given, onChange }: ArgumentFiel
       hidden={kind === "shape"}
     >
       {kind === "factor" && <FactorField value={value} onChange={onChange} />}
+      {(kind === "length" || kind === "option") && (
+        <LengthField name={NAMES[name] ?? capital(name)} required={argument.required} value={value} onChange={onChange} />
+      )}
       {kind === "file" && <TemplateField value={String(value ?? "")} onChange={onChange} />}
       {kind === "shape" && <ShapeField primitives={argument.choices} value={String(value ?? "")} onChange={onChange} />}
       {kind === "words" && isDirections(argument) && <DirectionField value={String(value ?? "")} onChange={onChange} />}
@@ -59,10 +63,14 @@ const NAMES: Readonly<Record<string, string>> = {
   axis: "Along",
   direction: "At the side",
   template: "Template",
+  radius: "Radius [m]",
+  distance: "By [m]",
 };
 const WORDS: Readonly<Record<string, string>> = {
   native: "native, around all of it",
   tight: "tight, in any direction",
+  inscribed: "inside, the largest",
+  volume: "of the same volume",
   longest: "longest side matched",
   all: "all axes",
 };
@@ -79,7 +87,39 @@ function wordsOf({ choices, required }: Argument, given: Draft["arguments"]): { 
   const options = choices
     .filter((word) => goesWith(word, given))
     .map((value) => ({ value, label: WORDS[value] ?? value }));
-  return required ? options : [{ value: USUAL, label: "bounding box" }, ...options];
+  const usual = choices.includes("X") ? "by itself" : "bounding box";
+  return required ? options : [{ value: USUAL, label: usual }, ...options];
+}
+
+/** A length in metres to type; one that may be left out is left out where nothing is typed. */
+function LengthField({
+  name,
+  required,
+  value,
+  onChange,
+}: {
+  name: string;
+  required: boolean;
+  value: Value | undefined;
+  onChange: (value: Value) => void;
+}) {
+  const [text, setText] = useState(String(value ?? ""));
+  const number = Number(text.replace(",", "."));
+  return (
+    <input
+      className={css.input}
+      inputMode="decimal"
+      aria-label={name}
+      aria-invalid={text.trim() === "" ? required : !(number > 0)}
+      value={Number(value) === number || value === undefined || value === "" || !(Number(value) > 0) ? text : String(value)}
+      onChange={(event) => {
+        const now = event.target.value;
+        setText(now);
+        onChange(now.trim() === "" && !required ? "" : now.trim() === "" ? NaN : Number(now.replace(",", ".")));
+      }}
+      onKeyDown={(event) => event.key === "Escape" && event.currentTarget.blur()}
+    />
+  );
 }
 
 /** A factor: a number to type and a slider for the usual range. */

@@ -1,0 +1,175 @@
+"""Shapes inside a convex hull: the largest box, cylinder, capsule and sphere there, and the hull with all its planes
+moved inwards."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+
+import numpy as np
+
+from meshforge.common import GeometryError
+from meshforge.geometry.arrays import Floats
+from meshforge.geometry.convex import convex_hull, principal_extents
+from meshforge.geometry.fill import SAME_LENGTH
+from meshforge.geometry.fit import frame_of_axis, tight_box, tight_capsule, tight_cylinder
+from meshforge.geometry.pose import Pose
+from meshforge.geometry.round_shapes import Capsule, Cylinder, Ellipsoid, Sphere
+from meshforge.geometry.shape import Box, Polytope, PrimitiveShape, Shape
+from meshforge.geometry.surface import planes_of
+
+_GAP = 1e-9  # of the logarithm of the volume, to the largest one
+_SAME_VOLUME = 1e-6  # what is larger by no more than this share is no reason for another direction
+_PLANE_DIGITS = 9  # planes that agree to so many, where the hull is of size 1, are one
+
+
+def inscribe(primitive: str, hull: Polytope, axis: int | None = None) -> PrimitiveShape:
+    """The largest box, cylinder, capsule or sphere inside a hull.
+
+    axis: along which a cylinder or a capsule lies. None tries X, Y and Z, the principal axes of the vertices, and the
+    direction of the smallest primitive around them, as a box always does; the first of these whose volume is largest.
+    """
+    planes = _InnerPlanes(hull)
+    found = [_INSCRIBED[primitive](planes, frame) for frame in _list_frames(primitive, hull, axis)]
+    most = max(shape.volume for shape in found)
+    return next(shape for shape in found if shape.volume >= most * (1 - _SAME_VOLUME))
+
+
+def shrink(shape: Shape, distance: float, name: str) -> Shape:
+    """A shape with its surface moved inwards by a distance [m]: planes, radii, and the semi-axes of an ellipsoid.
+
+    Raises GeometryError naming the hull where nothing is left.
+    """
+    match shape:
+        case Box():
+            least = float(shape.half.min())
+        case Sphere() | Capsule():
+            least = shape.radius
+        case Cylinder():
+            least = min(shape.radius, shape.half_length)
+        case Ellipsoid():
+            least = float(shape.radii.min())
+        case _:
+            least = _inscribe_sphere(_InnerPlanes(shape.tessellate()), np.eye(3)).radius
+    if distance >= least * (1 - SAME_LENGTH):
+        raise GeometryError(
+            f"hull {name!r} vanishes when its surface moves inwards by {distance:g} m: {least:.3g} m is the most",
+            remedy="Give a smaller distance, or leave this hull out of the selection.",
+        )
+    match shape:
+        case Box():
+            return Box(shape.pose, shape.half - distance)
+        case Sphere():
+            return Sphere(shape.pose, shape.radius - distance)
+        case Capsule():
+            return Capsule(shape.pose, shape.radius - distance, shape.half_length)
+        case Cylinder():
+            return Cylinder(shape.pose, shape.radius - distance, shape.half_length - distance)
+        case Ellipsoid():
+            return Ellipsoid(shape.pose, shape.radii - distance)
+        case _:
+            return _InnerPlanes(shape.tessellate()).move_inwards(distance, name)
+
+
+class _InnerPlanes:
+    """The planes of a hull, each once, where the hull is of size 1 about the middle of its vertices."""
+
+    def __init__(self, hull: Polytope) -> None:
+        planes = planes_of(hull.vertices, hull.faces)
+        self.middle, self.size = planes.middle, float(np.ptp(hull.vertices, axis=0).max())
+        rows = np.column_stack([planes.normals, planes.offsets / self.size])
+        _, first = np.unique(np.round(rows, _PLANE_DIGITS), axis=0, return_index=True)
+        self.normals, self.offsets = rows[first, :3], rows[first, 3]
+
+    def place(self, center: Floats, frame: Floats) -> Pose:
+        """The pose at a centre (3,) in these coordinates whose axes are the rows of a frame (3, 3)."""
+        return Pose(frame.T, self.middle + self.size * center)
+
+    def maximize(self, reaches: Floats, terms: Floats) -> Floats:
+        """The centre (3,) and sizes (k,) of the largest shape inside, by an interior-point method (Boyd and
+        Vandenberghe, Convex Optimization, 11.3).
+
+        reaches: (m, k), how far each size reaches towards each plane; terms: (j, k), the logarithm of the volume is the
+        sum of those of terms @ sizes.
+        """
+        count = reaches.shape[1]
+        signs = np.column_stack([np.zeros((count, 3)), -np.eye(count)])  # no size is negative
+        rows = np.concatenate([np.column_stack([self.normals, reaches]), signs])
+        limits = np.concatenate([self.offsets, np.zeros(count)])
+        logs = np.column_stack([np.zeros((len(terms), 3)), terms])
+        x = np.concatenate([np.zeros(3), np.full(count, float(self.offsets.min()) / (2 * reaches.sum(axis=1).max()))])
+        weight = 1.0
+
+        def value(x: Floats) -> float:
+            inner, outer = logs @ x, limits - rows @ x
+            if min(inner.min(), outer.min()) <= 0:
+                return np.inf
+            return float(-weight * np.log(inner).sum() - np.log(outer).sum())
+
+        while weight < len(rows) / _GAP:
+            for _ in range(50):
+                up, down = logs / (logs @ x)[:, None], rows / (limits - rows @ x)[:, None]
+                slope = down.sum(axis=0) - weight * up.sum(axis=0)
+                step = np.linalg.solve(down.T @ down + weight * (up.T @ up), -slope)
+                gain, part, now = float(-slope @ step), 1.0, value(x)
+                if gain < 1e-10:
+                    break
+                while part > 1e-10 and value(x + part * step) > now - part * gain / 4:
+                    part /= 2
+                x = x + part * step if part > 1e-10 else x
+            weight *= 10
+        return x
+
+    def move_inwards(self, distance: float, name: str) -> Polytope:
+        """What the planes enclose, each moved inwards by a distance [m] that leaves something."""
+        from scipy.spatial import HalfspaceIntersection  # lazy: slow to import
+
+        center = _inscribe_sphere(self, np.eye(3)).pose.translation
+        rows = np.column_stack([self.normals, distance / self.size - self.offsets])
+        corners = HalfspaceIntersection(rows, (center - self.middle) / self.size).intersections
+        return convex_hull(self.middle + self.size * corners, name=name)
+
+
+def _list_frames(primitive: str, hull: Polytope, axis: int | None) -> Iterable[Floats]:
+    """The frames (3, 3) that are tried: along the last row of each lies a cylinder or a capsule."""
+    if primitive == "sphere":
+        return [np.eye(3)]
+    if axis is not None:
+        return [frame_of_axis(np.eye(3)[axis])]
+    _, principal, _ = principal_extents(hull.vertices)
+    if primitive == "box":
+        return [np.eye(3), principal, tight_box(hull.vertices).pose.rotation.T]
+    around = (tight_cylinder if primitive == "cylinder" else tight_capsule)(hull.vertices)
+    return [frame_of_axis(row) for row in (*np.eye(3)[::-1], *principal, around.pose.rotation[:, 2])]
+
+
+def _inscribe_sphere(planes: _InnerPlanes, frame: Floats) -> Sphere:
+    x = planes.maximize(np.ones((len(planes.normals), 1)), np.ones((1, 1)))
+    return Sphere(planes.place(x[:3], frame), planes.size * float(x[3]))
+
+
+def _inscribe_box(planes: _InnerPlanes, frame: Floats) -> Box:
+    x = planes.maximize(np.abs(planes.normals @ frame.T), np.eye(3))
+    return Box(planes.place(x[:3], frame), planes.size * x[3:])
+
+
+def _inscribe_cylinder(planes: _InnerPlanes, frame: Floats) -> Cylinder:
+    along = np.abs(planes.normals @ frame[2])
+    across = np.sqrt((1 - along**2).clip(0.0))
+    x = planes.maximize(np.column_stack([across, along]), np.array([[1.0, 0.0], [1.0, 0.0], [0.0, 1.0]]))
+    return Cylinder(planes.place(x[:3], frame), planes.size * float(x[3]), planes.size * float(x[4]))
+
+
+def _inscribe_capsule(planes: _InnerPlanes, frame: Floats) -> Capsule | Sphere:
+    along = np.abs(planes.normals @ frame[2])
+    terms = np.array([[1.0, 0.0], [1.0, 0.0], [4 / 3, 2.0]])
+    x = planes.maximize(np.column_stack([np.ones(len(along)), along]), terms)
+    place, radius, half = planes.place(x[:3], frame), planes.size * float(x[3]), planes.size * float(x[4])
+    return Capsule(place, radius, half) if half > 1e-6 * radius else Sphere(place, radius)
+
+
+_INSCRIBED: Mapping[str, Callable[[_InnerPlanes, Floats], PrimitiveShape]] = {
+    "box": _inscribe_box,
+    "cylinder": _inscribe_cylinder,
+    "capsule": _inscribe_capsule,
+    "sphere": _inscribe_sphere,
+}

@@ -1,0 +1,204 @@
+"""Options of actions: sizes of one's own, axes, what encloses and what keeps a gap, and what a user is told."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.optimize import linprog
+
+from meshforge.common import GeometryError
+from meshforge.geometry import (
+    Box,
+    Capsule,
+    Cylinder,
+    Ellipsoid,
+    Floats,
+    Pose,
+    Shape,
+    Sphere,
+    convex_hull,
+    distance,
+    planes_of,
+)
+from meshforge.language import Add, Each, Replace, Scale, Shrink
+from meshforge.symbolic import SymbolicMesh
+from tests.unit.language.scenes import box, hull, mesh
+from tests.unit.language.test_actions import applied
+
+
+def wheel() -> Shape:
+    """A polytope of radius 0.05 and width 0.03 about Y, as a wheel of 64 corners a side."""
+    turn = np.arange(64) * (2 * np.pi / 64)
+    rims = [np.column_stack([0.05 * np.cos(turn), np.full(64, y), 0.05 * np.sin(turn)]) for y in (-0.015, 0.015)]
+    return convex_hull(np.concatenate(rims))
+
+
+def made(shape: Shape, action: Replace | Shrink) -> Shape:
+    return applied(mesh(hull("a", shape)), action).mesh.hulls[0].shape
+
+
+def test_a_wheel_becomes_a_sphere_of_its_own_radius() -> None:
+    for action in (Replace("sphere", radius=0.05), Replace("sphere", "longest")):
+        ball = made(wheel(), action)
+        assert isinstance(ball, Sphere) and ball.radius == pytest.approx(0.05, rel=1e-12)
+        assert np.allclose(ball.pose.translation, 0, atol=1e-12)
+    around = made(wheel(), Replace("sphere", "native"))
+    assert isinstance(around, Sphere) and around.radius == pytest.approx(np.hypot(0.05, 0.015))
+    inside = made(wheel(), Replace("sphere", "inscribed"))
+    assert isinstance(inside, Sphere) and inside.radius == pytest.approx(0.015, rel=1e-6)
+
+
+def test_a_disc_lies_flat_as_a_native_and_as_a_plain_cylinder() -> None:
+    for fit in (None, "native"):
+        disc = made(wheel(), Replace("cylinder", fit))  # type: ignore[arg-type]
+        assert isinstance(disc, Cylinder)
+        assert np.allclose(np.abs(disc.pose.rotation[:, 2]), [0, 1, 0])
+        assert (disc.radius, disc.half_length) == pytest.approx((0.05, 0.015))
+
+
+@pytest.mark.parametrize("axis", ["X", "Y", "Z"])
+@pytest.mark.parametrize("fit", [None, "native", "inscribed", "volume"])
+def test_an_axis_that_is_said_is_the_axis(axis: str, fit: str | None) -> None:
+    leg = Box(Pose.of_translation([1, 2, 3]), np.array([0.1, 0.1, 0.1]))
+    shape = made(leg, Replace("cylinder", fit, axis))  # type: ignore[arg-type]
+    assert isinstance(shape, Cylinder)
+    assert np.abs(shape.pose.rotation[:, 2]).tolist() == pytest.approx(np.eye(3)["XYZ".index(axis)].tolist())
+
+
+def test_a_cylinder_and_a_capsule_of_a_radius_are_as_long_as_the_box() -> None:
+    bar = Box(Pose.of_translation([1, 2, 3]), np.array([0.5, 0.1, 0.1]))
+    round_bar = made(bar, Replace("cylinder", radius=0.05))
+    assert isinstance(round_bar, Cylinder) and (round_bar.radius, round_bar.half_length) == (0.05, 0.5)
+    grip = made(bar, Replace("capsule", radius=0.05))
+    assert isinstance(grip, Capsule) and (grip.radius, grip.half_length) == pytest.approx((0.05, 0.45))
+    assert np.allclose(grip.aabb.min, [0.5, 1.95, 2.95])
+
+
+def highest(shape: Shape, around: Shape) -> float:
+    """How far a shape reaches over the faces of a polytope."""
+    planes = planes_of(around.vertices, around.faces)
+    reach = [shape.support(normal) @ normal - normal @ planes.middle for normal in planes.normals]
+    return float((np.array(reach) - planes.offsets).max())
+
+
+@pytest.mark.parametrize("primitive", ["box", "cylinder", "capsule", "sphere"])
+def test_what_is_inscribed_stays_inside_and_touches(primitive: str) -> None:
+    for seed in range(5):
+        rng = np.random.default_rng(seed)
+        cloud = convex_hull(rng.normal(size=(40, 3)) * rng.uniform(0.2, 2, size=3) + 10)
+        shape = made(cloud, Replace(primitive, "inscribed"))
+        assert shape.kind in (primitive, "sphere")
+        assert -1e-6 * cloud.aabb.diagonal <= highest(shape, cloud) <= 1e-12
+
+
+def test_the_inscribed_sphere_is_the_largest_by_an_independent_solver() -> None:
+    cloud = convex_hull(np.random.default_rng(3).normal(size=(60, 3)))
+    planes = planes_of(cloud.vertices, cloud.faces)
+    rows = np.column_stack([planes.normals, np.ones(len(planes.normals))])
+    best = linprog([0, 0, 0, -1], rows, planes.offsets, bounds=[(None, None)] * 4).x[3]
+    ball = made(cloud, Replace("sphere", "inscribed"))
+    assert isinstance(ball, Sphere) and ball.radius == pytest.approx(best, rel=1e-7)
+
+
+def test_the_inscribed_shapes_of_a_box_are_known() -> None:
+    block = Box(Pose.of_translation([5, 5, 5]), np.array([1.0, 2.0, 3.0]))
+    assert made(block, Replace("box", "inscribed")).volume == pytest.approx(48)
+    lying = made(block, Replace("cylinder", "inscribed"))
+    assert isinstance(lying, Cylinder)
+    assert (lying.radius, lying.half_length) == pytest.approx((2, 1), rel=1e-6)  # 4 pi x 2, of 3 pi and 2 pi x 2
+    grip = made(block, Replace("capsule", "inscribed", "Z"))
+    assert isinstance(grip, Capsule) and (grip.radius, grip.half_length) == pytest.approx((1, 2), rel=1e-6)
+
+
+@pytest.mark.parametrize("primitive", ["box", "cylinder", "capsule", "sphere"])
+def test_the_same_volume_is_the_same_volume(primitive: str) -> None:
+    one, two = box([0, 0, 0], [1, 1, 4]), box([0.5, 0, 0], [1.5, 1, 4])  # they share half of each
+    scene = mesh(hull("a", one), hull("b", two))
+    shape = applied(scene, Replace(primitive, "volume")).mesh.hulls[0].shape
+    assert shape.kind == primitive and shape.volume == pytest.approx(6.0, rel=1e-6)
+
+
+def finger_gap() -> SymbolicMesh:
+    """A wall, and a slanted flat handle 20 mm before it."""
+    turn = 0.4
+    slant = np.array([[1, 0, 0], [0, np.cos(turn), -np.sin(turn)], [0, np.sin(turn), np.cos(turn)]])
+    handle = Box(Pose(slant, np.array([0.05, 0.0, 0.0])), np.array([0.005, 0.02, 0.1]))
+    wall = Box(Pose.of_translation([0.0, 0.0, 0.0]), np.array([0.025, 0.2, 0.2]))
+    return mesh(hull("handle", handle), hull("wall", wall))
+
+
+def test_what_encloses_takes_the_gap_and_says_so_and_what_does_not_keeps_it() -> None:
+    scene = finger_gap()
+    notes = {}
+    for fit in ("tight", "inscribed", "volume"):
+        result = applied(scene, Replace("capsule", fit), "handle")  # type: ignore[arg-type]
+        grip, wall = result.mesh.hull_of("handle~1").shape, result.mesh.hull_of("wall").shape
+        notes[fit] = distance(grip, wall), result.note
+    assert notes["tight"][0] < 0.01
+    assert notes["tight"][1] == f"the gap between handle and wall shrinks from 0.02 m to {notes['tight'][0]:.3g} m"
+    assert notes["inscribed"][0] >= 0.02 and notes["inscribed"][1] is None
+    assert notes["volume"][0] > notes["tight"][0]
+
+
+def test_a_gap_to_what_was_selected_too_is_no_loss() -> None:
+    scene = finger_gap()
+    assert applied(scene, Each(Replace("box")), "handle", "wall").note is None
+
+
+def test_scaling_parts_that_do_not_touch_says_that_they_move() -> None:
+    scene = mesh(hull("a", box([0, 0, 0], [1, 1, 1])), hull("b", box([5, 0, 0], [6, 1, 1])))
+    result = applied(scene, Scale("all", 0.5))
+    assert result.note == (
+        "2 parts that do not touch were scaled as one group, which moves them"
+        " (Each(Scale(all, 0.5)) scales each in place)"
+    )
+    apart = applied(scene, Each(Scale("all", 0.5)))
+    assert apart.note is None
+    assert [one.aabb.center[0] for one in apart.mesh.hulls] == [0.5, 5.5]
+    assert applied(mesh(hull("a", box([0, 0, 0], [1, 1, 1]))), Scale("all", 0.5)).note is None
+
+
+def test_a_shrunk_hull_is_smaller_by_the_distance_along_every_normal() -> None:
+    rng = np.random.default_rng(1)
+    cloud = convex_hull(rng.normal(size=(30, 3)))
+    inner = made(cloud, Shrink(0.05))
+    planes = planes_of(inner.vertices, inner.faces)
+    reach: Floats = (cloud.vertices - planes.middle) @ planes.normals.T
+    assert highest(inner, cloud) == pytest.approx(-0.05, abs=1e-9)
+    assert (reach.max(axis=0) - planes.offsets).min() == pytest.approx(0.05, abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("shape", "size"),
+    [
+        (Box(Pose.identity(), np.array([1.0, 2.0, 3.0])), [1.8, 3.8, 5.8]),
+        (Sphere(Pose.identity(), 1.0), [1.8, 1.8, 1.8]),
+        (Cylinder(Pose.identity(), 1.0, 2.0), [1.8, 1.8, 3.8]),
+        (Capsule(Pose.identity(), 1.0, 2.0), [1.8, 1.8, 5.8]),
+        (Ellipsoid(Pose.identity(), np.array([1.0, 2.0, 3.0])), [1.8, 3.8, 5.8]),
+    ],
+)
+def test_a_shrunk_primitive_stays_one(shape: Shape, size: list[float]) -> None:
+    inner = made(shape, Shrink(0.1))
+    assert inner.kind == shape.kind and inner.aabb.size.tolist() == pytest.approx(size)
+    with pytest.raises(GeometryError, match="hull 'a' vanishes when its surface moves inwards by 1 m: 1 m is the most"):
+        made(shape, Shrink(1.0))
+
+
+def test_a_hull_that_would_vanish_is_named() -> None:
+    with pytest.raises(GeometryError, match=r"hull 'a' vanishes when its surface moves inwards by 0\.5 m: 0\.5 m is"):
+        made(box([0, 0, 0], [1, 2, 3]).tessellate(), Shrink(0.5))
+
+
+def test_a_hull_that_alone_takes_the_place_of_one_keeps_its_name_in_a_file() -> None:
+    scene = mesh(*(hull(name, box([x, 0, 0], [x + 1, 1, 1])) for name, x in (("a", 0), ("b", 5), ("c", 10))))
+    assert applied(scene, Replace("sphere"), "a").mesh.names_in_file == {"a~1": "a"}
+    assert applied(scene, Scale("all", 0.5)).mesh.names_in_file == {"a~1": "a", "b~1": "b", "c~1": "c"}
+    assert applied(scene, Replace("sphere"), "a", "b").mesh.names_in_file == {}
+    twice = applied(applied(scene, Replace("sphere"), "a").mesh, Replace("box"), "a~1").mesh
+    assert twice.names_in_file == {"a~2": "a"}
+    assert applied(scene, Add("+X", "wedge.obj"), "a").mesh.names_in_file == {}
+    taken = replace(twice, hulls=(*twice.hulls, scene.hull_of("a")))
+    assert taken.names_in_file == {}
