@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from meshforge.geometry.fit import tight_box, tight_capsule, tight_cylinder
     from meshforge.geometry.native import native_capsule, native_cylinder, native_sphere
     from meshforge.geometry.piece_groups import merge_pieces
-    from meshforge.geometry.pieces import Piece, split_pieces
+    from meshforge.geometry.pieces import Piece, hull_mesh, split_pieces
     from meshforge.geometry.pose import (
         Pose,
         nearest_aligned_rotation,
@@ -115,6 +115,7 @@ __all__ = [
     "freeze_floats",
     "freeze_ints",
     "heights_above",
+    "hull_mesh",
     "inertia",
     "is_closed",
     "is_convex",
