@@ -27,13 +27,14 @@ _RING = 32  # corners of each end of a tapered cylinder
 class CollisionPiece:
     """A piece of collision geometry in the root frame: a shape, or None with the reason why it is no hull.
 
-    plane: root_T_plane of an endless plane, whose normal is Z.
+    plane: root_T_plane of an endless plane, whose normal is Z; fill: see `Geom`.
     """
 
     shape: Shape | None
     reason: str = ""
     surface: Surface | None = None
     plane: Pose | None = None
+    fill: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,7 +130,7 @@ def name_pieces(bases: Iterable[tuple[str, int]]) -> list[tuple[str, ...]]:
 def geoms_of(authored: Sequence[CollisionElement], parts: ElementPieces, mentions: ElementMentions) -> tuple[Geom, ...]:
     """The pieces that are hulls."""
     pieces = _iterate_pieces(authored, parts, mentions)
-    return tuple(Geom(name, body, part.shape, mentions=own) for name, body, part, own in pieces if part.shape)
+    return tuple(Geom(name, body, p.shape, mentions=own, fill=p.fill) for name, body, p, own in pieces if p.shape)
 
 
 def opaque_of(

@@ -37,6 +37,7 @@ class Geom:
     whose contact attributes it inherits.
     contact: those attributes of a geom of the file, by the format's names for them, where it has them geom by geom.
     mentions: what else the file calls it, which may tell what it is; a writer takes no notice of it.
+    fill: of the hull of a mesh that is none, see `Piece`.
     """
 
     name: str
@@ -45,6 +46,7 @@ class Geom:
     parent: str | None = None
     contact: tuple[tuple[str, str], ...] = ()
     mentions: Mentions = ()
+    fill: float | None = None
 
 
 Rgba = tuple[float, float, float, float]

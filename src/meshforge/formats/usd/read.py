@@ -116,7 +116,7 @@ def _build_geoms(
         contact = colliders.contact_attributes(source.prim)
         for name, part in zip(element.names, source.parts, strict=True):
             if part.shape is not None:
-                yield Geom(name, element.body, part.shape, contact=contact, mentions=own)
+                yield Geom(name, element.body, part.shape, contact=contact, mentions=own, fill=part.fill)
 
 
 def find_files(path: Path) -> tuple[tuple[Path, ...], tuple[str, ...]]:
