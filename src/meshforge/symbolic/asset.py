@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
 
@@ -186,6 +186,16 @@ class Document:
     __slots__ = ()
 
 
+class NameSlip(NamedTuple):
+    """A name that was meant to mark collision for an engine and does not; problem completes `<name>: `."""
+
+    engine: str
+    name: str
+    problem: str = "its name marks no collision"
+    remedy: str = ""
+    is_hull: bool = False
+
+
 @dataclass(frozen=True, eq=False)
 class Asset:
     """A file with collision geometry; immutable, an edit is a new asset with other geoms.
@@ -194,6 +204,7 @@ class Asset:
     missing: references to visual files that are not there, as written in the document.
     notes: what a user should know about how the file was read; up: the axis that its format says points up.
     mechanism: joints and masses, empty where the format has none.
+    slips: names in it that an engine does not take as they are meant.
     """
 
     path: Path
@@ -208,6 +219,7 @@ class Asset:
     notes: tuple[str, ...] = field(default=())
     mechanism: Mechanism = field(default=Mechanism())
     up: Literal["y", "z"] | None = None
+    slips: tuple[NameSlip, ...] = ()
 
     @property
     def body_poses(self) -> dict[str, Pose]:
