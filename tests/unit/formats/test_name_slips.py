@@ -42,6 +42,8 @@ def test_a_hull_for_unreal_that_no_mesh_takes_is_an_error(tmp_path: Path, nodes:
         ("Gate", "UCX_Gate_00", "UCX_Gate_01"),
         ("GATE", "ucx_gate_7"),
         ("Gate_01", "UCX_Gate_01"),
+        ("Gate.001", "UCX_Gate.001", "UCX_Gate.001_00"),
+        ("Gate", "UCX_Gate.001"),
         ("Gate", "Ucayali", "UCXPort".lower()),
     ],
 )
@@ -95,6 +97,11 @@ def test_an_obj_for_unreal_is_held_to_the_same(tmp_path: Path) -> None:
     assert "Gate" in finding.remedy
     (tmp_path / "gate.obj").write_text(text + "g Fence\nf 1 2 3\n")
     assert not [one for one in check(load(tmp_path / "gate.obj"), "unreal") if one.severity == "error"]
+
+
+def test_a_hull_without_any_mesh_is_an_error(tmp_path: Path) -> None:
+    (finding,) = findings_of(tmp_path, "unreal", "UCX_Gate_00")
+    assert finding.remedy == "There is no mesh to be seen: add Gate."
 
 
 def test_a_hull_that_an_edit_took_away_is_no_error(tmp_path: Path) -> None:

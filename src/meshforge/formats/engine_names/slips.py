@@ -13,6 +13,7 @@ from meshforge.symbolic import NameSlip
 _ALIKE = 0.82  # how alike the end of a name and a mark are, from which on it was meant: `colony` and `colonly` are 0.92
 _GODOT = ("convcolonly", "colonly", "convcol")
 _UNREAL = re.compile(r"(?:UCX|UBX|UXC|UXB)(?=[^a-z])")
+_CHANGED = re.compile(r"[^\w-]+")  # in Unreal an underscore
 _REMEDY = "Is {} meant? Spell it so."
 
 
@@ -20,14 +21,16 @@ def find_name_slips(meshes: Iterable[Sequence[str]], parents: Iterable[str] = ()
     """What is wrong with the names of meshes and of their nodes, several of one thing, and of nodes without a mesh."""
     things = [names for names in meshes if names]
     seen = [name for names in things if not any(map(unreal_kind, names)) for name in names]
+    known = {_CHANGED.sub("_", name.lower()) for name in seen}
     for hull in (next(filter(unreal_kind, names)) for names in things if any(map(unreal_kind, names))):
-        meant = hull[4:].rpartition("_")[0] or hull[4:]
-        if not {hull[4:].lower(), meant.lower()} & {name.lower() for name in seen}:
+        whole = _CHANGED.sub("_", hull[4:])
+        meant = whole.rpartition("_")[0] or whole
+        if known.isdisjoint((whole.lower(), meant.lower())):
             nearest = nearest_name(meant, seen) or next(iter(seen), meant)
             problem = f"no mesh is called {meant}, so that in Unreal nothing collides by it"
-            yield NameSlip(
-                "unreal", hull, problem, f"The nearest mesh is {nearest}: call it {hull[:4]}{nearest}_00.", True
-            )
+            rename = f"The nearest mesh is {nearest}: call it {hull[:4]}{nearest}_00."
+            remedy = rename if seen else f"There is no mesh to be seen: add {meant}."
+            yield NameSlip("unreal", hull, problem, remedy, is_hull=True)
     for name in filter(_UNREAL.match, dict.fromkeys(seen)):
         yield NameSlip("unreal", name, remedy=_REMEDY.format("UCX_" if "C" in name[:3] else "UBX_"))
     for names in things:
