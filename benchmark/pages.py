@@ -33,7 +33,7 @@ PAGES = (
     Page(
         "speed",
         "# Speed\n\nWritten by `script/bench` from the JSON files beside it. Medians; contestants take turns.\n",
-        ("contact", "load", "save", "apply", "geometry", "start", "commands"),
+        ("contact", "load", "robots", "save", "apply", "geometry", "start", "commands"),
         ("numpy", "scipy", "coal", "manifold3d", "trimesh", "python-fcl", "pybullet", "mujoco"),
     ),
     Page(

@@ -64,6 +64,7 @@ def describe_asset(mesh: SymbolicMesh, asset: str, *, geometry: bool = False) ->
         "asset": asset,
         "format": source.format if source else None,
         "diagonal": mesh.diagonal,
+        "notes": list(source.notes) if source else [],
         "hulls": [_describe_hull(hull, geometry) for hull in mesh.hulls],
         "opaque": [{"name": o.name, "body": o.body, "reason": o.reason} for o in (source.opaque if source else ())],
         "contacts": [[names[i], names[j]] for i, j in sorted(mesh.contacts)],

@@ -122,7 +122,14 @@ def check_limits(engine: Engine, mesh: SymbolicMesh, faulty: frozenset[str]) -> 
         *check_primitives(engine, hulls),
         *_check_hull_counts(engine, mesh),
         *_check_one_hull_a_file(engine, mesh),
+        *_check_names(engine, mesh),
     )
+
+
+def _check_names(engine: Engine, mesh: SymbolicMesh) -> Iterator[Finding]:
+    for of, name, problem, remedy, is_hull in mesh.asset.slips if mesh.asset else ():
+        if of == engine.name and (not is_hull or any(hull.name == name for hull in mesh.hulls)):
+            yield Finding(f"{of}-name", "error", (name,) if is_hull else (), f"{name}: {problem}", remedy)
 
 
 def check_limit(engine: Engine, limit: Limit, hulls: Sequence[Hull | Geom]) -> Finding | None:

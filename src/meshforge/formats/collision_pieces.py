@@ -27,13 +27,14 @@ _RING = 32  # corners of each end of a tapered cylinder
 class CollisionPiece:
     """A piece of collision geometry in the root frame: a shape, or None with the reason why it is no hull.
 
-    plane: root_T_plane of an endless plane, whose normal is Z.
+    plane: root_T_plane of an endless plane, whose normal is Z; fill: see `Geom`.
     """
 
     shape: Shape | None
     reason: str = ""
     surface: Surface | None = None
     plane: Pose | None = None
+    fill: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -140,7 +141,7 @@ def geoms_of(authored: Sequence[CollisionElement], parts: ElementPieces, mention
     """The pieces that are hulls."""
     pieces = _iterate_pieces(authored, parts, mentions)
     return tuple(
-        Geom(name, one.link, part.shape, mentions=own, element=one.element)
+        Geom(name, one.link, part.shape, mentions=own, element=one.element, fill=part.fill)
         for name, one, part, own in pieces
         if part.shape
     )

@@ -6,11 +6,13 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
+from math import floor
 from pathlib import Path
 
 import numpy as np
 
 from meshforge.common import AssetError, Plugin, PluginError, Registry, UsageError, expand_glob, is_text, nearest_name
+from meshforge.common.messages import join_names
 from meshforge.formats.base import Format, ReadOptions
 from meshforge.formats.engine_names.conventions import MarkName
 from meshforge.formats.gltf.format import GltfForGodot, GltfFormat, GltfForUnity, GltfForUnreal, PhysicsGltf
@@ -219,8 +221,16 @@ def read(source: Source, options: ReadOptions | None = None) -> Asset:
         if not is_text(str(file)):
             raise AssetError("this name is not UTF-8", where=str(file), remedy="Rename the file.")
     refuse_far(asset)
-    note = note_if_odd_size(asset) if asset.geoms or asset.opaque else NO_GEOMETRY
-    return replace(asset, notes=(*asset.notes, note)) if note else asset
+    notes = [note_if_odd_size(asset) if asset.geoms or asset.opaque else NO_GEOMETRY, _note_fills(asset)]
+    return replace(asset, notes=(*asset.notes, *filter(None, notes))) if any(notes) else asset
+
+
+def _note_fills(asset: Asset) -> str | None:
+    """A note on meshes that are not convex and collide as their hulls, None where there are none."""
+    fills = [(g.name, g.fill and f"{floor(100 * g.fill)}%") for g in asset.geoms if g.fill is not None]
+    shares = [f"{name} fills {share or 'an unknown share'} of its hull" for name, share in fills]
+    advice = "yet engines collide with the whole hull (meshforge decompose makes hulls that fit)"
+    return f"not convex: {join_names(shares)}, {advice}" if shares else None
 
 
 def notes_after(before: Asset, written: Asset) -> tuple[str, ...]:
@@ -323,7 +333,7 @@ def refuse_far(asset: Asset) -> None:
 def note_if_odd_size(asset: Asset) -> str | None:
     """A note on the size of an asset, None where that is usual."""
     points = [corner for geom in asset.geoms for box in [geom.shape.aabb] for corner in (box.min, box.max)]
-    surfaces = [o.surface.vertices[np.unique(o.surface.faces)] for o in asset.opaque if o.surface]
+    surfaces = [o.surface.vertices[o.surface.faces].reshape(-1, 3) for o in asset.opaque if o.surface]
     corners = np.concatenate([*(p[None] for p in points), *surfaces]) if points or surfaces else np.zeros((0, 3))
     if len(corners) == 0:
         return None

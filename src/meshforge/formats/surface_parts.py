@@ -32,7 +32,8 @@ def parts_of_groups(group: Ints, names: Sequence[str | None], materials: _MATERI
     material where it has no other name, or there are several in the group.
     """
     owner, known = materials or (np.zeros(len(group), dtype=np.int64), ("",))
-    pairs, of_face = np.unique(np.column_stack([group, owner]), axis=0, return_inverse=True)
+    keys, of_face = np.unique(group * len(known) + owner, return_inverse=True)
+    pairs = np.column_stack(np.divmod(keys, len(known)))
     several = {int(k) for k, count in zip(*np.unique(pairs[:, 0], return_counts=True), strict=True) if count > 1}
     called: list[str] = []
     for k, material in pairs.tolist():

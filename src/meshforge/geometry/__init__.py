@@ -47,7 +47,7 @@ if TYPE_CHECKING:
     from meshforge.geometry.inner_shapes import inscribe, shrink
     from meshforge.geometry.native import find_cylinder_axis, native_capsule, native_cylinder, native_sphere
     from meshforge.geometry.piece_groups import merge_pieces
-    from meshforge.geometry.pieces import Piece, split_pieces
+    from meshforge.geometry.pieces import Piece, hull_mesh, split_pieces
     from meshforge.geometry.pose import (
         Pose,
         nearest_aligned_rotation,
@@ -132,6 +132,7 @@ __all__ = [
     "freeze_floats",
     "freeze_ints",
     "heights_above",
+    "hull_mesh",
     "inertia",
     "inscribe",
     "is_closed",

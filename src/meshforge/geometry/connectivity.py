@@ -11,15 +11,31 @@ _TURN = 1e-7  # [rad] triangles around an edge closer than this lie on each othe
 
 def row_ids(*columns: Floats | Ints) -> tuple[Ints, Ints]:
     """A number (n,) for each row, equal for equal rows, and the first row of each number; in order of the values."""
-    order = np.lexsort(columns[::-1])
-    new = np.zeros(len(order), dtype=bool)
+    key = np.zeros(len(columns[0]), dtype=np.int64)
     for column in columns:
-        ordered = column[order]
-        new[1:] |= ordered[1:] != ordered[:-1]
+        values = column - column.min(initial=0) if column.dtype.kind == "i" else _rank_values(column)[0]
+        size = int(values.max(initial=0)) + 1
+        key = (key if size * (int(key.max(initial=0)) + 1) < 2**63 else _rank_values(key)[0]) * size + values
+    ids, order, new = _rank_values(key)
+    return ids, np.minimum.reduceat(order, np.flatnonzero(new)) if len(order) else order
+
+
+def _rank_values(values: Floats | Ints) -> tuple[Ints, Ints, Bools]:
+    """A number (n,) for each value in their order, equal for equal ones; the order; and where in it a number begins."""
+    order = np.argsort(values)
+    ordered = values[order]
+    new = np.ones(len(order), dtype=bool)
+    new[1:] = ordered[1:] != ordered[:-1]
     ids = np.empty(len(order), dtype=np.int64)
-    ids[order] = np.cumsum(new)
-    new[:1] = True
-    return ids, order[new]
+    ids[order] = np.cumsum(new) - 1
+    return ids, order, new
+
+
+def compact(corners: Ints) -> tuple[Ints, Ints]:
+    """The numbers that occur in corners, ascending, and the corners by their places among these."""
+    occurs = np.zeros(int(corners.max(initial=-1)) + 1, dtype=bool)
+    occurs[corners.ravel()] = True
+    return np.flatnonzero(occurs), (np.cumsum(occurs) - 1)[corners]
 
 
 def weld(vertices: Floats) -> Ints:
@@ -59,6 +75,8 @@ def distinct_faces(corners: Ints, component: Ints) -> Ints:
 def find_closed_components(corners: Ints, component: Ints) -> Ints:
     """Numbers of the components in which every edge has an even number of triangles, doubled ones counted once."""
     total = int(component.max(initial=-1)) + 1
+    large = np.flatnonzero((np.bincount(component, minlength=total) >= 4)[component])  # of a raw STL none
+    corners, component = corners[large], component[large]
     distinct = distinct_faces(corners, component)
     edges, _ = edges_of(corners[distinct])
     part = np.tile(component[distinct], 3)
@@ -133,6 +151,8 @@ def components_by_edges(points: Floats, corners: Ints, inward: bool) -> Ints:
     edges, forward = edges_of(corners)
     face = np.tile(np.arange(len(corners)), 3)
     ids, first = row_ids(*edges.T)
+    if np.bincount(ids).max(initial=0) <= 2:  # then angles decide nothing
+        return number_by_occurrence(component_roots(face[first][ids], face, len(corners)))
     angle = _angles_around_edges(points, corners, edges, first[ids])
     begins = forward == inward  # going around the edge, the solid begins at this triangle
     order = np.lexsort((begins, np.round(angle / _TURN), ids))

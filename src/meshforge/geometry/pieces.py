@@ -7,7 +7,6 @@ component is read as whole or as its finer parts, whichever accounts for more of
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import lru_cache
 from hashlib import blake2b
 from itertools import pairwise
 
@@ -16,11 +15,12 @@ import numpy as np
 from meshforge.common import GeometryError
 from meshforge.geometry import connectivity
 from meshforge.geometry.arrays import Bools, Floats, Ints, sort_rows
+from meshforge.geometry.convex import convex_hull
 from meshforge.geometry.shape import Polytope, volume_and_centroid
-from meshforge.geometry.solidity import LEAST_FILL, SolidityVerdict, judge_solidity
+from meshforge.geometry.solidity import LEAST_FILL, SolidityVerdict, judge_solidity, refuse_dents
+from meshforge.geometry.solids import volume_of_union
 
-_MOST_MEMOIZED = 10_000  # triangles of a soup whose pieces are remembered: 64 such soups are less than 100 MB
-
+_MOST_KNOWN = 1_000_000  # triangles whose pieces are remembered: about 100 MB
 _NEAR = 1e-6  # places closer than this share of the surface's size are one, where that closes a hull
 
 
@@ -30,7 +30,8 @@ class Piece:
 
     shape: its convex hull, None where the piece is no hull, with the `reason`.
     vertices: (n, 3) [m] and faces: (m, 3), the piece as authored; face_indices: (m,) its faces in the input, ascending;
-    group: the group of its first face.
+    group: the group of its first face; volume: what it encloses as authored [m^3], 0 where that is not known.
+    fill: where engines collide with the hull of a mesh that is none, the share of it that the mesh fills, 0 likewise.
     """
 
     shape: Polytope | None
@@ -39,6 +40,8 @@ class Piece:
     faces: Ints
     face_indices: Ints
     group: int = 0
+    volume: float = 0.0
+    fill: float | None = None
 
 
 def split_pieces(vertices: Floats, faces: Ints, *, name: str, groups: Ints | None = None) -> list[Piece]:
@@ -56,43 +59,57 @@ def split_pieces(vertices: Floats, faces: Ints, *, name: str, groups: Ints | Non
     if not np.isfinite(vertices[faces]).all():
         raise GeometryError("a coordinate is not a finite number", where=name, remedy="Fix the file's vertices.")
     of_face = np.zeros(len(faces), dtype=np.int64) if groups is None else np.asarray(groups, dtype=np.int64)
-    soup = _Soup(vertices, faces, of_face)
-    return list(_read_memoized(soup) if len(faces) <= _MOST_MEMOIZED else _read(soup))
+    arrays = (np.ascontiguousarray(array) for array in (faces, of_face, vertices))
+    digest = b"".join(blake2b(array.data, digest_size=16).digest() for array in arrays)
+    found = _cache.get(digest)
+    if found is None:
+        ordered = sorted(PieceReader(vertices, faces, of_face).read(), key=lambda part: int(part.faces[0]))
+        found = _cache.add(digest, [_make_piece(vertices, faces, part, of_face) for part in ordered])
+    return list(found)
 
 
-class _Soup:
-    """Triangles with groups, equal to others of the same numbers."""
+class PieceCache(dict[bytes, list[Piece]]):
+    """The pieces of the meshes that were read last, by digest, as many as `_MOST_KNOWN` allows: an asset's meshes are
+    read when it is opened, when it is written, and to check that."""
 
-    def __init__(self, vertices: Floats, faces: Ints, group: Ints) -> None:
-        self.vertices, self.faces, self.group = vertices, faces, group
-        arrays = (np.ascontiguousarray(array) for array in (faces, group, vertices))
-        self.digest = b"".join(blake2b(array.data, digest_size=16).digest() for array in arrays)
+    size = 0
 
-    def __hash__(self) -> int:
-        return hash(self.digest)
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, _Soup) and self.digest == other.digest
-
-
-@lru_cache(maxsize=64)
-def _read_memoized(soup: _Soup) -> tuple[Piece, ...]:
-    """The pieces, remembered: an asset's meshes are read when it is opened, when it is written, and to check that."""
-    soup.vertices, soup.faces, soup.group = soup.vertices.copy(), soup.faces.copy(), soup.group.copy()
-    return _read(soup)
+    def add(self, digest: bytes, pieces: list[Piece]) -> list[Piece]:
+        """The pieces, kept."""
+        self.size += 0 if digest in self else _size_of(pieces)  # another thread may have been faster
+        self[digest] = pieces
+        while self.size > _MOST_KNOWN and len(self) > 1:
+            self.size -= _size_of(self.pop(next(iter(self)), []))
+        return pieces
 
 
-def _read(soup: _Soup) -> tuple[Piece, ...]:
-    ordered = sorted(PieceReader(soup.vertices, soup.faces, soup.group).read(), key=lambda part: int(part.faces[0]))
-    return tuple(_make_piece(soup.vertices, soup.faces, part, soup.group) for part in ordered)
+def _size_of(pieces: list[Piece]) -> int:
+    return sum(len(piece.faces) + 20 for piece in pieces)
+
+
+_cache = PieceCache()
 
 
 def _make_piece(vertices: Floats, faces: Ints, part: PieceFaces, group: Ints) -> Piece:
-    used, local = np.unique(faces[part.faces], return_inverse=True)
-    arrays = (vertices[used], local.reshape(-1, 3), part.faces)
+    used, local = connectivity.compact(faces[part.faces])
+    arrays = (vertices[used], local, part.faces)
     for array in arrays:
         array.setflags(write=False)
-    return Piece(part.verdict.shape, part.verdict.reason, *arrays, int(group[part.faces[0]]))
+    return Piece(part.verdict.shape, part.verdict.reason, *arrays, int(group[part.faces[0]]), abs(part.verdict.volume))
+
+
+def hull_mesh(vertices: Floats, faces: Ints, corners: Floats | None = None) -> tuple[Polytope, float | None]:
+    """The hull of a mesh of vertices (n, 3) and faces (m, 3), or of its corners (k, 3), and the `fill` of it (`Piece`).
+
+    Raises GeometryError: they span no volume, a coordinate is not finite.
+    """
+    hull = convex_hull(vertices[np.unique(faces)] if corners is None else corners)
+    pieces = split_pieces(vertices, faces, name="mesh")
+    shapes = [piece.shape for piece in pieces if piece.shape]
+    others = [piece.volume for piece in pieces if not piece.shape and piece.volume <= hull.volume]
+    share = (volume_of_union(shapes) + sum(others)) / hull.volume
+    is_full = len(shapes) == len(pieces) and (len(shapes) == 1 or share >= LEAST_FILL)
+    return hull, None if is_full else min(share, 1.0)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -125,25 +142,36 @@ class PieceReader:
         self.of_place = connectivity.components_by_vertices(
             self.placed
         )  # the component of each face, by what holds it together
-        self.of_group = connectivity.components_by_vertices(_number_by_group(self.placed, group))
-        self.in_groups = IndexComponents.of(_number_by_group(faces, group))
         self.across = IndexComponents.of(faces)
+        self.of_group, self.in_groups = self.of_place, self.across
+        if (group != group[0]).any():
+            self.of_group = connectivity.components_by_vertices(_number_by_group(self.placed, group))
+            self.in_groups = IndexComponents.of(_number_by_group(faces, group))
         self.points = np.zeros((int(self.placed.max()) + 1, 3))
         self.points[self.placed] = vertices[faces]
 
     def read(self) -> list[PieceFaces]:
         found = [part for faces in _split(self.of_place) for part in self._split_touching(faces)]
-        return self._join_near(found) if any(part.verdict.shape is None for part in found) else found
+        found = self._join_near(found) if any(part.verdict.shape is None for part in found) else found
+        solid = [part for part in found if part.verdict.shape]
+        judged = [refuse_dents(p.verdict, self.points, self._corners_of(p.faces)) for p in solid]
+        return [p for p in found if not p.verdict.shape] + [
+            PieceFaces(p.faces, v) for p, v in zip(solid, judged, strict=True)
+        ]
 
     def _join_near(self, found: list[PieceFaces]) -> list[PieceFaces]:
         """The parts, those that are no hulls joined where welding places that nearly agree makes a hull of them."""
-        faces = np.sort(np.concatenate([part.faces for part in found if part.verdict.shape is None]))
+        open_parts = [part for part in found if part.verdict.shape is None]
+        if len(open_parts) == 1 and open_parts[0].verdict.closed:
+            return found
+        faces = np.sort(np.concatenate([part.faces for part in open_parts]))
         extent = float(np.ptp(self.points[np.unique(self.placed)], axis=0).max())
         near = connectivity.weld_nearly(self.points, self.placed[faces], _NEAR * extent)
         if near is None:
             return found
         welded = _subdivide(faces, connectivity.components_by_vertices(near[self.placed[faces]]))
-        hulls = [part for part in (self._judge(faces, near) for faces in welded) if part.verdict.shape]
+        other = [some for some in welded if (near[self.placed[some]] != self.placed[some]).any()]
+        hulls = [part for part in (self._judge(some, near) for some in other) if part.verdict.shape]
         used = np.concatenate([part.faces for part in hulls]) if hulls else faces[:0]
         return hulls + [part for part in found if not np.isin(part.faces[0], used)]
 
@@ -168,7 +196,10 @@ class PieceReader:
     def _split_surface(self, faces: Ints) -> list[PieceFaces]:
         """One surface: as whole, or by the solids that it was written as, or that meet in its edges and corners."""
         whole = self._judge(faces)
-        if whole.verdict.shape is not None and connectivity.is_simple(self.placed[faces]):
+        corners = self.placed[faces]
+        if connectivity.is_simple(corners) and (
+            whole.verdict.shape is not None or not connectivity.components_by_edges(self.points, corners, False).any()
+        ):
             return [whole]
         return self._split_by_order(faces) or self._split_solids(faces, whole) or [whole]
 
@@ -218,11 +249,15 @@ class PieceReader:
         return [np.sort(np.concatenate([part, slivers[of_sliver == k]])) for k, part in enumerate(parts)]
 
     def _judge(self, faces: Ints, near: Ints | None = None) -> PieceFaces:
-        corners = self.placed[faces] if near is None else near[self.placed[faces]]
-        proper = connectivity.distinct_faces(corners, np.zeros(len(corners), dtype=np.int64))
-        if len(proper) < 2:
+        corners = self._corners_of(faces, near)
+        if len(corners) < 2:
             return PieceFaces(faces, SolidityVerdict(None, "flat"))
-        return PieceFaces(faces, judge_solidity(self.points, corners[proper]))
+        return PieceFaces(faces, judge_solidity(self.points, corners))
+
+    def _corners_of(self, faces: Ints, near: Ints | None = None) -> Ints:
+        """The corners (k, 3) of the distinct ones of some faces."""
+        corners = self.placed[faces] if near is None else near[self.placed[faces]]
+        return corners[connectivity.distinct_faces(corners, np.zeros(len(corners), dtype=np.int64))]
 
     def _choose_better(self, parts: list[PieceFaces], faces: Ints) -> list[PieceFaces]:
         """The parts, or the whole, whichever accounts for more by valid hulls."""

@@ -2,24 +2,30 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from math import floor
 
 import numpy as np
 
 from meshforge.common import GeometryError
 from meshforge.geometry.arrays import Floats, Ints, cross
-from meshforge.geometry.connectivity import component_roots, edges_of, row_ids
-from meshforge.geometry.convex import convex_hull
+from meshforge.geometry.connectivity import compact, component_roots, components_by_vertices, edges_of, row_ids
+from meshforge.geometry.convex import convex_hull, hull_by_manifold
 from meshforge.geometry.shape import Polytope
-from meshforge.geometry.surface import is_closed
+from meshforge.geometry.surface import is_closed, planes_of
 
 LEAST_FILL = 0.95
 """A piece is a hull when its volume is at least this share of its convex hull's."""
 _MOST_FILL = 1.05  # a surface that encloses more than its hull runs through itself
 _LEVEL = 1e-3  # a hole is planar when it is level within this share of the piece's size
 _DEPTH = 0.01  # a face lies on the hull when it is no deeper in it than this share of the hull's thickness
+_DENT = 0.125  # a surface with a face deeper than this has a hole or a dent (decisions/0054)
 _LARGE = 1_000_000  # pairs of faces; beyond, a surface is no careless triangulation of a hull
+_MANY = 200  # triangles, from which on a piece is held against a rough hull before one is verified
+_FEW = 4  # planes of a hull near a point that are tried first
+_FIRST = 100  # points of a surface that are tried first
+_THIN = 1e-3  # of its size: a rough hull that is thinner is not trusted
 _FLAT = 1e-6  # a piece is flat when its hull is thinner than this share of its size
 
 
@@ -38,13 +44,30 @@ class SolidityVerdict:
 
 def judge_solidity(points: Floats, corners: Ints) -> SolidityVerdict:
     """What a piece of points (n, 3) and distinct triangles (m, 3) is; the winding may be inverted or mixed."""
-    used, local = np.unique(corners, return_inverse=True)
-    points, corners = points[used], local.reshape(-1, 3)
-    hull = _hull_unless_flat(points)
-    if hull is None:
-        return SolidityVerdict(None, "flat")
+    used, corners = compact(corners)
+    points = points[used]
+    rough = _make_hull(points, _make_roughly, _THIN) if len(corners) > _MANY else None
+    if rough and (found := _judge_by_hull(points, corners, rough)).shape is None:
+        return found
+    hull = _make_hull(points, convex_hull, _FLAT)
+    return _judge_by_hull(points, corners, hull) if hull else SolidityVerdict(None, "flat")
+
+
+def refuse_dents(verdict: SolidityVerdict, points: Floats, corners: Ints) -> SolidityVerdict:
+    """The verdict on a piece of points (n, 3) and distinct triangles (m, 3): no hull where it has a hole or a dent."""
+    hull = verdict.shape
+    used, corners = compact(corners)
+    handles = int(components_by_vertices(corners).max()) + 1 - (2 * len(used) - len(corners)) / 4
+    depth = _DEPTH if handles > 0 and is_closed(corners) else _DENT
+    if hull is None or not _is_deep(points[used], corners, hull, depth):
+        return verdict
+    share = min(floor(100 * abs(verdict.volume) / hull.volume), 99)
+    return replace(verdict, shape=None, reason=f"not convex: fills {share}% of its convex hull, but has a hole or dent")
+
+
+def _judge_by_hull(points: Floats, corners: Ints, hull: Polytope) -> SolidityVerdict:
     result = _judge_fill(points, corners, hull)
-    if result.shape is None:
+    if result.shape is None and not is_closed(corners):
         aligned = _judge_fill(points, _align_windings(corners), hull)
         result = aligned if aligned.shape else result
     if result.shape is None and _covers(points, corners, hull):
@@ -52,17 +75,21 @@ def judge_solidity(points: Floats, corners: Ints) -> SolidityVerdict:
     return result
 
 
-def _hull_unless_flat(points: Floats) -> Polytope | None:
-    """The convex hull, None where it is flat."""
-    size = float(np.ptp(points, axis=0).max(initial=0.0))
+def _make_roughly(points: Floats) -> Polytope:
+    """The convex hull to a millionth, not verified."""
+    made = hull_by_manifold(points - points.mean(axis=0))
+    if made is None:
+        raise GeometryError("manifold3d finds no hull")
+    return Polytope(points[made[0]], made[1])
+
+
+def _make_hull(points: Floats, make: Callable[[Floats], Polytope], flat: float) -> Polytope | None:
+    """The convex hull, None where it is flat: thinner than a share of its size."""
     try:
-        hull = convex_hull(points)
+        hull = make(points)
     except GeometryError:
         return None
-    x, y, z = hull.aabb.size.tolist()
-    if hull.volume > 2 * _FLAT * size * (x * y + y * z + z * x):  # a convex surface in a box has no more area than it
-        return hull
-    return hull if _thickness(hull) > _FLAT * size else None
+    return hull if _thickness(hull) > flat * float(hull.aabb.size.max()) else None
 
 
 def _thickness(hull: Polytope) -> float:
@@ -77,17 +104,28 @@ def _area(points: Floats, corners: Ints) -> float:
 
 def _covers(points: Floats, corners: Ints, hull: Polytope) -> bool:
     """Whether triangles lie on the hull and cover it, however they overlap and are wound."""
-    if len(hull.faces) * len(corners) > _LARGE or _area(points, corners) < LEAST_FILL * _area(
-        hull.vertices, hull.faces
-    ):
-        return False
-    a, b, c = (hull.vertices[hull.faces[:, k]] for k in range(3))
-    normals = cross(b - a, c - a)
-    lengths = np.linalg.norm(normals, axis=1)
-    normals, a = normals[lengths > 0] / lengths[lengths > 0, None], a[lengths > 0]
+    has_area = _area(points, corners) >= LEAST_FILL * _area(hull.vertices, hull.faces)
+    return has_area and len(hull.faces) * len(corners) <= _LARGE and not _is_deep(points, corners, hull, _DEPTH)
+
+
+def _is_deep(points: Floats, corners: Ints, hull: Polytope, share: float) -> bool:
+    """Whether a surface lies deeper in its hull somewhere than a share of the hull's thickness.
+
+    Depth is concave on a triangle: in its middle or that of a side it is no less than a third of what it is anywhere.
+    """
+    planes = planes_of(hull.vertices, hull.faces)
+    least = planes.offsets - share * _thickness(hull)
     middles = [points[corners[:, list(ends)]].mean(axis=1) for ends in ((0, 1, 2), (0, 1), (1, 2), (2, 0))]
-    heights = np.concatenate(middles) @ normals.T - np.einsum("ij,ij->i", normals, a)
-    return float(-heights.max(axis=1).min()) <= _DEPTH * _thickness(hull)
+    left = np.concatenate([points, *middles]) - planes.middle
+    if len(left) * len(least) > _LARGE:
+        from scipy.spatial import cKDTree  # lazy: slow to import, only large surfaces need it
+
+        around = hull.vertices[hull.faces[planes.face_indices]].mean(axis=1) - planes.middle
+        nearest = list(range(1, min(len(around), _FEW) + 1))
+        near = cKDTree(around).query(left, nearest)[1]  # by one of these planes nearly all are shallow
+        left = left[(np.einsum("ij,ikj->ik", left, planes.normals[near]) < least[near]).all(axis=1)]
+    some = [left[:: len(left) // _FIRST + 1], *np.array_split(left, len(left) * len(least) // _LARGE + 1)]
+    return any((points @ planes.normals.T < least).all(axis=1).any() for points in some)
 
 
 def _judge_fill(points: Floats, corners: Ints, hull: Polytope) -> SolidityVerdict:

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
 
@@ -38,6 +38,7 @@ class Geom:
     contact: those attributes of a geom of the file, by the format's names for them, where it has them geom by geom.
     mentions: what else the file calls it, which may tell what it is; a writer takes no notice of it.
     element: the collision element of the file that it is one of several pieces of, empty where it is all of it.
+    fill: of the hull of a mesh that is none, see `Piece`.
     """
 
     name: str
@@ -47,6 +48,7 @@ class Geom:
     contact: tuple[tuple[str, str], ...] = ()
     mentions: Mentions = ()
     element: str = ""
+    fill: float | None = None
 
 
 Rgba = tuple[float, float, float, float]
@@ -189,6 +191,16 @@ class Document:
     __slots__ = ()
 
 
+class NameSlip(NamedTuple):
+    """A name that was meant to mark collision for an engine and does not; problem completes `<name>: `."""
+
+    engine: str
+    name: str
+    problem: str = "its name marks no collision"
+    remedy: str = ""
+    is_hull: bool = False
+
+
 @dataclass(frozen=True, eq=False)
 class Asset:
     """A file with collision geometry; immutable, an edit is a new asset with other geoms.
@@ -197,6 +209,7 @@ class Asset:
     missing: references to visual files that are not there, as written in the document.
     notes: what a user should know about how the file was read; up: the axis that its format says points up.
     mechanism: joints and masses, empty where the format has none.
+    slips: names in it that an engine does not take as they are meant.
     """
 
     path: Path
@@ -211,6 +224,7 @@ class Asset:
     notes: tuple[str, ...] = field(default=())
     mechanism: Mechanism = field(default=Mechanism())
     up: Literal["y", "z"] | None = None
+    slips: tuple[NameSlip, ...] = ()
 
     @property
     def body_poses(self) -> dict[str, Pose]:

@@ -17,7 +17,7 @@ from benchmark import __main__ as bench
 from benchmark.clock import in_turns
 from benchmark.pages import PAGES, parts_of
 from benchmark.report import Goal, Result, Table, as_text
-from benchmark.speed import apply, by_hand, contact, geometry, load, save
+from benchmark.speed import apply, by_hand, contact, geometry, load, robots, save
 from benchmark.speed.assets import multi_hull
 from benchmark.speed.contact import near_pairs, one_mesh
 from benchmark.speed.watch import look
@@ -57,7 +57,7 @@ def test_near_pairs_are_those_whose_boxes_are_near() -> None:
     assert near_pairs(row, 0.19) == []
 
 
-@pytest.mark.parametrize("part", [load, save, geometry])
+@pytest.mark.parametrize("part", [load, robots, save, geometry])
 def test_a_part_runs_quickly_on_bundled_files(part: ModuleType) -> None:
     result = part.measure(silent, True)
     assert isinstance(result, Result)

@@ -84,6 +84,14 @@ def test_a_sheet_with_a_corner_becomes_thin_hulls_that_leave_the_corner_free(
     assert sum(hull.volume for hull in hulls) / thin == pytest.approx(5.0, rel=0.15)
 
 
+def test_a_hole_in_a_sheet_is_not_closed() -> None:
+    square = np.array([[x, y, 0.3] for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))])
+    frame = np.concatenate([5 * square, square]) * (1, 1, 0)  # the hole is 4% of it
+    faces = [side for k in range(4) for n in [(k + 1) % 4] for side in ((k, n, n + 4), (k, n + 4, k + 4))]
+    hulls = sheet_hulls(frame, faces, lambda v, f: decompose(v, f, CoacdSettings()), "frame")
+    assert len(hulls) > 1
+
+
 def test_a_line_is_no_sheet_to_be_decomposed() -> None:
     line = np.array([[0, 0, 0], [1, 0, 0], [2, 0, 0]], float)
     with pytest.raises(GeometryError, match="needle"):

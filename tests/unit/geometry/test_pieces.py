@@ -96,7 +96,8 @@ def test_a_piece_is_a_hull_from_95_percent_on() -> None:
         around = np.array([[1, 5, 8], [5, 7, 8], [7, 3, 8], [3, 1, 8]])
         return np.concatenate([CORNERS, dent]), np.concatenate([box()[1][:10], around])
 
-    assert found(dented(0.14))[0].shape is not None
+    assert found(dented(0.03))[0].shape is not None
+    assert found(dented(0.14))[0].reason == "not convex: fills 95% of its convex hull, but has a hole or dent"
     assert found(dented(0.16))[0].reason == "not convex: fills 94% of its convex hull"
 
 

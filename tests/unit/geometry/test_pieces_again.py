@@ -43,8 +43,15 @@ def test_what_is_remembered_does_not_change_with_the_arrays_it_was_read_from() -
         again.vertices[0, 0] = 9.0
 
 
-def test_very_many_triangles_are_not_remembered(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(room, "_MOST_MEMOIZED", 11)
-    hull = convex_hull(np.asarray(box((0.5, 0, 0))[0]))
-    first, again = (split_pieces(hull.vertices, hull.faces, name="a")[0] for _ in range(2))
-    assert first.shape is not again.shape
+def test_the_oldest_of_very_many_triangles_are_forgotten(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(room, "_MOST_KNOWN", 70)
+    soups = [box((0.5 + k, 0, 0)) for k in range(3)]  # 12 triangles each, and what a piece takes beside them
+    first = [split_pieces(*soup, name="a")[0].shape for soup in soups]
+    again = [split_pieces(*soup, name="a")[0].shape for soup in reversed(soups)][::-1]
+    assert [shape is other for shape, other in zip(first, again, strict=True)] == [False, True, True]
+
+
+def test_a_soup_of_more_triangles_than_are_remembered_is_read(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(room, "_MOST_KNOWN", 1)
+    hull = convex_hull(np.asarray(box((0.5, 0, 9))[0]))
+    assert all(split_pieces(hull.vertices, hull.faces, name="a")[0].shape for _ in range(2))

@@ -17,7 +17,7 @@ from meshforge.formats.meshfile.gltf_document import entry
 from meshforge.formats.meshfile.gltf_meshes import INSTANCING, GltfMesh, is_instanced, repeat_surface
 from meshforge.formats.meshfile.gltf_scene import GltfScene, Placement
 from meshforge.formats.meshfile.surface import RawSurface, join_surfaces
-from meshforge.geometry import Ellipsoid, Floats, Ints, Piece, Polytope, Pose, Sphere, convex_hull, split_pieces
+from meshforge.geometry import Ellipsoid, Floats, Ints, Piece, Polytope, Pose, Sphere, hull_mesh, split_pieces
 
 _LEAST = 1e-12  # of the largest stretch of a map; below, it is a projection
 
@@ -119,7 +119,7 @@ class CollisionReader:
         if part.shape is not None:
             shape, note = interpret_unreal_shape(name, part.shape)
             self.notes += [note] if note else []
-            part = CollisionPiece(shape)
+            part = replace(part, shape=shape)
         return NodeCollision(placement.index, name, [part])
 
     def _read_godot(self, placement: Placement) -> NodeCollision | None:
@@ -166,9 +166,9 @@ class CollisionReader:
             return CollisionPiece(None, "the mesh holds no triangles")
         if _is_degenerate(linear):
             return _opaque_part(mesh, linear, offset, "it is scaled to nothing")
-        points = mesh.vertices[np.unique(mesh.faces)]
         try:
-            return CollisionPiece(convex_hull(points).transform(linear, offset))
+            hull, fill = hull_mesh(mesh.vertices, mesh.faces)
+            return CollisionPiece(hull.transform(linear, offset), fill=fill)
         except GeometryError:
             return _opaque_part(mesh, linear, offset, "flat")
 

@@ -66,7 +66,8 @@ class MjcfModel:
             part = shapes.part_of(k, pose)
             if part.shape is not None:
                 contact = contact_attributes(self.model, k)
-                geoms.append(Geom(name, body, part.shape, contact=contact, mentions=mentions.of(k)))
+                own = mentions.of(k)
+                geoms.append(Geom(name, body, part.shape, contact=contact, mentions=own, fill=part.fill))
             else:
                 plane = pose if self.model.geom_type[k] == mujoco.mjtGeom.mjGEOM_PLANE else None
                 opaque.append(Opaque(name, body, part.reason, part.surface, plane, mentions.of(k)))

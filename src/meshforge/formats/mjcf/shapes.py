@@ -17,7 +17,7 @@ from meshforge.geometry import (
     Pose,
     Shape,
     Sphere,
-    convex_hull,
+    hull_mesh,
     rotation_of_quaternion,
 )
 from meshforge.symbolic import Surface
@@ -28,7 +28,7 @@ class MjcfShapes:
 
     def __init__(self, model: mujoco.MjModel) -> None:
         self.model = model
-        self._hulls: dict[int, Polytope | str] = {}
+        self._hulls: dict[int, tuple[Polytope, float | None] | str] = {}
 
     def part_of(self, geom: int, pose: Pose) -> CollisionPiece:
         """The shape of a geom; pose: root_T_geom. Of a mesh it is the convex hull, with which MuJoCo collides."""
@@ -68,13 +68,14 @@ class MjcfShapes:
     def _mesh_part(self, mesh: int, pose: Pose) -> CollisionPiece:
         if mesh not in self._hulls:
             try:
-                self._hulls[mesh] = convex_hull(_hull_vertices(self.model, mesh))
+                own = mesh_surface(self.model, mesh, Pose.identity())
+                self._hulls[mesh] = hull_mesh(own.vertices, own.faces, _hull_vertices(self.model, mesh))
             except GeometryError as error:
                 self._hulls[mesh] = error.problem
-        hull = self._hulls[mesh]
-        if isinstance(hull, str):
-            return CollisionPiece(None, hull, mesh_surface(self.model, mesh, pose))
-        return CollisionPiece(hull.move(pose))
+        made = self._hulls[mesh]
+        if isinstance(made, str):
+            return CollisionPiece(None, made, mesh_surface(self.model, mesh, pose))
+        return CollisionPiece(made[0].move(pose), fill=made[1])
 
 
 def _hull_vertices(model: mujoco.MjModel, mesh: int) -> Floats:

@@ -34,7 +34,7 @@ from meshforge.formats.plain.parts import (
     to_parts,
 )
 from meshforge.formats.surface_parts import parts_of_groups
-from meshforge.geometry import Ints, Piece, Pose, Shape, convex_hull, split_pieces
+from meshforge.geometry import Ints, Piece, Pose, Shape, hull_mesh, split_pieces
 from meshforge.symbolic import PRIMITIVE_FEATURES, Asset, Body, FeatureKind, Geom, Mentions, Opaque, Surface
 
 BODY = "body"
@@ -97,7 +97,7 @@ class PlainFormat(Format):
             format=self.name,
             bodies=(Body(BODY, Pose.identity()),),
             geoms=tuple(
-                Geom(name, BODY, shapes[name], mentions=said, element=elements[piece.group])
+                Geom(name, BODY, shapes[name], mentions=said, element=elements[piece.group], fill=piece.fill)
                 for name, piece, said in named
                 if name in shapes
             ),
@@ -229,6 +229,7 @@ def _hull_group(soup: Soup, own: Ints, group: int) -> Piece:
     used, numbers = np.unique(soup.faces[own], return_inverse=True)
     vertices, faces = soup.vertices[used], numbers.reshape(-1, 3)
     try:
-        return Piece(convex_hull(vertices), None, vertices, faces, own, group)
+        hull, fill = hull_mesh(vertices, faces)
+        return Piece(hull, None, vertices, faces, own, group, hull.volume, fill)
     except GeometryError as error:
         return Piece(None, error.problem, vertices, faces, own, group)

@@ -11,8 +11,9 @@ from typing import ClassVar
 
 import numpy as np
 
-from meshforge.formats.base import Output, feature_of_others
+from meshforge.formats.base import Output, ReadOptions, feature_of_others
 from meshforge.formats.engine_names import bodies, conventions
+from meshforge.formats.engine_names.slips import find_name_slips
 from meshforge.formats.meshfile.obj import ObjText, parse_obj
 from meshforge.formats.meshfile.surface import Soup
 from meshforge.formats.plain.base import MeshFileEdit, PlainFormat
@@ -29,6 +30,7 @@ _OTHERS = {
     "point": re.compile(rb"^[ \t]*p[ \t]", re.M),
     "comment": re.compile(rb"^[ \t]*#", re.M),
 }
+_MARK = re.compile(rb"^[ \t]*[og][ \t]+U(?:CX|BX|SP|CP|XC|XB)", re.M | re.I)
 _UNREAL = conventions.UnrealNames()
 _SCALE = (
     "numbers are metres: Unreal's importers of OBJ take them for centimetres, so import it with a uniform scale of 100"
@@ -58,6 +60,13 @@ class ObjFormat(PlainFormat):
         readings = {name: conventions.interpret_unreal_shape(name, hull) for name, hull in shapes.items()}
         notes = (MARKED_NOTE, *(note for _, note in readings.values() if note))
         return {name: shape for name, (shape, _) in readings.items()}, notes
+
+    def read(self, path: Path, options: ReadOptions) -> Asset:
+        asset = super().read(path, options)
+        if not isinstance(asset.document, PlainDocument) or not _MARK.search(asset.document.data):
+            return asset
+        groups = [[name for name in group if name] for group in parse_obj(asset.document.data, "").groups]
+        return replace(asset, slips=tuple(one for one in find_name_slips(groups) if one.engine == "unreal"))
 
     def name_hulls(self, document: PlainDocument, geoms: Sequence[Geom]) -> list[str]:
         if not document.marked:

@@ -16,11 +16,11 @@ from meshforge.formats.collision_pieces import (
     refuse_zero_scale,
     turn_z_to,
 )
-from meshforge.formats.meshfile.surface import RawSurface
+from meshforge.formats.meshfile.surface import RawSurface, join_surfaces
 from meshforge.formats.sdf import document, models
 from meshforge.formats.sdf.frames import is_true, read_floats, read_values, text_of
 from meshforge.formats.xml import Element, format_numbers
-from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Floats, Pose, Shape, Sphere, convex_hull
+from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Floats, Pose, Shape, Sphere, convex_hull, hull_mesh
 
 _AROUND = 32  # corners of the base of a cone
 _MOST_POINTS = 10_000  # points of a polyline
@@ -146,9 +146,10 @@ def select_submesh(surfaces: Sequence[RawSurface], part: tuple[str, ...]) -> Seq
 
 def hull_of(surfaces: Sequence[RawSurface], linear: Floats, offset: Floats) -> CollisionPiece:
     """The convex hull of a mesh that says it is one (`optimization="convex_hull"`), under x -> linear @ x + offset."""
-    points = np.concatenate([s.vertices[np.unique(s.faces)] for s in surfaces])
+    whole = join_surfaces(surfaces)
     try:
-        return CollisionPiece(convex_hull(points @ linear.T + offset))
+        hull, fill = hull_mesh(whole.vertices, whole.faces)
+        return CollisionPiece(hull.transform(linear, offset), fill=fill)
     except GeometryError as error:
         return CollisionPiece(None, error.problem)
 

@@ -118,7 +118,8 @@ def _build_geoms(
         for name, part in zip(element.names, source.parts, strict=True):
             if part.shape is not None:
                 whole = collision_pieces.element_of(element.names)
-                yield Geom(name, element.body, part.shape, contact=contact, mentions=own, element=whole)
+                geom = Geom(name, element.body, part.shape, contact=contact, mentions=own, element=whole)
+                yield replace(geom, fill=part.fill)
 
 
 def find_files(path: Path) -> tuple[tuple[Path, ...], tuple[str, ...]]:

@@ -13,7 +13,7 @@ from meshforge.formats.libraries import pxr
 from meshforge.formats.meshfile.surface import FARTHEST, RawSurface, join_surfaces
 from meshforge.formats.usd.colliders import COLLISION, has_schema
 from meshforge.formats.usd.stage import UsdStage, rotation_of
-from meshforge.geometry import Box, Capsule, Cylinder, Floats, Ints, Pose, Sphere, convex_hull, split_pieces
+from meshforge.geometry import Box, Capsule, Cylinder, Floats, Ints, Pose, Sphere, convex_hull, hull_mesh, split_pieces
 
 _FLAT = 1e-12  # of the largest stretch of a map; below, it is a projection
 _LEAST = 1e-100  # of any stretch; below, its square is zero
@@ -53,7 +53,7 @@ def _parts_of_mesh(scene: UsdStage, prim: Any, linear: Floats, offset: Floats) -
             return [CollisionPiece(None, "its coordinates are out of all bounds")]
         how = str(scene.get(prim.GetAttribute("physics:approximation")) or "none")
         if how in WHOLE and len(mesh.faces):
-            return [_build_whole(how, mesh.vertices[np.unique(mesh.faces)], linear, offset)]
+            return [_build_whole(how, mesh, linear, offset)]
         found = split_pieces(mesh.vertices, mesh.faces, name=str(prim.GetPath()))
     except GeometryError as error:
         if "mesh" in locals() and len(mesh.faces):
@@ -62,12 +62,14 @@ def _parts_of_mesh(scene: UsdStage, prim: Any, linear: Floats, offset: Floats) -
     return place_pieces(found, linear, offset)
 
 
-def _build_whole(how: str, points: Floats, linear: Floats, offset: Floats) -> CollisionPiece:
-    """One shape around points (n, 3); bounding boxes and spheres as engines make them: about the box of the mesh."""
+def _build_whole(how: str, mesh: RawSurface, linear: Floats, offset: Floats) -> CollisionPiece:
+    """One shape around a mesh; bounding boxes and spheres as engines make them: about the box of the mesh."""
+    points = mesh.vertices[np.unique(mesh.faces)]
     low, high = points.min(axis=0), points.max(axis=0)
     middle, half = (low + high) / 2, (high - low) / 2
     if how == "convexHull" or half.min() <= 0:
-        return CollisionPiece(convex_hull(points).transform(linear, offset))
+        hull, fill = hull_mesh(mesh.vertices, mesh.faces)
+        return CollisionPiece(hull.transform(linear, offset), fill=fill)
     if how == "boundingCube":
         return CollisionPiece(Box(Pose.of_translation(middle), half).transform(linear, offset))
     radius = float(np.linalg.norm(points - middle, axis=1).max() * np.linalg.norm(linear, axis=0).max())

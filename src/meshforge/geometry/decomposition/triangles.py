@@ -18,6 +18,7 @@ from meshforge.geometry.arrays import Aabb, Floats, Ints, freeze_floats, freeze_
 from meshforge.geometry.connectivity import edges_of
 from meshforge.geometry.convex import FLATNESS, convex_hull, principal_extents, spans_volume
 from meshforge.geometry.shape import Box, Polytope, volume_and_centroid
+from meshforge.geometry.solidity import judge_solidity, refuse_dents
 from meshforge.geometry.solids import intersect
 from meshforge.geometry.surface import is_closed
 
@@ -27,7 +28,6 @@ _FLAT = 1e-7  # an extent below this share of the largest spans no volume
 _LEVEL = 1e-3  # a hole is planar when it is level within this share of the mesh's diagonal
 _THICK = 0.1  # of the length: thick enough for voxels and cuts, thin enough to count as a sheet
 _SLICE = 0.1, 0.2  # of the thickness, out of the middle, where engines like to cut
-_WHOLE = 0.95  # a sheet that fills this share of its outline is one hull, as a piece is that fills it of its volume
 
 DecomposeSolid = Callable[[Floats, Ints], list[Polytope]]
 
@@ -202,11 +202,12 @@ def sheet_hulls(vertices: Any, faces: Any, decompose: DecomposeSolid, name: str)
     if _is_narrow(extents):
         raise GeometryError("it is a line: it has no area", where=name, remedy="Delete it.")
     whole = convex_hull(points, name=name, thicken=thin)
-    if _area(points, triangles) >= _WHOLE * whole.volume / thin:
-        return [whole]
     flat = (points - center) @ axes.T * [1, 1, 0]  # in its own frame, since engines cut along the coordinate axes
     rise = _THICK * float(extents[0])
-    slices = (_slice(hull, rise) for hull in decompose(*_thicken(flat, triangles, rise)))
+    solid = _thicken(flat, triangles, rise)
+    if refuse_dents(judge_solidity(*solid), *solid).shape:
+        return [whole]
+    slices = (_slice(hull, rise) for hull in decompose(*solid))
     hulls = [convex_hull(s @ axes + center, name=name, thicken=thin) for s in slices if s is not None]
     return hulls or [whole]
 
@@ -222,12 +223,6 @@ def _slice(hull: Polytope, rise: float) -> Floats | None:
     low[2], high[2] = np.multiply(_SLICE, rise)
     part = intersect(hull, Box.of_bounds(Aabb(low, high)))
     return part.vertices * [1, 1, 0] if part else None
-
-
-def _area(points: Floats, triangles: Ints) -> float:
-    """The area [m^2] of distinct triangles: a sheet may be written with both its sides."""
-    a, b, c = (points[np.unique(np.sort(triangles, axis=1), axis=0)[:, k]] for k in range(3))
-    return float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum()) / 2
 
 
 def _thicken(flat: Floats, triangles: Ints, rise: float) -> tuple[Floats, Ints]:

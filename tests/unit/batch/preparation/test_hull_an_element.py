@@ -172,4 +172,5 @@ def test_one_hull_of_a_mesh_file_is_written_and_nothing_is_divided_by_it(
     ):
         refused = run(*words)
         assert refused.code == 2 and "--decompose hull divides nothing" in refused.err
-    assert "max_hull_vertices=0" in run("decompose", "cad.obj", "-o", "two.obj", "--decompose", "hull", "--set", "a=1").err
+    wrong = run("decompose", "cad.obj", "-o", "two.obj", "--decompose", "hull", "--set", "a=1")
+    assert "max_hull_vertices=0" in wrong.err

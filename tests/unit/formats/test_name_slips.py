@@ -1,0 +1,120 @@
+"""Names that were meant to mark collision for an engine and do not: `check` for that engine says so."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from meshforge.checks import check
+from meshforge.engines import Finding
+from meshforge.formats import load
+from tests.soups import box
+from tests.unit.cli.in_process import runner
+from tests.unit.formats.test_marked_convex import write_nodes, write_obj
+
+
+def findings_of(folder: Path, engine: str, *nodes: str, parents: tuple[str, ...] = ()) -> list[Finding]:
+    path = write_nodes(folder / "gate.glb", dict.fromkeys(nodes, box()), parents)
+    return [finding for finding in check(load(path), engine) if finding.rule == f"{engine}-name"]
+
+
+@pytest.mark.parametrize(
+    ("nodes", "nearest"),
+    [
+        (("Gate", "UCX_Fence_00"), "Gate"),
+        (("Gate", "Post", "UCX_Gte_00"), "Gate"),
+        (("Gate", "ubx_gatepost"), "Gate"),
+        (("Gate_01", "UCX_Gate"), "Gate_01"),
+    ],
+)
+def test_a_hull_for_unreal_that_no_mesh_takes_is_an_error(tmp_path: Path, nodes: tuple[str, ...], nearest: str) -> None:
+    (finding,) = findings_of(tmp_path, "unreal", *nodes)
+    assert (finding.severity, finding.hulls) == ("error", (nodes[-1],))
+    assert finding.message.startswith(f"{nodes[-1]}: no mesh is called ")
+    assert f"The nearest mesh is {nearest}:" in finding.remedy
+
+
+@pytest.mark.parametrize(
+    "nodes",
+    [
+        ("Gate", "UCX_Gate"),
+        ("Gate", "UCX_Gate_00", "UCX_Gate_01"),
+        ("GATE", "ucx_gate_7"),
+        ("Gate_01", "UCX_Gate_01"),
+        ("Gate.001", "UCX_Gate.001", "UCX_Gate.001_00"),
+        ("Gate", "UCX_Gate.001"),
+        ("Gate", "Ucayali", "UCXPort".lower()),
+    ],
+)
+def test_a_hull_for_unreal_that_a_mesh_takes_is_none(tmp_path: Path, nodes: tuple[str, ...]) -> None:
+    assert findings_of(tmp_path, "unreal", *nodes) == []
+
+
+@pytest.mark.parametrize(("name", "mark"), [("UCX-Gate_00", "UCX_"), ("UXC_Gate_00", "UCX_"), ("UBX.Gate", "UBX_")])
+def test_a_prefix_that_is_misspelt_is_an_error(tmp_path: Path, name: str, mark: str) -> None:
+    (finding,) = findings_of(tmp_path, "unreal", "Gate", "UCX_Gate_00", name)
+    assert (finding.severity, finding.remedy) == ("error", f"Is {mark} meant? Spell it so.")
+
+
+@pytest.mark.parametrize(
+    ("name", "mark"),
+    [
+        ("Gate-convcolony", "-convcolonly"),
+        ("Gate_ConvColOny.001", "-convcolonly"),
+        ("Gate-conv-colonlly", "-convcolonly"),
+        ("Gateconvcolonly", "-convcolonly"),
+        ("Gate-colnly", "-colonly"),
+        ("Gate-concol", "-convcol"),
+    ],
+)
+def test_a_suffix_that_godot_does_not_know_is_an_error(tmp_path: Path, name: str, mark: str) -> None:
+    (finding,) = findings_of(tmp_path, "godot", "Post", "Post2-convcolonly", name)
+    assert (finding.severity, finding.remedy) == ("error", f"Is {mark} meant? Spell it so.")
+
+
+def test_words_that_only_look_like_marks_are_none(tmp_path: Path) -> None:
+    names = ("Gate-convcolonly", "Post-col", "Ant-color", "a_column", "b-control", "c-collection", "d-conveyor", "colt")
+    assert findings_of(tmp_path, "godot", *names) == []
+    assert findings_of(tmp_path, "unity", *names, parents=("Gate_colliders", "colours", "Gate_collection")) == []
+
+
+@pytest.mark.parametrize("parent", ["Gate_coliders", "Gate_collider", "Gate-colliders"])
+def test_a_parent_that_does_not_say_that_what_it_holds_collides_is_an_error_for_unity(
+    tmp_path: Path, parent: str
+) -> None:
+    (finding,) = findings_of(tmp_path, "unity", "Gate", parents=(parent,))
+    assert finding.message == f"{parent}: its name marks no collision"
+    assert finding.remedy == "Is _colliders meant? Spell it so."
+
+
+def test_an_obj_for_unreal_is_held_to_the_same(tmp_path: Path) -> None:
+    vertices, faces = box()
+    write_obj(tmp_path / "gate.obj", (vertices, faces), "UCX_Fence_00")
+    text = (tmp_path / "gate.obj").read_text()
+    (tmp_path / "gate.obj").write_text(text + "g Gate\nf 1 2 3\n")
+    (finding,) = (one for one in check(load(tmp_path / "gate.obj"), "unreal") if one.rule == "unreal-name")
+    assert "Gate" in finding.remedy
+    (tmp_path / "gate.obj").write_text(text + "g Fence\nf 1 2 3\n")
+    assert not [one for one in check(load(tmp_path / "gate.obj"), "unreal") if one.severity == "error"]
+
+
+def test_a_hull_without_any_mesh_is_an_error(tmp_path: Path) -> None:
+    (finding,) = findings_of(tmp_path, "unreal", "UCX_Gate_00")
+    assert finding.remedy == "There is no mesh to be seen: add Gate."
+
+
+def test_a_hull_that_an_edit_took_away_is_no_error(tmp_path: Path) -> None:
+    mesh = load(write_nodes(tmp_path / "gate.glb", dict.fromkeys(("Gate", "UCX_Gate_00", "UCX_Fence_00"), box())))
+    left = mesh.with_hulls(hull for hull in mesh.hulls if hull.name != "UCX_Fence_00")
+    assert [one.rule for one in check(left, "unreal")] == []
+
+
+def test_the_command_fails_and_says_what_to_do(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = write_nodes(tmp_path / "gate.glb", {"Gate": box(), "UCX_Fence_00": box()})
+    done = runner(monkeypatch, capsys)("check", str(path), "--engine", "unreal")
+    assert done.code == 1
+    assert "error: UCX_Fence_00: no mesh is called Fence, so that in Unreal nothing collides by it" in done.out
+    assert "The nearest mesh is Gate: call it UCX_Gate_00." in done.out
