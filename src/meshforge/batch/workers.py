@@ -163,6 +163,7 @@ def _begin_worker(
     function: Callable[[Any], Any], memory: int | None, plugins: Mapping[PluginKind, tuple[Plugin, ...]]
 ) -> None:
     """What each worker does first: the function comes once, not with every item, for it may hold much."""
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)  # what the parent does then is not for a worker
     gc.freeze()  # what came with a fork is not looked through, so it stays shared
     adopt_plugins(plugins)
     global _function, _memory
