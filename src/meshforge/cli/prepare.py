@@ -18,15 +18,8 @@ from meshforge.cli.console import progress
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import UsageError, describe_error, pluralize, quote_path
 from meshforge.geometry import DecomposeSettings
-from meshforge.project import (
-    MADE_ANEW,
-    SPLIT_DEFAULTS,
-    PreparationResult,
-    Project,
-    SplitSettings,
-    count_pieces,
-    forget_plan,
-)
+from meshforge.project import MADE_ANEW, SPLIT_DEFAULTS, PreparationResult, Project, SplitSettings, forget_plan
+from meshforge.project.prepare import count_pieces
 
 
 @dataclass(frozen=True, slots=True)

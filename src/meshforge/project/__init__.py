@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from meshforge.project.new_asset_result import NewAssetResult, assess_new_assets, describe_new
     from meshforge.project.new_assets import NewAsset, NewAssetOptions, list_new, prepare_aside
     from meshforge.project.preparation_plan import SPLIT_DEFAULTS, SplitSettings, forget_plan, read_preparation_plan
-    from meshforge.project.prepare import PreparationResult, count_pieces
+    from meshforge.project.prepare import PreparationResult
     from meshforge.project.project import Project
     from meshforge.project.replies import has_agreed_labels
     from meshforge.project.review import FamilyAssessment, ProjectReview, assess_family
@@ -54,7 +54,6 @@ __all__ = [
     "assess_new_assets",
     "build_run_report",
     "can_ask_about_spans",
-    "count_pieces",
     "describe_new",
     "digest_lesson",
     "forget_plan",

@@ -15,7 +15,7 @@ import pytest
 
 from meshforge.cli import console
 from meshforge.cli.console import Progress, progress
-from meshforge.project import count_pieces
+from meshforge.project.prepare import count_pieces
 from tests.unit.batch.preparation.samples import write_stand
 
 Capture = pytest.CaptureFixture[str]
