@@ -24,6 +24,7 @@ DEPTH = {"formats": 3, "studio": 3}
 """Levels of packages below `meshforge`; two where none is given."""
 MANY_PARAMETERS = frozenset(  # what people ask of a picture and of a preparation, all with defaults
     {"meshforge.rendering.picture:render", "meshforge.project.prepare:decompose"}
+    | {"meshforge.batch.preparation.decompose:decompose_asset"}
 )
 """Functions that may take more than PARAMETERS parameters, as `module:function`."""
 IRREGULAR = frozenset(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 import os
+import signal
 from collections import deque
 from collections.abc import Callable, Generator, Mapping, Sequence
 from concurrent.futures import Future, TimeoutError, wait
@@ -159,6 +160,7 @@ def _begin_worker(
 ) -> None:
     """What each worker does first: the function comes once, not with every item, for it may hold much."""
     begin_isolated()
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)  # what the parent does then is not for a worker
     gc.freeze()  # what came with a fork is not looked through, so it stays shared
     adopt_plugins(plugins)
     global _function, _memory

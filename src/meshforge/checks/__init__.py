@@ -8,6 +8,7 @@ from meshforge.checks.fix import FixResult, fix
 from meshforge.common.exports import export_lazily
 
 if TYPE_CHECKING:
+    from meshforge.checks.clearance import measure_kept_space
     from meshforge.checks.engine_trial import EngineTrial
     from meshforge.checks.examination import CheckOptions, Examination, check, draw_examination, examine_mesh
     from meshforge.checks.registry import CHECKS, Check
@@ -28,4 +29,5 @@ __all__ = [
     "draw_examination",
     "examine_mesh",
     "fix",
+    "measure_kept_space",
 ]

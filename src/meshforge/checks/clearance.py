@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Literal
 
@@ -11,7 +12,7 @@ from meshforge.checks import grid as voxels
 from meshforge.checks.grid import Grid, Mask, flood_from_outside, grid_around, voxelize_hulls, voxelize_surface
 from meshforge.common import join_names
 from meshforge.engines import Finding
-from meshforge.geometry import Aabb, Floats
+from meshforge.geometry import Aabb, Floats, Shape, convex_hull, is_sheet
 from meshforge.symbolic import Hull, Surface, SymbolicMesh
 
 LEAST_REGION_SHARE = 0.005
@@ -109,6 +110,24 @@ def measure_clearance(
     fine = _measure(mesh, before, corners, grid_around(bounds, cell))
     rough = _measure(mesh, before, corners, grid_around(bounds, 2 * fine.cell))
     return replace(fine, doubled=(rough.closed, rough.opened))
+
+
+def measure_kept_space(surface: Surface, shapes: Sequence[Shape]) -> float | None:
+    """The share of the free space about a surface that stays free beside hulls; None where there is hardly any.
+
+    It is counted as by `measure_clearance`, within the convex hull of the surface: one hull of all keeps nothing of it.
+    """
+    corners = surface.vertices[surface.faces]
+    if is_sheet(corners.reshape(-1, 3)):
+        return None
+    around = convex_hull(corners.reshape(-1, 3))
+    grid = grid_around(Aabb.union([around.aabb, *(shape.aabb for shape in shapes)]))
+    free = flood_from_outside(voxelize_surface(grid, corners)) & voxelize_hulls(grid, [around])
+    whole = voxels.find_pockets(free)[0] > 0
+    if np.count_nonzero(whole) < LEAST_REGION_SHARE * np.count_nonzero(voxelize_hulls(grid, [around])):
+        return None
+    closed = whole & ~flood_from_outside(voxelize_hulls(grid, shapes))
+    return 1.0 - np.count_nonzero(voxels.find_pockets(closed)[0]) / np.count_nonzero(whole)
 
 
 def visual_corners(mesh: SymbolicMesh) -> Floats:

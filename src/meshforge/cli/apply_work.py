@@ -15,6 +15,7 @@ import typer
 from meshforge import batch
 from meshforge.cli import options
 from meshforge.cli.apply_new import hold, hold_new, prepare_given, prepare_later
+from meshforge.cli.console import progress
 from meshforge.cli.terminal import remark
 from meshforge.common import UsageError, join_names
 from meshforge.language import Program, Template
@@ -183,7 +184,8 @@ def _work_of_others(
 
 def _review(project: Project, bar: float) -> ProjectReview:
     program = project.program()
-    found = project.review(bar)
+    with progress(None, "looking at the family"):
+        found = project.review(bar)
     if program != project.program():
         remark("The program was learned again from what was said since.")
     return found

@@ -1,18 +1,27 @@
-"""Tables on stdout, bars and lines that say what is being done on stderr; drawn by rich where a terminal is."""
+"""Tables on stdout, drawn by rich where a terminal is; and lines on stderr that say how far the work in hand is."""
 
 from __future__ import annotations
 
 import os
+import re
+import shutil
+import signal
 import sys
+import threading
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext, redirect_stdout, suppress
 from time import monotonic
 from typing import Any
 
-from meshforge.cli.terminal import escape_output
-from meshforge.common import escape_name
+from meshforge.cli.terminal import bare_stream
+from meshforge.common import escape_name, pluralize
 
+QUIET_SECONDS = 2.0
+"""Work that takes no longer says nothing of how far it is, where stderr is no terminal."""
 _REFRESH_SECONDS = 0.1
+_SELDOM = 30.0  # seconds between two lines at most, where stderr is no terminal
+_COUNT = re.compile(r"(\d+) of (\d+)")
+_CLEAR = "\r\x1b[K"
 _TERMINAL_SETTINGS = frozenset({"FORCE_COLOR", "TTY_COMPATIBLE"})
 """Variables by which rich takes what is no terminal for one."""
 
@@ -51,59 +60,115 @@ def _print_plain_table(columns: Sequence[str], rows: Sequence[Sequence[str]], ri
     print("\n".join([lines[0], rule, *lines[1:]]))
 
 
-@contextmanager
-def progress(total: int | None, what: str) -> Iterator[Callable[[], None]]:
-    """A bar on stderr for work on several assets, with its rate and the time that is left; silent where piped.
+class Progress:
+    """What is said on stderr of work in hand: how much of it is done, seconds, and about how many are left.
 
-    Gives the function that counts one more. What is printed to stdout meanwhile goes there, also where that is no
-    terminal.
+    Called, it counts one more. At a terminal it is one line, which goes when the work ends; else a line after 2
+    seconds, and then ever more seldom. total: of what is counted, None where nothing is; pieces: how many are done of
+    how many that are known, where the count is not all.
     """
-    if not sys.stderr.isatty() and not _TERMINAL_SETTINGS.intersection(os.environ):
-        yield lambda: None
-        return
-    from rich import progress as bars  # lazy: as above
-    from rich.console import Console  # lazy: as above
-    from rich.text import Text  # lazy: as above
 
-    class RateColumn(bars.TextColumn):
-        def render(self, task: bars.Task) -> Text:
-            return Text(f"{task.speed:.1f}/s" if task.speed else "")
+    def __init__(self, total: int | None, what: str, pieces: Callable[[], tuple[int, int]] | None) -> None:
+        self._total, self._what, self._pieces = total, what, pieces
+        self._done, self._words, self._share = 0, "", 0.0
+        self._started = self._drawn = monotonic()
+        self._is_terminal = sys.stderr.isatty() or bool(_TERMINAL_SETTINGS.intersection(os.environ))
+        self._is_shown, self._over = False, threading.Event()
 
-    console = Console(stderr=True)
-    with bars.Progress(
-        bars.TextColumn("{task.description}"),
-        bars.BarColumn(),
-        bars.MofNCompleteColumn(),
-        RateColumn(""),
-        bars.TimeRemainingColumn(),
-        console=console,
-        transient=True,
-        redirect_stdout=sys.stdout.isatty(),
-        speed_estimate_period=120,
-        disable=not console.is_terminal,
-        auto_refresh=False,  # by a thread, beside which workers could not start by a fork
-    ) as bar:
-        task, drawn = bar.add_task(escape_name(what), total=total), 0.0
+    def __call__(self) -> None:
+        """Count one more."""
+        self._done += 1
+        self.say(self._words)
 
-        def advance() -> None:
-            nonlocal drawn
-            bar.advance(task)
-            if (now := monotonic()) - drawn >= _REFRESH_SECONDS:
-                drawn = now
-                bar.refresh()
+    def say(self, words: str) -> None:
+        """What the work is at; of `part 3 of 12` two parts are done."""
+        self._words, found = words, _COUNT.search(words)
+        self._share = (int(found[1]) - 1) / int(found[2]) if found else self._share
+        if self._is_terminal and monotonic() - self._drawn >= _REFRESH_SECONDS:
+            self._draw()
 
-        with escape_output():  # while the bar is there, stdout is rich's, which takes controls for its own
-            yield advance
+    def describe(self) -> str:
+        """`decomposing: 3 of 12, 8 of 40 pieces, 21 s, about 84 s left`."""
+        seconds, share, texts = monotonic() - self._started, self._share, list[str]()
+        if self._total:
+            share, texts = self._done / self._total, [f"{self._done} of {self._total}"]
+        done, known = self._pieces() if self._pieces else (0, 0)
+        if known:
+            share = max(share, done / known) if self._total == 1 else share
+            texts.append(f"{done} of {pluralize(known, 'piece')}")
+        left = [f"about {seconds / share - seconds:.0f} s left"] if 0 < share < 1 else []
+        return f"{self._what}: {', '.join([*texts, *filter(None, [self._words]), f'{seconds:.0f} s', *left])}"
+
+    def clear(self, line: str = "") -> None:
+        """Take the line away where stderr is a terminal, and print another one."""
+        was_shown, self._is_shown = self._is_shown, bool(line) and self._is_terminal
+        if not line and not was_shown:
+            return
+        line = escape_name(line)
+        own = f"{_CLEAR}{line[: shutil.get_terminal_size().columns - 1]}" if self._is_terminal else f"{line}\n"
+        with suppress(OSError, ValueError):  # whoever read it may have gone
+            print(own, end="", file=bare_stream(sys.stderr), flush=True)
+
+    def _draw(self) -> None:
+        self._drawn = monotonic()
+        self.clear(self.describe())
+
+    def _draw_often(self) -> None:
+        """Draw when a line is due, till it is over."""
+        wait = QUIET_SECONDS
+        while not self._over.wait(max(0.0, self._drawn + wait - monotonic())):
+            self._draw()
+            wait = 1.0 if self._is_terminal else min(self._drawn - self._started, _SELDOM)
+
+    @contextmanager
+    def keep_drawing(self) -> Iterator[Progress]:
+        """Within the block lines come while nothing is counted, too: by a thread, which an alarm starts once the work
+        takes long, since workers could not start by a fork beside it."""
+        thread = threading.Thread(target=self._draw_often, daemon=True)
+        alarm: int | None = getattr(signal, "SIGALRM", None)  # which Windows has not
+        is_main = threading.current_thread() is threading.main_thread()
+        if alarm is None or not is_main or signal.getsignal(alarm) is not signal.SIG_DFL:
+            alarm = None
+            thread.start()
+        else:
+            signal.signal(alarm, lambda *_: thread.start())
+            signal.setitimer(signal.ITIMER_REAL, QUIET_SECONDS / 2)
+        try:
+            yield self
+        finally:
+            if alarm is not None:
+                signal.setitimer(signal.ITIMER_REAL, 0)
+                signal.signal(alarm, signal.SIG_DFL)
+            self._over.set()
+            if thread.is_alive():
+                thread.join()
+            self.clear()
+
+
+class _StdoutAboveLine:
+    """stdout at a terminal where a line of progress stands: it goes before anything is printed."""
+
+    def __init__(self, progress: Progress) -> None:
+        self._progress, self._stdout = progress, sys.stdout
+
+    def write(self, text: str) -> int:
+        self._progress.clear()
+        return self._stdout.write(text)
+
+    @property
+    def rich_proxied_file(self) -> Any:
+        """Where rich writes."""
+        self._progress.clear()
+        return bare_stream(self._stdout)
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._stdout, name)
 
 
 @contextmanager
-def show_status(what: str) -> Iterator[None]:
-    """Say on stderr what is being done, for as long as it takes. Silent where piped."""
-    from rich.console import Console  # lazy: as above
-
-    console = Console(stderr=True)
-    if not console.is_terminal:
-        yield
-        return
-    with console.status(escape_name(what)):
-        yield
+def progress(total: int | None, what: str, pieces: Callable[[], tuple[int, int]] | None = None) -> Iterator[Progress]:
+    """Say on stderr how far work is, for as long as it takes; see `Progress`, which counts."""
+    shown = Progress(total, what, pieces)
+    stdout: Any = _StdoutAboveLine(shown)
+    with redirect_stdout(stdout) if sys.stdout.isatty() else nullcontext(), shown.keep_drawing():
+        yield shown

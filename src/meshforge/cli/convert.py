@@ -11,6 +11,7 @@ import typer
 
 from meshforge import formats
 from meshforge.cli import options
+from meshforge.cli.console import progress
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import AssetError, UsageError, escape_name, pluralize
 from meshforge.formats import FORMATS, PLUGIN_FORMATS, Loss, SaveResult
@@ -111,7 +112,8 @@ def _convert_one(source: Path, out: Path, given: ConvertArguments) -> None:
     if given.concave != "keep" and mesh.asset:
         from meshforge.batch import replace_concave  # lazy: 250 modules that only --concave needs
 
-        ready = SymbolicMesh.of(replace_concave(mesh.asset, given.concave))
+        with progress(None, f"hulls for {source.name}"):
+            ready = SymbolicMesh.of(replace_concave(mesh.asset, given.concave))
         mesh = ready.with_labels({name: label for name, label in mesh.labels.items() if name in ready.index})
     saved = formats.convert(
         mesh,

@@ -7,10 +7,10 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.console import Console
 
 from meshforge import formats
 from meshforge.cli import options
+from meshforge.cli.console import progress
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import UsageError, escape_name, pluralize
 from meshforge.geometry import DecomposeSettings
@@ -86,7 +86,7 @@ def decompose(given: DecomposeArguments) -> None:
     options.refuse_options(given.context, ("json",), "--advise")
     if given.out is None:
         raise UsageError("nothing says what to write", remedy="Give --out FILE, or --advise for advice on settings.")
-    with Console(stderr=True).status(title := f"{given.method.value} on {escape_name(given.mesh.name)}") as status:
+    with progress(None, f"{given.method.value} on {given.mesh.name}") as shown:
         made = formats.decompose(
             given.mesh,
             settings,
@@ -95,7 +95,7 @@ def decompose(given: DecomposeArguments) -> None:
             hollow=given.hollow,
             timeout=given.timeout,
             cache=given.cache,
-            progress=lambda text: status.update(f"{title}: {text}"),
+            progress=shown.say,
         )
     saved = formats.save(made, given.out, overwrite=given.overwrite)
     for note in (*(made.asset.notes if made.asset else ()), *saved.notes):
@@ -107,12 +107,7 @@ def _advise(given: DecomposeArguments, settings: DecomposeSettings) -> None:
     from meshforge.inspection import advise_decomposition  # lazy: most runs of this command draw nothing
 
     picture = _picture_path(given.out, given.overwrite)
-    title = f"{given.method.value} on {escape_name(given.mesh.name)}"
-    with Console(stderr=True).status(title) as status:
-
-        def show(text: str) -> None:
-            status.update(f"{title}: {text}")
-
+    with progress(None, f"{given.method.value} on {given.mesh.name}") as shown:
         advice = advise_decomposition(
             given.mesh,
             settings,
@@ -120,7 +115,7 @@ def _advise(given: DecomposeArguments, settings: DecomposeSettings) -> None:
             labels=_segmentation_of(given),
             timeout=given.timeout,
             cache=given.cache,
-            progress=show,
+            progress=shown.say,
         )
     if given.json:
         print_json(advice.to_json())

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import io
 import os
+import signal
 import sys
 from collections.abc import Callable
+from contextlib import suppress
 from importlib import import_module
 from typing import Any, cast
 
@@ -40,6 +42,7 @@ COMMANDS = {
 }
 """Every command with the line that the list of commands shows: the function of its name in the module of its name."""
 _INTERRUPTED = 130  # the exit code where a person pressed Ctrl-C
+_TERMINATED = 143  # where the system asked for the end
 _HELP_OPTIONS = {"help_option_names": ["-h", "--help"]}
 
 
@@ -111,6 +114,8 @@ def main() -> None:
     for stream in (sys.stdout, sys.stderr):  # names of files need not be text that a terminal can show
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")
+    with suppress(ValueError):  # in another thread than the main one
+        signal.signal(signal.SIGTERM, lambda *_: sys.exit(_TERMINATED))  # so that worker pools are closed
     with escape_output():
         _run(debug)
 
@@ -122,7 +127,7 @@ def _run(debug: bool) -> None:
         print("stopped", file=sys.stderr)
         sys.exit(_INTERRUPTED)
     except SystemExit as left:
-        if left.code == _INTERRUPTED:  # typer says nothing of it
+        if left.code in (_INTERRUPTED, _TERMINATED):  # typer says nothing of it
             print("stopped", file=sys.stderr)
         raise
     except BrokenPipeError:  # the reader of our output has gone; nothing is left to say

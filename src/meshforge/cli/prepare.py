@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from contextlib import ExitStack
 from dataclasses import asdict, dataclass
+from functools import partial
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Annotated, Any
 
 import typer
@@ -16,6 +19,7 @@ from meshforge.cli.terminal import print_json, remark
 from meshforge.common import UsageError, describe_error, escape_name, pluralize, quote_path
 from meshforge.geometry import DecomposeSettings
 from meshforge.project import MADE_ANEW, SPLIT_DEFAULTS, PreparationResult, Project, SplitSettings, forget_plan
+from meshforge.project.prepare import count_pieces
 
 
 @dataclass(frozen=True, slots=True)
@@ -154,9 +158,12 @@ def decompose_assets(
 ) -> int:
     """Decompose assets of a project and print what became of each; the exit code. more: of `Project.decompose`."""
     ids = tuple(dict.fromkeys(assets))
-    with progress(len(ids), "decomposing") as advance:
+    with ExitStack() as stack:
+        folder = Path(stack.enter_context(TemporaryDirectory(ignore_cleanup_errors=True)))
+        advance = stack.enter_context(progress(len(ids), "decomposing", partial(count_pieces, folder)))
         execution = ExecutionOptions(workers=workers, timeout=timeout, progress=advance)
-        return print_results(project, project.decompose(ids, settings, execution=execution, **more), json)
+        results = project.decompose(ids, settings, execution=execution, pieces=folder, **more)
+        return print_results(project, results, json)
 
 
 def print_results(project: Project, results: Iterable[PreparationResult], json: bool = False) -> int:

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import typer
 
-from meshforge.cli.console import show_status
+from meshforge.cli.console import progress
 from meshforge.cli.review_answers import ScriptReply, find_contradictions, parse_reply
 from meshforge.cli.review_pictures import draw_question
 from meshforge.cli.review_text import format_prompt, format_question, format_reply_help
@@ -62,7 +62,7 @@ class ReviewSession:
                 typer.echo(f"{error.message}\n", err=True)
 
     def _look(self) -> ProjectReview:
-        with show_status("looking at the family"):
+        with progress(None, "looking at the family"):
             found = self._project.review(self._bar)
         self.taken_back |= found.taken_back
         return found

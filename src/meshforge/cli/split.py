@@ -10,6 +10,7 @@ from typing import Annotated
 import typer
 
 from meshforge.cli import options
+from meshforge.cli.console import progress
 from meshforge.cli.hulls import LISTING, find_hulls, is_number
 from meshforge.cli.prepare import print_results
 from meshforge.common import UsageError
@@ -61,7 +62,8 @@ def split(given: SplitArguments) -> None:
         result = project.cut(asset, hull, _parse_vector(at, "--at"), _parse_direction(across, "--across"))
     else:
         settings = options.parse_engine_settings(method, given.option)
-        result = project.split(asset, hull, settings, hollow=given.hollow)
+        with progress(None, f"splitting {hull}"):
+            result = project.split(asset, hull, settings, hollow=given.hollow)
     print_results(project, [result], given.json)
 
 

@@ -17,7 +17,7 @@ class _EscapingStream:
 
     def __init__(self, stream: Any) -> None:
         self._stream = stream
-        self.rich_proxied_file = getattr(stream, "rich_proxied_file", stream)  # rich writes its own controls there
+        self.rich_proxied_file = bare_stream(stream)  # rich writes its own controls there
 
     def write(self, text: str) -> int:
         self._stream.write(_escape(text))
@@ -25,6 +25,11 @@ class _EscapingStream:
 
     def __getattr__(self, name: str) -> Any:
         return getattr(self._stream, name)
+
+
+def bare_stream(stream: Any) -> Any:
+    """The stream below one that escapes, for what is to control the terminal."""
+    return getattr(stream, "rich_proxied_file", stream)
 
 
 def _escape(text: str) -> str:
@@ -56,7 +61,7 @@ def print_json(value: Any, *, compact: bool = False) -> None:
 
 def print_exact(text: str) -> None:
     """Text that a program may read: as it is where stdout is no terminal."""
-    stream = sys.stdout if sys.stdout.isatty() else getattr(sys.stdout, "rich_proxied_file", sys.stdout)
+    stream = sys.stdout if sys.stdout.isatty() else bare_stream(sys.stdout)
     stream.write(text)
 
 

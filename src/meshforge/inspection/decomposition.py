@@ -1,19 +1,21 @@
-"""What several settings of a decomposition come to, side by side: hulls, how many hold more than one part, volume."""
+"""What settings of a decomposition come to, side by side: hulls, how many hold more than one part, free space."""
 
 from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from math import floor
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
 from meshforge import geometry
+from meshforge.checks import measure_kept_space
 from meshforge.common import pluralize
 from meshforge.formats import DecomposeBy, SegmentationFile, decompose, label_surface, read_surface
-from meshforge.geometry import CoacdSettings, DecomposeSettings, Ints, Polytope
+from meshforge.geometry import CoacdSettings, DecomposeSettings, Ints, Polytope, VhacdSettings
 from meshforge.symbolic import Surface, SymbolicMesh
 
 if TYPE_CHECKING:
@@ -34,19 +36,19 @@ _CELL = (480, 400)  # [px] of a picture
 @dataclass(frozen=True, eq=False, slots=True)
 class DecompositionTrial:
     """One setting and what it came to. setting: `threshold 0.05`; spanning: how many hulls hold more than one part,
-    None where that was not judged; excess: the share of the volume that was added, None for an open surface."""
+    None where that was not judged; kept: the share of the free space that stays free, None for hardly any."""
 
     setting: str
     by: DecomposeBy
     mesh: SymbolicMesh
     spanning: int | None
-    excess: float | None
+    kept: float | None
 
     def to_json(self) -> dict[str, Any]:
         """Without the mesh."""
         told = {"setting": self.setting, "by": self.by, "hulls": len(self.mesh.hulls)}
         notes = list(self.mesh.asset.notes) if self.mesh.asset else []
-        return {**told, "spanning": self.spanning, "extra_volume": self.excess, "notes": notes}
+        return {**told, "spanning": self.spanning, "free_space": self.kept, "notes": notes}
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -63,10 +65,11 @@ class DecompositionAdvice:
 
     def describe(self) -> list[str]:
         """A table as lines of text, and by what it was judged."""
-        rows = [("setting", "by", "hulls", "span parts", "extra volume")]
+        rows = [("setting", "by", "hulls", "span parts", "free space kept")]
         for trial in self.trials:
             spanning = "-" if trial.spanning is None else str(trial.spanning)
-            rows.append((trial.setting, trial.by, str(len(trial.mesh.hulls)), spanning, _format(trial.excess)))
+            kept = "-" if trial.kept is None else f"{floor(100 * trial.kept)}%"
+            rows.append((trial.setting, trial.by, str(len(trial.mesh.hulls)), spanning, kept))
         widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
         lines = ["  ".join(text.ljust(width) for text, width in zip(row, widths, strict=True)).rstrip() for row in rows]
         return [*lines, f"span parts: {self.judged}"]
@@ -80,10 +83,6 @@ class DecompositionAdvice:
         pictures = [render(trial.mesh, size=_CELL, legend=False, bounds=box, up=self.up) for trial in self.trials]
         titles = [f"{one.setting} by {one.by}: {pluralize(len(one.mesh.hulls), 'hull')}" for one in self.trials]
         return make_contact_sheet(pictures, columns=len(THRESHOLDS), titles=titles)
-
-
-def _format(excess: float | None) -> str:
-    return "-" if excess is None else f"{excess:+.0%}"
 
 
 def advise_decomposition(
@@ -108,17 +107,21 @@ def advise_decomposition(
     regions, judged = find_regions(surface)
     by_parts: DecomposeBy = "labels" if labels else "parts"
     ways: list[DecomposeBy] = ["whole", by_parts] if surface.parts and surface.parts.is_divided else ["whole"]
-    inside = None if hollow else geometry.volume_inside(surface.vertices, surface.faces)
     trials = []
-    for by, (title, own) in itertools.product(ways, _list_settings(settings or CoacdSettings())):
-        progress(f"{title} by {by}")
-        made = decompose(mesh, own, by=by, labels=labels, hollow=hollow, timeout=timeout, cache=cache)
+    rows = list(itertools.product(ways, _list_settings(settings or CoacdSettings())))
+    for number, (by, (title, own)) in enumerate(rows, 1):
+        head = f"setting {number} of {len(rows)}, {title} by {by}"
+        progress(head)
+
+        def more(text: str, head: str = head) -> None:
+            progress(f"{head}: {text}")
+
+        made = decompose(mesh, own, by=by, labels=labels, hollow=hollow, timeout=timeout, cache=cache, progress=more)
         hulls = [hull.shape for hull in made.hulls if isinstance(hull.shape, Polytope)]
         spanning = None if regions is None else 0  # by parts, each hull is made of the surface of one
         if regions is not None and by == "whole":
             spanning = int(find_spanning(surface, regions, hulls).sum())
-        excess = geometry.volume_of_union(hulls) / inside - 1 if inside else None
-        trials.append(DecompositionTrial(title, by, made, spanning, excess))
+        trials.append(DecompositionTrial(title, by, made, spanning, measure_kept_space(surface, hulls)))
     up: Literal["Y", "Z"] = "Y" if Path(mesh).suffix.lower() in (".glb", ".gltf") else "Z"
     return DecompositionAdvice("; ".join([judged, *notes]), tuple(trials), up)
 
@@ -126,7 +129,8 @@ def advise_decomposition(
 def _list_settings(settings: DecomposeSettings) -> list[tuple[str, DecomposeSettings]]:
     if isinstance(settings, CoacdSettings):
         return [(f"threshold {value:g}", replace(settings, threshold=value)) for value in THRESHOLDS]
-    return [(f"max_convex_hulls {value}", replace(settings, max_convex_hulls=value)) for value in COUNTS]
+    base = settings if isinstance(settings, VhacdSettings) else VhacdSettings()
+    return [(f"max_convex_hulls {value}", replace(base, max_convex_hulls=value)) for value in COUNTS]
 
 
 def find_regions(surface: Surface) -> tuple[Ints | None, str]:

@@ -14,7 +14,7 @@ from meshforge.project.advice import Adviser
 from meshforge.project.demonstrations import find_unknown_hulls
 from meshforge.project.learn import program_state_of, suggest_first_demonstration
 from meshforge.project.preparation_journal import describe_carried
-from meshforge.project.run import build_jobs, build_task, output_digest, writing_program
+from meshforge.project.run import build_jobs, build_task, make_empty_program, output_digest
 from meshforge.project.sign_offs import digest_lesson, find_bases
 from meshforge.project.span_splits import likely_spans, read_spans
 from meshforge.project.standings import Standings
@@ -57,7 +57,7 @@ def compute_status(
     facts = survey(store.found, store.layout, only, execution=execution, progress=progress, verify=verify)
     outputs = find_outputs(store.layout, facts, verify=verify)
     program, task, problem = _read_program(store)
-    bare = None if program or problem else writing_program(store)
+    bare = None if program or problem else make_empty_program(store)
     writing = build_task(store, bare) if bare else task
     edits, rows, spans = dict[str, OutputInputs](), list[AssetStatus](), read_spans(store)
     for job in work:

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from meshforge import batch
-from meshforge.common import AssetError, MeshForgeError, ProjectError, describe_error, join_names
+from meshforge.common import AssetError, MeshForgeError, ProjectError, describe_error, join_names, write_atomically
 from meshforge.formats import DecomposeBy, read
 from meshforge.geometry import CoacdSettings, DecomposeSettings, Shape, cache_folder, digest
 from meshforge.labels import label_new_hulls
@@ -219,12 +219,19 @@ def _remove_unread(store: Store, asset: str, error: MeshForgeError) -> list[str]
 
 @dataclass(frozen=True, slots=True)
 class _DecomposeWork:
-    """One asset to be decomposed; folder: of its preparation; options: those of `batch.decompose_asset`."""
+    """One asset to be decomposed; folder: of its preparation; options: those of `batch.decompose_asset`; pieces: the
+    file that says how far it is."""
 
     path: Path
     folder: Path
     settings: DecomposeSettings
     options: Mapping[str, Any]
+    pieces: Path | None
+
+    def tell(self, done: int, known: int) -> None:
+        """Write how many pieces are done, of how many."""
+        if self.pieces:
+            write_atomically(self.pieces, f"{done} {known}")
 
 
 def decompose(
@@ -238,18 +245,23 @@ def decompose(
     by: DecomposeBy = "whole",
     execution: batch.ExecutionOptions = batch.EXECUTION_DEFAULTS,
     write_block: Callable[[str], AbstractContextManager[object]] = nullcontext,
+    pieces: Path | None = None,
 ) -> Iterator[PreparationResult]:
     """Make hulls of what has none: non-convex pieces, and what bodies without collision geometry show.
 
     It is done in worker processes. assets: all when None; settings: CoACD's defaults when None; only: names of pieces
     and bodies, or patterns; again: also what is decomposed already; hollow: shells of one sheet are not filled;
     by: `parts` decomposes each group, node and material by itself, so that no hull crosses from one to another;
-    write_block: the block in which an asset's files are written. Each is kept as soon as it is done, and what is done
+    write_block: the block in which an asset's files are written; pieces: a folder of files that say meanwhile how far
+    each asset is, for `count_pieces`. Each is kept as soon as it is done, and what is done
     stays done when the caller stops in the midst.
     """
     ids = store.assets() if assets is None else tuple(dict.fromkeys(assets))
     engine, options = settings or CoacdSettings(), {"only": tuple(only), "again": again, "hollow": hollow, "by": by}
-    work = [_DecomposeWork(store.path(asset), store.layout.preparation(asset), engine, options) for asset in ids]
+    work = [
+        _DecomposeWork(store.path(a), store.layout.preparation(a), engine, options, pieces and pieces / str(number))
+        for number, a in enumerate(ids)
+    ]
     keep_decomposed(store, ids)
     results = batch.run_isolated(_decompose_one, work, execution)
     for asset, result in zip(ids, results, strict=True):
@@ -267,9 +279,16 @@ def _decompose_one(work: _DecomposeWork) -> tuple[batch.DecompositionResult, str
         seen = batch.record_digest(work.folder)
         before = batch.read_preparation(work.folder) or batch.Preparation()
         asset = read(work.path)
-        return batch.decompose_asset(asset, before, work.settings, **work.options, cache=cache_folder()), seen
+        options = {**work.options, "cache": cache_folder(), "progress": work.tell}
+        return batch.decompose_asset(asset, before, work.settings, **options), seen
     except Exception as error:  # one asset never stops the others
         return describe_error(error, str(work.path))
+
+
+def count_pieces(folder: Path) -> tuple[int, int]:
+    """How many pieces are done, of how many that are known, by the files of `decompose`."""
+    rows = [path.read_text().split() for path in folder.iterdir() if path.name.isdecimal()]
+    return sum(int(done) for done, _ in rows), sum(int(known) for _, known in rows)
 
 
 def _write_result(store: Store, asset: str, result: batch.DecompositionResult, seen: str | None) -> PreparationResult:

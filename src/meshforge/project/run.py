@@ -59,7 +59,7 @@ def build_work(
     """
     for asset in only or ():
         store.path(asset)
-    program = store.program() or writing_program(store)
+    program = store.program() or make_empty_program(store)
     if program is None:
         remedy = f"Learn it: meshforge synthesize {store.folder}"
         raise ProjectError("there is no program yet, and nothing is prepared", where=str(store.folder), remedy=remedy)
@@ -68,7 +68,7 @@ def build_work(
     return program, jobs, build_task(store, program).templates
 
 
-def writing_program(store: Store) -> Program | None:
+def make_empty_program(store: Store) -> Program | None:
     """A program without rules, by which assets are written as they are prepared; None where nothing is."""
     return Program() if store.found.ids.keys() & set(store.layout.ids_with_preparation()) else None
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from fnmatch import fnmatchcase
 from glob import escape
 from importlib.metadata import version
+from math import floor
 from pathlib import Path
 from typing import Any, Literal
 
@@ -14,6 +15,7 @@ import numpy as np
 
 from meshforge import geometry
 from meshforge.batch.preparation import record
+from meshforge.checks import measure_kept_space
 from meshforge.common import GeometryError, MeshForgeError, join_names, pluralize
 from meshforge.formats import DecomposeBy, SegmentationFile, labels_beside, plain_part_name, points_beside, read_parts
 from meshforge.geometry import Aabb, CoacdSettings, DecomposeSettings, Floats, HullSettings, Polytope
@@ -23,7 +25,6 @@ Concave = Literal["keep", "hull", "decompose"]
 """What is done with collision meshes that are not convex."""
 _NEAR = 0.01  # of the diagonal: surface farther outside of all hulls than this is not covered
 _POINTS = 4000
-_SKIN = 0.01  # a surface that encloses less of its hulls is a sheet with two sides, which has no volume to speak of
 _LEAST = 0.005  # shares below count as none
 
 
@@ -52,6 +53,7 @@ def decompose_asset(
     hollow: bool = False,
     by: DecomposeBy = "whole",
     cache: Path | None = None,
+    progress: Callable[[int, int], None] = lambda done, known: None,
 ) -> DecompositionResult:
     """Decompose all opaque pieces of an asset, and what bodies without collision geometry show.
 
@@ -62,6 +64,7 @@ def decompose_asset(
     hollow: planar holes are not closed first, so that shells of one sheet are not filled; by: `parts` decomposes each
     group, node and material by itself, where a file has several, `labels` each patch of a class of the segmented points
     or faces beside it.
+    progress: called with how many pieces are done, of how many.
     One piece that fails does not keep the others from being done. Raises AssetError: those points do not fit the asset.
     """
     fit = record.replay_preparation(asset, _drop_decompositions(before, only) if again else before)
@@ -75,9 +78,9 @@ def decompose_asset(
     if by == "labels" and bare:
         bare = _label_sources(fit.asset, bare, told.append)
     missed = _describe_no_match(only, [*(source.what for source in bare), *kept.source_names])
-    for source in bare:
-        if not _is_chosen(source.what, only):
-            continue
+    chosen = [source for source in bare if _is_chosen(source.what, only)]
+    for number, source in enumerate(chosen):
+        progress(number, len(chosen))
         try:
             entry, own = _decompose_source(source, settings, taken, hollow, by, cache, told)
         except MeshForgeError as error:
@@ -88,6 +91,7 @@ def decompose_asset(
         made.append(entry)
         hulls += own
         taken |= entry.made.keys()
+    progress(len(chosen), len(chosen))
     if made:
         used = {**settings_to_json(settings, hollow), "by": by, **({"only": list(only)} if only else {})}
         step = record.PreparationStep("decompose", used, software_versions(settings), tuple(made))
@@ -136,7 +140,7 @@ def _decompose_source(
         names = [source.base] if is_free else record.free_names(source.base, len(hulls), taken)
         notes += [] if by == "whole" else ["no parts are known, so it was decomposed as a whole"]
     made = dict(zip(names, map(record.hull_digest, hulls), strict=True))
-    remarks = "; ".join([describe_fit(source.surface, hulls, solid=source.kind != "body" and not hollow), *notes])
+    remarks = "; ".join([describe_fit(source.surface, hulls), *notes])
     return record.Replacement(source.what, source.kind, record.surface_digest(source.surface), made, remarks), hulls
 
 
@@ -229,17 +233,11 @@ def software_versions(settings: DecomposeSettings | None = None) -> dict[str, st
     return {name: version(name) for name in ("meshforge", settings.package if settings else "manifold3d")}
 
 
-def describe_fit(surface: Surface, hulls: Sequence[Polytope], *, solid: bool) -> str:
-    """`12 hulls, 3% more volume, 2% of the surface outside`; solid: whether what the surface encloses is its volume.
-
-    An open surface encloses nothing, and parts that overlap, as those to look at may, enclose some of it twice.
-    """
+def describe_fit(surface: Surface, hulls: Sequence[Polytope]) -> str:
+    """`12 hulls, 97% of the free space stays free, 2% of the surface outside`; see `checks.measure_kept_space`."""
     parts = [pluralize(len(hulls), "hull")]
-    volume = geometry.volume_of_union(hulls)
-    own = geometry.volume_inside(surface.vertices, surface.faces) if solid else None
-    if own and own > _SKIN * volume:
-        excess, more = volume / own - 1, "more" if volume > own else "less"
-        parts.append("the same volume" if abs(excess) < _LEAST else f"{abs(excess):.0%} {more} volume")
+    kept = measure_kept_space(surface, hulls)
+    parts += [] if kept is None else [f"{floor(100 * kept)}% of the free space stays free"]
     bare = measure_uncovered(surface, hulls)
     parts += [f"{bare:.0%} of the surface outside"] if bare >= _LEAST else []
     return ", ".join(parts)

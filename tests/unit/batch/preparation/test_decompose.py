@@ -62,7 +62,7 @@ def test_the_hulls_take_the_place_of_what_they_were_made_of(tmp_path: Path, sett
 
 def test_what_it_comes_to_is_told(tmp_path: Path) -> None:
     done = decompose_asset(read(write_stand(tmp_path)), Preparation(), QUICK)
-    assert [entry.told for entry in done.made] == ["2 hulls, the same volume", "2 hulls"]
+    assert [entry.told for entry in done.made] == ["2 hulls, 100% of the free space stays free"] * 2
     assert str(done.preparation.steps[0]) == "2 pieces decomposed into 4 hulls by coacd"
 
 

@@ -1,9 +1,13 @@
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 
 from meshforge.batch.preparation.decompose import describe_fit, measure_uncovered
+from meshforge.checks import measure_kept_space
+from meshforge.formats.meshfile.surface import stack_triangles
 from meshforge.geometry import Aabb, Box, Polytope
 from meshforge.symbolic import Surface
 
@@ -16,35 +20,46 @@ WHOLE = box((0, 0, 0), (4, 1, 1))
 SURFACE = Surface(WHOLE.vertices, WHOLE.faces)
 
 
+CUP = [
+    box((0, 0, 0), (4, 4, 0.4)),
+    *(box(low, high) for low, high in (((0, 0, 0), (0.4, 4, 4)), ((3.6, 0, 0), (4, 4, 4)))),
+    *(box(low, high) for low, high in (((0, 0, 0), (4, 0.4, 4)), ((0, 3.6, 0), (4, 4, 4)))),
+]
+"""The bottom and four walls of a cup, open above."""
+WALLS = Surface(*stack_triangles((part.vertices, part.faces) for part in CUP))
+
+
 @pytest.mark.parametrize(
     ("hulls", "told"),
     [
-        ([WHOLE], "1 hull, the same volume"),
-        ([box((0, 0, 0), (2, 1, 1)), box((2, 0, 0), (4, 1, 1))], "2 hulls, the same volume"),
-        ([box((0, 0, 0), (4, 1, 1.2))], "1 hull, 20% more volume"),
-        ([box((0, 0, 0), (3, 1, 1))], "1 hull, 25% less volume, 26% of the surface outside"),
+        (CUP, "5 hulls, 100% of the free space stays free"),
+        ([box((0, 0, 0), (4, 4, 4))], "1 hull, 0% of the free space stays free"),
+        ([*CUP, box((0.4, 0.4, 0.4), (2, 3.6, 4))], "6 hulls, 50% of the free space stays free"),
+        (CUP[1:], "4 hulls, 100% of the free space stays free, 10% of the surface outside"),
     ],
+    ids=["as it is", "filled", "half filled", "without its bottom"],
 )
-def test_volume_and_surface_that_are_off_are_told(hulls: list[Polytope], told: str) -> None:
-    assert describe_fit(SURFACE, hulls, solid=True) == told
+def test_free_space_that_is_lost_and_surface_that_is_off_are_said(hulls: list[Polytope], told: str) -> None:
+    found = describe_fit(WALLS, hulls)
+    number = re.compile(r"(\d+)%")
+    assert number.sub("%", found) == number.sub("%", told)
+    for own, wanted in zip(number.findall(found), number.findall(told), strict=True):
+        assert float(own) == pytest.approx(float(wanted), abs=4)
 
 
-def test_what_overlaps_counts_once() -> None:
-    assert describe_fit(SURFACE, [WHOLE, WHOLE], solid=True) == "2 hulls, the same volume"
+def test_an_open_shell_that_is_thin_is_measured_as_well_as_a_solid_one() -> None:
+    """By its volume a bowl of one sheet has almost none, so that any hulls of it had many times more."""
+    sheet = Surface(WALLS.vertices, WALLS.faces[12:])  # walls alone
+    assert measure_kept_space(sheet, CUP[1:]) == pytest.approx(1.0, abs=0.01)
+    assert measure_kept_space(sheet, [box((0, 0, 0), (4, 4, 4))]) == pytest.approx(0.0, abs=0.01)
 
 
-def test_what_is_no_solid_has_no_volume_to_compare() -> None:
-    assert describe_fit(SURFACE, [WHOLE], solid=False) == "1 hull"
-    open_above = Surface(SURFACE.vertices, SURFACE.faces[(SURFACE.vertices[SURFACE.faces][:, :, 2] < 1).any(axis=1)])
-    bent = open_above.vertices.copy()
-    bent[np.argmax(bent.sum(axis=1)), 2] += 0.2  # the hole is not planar any more
-    assert "volume" not in describe_fit(Surface(bent, open_above.faces), [WHOLE], solid=True)
-
-
-def test_two_sides_of_one_sheet_have_no_volume_to_compare() -> None:
+def test_where_nothing_is_free_no_share_is_said() -> None:
+    assert describe_fit(SURFACE, [WHOLE]) == "1 hull"
+    assert describe_fit(SURFACE, [box((0, 0, 0), (3, 1, 1))]) == "1 hull, 26% of the surface outside"
     square = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 1e-9], [0, 1, 0]], float)
     both = Surface(square, np.array([[0, 1, 2], [0, 2, 3], [0, 2, 1], [0, 3, 2]]))
-    assert describe_fit(both, [box((0, 0, -1e-3), (1, 1, 1e-3))], solid=True) == "1 hull"
+    assert describe_fit(both, [box((0, 0, -1e-3), (1, 1, 1e-3))]) == "1 hull"
 
 
 def test_the_share_outside_is_that_of_the_area() -> None:
