@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import random
 
 import pytest
 from hypothesis import given
@@ -11,13 +12,16 @@ from hypothesis import strategies as st
 from meshforge.language import (
     Action,
     Comments,
+    Each,
     Extractor,
     HeaderComments,
     Is,
     Orient,
     Program,
+    Replace,
     Rule,
     Scale,
+    Shrink,
     parse_extractor,
     show,
 )
@@ -79,3 +83,27 @@ def test_formatting_twice_is_formatting_once_and_loses_no_comment(
     used = [headers.labels, headers.contact, *(r.comments for r in commented)]
     kept = [line for c in used for line in (*c.above, c.beside) if line] + [line for line in headers.end if line]
     assert [line.partition("#")[2] for line in again.split("\n") if "#" in line and line.partition("#")[2]] == kept
+
+
+_SIZES = st.floats(1e-6, 1e6) | st.sampled_from((0.05, 0.002))
+_AXES = st.none() | st.sampled_from("XYZ")
+_WITH_OPTIONS = st.one_of(
+    st.builds(Replace, st.sampled_from(("cylinder", "capsule")), axis=_AXES, radius=st.none() | _SIZES),
+    st.builds(
+        Replace, st.sampled_from(("cylinder", "capsule")), st.sampled_from(("native", "inscribed", "volume")), _AXES
+    ),
+    st.builds(Replace, st.just("box"), st.sampled_from((None, "tight", "inscribed", "volume"))),
+    st.builds(Replace, st.just("sphere"), st.sampled_from((None, "native", "inscribed", "volume", "longest"))),
+    st.builds(Replace, st.just("sphere"), radius=_SIZES),
+    st.builds(Shrink, _SIZES),
+)
+
+
+@given(_WITH_OPTIONS, st.booleans(), st.randoms())
+@examples(100)
+def test_options_are_read_back_in_any_order(action: Action, each: bool, order: random.Random) -> None:
+    whole = Each(action) if each else action
+    assert parse_action(str(whole)) == whole
+    first, *options = str(action).removesuffix(")").split("(")[1].split(", ")
+    order.shuffle(options)
+    assert parse_action(f"{type(action).__name__}({', '.join([first, *options])})") == action

@@ -4,6 +4,8 @@ moved inwards."""
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -39,35 +41,28 @@ def shrink(shape: Shape, distance: float, name: str) -> Shape:
 
     Raises GeometryError naming the hull where nothing is left.
     """
+    sizes: dict[str, Any] = {}
     match shape:
         case Box():
-            least = float(shape.half.min())
+            sizes = {"half": shape.half}
         case Sphere() | Capsule():
-            least = shape.radius
+            sizes = {"radius": shape.radius}
         case Cylinder():
-            least = min(shape.radius, shape.half_length)
+            sizes = {"radius": shape.radius, "half_length": shape.half_length}
         case Ellipsoid():
-            least = float(shape.radii.min())
-        case _:
-            least = _inscribe_sphere(_InnerPlanes(shape.tessellate()), np.eye(3)).radius
+            sizes = {"radii": shape.radii}
+    planes = None if sizes else _InnerPlanes(shape.tessellate())
+    least = _inscribe_sphere(planes, np.eye(3)).radius if planes else min(np.min(size) for size in sizes.values())
     if distance >= least * (1 - SAME_LENGTH):
         raise GeometryError(
             f"hull {name!r} vanishes when its surface moves inwards by {distance:g} m: {least:.3g} m is the most",
             remedy="Give a smaller distance, or leave this hull out of the selection.",
         )
-    match shape:
-        case Box():
-            return Box(shape.pose, shape.half - distance)
-        case Sphere():
-            return Sphere(shape.pose, shape.radius - distance)
-        case Capsule():
-            return Capsule(shape.pose, shape.radius - distance, shape.half_length)
-        case Cylinder():
-            return Cylinder(shape.pose, shape.radius - distance, shape.half_length - distance)
-        case Ellipsoid():
-            return Ellipsoid(shape.pose, shape.radii - distance)
-        case _:
-            return _InnerPlanes(shape.tessellate()).move_inwards(distance, name)
+    if planes:
+        return planes.move_inwards(distance, name)
+    primitive: Any = shape
+    made: Shape = replace(primitive, **{key: size - distance for key, size in sizes.items()})
+    return made
 
 
 class _InnerPlanes:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import partial
 from math import inf
@@ -19,10 +19,7 @@ from meshforge.geometry.surface import planes_of, polygon_sizes
 _SAME = 1e-9  # corners and planes nearer than this, where the hull is one long, wide and high, are one
 _CORNERS_TRIED = 12  # farthest corners that are tried before no further plane counts as fitting the budget
 _MOST = 2000  # planes, where a budget knows no end
-_ROUNDS = 150  # vertices that contracting takes away, at 10 to 25 ms each; from twice the budget at most
 _GROWTH = (0.0, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5)  # of planes outwards, in turn, against rounding; shares of the size
-
-_EDGES_TRIED = 8  # edges of which the contraction is worked out in each round, those that promise to add least
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,20 +42,16 @@ class Enclosure:
 def enclose(hull: Polytope, budget: HullBudget) -> Enclosure | None:
     """A convex hull within a budget that holds all of another hull and sticks out little; None where none was found.
 
-    Found in two ways, of which the better one counts: planes around the hull, more and more of them, then turned; and,
-    where the hull has few vertices too many, edges contracted outwards. Then vertices move, where the budget allows the
-    triangles that this makes of flat faces.
+    Found in two ways, of which the closer one counts: planes around the hull, more and more of them, then turned; and
+    the outermost vertices of the hull, so many that the triangles between them are within the budget, then moved.
     """
-    best, least = _enclose_by_contraction(hull, budget), _SAME * float(np.ptp(hull.vertices, axis=0).max())
-    if best is None or best.error > least:
-        found = [made for made in (best, _enclose_by_planes(hull, budget)) if made]
-        best = min(found, key=lambda made: made.error, default=None)
-    if best is None or best.error <= least:
-        return best
-    if 2 * len(best.hull.vertices) - 4 > budget.polygons:
-        return best
-    moved = _check_improved(hull, partial(minimax.move_vertices, best.hull.vertices, hull), budget)
-    return moved if moved and moved.error < best.error else best
+    if _is_within_budget(hull, budget):
+        return Enclosure(hull, 0.0)
+    found, most = [_enclose_by_planes(hull, budget)], int(min(budget.vertices, (budget.polygons + 4) // 2))
+    if 4 < most < len(hull.vertices):
+        start = _choose_vertices(hull, most)
+        found.append(_check_improved(hull, partial(minimax.move_vertices, start, hull), budget))
+    return min((made for made in found if made), key=lambda made: made.error, default=None)
 
 
 def _check_improved(hull: Polytope, improve: Callable[[], Floats], budget: HullBudget) -> Enclosure | None:
@@ -102,20 +95,19 @@ def _enclose_by_planes(hull: Polytope, budget: HullBudget) -> Enclosure | None:
             return None
 
 
-def _enclose_by_contraction(hull: Polytope, budget: HullBudget) -> Enclosure | None:
-    """Edges contracted outwards until the budget is kept to; in the hull's own size, against rounding."""
-    most = min(budget.vertices, budget.polygons)  # more can be, where many edges meet in few vertices
-    if len(hull.vertices) > most + min(most, _ROUNDS):
-        return None
-    middle, size = hull.vertices.mean(axis=0), float(np.ptp(hull.vertices, axis=0).max())
-    points = (hull.vertices - middle) / size
+def _choose_vertices(hull: Polytope, count: int) -> Floats:
+    """So many vertices of a hull: from a tetrahedron of its farthest ones on, again and again the one that lies highest
+    over the hull of those that were chosen."""
+    from scipy.spatial import ConvexHull  # lazy: slow to import, only simplifying needs it
 
-    def are_few(points: Floats) -> bool:
-        made = _try_hull(points) if len(points) <= budget.vertices else None
-        return made is not None and _is_within_budget(made, budget)
-
-    corners = contract_edges(points, points[hull.faces], are_few)
-    return None if corners is None else _grow_to_enclose(hull, corners * size + middle, budget)
+    points = (hull.vertices - hull.vertices.mean(axis=0)) / float(np.ptp(hull.vertices, axis=0).max())
+    _, axes, _ = principal_extents(points)
+    chosen = list(dict.fromkeys(int(k) for side in (points @ axes.T).T for k in (side.argmin(), side.argmax())))
+    while len(chosen) < count:
+        planes = ConvexHull(points[chosen]).equations
+        heights = (points @ planes[:, :3].T + planes[:, 3]).max(axis=1)
+        chosen.append(int(heights.argmax()))
+    return hull.vertices[chosen]
 
 
 def _check_enclosure(hull: Polytope, corners: Floats, budget: HullBudget) -> Enclosure | None:
@@ -242,59 +234,3 @@ class _PlaneSearch:
         for k, place in zip(new, _nearest_on_surface(corners[new], self.old[self.faces]), strict=True):
             self.places[keys[k]] = place
         return np.array([self.places[key] for key in keys])
-
-
-def contract_edges(vertices: Floats, goal: Floats, are_few: Callable[[Floats], bool]) -> Floats | None:
-    """Few points (m, 3) whose hull holds that of vertices (n, 3); None where they never become few enough.
-
-    Again and again one edge becomes one point outside of all faces that meet it, where that adds the least volume
-    (progressive hulls, see Sander et al., 2000); of the edges that which leads away least from the triangles of
-    `goal` (k, 3, 3).
-    """
-    from scipy.spatial import ConvexHull, QhullError  # lazy: slow to import, only simplifying needs it
-
-    points = vertices
-    try:
-        while True:
-            hull = ConvexHull(points)
-            kept = np.asarray(hull.vertices)
-            if are_few(points[kept]):
-                return points[kept]
-            places = _find_contractions(points, np.asarray(hull.simplices), hull.equations)
-            found = [(float(_distances_to_surface(place[None], goal)[0]), edge, place) for edge, place in places]
-            if not found:
-                return None
-            _, edge, place = min(found, key=lambda one: one[0])
-            points = np.vstack([points[np.setdiff1d(kept, edge)], place])
-    except QhullError:
-        return None
-
-
-def _find_contractions(points: Floats, faces: Ints, planes: Floats) -> Iterator[tuple[Ints, Floats]]:
-    """Some edges, with the point that each may become. planes: (m, 4), a face's outward normal and minus its offset."""
-    from scipy.optimize import linprog  # lazy: slow to import, only simplifying needs it
-
-    edges = np.unique(np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)), axis=0)
-    corners = points[faces]
-    areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
-    for edge in edges[np.argsort(_depths(points, faces, planes, edges), kind="stable")[:_EDGES_TRIED]]:
-        about = np.isin(faces, edge).any(axis=1)
-        normals, offsets = planes[about, :3], -planes[about, 3]
-        answer = linprog(areas[about] @ normals, A_ub=-normals, b_ub=-offsets, bounds=(None, None), method="highs")
-        if answer.status == 0:
-            yield edge, np.asarray(answer.x)
-
-
-def _depths(points: Floats, faces: Ints, planes: Floats, edges: Ints) -> Floats:
-    """How deep an end of each edge lies below some face that meets the other end; the less of both ends."""
-    order = np.argsort(faces.ravel(), kind="stable")
-    meeting, degrees = order // 3, np.bincount(faces.ravel(), minlength=len(points))
-    starts = np.cumsum(degrees) - degrees
-    found = []
-    for end, other in (edges.T, edges[:, ::-1].T):
-        counts = degrees[other]
-        firsts = np.cumsum(counts) - counts
-        near = meeting[np.arange(counts.sum()) + np.repeat(starts[other] - firsts, counts)]
-        below = -(points[np.repeat(end, counts)] * planes[near, :3]).sum(axis=1) - planes[near, 3]
-        found.append(np.maximum.reduceat(below, firsts))
-    return np.minimum(*found)

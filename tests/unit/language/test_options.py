@@ -52,7 +52,7 @@ def test_a_wheel_becomes_a_sphere_of_its_own_radius() -> None:
 
 def test_a_disc_lies_flat_as_a_native_and_as_a_plain_cylinder() -> None:
     for fit in (None, "native"):
-        disc = made(wheel(), Replace("cylinder", fit))  # type: ignore[arg-type]
+        disc = made(wheel(), Replace("cylinder", fit))
         assert isinstance(disc, Cylinder)
         assert np.allclose(np.abs(disc.pose.rotation[:, 2]), [0, 1, 0])
         assert (disc.radius, disc.half_length) == pytest.approx((0.05, 0.015))
@@ -97,7 +97,7 @@ def test_the_inscribed_sphere_is_the_largest_by_an_independent_solver() -> None:
     cloud = convex_hull(np.random.default_rng(3).normal(size=(60, 3)))
     planes = planes_of(cloud.vertices, cloud.faces)
     rows = np.column_stack([planes.normals, np.ones(len(planes.normals))])
-    best = linprog([0, 0, 0, -1], rows, planes.offsets, bounds=[(None, None)] * 4).x[3]
+    best = np.asarray(linprog([0, 0, 0, -1], rows, planes.offsets, bounds=[(None, None)] * 4).x)[3]
     ball = made(cloud, Replace("sphere", "inscribed"))
     assert isinstance(ball, Sphere) and ball.radius == pytest.approx(best, rel=1e-7)
 
@@ -133,7 +133,7 @@ def test_what_encloses_takes_the_gap_and_says_so_and_what_does_not_keeps_it() ->
     scene = finger_gap()
     notes = {}
     for fit in ("tight", "inscribed", "volume"):
-        result = applied(scene, Replace("capsule", fit), "handle")  # type: ignore[arg-type]
+        result = applied(scene, Replace("capsule", fit), "handle")
         grip, wall = result.mesh.hull_of("handle~1").shape, result.mesh.hull_of("wall").shape
         notes[fit] = distance(grip, wall), result.note
     assert notes["tight"][0] < 0.01

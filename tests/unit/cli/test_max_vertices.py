@@ -1,0 +1,42 @@
+"""`--max-vertices` where hulls are made: the engine is told, and what it makes keeps to the number."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from meshforge.cli.options import EngineMethod, parse_engine_settings
+from meshforge.common import UsageError
+from meshforge.formats import load
+from meshforge.geometry import CoacdSettings, VhacdSettings, convex_hull
+from tests.loop.command import meshforge
+
+
+def test_the_engine_is_told() -> None:
+    coacd, vhacd = (parse_engine_settings(method, None, 24) for method in EngineMethod)
+    assert isinstance(coacd, CoacdSettings) and (coacd.decimate, coacd.max_ch_vertex, coacd.max_vertices) == (
+        True,
+        24,
+        24,
+    )
+    assert isinstance(vhacd, VhacdSettings) and vhacd.max_hull_vertices == vhacd.max_vertices == 24
+    assert parse_engine_settings(EngineMethod.COACD, None) == CoacdSettings() and CoacdSettings().max_vertices is None
+
+
+def test_the_number_is_given_once() -> None:
+    with pytest.raises(UsageError, match="--max-vertices and --set max_hull_vertices say the same"):
+        parse_engine_settings(EngineMethod.VHACD, ["max_hull_vertices=32"], 24)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("engine", ["coacd", "vhacd"])
+def test_no_hull_has_more(tmp_path: Path, engine: str) -> None:
+    points = np.random.default_rng(0).normal(size=(400, 3))
+    ball = convex_hull(points / np.linalg.norm(points, axis=1, keepdims=True))
+    lines = [f"v {x} {y} {z}" for x, y, z in ball.vertices] + [f"f {a} {b} {c}" for a, b, c in ball.faces + 1]
+    (tmp_path / "ball.obj").write_text("\n".join(lines) + "\n")
+    words = ("decompose", "ball.obj", "-o", "out.obj", "--decompose", engine, "--max-vertices", "20")
+    meshforge(*words, "--set", "resolution=2000", cwd=tmp_path)
+    assert max(len(hull.vertices) for hull in load(tmp_path / "out.obj").hulls) <= 20
