@@ -125,8 +125,7 @@ def edit_asset(task: ApplyTask, job: AssetJob) -> outputs.WorkerResult:
         return outputs.WorkerResult(Failed(job.id, why, time.perf_counter() - started), inputs)
     except Exception as error:  # a failed asset never stops the others
         failed = Failed(job.id, describe_error(error, str(job.path)), time.perf_counter() - started)
-        disk = error.strerror if isinstance(error, OSError) and error.errno in outputs.DISK_ERRORS else None
-        return outputs.WorkerResult(failed, inputs, disk=disk)
+        return outputs.WorkerResult(failed, inputs, disk=outputs.find_disk_problem(error))
 
 
 def _find_up_to_date(task: ApplyTask, job: AssetJob) -> outputs.WorkerResult | None:

@@ -16,15 +16,12 @@ from meshforge.batch import provenance
 from meshforge.batch.discovery import STATE
 from meshforge.batch.jobs import ApplyOptions, ApplyTask, AssetJob
 from meshforge.batch.outcome import AssetOutcome, Failed
-from meshforge.common import AssetError, MeshForgeError, file_digest
+from meshforge.common import DISK_ERRORS, AssetError, MeshForgeError, file_digest
 from meshforge.formats import labels_beside, notes_after, output_path_of, read, save
 from meshforge.symbolic import Asset, SymbolicMesh, write_labels
 
 DRAFT_FILES, DRAFT_STAMP = "files", "stamp.json"
 """What there is in the folder of a draft."""
-
-DISK_ERRORS = (errno.ENOSPC, errno.EDQUOT, errno.EROFS)
-"""What is wrong with the disk, not with a file: all assets would fail alike."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,6 +36,13 @@ class WorkerResult:
     inputs: provenance.OutputInputs | None = None
     draft: provenance.OutputDraft | None = None
     disk: str | None = None
+
+
+def find_disk_problem(error: BaseException | None) -> str | None:
+    """What is wrong with the disk where that is behind an error, else None."""
+    while error and not (isinstance(error, OSError) and error.errno in DISK_ERRORS):
+        error = error.__cause__
+    return error.strerror if isinstance(error, OSError) else None
 
 
 def drafts_folder(out: Path) -> Path:

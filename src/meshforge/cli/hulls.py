@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Sequence
 from fnmatch import fnmatchcase
+from functools import partial
 
 from meshforge.common import UsageError, suggest_name
 
@@ -15,7 +16,8 @@ LISTING = "meshforge info ASSET"
 def find_hulls(
     text: str, hulls: Collection[str], where: str, listing: str = LISTING, numbered: Sequence[str] | None = None
 ) -> frozenset[str]:
-    """The hulls that names, numbers as `#5`, or patterns as in a shell, with commas between, stand for.
+    """The hulls that names, numbers as `#5`, ranges as `#22-26` or `geom#22-26`, or patterns as in a shell,
+    with commas between, stand for.
 
     A name counts before a number, and both before a pattern. hulls: the names of all; where: the argument that an error
     is about; listing: the command that lists them; numbered: their names in the order of that list, where that is not
@@ -39,6 +41,13 @@ def _find_part(part: str, hulls: Collection[str], where: str, listing: str, numb
         return {part}
     if is_number(part):
         return {_find_number(part, hulls, where, listing, numbered)}
+    if ends := re.fullmatch("(.*#)([0-9]+)-#?([0-9]+)", part):
+        first, last = int(ends[2]), int(ends[3])
+        if first > last:
+            raise UsageError(f"{where}: {part} ends before it begins", remedy=f"Write it so: {ends[1]}{last}-{first}")
+        find = partial(_find_part, hulls=hulls, where=where, listing=listing, numbered=numbered)
+        found = find(f"{ends[1]}{last}")  # before the others, so that a far too high one is refused at once
+        return found.union(*(find(f"{ends[1]}{place}") for place in range(first, last)))
     hits = {name for name in hulls if fnmatchcase(name, part)}
     if not hits:
         remedy = suggest_name(part, hulls, f"See the names with: {listing}")

@@ -14,8 +14,9 @@ from meshforge.cli.label_consensus import label_by_consensus, restore_sources
 from meshforge.cli.label_report import LabelPrinter, LabelReport
 from meshforge.cli.label_sources import SourceOptions, label_from_sources, preview
 from meshforge.cli.label_vlm import VLM, VlmOptions, forecast, label_with_vlm
+from meshforge.cli.terminal import remark
 from meshforge.common import UsageError
-from meshforge.labels import check_labeler
+from meshforge.labels import approve_host, check_labeler
 from meshforge.project import Project
 
 
@@ -100,6 +101,11 @@ def label(given: LabelArguments) -> None:
     Exit code 1 when some labels could not be taken, or an asset could not be read (each named); the others are done.
     """
     source, words = given.source, options.split_words(given.vocabulary) if given.vocabulary else None
+    if given.vlm.approve_host:
+        approve_host(given.vlm.approve_host)
+        remark(f"pictures and a key may be sent to {given.vlm.approve_host} from now on")
+        if source != "vlm":
+            return
     if given.asset is not None:
         refuse_sources(given.context)
         label_by_hand(Project.open(given.project), given.asset, given.hulls or (), words, json=given.json)

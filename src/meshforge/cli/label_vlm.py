@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 import threading
 from collections import defaultdict
 from collections.abc import Callable, Iterator, Sequence
@@ -17,6 +18,7 @@ from meshforge.cli.console import progress
 from meshforge.cli.label_report import LabelPrinter
 from meshforge.cli.terminal import catch_interrupt, print_json, remark
 from meshforge.common import UsageError, first_validation_error, join_names, pluralize
+from meshforge.labels import Endpoint, approve_host, check_approved, describe_sending, endpoint_of, is_approved
 from meshforge.project import Project
 from meshforge.store import VlmSettings
 
@@ -40,9 +42,14 @@ class VlmOptions:
         float | None, typer.Option("--max-cost", min=0, help="Dollars that --with vlm may spend.", show_default=False)
     ] = None
 
+    approve_host: Annotated[
+        str | None,
+        typer.Option("--approve-host", metavar="HOST", help="Let pictures and a key be sent to this host from now on."),
+    ] = None
+
     def settings(self, project: Project) -> VlmSettings:
         """The settings of the project with these in their place. Raises UsageError where they do not fit."""
-        given = {name: value for name, value in asdict(self).items() if value is not None}
+        given = {name: one for name, one in asdict(self).items() if one is not None and name != "approve_host"}
         try:
             return VlmSettings.model_validate(project.settings.vlm.model_dump() | given)
         except ValidationError as error:
@@ -89,9 +96,23 @@ def label_with_vlm(project: Project, options: VlmOptions, execution: ExecutionOp
 def _ask_model(project: Project, options: VlmOptions, execution: ExecutionOptions) -> VlmResult:
     """Ask for labels; the first Ctrl-C ends the asking, and what is under way is waited for."""
     settings, waiting = options.settings(project), "stopping: waiting for the answers that are under way"
+    endpoint, typed = endpoint_of(settings), (options.base_url,) if options.base_url else ()
+    _ask_approval(endpoint, typed)
+    check_approved(endpoint, typed)
+    remark(describe_sending(endpoint))
     bar = progress(len(project.assets()), f"asking {settings.model}")
     with bar as advance, catch_interrupt() as stop, _announce_stop(stop, waiting):
-        return project.label_with_vlm(settings, progress=lambda usage: advance(), stop=stop, execution=execution)
+        return project.label_with_vlm(
+            settings, progress=lambda usage: advance(), stop=stop, execution=execution, typed=typed
+        )
+
+
+def _ask_approval(endpoint: Endpoint, typed: Sequence[str]) -> None:
+    """Ask a person at the terminal for a host that is not approved; where nobody can be asked, it stays that."""
+    if endpoint.base_url in typed or is_approved(endpoint) or not (sys.stdin.isatty() and sys.stderr.isatty()):
+        return
+    if typer.confirm(f"For the first time, {describe_sending(endpoint)}. Is that right?", err=True):
+        approve_host(endpoint.host)
 
 
 @contextmanager

@@ -12,7 +12,7 @@ from types import FrameType
 from typing import Any
 
 
-class _EscapingStream:
+class _SafeStream:
     """A text stream to which what would control a terminal is written as `\\x1b`; all else is that of the stream."""
 
     def __init__(self, stream: Any) -> None:
@@ -44,7 +44,7 @@ def _escape(text: str) -> str:
 def escape_output() -> Iterator[None]:
     """Within the block, what names and files would do to a terminal is printed, not done, on stdout and stderr."""
     before = sys.stdout, sys.stderr
-    sys.stdout, sys.stderr = _EscapingStream(sys.stdout), _EscapingStream(sys.stderr)
+    sys.stdout, sys.stderr = _SafeStream(sys.stdout), _SafeStream(sys.stderr)
     try:
         yield
     finally:

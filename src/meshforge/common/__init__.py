@@ -2,6 +2,7 @@
 
 from meshforge.common.extras import import_extra, require_mujoco
 from meshforge.common.files import (
+    DISK_ERRORS,
     FileState,
     FileStates,
     confine_reading,
@@ -59,6 +60,7 @@ from meshforge.common.plugins import (
 from meshforge.common.validation import describe_invalid_field, first_validation_error
 
 __all__ = [
+    "DISK_ERRORS",
     "PLUGIN_KINDS",
     "AssetError",
     "DemonstrationError",

@@ -3,6 +3,7 @@ notices when they change."""
 
 from __future__ import annotations
 
+import errno
 import glob
 import hashlib
 import os
@@ -18,6 +19,8 @@ from typing import TypeVar
 from meshforge.common.messages import escape_name
 
 _DRAFT_SUFFIX = ".tmp"
+DISK_ERRORS = (errno.ENOSPC, errno.EDQUOT, errno.EROFS)
+"""What is wrong with the disk, not with a file: all writing to it would fail alike."""
 _AT_ONCE = 32  # files that wait for the disk at the same time
 
 Item = TypeVar("Item")
@@ -63,16 +66,23 @@ def _fill(draft: Path, content: str | bytes, path: Path) -> None:
 
 @contextmanager
 def replace_atomically(path: Path) -> Iterator[Path]:
-    """A new file beside `path`, to be filled and flushed; then it takes that name, or goes where an error came up."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(prefix=_draft_prefix(path), suffix=_DRAFT_SUFFIX, dir=path.parent)
-    os.close(handle)
-    draft = Path(name)
+    """A new file beside `path`, to be filled and flushed; then it takes that name, or goes where an error came up.
+
+    What the disk refuses is an OSError about `path`.
+    """
+    draft: Path | None = None
     try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        handle, name = tempfile.mkstemp(prefix=_draft_prefix(path), suffix=_DRAFT_SUFFIX, dir=path.parent)
+        os.close(handle)
+        draft = Path(name)
         yield draft
         draft.replace(path)
-    except BaseException:
-        draft.unlink(missing_ok=True)
+    except BaseException as error:
+        if draft:
+            draft.unlink(missing_ok=True)
+        if isinstance(error, OSError) and error.errno in DISK_ERRORS:  # it names the draft, or no file at all
+            raise OSError(error.errno, error.strerror, str(path)) from error
         raise
 
 

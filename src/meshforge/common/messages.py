@@ -5,6 +5,7 @@ where, and what to do about it.
 from __future__ import annotations
 
 import difflib
+import errno
 import os
 import re
 from collections.abc import Collection, Iterable, Sequence
@@ -139,8 +140,9 @@ def describe_error(error: Exception, where: str | None = None, fault: str = "ple
         case UnicodeEncodeError(object=text, start=start) if not is_text(text):
             near = escape_name(text[max(start - 40, 0) : start + 40])
             return f"{where or 'in a file'}: a name is not UTF-8: {near}\n  Rename the file or folder."
-        case OSError(filename=str() as name, strerror=str() as why):
-            return f"{escape_name(name)}: {why}"
+        case OSError(filename=str() | None as name, strerror=str() as why) if name or error.errno == errno.ENOSPC:
+            remedy = "\n  Make room, then run the same command again." * (error.errno in (errno.ENOSPC, errno.EDQUOT))
+            return f"{escape_name(name or where or 'while writing')}: {why}{remedy}"
         case _:
             head = f"{escape_name(where)}: " if where else ""
             return f"{head}{type(error).__name__}: {error}\n  This is a fault of MeshForge; {fault}."

@@ -21,7 +21,8 @@ if TYPE_CHECKING:
     from meshforge.labels.reference_family import NEW, ReferenceFamily, pick_evenly, read_reference_family
     from meshforge.labels.spans import HullSpan, LabelledPart, SpanReport, find_spans
     from meshforge.labels.summary import Proposal, Proposals, SourceTally, Tally
-    from meshforge.labels.vlm.endpoint import endpoint_of
+    from meshforge.labels.vlm.approval import approve_host, check_approved, describe_sending, is_approved
+    from meshforge.labels.vlm.endpoint import Endpoint, endpoint_of
     from meshforge.labels.vlm.label_by_vlm import VlmForecast, VlmResult, check_vlm_settings
     from meshforge.labels.vlm.limits import Usage
 else:
@@ -31,6 +32,7 @@ __all__ = [
     "LABELERS",
     "NEW",
     "AssetLabeler",
+    "Endpoint",
     "HullSpan",
     "LabelChange",
     "LabelFileOptions",
@@ -50,11 +52,15 @@ __all__ = [
     "Usage",
     "VlmForecast",
     "VlmResult",
+    "approve_host",
+    "check_approved",
     "check_labeler",
     "check_vlm_settings",
+    "describe_sending",
     "endpoint_of",
     "find_spans",
     "ignore_stage",
+    "is_approved",
     "label_command",
     "label_file_beside",
     "label_new_hulls",

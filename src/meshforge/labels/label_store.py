@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
@@ -203,15 +203,17 @@ class LabelStore(Store):
         stop: Callable[[], bool] | None = None,
         write_block: Callable[[], AbstractContextManager[object]] | None = None,
         execution: ExecutionOptions = IN_PROCESS,
+        typed: Collection[str] = (),
     ) -> vlm.VlmResult:
         """Ask a vision-language model for labels; labels of people and files stay.
 
         settings: those of the project when None. progress: called for each asset, with what was spent so far; stop:
         whether to ask no more; write_block: the block in which all labels are written in the end; None writes those of
         an asset as soon as its answers are there; execution: how pictures are drawn. Answers are kept, so that none is
-        paid for twice. Raises MeshForgeError where nothing could be asked at all.
+        paid for twice. typed: addresses that the user typed, who thereby approves them; elsewhere but to this machine
+        nothing is sent before `approve_host`. Raises MeshForgeError where nothing could be asked at all.
         """
-        return vlm.label_with_vlm(self, settings or self.settings.vlm, progress, stop, write_block, execution)
+        return vlm.label_with_vlm(self, settings or self.settings.vlm, progress, stop, write_block, execution, typed)
 
     def forecast_vlm(
         self,

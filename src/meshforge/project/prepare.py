@@ -54,6 +54,8 @@ def change_preparation(
     seen = batch.record_digest(folder)
     before = batch.read_preparation(folder) or batch.Preparation()
     after = make(read(store.path(asset)), before)
+    if after is before:
+        return PreparationResult(asset, notes=("this was done already",))
     notes = exchange_preparation(store, asset, after, seen)
     added = after.steps[len(before.steps) :]
     return PreparationResult(asset, tuple(entry for step in added for entry in step.replaced), tuple(notes))

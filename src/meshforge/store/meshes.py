@@ -169,7 +169,8 @@ class _FactsMemory:
             return
         began = monotonic()
         every = {key: self.facts[key] for key in self._ids if key in self.facts and not self.facts[key].error}
-        write_atomically(self._file, _SurveyFile(form=4, software=self._software, assets=every).model_dump_json())
+        with suppress(OSError):  # on a full disk all is read again, and what a command has to write says so
+            write_atomically(self._file, _SurveyFile(form=4, software=self._software, assets=every).model_dump_json())
         self._has_news, self._kept_at = False, monotonic()
         self._pause = max(_OFTEN, (self._kept_at - began) * _SHARE)
 

@@ -13,7 +13,7 @@ from meshforge.labels.vlm.endpoint import Endpoint
 from tests.loopback import Asked, Server, serving
 from tests.loopback.server import KEY, MODEL
 
-VARIABLE = "MESHFORGE_TEST_KEY"
+VARIABLE = "MESHFORGE_TEST_API_KEY"
 PRICES = (2.0, 10.0)
 _TOKEN, _PICTURE = 4, 800  # as the server counts
 

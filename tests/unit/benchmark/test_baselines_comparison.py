@@ -174,7 +174,7 @@ def test_no_more_is_spent_than_may_be(tmp_path: Path) -> None:
         ("[vlm", "this is no TOML"),
         ('[vlm]\nmodel = "x"\nmodle = "y"', "modle"),
         ('[vlm]\nmodel = ""', "no model is named"),
-        ('[vlm]\nmodel = "x"\nkey_env = "MESHFORGE_NO_SUCH_KEY"', "MESHFORGE_NO_SUCH_KEY"),
+        ('[vlm]\nmodel = "x"\nkey_env = "MESHFORGE_NO_SUCH_API_KEY"', "MESHFORGE_NO_SUCH_API_KEY"),
         (None, "No such file"),
     ],
 )

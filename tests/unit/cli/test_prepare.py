@@ -148,6 +148,17 @@ def test_a_split_that_divides_nothing_says_what_to_do(run: Run, project: str) ->
     assert told.code == 2 and "the decomposition (1 piece) does not divide it" in told.err
 
 
+@pytest.mark.slow
+def test_the_same_split_again_was_done_already(run: Run, project: str) -> None:
+    run("prepare", project, "stand.urdf", "--decompose", "vhacd", "--set", "max_convex_hulls=1")
+    words = ("split", project, "stand.urdf", "cover/geom0#0", "--decompose", "vhacd", "--set", "max_convex_hulls=8")
+    first, again = run(*words), run(*words)
+    assert first.code == 0 and "1 piece into" in first.out, first.err
+    assert again.code == 0 and "this was done already" in again.out, again.err
+    other = run("split", project, "stand.urdf", "cover/geom0#0", "--decompose", "vhacd", "--set", "max_convex_hulls=3")
+    assert other.code == 2 and "there is no hull" in other.err
+
+
 def test_all_is_taken_back_at_once(run: Run, project: str) -> None:
     run("prepare", project, *VOXELS)
     run("split", project, "row.obj", "geom0#1", "--at", "2,0,0", "--across", "1,0,0")

@@ -10,7 +10,7 @@ from meshforge.store import VlmSettings
 from tests.loopback import KEY, Asked, Server, labels_as_json
 from tests.unit.batch.families import Corner, label_of, obj, table_boxes
 
-VARIABLE = "MESHFORGE_TEST_KEY"
+VARIABLE = "MESHFORGE_TEST_API_KEY"
 WORDS = ("top", "leg", "misc")
 
 

@@ -76,6 +76,11 @@ class Preparation:
         """The digests of all hulls it makes by name, those that later steps replace too."""
         return {name: known for step in self.steps for r in step.replaced for name, known in r.made.items()}
 
+    def has_divided(self, hull: str, do: str, settings: Mapping[str, Any]) -> bool:
+        """Whether a step did just that to a hull, which is not there any more."""
+        alike = (step for step in self.steps if step.do == do and step.settings == settings)
+        return any(entry.what == hull for step in alike for entry in step.replaced)
+
     @property
     def source_names(self) -> tuple[str, ...]:
         """The names of the pieces and bodies that got hulls."""

@@ -22,8 +22,12 @@ def cut_hull(asset: Asset, before: record.Preparation, name: str, at: Vector, ac
     """Cut a hull along the plane through `at` (3,) [m] across the direction `across` (3,).
 
     asset: as it was read; before: what is prepared already. `NAME#0` is behind the plane, `NAME#1` where it looks.
-    Raises GeometryError: no such hull, a direction of no length, or a plane that misses the hull.
+    Where just that was done, nothing changes. Raises GeometryError: no such hull, a direction of no length, or a plane
+    that misses the hull.
     """
+    settings = {"at": [*map(float, at)], "across": [*map(float, across)]}
+    if before.has_divided(name, "cut", settings):
+        return before
     geom = _find_hull(asset, before, name)
     below, above = cut(geom.shape, np.asarray(at, dtype=np.float64), np.asarray(across, dtype=np.float64))
     if below is None or above is None:
@@ -35,7 +39,6 @@ def cut_hull(asset: Asset, before: record.Preparation, name: str, at: Vector, ac
             "in the frame that the asset comes in.",
         )
     remarks = [] if geom.shape.kind in ("polytope", "box") else [f"the {geom.shape.kind} became a polytope"]
-    settings = {"at": [*map(float, at)], "across": [*map(float, across)]}
     division = _describe_division(name, (below, above), remarks)
     return _divide(asset, before, "cut", settings, software_versions(), [(geom, division)])
 
@@ -54,6 +57,9 @@ def split_hull(
     Of each convex piece, what lies in the hull becomes a part; parts below a thousandth of it are dropped.
     Raises GeometryError: no such hull, nothing to decompose, or a decomposition that leaves the hull as it is.
     """
+    how = settings_to_json(settings, hollow)
+    if before.has_divided(name, "split", how):
+        return before
     geom = _find_hull(asset, before, name)
     notes: list[str] = []
     pieces = decompose_surface(
@@ -68,7 +74,6 @@ def split_hull(
     remarks = [f"{parting.lost:.0%} of its volume is in no part"]
     remarks += [f"{pluralize(parting.dropped, 'crumb')} dropped"] if parting.dropped else []
     division = _describe_division(name, parting.parts, [*remarks, *notes])
-    how = settings_to_json(settings, hollow)
     return _divide(asset, before, "split", how, software_versions(settings), [(geom, division)])
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
+from ipaddress import ip_address
 from typing import Any
 from urllib.parse import urlsplit
 
@@ -18,6 +19,7 @@ _KEYS = {
     "api.anthropic.com": "ANTHROPIC_API_KEY",
 }
 """The environment variable of the key of each host that is known; no key is ever sent to another host unasked."""
+_KEY_SUFFIX = "_API_KEY"
 _MILLION = 1_000_000
 
 
@@ -78,6 +80,12 @@ class Endpoint:
         if parts.username or parts.password or parts.query:
             remedy = "Put the key into an environment variable, and name that as key_env."
             raise UsageError("a base_url holds no key, name or query", where=self.place, remedy=remedy)
+        if self.key_name and not self.key_name.endswith(_KEY_SUFFIX):
+            remedy = f"Name a variable that ends in {_KEY_SUFFIX}: no other one is ever sent."
+            raise UsageError(f"key_env names {self.key_name}", where=self.place, remedy=remedy)
+        if self.key_name and parts.scheme == "http" and not self.is_loopback:
+            problem = f"the key in {self.key_name} would be sent where others can read it"
+            raise UsageError(problem, where=self.place, remedy='Give an https address, or key_env = "" for no key.')
         if not self.model:
             raise UsageError("no model is named", where=self.place, remedy="Name one: --model NAME, or model in [vlm].")
 
@@ -86,6 +94,15 @@ class Endpoint:
         """The name of the machine, with the port where one is given."""
         parts = urlsplit(self.base_url)
         return f"{parts.hostname}:{parts.port}" if parts.port else parts.hostname or ""
+
+    @property
+    def is_loopback(self) -> bool:
+        """Whether the host is this machine."""
+        name = urlsplit(self.base_url).hostname or ""
+        try:
+            return name == "localhost" or ip_address(name).is_loopback
+        except ValueError:
+            return False
 
     @property
     def place(self) -> str:

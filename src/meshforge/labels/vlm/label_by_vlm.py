@@ -3,7 +3,7 @@ what that sends and costs."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Mapping, Sequence
+from collections.abc import Callable, Collection, Generator, Mapping, Sequence
 from contextlib import AbstractContextManager, closing
 from dataclasses import dataclass, field, replace
 from functools import partial
@@ -11,6 +11,7 @@ from functools import partial
 from meshforge.batch import IN_PROCESS, ExecutionOptions, WorkerFailure, execute
 from meshforge.common import UsageError, describe_error
 from meshforge.labels.merge import LabelOutcome, LabelWriter, can_replace_less_certain
+from meshforge.labels.vlm.approval import check_approved
 from meshforge.labels.vlm.cache import write_page
 from meshforge.labels.vlm.client import Client
 from meshforge.labels.vlm.endpoint import TokenCount, endpoint_of
@@ -85,8 +86,10 @@ def label_with_vlm(
     stop: Callable[[], bool] | None = None,
     write_block: VlmWriteBlock | None = None,
     execution: ExecutionOptions = IN_PROCESS,
+    typed: Collection[str] = (),
 ) -> VlmResult:
     """Ask about all hulls without a label of a person or a file; see `LabelStore.label_with_vlm`."""
+    check_approved(endpoint_of(settings), typed)
     config = prompt_config_of(settings, store.vocabulary)
     client = Client(endpoint_of(settings), store.layout.vlm, max_cost=settings.max_cost, stop=stop or (lambda: False))
     with (
@@ -177,8 +180,10 @@ class _Run:
 
 
 def check_vlm_settings(settings: VlmSettings, vocabulary: Sequence[str]) -> None:
-    """Raises UsageError where nothing could be asked: no model, no key, or no vocabulary."""
-    endpoint_of(settings).key()
+    """Raises UsageError where nothing could be asked: no model, no key, no approval, or no vocabulary."""
+    endpoint = endpoint_of(settings)
+    endpoint.key()
+    check_approved(endpoint)
     prompt_config_of(settings, vocabulary)
 
 

@@ -205,7 +205,9 @@ def _make_client(endpoint: Endpoint, key: str) -> OpenAI:
     except ImportError as error:
         remedy = "Install it: pip install 'meshforge[vlm]'."
         raise EndError("asking a model needs the package openai, which is not installed", remedy=remedy) from error
-    return OpenAI(base_url=endpoint.base_url, api_key=key or _NO_KEY, timeout=endpoint.timeout, max_retries=0)
+    sdk = OpenAI(base_url=endpoint.base_url, api_key=key or _NO_KEY, timeout=endpoint.timeout, max_retries=0)
+    sdk._client.follow_redirects = False  # nobody approved the host that a redirect names
+    return sdk
 
 
 def _error_text(error: APIStatusError) -> str:

@@ -12,7 +12,7 @@ from meshforge.labels.vlm.endpoint import Endpoint
 from meshforge.labels.vlm.request import Message, VlmQuestion
 from tests.loopback import KEY, Server
 
-VARIABLE = "MESHFORGE_TEST_KEY"
+VARIABLE = "MESHFORGE_TEST_API_KEY"
 SCHEMA = {
     "type": "object",
     "properties": {"word": {"type": "string"}},

@@ -225,7 +225,7 @@ def test_a_key_is_sent_only_where_it_belongs(monkeypatch: pytest.MonkeyPatch, ke
         "http://localhost:11434/v1": "",
     }
     assert {url: Endpoint(url, "m").key_name for url in names} == names
-    assert Endpoint("https://api.openai.com/v1", "m", key_env="MINE").key_name == "MINE"
+    assert Endpoint("https://api.openai.com/v1", "m", key_env="MINE_API_KEY").key_name == "MINE_API_KEY"
 
 
 def test_a_key_that_is_not_there_is_told_by_its_variable(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,0 +1,40 @@
+"""A split that is asked for again, as after a kill, was done already."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from tests.cup_project import CUP, cup_project
+from tests.faults.runs import outputs
+from tests.unit.cli.in_process import Run, runner
+
+
+@pytest.fixture
+def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Run:
+    return runner(monkeypatch, capsys)
+
+
+def test_the_same_cut_again_says_so_and_changes_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, run: Run
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    project = cup_project(tmp_path)
+    words = ("split", "project", CUP, "cup/b0", "--at", "0.05,0.05,0.005", "--across", "1,0,0")
+    first = run(*words)
+    assert first.code == 0, first.err
+    before = outputs(project.folder)
+    again = run(*words)
+    assert again.code == 0 and "this was done already" in again.out + again.err
+    assert outputs(project.folder) == before
+
+
+def test_another_cut_of_a_hull_that_is_gone_is_an_error(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, run: Run
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    cup_project(tmp_path)
+    assert run("split", "project", CUP, "cup/b0", "--at", "0.05,0.05,0.005", "--across", "1,0,0").code == 0
+    again = run("split", "project", CUP, "cup/b0", "--at", "0.05,0.05,0.005", "--across", "0,1,0")
+    assert again.code == 2 and "there is no hull 'cup/b0'" in again.err
