@@ -55,7 +55,6 @@ def report_conversion(
 
 
 def _subtract_losses(feature: Feature, losses: Sequence[Loss]) -> Feature:
-    """A feature without the things that losses are about."""
     like = [loss for loss in losses if loss.kind is feature.kind]
     names = {name for loss in like for name in loss.names}
     unnamed = max(0, feature.unnamed - sum(loss.unnamed for loss in like))
@@ -63,14 +62,12 @@ def _subtract_losses(feature: Feature, losses: Sequence[Loss]) -> Feature:
 
 
 def _explain_loss(feature: Feature, target: Format) -> Loss:
-    """The loss of a feature that a format does not hold."""
     instead, many = target.instead.get(feature.kind), feature.kind.many
     why = f"{target.title} has no {many}" if instead else f"MeshForge does not convert {many} to {target.title}"
     return Loss(feature.kind, feature.names, feature.reason or why, instead, feature.unnamed)
 
 
 def _find_renamed(output: Output, target: Format) -> list[Loss]:
-    """Hulls that the file holds under other names."""
     if not output.names or FeatureKind.NAMES not in target.holds:
         return []
     now = join_names(list(output.names.values()), 3)
@@ -79,7 +76,6 @@ def _find_renamed(output: Output, target: Format) -> list[Loss]:
 
 
 def _visual_features(asset: Asset) -> Iterator[Feature]:
-    """Visuals and their colours."""
     visuals = asset.visuals
     shown: Sequence[Surface | Visual] = visuals.visuals if isinstance(visuals, VisualSurfaces) else visuals
     yield _body_feature(FeatureKind.VISUALS, [visual.body for visual in shown])

@@ -285,7 +285,6 @@ def assign_names(slots: Sequence[Slot], *, unique: bool = False) -> dict[str, st
 
 
 def _find_misread(slots: Sequence[Slot]) -> list[tuple[Slot, tuple[str, ...]]]:
-    """The elements that read back under other names, with the names that they get."""
     read = name_element_pieces([(slot.body, slot.name, len(slot.names)) for slot in slots])
     return [(slot, names) for slot, names in zip(slots, read, strict=True) if names != slot.names]
 

@@ -270,7 +270,6 @@ class _EngineWriter(_Writer):
         return name or self.engine.body(self.stem)
 
     def _claim(self, names: Iterator[str]) -> str:
-        """The first of some names that nothing has."""
         name = next(name for name in names if name.lower() not in self.taken)
         self.taken.add(name.lower())
         return name

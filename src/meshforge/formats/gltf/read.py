@@ -166,7 +166,6 @@ class SceneSurfaces(LazySurfaces):
 
 
 def _split_by_color(scene: GltfScene, mesh: int, whole: GltfMesh) -> Iterator[tuple[Floats, Ints, Rgba | None]]:
-    """The triangles of a mesh, apart where its parts have other base colours."""
     materials = list(_materials(scene.tree, entry(scene.tree, "meshes", mesh)))
     colors = [_read_color(materials[patch.index]) for patch in whole.patches]
     if len(set(colors)) == 1:

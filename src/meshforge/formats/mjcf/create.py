@@ -245,7 +245,6 @@ class NewGeomMaker:
 
 
 def _place_mesh(box: Aabb) -> Pose:
-    """Where the file of a mesh in a box is placed in its body."""
     return Pose.of_translation(box.center if np.linalg.norm(box.center) > _FAR * box.diagonal else np.zeros(3))
 
 

@@ -204,7 +204,6 @@ def _locate_meshes(tree: MjcfTree, flat: FlatText, spec: mujoco.MjSpec) -> dict[
 
 
 def _find_missing_meshes(tree: MjcfTree, flat: FlatText, spec: mujoco.MjSpec) -> dict[str, MjcfNode]:
-    """The meshes whose files are not there, by name."""
     return {name: node for name, (node, path) in _locate_meshes(tree, flat, spec).items() if not tree.has(path)}
 
 

@@ -48,8 +48,6 @@ def write_sdf(asset: Asset, origin: document.SdfDocument, name: str, mass: Mass)
 
 
 class _FileEdits:
-    """The plans of all files."""
-
     def __init__(self, asset: Asset, origin: document.SdfDocument, stem: str) -> None:
         self.asset, self.document, self.stem = asset, origin, stem
         self.kept = collision_pieces.SourceMeshes(origin.digests, str(asset.path), shapes.select_submesh)

@@ -47,8 +47,6 @@ def compose_models(path: Path, roots: tuple[Path, ...]) -> ModelTree:
 
 @dataclass(frozen=True, slots=True)
 class _File:
-    """A file that was parsed."""
-
     number: int
     root: Element
     version: Version

@@ -79,7 +79,6 @@ def _build_document(
 
 
 def _by_link(links: models.SdfLinks) -> list[tuple[str, Element]]:
-    """The collisions with the names of their links."""
     return [(one.link.body, one.element) for one in links.collisions]
 
 

@@ -80,7 +80,6 @@ def replace_mesh(data: bytes, collision: xml.Element, pose: Pose, reference: str
 
 
 def _replace_origin(data: bytes, collision: xml.Element, pose: Pose) -> xml.Splice:
-    """The edit that gives an element another origin."""
     return xml.replace_or_insert(data, collision, "origin", "geometry", origin_tag(pose))
 
 

@@ -143,7 +143,6 @@ def _list_copies(asset: Asset) -> tuple[dict[str, Path], list[str]]:
 
 
 def _find_absolute_references(asset: Asset) -> frozenset[Path]:
-    """The files that the layers of an asset refer to by absolute paths."""
     with stage.usd(str(asset.path)):
         layers = [asset.path, *(file for file in asset.files if file.suffix.lower() in LAYER_SUFFIXES)]
         texts = [
