@@ -71,15 +71,13 @@ def refuse_dents(verdict: SolidityVerdict, points: Floats, corners: Ints) -> Sol
     outward = corners if verdict.volume > 0 else corners[:, ::-1]
     if not _lets_peg_in(points[used], outward, hull, depth):
         return replace(verdict, fill=share)
-    percent = min(floor(100 * share), 99)
-    return replace(
-        verdict, shape=None, reason=f"not convex: fills {percent}% of its convex hull, but has a hole or dent"
-    )
+    full = f"fills {min(floor(100 * share), 99)}% of its convex hull"
+    return replace(verdict, shape=None, reason=f"not convex: {full}, but has a hole or dent")
 
 
 def _lets_peg_in(points: Floats, corners: Ints, hull: Polytope, share: float) -> bool:
-    """Whether a peg may come deeper into a hull than a share of the hull's thickness: what is deep and not filled is then
-    as wide as the peg along the middle side of a box around it, but for a tenth where the box is askew."""
+    """Whether a peg may come deeper into a hull than a share of the hull's thickness: what is deep and not filled is as
+    wide as the peg then along the middle side of a box around it, but for a tenth where the box is askew."""
     from scipy.spatial.distance import pdist  # lazy: 0.5 s, half of all imports
 
     if len(hull.vertices) > _MOST_VERTICES:
