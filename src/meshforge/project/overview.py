@@ -63,6 +63,9 @@ def compute_status(
     for job in work:
         one, edit = facts[job.id], inputs_of(writing, job, facts[job.id].digests) if writing else None
         edits |= {job.id: edit} if edit and task and not one.error else {}
+        made = outputs[job.id].stamp
+        if edit and bare and made and made.inputs and made.inputs.program != edit.program:
+            edit = None  # the output is of a program that is gone, and is not out of date without it
         row = _asset_status(store, job, one, outputs[job.id], edit, said.verdict_on(job.id))
         rows.append(replace(row, spans=_list_spans(spans, row.id, one)))
     last, lacks = store.assessment(), "asset" if task else "templates" if program else "program"
