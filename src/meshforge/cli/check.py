@@ -141,26 +141,20 @@ def _refuse_stray_options(given: CheckArguments, measures: CheckOptions) -> None
     if given.fix and not ((measures.engine or given.max_vertices) and given.out):
         remedy = "meshforge check ASSETS... --engine NAME --fix --out DIR"
         raise UsageError("--fix needs --engine or --max-vertices, and --out", remedy=remedy)
-    overwrite = given.overwrite or None
-    _refuse(
-        {
-            "--out": given.out,
-            "--tolerance": given.tolerance,
-            "--overwrite": overwrite,
-            "--max-vertices": given.max_vertices,
-        },
-        given.fix,
-        "--fix",
+    on_grid, compares = (
+        measures.fit or measures.clearance,
+        bool(measures.clearance or measures.physics or measures.plugins),
     )
-    on_grid = measures.fit or measures.clearance
-    _refuse({"--cell": given.cell, "--pictures": given.pictures}, on_grid, "--fit or --clearance")
-    against = measures.clearance or measures.physics or bool(measures.plugins)
-    _refuse({"--against": given.against}, against, "--clearance or --physics")
-
-
-def _refuse(values: dict[str, object], is_allowed: bool, without: str) -> None:
-    for option, value in values.items():
-        if value is not None and not is_allowed:
+    for option, is_given, is_allowed, without in (
+        ("--out", given.out is not None, given.fix, "--fix"),
+        ("--tolerance", given.tolerance is not None, given.fix, "--fix"),
+        ("--overwrite", given.overwrite, given.fix, "--fix"),
+        ("--max-vertices", given.max_vertices is not None, given.fix, "--fix"),
+        ("--cell", given.cell is not None, on_grid, "--fit or --clearance"),
+        ("--pictures", given.pictures is not None, on_grid, "--fit or --clearance"),
+        ("--against", given.against is not None, compares, "--clearance or --physics"),
+    ):
+        if is_given and not is_allowed:
             raise UsageError(f"{option} says nothing without {without}", remedy="Give it too, or leave this one out.")
 
 
