@@ -18,6 +18,7 @@ from meshforge.cli import options
 from meshforge.cli.apply_new import remark_new
 from meshforge.cli.apply_work import Alarms, ApplyArguments, ApplyWork
 from meshforge.cli.console import progress
+from meshforge.cli.notes import NoteLog
 from meshforge.cli.report import NOTHING_WRITTEN, describe_failure, write_report_page
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import UsageError, escape_name, pluralize
@@ -57,9 +58,10 @@ def _run(given: ApplyArguments, work: ApplyWork, measures: CheckOptions | None) 
         collision=given.collision,
         urdf_capsules=given.urdf_capsules or (work.project is not None and work.project.settings.urdf_capsules),
     )
+    log = NoteLog(len(work.jobs) > 1)
     for failed in work.failed:
         summary.add(failed)
-        done.append(failed) if given.json else typer.echo(_describe_outcome(failed))
+        done.append(failed) if given.json else typer.echo(describe_failure(failed))
     try:
         with progress(len(work.jobs), "editing") as advance:
             execution = replace(given.execution.to_options(), progress=advance)
@@ -70,7 +72,7 @@ def _run(given: ApplyArguments, work: ApplyWork, measures: CheckOptions | None) 
                 if given.json:
                     done.append(outcome)
                 else:
-                    typer.echo(_describe_outcome(outcome))
+                    typer.echo(_describe_outcome(outcome, log))
     except BaseException:  # what a run did that cannot go on is told, too
         _print_lines(done, summary.find_alarms(), {})
         raise
@@ -87,6 +89,7 @@ def _run(given: ApplyArguments, work: ApplyWork, measures: CheckOptions | None) 
         else:
             typer.echo(f"{'held':10} {escape_name(held.asset)}: {held.why}")
     if not given.json:
+        log.print_repeated()
         typer.echo(f"{summary}{NOTHING_WRITTEN if given.dry_run else ''}")
         if alarms:
             typer.echo(batch.describe_alarms(alarms))
@@ -105,13 +108,13 @@ def _print_lines(
         print_json({**line, **standings.get(outcome.asset, {})}, compact=True)
 
 
-def _describe_outcome(outcome: batch.AssetOutcome) -> str:
+def _describe_outcome(outcome: batch.AssetOutcome, log: NoteLog) -> str:
     if isinstance(outcome, batch.Failed):
         return describe_failure(outcome)
-    notes = (*(f"rule {r.rule}: {r.note}" for r in outcome.rules if r.note), *outcome.notes, *outcome.flags)
+    rules = (f"rule {effect.rule}: {effect.note}" for effect in outcome.rules if effect.note)
     hulls = f"{outcome.before} -> {pluralize(outcome.after, 'hull')}"
     line = f"{batch.status_of(outcome):10} {escape_name(outcome.asset)}: {hulls}"
-    return "\n".join([line, *(f"    note: {note}" for note in notes)])
+    return log.describe(outcome.asset, line, (*rules, *outcome.notes, *outcome.flags))
 
 
 def _write_report(
