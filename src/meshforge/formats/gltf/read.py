@@ -231,7 +231,6 @@ def _collect_mentions(scene: GltfScene, source: NodeCollision) -> list[Mentions]
 def _materials_of_pieces(
     scene: GltfScene, source: NodeCollision, node: Json, materials: Sequence[str]
 ) -> list[list[str]]:
-    """The names of the materials of each piece, those of the primitives that its triangles are of."""
     if source.owner is None or "mesh" not in node:
         return [list(materials)] * len(source.parts)
     patches = scene.mesh(node["mesh"]).patches

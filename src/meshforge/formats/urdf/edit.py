@@ -59,7 +59,6 @@ def build_collision(pose: Pose, tag: bytes, lead: bytes, line_end: bytes) -> byt
 
 
 def _place_lines(pose: Pose, tag: bytes) -> list[bytes]:
-    """The lines of what collisions and visuals hold."""
     return [origin_tag(pose), b"<geometry>", b"  " + tag, b"</geometry>"]
 
 

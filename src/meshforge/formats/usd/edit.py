@@ -98,7 +98,6 @@ def _build_output(
     notes: list[str],
     names: dict[str, str],
 ) -> Output:
-    """The files of an edited root layer, in the form that a name asks for."""
     suffix, was_package = name.suffix.lower(), asset.path.suffix.lower() == PACKAGE_SUFFIX
     inside = stage.unpack_usdz(document.source) if was_package else {}
     first = next(iter(inside), "")
