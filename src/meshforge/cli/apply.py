@@ -58,7 +58,7 @@ def _run(given: ApplyArguments, work: ApplyWork, measures: CheckOptions | None) 
         collision=given.collision,
         urdf_capsules=given.urdf_capsules or (work.project is not None and work.project.settings.urdf_capsules),
     )
-    log = NoteLog(len(work.jobs) > 1)
+    log = NoteLog(len(work.jobs) > 2)
     for failed in work.failed:
         summary.add(failed)
         done.append(failed) if given.json else typer.echo(describe_failure(failed))

@@ -112,7 +112,7 @@ def check(given: CheckArguments) -> None:
     in_process = len(jobs) == 1 and not isolated and not is_bounded
     execution = (replace(given.execution, workers=0) if in_process else given.execution).to_options()
     failed, page, started = 0, CheckReport() if given.report else None, perf_counter()
-    log = NoteLog(len(jobs) > 1)
+    log = NoteLog(len(jobs) > 2)
     journal_file = batch.open_journal(given.journal) if given.journal else nullcontext()
     with journal_file as journal, progress(len(jobs), "checking") as advance:
         known = journal.inputs if journal else {}

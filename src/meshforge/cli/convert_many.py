@@ -31,7 +31,7 @@ def convert_many(
 ) -> None:
     """Write all assets below a folder in another format, and leave with exit code 1 where some failed."""
     jobs, summary, started = batch.make_jobs(batch.expand(sources), labels), batch.RunSummary(), perf_counter()
-    log = NoteLog(len(jobs) > 1)
+    log = NoteLog(len(jobs) > 2)
     if len(jobs) > 1:
         remark(str(batch.plan_run(jobs, out)))
     with progress(len(jobs), "converting") as advance:

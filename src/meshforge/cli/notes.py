@@ -14,7 +14,7 @@ _QUOTED = re.compile("'([^']*)'")
 
 class NoteLog:
     """The notes of a run, each printed once: under the first asset, with a number that stands behind the names of
-    others, which are named at the end. numbered: False for a run over one asset."""
+    others, which are named at the end. numbered: False for a run over one asset or two."""
 
     def __init__(self, numbered: bool) -> None:
         self._numbered = numbered
