@@ -156,7 +156,7 @@ def hull_of(surfaces: Sequence[RawSurface], linear: Floats, offset: Floats) -> C
 
 def read_parts(collision: models.SdfCollision, use: MeshUse | None, meshes: CollisionMeshes) -> list[CollisionPiece]:
     """The pieces of a collision, in the root frame; none where it has no geometry."""
-    kind, pose, where = document.geometry_of(collision.element), collision.pose, collision.link.where
+    kind, pose, where = document.geometry_of(collision.element), collision.pose, collision.link.scope.where
     if kind is None:
         return []
     if use is not None:
