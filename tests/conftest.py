@@ -17,3 +17,6 @@ os.environ.setdefault("MESHFORGE_STATE", tempfile.mkdtemp(prefix="meshforge-stat
 
 # Tests of crashes, time-outs and memory count on workers, as commands do; scripts of users work in their own process.
 os.environ["MESHFORGE_WORKERS"] = "1"
+
+# What commands print is compared however busy the machine is; how far work is comes after seconds.
+os.environ["MESHFORGE_PROGRESS_AFTER"] = "1e6"

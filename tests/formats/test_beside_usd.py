@@ -93,15 +93,15 @@ def test_an_edit_leaves_what_is_seen_and_marks_its_hulls_beside_it(folder: Path,
     if suffix != ".usdz":
         assert_seen_alike(source, out)
     assert marks(out) == {
-        "/World/collision/leg_1": (None, "guide"),
-        "/World/collision/top_1": ("convexHull", "guide"),
+        "/World/collision/leg": (None, "guide"),
+        "/World/collision/top": ("convexHull", "guide"),
         "/World/collision/ring": ("none", "guide"),
-        "/World/collision_2/drop_1": (None, "guide"),  # moves as the drop does
+        "/World/collision_2/drop": (None, "guide"),  # moves as the drop does
     }
     after = read(out)
-    assert sorted(shapes(after)) == ["Table/leg~1", "drop~1", "top~1"]
+    assert sorted(shapes(after)) == ["Table/leg", "drop", "top"]
     assert [piece.name for piece in after.opaque] == ["ring"] and len(after.visuals) == 4
-    assert shapes(after)["Table/leg~1"].kind == "capsule"
+    assert shapes(after)["Table/leg"].kind == "capsule"
     falls = [place(out, "/World/drop", 1.0), place(out, "/World/collision_2", 1.0)]
     assert falls[0] == falls[1] == (9, 0, 0)
     assert len(physics_shapes(out)) == 4 and complaints(out) == complaints(source)
@@ -161,10 +161,10 @@ def test_replace_marks_every_prim_that_is_a_hull(folder: Path) -> None:
         "/World/Table/leg": ("convexHull", "default"),
         "/World/ring": ("none", "default"),
         "/World/drop": ("convexHull", "default"),
-        "/World/top_1": (None, "default"),
+        "/World/top_2": (None, "default"),
     }
     after = read(folder / "out" / "scene.usda")
-    assert sorted(shapes(after)) == ["Table/leg", "drop", "top_1"] and len(after.opaque) == 1
+    assert sorted(shapes(after)) == ["Table/leg", "drop", "top_2"] and len(after.opaque) == 1
 
 
 def test_a_stage_becomes_a_glb_that_shows_it_and_has_its_hulls_beside(folder: Path) -> None:

@@ -161,7 +161,6 @@ export interface Everything {
   SimilarRequest: SimilarRequest;
   SimilarView: SimilarView;
   SpansJob: SpansJob;
-  SplitHullView: SplitHullView;
   Start: Start;
   StartView: StartView;
   StepText: StepText;
@@ -1367,21 +1366,12 @@ export interface OpenReceipt {
 }
 /**
  * The header of a packet of the parts of a hull that likely spans them; see `ShapesHeader`. hull: its name; parts:
- * in the order of the rows; like: the hull that a person split so, null where none was.
+ * in the order of the rows.
  */
 export interface PartsHeader {
   rows: ShapeRow[];
   hull: string;
   parts: HullView[];
-  like: SplitHullView | null;
-}
-/**
- * A hull that a person split. parts: positions of what was made of it among the asset's own hulls.
- */
-export interface SplitHullView {
-  asset: string;
-  hull: string;
-  parts: number[];
 }
 /**
  * What would an action do? steps: how many of the asset's own steps come before it; result: apply it to what the

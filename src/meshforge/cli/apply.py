@@ -15,12 +15,12 @@ from meshforge import batch
 from meshforge.batch import apply as run_program
 from meshforge.checks import CheckOptions
 from meshforge.cli import options
-from meshforge.cli.apply_new import remark_new
 from meshforge.cli.apply_work import Alarms, ApplyArguments, ApplyWork
 from meshforge.cli.console import progress
+from meshforge.cli.notes import NoteLog
 from meshforge.cli.report import NOTHING_WRITTEN, describe_failure, write_report_page
 from meshforge.cli.terminal import print_json, remark
-from meshforge.common import UsageError, escape_name, pluralize
+from meshforge.common import UsageError, escape_name, join_names, pluralize
 
 
 @options.takes(ApplyArguments)
@@ -31,7 +31,8 @@ def apply(given: ApplyArguments) -> None:
     pieces decomposed, hulls that span parts split, labels taken by likeness. What was guessed is said of each.
     Results that stand out of the family are named at the end; with --json all lines come then.
     A run that was stopped or killed goes on where it was: the same command again. Exit code 1 when some assets failed
-    or were held: they are named, and the others are done.
+    or were held, or where results of a project stand out that are neither accepted nor signed off: they are named, and
+    the others are done.
     """
     measures = CheckOptions().with_checks(given.check) if given.check else None
     if measures and not given.report:
@@ -57,9 +58,10 @@ def _run(given: ApplyArguments, work: ApplyWork, measures: CheckOptions | None) 
         collision=given.collision,
         urdf_capsules=given.urdf_capsules or (work.project is not None and work.project.settings.urdf_capsules),
     )
+    log = NoteLog(len(work.jobs) > 2)
     for failed in work.failed:
         summary.add(failed)
-        done.append(failed) if given.json else typer.echo(_describe_outcome(failed))
+        done.append(failed) if given.json else typer.echo(describe_failure(failed))
     try:
         with progress(len(work.jobs), "editing") as advance:
             execution = replace(given.execution.to_options(), progress=advance)
@@ -70,7 +72,7 @@ def _run(given: ApplyArguments, work: ApplyWork, measures: CheckOptions | None) 
                 if given.json:
                     done.append(outcome)
                 else:
-                    typer.echo(_describe_outcome(outcome))
+                    typer.echo(_describe_outcome(outcome, log))
     except BaseException:  # what a run did that cannot go on is told, too
         _print_lines(done, summary.find_alarms(), {})
         raise
@@ -79,7 +81,11 @@ def _run(given: ApplyArguments, work: ApplyWork, measures: CheckOptions | None) 
         for asset, why in work.finish(alarms).items():
             remark(f"{escape_name(asset)} is no longer signed off: {why}")
     _print_lines(done, alarms, work.describe_standings() if done else {})
-    remark_new(work.new)
+    if work.new:
+        from meshforge.project import describe_new  # lazy: 170 modules that a program file does not need
+
+        if text := describe_new(list(work.new.values())):
+            remark(text)
     summary.held = work.held
     for held in work.held:
         if given.json:
@@ -87,6 +93,7 @@ def _run(given: ApplyArguments, work: ApplyWork, measures: CheckOptions | None) 
         else:
             typer.echo(f"{'held':10} {escape_name(held.asset)}: {held.why}")
     if not given.json:
+        log.print_repeated()
         typer.echo(f"{summary}{NOTHING_WRITTEN if given.dry_run else ''}")
         if alarms:
             typer.echo(batch.describe_alarms(alarms))
@@ -94,7 +101,10 @@ def _run(given: ApplyArguments, work: ApplyWork, measures: CheckOptions | None) 
         remark(text)
     if given.report:
         _write_report(given.report, work, summary, perf_counter() - started, measures)
-    return int(summary.counts["failed"] > 0 or bool(work.held))
+    outliers = work.find_outliers(alarms) if given.program.is_dir() and not given.accept_outliers else []
+    if outliers:
+        remark(f"Look at {join_names(outliers)}, then: {'meshforge review, or ' * bool(work.project)}--accept-outliers")
+    return int(summary.counts["failed"] > 0 or bool(work.held) or bool(outliers))
 
 
 def _print_lines(
@@ -105,13 +115,13 @@ def _print_lines(
         print_json({**line, **standings.get(outcome.asset, {})}, compact=True)
 
 
-def _describe_outcome(outcome: batch.AssetOutcome) -> str:
+def _describe_outcome(outcome: batch.AssetOutcome, log: NoteLog) -> str:
     if isinstance(outcome, batch.Failed):
         return describe_failure(outcome)
-    notes = (*(f"rule {r.rule}: {r.note}" for r in outcome.rules if r.note), *outcome.notes, *outcome.flags)
+    rules = (f"rule {effect.rule}: {effect.note}" for effect in outcome.rules if effect.note)
     hulls = f"{outcome.before} -> {pluralize(outcome.after, 'hull')}"
     line = f"{batch.status_of(outcome):10} {escape_name(outcome.asset)}: {hulls}"
-    return "\n".join([line, *(f"    note: {note}" for note in notes)])
+    return log.describe(outcome.asset, line, (*rules, *outcome.notes, *outcome.flags))
 
 
 def _write_report(

@@ -14,6 +14,7 @@ from meshforge import batch
 from meshforge.checks import CheckOptions
 from meshforge.cli import options
 from meshforge.cli.console import progress
+from meshforge.cli.notes import NoteLog
 from meshforge.cli.report import CheckReport, describe_changes
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import UsageError, escape_name, pluralize
@@ -111,6 +112,7 @@ def check(given: CheckArguments) -> None:
     in_process = len(jobs) == 1 and not isolated and not is_bounded
     execution = (replace(given.execution, workers=0) if in_process else given.execution).to_options()
     failed, page, started = 0, CheckReport() if given.report else None, perf_counter()
+    log = NoteLog(len(jobs) > 2)
     journal_file = batch.open_journal(given.journal) if given.journal else nullcontext()
     with journal_file as journal, progress(len(jobs), "checking") as advance:
         known = journal.inputs if journal else {}
@@ -123,7 +125,8 @@ def check(given: CheckArguments) -> None:
             if given.json:
                 print_json(row["found"], compact=True)
             else:
-                typer.echo(row["said"])
+                typer.echo(_number_notes(log, job.id, row["said"]))
+    log.print_repeated()
     if not given.json and len(jobs) > _FEW:
         typer.echo(f"{pluralize(len(jobs), 'asset')}, {failed:,} with errors")
     if given.report and page:
@@ -137,26 +140,20 @@ def _refuse_stray_options(given: CheckArguments, measures: CheckOptions) -> None
     if given.fix and not ((measures.engine or given.max_vertices) and given.out):
         remedy = "meshforge check ASSETS... --engine NAME --fix --out DIR"
         raise UsageError("--fix needs --engine or --max-vertices, and --out", remedy=remedy)
-    overwrite = given.overwrite or None
-    _refuse(
-        {
-            "--out": given.out,
-            "--tolerance": given.tolerance,
-            "--overwrite": overwrite,
-            "--max-vertices": given.max_vertices,
-        },
-        given.fix,
-        "--fix",
+    on_grid, compares = (
+        measures.fit or measures.clearance,
+        bool(measures.clearance or measures.physics or measures.plugins),
     )
-    on_grid = measures.fit or measures.clearance
-    _refuse({"--cell": given.cell, "--pictures": given.pictures}, on_grid, "--fit or --clearance")
-    against = measures.clearance or measures.physics or bool(measures.plugins)
-    _refuse({"--against": given.against}, against, "--clearance or --physics")
-
-
-def _refuse(values: dict[str, object], is_allowed: bool, without: str) -> None:
-    for option, value in values.items():
-        if value is not None and not is_allowed:
+    for option, is_given, is_allowed, without in (
+        ("--out", given.out is not None, given.fix, "--fix"),
+        ("--tolerance", given.tolerance is not None, given.fix, "--fix"),
+        ("--overwrite", given.overwrite, given.fix, "--fix"),
+        ("--max-vertices", given.max_vertices is not None, given.fix, "--fix"),
+        ("--cell", given.cell is not None, on_grid, "--fit or --clearance"),
+        ("--pictures", given.pictures is not None, on_grid, "--fit or --clearance"),
+        ("--against", given.against is not None, compares, "--clearance or --physics"),
+    ):
+        if is_given and not is_allowed:
             raise UsageError(f"{option} says nothing without {without}", remedy="Give it too, or leave this one out.")
 
 
@@ -174,6 +171,13 @@ def _to_row(journal: batch.CheckJournal | None, asset: str, outcome: batch.Check
     if journal and outcome.inputs:
         journal.add(asset, outcome.inputs, row)
     return row
+
+
+def _number_notes(log: NoteLog, asset: str, said: str) -> str:
+    """What is printed about an asset, without the notes that were printed on another one."""
+    head, *lines = said.split("\n")
+    notes = [line for line in lines if line.startswith(("  note: ", "  engine: "))]
+    return "\n".join([log.describe(asset, head, notes, start=""), *(line for line in lines if line not in notes)])
 
 
 def _describe_check(outcome: batch.CheckOutcome) -> str:

@@ -16,7 +16,7 @@ from typing import Any
 from meshforge.cli.terminal import bare_stream
 from meshforge.common import escape_name, pluralize
 
-QUIET_SECONDS = 2.0
+QUIET_SECONDS = float(os.environ.get("MESHFORGE_PROGRESS_AFTER", "2"))
 """Work that takes no longer says nothing of how far it is, where stderr is no terminal."""
 _REFRESH_SECONDS = 0.1
 _SELDOM = 30.0  # seconds between two lines at most, where stderr is no terminal

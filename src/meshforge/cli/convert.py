@@ -12,6 +12,7 @@ import typer
 from meshforge import formats
 from meshforge.cli import options
 from meshforge.cli.console import progress
+from meshforge.cli.notes import fold_notes
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import AssetError, UsageError, escape_name, pluralize
 from meshforge.formats import FORMATS, PLUGIN_FORMATS, Loss, SaveResult
@@ -130,7 +131,7 @@ def _convert_one(source: Path, out: Path, given: ConvertArguments) -> None:
     if given.json:
         print_json(_to_json(source, saved, len(mesh.hulls), read_notes))
     else:
-        for note in (*read_notes, *saved.notes):
+        for note in fold_notes((*read_notes, *saved.notes)):
             remark(f"note: {note}")
         held = [pluralize(feature.count, feature.kind.one, feature.kind.many) for feature in saved.report.held]
         remark(f"wrote {escape_name(str(saved.path))}: {', '.join([pluralize(len(mesh.hulls), 'hull'), *held])}")

@@ -12,6 +12,7 @@ import typer
 
 from meshforge import batch
 from meshforge.cli.console import progress
+from meshforge.cli.notes import NoteLog
 from meshforge.cli.report import NOTHING_WRITTEN, describe_failure, write_report_page
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import escape_name, pluralize
@@ -30,6 +31,7 @@ def convert_many(
 ) -> None:
     """Write all assets below a folder in another format, and leave with exit code 1 where some failed."""
     jobs, summary, started = batch.make_jobs(batch.expand(sources), labels), batch.RunSummary(), perf_counter()
+    log = NoteLog(len(jobs) > 2)
     if len(jobs) > 1:
         remark(str(batch.plan_run(jobs, out)))
     with progress(len(jobs), "converting") as advance:
@@ -40,20 +42,21 @@ def convert_many(
             if json:
                 print_json(batch.to_json_line(outcome), compact=True)
             else:
-                typer.echo(_describe_outcome(outcome))
+                typer.echo(_describe_outcome(outcome, log))
     if not json:
+        log.print_repeated()
         typer.echo(str(summary).replace("unchanged", "written", 1) + NOTHING_WRITTEN * options.dry_run)
     if report:
         _write_report(report, f"{out.resolve().name} as {options.to}", jobs, summary, perf_counter() - started)
     raise typer.Exit(int(summary.counts["failed"] > 0))
 
 
-def _describe_outcome(outcome: batch.AssetOutcome) -> str:
+def _describe_outcome(outcome: batch.AssetOutcome, log: NoteLog) -> str:
     if isinstance(outcome, batch.Failed):
         return describe_failure(outcome)
     word = "skipped" if isinstance(outcome, batch.Skipped) else "written"
     line = f"{word:10} {escape_name(outcome.out)}: {pluralize(outcome.after, 'hull')}"
-    return "\n".join([line, *(f"    note: {note}" for note in outcome.notes)])
+    return log.describe(outcome.asset, line, outcome.notes)
 
 
 def _write_report(

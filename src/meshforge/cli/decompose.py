@@ -11,6 +11,7 @@ import typer
 from meshforge import formats
 from meshforge.cli import options
 from meshforge.cli.console import progress
+from meshforge.cli.notes import fold_notes
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import UsageError, escape_name, pluralize
 from meshforge.geometry import DecomposeSettings
@@ -98,7 +99,7 @@ def decompose(given: DecomposeArguments) -> None:
             progress=shown.say,
         )
     saved = formats.save(made, given.out, overwrite=given.overwrite)
-    for note in (*(made.asset.notes if made.asset else ()), *saved.notes):
+    for note in fold_notes((*(made.asset.notes if made.asset else ()), *saved.notes)):
         remark(f"note: {note}")
     remark(f"wrote {escape_name(str(saved.path))}: {pluralize(len(made.hulls), 'hull')}")
 

@@ -34,9 +34,9 @@ def demonstrate(
 ) -> None:
     """Record the steps of a demonstration; without steps, show those that are recorded.
 
-    HULLS are names or numbers as `info` lists them (patterns as in a shell: 'leg_*'), or an extractor, 'Is(leg)', which
-    stands for what it selects on this asset; or `nothing` where this asset has nothing to select, or `open` where it
-    says nothing about that rule. Step by step, what earlier steps made can be named, too.
+    HULLS are names or numbers as `info` lists them, patterns of whole names ('BODY/*' are all hulls of a body), or an
+    extractor, 'Is(leg)', which stands for what it selects on this asset; or `nothing` where this asset has nothing to
+    select, or `open` where it says nothing about that rule. Step by step, what earlier steps made can be named, too.
     """
     opened = Project.open(project)
     asset = asset_id(asset, opened)

@@ -16,12 +16,12 @@ LISTING = "meshforge info ASSET"
 def find_hulls(
     text: str, hulls: Collection[str], where: str, listing: str = LISTING, numbered: Sequence[str] | None = None
 ) -> frozenset[str]:
-    """The hulls that names, numbers as `#5`, ranges as `#22-26` or `geom#22-26`, or patterns as in a shell,
-    with commas between, stand for.
+    """The hulls of names, numbers `#5`, ranges `#22-26` or `geom#22-26`, or patterns, with commas between.
 
-    A name counts before a number, and both before a pattern. hulls: the names of all; where: the argument that an error
-    is about; listing: the command that lists them; numbered: their names in the order of that list, where that is not
-    the order of `hulls`. Raises UsageError for a part that is no hull's name or number and matches none.
+    A name counts before a number, and both before a pattern, which is compared with the whole name, `BODY/HULL`; `*`
+    stands for slashes too. hulls: the names of all; where: the argument that an error is about; listing: the command
+    that lists them; numbered: their names in the order of that list, where that is not the order of `hulls`.
+    Raises UsageError for a part that is no hull's name or number and matches none.
     """
     if text in hulls:  # names may have commas
         return frozenset((text,))
@@ -51,6 +51,10 @@ def _find_part(part: str, hulls: Collection[str], where: str, listing: str, numb
     hits = {name for name in hulls if fnmatchcase(name, part)}
     if not hits:
         remedy = suggest_name(part, hulls, f"See the names with: {listing}")
+        if "/" not in part and any(fnmatchcase(name, f"*/{part}") for name in hulls):
+            remedy = f"A name begins with that of its body. Write it so: '*/{part}'"
+        elif any(name.startswith(f"{part}/") for name in hulls):
+            remedy = f"That is a body. For all of its hulls, write: '{part}/*'"
         raise UsageError(f"{where}: no hull is named {part!r}", remedy=remedy)
     return hits
 

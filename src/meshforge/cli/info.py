@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from meshforge.cli.notes import fold_notes
 from meshforge.cli.options import AssetFile, InProject, Json, LabelsPath, asset_id, open_asset
 from meshforge.cli.terminal import print_json
 from meshforge.common import escape_name, pluralize
@@ -114,7 +115,7 @@ def _print_asset(mesh: SymbolicMesh, asset: str) -> None:
     head += [pluralize(len(mesh.contacts), "contact")]
     head += [f"diagonal {mesh.diagonal:.4g} m"] if mesh.hulls else []  # it is that of the hulls
     typer.echo(f"{escape_name(asset)}: {', '.join(head)}")
-    for note in source.notes if source else ():
+    for note in fold_notes(source.notes) if source else ():
         typer.echo(f"  note: {note}")
     if mesh.hulls:
         typer.echo()

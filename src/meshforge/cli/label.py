@@ -34,8 +34,9 @@ class LabelArguments:
         list[str] | None,
         typer.Argument(
             metavar="HULLS=LABEL",
-            help="Labels by hand: hulls by name, number (#5) or pattern, with commas between, and their label; no "
-            "label takes it away, and the last one counts: '*=panel' 'geom9,#10=handle'.",
+            help="Labels by hand: hulls by name, number (#5) or pattern of whole names ('BODY/*' are all hulls of a "
+            "body), with commas between, and their label; no label takes it away, and the last one counts: '*=panel' "
+            "'geom9,#10=handle'.",
         ),
     ] = None
     source: Annotated[
@@ -68,7 +69,8 @@ class LabelArguments:
         typer.Option(
             "--pattern",
             metavar="PATTERN=LABEL",
-            help='What names mean, a glob "*knob*=handle" or "/^d[0-9]+$/=drawer", with no label for none; before '
+            help='What names of hulls, bodies, meshes and materials mean, a glob "*knob*=handle" or '
+            '"/^d[0-9]+$/=drawer", with no label for none; that of a body counts for all its hulls; before '
             "those of [names] in meshforge.toml. May be given several times.",
             show_default=False,
         ),

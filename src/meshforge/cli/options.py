@@ -263,11 +263,11 @@ def refuse_options(context: typer.Context, names: Collection[str], without: str)
             raise UsageError(f"{option} says nothing without {without}", remedy=f"Give {without} too, or leave it out.")
 
 
-def refuse_with(context: typer.Context, names: Collection[str], other: str) -> None:
+def refuse_with(context: typer.Context, names: Collection[str], other: str, remedy: str = "Leave it out.") -> None:
     """Raise UsageError for a parameter among some that was typed, though it does not go with another option."""
     for name, option in list_typed(context):
         if name in names:
-            raise UsageError(f"{option} does not go with {other}", remedy="Leave it out.")
+            raise UsageError(f"{option} does not go with {other}", remedy=remedy)
 
 
 def list_typed(context: typer.Context) -> Iterator[tuple[str, str]]:

@@ -125,12 +125,11 @@ def prepare(given: PrepareArguments) -> None:
 
 def _divide_spanning(project: Project, given: PrepareArguments) -> int:
     """Split hulls that span parts, or rebuild their bodies, and print what became of each asset; the exit code."""
-    options.refuse_with(
-        given.context,
-        ("option", "max_vertices", "only", "again", "hollow", "by"),
-        "--split-spanning and --rebuild-spanning",
-    )
-    options.refuse_hull(given.method, "--split-spanning and --rebuild-spanning")
+    these = "--split-spanning and --rebuild-spanning"
+    options.refuse_with(given.context, ("option", "max_vertices", "again", "hollow", "by"), these)
+    instead = "Name the assets in its place; for one hull of an asset: meshforge split PROJECT ASSET HULL"
+    options.refuse_with(given.context, ("only",), these, instead)
+    options.refuse_hull(given.method, these)
     results = project.split_spanning(
         [options.asset_id(asset, project) for asset in given.assets] if given.assets else None,
         SplitSettings(

@@ -31,8 +31,8 @@ class ReviewSession:
         self.found = self._look()
 
     def reply_to_all(self, replies: Sequence[ScriptReply]) -> int:
-        """Take replies, each once its question is asked; how many did not fit. One that was taken before, by a command
-        that was killed, fits."""
+        """Take replies, each once its question is asked; how many did not fit. One that was taken before, as by a
+        command that was killed, fits."""
         waiting = list(replies)
         while asked := next(
             ((one, question) for one in waiting if (question := one.find(self.found.assessment))), None
@@ -40,10 +40,10 @@ class ReviewSession:
             waiting.remove(asked[0])
             self._reply(asked[1], asked[0].to_reply(asked[1]))
         known = self._project.feedback().replied
-        missed = [one for one in waiting if one.question not in known]
-        for one in missed:
-            remark(f"{one.question}: this question is not asked any more, so the reply is skipped")
-        return len(missed)
+        for one in waiting:
+            skipped = "this question is not asked any more, so the reply is skipped"
+            remark(f"{one.question}: {'it was replied to before' if one.question in known else skipped}")
+        return sum(one.question not in known for one in waiting)
 
     def converse(self, by: str | None = None, kinds: tuple[type[QuestionBase], ...] = (QuestionBase,)) -> None:
         """Ask at the terminal until nothing of some kinds is left, or the person has enough; what was said is kept at

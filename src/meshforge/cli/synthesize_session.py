@@ -5,6 +5,7 @@ terminal, with answers from a file.
 from __future__ import annotations
 
 import json
+import shlex
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -155,10 +156,13 @@ def run_script(session: LearningSession, given: ScriptAnswers | None, verdict: b
 
 
 def check_all_asked(project: Project, given: ScriptAnswers | None, outcome: LearningOutcome) -> None:
-    """Raise UsageError where a choice is left over, whose question did not come up now or earlier."""
-    known = set(project.feedback().answers_and_fixes)
-    odd = [question for question in (given.choices if given else {}) if question not in known]
-    if odd:
+    """Say which choices are left over since their questions were answered earlier. Raises UsageError for one whose
+    question never came up."""
+    known = project.feedback().answers_and_fixes
+    left = given.choices if given else {}
+    for question in (question for question in left if question in known):
+        remark(f"{question} was answered before, which stays; --forget {shlex.quote(question)} takes that back")
+    if odd := [question for question in left if question not in known]:
         asked = f"The open question is {outcome.question.id}." if outcome.question else "No question is open."
         raise UsageError(f"the question {odd[0]} did not come up", remedy=asked)
 

@@ -14,6 +14,8 @@ from meshforge.common import join_names, pluralize
 from meshforge.language import show
 from meshforge.store import orientation_text, toml_value
 
+_OVERRULED = "its result was accepted, which no program keeps that does what is demonstrated"
+
 
 @dataclass(frozen=True, slots=True)
 class LearningContext:
@@ -55,7 +57,7 @@ def format_result(outcome: synthesis.LearningOutcome, about: LearningContext) ->
 
 def format_remarks(outcome: synthesis.LearningOutcome, about: LearningContext) -> str:
     """How far the result can be trusted, and what to do next."""
-    lines = [*_describe_stale(outcome, about), *_describe_overruled(outcome)]
+    lines = list(_describe_stale(outcome, about))
     if isinstance(outcome, synthesis.Found | synthesis.Ambiguous):
         took = f"learned in {sum(outcome.seconds.values()):.2f} s{_describe_inputs(about)}"
         lines += [f"{took}, kept as {about.folder / 'program.mf'}" if about.kept else took]
@@ -76,31 +78,39 @@ def _describe_agreement(outcome: synthesis.Found | synthesis.Ambiguous, about: L
         part = "were looked at" if about.in_use < about.assets else "can be read"
         seen = all_ if about.readable == about.assets else f"the {about.readable} of {all_} that {part}"
         yield f"all believable readings of the rules agree on {seen}"
-        return
-    if outcome.question:
+    elif outcome.question:
         yield f"ambiguous: it is open what rule {outcome.question.rule} does on {outcome.question.asset}"
-    else:
-        yield from _describe_doubt(outcome)
-        if outcome.sample:
-            yield f"After applying, look at {join_names(outcome.sample)} first: they show best whether it is right"
-    if outcome.hint:
-        yield f"To be more certain, demonstrate {outcome.hint.asset}: {outcome.hint.why}"
+    yield from _list_assets(outcome)
+    if outcome.hint and not outcome.settled:
         yield f"  meshforge demonstrate {about.folder_word} {shlex.quote(outcome.hint.asset)} 'HULLS => ACTION' ..."
 
 
-def _describe_doubt(outcome: synthesis.Found | synthesis.Ambiguous) -> Iterator[str]:
-    """Where a reading that is not likely enough to ask about would do something else."""
-    rows = _doubtful_pairs(outcome)
-    rules, assets = sorted({str(rule) for rule, _ in rows}), sorted({asset for _, asset in rows})
-    if rows:
-        many = "s" * (len(rules) > 1)
-        yield f"rule{many} {join_names(rules)} might mean something else on {join_names(assets)}: look there"
+def _list_assets(outcome: synthesis.Found | synthesis.Ambiguous) -> Iterator[str]:
+    """The assets to look at, each once, with all reasons; those of the same reasons in one line."""
+    rows = [(asset, _OVERRULED) for asset in outcome.overruled]
+    if not (outcome.settled or outcome.question):
+        rows += _list_doubtful(outcome)
+    if outcome.hint and not outcome.settled:
+        rows.append((outcome.hint.asset, f"demonstrate it to be more certain: {outcome.hint.why}"))
+    reasons, lines = dict[str, list[str]](), dict[str, list[str]]()
+    for asset, why in rows:
+        reasons.setdefault(asset, []).append(why)
+    for asset in () if outcome.settled or outcome.question else outcome.sample:
+        reasons.setdefault(asset, ["best to see whether the program is right"])
+    for asset, own in reasons.items():
+        lines.setdefault("; ".join(own), []).append(asset)
+    yield from ["Look first at:"] * bool(lines)
+    yield from (f"  {join_names(assets)}: {why}" for why, assets in lines.items())
 
 
-def _doubtful_pairs(outcome: synthesis.Found | synthesis.Ambiguous) -> set[tuple[int, str]]:
-    """The rules and assets on which a believable reading differs from the program."""
-    believable = (reading for reading in outcome.readings if reading.belief >= synthesis.BELIEVABLE)
-    return {(reading.rule, asset) for reading in believable for asset in reading.differs_on}
+def _list_doubtful(outcome: synthesis.Found | synthesis.Ambiguous) -> Iterator[tuple[str, str]]:
+    """The assets on which a reading that is not likely enough to ask about would do something else, and what."""
+    rules = dict[str, set[int]]()
+    for reading in outcome.readings:
+        for asset in reading.differs_on if reading.belief >= synthesis.BELIEVABLE else ():
+            rules.setdefault(asset, set()).add(reading.rule)
+    for asset, own in sorted(rules.items()):
+        yield asset, f"rule{'s' * (len(own) > 1)} {join_names([*map(str, sorted(own))])} might mean something else"
 
 
 def _describe_stale(outcome: synthesis.LearningOutcome, about: LearningContext) -> Iterator[str]:
@@ -108,12 +118,6 @@ def _describe_stale(outcome: synthesis.LearningOutcome, about: LearningContext) 
         question = f"{answer.rule}:{answer.asset}"
         yield f"the answer {question} no longer fits what is there, and is left out"
         yield f"  to take it back: meshforge synthesize {about.folder_word} --forget {shlex.quote(question)}"
-
-
-def _describe_overruled(outcome: synthesis.LearningOutcome) -> Iterator[str]:
-    if outcome.overruled:
-        yield f"no program does what is demonstrated and keeps the accepted results of {join_names(outcome.overruled)};"
-        yield "  it was learned without these: look at them again after applying"
 
 
 def _describe_failure(outcome: synthesis.NoProgram) -> Iterator[str]:

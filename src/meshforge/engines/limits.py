@@ -155,7 +155,6 @@ def check_primitives(engine: Engine, hulls: Sequence[Hull | Geom]) -> Iterator[F
 
 
 def _check_hull_counts(engine: Engine, mesh: SymbolicMesh) -> Iterator[Finding]:
-    """Bodies of more hulls than the engine takes well."""
     bodies: dict[str, list[str]] = {}
     for hull in mesh.hulls:
         bodies.setdefault(hull.body, []).append(hull.name)

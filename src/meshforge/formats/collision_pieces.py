@@ -161,7 +161,6 @@ def opaque_of(
 def _iterate_pieces(
     authored: Sequence[CollisionElement], parts: ElementPieces, mentions: ElementMentions
 ) -> Iterator[tuple[str, CollisionElement, CollisionPiece, Mentions]]:
-    """Name, element and mentions of each piece."""
     for element, own, words in zip(authored, parts, mentions, strict=True):
         for name, part, said in zip(element.names, own, words, strict=True):
             yield name, element, part, said

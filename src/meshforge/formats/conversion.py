@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from meshforge.common import AssetError, join_names
-from meshforge.formats.base import Format, Loss, Output
+from meshforge.formats.base import Format, Loss, Output, SceneFormat
 from meshforge.formats.references import find_companions
 from meshforge.formats.visuals import Visual, VisualSurfaces
 from meshforge.geometry import Pose
@@ -21,11 +21,15 @@ _Z_FROM_Y = Pose([[1, 0, 0], [0, 0, -1], [0, 1, 0]], [0, 0, 0])
 
 @dataclass(frozen=True, slots=True)
 class ConversionReport:
-    """What the output of another format holds besides the hulls, what it does not, and what else is to be known."""
+    """What the output of another format holds besides the hulls, what it does not, and what else is to be known.
+
+    marked: whether the source says what collides.
+    """
 
     held: tuple[Feature, ...] = ()
     lost: tuple[Loss, ...] = ()
     remarks: tuple[str, ...] = ()
+    marked: bool = True
 
     @property
     def sentences(self) -> tuple[str, ...]:
@@ -33,7 +37,7 @@ class ConversionReport:
 
     def refuse_lost_collision(self, where: str, remedy: str) -> None:
         """Raise AssetError where non-convex pieces, which collided, do not any more."""
-        if lost := [loss for loss in self.lost if loss.kind is FeatureKind.OPAQUE]:
+        if lost := [loss for loss in self.lost if loss.kind is FeatureKind.OPAQUE and self.marked]:
             names = join_names([name for loss in lost for name in loss.names], 3)
             raise AssetError(f"{names} would collide no more: {lost[0].why}", where=where, remedy=remedy)
 
@@ -51,11 +55,11 @@ def report_conversion(
         held=tuple(f for f in features if f.count and f.kind in target.holds),
         lost=(*(_explain_loss(f, target) for f in (*lost, *beyond) if f.count), *_merge_losses(own)),
         remarks=(*remarks, *output.notes),
+        marked=not (isinstance(source, SceneFormat) and source.is_unmarked(asset)),
     )
 
 
 def _subtract_losses(feature: Feature, losses: Sequence[Loss]) -> Feature:
-    """A feature without the things that losses are about."""
     like = [loss for loss in losses if loss.kind is feature.kind]
     names = {name for loss in like for name in loss.names}
     unnamed = max(0, feature.unnamed - sum(loss.unnamed for loss in like))
@@ -63,14 +67,12 @@ def _subtract_losses(feature: Feature, losses: Sequence[Loss]) -> Feature:
 
 
 def _explain_loss(feature: Feature, target: Format) -> Loss:
-    """The loss of a feature that a format does not hold."""
     instead, many = target.instead.get(feature.kind), feature.kind.many
     why = f"{target.title} has no {many}" if instead else f"MeshForge does not convert {many} to {target.title}"
     return Loss(feature.kind, feature.names, feature.reason or why, instead, feature.unnamed)
 
 
 def _find_renamed(output: Output, target: Format) -> list[Loss]:
-    """Hulls that the file holds under other names."""
     if not output.names or FeatureKind.NAMES not in target.holds:
         return []
     now = join_names(list(output.names.values()), 3)
@@ -79,7 +81,6 @@ def _find_renamed(output: Output, target: Format) -> list[Loss]:
 
 
 def _visual_features(asset: Asset) -> Iterator[Feature]:
-    """Visuals and their colours."""
     visuals = asset.visuals
     shown: Sequence[Surface | Visual] = visuals.visuals if isinstance(visuals, VisualSurfaces) else visuals
     yield _body_feature(FeatureKind.VISUALS, [visual.body for visual in shown])

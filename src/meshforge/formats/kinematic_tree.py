@@ -167,7 +167,6 @@ class _ChainBuilder:
         return roots[0]
 
     def _add_root(self) -> str:
-        """Add the root link; its name."""
         hung = [b for b in self.tree.order if self.dropped and self.tree.parent(b) == self.dropped]
         poses = [(body, self.poses[body]) for body in self.tree.roots]
         still = hung or [b for b, p in poses if np.array_equal(p.rotation, np.eye(3)) and not p.translation.any()]

@@ -125,7 +125,6 @@ class VisualFiles:
         return LinkVisual(file, Pose(split[0], kinematic_tree.drop_rounding(moved.offset, 1.0)), split[1], moved.rgba)
 
     def _place_file(self, mesh: Path) -> str | None:
-        """The reference to a mesh file in the output."""
         if mesh not in self._made:
             self._made[mesh] = self._copy(mesh) if self.takes(mesh) else self._convert(mesh)
         return self._made[mesh]

@@ -161,7 +161,7 @@ def _make_output(
     source, notes = format_named(asset.format), _note_collision(asset, known, place)
     if place == "beside" and isinstance(known, SceneFormat) and known.name == asset.format:
         output = known.write_beside(asset, name)
-        return output, ConversionReport(lost=output.lost, remarks=(*notes, *output.notes))
+        return output, ConversionReport(lost=output.lost, remarks=(*notes, *output.notes), marked=False)
     if known.can_write_back(asset):
         output = known.write(asset, name, mass)
         return output, ConversionReport(remarks=(*notes, *output.notes))

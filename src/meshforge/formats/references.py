@@ -111,7 +111,6 @@ def placement(reference: str) -> str | None:
 
 
 def _read_package_name(folder: Path) -> str | None:
-    """The name that a folder's package.xml gives it."""
     try:
         found = _NAME.search((folder / "package.xml").read_bytes()[:10_000])
     except OSError:

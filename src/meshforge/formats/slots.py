@@ -9,17 +9,7 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from meshforge.common import AssetError, nearest_name, pluralize
-from meshforge.formats import collision_pieces, mesh_output
-from meshforge.formats.xml import (
-    Element,
-    Splice,
-    apply_splices,
-    indent_of,
-    newline_of,
-    remove_element,
-    set_attribute,
-    strip_comments,
-)
+from meshforge.formats import collision_pieces, mesh_output, xml
 from meshforge.geometry import Piece, Polytope, Pose, Shape
 from meshforge.symbolic import Asset, Geom, unique_names
 
@@ -38,8 +28,8 @@ class Slot:
     body: str
     names: tuple[str, ...]
     name: str | None = None
-    source: Element | None = None
-    edits: tuple[Splice, ...] = ()
+    source: xml.Element | None = None
+    edits: tuple[xml.Splice, ...] = ()
     copy: bool = False
     text: bytes = b""
 
@@ -54,13 +44,13 @@ class Slot:
         if self.source is None:
             tag = _TAG.match(self.text)
             assert tag is not None  # a text is an element
-            element = Element(tag[1].decode(), {}, line=0, start=0, inside=tag.end())
-            return apply_splices(self.text, [set_attribute(self.text, element, "name", self.name)])
+            element = xml.Element(tag[1].decode(), {}, line=0, start=0, inside=tag.end())
+            return xml.apply_splices(self.text, [xml.set_attribute(self.text, element, "name", self.name)])
         edits = self.edits
         if self.name != self.source.attributes.get("name"):
-            edits = (set_attribute(data, self.source, "name", self.name), *edits)
-        text = apply_splices(data, edits, self.source.start, self.source.end)
-        return strip_comments(text) if self.copy else text
+            edits = (xml.set_attribute(data, self.source, "name", self.name), *edits)
+        text = xml.apply_splices(data, edits, self.source.start, self.source.end)
+        return xml.strip_comments(text) if self.copy else text
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -83,18 +73,18 @@ class ElementMaker(ABC):
         """The format, as notes name it."""
 
     @abstractmethod
-    def find_mesh(self, collision: Element) -> str | None:
+    def find_mesh(self, collision: xml.Element) -> str | None:
         """The reference of a collision's mesh, None where it has another geometry or none."""
 
     @abstractmethod
-    def make_slot(self, geom: Geom, root_t_link: Pose, template: Element | None, lead: bytes) -> Slot:
+    def make_slot(self, geom: Geom, root_t_link: Pose, template: xml.Element | None, lead: bytes) -> Slot:
         """The element of a hull; template: that of its parent, all but pose and geometry of which is inherited.
 
         lead: the blanks before an element without a template.
         """
 
     @abstractmethod
-    def extract_piece(self, element: Element, name: str, k: int) -> tuple[Splice, ...]:
+    def extract_piece(self, element: xml.Element, name: str, k: int) -> tuple[xml.Splice, ...]:
         """The edits that leave of an element its k-th piece alone, triangles as authored; name: of that piece."""
 
     def explain_hull(self, shape: Shape) -> str:
@@ -107,7 +97,7 @@ class ElementMaker(ABC):
         piece = self.meshes.pieces(reference, self.files.resolver, part)[k]
         return piece, self.files.add(name, self.files.folder_of(reference), piece.vertices, piece.faces)
 
-    def make_mesh(self, geom: Geom, shape: Shape, template: Element | None) -> str:
+    def make_mesh(self, geom: Geom, shape: Shape, template: xml.Element | None) -> str:
         """The reference to the mesh file of a hull, which is made."""
         if not isinstance(shape, Polytope):
             corners = pluralize(len(shape.vertices), "vertex", "vertices")
@@ -128,12 +118,12 @@ class ElementPlan:
         self,
         asset: Asset,
         authored: Sequence[collision_pieces.CollisionElement],
-        elements: Sequence[Element],
-        links: Mapping[str, Element],
+        elements: Sequence[xml.Element],
+        links: Mapping[str, xml.Element],
         maker: ElementMaker,
     ) -> None:
         self.asset, self.authored, self.links, self.maker = asset, authored, links, maker
-        self.places: list[tuple[Element, list[Slot]]] = []
+        self.places: list[tuple[xml.Element, list[Slot]]] = []
         self.ends: dict[str, list[Slot]] = {}
         self._owner = {name: k for k, one in enumerate(authored) for name in one.names}
         self._elements = elements
@@ -154,7 +144,7 @@ class ElementPlan:
         return [slot for slots in by_link.values() for slot in slots]
 
     @property
-    def splices(self) -> list[Splice]:
+    def splices(self) -> list[xml.Splice]:
         """The edits of the document's text."""
         data = self.maker.data
         edited = (place for place in self.places if not (len(place[1]) == 1 and place[1][0].is_untouched))
@@ -198,42 +188,44 @@ def refuse_unknown_link(geom: Geom, links: Collection[str], where: str) -> None:
         )
 
 
-def replace_element(data: bytes, element: Element, slots: Sequence[Slot]) -> Splice:
+def replace_element(data: bytes, element: xml.Element, slots: Sequence[Slot]) -> xml.Splice:
     """What stands in the place of an authored element; nothing takes its line away."""
     if not slots:
-        return remove_element(data, element)
-    return Splice(element.start, element.end, _join_slots(data, slots, indent_of(data, element.start)))
+        return xml.remove_element(data, element)
+    return xml.Splice(element.start, element.end, _join_slots(data, slots, xml.indent_of(data, element.start)))
 
 
-def append_elements(data: bytes, parent: Element, slots: Sequence[Slot]) -> Splice:
+def append_elements(data: bytes, parent: xml.Element, slots: Sequence[Slot]) -> xml.Splice:
     """What is added at the end of an element."""
-    line_end, before = newline_of(data), indent_of(data, parent.start) or b""
+    line_end, before = xml.newline_of(data), xml.indent_of(data, parent.start) or b""
     if parent.children:
         last = parent.children[-1]
-        lead = indent_of(data, last.start)
-        return Splice(last.end, last.end, (b"" if lead is None else line_end + lead) + _join_slots(data, slots, lead))
+        lead = xml.indent_of(data, last.start)
+        return xml.Splice(
+            last.end, last.end, (b"" if lead is None else line_end + lead) + _join_slots(data, slots, lead)
+        )
     lead = before + b"  "
     added = lead + _join_slots(data, slots, lead) + line_end
     if data[parent.inside - 2 : parent.inside] == b"/>":
         closing_tag = b"</%s>" % parent.tag.encode()
-        return Splice(parent.inside - 2, parent.inside, b">" + line_end + added + before + closing_tag)
+        return xml.Splice(parent.inside - 2, parent.inside, b">" + line_end + added + before + closing_tag)
     closing = data.rfind(b"</", parent.inside, parent.end)
-    blanks = indent_of(data, closing)
+    blanks = xml.indent_of(data, closing)
     if blanks is None:
-        return Splice(closing, closing, line_end + added + before)
-    return Splice(closing - len(blanks), closing - len(blanks), added)
+        return xml.Splice(closing, closing, line_end + added + before)
+    return xml.Splice(closing - len(blanks), closing - len(blanks), added)
 
 
-def child_indent_of(data: bytes, parent: Element) -> bytes:
+def child_indent_of(data: bytes, parent: xml.Element) -> bytes:
     """The blanks before the children of an element."""
     if parent.children:
-        return indent_of(data, parent.children[-1].start) or b""
-    return (indent_of(data, parent.start) or b"") + b"  "
+        return xml.indent_of(data, parent.children[-1].start) or b""
+    return (xml.indent_of(data, parent.start) or b"") + b"  "
 
 
 def _join_slots(data: bytes, slots: Iterable[Slot], lead: bytes | None) -> bytes:
     """Elements one after another, each on lines of its own where the first is."""
-    gap = b"" if lead is None else newline_of(data) + lead
+    gap = b"" if lead is None else xml.newline_of(data) + lead
     return gap.join(slot.to_bytes(data) for slot in slots)
 
 
@@ -253,7 +245,7 @@ def name_element_pieces(elements: Sequence[tuple[str | None, str | None, int]]) 
 
 
 def name_elements(
-    found: Iterable[tuple[str, Element]], pieces: Iterable[int]
+    found: Iterable[tuple[str, xml.Element]], pieces: Iterable[int]
 ) -> tuple[collision_pieces.CollisionElement, ...]:
     """Collisions with the names of their pieces; found: of each its link and its element; pieces: how many it has."""
     own = [(link, e.attributes.get("name"), count) for (link, e), count in zip(found, pieces, strict=True)]
@@ -285,7 +277,6 @@ def assign_names(slots: Sequence[Slot], *, unique: bool = False) -> dict[str, st
 
 
 def _find_misread(slots: Sequence[Slot]) -> list[tuple[Slot, tuple[str, ...]]]:
-    """The elements that read back under other names, with the names that they get."""
     read = name_element_pieces([(slot.body, slot.name, len(slot.names)) for slot in slots])
     return [(slot, names) for slot, names in zip(slots, read, strict=True) if names != slot.names]
 

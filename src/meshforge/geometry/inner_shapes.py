@@ -104,7 +104,7 @@ class _InnerPlanes:
             for _ in range(50):
                 up, down = logs / (logs @ x)[:, None], rows / (limits - rows @ x)[:, None]
                 slope = down.sum(axis=0) - weight * up.sum(axis=0)
-                step = np.linalg.solve(down.T @ down + weight * (up.T @ up), -slope)
+                step = np.linalg.lstsq(down.T @ down + weight * (up.T @ up), -slope)[0]  # of many largest ones, any
                 gain, part, now = float(-slope @ step), 1.0, value(x)
                 if gain < 1e-10:
                     break

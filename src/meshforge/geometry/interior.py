@@ -32,6 +32,12 @@ class Interior:
             return shape.volume
         return float((self._solid ^ to_manifold(shape, self._bounds)).volume()) * self._bounds.diagonal**3
 
+    def list_voids(self, shape: Polytope) -> list[tuple[Floats, Ints]] | None:
+        """The surface of each connected piece of a shape that is not within; None where nothing is known."""
+        if self._solid is None:
+            return None
+        return [self._surface_of(part) for part in (to_manifold(shape, self._bounds) - self._solid).decompose()]
+
     def clip(self, vertices: Floats, faces: Ints) -> tuple[Floats, Ints]:
         """The surface of what another one, of vertices (n, 3) [m] and faces (m, 3), encloses of it; that one as it is
         where nearly all of what it encloses is within."""
@@ -41,7 +47,10 @@ class Interior:
         common = self._solid ^ other
         if common.volume() >= _FILLED * other.volume():
             return vertices, faces
-        mesh = common.to_mesh64()
+        return self._surface_of(common)
+
+    def _surface_of(self, solid: Any) -> tuple[Floats, Ints]:
+        mesh = solid.to_mesh64()
         corners = np.asarray(mesh.vert_properties, dtype=np.float64)[:, :3] * self._bounds.diagonal
         return corners + self._bounds.center, np.asarray(mesh.tri_verts).astype(np.int64)
 

@@ -77,7 +77,6 @@ class _Merger:
                 self._propose(place, self._touching[place])
 
     def _replace(self, old: tuple[int, int], place: int, group: PieceGroup) -> None:
-        """Put a group in the place of two."""
         touching = set[int]().union(*(self._touching.pop(k) for k in old)).difference(old)
         for k in old:
             del self.groups[k]
@@ -124,7 +123,6 @@ class _Merger:
         return round(waste, 9), _unite(a, b, shape)
 
     def _enclose(self, one: int, other: int) -> Polytope:
-        """The hull around two groups."""
         points = np.concatenate([self.groups[place].shape.vertices for place in (one, other)])
         return convex_hull(points, name="pieces of a part", thicken=self._thickness)
 

@@ -31,7 +31,8 @@ class Piece:
     shape: its convex hull, None where the piece is no hull, with the `reason`.
     vertices: (n, 3) [m] and faces: (m, 3), the piece as authored; face_indices: (m,) its faces in the input, ascending;
     group: the group of its first face; volume: what it encloses as authored [m^3], 0 where that is not known.
-    fill: where engines collide with the hull of a mesh that is none, the share of it that the mesh fills, 0 likewise.
+    fill: of a hull that stands for a mesh that is none, as engines have it, or that closes narrow holes, the share that
+    the mesh fills, 0 likewise.
     """
 
     shape: Polytope | None
@@ -95,7 +96,8 @@ def _make_piece(vertices: Floats, faces: Ints, part: PieceFaces, group: Ints) ->
     arrays = (vertices[used], local, part.faces)
     for array in arrays:
         array.setflags(write=False)
-    return Piece(part.verdict.shape, part.verdict.reason, *arrays, int(group[part.faces[0]]), abs(part.verdict.volume))
+    verdict, own = part.verdict, int(group[part.faces[0]])
+    return Piece(verdict.shape, verdict.reason, *arrays, own, abs(verdict.volume), verdict.fill)
 
 
 def hull_mesh(vertices: Floats, faces: Ints, corners: Floats | None = None) -> tuple[Polytope, float | None]:
@@ -109,6 +111,7 @@ def hull_mesh(vertices: Floats, faces: Ints, corners: Floats | None = None) -> t
     others = [piece.volume for piece in pieces if not piece.shape and piece.volume <= hull.volume]
     share = (volume_of_union(shapes) + sum(others)) / hull.volume
     is_full = len(shapes) == len(pieces) and (len(shapes) == 1 or share >= LEAST_FILL)
+    is_full = is_full and all(piece.fill is None for piece in pieces)
     return hull, None if is_full else min(share, 1.0)
 
 

@@ -111,7 +111,6 @@ def _choose_vertices(hull: Polytope, count: int) -> Floats:
 
 
 def _check_enclosure(hull: Polytope, corners: Floats, budget: HullBudget) -> Enclosure | None:
-    """The hull of corners, where it holds another one and keeps to a budget."""
     made = _try_hull(corners)
     if made is None or not _has_inside(made, hull.vertices) or not _is_within_budget(made, budget):
         return None

@@ -11,7 +11,9 @@ import numpy as np
 from meshforge.common import GeometryError
 from meshforge.geometry.arrays import Floats, Ints, cross
 from meshforge.geometry.connectivity import compact, component_roots, components_by_vertices, edges_of, row_ids
-from meshforge.geometry.convex import convex_hull, hull_by_manifold
+from meshforge.geometry.convex import convex_hull, hull_by_manifold, measure_extents
+from meshforge.geometry.inner_shapes import shrink
+from meshforge.geometry.interior import Interior
 from meshforge.geometry.shape import Polytope
 from meshforge.geometry.surface import is_closed, planes_of
 
@@ -21,6 +23,8 @@ _MOST_FILL = 1.05  # a surface that encloses more than its hull runs through its
 _LEVEL = 1e-3  # a hole is planar when it is level within this share of the piece's size
 _DEPTH = 0.01  # a face lies on the hull when it is no deeper in it than this share of the hull's thickness
 _DENT = 0.125  # a surface with a face deeper than this has a hole or a dent (decisions/0054)
+_MOST_VERTICES = 2000  # of a hull in which narrow holes are told from wide ones
+_PEG = 0.05  # of the diagonal: the width of a peg that enters no hole which a hull may close
 _LARGE = 1_000_000  # pairs of faces; beyond, a surface is no careless triangulation of a hull
 _MANY = 200  # triangles, from which on a piece is held against a rough hull before one is verified
 _FEW = 4  # planes of a hull near a point that are tried first
@@ -33,13 +37,14 @@ _FLAT = 1e-6  # a piece is flat when its hull is thinner than this share of its 
 class SolidityVerdict:
     """shape: the convex hull, None with a reason; volume [m^3]: of the piece, negative where it is inside out.
 
-    closed: whether there was no hole to fill.
+    closed: whether there was no hole to fill; fill: of a hull that closes narrow holes the share that is filled.
     """
 
     shape: Polytope | None
     reason: str | None
     volume: float = 0.0
     closed: bool = False
+    fill: float | None = None
 
 
 def judge_solidity(points: Floats, corners: Ints) -> SolidityVerdict:
@@ -54,15 +59,35 @@ def judge_solidity(points: Floats, corners: Ints) -> SolidityVerdict:
 
 
 def refuse_dents(verdict: SolidityVerdict, points: Floats, corners: Ints) -> SolidityVerdict:
-    """The verdict on a piece of points (n, 3) and distinct triangles (m, 3): no hull where it has a hole or a dent."""
+    """The verdict on a piece of points (n, 3) and distinct triangles (m, 3): no hull where it has a hole or a dent that
+    a peg enters; a hull with the share that it fills where it has narrower ones."""
     hull = verdict.shape
     used, corners = compact(corners)
     handles = int(components_by_vertices(corners).max()) + 1 - (2 * len(used) - len(corners)) / 4
     depth = _DEPTH if handles > 0 and is_closed(corners) else _DENT
     if hull is None or not _is_deep(points[used], corners, hull, depth):
         return verdict
-    share = min(floor(100 * abs(verdict.volume) / hull.volume), 99)
-    return replace(verdict, shape=None, reason=f"not convex: fills {share}% of its convex hull, but has a hole or dent")
+    share = abs(verdict.volume) / hull.volume
+    outward = corners if verdict.volume > 0 else corners[:, ::-1]
+    if not _lets_peg_in(points[used], outward, hull, depth):
+        return replace(verdict, fill=share)
+    full = f"fills {min(floor(100 * share), 99)}% of its convex hull"
+    return replace(verdict, shape=None, reason=f"not convex: {full}, but has a hole or dent")
+
+
+def _lets_peg_in(points: Floats, corners: Ints, hull: Polytope, share: float) -> bool:
+    """Whether a peg may come deeper into a hull than a share of the hull's thickness: what is deep and not filled is as
+    wide as the peg then along the middle side of a box around it, but for a tenth where the box is askew."""
+    from scipy.spatial.distance import pdist  # lazy: 0.5 s, half of all imports
+
+    if len(hull.vertices) > _MOST_VERTICES:
+        return True
+    level = shrink(hull, _DEPTH * _thickness(hull), "the hull").tessellate()  # what is shallow joins no holes
+    voids = Interior(points, corners).list_voids(level)
+    width = _PEG * 0.9 * float(pdist(hull.vertices).max())
+    return voids is None or any(
+        measure_extents(around)[1] >= width and _is_deep(around, faces, hull, share) for around, faces in voids
+    )
 
 
 def _judge_by_hull(points: Floats, corners: Ints, hull: Polytope) -> SolidityVerdict:

@@ -169,7 +169,6 @@ def _error(hull: Hull, own: float) -> float:
 
 
 def _is_same_asset(mesh: SymbolicMesh, other: SymbolicMesh) -> bool:
-    """Whether two meshes come from one asset."""
     if mesh is other:
         return True
     return mesh.asset is not None and other.asset is not None and mesh.asset.path == other.asset.path

@@ -109,7 +109,6 @@ def compare_assets(
 
 
 def _describe_lost(lost: Mapping[str, str]) -> str:
-    """Why nothing can be labelled where no asset can be read."""
     return f"No asset can be read; the first problem: {next(iter(lost.values()))}" if lost else "There is no asset."
 
 

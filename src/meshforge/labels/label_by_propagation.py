@@ -65,5 +65,4 @@ def _speak(label: Label | None) -> Label | None:
 
 
 def _is_replaced(current: Label | None, given: Label) -> bool:
-    """Whether a label takes the place of another, or of none."""
     return current != given and can_replace_less_certain(current, given)

@@ -57,8 +57,6 @@ class OfferCache:
 
 @dataclass(frozen=True, slots=True)
 class _AssetOffer:
-    """The same of one asset."""
-
     file: bool = False
     names: Mapping[str, str] = field(default_factory=dict)
 

@@ -270,7 +270,6 @@ def _unknown_action(text: TreeReader, name: Token) -> ProgramError:
 
 
 def _build_argument(text: TreeReader, kind: type[base.Action], argument: base.ArgumentType, given: Node | Token) -> Any:
-    """The value of an argument, read as its kind says."""
     if isinstance(argument, base.ActionArgument) and not isinstance(given, str):
         return build_action(text, given)
     value = _read_argument(text, argument, given)

@@ -106,7 +106,6 @@ def _subject_phrase(extractor: Extractor) -> str:
 
 
 def _condition_phrase(part: Attach | Geo) -> str:
-    """What is asked of the hulls of a base."""
     match part:
         case Attach(selected, anchor):
             return f"that touch {_one_phrase(anchor, other=selected)}"

@@ -228,7 +228,6 @@ def _comment_lines(lines: CommentLines) -> list[str]:
 
 
 def _build_program(source: ProgramText, tree: Node) -> Program:
-    """The program of a `program` node."""
     statements = subtrees_of(tree)
     text = TreeReader(source)
     headers = parse.collect_headers(text, [node for node in statements if node.data != "rule"])

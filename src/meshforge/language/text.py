@@ -146,7 +146,6 @@ def _problem(found: str, accepted: Set[str]) -> str:
 
 
 def _expectations(accepted: Set[str]) -> list[str]:
-    """What may stand at a place, in words."""
     if "_LABELS" in accepted:
         return [f"a header line ({', '.join(HEADERS)})", f"a rule, which begins with one of {', '.join(OPERATORS)}"]
     if "_GEO" in accepted:
@@ -171,7 +170,6 @@ def _expectations(accepted: Set[str]) -> list[str]:
 
 
 def _candidate_words(accepted: Set[str]) -> list[str]:
-    """The words that may stand at a place."""
     words = [word for name, word in _WORDS.items() if name in accepted]
     if "DIRECTION" in accepted and "NAME" not in accepted:
         words += DIRECTIONS

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from meshforge.project.sign_offs import AssessmentBasis, digest_lesson
     from meshforge.project.span_questions import can_ask_about_spans, list_span_questions
     from meshforge.project.span_search import MADE_ANEW
-    from meshforge.project.span_splits import LIKELY, Split, read_spans
+    from meshforge.project.span_splits import LIKELY, Split
     from meshforge.project.status import AssetStatus, Status
 else:
     __getattr__ = export_lazily(__name__)
@@ -68,7 +68,6 @@ __all__ = [
     "prepare_aside",
     "program_by_hand",
     "read_preparation_plan",
-    "read_spans",
     "run_with_corrections",
     "sees_whole_family",
     "select_assets",

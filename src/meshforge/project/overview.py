@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator
 from dataclasses import replace
 from functools import partial
 
@@ -16,7 +16,6 @@ from meshforge.project.learn import program_state_of, suggest_first_demonstratio
 from meshforge.project.preparation_journal import describe_carried
 from meshforge.project.run import build_jobs, build_task, make_empty_program, output_digest
 from meshforge.project.sign_offs import digest_lesson, find_bases
-from meshforge.project.span_splits import likely_spans, read_spans
 from meshforge.project.standings import Standings
 from meshforge.project.status import AssetStatus, Status
 from meshforge.signoff import BAR
@@ -59,10 +58,13 @@ def compute_status(
     program, task, problem = _read_program(store)
     bare = None if program or problem else make_empty_program(store)
     writing = build_task(store, bare) if bare else task
-    edits, rows, spans = dict[str, OutputInputs](), list[AssetStatus](), read_spans(store)
+    edits, rows, spans = dict[str, OutputInputs](), list[AssetStatus](), store.spans()
     for job in work:
         one, edit = facts[job.id], inputs_of(writing, job, facts[job.id].digests) if writing else None
         edits |= {job.id: edit} if edit and task and not one.error else {}
+        made = outputs[job.id].stamp
+        if edit and bare and made and made.inputs and made.inputs.program != edit.program:
+            edit = None  # the output is of a program that is gone, and is not out of date without it
         row = _asset_status(store, job, one, outputs[job.id], edit, said.verdict_on(job.id))
         rows.append(replace(row, spans=_list_spans(spans, row.id, one)))
     last, lacks = store.assessment(), "asset" if task else "templates" if program else "program"
@@ -154,8 +156,8 @@ def _asset_status(
     )
 
 
-def _list_spans(spans: Sequence[SpansFile], asset: str, facts: AssetFacts) -> dict[str, str]:
-    return {hull: line.told for hull, line in likely_spans(spans, asset, dict(facts.hulls)).items()}
+def _list_spans(spans: SpansFile, asset: str, facts: AssetFacts) -> dict[str, str]:
+    return {hull: line.told for hull, line in spans.likely(asset, dict(facts.hulls)).items()}
 
 
 def _describe_unknown_hulls(store: Store, asset: str, facts: AssetFacts) -> Iterator[str]:

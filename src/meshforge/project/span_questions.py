@@ -8,8 +8,7 @@ from dataclasses import replace
 from meshforge import batch
 from meshforge.common import ProjectError
 from meshforge.project.preparation_journal import describe_carried
-from meshforge.project.span_splits import likely_spans, mark_as_one_part, read_spans, split_as_found
-from meshforge.project.split_examples import has_split_examples, propose_lookalikes
+from meshforge.project.span_splits import mark_as_one_part, split_as_found
 from meshforge.signoff import Assessment, Doubt, HullPlace, ReviewChoice, SpanQuestion
 from meshforge.signoff.prices import YES_OR_NO
 from meshforge.signoff.question import NO, YES, identify
@@ -39,13 +38,11 @@ def add_span_doubts(
 ) -> Assessment:
     """The same, where an edit is right at most as probably as that no hull of the asset spans parts.
 
-    meshes: those of the family, by id; hulls that look like one which a person split are looked for in them; seen:
-    assets of which a person saw what the edit makes of them.
+    meshes: those of the family, by id; seen: assets of which a person saw what the edit makes of them.
     """
-    propose_lookalikes(store, meshes)
-    files, assets = read_spans(store), dict(found.assets)
-    for asset in sorted({asset for file in files for asset in file.assets} & meshes.keys() & assets.keys() - set(seen)):
-        likely = likely_spans(files, asset, hull_digests(meshes[asset]))
+    spans, assets = store.spans(), dict(found.assets)
+    for asset in sorted(spans.assets.keys() & meshes.keys() & assets.keys() - set(seen)):
+        likely = spans.likely(asset, hull_digests(meshes[asset]))
         doubts = [Doubt("label", line.told, (hull,), share=line.chance) for hull, line in likely.items()]
         assets[asset] = assets[asset].with_doubts(doubts)
     return replace(found, assets=assets)
@@ -76,8 +73,8 @@ def _describe_demonstration(store: Store, asset: str) -> Iterator[str]:
 
 
 def can_ask_about_spans(store: Store) -> bool:
-    """Whether there may be such a question: hulls that span parts were found, or a person split one."""
-    return bool(store.spans().assets) or has_split_examples(store)
+    """Whether there may be such a question: hulls that span parts were found."""
+    return bool(store.spans().assets)
 
 
 def list_span_questions(
@@ -85,10 +82,8 @@ def list_span_questions(
 ) -> list[SpanQuestion]:
     """The questions about hulls that likely span parts, the likeliest first.
 
-    meshes: those of the family, by id; hulls that look like one which a person split are looked for in them; excluded:
-    those that nothing is asked about.
+    meshes: those of the family, by id; excluded: those that nothing is asked about.
     """
-    propose_lookalikes(store, meshes)
     snoozed = set(store.feedback().snoozed)
     asked = [one for one in _list_questions(store, meshes) if one.id not in snoozed and one.asset not in excluded]
     return sorted(asked, key=lambda one: (-one.gain, one.asset, one.hulls))
@@ -96,15 +91,15 @@ def list_span_questions(
 
 def _list_questions(store: Store, meshes: Mapping[str, SymbolicMesh]) -> Iterator[SpanQuestion]:
     """A question for each hull that likely spans parts, is as it was when that was found, and can be divided."""
-    files = read_spans(store)
-    for asset in sorted({asset for file in files for asset in file.assets} & meshes.keys()):
-        for hull, span in likely_spans(files, asset, hull_digests(meshes[asset])).items():
+    spans = store.spans()
+    for asset in sorted(spans.assets.keys() & meshes.keys()):
+        for hull, span in spans.likely(asset, hull_digests(meshes[asset])).items():
             if span.parts:
                 yield _ask(asset, hull, span)
 
 
 def _ask(asset: str, hull: str, span: SpanLine) -> SpanQuestion:
-    text = f"{hull} of {asset} {span.told.removeprefix(f'{hull} ')}: split {'as that was' if span.like else 'so'}?"
+    text = f"{hull} of {asset} {span.told.removeprefix(f'{hull} ')}: split so?"
     choices = (
         ReviewChoice(NO, "no, it is one part"),
         ReviewChoice(YES, f"split so: {span.parts_told}"),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -16,7 +16,7 @@ from meshforge.geometry import Polytope
 from meshforge.labels.descriptor_cache import read_arrays, write_arrays
 from meshforge.labels.hull_arrays import HULL_ARRAYS, pack_hulls, unpack_hulls
 from meshforge.project.prepare import PreparationResult, exchange_preparation
-from meshforge.store import SpanLine, SpansFile, Store, hull_digests
+from meshforge.store import SpanLine, Store, hull_digests
 from meshforge.symbolic import Asset, Hull, Label, SymbolicMesh
 
 LIKELY = 0.5
@@ -92,42 +92,19 @@ def keep_shapes(path: Path, spans: Mapping[str, SpanLine], shapes: Mapping[str, 
     write_arrays(path, _digest(spans), pack_hulls(shapes))
 
 
-def read_spans(store: Store) -> tuple[SpansFile, ...]:
-    """The hulls that likely span parts, by the surface and as they look like one that a person split; not those that a
-    person said to be one part."""
-    single = store.single_parts()
-    return tuple(file.without(single) for file in (store.last_spans(), store.lookalike_spans()))
-
-
-def likely_spans(files: Iterable[SpansFile], asset: str, hulls: Mapping[str, str]) -> dict[str, SpanLine]:
-    """Those of an asset that are as they were when that was found, each as it is likelier. hulls: digests by name."""
-    found = dict[str, SpanLine]()
-    for file in files:
-        for name, line in file.likely(asset, hulls).items():
-            if name not in found or line.chance > found[name].chance:
-                found[name] = line
-    return found
-
-
 def find_split(store: Store, asset: str, hull: str) -> Split:
     """The split of a hull that likely spans parts, as was found last.
 
     Raises ProjectError where the hull is not as it was then, or no plane divides it.
     """
-    span = likely_spans(read_spans(store), asset, hull_digests(store.mesh(asset))).get(hull)
+    span = store.spans().likely(asset, hull_digests(store.mesh(asset))).get(hull)
     if span is None:
         raise ProjectError(
             "nothing is known of parts of this hull as it is now", where=f"{asset}: {hull}", remedy=_FIND
         )
     if not span.parts:
         raise ProjectError("no plane divides this hull", where=f"{asset}: {hull}", remedy="Split it: meshforge split")
-    layout = store.layout
-    path, file = (
-        (layout.lookalike_parts(asset), store.lookalike_spans())
-        if span.like
-        else (layout.span_parts(asset), store.last_spans())
-    )
-    kept = read_arrays(path, _digest(file.assets[asset]), *HULL_ARRAYS)
+    kept = read_arrays(store.layout.span_parts(asset), _digest(store.last_spans().assets[asset]), *HULL_ARRAYS)
     shapes = tuple(unpack_hulls(*kept).get(hull, ())) if kept else ()
     if len(shapes) != len(span.parts):
         raise ProjectError("the parts of this hull are not kept any more", where=f"{asset}: {hull}", remedy=_FIND)
@@ -141,8 +118,7 @@ def split_as_found(store: Store, asset: str, hull: str) -> PreparationResult:
     """
     seen = batch.record_digest(store.layout.preparation(asset))
     split = find_split(store, asset, hull)
-    like = {"like": str(split.span.like)} if split.span.like else {}
-    return write_splits(store, asset, [split], {"asked": True, "pieces": split.span.pieces, **like}, seen)
+    return write_splits(store, asset, [split], {"asked": True, "pieces": split.span.pieces}, seen)
 
 
 def mark_as_one_part(store: Store, asset: str, hull: str) -> None:

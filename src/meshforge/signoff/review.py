@@ -94,12 +94,10 @@ def assess_asset(
 def _try_family(
     state: ReviewState, outcome: Found | Ambiguous, family: FamilyModel, alarms: Mapping[str, Sequence[str]]
 ) -> FamilyTrial:
-    """The program tried on the family, under all that its labels say."""
     return FamilyTrial.of(state, outcome.program, outcome.readings, _infer(state, family), alarms)
 
 
 def _infer(state: ReviewState, family: FamilyModel) -> FamilyPosterior:
-    """What is said of the labels of a family."""
     said = [hull.annotation for mesh in state.meshes.values() for hull in mesh.hulls]
     return family.infer(said, state.frame.labels)
 

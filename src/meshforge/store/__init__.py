@@ -45,7 +45,7 @@ if TYPE_CHECKING:
         toml_value,
     )
     from meshforge.store.sign_off import SAID, AssessmentFile, ConfidenceLine, SignOff, SignOffBasis, find_changes
-    from meshforge.store.spans import MOST_TOLD, SpanLine, SpanPart, SpansFile, SplitHull, describe_parts
+    from meshforge.store.spans import MOST_TOLD, SpanLine, SpanPart, SpansFile, describe_parts
     from meshforge.store.store import Store
 else:
     __getattr__ = export_lazily(__name__)
@@ -81,7 +81,6 @@ __all__ = [
     "SpanLine",
     "SpanPart",
     "SpansFile",
-    "SplitHull",
     "StepLine",
     "Store",
     "Verdict",

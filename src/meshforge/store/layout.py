@@ -120,15 +120,6 @@ class Layout:
         return self.folder / STATE / "spans.json"
 
     @property
-    def lookalike_spans(self) -> Path:
-        """Which hulls look like hulls that a person split."""
-        return self.folder / STATE / "lookalikes.json"
-
-    def lookalike_parts(self, asset: str) -> Path:
-        """The parts into which these would be split likewise."""
-        return self.folder / STATE / "lookalikes" / f"{asset}.npz"
-
-    @property
     def single_parts(self) -> Path:
         """Which hulls a person said to be one part."""
         return self.folder / "single_parts.json"

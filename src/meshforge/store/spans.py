@@ -20,22 +20,9 @@ class SpanPart(JsonFile):
     share: float
 
 
-class SplitHull(JsonFile):
-    """A hull that a person split. parts: the names of what was made of it."""
-
-    asset: str
-    hull: str
-    parts: tuple[str, ...]
-
-    def __str__(self) -> str:
-        """`base of cup_01`."""
-        return f"{self.hull} of {self.asset}"
-
-
 class SpanLine(JsonFile):
     """One hull that likely spans parts. geometry: the digest of the hull as it was; told: in words; parts: what a split
-    makes of it, none where no plane divides it; pieces: the engine of the fine pieces that say so; like: the hull that
-    a person split, which this one looks like.
+    makes of it, none where no plane divides it; pieces: the engine of the fine pieces that say so.
     """
 
     geometry: str
@@ -43,19 +30,16 @@ class SpanLine(JsonFile):
     told: str
     parts: tuple[SpanPart, ...] = ()
     pieces: PieceEngine = "coacd"
-    like: SplitHull | None = None
 
     @property
     def parts_told(self) -> str:
-        """The parts in words; those that look like others have their labels, and nothing is known of each."""
-        return describe_parts((part.label, None if self.like else part.share) for part in self.parts)
+        """The parts in words."""
+        return describe_parts((part.label, part.share) for part in self.parts)
 
 
 class SpansFile(JsonFile):
-    """.meshforge/spans.json: likely hulls, by asset and name; .meshforge/lookalikes.json: those that look like one that
-    a person split. key: a digest of what the latter was made from."""
+    """.meshforge/spans.json: likely hulls, by asset and name."""
 
-    key: str = ""
     assets: dict[str, dict[str, SpanLine]] = Field(default_factory=dict)
 
     def likely(self, asset: str, hulls: Mapping[str, str]) -> dict[str, SpanLine]:

@@ -356,15 +356,6 @@ class Store:
         found = self.last_spans()
         return found.without(self.single_parts()) if found.assets else found
 
-    def lookalike_spans(self) -> SpansFile:
-        """Which hulls look like hulls that a person split; none where that is not kept, or damaged."""
-        return read_derived(self.layout.lookalike_spans, SpansFile) or SpansFile()
-
-    def write_lookalike_spans(self, found: SpansFile) -> None:
-        """Keep which hulls look like hulls that a person split."""
-        with self.lock():
-            write_json(self.layout.lookalike_spans, found)
-
     def last_spans(self) -> SpansFile:
         """Which hulls likely span parts, as was found last; none where that is not kept, or damaged."""
         return read_derived(self.layout.spans, SpansFile) or SpansFile()

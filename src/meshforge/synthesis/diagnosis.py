@@ -135,7 +135,6 @@ def follow_rule(
 
 
 def _find_exclusion(wanted: Extractor, task: LearningTask) -> Iterator[str]:
-    """Why it is none of those that are searched."""
     unknown = [label for label in language.labels_of(wanted) if label not in task.frame.labels]
     if unknown:
         yield f"the label {show_label(unknown[0])} is not in the vocabulary"
@@ -147,7 +146,6 @@ def _find_exclusion(wanted: Extractor, task: LearningTask) -> Iterator[str]:
 
 
 def _find_difference(wanted: Extractor, examples: Sequence[Example], extremity: float) -> Iterator[str]:
-    """On which mesh it does something else than was shown."""
     for example in examples:
         found = language.select_mask(wanted, example.mesh, extremity)
         extra = example.mesh.names_of(found & ~example.selection)

@@ -122,7 +122,6 @@ def choose_vocabulary(
 
 
 def _labels_in_steps(demo: Demonstration) -> list[str]:
-    """The labels that steps give to what they make."""
     return [step.label for step in demo.steps if step.label]
 
 

@@ -118,7 +118,7 @@ def test_an_unknown_command_is_wrong_usage(run: Run) -> None:
 
 def test_info_as_json_has_the_documented_shape(run: Run) -> None:
     told = run("info", "row.obj", "--json", "--geometry").json
-    assert list(told) == ["asset", "format", "diagonal", "hulls", "opaque", "contacts", "near_misses"]
+    assert list(told) == ["asset", "format", "diagonal", "notes", "hulls", "opaque", "contacts", "near_misses"]
     hull = told["hulls"][0]
     assert list(hull) == [
         *("name", "body", "label", "confidence", "source", "aabb", "volume", "vertices", "faces", "primitive", "points")
@@ -310,7 +310,13 @@ def test_convert_reports_what_is_held_and_lost_as_json(run: Run) -> None:
         "hulls": 1,
         "held": [{"what": "hull names", "count": 1, "names": ["a/pin"]}],
         "lost": [
-            {"what": "bodies", "count": 2, "names": ["a", "b"], "why": "OBJ has no bodies", "instead": None},
+            {
+                "what": "bodies",
+                "count": 2,
+                "names": ["a", "b"],
+                "why": "MeshForge does not convert bodies to OBJ",
+                "instead": None,
+            },
             {
                 "what": "spheres",
                 "count": 1,
@@ -318,13 +324,19 @@ def test_convert_reports_what_is_held_and_lost_as_json(run: Run) -> None:
                 "why": "OBJ has no spheres",
                 "instead": "written as triangles",
             },
-            {"what": "joints", "count": 1, "names": ["hinge"], "why": "OBJ has no joints", "instead": None},
+            {
+                "what": "joints",
+                "count": 1,
+                "names": ["hinge"],
+                "why": "MeshForge does not convert joints to OBJ",
+                "instead": None,
+            },
         ],
         "notes": ["coordinates are as they were, z-up: OBJ does not say what is up"],
     }
     assert run("convert", "t.urdf", "t2.obj").err.splitlines()[:2] == [
         "note: coordinates are as they were, z-up: OBJ does not say what is up",
-        "note: 2 bodies (a, b) are left out: OBJ has no bodies",
+        "note: 2 bodies (a, b) are left out: MeshForge does not convert bodies to OBJ",
     ]
 
 

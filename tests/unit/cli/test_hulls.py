@@ -38,3 +38,37 @@ def test_a_name_that_looks_like_a_range_is_that_hull() -> None:
 def test_a_range_that_leads_beyond_the_hulls_is_refused(text: str, problem: str) -> None:
     with pytest.raises(UsageError, match=problem):
         find_hulls(text, NAMES, "HULLS")
+
+
+BODIES = ("leg_left/foot", "leg_left/geom1", "leg_right/foot", "top/leg_plate")
+
+
+@pytest.mark.parametrize(
+    ("pattern", "found"),
+    [
+        ("leg_left/*", {"leg_left/foot", "leg_left/geom1"}),
+        ("leg_*", {"leg_left/foot", "leg_left/geom1", "leg_right/foot"}),
+        ("*/leg_*", {"top/leg_plate"}),
+        ("*/foot", {"leg_left/foot", "leg_right/foot"}),
+        ("*", set(BODIES)),
+    ],
+)
+def test_a_pattern_is_compared_with_the_whole_name_and_a_star_stands_for_slashes_too(
+    pattern: str, found: set[str]
+) -> None:
+    assert find_hulls(pattern, BODIES, "HULLS") == found
+
+
+@pytest.mark.parametrize(
+    ("text", "remedy"),
+    [
+        ("leg_left", "That is a body. For all of its hulls, write: 'leg_left/*'"),
+        ("foot", "A name begins with that of its body. Write it so: '*/foot'"),
+        ("geom?", "A name begins with that of its body. Write it so: '*/geom?'"),
+    ],
+)
+def test_a_body_or_a_name_without_its_body_is_refused_with_the_pattern_that_is_meant(text: str, remedy: str) -> None:
+    with pytest.raises(UsageError) as refused:
+        find_hulls(text, BODIES, "HULLS")
+    assert refused.value.remedy == remedy
+    assert find_hulls(remedy.split("'")[1], BODIES, "HULLS")

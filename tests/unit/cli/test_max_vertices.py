@@ -15,13 +15,14 @@ from tests.loop.command import meshforge
 
 
 def test_the_engine_is_told() -> None:
-    coacd, vhacd = (parse_engine_settings(method, None, 24) for method in EngineMethod)
+    coacd, vhacd, hull = (parse_engine_settings(method, None, 24) for method in EngineMethod)
     assert isinstance(coacd, CoacdSettings) and (coacd.decimate, coacd.max_ch_vertex, coacd.max_vertices) == (
         True,
         24,
         24,
     )
     assert isinstance(vhacd, VhacdSettings) and vhacd.max_hull_vertices == vhacd.max_vertices == 24
+    assert hull.max_vertices == 24 and parse_engine_settings(EngineMethod.HULL, None).max_vertices is None
     assert parse_engine_settings(EngineMethod.COACD, None) == CoacdSettings() and CoacdSettings().max_vertices is None
 
 
@@ -31,12 +32,12 @@ def test_the_number_is_given_once() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("engine", ["coacd", "vhacd"])
+@pytest.mark.parametrize("engine", ["coacd", "vhacd", "hull"])
 def test_no_hull_has_more(tmp_path: Path, engine: str) -> None:
     points = np.random.default_rng(0).normal(size=(400, 3))
     ball = convex_hull(points / np.linalg.norm(points, axis=1, keepdims=True))
     lines = [f"v {x} {y} {z}" for x, y, z in ball.vertices] + [f"f {a} {b} {c}" for a, b, c in ball.faces + 1]
     (tmp_path / "ball.obj").write_text("\n".join(lines) + "\n")
     words = ("decompose", "ball.obj", "-o", "out.obj", "--decompose", engine, "--max-vertices", "20")
-    meshforge(*words, "--set", "resolution=2000", cwd=tmp_path)
+    meshforge(*words, *(() if engine == "hull" else ("--set", "resolution=2000")), cwd=tmp_path)
     assert max(len(hull.vertices) for hull in load(tmp_path / "out.obj").hulls) <= 20

@@ -87,6 +87,8 @@ def test_settings_of_a_decomposition_do_not_go_with_fine_pieces(run: Run, what: 
     told = run("prepare", "p", what, "--decompose", "vhacd", *option)
     assert told.code == 2 and told.out == ""
     assert f"{option[0]} does not go with --split-spanning and --rebuild-spanning\n" in told.err
+    instead = "Name the assets in its place; for one hull of an asset: meshforge split PROJECT ASSET HULL"
+    assert (instead in told.err) == (option[0] == "--only")
 
 
 def test_as_json(run: Run) -> None:

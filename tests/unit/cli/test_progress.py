@@ -25,6 +25,7 @@ Capture = pytest.CaptureFixture[str]
 def quick(monkeypatch: pytest.MonkeyPatch) -> None:
     """The first line comes soon, and stderr is no terminal."""
     monkeypatch.setattr(console, "QUIET_SECONDS", 0.2)
+    monkeypatch.setenv("MESHFORGE_PROGRESS_AFTER", "0.2")
     for name in ("FORCE_COLOR", "TTY_COMPATIBLE"):
         monkeypatch.delenv(name, raising=False)
 

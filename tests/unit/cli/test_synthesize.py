@@ -52,7 +52,8 @@ def test_a_question_is_printed_with_the_ways_to_answer_it(run: Run, tmp_path: Pa
         == """
 learned in TIME, kept as racks/program.mf
 ambiguous: it is open what rule 1 does on rack2.obj
-To be more certain, demonstrate AHEAD: believable readings of the rules differ there
+Look first at:
+  AHEAD: demonstrate it to be more certain: believable readings of the rules differ there
   meshforge demonstrate racks AHEAD 'HULLS => ACTION' ...
 Next: meshforge apply racks
 

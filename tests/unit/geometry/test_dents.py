@@ -26,13 +26,27 @@ def rod(radius: float, length: float, at: tuple[float, float, float] = (0, 0, 0)
     [
         (block((10, 10, 3), (0, 0, 0)) - block((2, 2, 9), (0, 0, 0)), 96),  # right through
         (block((10, 10, 10), (0, 0, 0)) - block((3, 3, 3), (0, 0, 4)), 97),  # a pocket
-        (block((10, 10, 1), (0, 0, 0)) - rod(0.05, 9, (4, 4, 0)), 99),  # as thin as a nail
-        (block((10, 10, 10), (0, 0, 0)) - rod(0.2, 30, (4.75, 0, 0)), 99),  # close to a side: only its genus tells
+        (block((10, 10, 10), (0, 0, 0)) - rod(0.45, 30, (4.5, 0, 0)), 99),  # close to a side: only its genus tells
         (Manifold.sphere(5, 96) - rod(0.5, 20), 98),  # of many triangles
     ],
 )
-def test_a_hole_or_a_pocket_is_never_closed_in_silence(solid: Manifold, share: int) -> None:
+def test_a_hole_or_a_pocket_that_a_peg_enters_is_never_closed(solid: Manifold, share: int) -> None:
     assert reasons(solid) == [DENTED.format(share)]
+
+
+@pytest.mark.parametrize(
+    "solid",
+    [
+        block((10, 10, 1), (0, 0, 0)) - rod(0.05, 9, (4, 4, 0)),  # of a nail
+        block((10, 10, 1), (0, 0, 0)) - rod(0.2, 9, (4, 4, 0)) - rod(0.2, 9, (-4, 4, 0)),  # of dowels
+        block((10, 4, 0.2), (0, 0, 0)) - block((20, 0.1, 0.1), (0, 1.8, 0.1)),  # a groove
+        block((10, 10, 10), (0, 0, 0)) - rod(0.2, 30, (4.75, 0, 0)),  # close to a side
+    ],
+)
+def test_a_hull_that_closes_narrow_holes_says_what_it_fills(solid: Manifold) -> None:
+    (piece,) = split_pieces(*surface(solid), name="board")
+    assert piece.shape is not None
+    assert piece.fill == pytest.approx(solid.volume() / piece.shape.volume)
 
 
 def test_a_hole_is_seen_however_its_surface_is_written() -> None:

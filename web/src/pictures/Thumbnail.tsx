@@ -11,8 +11,6 @@ interface ThumbnailProps {
   of: "source" | "output";
   /** Positions of hulls to point out; the others are pale. */
   highlight?: readonly number[] | undefined;
-  /** Positions of hulls in the colours of their labels; the others are pale. */
-  only?: readonly number[];
   /** The directive by which it is turned, in place of the project's. */
   turned?: string | null;
   /** Width in CSS pixels; it fills its place without. */
@@ -21,7 +19,7 @@ interface ThumbnailProps {
   label?: string;
 }
 
-export const Thumbnail = memo(function Thumbnail({ asset, of, highlight, only, turned, size, label }: ThumbnailProps) {
+export const Thumbnail = memo(function Thumbnail({ asset, of, highlight, turned, size, label }: ThumbnailProps) {
   const version = useProject(({ cards }) => cards[asset]?.[of === "source" ? "picture" : "edited_picture"] ?? null);
   const labels = useProject(({ cards }) => cards[asset]?.[of === "source" ? "labels" : "after_labels"]);
   const unsure = useProject(({ cards }) => cards[asset]?.unsure);
@@ -33,13 +31,12 @@ export const Thumbnail = memo(function Thumbnail({ asset, of, highlight, only, t
     (k: number) => {
       if (k < 0) return "var(--hull-opaque)";
       if (marked) return marked.has(k) ? "var(--highlight)" : "var(--hull-pale)";
-      if (only && !only.includes(k)) return "var(--hull-pale)";
       if (of === "output" && !labels?.length) return hueOf(k);
       return palette.split(" ")[labels?.[k] ?? -1] || "var(--hull-unlabelled)";
     },
-    [marked, only, of, labels, palette],
+    [marked, of, labels, palette],
   );
-  const hatched = useCallback((k: number) => !marked && !only && doubtful.has(k), [marked, only, doubtful]);
+  const hatched = useCallback((k: number) => !marked && doubtful.has(k), [marked, doubtful]);
   if (version === null) return <Blank size={size} />;
   const said = label ?? `${of === "source" ? "Picture" : "Picture of the edited asset"}: ${asset}`;
   const url = turned ? api.turned(asset, turned, run) : api.thumbnail(asset, of, version);

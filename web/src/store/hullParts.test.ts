@@ -6,7 +6,7 @@ import { sampleCard } from "./sample.test-help";
 import type { Scene } from "./scene";
 import { useToasts } from "./toasts";
 
-const packet = { header: { rows: [], hull: "base", parts: [], like: null }, rows: [], shapes: [] };
+const packet = { header: { rows: [], hull: "base", parts: [] }, rows: [], shapes: [] };
 const scene = (more: object = {}) =>
   ({ asset: "cup", showing: { kind: "source" }, hulls: [{ name: "base" }, { name: "rim" }], ...more }) as unknown as Scene;
 const shown = () => useHullParts.getState().shown;

@@ -114,7 +114,6 @@ def _has_triangles(piece: Opaque) -> bool:
 
 
 def _merge_surfaces(geoms: Sequence[Geom], opaque: Sequence[Opaque]) -> tuple[Surface, ...]:
-    """What collides, as one surface."""
     hulls = [geom.shape.tessellate() for geom in geoms]
     parts: list[Surface] = [Surface(hull.vertices, hull.faces) for hull in hulls]
     parts += [piece.surface for piece in opaque if piece.surface is not None]

@@ -261,7 +261,6 @@ class _EngineWriter(_Writer):
         return self._claim(name for name in names if name.partition("_")[2].lower() not in self.seen)
 
     def _mesh_seen(self, piece: _Piece) -> str:
-        """The name of the mesh for which a piece collides."""
         if piece.element is None:
             return self.engine.body(self.stem)
         node, tree = self.draft.scene.placements[piece.element.node].node, self.draft.scene.tree
@@ -270,7 +269,6 @@ class _EngineWriter(_Writer):
         return name or self.engine.body(self.stem)
 
     def _claim(self, names: Iterator[str]) -> str:
-        """The first of some names that nothing has."""
         name = next(name for name in names if name.lower() not in self.taken)
         self.taken.add(name.lower())
         return name

@@ -94,7 +94,6 @@ class CollisionReader:
         return self._read_pieces(placement.index, name, collider.mesh, *mesh)
 
     def _place_shape(self, placement: Placement, name: str | None, found: CollisionPiece) -> NodeCollision:
-        """A shape of an extension, in its place."""
         if found.shape is None:
             plane = rigid_pose_of(placement) @ found.plane if found.plane else None
             return NodeCollision(placement.index, name, [replace(found, plane=plane)])
@@ -141,7 +140,6 @@ class CollisionReader:
     def _read_pieces(
         self, node: int, name: str | None, index: int, mesh: GltfMesh, linear: Floats, offset: Floats
     ) -> NodeCollision:
-        """A mesh as its connected pieces."""
         if not len(mesh.faces):
             return NodeCollision(node, name, [])
         if _is_degenerate(linear):

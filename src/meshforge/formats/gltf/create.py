@@ -105,7 +105,6 @@ class _Creator:
             style.add_opaque(piece, piece.surface, self._own_name(piece), self.nodes.get(piece.body))
 
     def _add_visual(self, body: str, surface: Surface) -> None:
-        """A node that shows a surface."""
         holder, name = self.nodes.get(body), f"{body}-visual"
         points = self.draft.points_in(np.asarray(surface.vertices), holder)
         material = add_material(self.draft, surface)
@@ -151,7 +150,6 @@ class EngineCreator:
         return GltfDocument(b"", self.engine.engine, ())
 
     def _show(self, family: EngineBody, node: int, mesh: int) -> None:
-        """Show a mesh on the node of a body."""
         self.draft.node(node)["mesh"] = mesh
 
     def _add_visuals(self, family: EngineBody, node: int) -> int:
@@ -164,7 +162,6 @@ class EngineCreator:
         return draft.add_mesh({"name": family.name, "primitives": parts})
 
     def _add_collision(self, family: EngineBody, node: int) -> None:
-        """The nodes of what collides of a body."""
         if not family.hulls and not family.opaque:
             return
         above = self.engine.holder(family.name)

@@ -133,7 +133,6 @@ def _subsequence(old: Sequence[Any], new: Sequence[Any]) -> list[bool] | None:
 
 
 def _remove_items(items: Sequence[_Item], kept: Sequence[bool]) -> Iterator[_Change]:
-    """The changes that take items away, with their commas."""
     if not any(kept):
         yield _Change(items[0].start, items[-1].end, "")
         return

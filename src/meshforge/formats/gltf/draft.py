@@ -143,7 +143,6 @@ class SceneDraft:
         return {**mesh, "primitives": parts}
 
     def _lines_and_points(self, index: int) -> list[Json]:
-        """The primitives of a mesh that are no triangles."""
         solid = {patch.index for patch in self.scene.mesh(index).patches}
         parts = entries(entry(self.scene.tree, "meshes", index), "primitives")
         return [copy.deepcopy(part) for k, part in enumerate(parts) if k not in solid]

@@ -90,7 +90,6 @@ def style_of(convention: Convention, draft: SceneDraft) -> EditStyle:
 
 
 def _place_hull(style: EditStyle, geom: Geom, document: GltfDocument, path: Path) -> None:
-    """Add a new hull to its body."""
     nodes = {name: node for node, name in document.bodies}
     bodies = {element.body for element in document.authored} | {"body"}
     if geom.body not in nodes and geom.body not in bodies:

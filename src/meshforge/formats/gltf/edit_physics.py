@@ -9,20 +9,10 @@ from typing import Any
 
 import numpy as np
 
+from meshforge.formats.gltf import physics
 from meshforge.formats.gltf.document import Convention, NodeRecord
 from meshforge.formats.gltf.draft import SceneDraft
 from meshforge.formats.gltf.edit_styles import EditStyle
-from meshforge.formats.gltf.physics import (
-    KHR,
-    OLD_SHAPES,
-    OMI,
-    OMI_COLLIDER,
-    OMI_SHAPES,
-    SHAPES,
-    Z_TO_Y,
-    collider_of,
-    rigid_pose_of,
-)
 from meshforge.formats.meshfile.gltf_document import Json, entries, extension
 from meshforge.geometry import Box, Capsule, Cylinder, Pose, Sphere
 from meshforge.symbolic import Geom, Opaque, Surface
@@ -59,7 +49,7 @@ class PhysicsStyle(EditStyle):
         draft = self.draft
         assert element.owner is not None  # only meshes have several pieces
         source = draft.scene.placements[element.node]
-        mesh = collider_of(source, self.convention, draft.scene).mesh
+        mesh = physics.collider_of(source, self.convention, draft.scene).mesh
         for at, k in enumerate(kept):
             own = element.names[k].removeprefix(f"{element.body}/")
             part = draft.add_mesh({**draft.extract_pieces(mesh, element.owner, [k]), "name": own})
@@ -95,9 +85,9 @@ class PhysicsStyle(EditStyle):
     def add_plane(self, piece: Opaque, own: str, body: int | None) -> None:
         """Add an endless plane."""
         assert piece.plane is not None
-        above = rigid_pose_of(self.draft.scene.placements[body]) if body is not None else Pose.identity()
-        node = {"name": own, **pose_keys(above.inverse() @ piece.plane @ Z_TO_Y.inverse())}
-        index = _append_entry(self.draft, SHAPES, "shapes", {"type": "plane", "plane": {}})
+        above = physics.rigid_pose_of(self.draft.scene.placements[body]) if body is not None else Pose.identity()
+        node = {"name": own, **pose_keys(above.inverse() @ piece.plane @ physics.Z_TO_Y.inverse())}
+        index = _append_entry(self.draft, physics.SHAPES, "shapes", {"type": "plane", "plane": {}})
         self._add_node(node, False, body, {}, {"geometry": {"shape": index}}, piece.name)
 
     def _add_mesh(
@@ -125,18 +115,20 @@ class PhysicsStyle(EditStyle):
     def _set_collider(self, index: int, like: Json, geometry: Any) -> None:
         """Give a node a collider with that geometry, and all else of the collider of another node."""
         extensions = self.draft.node(index).setdefault("extensions", {})
-        self.draft.declare_extension({"khr": KHR, "omi": OMI}.get(self.convention, OMI_COLLIDER))
+        self.draft.declare_extension(
+            {"khr": physics.KHR, "omi": physics.OMI}.get(self.convention, physics.OMI_COLLIDER)
+        )
         match self.convention:
             case "khr":
-                old = (extension(like, KHR) or {}).get("collider", {})
+                old = (extension(like, physics.KHR) or {}).get("collider", {})
                 rest = {k: copy.deepcopy(v) for k, v in old.items() if k not in ("geometry", "shape")}
-                extensions[KHR] = {"collider": {**geometry, **rest}}
+                extensions[physics.KHR] = {"collider": {**geometry, **rest}}
             case "omi":
-                old = (extension(like, OMI) or {}).get("collider", {})
-                extensions[OMI] = {"collider": {**copy.deepcopy(old), "shape": geometry}}
+                old = (extension(like, physics.OMI) or {}).get("collider", {})
+                extensions[physics.OMI] = {"collider": {**copy.deepcopy(old), "shape": geometry}}
             case _:
-                old = extension(like, OMI_COLLIDER) or {}
-                extensions[OMI_COLLIDER] = {**copy.deepcopy(old), "collider": geometry}
+                old = extension(like, physics.OMI_COLLIDER) or {}
+                extensions[physics.OMI_COLLIDER] = {**copy.deepcopy(old), "collider": geometry}
 
 
 def is_drawn(node: Json) -> bool:
@@ -149,20 +141,20 @@ def is_drawn(node: Json) -> bool:
 def _remove_collider(node: Json) -> None:
     """Take the collider from a node, and what is empty then."""
     extensions = node.get("extensions", {})
-    for name in (KHR, OMI):
+    for name in (physics.KHR, physics.OMI):
         own = extensions.get(name, {})
         if "collider" in own:
             del own["collider"]
             if not own:
                 del extensions[name]
-    extensions.pop(OMI_COLLIDER, None)
+    extensions.pop(physics.OMI_COLLIDER, None)
     if not extensions:
         node.pop("extensions", None)
 
 
 def node_pose_of(shape: ExtensionPrimitive) -> Pose:
     """The place of a node whose collider is the shape."""
-    return shape.pose @ Z_TO_Y.inverse() if isinstance(shape, Cylinder | Capsule) else shape.pose
+    return shape.pose @ physics.Z_TO_Y.inverse() if isinstance(shape, Cylinder | Capsule) else shape.pose
 
 
 def pose_keys(pose: Pose) -> Json:
@@ -198,13 +190,13 @@ def write_mesh_geometry(
     if convention != "khr":
         kind = "trimesh" if not hulled else "hull" if convention == "omi collider" else "convex"
         return _write_entry(draft, convention, kind, {"mesh": mesh})
-    collider = (extension(like, KHR) or {}).get("collider", {})
+    collider = (extension(like, physics.KHR) or {}).get("collider", {})
     if "geometry" not in collider and "shape" in collider:
         entry: Json = {"type": "mesh", "mesh": {"mesh": mesh}}
         if hulled:
-            entry["extensions"] = {KHR: {"convexHull": True}}
-        older = OLD_SHAPES in _extensions_of(draft)
-        return {"shape": _append_entry(draft, OLD_SHAPES if older else SHAPES, "shapes", entry)}
+            entry["extensions"] = {physics.KHR: {"convexHull": True}}
+        older = physics.OLD_SHAPES in _extensions_of(draft)
+        return {"shape": _append_entry(draft, physics.OLD_SHAPES if older else physics.SHAPES, "shapes", entry)}
     geometry: Json = {"mesh": mesh}
     if "mesh" not in collider.get("geometry", {}):
         geometry = {"node": _add_carrier(draft, mesh) if own is None else own}
@@ -221,12 +213,14 @@ def _add_carrier(draft: SceneDraft, mesh: int) -> int:
 def _write_entry(draft: SceneDraft, convention: Convention, kind: str, own: Json) -> Any:
     match convention:
         case "khr":
-            older = OLD_SHAPES in _extensions_of(draft) and SHAPES not in _extensions_of(draft)
-            index = _append_entry(draft, OLD_SHAPES if older else SHAPES, "shapes", {"type": kind, kind: own})
+            older = physics.OLD_SHAPES in _extensions_of(draft) and physics.SHAPES not in _extensions_of(draft)
+            index = _append_entry(
+                draft, physics.OLD_SHAPES if older else physics.SHAPES, "shapes", {"type": kind, kind: own}
+            )
             return {"shape": index} if older else {"geometry": {"shape": index}}
         case "omi":
-            return _append_entry(draft, OMI_SHAPES, "shapes", {"type": kind, kind: own})
-    return _append_entry(draft, OMI_COLLIDER, "colliders", {"type": kind, **own})
+            return _append_entry(draft, physics.OMI_SHAPES, "shapes", {"type": kind, kind: own})
+    return _append_entry(draft, physics.OMI_COLLIDER, "colliders", {"type": kind, **own})
 
 
 def _append_entry(draft: SceneDraft, name: str, key: str, value: Json) -> int:

@@ -169,7 +169,6 @@ def _list_features(tree: Json) -> Iterator[Feature]:
 
 
 def _list_missing_masses(tree: Json, document: GltfDocument, asset: Asset) -> Iterator[Feature]:
-    """The masses that the file says and the asset does not have."""
     from meshforge.formats.gltf.physics import explain_missing_mass, read_motion  # lazy: only glTF needs it
 
     known = {inertial.body for inertial in asset.mechanism.inertials}

@@ -99,7 +99,6 @@ def free_buffer_name(stem: str, taken: Collection[str]) -> str:
 
 
 def _list_embedded(scene: GltfScene, base: EditBase) -> set[str]:
-    """The files of buffers that are inside of the written file."""
     there = {buffer.get("uri") for buffer in entries(base.tree, "buffers")}
     uris = [uri for b in entries(scene.tree, "buffers") if isinstance(uri := b.get("uri"), str)]
     files = zip(scene.buffers.files(), [uri for uri in uris if not uri.startswith("data:")], strict=True)

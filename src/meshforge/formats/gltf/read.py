@@ -166,7 +166,6 @@ class SceneSurfaces(LazySurfaces):
 
 
 def _split_by_color(scene: GltfScene, mesh: int, whole: GltfMesh) -> Iterator[tuple[Floats, Ints, Rgba | None]]:
-    """The triangles of a mesh, apart where its parts have other base colours."""
     materials = list(_materials(scene.tree, entry(scene.tree, "meshes", mesh)))
     colors = [_read_color(materials[patch.index]) for patch in whole.patches]
     if len(set(colors)) == 1:
@@ -232,7 +231,6 @@ def _collect_mentions(scene: GltfScene, source: NodeCollision) -> list[Mentions]
 def _materials_of_pieces(
     scene: GltfScene, source: NodeCollision, node: Json, materials: Sequence[str]
 ) -> list[list[str]]:
-    """The names of the materials of each piece, those of the primitives that its triangles are of."""
     if source.owner is None or "mesh" not in node:
         return [list(materials)] * len(source.parts)
     patches = scene.mesh(node["mesh"]).patches

@@ -105,7 +105,6 @@ def _weld_bodies(asset: Asset, carriers: Mapping[str, str]) -> Asset:
 
 
 def _add_inertials(body: str, parts: Sequence[Inertial]) -> Inertial:
-    """The mass of parts that are one body."""
     if len(parts) == 1:
         return replace(parts[0], body=body)
     mass = sum(part.mass for part in parts)
@@ -147,7 +146,6 @@ class _RigidBodyCreator(EngineCreator):
         return lost
 
     def _weigh(self, family: EngineBody) -> Json:
-        """The mass of a body that moves."""
         motion = mass_keys(self.asset, family.body)
         if not motion:
             self.notes.append(f"the mass of {family.name} is not known: Godot takes 1 kg")

@@ -79,7 +79,6 @@ class _Creator:
         return Output(main, dict(meshes.files.made), files.copies, self._collect_notes(), names, lost, hulled)
 
     def _body_lines(self) -> Iterator[bytes]:
-        """The `<worldbody>`, bodies nested in it."""
         below: dict[str, list[str]] = {}
         for body in self.tree.order:
             if self.bodies[body] != WORLD:
@@ -105,7 +104,6 @@ class _Creator:
         yield b"  </worldbody>"
 
     def _equality_lines(self) -> Iterator[bytes]:
-        """The `<equality>` of joints that follow others."""
         if not self.couplings.by_joint:
             return
         yield b"  <equality>"
@@ -123,7 +121,6 @@ class _Creator:
         return parent
 
     def _element_lines(self, body: str, lead: bytes) -> Iterator[bytes]:
-        """Joints, mass, geoms and visuals of a body."""
         top = not self._place_of(body)
         joints = [part for joint in self.tree.joints[body] for part in self._split_joint(joint, top)]
         own = [geom for geom in self.asset.geoms if geom.body == body]
@@ -198,7 +195,6 @@ class NewGeomMaker:
         return elements.tag("geom", {**self._head_of(geom.name), **elements.mesh_geom_attributes(mesh, place)})
 
     def _head_of(self, piece: str) -> dict[str, str]:
-        """The first attributes of a geom that collides."""
         return self._name_attribute(piece) | ({"class": "collision"} if self.shown else {})
 
     def _name_attribute(self, piece: str) -> dict[str, str]:
@@ -245,7 +241,6 @@ class NewGeomMaker:
 
 
 def _place_mesh(box: Aabb) -> Pose:
-    """Where the file of a mesh in a box is placed in its body."""
     return Pose.of_translation(box.center if np.linalg.norm(box.center) > _FAR * box.diagonal else np.zeros(3))
 
 

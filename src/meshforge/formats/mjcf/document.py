@@ -221,7 +221,6 @@ class _TreeReader:
         return top
 
     def _resolve_include(self, include: Element, source: int, depth: int) -> list[MjcfNode]:
-        """What stands in the place of an `<include>`."""
         where = f"{self.sources[source].path}:{include.line}"
         reference = include.attributes.get("file", "").strip()
         if not reference:

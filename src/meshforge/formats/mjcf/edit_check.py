@@ -87,7 +87,6 @@ def _compare_fields(one: mujoco.MjModel, other: mujoco.MjModel, masses: bool) ->
 
 
 def _compare_meshes(one: mujoco.MjModel, other: mujoco.MjModel, is_whole: bool) -> Iterator[str]:
-    """The authored meshes, by name."""
     there = {other.mesh(k).name for k in range(other.nmesh)}
     for k in range(one.nmesh):
         name = one.mesh(k).name

@@ -76,7 +76,6 @@ class HullGeomMaker:
     def _geometry_attributes(
         self, geom: Geom, root_t_body: Pose, parent: MjcfNode | None, body_t_frame: Pose
     ) -> dict[str, str]:
-        """The geometry of a hull in the frame in which its element stands."""
         frame_t_body, body_t_root = body_t_frame.inverse(), root_t_body.inverse()
         shape = geom.shape
         if isinstance(shape, MjcfShape):
@@ -121,7 +120,6 @@ class HullGeomMaker:
     def _spell_out_class(
         self, geom: Geom, parent: MjcfNode, attributes: Mapping[str, str], parent_volume: float
     ) -> Slot:
-        """A hull's element that spells out what its parent has from its class."""
         main = self.context.defaults_of(MAIN_CLASS)
         if "fromto" in main:
             raise _fromto_error(geom, self.context, parent)

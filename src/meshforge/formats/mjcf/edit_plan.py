@@ -175,7 +175,6 @@ class MjcfPlan:
         self.made[id(slot)] = geom
 
     def _body_of(self, geom: Geom) -> MjcfNode:
-        """The element of a new hull's body."""
         body = self.body_node(geom.body)
         outer = (body, *self.maker.context.ancestors_of(body)) if body is not None else ()
         why = next((why for node in outer if (why := _obstacle_in(node))), "")

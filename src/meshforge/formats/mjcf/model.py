@@ -213,7 +213,6 @@ class GeomMentions:
 
     @cached_property
     def _visual_names(self) -> dict[str, list[ShapeNames]]:
-        """What each body shows that does not collide."""
         found: dict[str, list[ShapeNames]] = {}
         for geom, body, collides in zip(self.geoms, self.bodies, self.collides, strict=True):
             if not collides:

@@ -184,8 +184,6 @@ def read_visuals(reading: MjcfModel, spec: mujoco.MjSpec, hidden: frozenset[int]
 
 
 class _Visuals:
-    """The visuals of the geoms of one model."""
-
     def __init__(self, reading: MjcfModel, spec: mujoco.MjSpec) -> None:
         self.reading, self.model = reading, reading.model
         self.shapes = MjcfShapes(reading.model)

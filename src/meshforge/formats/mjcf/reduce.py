@@ -11,16 +11,8 @@ from typing import Literal
 from meshforge.common import AssetError, is_file
 from meshforge.formats import mesh_reader, references
 from meshforge.formats.libraries import mujoco
+from meshforge.formats.mjcf import engine
 from meshforge.formats.mjcf.document import MjcfNode, MjcfTree
-from meshforge.formats.mjcf.engine import (
-    EngineModel,
-    FlatText,
-    compile_spec,
-    compile_text,
-    flatten,
-    geoms_of,
-    parse_text,
-)
 from meshforge.formats.mjcf.model import MjcfModel
 from meshforge.formats.mjcf.references import AssetFolders
 
@@ -63,8 +55,8 @@ class PartialModel:
     their mass from one of those.
     """
 
-    flat: FlatText
-    made: EngineModel
+    flat: engine.FlatText
+    made: engine.EngineModel
     stand_ins: frozenset[int]
     unweighed: frozenset[int]
 
@@ -99,15 +91,15 @@ def reduce_model(tree: MjcfTree, refusal: AssetError, masses: Literal["fixed", "
     """
     last, tree = refusal, _repair_defaults(tree)
     for attempt in (*_ATTEMPTS, _Attempt(True, masses)):
-        flat = flatten(tree, attempt.keep)
+        flat = engine.flatten(tree, attempt.keep)
         try:
-            spec = parse_text(tree, flat)
+            spec = engine.parse_text(tree, flat)
         except AssetError as error:
             last = error
             continue
         _refuse_missing(tree, flat, spec)
         _refuse_lookalikes(tree, flat, spec)
-        names = {geom.name for geom in geoms_of(spec.bodies)}
+        names = {geom.name for geom in engine.geoms_of(spec.bodies)}
         for pair in [pair for pair in spec.pairs if not names >= {pair.geomname1, pair.geomname2}]:
             spec.delete(pair)
         infos = _replace_visuals(tree, flat, spec, attempt.all_visuals)
@@ -115,7 +107,7 @@ def reduce_model(tree: MjcfTree, refusal: AssetError, masses: Literal["fixed", "
         spec.compiler.boundinertia = max(spec.compiler.boundinertia, _LEAST_INERTIA)
         spec.compiler.balanceinertia = True
         try:
-            made = compile_spec(tree, flat, spec)
+            made = engine.compile_spec(tree, flat, spec)
         except AssetError as error:
             last = error
             continue
@@ -167,12 +159,12 @@ def _add_setting(target: MjcfNode, child: MjcfNode) -> None:
     target.children.append(child)
 
 
-def _refuse_missing(tree: MjcfTree, flat: FlatText, spec: mujoco.MjSpec) -> None:
+def _refuse_missing(tree: MjcfTree, flat: engine.FlatText, spec: mujoco.MjSpec) -> None:
     """Raise AssetError where the mesh of a collision geom is not there."""
     lost = _find_missing_meshes(tree, flat, spec)
     geoms = [
         geom
-        for geom in geoms_of(spec.bodies)
+        for geom in engine.geoms_of(spec.bodies)
         if geom.meshname in lost and flat.node_at(geom.info) and _can_collide(geom, spec)
     ]
     if geoms:
@@ -187,15 +179,15 @@ def _refuse_missing(tree: MjcfTree, flat: FlatText, spec: mujoco.MjSpec) -> None
         )
 
 
-def _refuse_lookalikes(tree: MjcfTree, flat: FlatText, spec: mujoco.MjSpec) -> None:
+def _refuse_lookalikes(tree: MjcfTree, flat: engine.FlatText, spec: mujoco.MjSpec) -> None:
     """Raise AssetError where the mesh of a collision geom plainly is a file of another kind, such as a pointer."""
     meshes = _locate_meshes(tree, flat, spec)
-    for name in dict.fromkeys(geom.meshname for geom in geoms_of(spec.bodies) if _can_collide(geom, spec)):
+    for name in dict.fromkeys(geom.meshname for geom in engine.geoms_of(spec.bodies) if _can_collide(geom, spec)):
         if name in meshes and is_file(meshes[name][1]):
             mesh_reader.read_content(meshes[name][1])
 
 
-def _locate_meshes(tree: MjcfTree, flat: FlatText, spec: mujoco.MjSpec) -> dict[str, tuple[MjcfNode, Path]]:
+def _locate_meshes(tree: MjcfTree, flat: engine.FlatText, spec: mujoco.MjSpec) -> dict[str, tuple[MjcfNode, Path]]:
     """The elements of meshes that have a file, by name, and where it is or would be."""
     folders, nodes = AssetFolders.of(tree), {mesh.name: flat.node_at(mesh.info) for mesh in spec.meshes}
     return {
@@ -203,19 +195,18 @@ def _locate_meshes(tree: MjcfTree, flat: FlatText, spec: mujoco.MjSpec) -> dict[
     }
 
 
-def _find_missing_meshes(tree: MjcfTree, flat: FlatText, spec: mujoco.MjSpec) -> dict[str, MjcfNode]:
-    """The meshes whose files are not there, by name."""
+def _find_missing_meshes(tree: MjcfTree, flat: engine.FlatText, spec: mujoco.MjSpec) -> dict[str, MjcfNode]:
     return {name: node for name, (node, path) in _locate_meshes(tree, flat, spec).items() if not tree.has(path)}
 
 
-def _replace_visuals(tree: MjcfTree, flat: FlatText, spec: mujoco.MjSpec, all_visuals: bool) -> dict[str, bool]:
+def _replace_visuals(tree: MjcfTree, flat: engine.FlatText, spec: mujoco.MjSpec, all_visuals: bool) -> dict[str, bool]:
     """Put massless spheres in the place of visual mesh geoms, so that the other geoms of a body keep their numbers.
 
     Returns the lines of these geoms, and whether they had a mass. Meshes that no geom is left to use go.
     """
     lost = _find_missing_meshes(tree, flat, spec)
     infos = {}
-    geoms = geoms_of(spec.bodies)
+    geoms = engine.geoms_of(spec.bodies)
     for geom in geoms:
         if geom.meshname and not _can_collide(geom, spec) and (all_visuals or geom.meshname in lost):
             infos[geom.info] = _has_mass(geom, spec)
@@ -241,9 +232,9 @@ def _can_collide(geom: mujoco.MjsGeom, spec: mujoco.MjSpec) -> bool:
 
 def read_whole_model(tree: MjcfTree) -> MjcfModel | None:
     """The model of a tree, None where MuJoCo refuses it."""
-    flat = flatten(tree)
+    flat = engine.flatten(tree)
     try:
-        return MjcfModel(tree, flat, compile_text(tree, flat))
+        return MjcfModel(tree, flat, engine.compile_text(tree, flat))
     except AssetError:
         return None
 
@@ -259,8 +250,8 @@ def read_model(tree: MjcfTree, is_whole: bool) -> MjcfModel:
     """The model of an edited tree, compiled as it was before. Raises AssetError with MuJoCo's message."""
     if not is_whole:
         return read_partial_model(tree)
-    flat = flatten(tree)
-    return MjcfModel(tree, flat, compile_text(tree, flat))
+    flat = engine.flatten(tree)
+    return MjcfModel(tree, flat, engine.compile_text(tree, flat))
 
 
 def read_unscaled_model(tree: MjcfTree, reading: MjcfModel) -> MjcfModel:
@@ -268,10 +259,10 @@ def read_unscaled_model(tree: MjcfTree, reading: MjcfModel) -> MjcfModel:
     changing = {"compiler": {"settotalmass", "alignfree"}} | {tag: {"align"} for tag in _FREE}
     if not any(changing.get(node.tag, set()) & node.attributes.keys() for node in tree.root.walk()):
         return reading
-    flat = flatten(tree)
-    spec = parse_text(tree, flat)
+    flat = engine.flatten(tree)
+    spec = engine.parse_text(tree, flat)
     spec.compiler.settotalmass = -1
     spec.compiler.alignfree = False
     for joint in spec.joints:
         joint.align = 0
-    return MjcfModel(tree, flat, compile_spec(tree, flat, spec))
+    return MjcfModel(tree, flat, engine.compile_spec(tree, flat, spec))

@@ -131,7 +131,6 @@ def _add_files(tree: MjcfTree, files: dict[Path, None], missing: dict[str, None]
 
 
 def _add_model(path: Path, files: dict[Path, None], missing: dict[str, None]) -> None:
-    """A sub-model and what it refers to."""
     files[path] = None
     try:
         _add_files(read_tree(path), files, missing)
@@ -233,7 +232,6 @@ def _locate_references(tree: MjcfTree) -> Iterator[tuple[str | None, Path, str]]
 
 
 def _absolute_references(path: Path) -> Iterator[tuple[str | None, Path, str]]:
-    """The absolute references in a sub-model."""
     try:
         yield from (found for found in _locate_references(read_tree(path)) if found[0] is None)
     except MeshForgeError:  # of another format than MJCF

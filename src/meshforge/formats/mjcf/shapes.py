@@ -4,22 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from meshforge import geometry
 from meshforge.common import GeometryError
 from meshforge.formats.collision_pieces import CollisionPiece
 from meshforge.formats.libraries import mujoco
-from meshforge.geometry import (
-    Box,
-    Capsule,
-    Cylinder,
-    Ellipsoid,
-    Floats,
-    Polytope,
-    Pose,
-    Shape,
-    Sphere,
-    hull_mesh,
-    rotation_of_quaternion,
-)
 from meshforge.symbolic import Surface
 
 
@@ -28,9 +16,9 @@ class MjcfShapes:
 
     def __init__(self, model: mujoco.MjModel) -> None:
         self.model = model
-        self._hulls: dict[int, tuple[Polytope, float | None] | str] = {}
+        self._hulls: dict[int, tuple[geometry.Polytope, float | None] | str] = {}
 
-    def part_of(self, geom: int, pose: Pose) -> CollisionPiece:
+    def part_of(self, geom: int, pose: geometry.Pose) -> CollisionPiece:
         """The shape of a geom; pose: root_T_geom. Of a mesh it is the convex hull, with which MuJoCo collides."""
         kinds = mujoco.mjtGeom
         kind = kinds(int(self.model.geom_type[geom]))
@@ -48,28 +36,28 @@ class MjcfShapes:
         shape = self.primitive_of(geom, pose)
         return CollisionPiece(shape) if shape else CollisionPiece(None, f"{kind.name} is no geometry that is known")
 
-    def primitive_of(self, geom: int, pose: Pose) -> Shape | None:
+    def primitive_of(self, geom: int, pose: geometry.Pose) -> geometry.Shape | None:
         """The shape of a geom that is no mesh; MuJoCo's sizes are half sizes."""
         kinds = mujoco.mjtGeom
         size = self.model.geom_size[geom].astype(np.float64)
         match kinds(int(self.model.geom_type[geom])):
             case kinds.mjGEOM_BOX:
-                return Box(pose, size)
+                return geometry.Box(pose, size)
             case kinds.mjGEOM_SPHERE:
-                return Sphere(pose, float(size[0]))
+                return geometry.Sphere(pose, float(size[0]))
             case kinds.mjGEOM_CAPSULE:
-                return Capsule(pose, float(size[0]), float(size[1]))
+                return geometry.Capsule(pose, float(size[0]), float(size[1]))
             case kinds.mjGEOM_CYLINDER:
-                return Cylinder(pose, float(size[0]), float(size[1]))
+                return geometry.Cylinder(pose, float(size[0]), float(size[1]))
             case kinds.mjGEOM_ELLIPSOID:
-                return Ellipsoid(pose, size)
+                return geometry.Ellipsoid(pose, size)
         return None
 
-    def _mesh_part(self, mesh: int, pose: Pose) -> CollisionPiece:
+    def _mesh_part(self, mesh: int, pose: geometry.Pose) -> CollisionPiece:
         if mesh not in self._hulls:
             try:
-                own = mesh_surface(self.model, mesh, Pose.identity())
-                self._hulls[mesh] = hull_mesh(own.vertices, own.faces, _hull_vertices(self.model, mesh))
+                own = mesh_surface(self.model, mesh, geometry.Pose.identity())
+                self._hulls[mesh] = geometry.hull_mesh(own.vertices, own.faces, _hull_vertices(self.model, mesh))
             except GeometryError as error:
                 self._hulls[mesh] = error.problem
         made = self._hulls[mesh]
@@ -78,7 +66,7 @@ class MjcfShapes:
         return CollisionPiece(made[0].move(pose), fill=made[1])
 
 
-def _hull_vertices(model: mujoco.MjModel, mesh: int) -> Floats:
+def _hull_vertices(model: mujoco.MjModel, mesh: int) -> geometry.Floats:
     """The vertices of MuJoCo's own hull of a mesh, fewer where `maxhullvert` says so; else all vertices."""
     vertices = _mesh_vertices(model, mesh)
     start = int(model.mesh_graphadr[mesh])
@@ -86,24 +74,24 @@ def _hull_vertices(model: mujoco.MjModel, mesh: int) -> Floats:
         return vertices
     count = int(model.mesh_graph[start])
     first = start + 2 + count  # after the numbers of vertices and faces, and each vertex's place among the edges
-    corners: Floats = vertices[model.mesh_graph[first : first + count]]
+    corners: geometry.Floats = vertices[model.mesh_graph[first : first + count]]
     return corners
 
 
-def mesh_surface(model: mujoco.MjModel, mesh: int, pose: Pose) -> Surface:
+def mesh_surface(model: mujoco.MjModel, mesh: int, pose: geometry.Pose) -> Surface:
     """The triangles of a mesh in the root frame; pose: root_T_geom."""
     first, count = int(model.mesh_faceadr[mesh]), int(model.mesh_facenum[mesh])
     faces = model.mesh_face[first : first + count].astype(np.int64)
     return Surface(pose.apply(_mesh_vertices(model, mesh)), faces)
 
 
-def _mesh_vertices(model: mujoco.MjModel, mesh: int) -> Floats:
+def _mesh_vertices(model: mujoco.MjModel, mesh: int) -> geometry.Floats:
     first, count = int(model.mesh_vertadr[mesh]), int(model.mesh_vertnum[mesh])
-    vertices: Floats = model.mesh_vert[first : first + count].astype(np.float64)
+    vertices: geometry.Floats = model.mesh_vert[first : first + count].astype(np.float64)
     return vertices
 
 
-def field_surface(model: mujoco.MjModel, field: int, pose: Pose) -> Surface:
+def field_surface(model: mujoco.MjModel, field: int, pose: geometry.Pose) -> Surface:
     """The upper side of a height field in the root frame."""
     rows, columns = int(model.hfield_nrow[field]), int(model.hfield_ncol[field])
     start = int(model.hfield_adr[field])
@@ -120,23 +108,24 @@ def field_surface(model: mujoco.MjModel, field: int, pose: Pose) -> Surface:
     return Surface(pose.apply(np.stack([xs.ravel(), ys.ravel(), heights], axis=1)), faces)
 
 
-def body_poses(model: mujoco.MjModel) -> list[Pose]:
+def body_poses(model: mujoco.MjModel) -> list[geometry.Pose]:
     """root_T_body of all bodies. In the reference configuration no joint displaces anything, so poses only chain."""
-    poses = [Pose.identity()]
+    poses = [geometry.Pose.identity()]
     for k in range(1, model.nbody):
-        parent_t_body = Pose(rotation_of_quaternion(model.body_quat[k]), model.body_pos[k])
+        parent_t_body = geometry.Pose(geometry.rotation_of_quaternion(model.body_quat[k]), model.body_pos[k])
         poses.append(poses[int(model.body_parentid[k])] @ parent_t_body)
     return poses
 
 
-def geom_poses(model: mujoco.MjModel, bodies: list[Pose]) -> list[Pose]:
+def geom_poses(model: mujoco.MjModel, bodies: list[geometry.Pose]) -> list[geometry.Pose]:
     """root_T_geom of all geoms; of a mesh, the frame in which MuJoCo keeps its vertices, at its principal axes."""
     return [
-        bodies[int(model.geom_bodyid[k])] @ Pose(rotation_of_quaternion(model.geom_quat[k]), model.geom_pos[k])
+        bodies[int(model.geom_bodyid[k])]
+        @ geometry.Pose(geometry.rotation_of_quaternion(model.geom_quat[k]), model.geom_pos[k])
         for k in range(model.ngeom)
     ]
 
 
-def mesh_frame(model: mujoco.MjModel, mesh: int) -> Pose:
+def mesh_frame(model: mujoco.MjModel, mesh: int) -> geometry.Pose:
     """authored_T_kept: from the frame in which MuJoCo keeps a mesh's vertices to that of its scaled file."""
-    return Pose(rotation_of_quaternion(model.mesh_quat[mesh]), model.mesh_pos[mesh])
+    return geometry.Pose(geometry.rotation_of_quaternion(model.mesh_quat[mesh]), model.mesh_pos[mesh])

@@ -198,7 +198,6 @@ class PlainFormat(Format):
 
 
 def _mentions_of(soup: Soup, piece: Piece) -> Mentions:
-    """What else the file says of the triangles of a piece."""
     return collision_pieces.drop_repeats(
         (kind, names[k]) for kind, owner, names in soup.mentions for k in np.unique(owner[piece.face_indices]).tolist()
     )

@@ -116,7 +116,6 @@ class ObjForUnreal(ObjFormat):
 
 
 def _parts_of(family: bodies.EngineBody) -> Sequence[MeshPart]:
-    """What is seen of a body, and its hulls."""
     seen = [MeshPart(family.name, surface) for surface in family.surfaces]
     hulls = {name: geom.shape.tessellate() for name, geom in family.hulls.items()}
     return [*seen, *(MeshPart(name, Surface(hull.vertices, hull.faces)) for name, hull in hulls.items())]

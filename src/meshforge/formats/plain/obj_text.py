@@ -116,7 +116,6 @@ class _ObjEditor:
         return idle
 
     def _group_lines(self, force: ObjGroup, wanted: ObjGroup) -> Iterator[bytes]:
-        """What leads from the group in force to the wanted one."""
         if force[0] != wanted[0]:
             yield format_group_line(b"o", wanted[0]) + self.end
             force = (wanted[0], "")

@@ -79,7 +79,6 @@ class _Creator(link_output.LinkCreator):
         return {link: _legal_name(name, taken) for link, name in names.items()} or {WORLD: f"{WORLD}_link"}
 
     def _rename(self, slot: Slot, link: str) -> None:
-        """Name the element of a slot, for the link as it is called in the file."""
         slot.name = name_attribute_of(slot)
         if link != slot.body:
             names = tuple(f"{link}/{name.removeprefix(f'{slot.body}/')}" for name in slot.names)

@@ -48,8 +48,6 @@ def write_sdf(asset: Asset, origin: document.SdfDocument, name: str, mass: Mass)
 
 
 class _FileEdits:
-    """The plans of all files."""
-
     def __init__(self, asset: Asset, origin: document.SdfDocument, stem: str) -> None:
         self.asset, self.document, self.stem = asset, origin, stem
         self.kept = collision_pieces.SourceMeshes(origin.digests, str(asset.path), shapes.select_submesh)
@@ -213,7 +211,6 @@ def list_copies(
 
 
 def _find_references(source: document.SdfSource, text: bytes) -> list[tuple[str, Path]]:
-    """What a file refers to that is there."""
     root, _ = document.parse_root(XmlText.of(text).data, str(source.path))
     found = [(reference, source.resolver.find(reference)) for reference in document.references(root)]
     return [(reference, path) for reference, path in found if path is not None] + list(document.find_scripts(source))

@@ -20,8 +20,6 @@ _MOST_MODELS = 5000  # models of one asset, so that includes of includes end
 
 @dataclass(frozen=True, slots=True)
 class _File:
-    """A file that was parsed."""
-
     number: int
     root: Element
     version: Version

@@ -80,7 +80,6 @@ def _build_document(
 
 
 def _by_link(tree: models.ModelTree) -> list[tuple[str, Element]]:
-    """The collisions with the names of their links."""
     return [(one.link.body, one.element) for one in tree.collisions]
 
 

@@ -59,7 +59,6 @@ def build_collision(pose: Pose, tag: bytes, lead: bytes, line_end: bytes) -> byt
 
 
 def _place_lines(pose: Pose, tag: bytes) -> list[bytes]:
-    """The lines of what collisions and visuals hold."""
     return [origin_tag(pose), b"<geometry>", b"  " + tag, b"</geometry>"]
 
 
@@ -80,7 +79,6 @@ def replace_mesh(data: bytes, collision: xml.Element, pose: Pose, reference: str
 
 
 def _replace_origin(data: bytes, collision: xml.Element, pose: Pose) -> xml.Splice:
-    """The edit that gives an element another origin."""
     return xml.replace_or_insert(data, collision, "origin", "geometry", origin_tag(pose))
 
 

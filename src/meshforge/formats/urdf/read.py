@@ -169,7 +169,6 @@ def read_visuals(
 
 
 def _read_colors(robot: Element, where: str) -> dict[str, Rgba]:
-    """The colours of materials by their names, wherever in the file they stand."""
     materials = (element for element in robot.walk() if element.tag == "material" and "name" in element.attributes)
     found = ((material.attributes["name"], _read_color(material, {}, where)) for material in materials)
     return {name: color for name, color in found if color is not None}

@@ -98,7 +98,6 @@ def _build_output(
     notes: list[str],
     names: dict[str, str],
 ) -> Output:
-    """The files of an edited root layer, in the form that a name asks for."""
     suffix, was_package = name.suffix.lower(), asset.path.suffix.lower() == PACKAGE_SUFFIX
     inside = stage.unpack_usdz(document.source) if was_package else {}
     first = next(iter(inside), "")
@@ -143,7 +142,6 @@ def _list_copies(asset: Asset) -> tuple[dict[str, Path], list[str]]:
 
 
 def _find_absolute_references(asset: Asset) -> frozenset[Path]:
-    """The files that the layers of an asset refer to by absolute paths."""
     with stage.usd(str(asset.path)):
         layers = [asset.path, *(file for file in asset.files if file.suffix.lower() in LAYER_SUFFIXES)]
         texts = [

@@ -150,7 +150,6 @@ class UsdEdit:
         return free_prim_name(name.rsplit("/", 1)[-1], [*taken, *(child.name for child in holder.nameChildren)])
 
     def _join_groups(self, parent: str, made: Any) -> None:
-        """Make a new prim a member of the collision groups that name its parent."""
         for group in self.scene.stage.Traverse():
             if group.GetTypeName() == "PhysicsCollisionGroup":
                 targets = [str(target) for target in group.GetRelationship(_GROUP_MEMBERS).GetTargets()]
@@ -228,7 +227,6 @@ def has_other_content(prim: Any) -> bool:
 
 
 def _remove_schemas(layer: Any, prim: Any) -> None:
-    """Take the collision schemas from a prim, and what they say."""
     applied = prim.GetPrimTypeInfo().GetAppliedAPISchemas()
     gone = [
         n

@@ -53,7 +53,6 @@ def read_stage(stage: StageObject) -> Asset:
 
 
 def _is_saved(stage: StageObject) -> bool:
-    """Whether files on disk say all that the stage does."""
     session = stage.GetSessionLayer()
     layers = [layer for layer in stage.GetUsedLayers() if layer != session]
     is_pure = session is None or session.empty

@@ -83,7 +83,6 @@ def decompose_finely(
 
 
 def _pack(pieces: Sequence[FinePiece]) -> bytes:
-    """Pieces as they are kept."""
     numbers = np.array([(piece.region, piece.solid) for piece in pieces], dtype=np.int64).reshape(-1, 2)
     return pack_pieces([(piece.shape.vertices, piece.shape.faces) for piece in pieces], numbers=numbers)
 

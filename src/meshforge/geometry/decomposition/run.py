@@ -122,7 +122,6 @@ def _check_openness(mesh: TriangleMesh, settings: engines.DecomposeSettings, not
 
 
 def _limit_vertices(hull: Polytope, most: int | None) -> Polytope:
-    """The hull, or one around it of at most so many vertices."""
     simpler = enclose(hull, HullBudget(most)) if most and len(hull.vertices) > most else None
     return simpler.hull if simpler else hull
 

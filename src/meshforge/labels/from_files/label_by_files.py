@@ -97,7 +97,6 @@ def _read_vocabulary(files: Mapping[str, Path], options: read.LabelFileOptions) 
 
 
 def _read_words(file: Path, options: read.LabelFileOptions) -> Iterable[str]:
-    """The labels that a file speaks of, in its order."""
     match read.kind_of(file):
         case "labels file":
             labels_file = read_labels(file)

@@ -73,7 +73,6 @@ def label_by_links(
 def _interpret(
     own: HullNames, semantic: str, vocabulary: Sequence[str], patterns: Sequence[NamePattern]
 ) -> tuple[str, Meaning]:
-    """What a hull is called, and what that means."""
     of_link = meaning_of(semantic, vocabulary, patterns)
     for _, name in own.own_names():
         meaning = meaning_of(name, vocabulary, patterns)

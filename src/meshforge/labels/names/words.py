@@ -232,7 +232,6 @@ def _find_mentions(words: Words, label: str, wanted: Words) -> list[_Mention]:
 
 
 def _sureness(run: Words, wanted: Words) -> float:
-    """How surely a run of words stands for the words of a label."""
     if is_same("".join(run), "".join(wanted)):
         return EXACT
     return min(map(word_similarity, run, wanted)) if len(run) == len(wanted) else 0.0

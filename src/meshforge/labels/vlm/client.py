@@ -132,7 +132,6 @@ class Client:
         return reply
 
     def _ask_with_retries(self, question: VlmQuestion, features: ServerFeatures, *, is_probe: bool = False) -> Reply:
-        """Ask until an answer is there, or the attempts are used up."""
         body, key = features.body(question, self.endpoint), question.digest(self.endpoint)
         with self._slots:
             try:
@@ -199,7 +198,6 @@ class Client:
         return self._end
 
     def _features_path(self) -> Path | None:
-        """Where it is kept what this server can do."""
         if self._cache is None:
             return None
         what = json.dumps([self.endpoint.place, self.endpoint.model, dict(self.endpoint.extra)], sort_keys=True)

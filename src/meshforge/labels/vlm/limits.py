@@ -136,7 +136,6 @@ def estimate_tokens(question: VlmQuestion) -> int:
 
 
 def _png_size(picture: bytes) -> tuple[int, int]:
-    """Width and height as the head of a PNG file says."""
     return int.from_bytes(picture[16:20], "big"), int.from_bytes(picture[20:24], "big")
 
 

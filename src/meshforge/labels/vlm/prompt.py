@@ -219,7 +219,6 @@ def build_questions(
 def _ask_in_repeats(
     mesh: SymbolicMesh, shots: tuple[LabelingPicture, ...], group: Collection[str], config: PromptConfig, name: str
 ) -> Iterator[HullQuestion]:
-    """One question about what some pictures show, in all its repeats."""
     shown = frozenset[str]().union(*(shot.numbered for shot in shots))
     numbers = {hull: mesh.index[hull] for hull in group if hull in shown}
     if not numbers:

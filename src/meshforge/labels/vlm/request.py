@@ -186,7 +186,6 @@ def _draw_red_picture() -> bytes:
 
 
 def _fits_schema(text: str) -> bool:
-    """Whether an answer has the form that the schema says, and nothing besides."""
     try:
         return bool(json.loads(text).get("colour") in _COLOURS)
     except (ValueError, AttributeError, TypeError):

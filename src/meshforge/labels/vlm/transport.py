@@ -211,7 +211,6 @@ def _make_client(endpoint: Endpoint, key: str) -> OpenAI:
 
 
 def _error_text(error: APIStatusError) -> str:
-    """The server's own words, in one line."""
     words = " ".join((_error_message(error.body) or str(error.body or error.message)).split())
     return words if len(words) <= _LONG else f"{words[:_LONG]} ..."
 

@@ -135,7 +135,6 @@ def _fill_bounds(bounds: Aabb, primitive: str, axis: int | None) -> Shape:
 
 
 def _note_on_fit(group: HullGroup, action: Replace, made: Shape) -> str | None:
-    """What a user should know of the primitive that an action makes."""
     if action.fit in ("tight", "inscribed", "volume") and group.has_round:
         return "round primitives were fitted by their tessellated points"
     if made.is_primitive:

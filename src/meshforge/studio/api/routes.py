@@ -57,7 +57,7 @@ def get_shapes(session: CurrentSession, asset: str) -> Response:
 def get_parts(session: CurrentSession, asset: str, hull: str) -> Response:
     """The parts of a hull that likely spans them, as was found last."""
     mesh = session.mesh(asset)
-    return packet_response(packets.pack_split(mesh, session.project.find_split(asset, hull), session.mesh))
+    return packet_response(packets.pack_split(mesh, session.project.find_split(asset, hull)))
 
 
 @router.get("/parts/picture")

@@ -9,16 +9,7 @@ from meshforge.common import MeshForgeError, pluralize
 from meshforge.language import Program
 from meshforge.project import Project
 from meshforge.store import parse_action_text
-from meshforge.studio.edits.base import (
-    EVENTS_FILE,
-    LEARNED_BEFORE,
-    LEARNED_FILE,
-    PROGRAM_FILE,
-    PROGRAM_FILES,
-    Edit,
-    program_version,
-    steps_version,
-)
+from meshforge.studio.edits import base
 from meshforge.studio.errors import ConflictError
 from meshforge.studio.wire import Wire
 from meshforge.synthesis import Answer, Step
@@ -35,17 +26,17 @@ class StepText(Wire):
         return Step(rule, self.select, *parse_action_text(self.action, f"step {rule}"))
 
 
-class SetSteps(Edit):
+class SetSteps(base.Edit):
     """Set the steps of an asset, one a rule, in order. version: of the steps that were changed."""
 
     kind: Literal["steps"] = "steps"
-    touches = ("demonstrations/{asset}.json", EVENTS_FILE)
+    touches = ("demonstrations/{asset}.json", base.EVENTS_FILE)
     asset: str
     version: str
     steps: tuple[StepText, ...]
 
     def apply(self, project: Project) -> None:
-        if steps_version(project, self.asset) != self.version:
+        if base.steps_version(project, self.asset) != self.version:
             raise ConflictError(
                 "the steps were changed elsewhere meanwhile",
                 where=self.asset,
@@ -74,10 +65,10 @@ def _read_steps(project: Project, asset: str) -> tuple[Step, ...]:
         return ()
 
 
-class _RuleEdit(Edit):
+class _RuleEdit(base.Edit):
     """An edit of a rule in all demonstrations, and in the answers about it."""
 
-    touches = ("demonstrations", EVENTS_FILE)
+    touches = ("demonstrations", base.EVENTS_FILE)
 
 
 class MoveRule(_RuleEdit):
@@ -107,7 +98,7 @@ class DeleteRule(_RuleEdit):
         return f"rule {self.rule} taken away"
 
 
-class SetOrientation(Edit):
+class SetOrientation(base.Edit):
     """Set the orientation directive; empty takes it away."""
 
     kind: Literal["orient"] = "orient"
@@ -121,11 +112,11 @@ class SetOrientation(Edit):
         return f"orientation: {self.text}" if self.text else "orientation taken away"
 
 
-class AnswerForRule(Edit):
+class AnswerForRule(base.Edit):
     """Say which hulls a rule selects on an asset, without being asked."""
 
     kind: Literal["answer"] = "answer"
-    touches = (EVENTS_FILE,)
+    touches = (base.EVENTS_FILE,)
     rule: int
     asset: str
     select: tuple[str, ...]
@@ -137,11 +128,11 @@ class AnswerForRule(Edit):
         return f"rule {self.rule} on {self.asset} answered"
 
 
-class TakeBack(Edit):
+class TakeBack(base.Edit):
     """Take back an answer or a repair by its id."""
 
     kind: Literal["take-back"] = "take-back"
-    touches = (EVENTS_FILE, "labels")
+    touches = (base.EVENTS_FILE, "labels")
     id: str
 
     def apply(self, project: Project) -> None:
@@ -151,16 +142,16 @@ class TakeBack(Edit):
         return f"{self.id} taken back"
 
 
-class WriteProgram(Edit):
+class WriteProgram(base.Edit):
     """Make a text the project's program. version: of the program that was changed."""
 
     kind: Literal["program"] = "program"
-    touches = PROGRAM_FILES
+    touches = base.PROGRAM_FILES
     text: str
     version: str
 
     def apply(self, project: Project) -> None:
-        if program_version(project) != self.version:
+        if base.program_version(project) != self.version:
             raise ConflictError(
                 "the program was changed elsewhere meanwhile",
                 where="program.mf",
@@ -172,13 +163,13 @@ class WriteProgram(Edit):
         return "program changed by hand"
 
 
-class TakeLearned(Edit):
+class TakeLearned(base.Edit):
     """Give up the program that was written by hand, so that the learned one takes its place."""
 
-    touches = PROGRAM_FILES
+    touches = base.PROGRAM_FILES
 
     def apply(self, project: Project) -> None:
-        for name in (PROGRAM_FILE, LEARNED_FILE, LEARNED_BEFORE):
+        for name in (base.PROGRAM_FILE, base.LEARNED_FILE, base.LEARNED_BEFORE):
             (project.folder / name).unlink(missing_ok=True)
 
     def describe(self, project: Project) -> str:

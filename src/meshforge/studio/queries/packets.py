@@ -4,7 +4,7 @@ one more action, or the program with corrections; and of its output.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal, cast
 
@@ -18,7 +18,7 @@ from meshforge.geometry import digest
 from meshforge.language import Program, RuleTrace
 from meshforge.project import Project, Split, make_correction, run_with_corrections
 from meshforge.rendering import RenderMesh, to_render_mesh
-from meshforge.store import SplitHull, parse_action_text
+from meshforge.store import parse_action_text
 from meshforge.studio.queries.replay import AssetReplay, replay_steps
 from meshforge.studio.wire import Wire
 from meshforge.studio.wire import asset as wire
@@ -39,23 +39,13 @@ def pack_asset(mesh: SymbolicMesh) -> bytes:
     return _pack_rows([*hull_rows(mesh.hulls), *(_make_surface_row(p.name, p.surface) for p in pieces if p.surface)])
 
 
-def pack_split(mesh: SymbolicMesh, split: Split, mesh_of: Callable[[str], SymbolicMesh]) -> bytes:
-    """The parts of a hull that likely spans them, each with its label; mesh_of: the mesh of any asset."""
+def pack_split(mesh: SymbolicMesh, split: Split) -> bytes:
+    """The parts of a hull that likely spans them, each with its label."""
     divided, names = split.divide(mesh)
     parts = [divided.hull_of(name) for name in names]
-    rows, shown = hull_rows(parts), split.span.like
-    header = wire.PartsHeader(
-        rows=tuple(row for row, _ in rows),
-        hull=split.hull,
-        parts=tuple(map(hull_view, parts)),
-        like=_view_split_hull(shown, mesh_of(shown.asset)) if shown else None,
-    )
+    rows = hull_rows(parts)
+    header = wire.PartsHeader(rows=tuple(row for row, _ in rows), hull=split.hull, parts=tuple(map(hull_view, parts)))
     return pack_shapes(header, rows)
-
-
-def _view_split_hull(shown: SplitHull, mesh: SymbolicMesh) -> wire.SplitHullView:
-    parts = tuple(mesh.index[name] for name in shown.parts if name in mesh.index)
-    return wire.SplitHullView(asset=shown.asset, hull=shown.hull, parts=parts)
 
 
 def pack_visual(mesh: SymbolicMesh) -> bytes:

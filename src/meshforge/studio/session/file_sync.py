@@ -12,7 +12,7 @@ from time import monotonic
 
 from meshforge.batch import SETTINGS, STATE, source_files
 from meshforge.common import MeshForgeError, relative_name
-from meshforge.project import Project, read_spans
+from meshforge.project import Project
 from meshforge.store import Feedback, SpanLine
 from meshforge.studio.edits.base import EVENTS_FILE, LEARNED_FILE, PROGRAM_FILE, SINGLE_PARTS_FILE
 from meshforge.studio.learning.scheduler import LearningScheduler
@@ -30,7 +30,6 @@ _LEARNING_FOLDERS = ("labels/", "demonstrations/", "prepared/", "templates/")
 _LEARNING_FILES = frozenset((PROGRAM_FILE,))
 
 PREPARATION_PLAN_FILE = "preparation.json"
-_LOOKALIKES_FILE = f"{STATE}/lookalikes.json"
 _FOUND_FILES = (SINGLE_PARTS_FILE, f"{STATE}/spans.json")
 _QUESTION_FILES = _FOUND_FILES
 
@@ -40,7 +39,7 @@ _SHARE = 10
 _WATCH_FOLDERS = ("labels", "demonstrations", "corrections", "prepared", "templates", f"edited/{STATE}/stamps")
 _WATCH_FILES = (
     SETTINGS, PROGRAM_FILE, EVENTS_FILE, LEARNED_FILE, PREPARATION_PLAN_FILE,
-    *_QUESTION_FILES, _LOOKALIKES_FILE,
+    *_QUESTION_FILES,
 )  # fmt: skip
 
 FileStamps = dict[str, tuple[int, int]]
@@ -73,7 +72,7 @@ class FileSync:
             self._learning.restart()
         self._pages.announce_assets(sorted(changes.assets), bool(changes.shapes))
         self._queue.add(changes.assets, later=changes.settings)
-        if not names.isdisjoint((*_FOUND_FILES, _LOOKALIKES_FILE)):
+        if not names.isdisjoint(_FOUND_FILES):
             self._queue.add(self._update_spans())
         if is_other and not changes.learning:
             self._learning.measure_reach()
@@ -146,13 +145,11 @@ def _read_feedback(project: Project) -> Feedback:
         return Feedback()
 
 
-def _read_spans(project: Project) -> dict[str, list[dict[str, SpanLine]]]:
+def _read_spans(project: Project) -> dict[str, dict[str, SpanLine]]:
     try:
-        files = read_spans(project)
+        return project.spans().assets
     except MeshForgeError:  # the cards say so
         return {}
-    ids = {asset: None for file in files for asset in file.assets}
-    return {asset: [file.assets.get(asset, {}) for file in files] for asset in ids}
 
 
 def _view_program(project: Project, before: ProgramView) -> ProgramView:

@@ -118,22 +118,13 @@ class ShapesHeader(Wire):
     rows: tuple[ShapeRow, ...]
 
 
-class SplitHullView(Wire):
-    """A hull that a person split. parts: positions of what was made of it among the asset's own hulls."""
-
-    asset: str
-    hull: str
-    parts: tuple[int, ...]
-
-
 class PartsHeader(Wire):
     """The header of a packet of the parts of a hull that likely spans them; see `ShapesHeader`. hull: its name; parts:
-    in the order of the rows; like: the hull that a person split so, null where none was."""
+    in the order of the rows."""
 
     rows: tuple[ShapeRow, ...]
     hull: str
     parts: tuple[HullView, ...]
-    like: SplitHullView | None = None
 
 
 class TraceLine(Wire):

@@ -82,7 +82,6 @@ class _Collector:
         return {term.bits: term for term in _keep_firsts(drafts)}
 
     def _drafts(self, goal: Goal, size: int) -> Iterator[TermDraft]:
-        """Everything of that size that meets a goal."""
         for leaf in self._bank.leaves(size):
             if satisfies(leaf.bits, goal):
                 yield leaf.bits, leaf.key, None, leaf

@@ -116,7 +116,6 @@ def search_small(variants: Variants, largest: int, within: float, budget: TimeBu
 def _candidates_on_level(
     level: Level, by_example: Sequence[Sequence[Variant]], within: float, budget: TimeBudget
 ) -> Iterator[Candidate]:
-    """The candidates among the terms of one level."""
     rows, found = level.columns.every, list[RelabelingRows]()
     for variants in by_example:
         budget.check()

@@ -180,7 +180,6 @@ class HullTable:
         return found
 
     def _contact_mask(self, anchor: Bools) -> Bools:
-        """The hulls in contact with one of the anchor."""
         found = np.zeros_like(anchor)
         for here, there in ((0, 1), (1, 0)):
             found[self._contacts[anchor[self._contacts[:, there]], here]] = True

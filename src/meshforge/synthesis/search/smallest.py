@@ -152,7 +152,6 @@ class Search:
         return Miss(why or f"no extractor of up to {self.options.max_size} nodes matches", nearest, self.tried)
 
     def _find_nearest(self, size: int, budget: TimeBudget) -> NearestExtractor | None:
-        """The nearest miss among extractors of up to some size."""
         terms = [Term(t.bits & ((1 << self.width) - 1), t.key, t.form) for t in self.field.terms]
         bank = Bank(terms, self.width, budget)
         levels = [bank.level(k) for k in range(1, size + 1)]

@@ -3,14 +3,12 @@ import { Check, X } from "lucide-react";
 import { useCallback, useEffect } from "react";
 import { putOff, reply, showAsked } from "../../commands/question";
 import { IdPicture } from "../../pictures/IdPicture";
-import { Thumbnail } from "../../pictures/Thumbnail";
 import { useFetched } from "../../pictures/useFetched";
 import { api } from "../../server/api";
 import { countSpans, groupParts, type PartGroup, showHullParts, useHullParts } from "../../store/hullParts";
 import { useProject } from "../../store/project";
-import { shortName } from "../../store/words";
 import { Swatch } from "../../ui/Section";
-import type { HullView, ReviewQuestionView, SplitHullView } from "../../wire";
+import type { HullView, ReviewQuestionView } from "../../wire";
 import { useCardKeys } from "./cardKeys";
 import css from "./questions.module.css";
 import { LaterReply, Reply, ShowReply } from "./Replies";
@@ -19,8 +17,7 @@ export function SpanCard({ question }: { question: ReviewQuestionView }) {
   const { id, hulls } = question;
   const { asset, hull, place } = hulls[0] ?? { asset: "", hull: "", place: -1 };
   useEffect(() => showHullParts(asset, hull), [id, asset, hull]);
-  const header = useHullParts((state) => state.shown?.packet.header);
-  const [parts, like] = [header?.parts ?? NO_PARTS, header?.like ?? null];
+  const parts = useHullParts((state) => state.shown?.packet.header.parts) ?? NO_PARTS;
   const rest = useProject(({ cards }) => countSpans(cards) - Number(hull in (cards[asset]?.spans ?? {})));
   const split = () => void reply(question, { choice: "yes" });
   const keep = () => void reply(question, { choice: "no" });
@@ -39,10 +36,9 @@ export function SpanCard({ question }: { question: ReviewQuestionView }) {
       </button>
       <ul className={css.parts} aria-label="Parts">
         {groupParts(parts).map((group) => (
-          <Part key={group.label} {...group} share={like ? "" : group.share} />
+          <Part key={group.label} {...group} />
         ))}
       </ul>
-      {like && <Example {...like} />}
       <div className={css.row}>
         <Reply keyName="Y" look="primary" icon={Check} tip="A step in the preparation of the asset; undo takes it back" onClick={doing(split)}>
           Split so
@@ -69,16 +65,6 @@ function Part({ label, count, share }: PartGroup) {
       {count > 1 && <b>×{count}</b>}
       {share && <span className={css.facts}>{share} sure</span>}
     </li>
-  );
-}
-
-/** The hull that a person split, in its parts: this one looks like it. */
-function Example({ asset, hull, parts }: SplitHullView) {
-  return (
-    <figure className={css.example}>
-      <Thumbnail asset={asset} of="source" only={parts} size={96} label={`${hull} of ${asset} as it was split`} />
-      <figcaption>{`${hull} of ${shortName(asset)}, as it was split`}</figcaption>
-    </figure>
   );
 }
 

@@ -38,7 +38,7 @@ describe("a hull", () => {
   });
 
   it("is out of sight while its parts are shown in its place, which no other hull is", () => {
-    useHullParts.setState({ shown: { asset: scene.asset, packet: { header: { rows: [], hull: "b", parts: [], like: null }, rows: [], shapes: [] } } });
+    useHullParts.setState({ shown: { asset: scene.asset, packet: { header: { rows: [], hull: "b", parts: [] }, rows: [], shapes: [] } } });
     const { a, b } = looks();
     expect([a?.visible, b?.visible]).toEqual([true, false]);
     expect(a?.role).toBe(ROLE.faint);
