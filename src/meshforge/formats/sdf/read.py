@@ -138,13 +138,8 @@ def _read_visual(tree: models.ModelTree, link: models.SdfLink, element: Element)
             return
         geometry = element.first("geometry")
         assert geometry is not None  # it holds the kind
-        part = (
-            shapes.read_polylines(geometry, at, where)
-            if kind.tag == "polyline"
-            else shapes.read_primitive(kind, at, where)
-        )
-        if part.shape is not None:
-            yield Visual(link.body, part.shape, np.eye(3), np.zeros(3))
+        if (shape := shapes.read_shape(geometry, kind, at, where).shape) is not None:
+            yield Visual(link.body, shape, np.eye(3), np.zeros(3))
     except MeshForgeError:
         return
 
@@ -212,11 +207,8 @@ def find_files(sources: Sequence[document.SdfSource]) -> tuple[tuple[Path, ...],
         if (config := source.path.parent / document.CONFIG).is_file():
             files[config] = None
         root, _ = document.parse_root(source.text.data, str(source.path))
-        for reference in document.references(root):
-            path = source.resolver.find(reference)
-            if path is None:
-                missing[reference] = None
-            else:
-                files |= dict.fromkeys([path, *references.find_companions(path).values()])
+        found, absent = references.find_all(document.references(root), source.resolver)
+        files |= dict.fromkeys(found)
+        missing |= dict.fromkeys(absent)
         files |= dict.fromkeys(path for _, path in document.find_scripts(source))
     return tuple(files), tuple(missing)
