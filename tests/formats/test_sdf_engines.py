@@ -103,24 +103,21 @@ def test_drake_has_frames_where_they_are(name: str) -> None:
     assert not others
 
 
-def test_drake_has_included_and_merged_models_in_their_places(tmp_path: Path) -> None:
+def test_drake_has_included_models_in_their_places(tmp_path: Path) -> None:
     part = (ROOT / "sdf" / "nested.sdf").read_text().replace('name="m"', 'name="p" placement_frame="n::a"')
     part = re.sub(r'"a"', '"pa"', part).replace("::a", "::pa").replace('name="n"', 'name="pn"').replace('"n::', '"pn::')
     (tmp_path / "part").mkdir()
     (tmp_path / "part" / "model.sdf").write_text(part)
-    include = (
-        "<include{}><uri>model://part/model.sdf</uri>{}<pose relative_to='{}'>1 2 3 0.1 0.2 0.3</pose>{}</include>"
-    )
+    include = "<include><uri>model://part/model.sdf</uri>{}<pose relative_to='{}'>1 2 3 0.1 0.2 0.3</pose>{}</include>"
     inside = [
         '<link name="a"><pose>0 0 1 0.3 0.2 0.1</pose></link>',
-        include.format("", "<name>q</name>", "a", "<placement_frame>pa</placement_frame>"),
-        include.format("", "<name>r</name>", "q::pa", ""),
-        include.format(" merge='true'", "", "a", ""),
+        include.format("<name>q</name>", "a", "<placement_frame>pa</placement_frame>"),
+        include.format("<name>r</name>", "q::pa", ""),
     ]
     path = tmp_path / "top.sdf"
     path.write_text(f'<sdf version="1.9"><model name="m">{"".join(inside)}</model></sdf>')
     seen, _ = drake(path, {"part": tmp_path / "part"})
-    assert assert_same_primitives(read(path), seen) == 9
+    assert assert_same_primitives(read(path), seen) == 6
 
 
 @pytest.mark.parametrize("sample", [doors, crowd, primitives], ids=lambda make: make.__name__)

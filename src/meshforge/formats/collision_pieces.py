@@ -11,11 +11,13 @@ from pathlib import Path
 
 import numpy as np
 
+from meshforge import geometry
 from meshforge.common import AssetError, GeometryError, MeshForgeError, file_digest
 from meshforge.formats.mesh_reader import read_triangles, split_into_pieces
 from meshforge.formats.meshfile.surface import RawSurface
 from meshforge.formats.references import Resolver
 from meshforge.formats.surface_parts import parts_of_surfaces
+from meshforge.formats.xml import format_numbers
 from meshforge.geometry import FLATNESS, Floats, Ints, Piece, Pose, Shape, Sphere, principal_extents
 from meshforge.symbolic import Asset, Geom, Mentions, Opaque, Surface, unique_names
 
@@ -111,6 +113,33 @@ def build_solid(kind: str, sizes: Sequence[float] | Floats, make: Callable[[], S
         return CollisionPiece(make())
     except GeometryError as error:
         return CollisionPiece(None, error.problem)
+
+
+def build_primitive(kind: str, sizes: Floats, pose: Pose) -> CollisionPiece:
+    """A native shape of URDF or SDF about a pose, a cone as a hull; none without volume.
+
+    sizes: sides of a box, radii of an ellipsoid, radius and, of what has one, length [m].
+    """
+    without = CollisionPiece(None, f"a {kind} without volume: {format_numbers(sizes)} m")
+    if sizes.min() <= 0:
+        return without
+    radius, half = float(sizes[0]), float(sizes[-1]) / 2
+    match kind:
+        case "box":
+            shape: Shape = geometry.Box(pose, sizes / 2)
+        case "ellipsoid":
+            shape = geometry.Ellipsoid(pose, sizes)
+        case "sphere":
+            shape = Sphere(pose, radius)
+        case "cone":  # its tip up, centred at half its height
+            ends = [end_points(r, at, ball=False, axis=2) for r, at in ((radius, -half), (0.0, half))]
+            try:
+                shape = geometry.convex_hull(pose.apply(np.concatenate(ends)))
+            except GeometryError:
+                return without
+        case _:
+            shape = (geometry.Capsule if kind == "capsule" else geometry.Cylinder)(pose, radius, half)
+    return CollisionPiece(shape) if shape.volume > 0 else without
 
 
 def end_points(radius: float, height: float, *, ball: bool, axis: int) -> Floats:

@@ -7,7 +7,7 @@ from __future__ import annotations
 import os
 import posixpath
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
@@ -149,6 +149,14 @@ def find_companions(mesh: Path) -> dict[str, Path]:
         for reference in _find_matches(_MAP, _read_or_empty(library)):
             _add_files(found, mesh.parent, posixpath.dirname(key), reference)
     return found
+
+
+def find_all(references: Iterable[str], resolver: Resolver) -> tuple[tuple[Path, ...], tuple[str, ...]]:
+    """The files of references that are there, with their companions, and the references that lead nowhere."""
+    found = {reference: resolver.find(reference) for reference in references}
+    paths = [path for path in found.values() if path is not None]
+    files = dict.fromkeys(file for path in paths for file in (path, *find_companions(path).values()))
+    return tuple(files), tuple(reference for reference, path in found.items() if path is None)
 
 
 def add_copy(copies: dict[str, Path], place: str, path: Path, remedy: str = "Rename one of them.") -> None:

@@ -110,6 +110,43 @@ def test_up_to_1_4_the_axis_of_a_joint_is_told_in_the_model(version: str, turned
     np.testing.assert_allclose(asset.mechanism.joints[0].axis, [0, -1, 0] if turned else [0, 0, 1], atol=1e-12)
 
 
+def test_a_joint_of_the_name_of_a_link_stands_at_its_child(tmp_path: Path) -> None:
+    child = '<link name="b"><pose>0 0 3 0 0 0</pose></link>'
+    joint = '<joint name="a" type="revolute"><pose>1 0 0 0 0 0</pose><parent>a</parent><child>b</child></joint>'
+    (found,) = read(put_text(tmp_path, model(link(box()), child, joint, version="1.6"))).mechanism.joints
+    assert found.anchor.tolist() == [1, 0, 3]
+
+
+@pytest.mark.parametrize("text", [
+    model(link(box()), '<link name="b"><inertial><pose frame="a">0 0 1 0 0 0</pose></inertial></link>'),
+    model(link(box()), '<link name="b"/>', '<joint name="j" type="fixed"><pose frame="a">0 0 1 0 0 0</pose>'
+          "<parent>a</parent><child>b</child></joint>"),
+    model('<pose frame="a">0 0 1 0 0 0</pose>', link(box())),
+])  # fmt: skip
+def test_the_old_attribute_frame_is_refused_with_its_line(text: str, tmp_path: Path) -> None:
+    path = put_text(tmp_path, text)
+    with pytest.raises(AssetError, match="Write relative_to='a' if the pose counts from that frame") as error:
+        read(path)
+    line = next(k for k, content in enumerate(path.read_text().splitlines(), 1) if 'frame="a"' in content)
+    assert f"{path}:{line}: " in str(error.value)
+
+
+def test_an_axis_in_a_frame_that_is_not_there_is_refused(tmp_path: Path) -> None:
+    joint = (
+        '<joint name="j" type="revolute"><parent>a</parent><child>b</child>'
+        '<axis><xyz expressed_in="bb">0 0 1</xyz></axis></joint>'
+    )
+    with pytest.raises(AssetError, match="there is no frame 'bb' in this model"):
+        read(put_text(tmp_path, model(link(box()), '<link name="b"/>', joint)))
+
+
+def test_models_and_what_is_in_them_may_have_one_name(tmp_path: Path) -> None:
+    inner = f'<model name="a"><pose>0 0 5 0 0 0</pose>{link(box())}</model>'
+    text = model(inner, link(box(), more="<pose>1 0 0 0 0 0</pose>"), version="1.6")
+    assert middle(tmp_path, text) == [1, 0, 0]
+    assert middle(tmp_path, text, "a::a/c0") == [0, 0, 5]
+
+
 def test_joints_may_name_frames_the_world_and_two_axes(tmp_path: Path) -> None:
     text = model(
         link(box()),
@@ -173,10 +210,10 @@ def test_the_folder_of_a_model_stands_for_its_newest_file() -> None:
 
 def test_included_models_are_placed_and_named(tmp_path: Path) -> None:
     part = ROOT / "sdf"
-    include = "<include{}><uri>model://part</uri>{}<pose>0 0 9 0 0 0</pose></include>"
-    text = model(link(box()), include.format("", "<name>q</name>"), include.format(' merge="true"', ""))
+    include = "<include><uri>model://part</uri>{}<pose>0 0 9 0 0 0</pose></include>"
+    text = model(link(box()), include.format("<name>q</name>"), include.format(""))
     asset = read(put_text(tmp_path, text), part)
-    assert [geom.name for geom in asset.geoms] == ["a/c0", "q::p/new", "p/new"]
+    assert [geom.name for geom in asset.geoms] == ["a/c0", "q::p/new", "part::p/new"]
     assert asset.geoms[1].shape.aabb.center[2] == asset.geoms[2].shape.aabb.center[2] > 8
     assert part / "part" / "model.sdf" in asset.files
 

@@ -22,8 +22,6 @@ OLDEST: Version = (1, 2)
 NEWEST: Version = (1, 12)
 AXIS_IN_JOINT: Version = (1, 5)
 """From here on the axis of a joint is given in the joint's frame, not in the model's."""
-RELATIVE_TO: Version = (1, 7)
-"""From here on `relative_to` counts; before, `frame` said the same, and few readers took notice of it."""
 ROUND_SHAPES: Version = (1, 8)
 """From here on there are capsules and ellipsoids."""
 

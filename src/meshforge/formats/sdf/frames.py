@@ -1,15 +1,13 @@
-"""Poses and frames of an SDF: values as elements hold them, what is named in each model, and where that is."""
+"""Poses and frames of an SDF: values as elements hold them, and where all that is named in its models is."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
 from meshforge.common import AssetError, nearest_name
 from meshforge.formats.kinematic_tree import read_numbers
-from meshforge.formats.sdf.document import Version
 from meshforge.formats.xml import Element
 from meshforge.geometry import Floats, Pose, rotation_of_quaternion
 
@@ -19,135 +17,80 @@ WORLD = "world"
 _LONGEST = 80  # characters of a value in a message
 
 
-@dataclass(slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False)
 class SdfFrame:
-    """A named frame in a scope: that of a link, joint, `<frame>`, or of a model within.
+    """A frame of a link, a joint, a `<frame>` or a model.
 
-    pose: base_T_frame, of a model with a placement frame base_T_placement; base: the name, in the scope, of what the
-    pose counts from, empty for the scope itself; link: whether a link has it; attached: the name of what it moves with;
-    inside: of a model, its scope, and `placement` the name therein of the frame that the pose is of.
+    scope: the path of the model in which it is named; pose: base_T_frame, of a model with a placement frame
+    base_T_placement; base: the name of what the pose counts from, empty for the scope; attached: the name of what it
+    moves with, empty for nothing; body: that of a link; placement: a name in the model that has this frame.
     """
 
-    scope: ModelScope
+    scope: str
     pose: Pose
     base: str
     where: str
-    link: bool = False
     attached: str = ""
-    inside: ModelScope | None = None
+    body: str = ""
     placement: str = ""
 
 
-@dataclass(slots=True, eq=False)
-class ModelScope:
-    """A model as it stands somewhere, or a world: what is named in it.
-
-    prefix: of the names of its bodies; source: the file it stands in, by its number; merged: whether its names are also
-    those of the scope around it; through: of the names that come from merged models, the scope they come from.
-    """
-
-    prefix: str
-    element: Element
-    source: int
-    where: str
-    version: Version
-    frame: SdfFrame | None = None
-    merged: bool = False
-    is_world: bool = False
-    frames: dict[str, SdfFrame] = field(default_factory=dict)
-    links: dict[str, Element] = field(default_factory=dict)
-    through: dict[str, ModelScope] = field(default_factory=dict)
-    inner: list[ModelScope] = field(default_factory=list)
-
-    def resolve(self, name: str, where: str) -> list[SdfFrame]:
-        """The frames, each in the scope of the one before, that lead from this scope to a name.
-
-        Raises AssetError at `where`: there is no such frame.
-        """
-        found: list[SdfFrame] = []
-        scope, rest = self, name
-        while rest and rest != MODEL and not (scope.is_world and rest in (WORLD, "__root__")):
-            step = scope._take_step(rest)
-            if step is None:
-                like = nearest_name(name, [*self.frames, *self.through])
-                remedy = f"The nearest name of a frame is {like!r}." if like else None
-                raise AssetError(f"there is no frame {name!r} in this model", where=where, remedy=remedy)
-            frame, rest, scope = step
-            found.append(frame)
-        return found
-
-    def has(self, name: str) -> bool:
-        """Whether a name leads to a frame."""
-        try:
-            self.resolve(name, "")
-        except AssetError:
-            return False
-        return True
-
-    def _take_step(self, name: str) -> tuple[SdfFrame, str, ModelScope] | None:
-        """The frame that a name leads to first, the rest of the name, and the scope in which that counts."""
-        head, _, tail = name.partition("::")
-        if name in self.frames:
-            return self.frames[name], "", self
-        if name in self.through or (tail and head in self.through):
-            inner = self.through[name if name in self.through else head]
-            assert inner.frame is not None
-            return inner.frame, name, inner
-        inside = self.frames[head].inside if tail and head in self.frames else None
-        return (self.frames[head], tail, inside) if inside else None
-
-
-class FramePlaces:
-    """Where frames are, each found once."""
+class FrameTable:
+    """All frames by their paths: `model::link` that of a link, `model::` that of a model, the empty one the root."""
 
     def __init__(self) -> None:
-        self._own: dict[SdfFrame, Pose] = {}
-        self._scopes: dict[ModelScope, Pose] = {}
+        self.by_path = {"": SdfFrame("", Pose.identity(), "", "")}
+        self._poses = {"": Pose.identity()}
 
-    def pose_of_scope(self, scope: ModelScope) -> Pose:
-        """root_T_model of a scope; the outermost one is the root."""
-        chain = []
-        at: ModelScope | None = scope
-        while at is not None and at not in self._scopes:
-            chain.append(at)
-            at = at.frame.scope if at.frame else None
-        pose = self._scopes[at] if at is not None else Pose.identity()
-        for inner in reversed(chain):
-            pose = pose @ self._pose_in_scope(inner.frame) if inner.frame else pose
-            self._scopes[inner] = pose
-        return pose
+    def find(self, scope: str, name: str) -> str | None:
+        """The path of the frame that a name in a scope stands for, None where there is none."""
+        if name.rpartition("::")[2] == MODEL or (not scope and name in (WORLD, "__root__")):
+            name = name.rpartition("::")[0] + "::" * ("::" in name)
+        path = scope + name
+        return next((known for known in (path, f"{path}::") if known in self.by_path), None)
 
-    def pose_of(self, scope: ModelScope, name: str, where: str) -> Pose:
+    def find_body(self, scope: str, name: str) -> str | None:
+        """The body that a frame moves with, of a model its first link or the one that it names; None without one."""
+        passed: set[str | None] = {None}
+        while name and (path := self.find(scope, name)) not in passed:
+            passed.add(path)
+            frame = self.by_path[path or ""]
+            if frame.body:
+                return frame.body
+            scope, name = frame.scope, frame.attached
+        return None
+
+    def pose_of(self, scope: str, name: str, where: str) -> Pose:
         """root_T_frame of a name in a scope. Raises AssetError: it is not there, or counts from itself."""
-        return self.pose_of_scope(scope) @ self._chain_poses(scope.resolve(name, where))
+        return self._pose_at(self._resolve(scope, name, where), self._poses)
 
-    def _chain_poses(self, path: Sequence[SdfFrame]) -> Pose:
-        pose = Pose.identity()
-        for frame in path:
-            pose = pose @ self._pose_in_scope(frame)
-        return pose
+    def _pose_at(self, path: str, poses: dict[str, Pose]) -> Pose:
+        """The pose of a frame after all that it counts from, to which those of its way are added."""
+        chain: dict[str, None] = {}
+        at = path
+        while at not in poses:
+            frame = self.by_path[at]
+            if at in chain:
+                raise AssetError("the poses of frames count from each other in a ring", where=frame.where)
+            chain[at] = None
+            at = self._resolve(frame.scope, frame.base, frame.where)
+        for model in reversed(chain):
+            frame = self.by_path[model]
+            poses[model] = poses[at] @ frame.pose
+            if frame.placement:
+                placed = self._resolve(model, frame.placement, frame.where)
+                poses[model] = poses[model] @ self._pose_at(placed, {model: Pose.identity()}).inverse()
+            at = model
+        return poses[path]
 
-    def _pose_in_scope(self, wanted: SdfFrame) -> Pose:
-        """scope_T_frame, after all that it counts from. Raises AssetError for a ring of frames."""
-        open_: dict[SdfFrame, None] = {}
-        waiting = [wanted]
-        while waiting:
-            frame = waiting[-1]
-            if frame in self._own:
-                waiting.pop()
-                continue
-            base = frame.scope.resolve(frame.base, frame.where)
-            placement = frame.inside.resolve(frame.placement, frame.where) if frame.inside else []
-            needed = [other for other in (*base, *placement) if other not in self._own]
-            if needed:
-                if frame in open_:
-                    raise AssetError("the poses of frames count from each other in a ring", where=frame.where)
-                open_[frame] = None
-                waiting += needed
-                continue
-            pose = self._chain_poses(base) @ frame.pose
-            self._own[frame] = pose @ self._chain_poses(placement).inverse() if placement else pose
-        return self._own[wanted]
+    def _resolve(self, scope: str, name: str, where: str) -> str:
+        path = self.find(scope, name)
+        if path is None:
+            names = [known.removeprefix(scope).removesuffix("::") for known in self.by_path if known.startswith(scope)]
+            like = nearest_name(name, filter(None, names))
+            remedy = f"The nearest name of a frame is {like!r}." if like else None
+            raise AssetError(f"there is no frame {name!r} in this model", where=where, remedy=remedy)
+        return path
 
 
 def text_of(parent: Element | None, tag: str, default: str = "") -> str:
@@ -190,7 +133,13 @@ def pose_of(owner: Element | None, where: str) -> PoseElement:
     element = owner.first("pose") if owner else None
     if element is None:
         return PoseElement(Pose.identity(), "", owner.line if owner else 0)
-    base = element.attributes.get("relative_to", element.attributes.get("frame", "")).strip()
+    base, old = (element.attributes.get(name, "").strip() for name in ("relative_to", "frame"))
+    if old and not base:
+        raise AssetError(
+            f"<pose frame={old!r}> is not read: versions before 1.7 left open what it means, and Gazebo ignores it",
+            where=f"{where}:{element.line}",
+            remedy=f"Write relative_to={old!r} if the pose counts from that frame, else remove the attribute.",
+        )
     if element.attributes.get("rotation_format") == "quat_xyzw":
         return PoseElement(_pose_from_quaternion(element, where), base, element.line)
     found = read_values(element, 6, where) if element.text else np.zeros(6)

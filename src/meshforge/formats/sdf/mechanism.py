@@ -7,11 +7,11 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from meshforge.common import AssetError, MeshForgeError, join_names, pluralize
+from meshforge.common import AssetError, join_names, pluralize
 from meshforge.formats.kinematic_tree import TENSOR_NAMES, tensor_of_moments
 from meshforge.formats.sdf.document import AXIS_IN_JOINT
-from meshforge.formats.sdf.frames import WORLD, ModelScope, is_true, read_values, text_of
-from meshforge.formats.sdf.models import ModelTree, SdfLinks, pose_in_link
+from meshforge.formats.sdf.frames import MODEL, WORLD, is_true, pose_of, read_values, text_of
+from meshforge.formats.sdf.models import ModelScope, ModelTree
 from meshforge.formats.xml import Element, parse_numbers
 from meshforge.geometry import Floats, Pose, inertia
 from meshforge.symbolic import Body, Coupling, Geom, Inertial, Joint, JointKind, Opaque, unit_vector
@@ -41,24 +41,24 @@ class SdfJoints:
     notes: list[str] = field(default_factory=list)
 
 
-def read_joints(composed: ModelTree, links: SdfLinks) -> SdfJoints:
+def read_joints(tree: ModelTree) -> SdfJoints:
     """The joints of all models that make trees of their bodies; a note names those that would close rings."""
     found = SdfJoints()
     parents: dict[str, str] = {}
     unknown: list[str] = []
     closing: list[str] = []
-    for scope in composed.scopes():
+    for scope in tree.scopes:
         for element in scope.element.each("joint"):
             name = f"{scope.prefix}{element.attributes.get('name', '')}"
             type_ = element.attributes.get("type", "")
-            parent, child = (_find_body(scope, text_of(element, role), links) for role in ("parent", "child"))
+            parent, child = (_find_body(tree, scope, text_of(element, role)) for role in ("parent", "child"))
             if type_ not in _KINDS or parent is None or child is None or child == WORLD or parent == child:
                 unknown.append(name)
             elif child in parents or _is_below(parents, parent, child):
                 closing.append(name)
             else:
                 parents[child] = parent
-                found.joints += _read_joint_parts(scope, element, name, parent, child, links)
+                found.joints += _read_joint_parts(tree, scope, element, name, parent, child)
                 if type_ == "screw":
                     found.notes.append(f"joint {name!r} is a screw: it is taken for one that turns only")
     if any(joint.parent == WORLD for joint in found.joints):
@@ -79,46 +79,21 @@ def _is_below(parents: dict[str, str], body: str, wanted: str) -> bool:
     return False
 
 
-def _find_body(scope: ModelScope, name: str, links: SdfLinks) -> str | None:
+def _find_body(tree: ModelTree, scope: ModelScope, name: str) -> str | None:
     """The body that a name in a joint stands for: a link, or what a frame moves with; None where it is not there."""
     if name == WORLD:
-        return WORLD if WORLD not in links.by_body else None
-    seen = set()
-    at, rest = scope, name
-    while True:
-        try:
-            path = at.resolve(rest, "")
-        except AssetError:
-            return None
-        frame = path[-1] if path else None
-        inner = frame.inside if frame else at
-        if frame is not None and frame in seen:
-            return None
-        if inner is not None:  # a model: its first link, or the one it names
-            rest = inner.element.attributes.get("canonical_link", "") or next(iter(inner.links), "")
-            at = inner
-            if not rest:
-                return None
-        else:
-            assert frame is not None
-            if frame.link:
-                own = next(key for key, value in frame.scope.frames.items() if value is frame)
-                return f"{frame.scope.prefix}{own}"
-            at, rest = frame.scope, frame.attached
-        if frame is not None:
-            seen.add(frame)
+        return WORLD if WORLD not in tree.links else None
+    return tree.frames.find_body(scope.path, name)
 
 
 def _read_joint_parts(
-    scope: ModelScope, element: Element, name: str, parent: str, child: str, links: SdfLinks
+    tree: ModelTree, scope: ModelScope, element: Element, name: str, parent: str, child: str
 ) -> Sequence[Joint]:
     """The joints of a `<joint>`, one after another; its frame is that of the child unless it names another."""
     type_ = element.attributes["type"]
-    own, where = element.attributes.get("name", ""), f"{scope.where}:{element.line}"
-    try:
-        pose = links.places.pose_of(scope, own, where) if own in scope.frames else links.by_body[child].pose
-    except AssetError:
-        pose = links.by_body[child].pose
+    at = pose_of(element, scope.where)
+    base, place = at.base or text_of(element, "child"), f"{scope.where}:{at.line}"
+    pose = tree.frames.pose_of(scope.path, base, place) @ at.pose
     kinds = _KINDS[type_]
     found = []
     for kind, tag in zip(kinds, ("axis", "axis2"), strict=False):
@@ -131,7 +106,7 @@ def _read_joint_parts(
                 parent,
                 child,
                 pose.translation,
-                _read_axis(scope, axis, pose, links),
+                _read_axis(tree, scope, axis, pose),
                 _read_limits(limit) if kind in ("revolute", "prismatic") and type_ != "continuous" else None,
                 damping=_read_number(dynamics, "damping") or 0.0,
                 friction=_read_number(dynamics, "friction") or 0.0,
@@ -153,7 +128,7 @@ def _read_coupling(scope: ModelScope, mimic: Element | None) -> Coupling | None:
     return Coupling(joint, (_number_or(mimic, "offset", 0.0) - factor * _number_or(mimic, "reference", 0.0), factor))
 
 
-def _read_axis(scope: ModelScope, axis: Element | None, pose: Pose, links: SdfLinks) -> Floats:
+def _read_axis(tree: ModelTree, scope: ModelScope, axis: Element | None, pose: Pose) -> Floats:
     """The direction (3,) of an axis in the root frame; given in the joint's frame, or the one that it names."""
     xyz = axis.first("xyz") if axis else None
     try:
@@ -162,10 +137,12 @@ def _read_axis(scope: ModelScope, axis: Element | None, pose: Pose, links: SdfLi
         direction = None
     turn = pose.rotation
     if axis is not None and xyz is not None:
-        in_model = is_true(text_of(axis, "use_parent_model_frame", "1" if scope.version < AXIS_IN_JOINT else "0"))
-        frame = xyz.attributes.get("expressed_in", "") or ("__model__" if in_model else "")
-        if frame and scope.has(frame):
-            turn = links.places.pose_of(scope, frame, scope.where).rotation
+        in_model = is_true(
+            text_of(axis, "use_parent_model_frame", "1" if scope.source.version < AXIS_IN_JOINT else "0")
+        )
+        frame = xyz.attributes.get("expressed_in", "") or (MODEL if in_model else "")
+        if frame:
+            turn = tree.frames.pose_of(scope.path, frame, f"{scope.where}:{xyz.line}").rotation
     return np.asarray(turn @ (np.array([0.0, 0.0, 1.0]) if direction is None else direction))
 
 
@@ -194,33 +171,30 @@ def has_computed_mass(link: Element) -> bool:
     return inertial is not None and is_true(inertial.attributes.get("auto", ""))
 
 
-def read_masses(links: SdfLinks) -> Iterator[Inertial]:
-    """The masses that the file says; one that is not understood is left out, it never fails."""
-    for body, link in links.by_body.items():
+def read_masses(tree: ModelTree) -> Iterator[Inertial]:
+    """The masses that the file says. Raises AssetError with `where:line`: the pose of one is not understood."""
+    for body, link in tree.links.items():
         element = link.element.first("inertial")
         if element is None or has_computed_mass(link.element):
             continue
         mass = _number_or(element, "mass", 1.0)
         if mass <= 0:
             continue
-        try:
-            pose = pose_in_link(links.places, link, element)
-        except MeshForgeError:
-            pose = link.pose
+        pose = tree.pose_in_link(link, element)
         tensor = element.first("inertia")
         moments = [_number_or(tensor, name, one) for name, one in zip(TENSOR_NAMES, _UNIT_TENSOR, strict=True)]
         yield Inertial(body, mass, pose.translation, pose.rotation @ tensor_of_moments(moments) @ pose.rotation.T)
 
 
 def compute_masses(
-    links: SdfLinks, elements: Mapping[str, Element], geoms: Sequence[Geom], opaque: Sequence[Opaque]
+    tree: ModelTree, elements: Mapping[str, Element], geoms: Sequence[Geom], opaque: Sequence[Opaque]
 ) -> Iterator[Inertial]:
     """The masses that Gazebo computes of collisions; none for a link with one that is no hull, of unknown volume.
 
     elements: the `<collision>` of each hull by its name.
     """
     unknown = {piece.body for piece in opaque}
-    for body, link in links.by_body.items():
+    for body, link in tree.links.items():
         own = [geom for geom in geoms if geom.body == body]
         if not has_computed_mass(link.element) or not own or body in unknown:
             continue
@@ -232,7 +206,7 @@ def compute_masses(
             continue
         mass, centre, tensor = found
         whole = _number_or(inertial, "mass", 0.0)  # from 1.12 on, what the link is to weigh in all
-        share = whole / mass if whole > 0 and link.scope.version >= (1, 12) else 1.0
+        share = whole / mass if whole > 0 and link.scope.source.version >= (1, 12) else 1.0
         yield Inertial(body, mass * share, centre, tensor * share)
 
 

@@ -29,70 +29,71 @@ def read_sdf(path: Path, options: base.ReadOptions) -> Asset:
     Raises AssetError naming file, line, link and element: text that is not understood, a frame, an included model or a
     collision mesh that is not there.
     """
-    composed = models.compose_models(plain_path(path), tuple(map(plain_path, options.package_roots)))
-    links = models.place_links(composed)
-    uses = _mesh_uses(links, composed)
+    tree = models.read_models(plain_path(path), tuple(map(plain_path, options.package_roots)))
+    uses = _mesh_uses(tree)
     collision_pieces.refuse_missing(use for use in uses if use)
     meshes = collision_pieces.CollisionMeshes(shapes.select_submesh)
-    parts = [shapes.read_parts(one, use, meshes) for one, use in zip(links.collisions, uses, strict=True)]
-    authored = slots.name_elements(_by_link(links), [len(own) for own in parts])
+    parts = [shapes.read_parts(one, use, meshes) for one, use in zip(tree.collisions, uses, strict=True)]
+    authored = slots.name_elements(_by_link(tree), [len(own) for own in parts])
     mentions = [
         meshes.mention_groups(use, mentions_of_element(one.link.element, one.element), len(own))
-        for one, use, own in zip(links.collisions, uses, parts, strict=True)
+        for one, use, own in zip(tree.collisions, uses, parts, strict=True)
     ]
     geoms = collision_pieces.geoms_of(authored, parts, mentions)
     opaque = collision_pieces.opaque_of(authored, parts, mentions)
-    joints = read_joints(composed, links)
-    elements = {name: one.element for one, own in zip(links.collisions, authored, strict=True) for name in own.names}
-    masses = (*read_masses(links), *compute_masses(links, elements, geoms, opaque))
-    files, missing = find_files(composed.sources)
+    joints = read_joints(tree)
+    elements = {name: one.element for one, own in zip(tree.collisions, authored, strict=True) for name in own.names}
+    masses = (*read_masses(tree), *compute_masses(tree, elements, geoms, opaque))
+    files, missing = find_files(tree.sources)
     return Asset(
         path=path,
         format="sdf",
-        bodies=(*joints.world, *(Body(name, link.pose) for name, link in links.by_body.items())),
+        bodies=(*joints.world, *(Body(name, link.pose) for name, link in tree.links.items())),
         geoms=geoms,
-        document=_build_document(composed, links, authored, meshes),
+        document=_build_document(tree, authored, meshes),
         opaque=opaque,
-        visuals=read_visuals(links, composed),
+        visuals=read_visuals(tree),
         files=files,
         missing=missing,
-        notes=(*composed.notes, *joints.notes, *collect_notes(composed, links)),
+        notes=(*tree.notes, *joints.notes, *collect_notes(tree)),
         mechanism=Mechanism(tuple(joints.joints), masses),
     )
 
 
 def _build_document(
-    composed: models.ModelTree,
-    links: models.SdfLinks,
+    tree: models.ModelTree,
     authored: tuple[collision_pieces.CollisionElement, ...],
     meshes: collision_pieces.CollisionMeshes,
 ) -> document.SdfDocument:
     return document.SdfDocument(
-        tuple(composed.sources),
+        tuple(tree.sources),
         authored,
-        tuple(document.ElementPlace(one.link.scope.source, one.element.start) for one in links.collisions),
-        {body: document.ElementPlace(link.scope.source, link.element.start) for body, link in links.by_body.items()},
-        tuple(composed.worlds),
-        tuple(body for body, link in links.by_body.items() if has_computed_mass(link.element)),
+        tuple(document.ElementPlace(one.link.scope.source.number, one.element.start) for one in tree.collisions),
+        {
+            body: document.ElementPlace(link.scope.source.number, link.element.start)
+            for body, link in tree.links.items()
+        },
+        tuple(tree.worlds),
+        tuple(body for body, link in tree.links.items() if has_computed_mass(link.element)),
         meshes.digests(),
     )
 
 
-def _by_link(links: models.SdfLinks) -> list[tuple[str, Element]]:
-    return [(one.link.body, one.element) for one in links.collisions]
+def _by_link(tree: models.ModelTree) -> list[tuple[str, Element]]:
+    return [(one.link.body, one.element) for one in tree.collisions]
 
 
-def _mesh_uses(links: models.SdfLinks, composed: models.ModelTree) -> list[collision_pieces.MeshUse | None]:
+def _mesh_uses(tree: models.ModelTree) -> list[collision_pieces.MeshUse | None]:
     """The mesh file of each collision, None where it has another geometry or none."""
     uses: list[collision_pieces.MeshUse | None] = []
-    labels = slots.name_elements(_by_link(links), [1] * len(links.collisions))
-    for one, named in zip(links.collisions, labels, strict=True):
+    labels = slots.name_elements(_by_link(tree), [1] * len(tree.collisions))
+    for one, named in zip(tree.collisions, labels, strict=True):
         kind = document.geometry_of(one.element)
         if kind is None or kind.tag != "mesh":
             uses.append(None)
             continue
-        resolver = composed.sources[one.link.scope.source].resolver
-        place = f"{one.link.where}:{kind.line}"
+        resolver = tree.sources[one.link.scope.source.number].resolver
+        place = f"{one.link.scope.where}:{kind.line}"
         uses.append(
             collision_pieces.MeshUse(
                 named.names[0], document.mesh_uri(kind), place, resolver, shapes.read_submesh(kind)
@@ -101,14 +102,14 @@ def _mesh_uses(links: models.SdfLinks, composed: models.ModelTree) -> list[colli
     return uses
 
 
-def read_visuals(links: models.SdfLinks, composed: models.ModelTree) -> VisualSurfaces:
+def read_visuals(tree: models.ModelTree) -> VisualSurfaces:
     """The visuals of all links; one that is not understood is left out, it never fails."""
     return VisualSurfaces(
         tuple(
             replace(visual, rgba=_read_color(element))
-            for link in links.by_body.values()
+            for link in tree.links.values()
             for element in link.element.each("visual")
-            for visual in _read_visual(links, link, element, composed)
+            for visual in _read_visual(tree, link, element)
         )
     )
 
@@ -123,29 +124,22 @@ def _read_color(visual: Element) -> Rgba | None:
     return red, green, blue, alpha * (1.0 - min(1.0, max(0.0, through[0])))
 
 
-def _read_visual(
-    links: models.SdfLinks, link: models.SdfLink, element: Element, composed: models.ModelTree
-) -> Iterator[Visual]:
-    kind, where = document.geometry_of(element), link.where
+def _read_visual(tree: models.ModelTree, link: models.SdfLink, element: Element) -> Iterator[Visual]:
+    kind, where = document.geometry_of(element), link.scope.where
     if kind is None:
         return
     try:
-        at = models.pose_in_link(links.places, link, element)
+        at = tree.pose_in_link(link, element)
         if kind.tag == "mesh":
-            path = composed.sources[link.scope.source].resolver.find(document.mesh_uri(kind))
+            path = tree.sources[link.scope.source.number].resolver.find(document.mesh_uri(kind))
             if path is not None:
                 scale = shapes.read_mesh_scale(kind, where, "visual") * collada_unit_of(path)
                 yield Visual(link.body, path, at.rotation * scale, at.translation)
             return
         geometry = element.first("geometry")
         assert geometry is not None  # it holds the kind
-        part = (
-            shapes.read_polylines(geometry, at, where)
-            if kind.tag == "polyline"
-            else shapes.read_primitive(kind, at, where)
-        )
-        if part.shape is not None:
-            yield Visual(link.body, part.shape, np.eye(3), np.zeros(3))
+        if (shape := shapes.read_shape(geometry, kind, at, where).shape) is not None:
+            yield Visual(link.body, shape, np.eye(3), np.zeros(3))
     except MeshForgeError:
         return
 
@@ -182,19 +176,20 @@ def _names_of(element: Element) -> collision_pieces.ShapeNames | None:
     return collision_pieces.ShapeNames(shape, name, collision_pieces.stem_of(reference), text_of(script, "name"))
 
 
-def collect_notes(composed: models.ModelTree, links: models.SdfLinks) -> Iterator[str]:
+def collect_notes(tree: models.ModelTree) -> Iterator[str]:
     """Notes on worlds, older versions of a model, collisions without a shape, and what is decomposed when loaded."""
-    root, path = composed.root, composed.sources[0].path
-    if composed.worlds:
-        yield f"it is a world of {pluralize(len(root.inner), 'model')}, which is only read"
-    if root.version > document.NEWEST:
-        own, known = (".".join(map(str, version)) for version in (root.version, document.NEWEST))
+    path = tree.sources[0].path
+    if tree.worlds:
+        count = sum(scope.depth == 1 for scope in tree.scopes)
+        yield f"it is a world of {pluralize(count, 'model')}, which is only read"
+    if tree.version > document.NEWEST:
+        own, known = (".".join(map(str, version)) for version in (tree.version, document.NEWEST))
         yield f"SDF {own} is newer than {known}: what is new in it is not understood"
     if not document.is_main_file(path) and (newest := document.find_main_file(path.parent)) is not None:
         yield f"{document.CONFIG} names {newest.name} for newer versions of Gazebo, which do not read this file"
-    if actors := [actor.line for actor in root.element.each("actor")]:
+    if actors := [actor.line for actor in tree.root.each("actor")]:
         yield f"{pluralize(len(actors), 'actor')}, the first on line {actors[0]}: passed over"
-    kinds = [(collision.element.line, document.geometry_of(collision.element)) for collision in links.collisions]
+    kinds = [(collision.element.line, document.geometry_of(collision.element)) for collision in tree.collisions]
     if bare := [f"line {line}" for line, kind in kinds if kind is None]:
         yield f"{pluralize(len(bare), 'collision')} without geometry ({join_names(bare, 3)}): passed over"
     cut = [k for _, k in kinds if k is not None and k.attributes.get("optimization") == "convex_decomposition"]
@@ -212,11 +207,8 @@ def find_files(sources: Sequence[document.SdfSource]) -> tuple[tuple[Path, ...],
         if (config := source.path.parent / document.CONFIG).is_file():
             files[config] = None
         root, _ = document.parse_root(source.text.data, str(source.path))
-        for reference in document.references(root):
-            path = source.resolver.find(reference)
-            if path is None:
-                missing[reference] = None
-            else:
-                files |= dict.fromkeys([path, *references.find_companions(path).values()])
+        found, absent = references.find_all(document.references(root), source.resolver)
+        files |= dict.fromkeys(found)
+        missing |= dict.fromkeys(absent)
         files |= dict.fromkeys(path for _, path in document.find_scripts(source))
     return tuple(files), tuple(missing)

@@ -12,12 +12,12 @@ import numpy as np
 
 from meshforge.common import MeshForgeError, join_names, plain_path, pluralize
 from meshforge.formats import base, collision_pieces, mesh_reader, slots
-from meshforge.formats.references import Resolver, find_companions
+from meshforge.formats.references import Resolver, find_all
 from meshforge.formats.urdf import document
 from meshforge.formats.urdf.document import UrdfLinks, read_links, read_mechanism
 from meshforge.formats.visuals import Visual, VisualSurfaces
-from meshforge.formats.xml import Element, XmlText, format_numbers
-from meshforge.geometry import Box, Capsule, Cylinder, Floats, Pose, Shape, Sphere
+from meshforge.formats.xml import Element, XmlText
+from meshforge.geometry import Floats, Pose
 from meshforge.symbolic import Asset, Body, Mentions, Rgba
 
 _UP = (0.0, 0.0, 1.0)
@@ -30,26 +30,17 @@ def read_primitive(kind: Element, pose: Pose, where: str) -> collision_pieces.Co
     """
     match kind.tag:
         case "box":
-            extent = document.read_floats(kind, "size", 3, where)
-            shape: Shape = Box(pose, extent / 2)
+            sizes = document.read_floats(kind, "size", 3, where)
         case "sphere":
-            extent = document.read_floats(kind, "radius", 1, where)
-            shape = Sphere(pose, float(extent[0]))
+            sizes = document.read_floats(kind, "radius", 1, where)
         case "cylinder" | "capsule":
-            extent = np.concatenate([document.read_floats(kind, name, 1, where) for name in ("radius", "length")])
-            make = Cylinder if kind.tag == "cylinder" else Capsule
-            shape = make(pose, float(extent[0]), float(extent[1]) / 2)
+            sizes = np.concatenate([document.read_floats(kind, name, 1, where) for name in ("radius", "length")])
         case "plane":
-            return collision_pieces.CollisionPiece(
-                None,
-                "a plane has no end",
-                plane=pose @ collision_pieces.turn_z_to(document.read_floats(kind, "normal", 3, where, _UP)),
-            )
+            turn = collision_pieces.turn_z_to(document.read_floats(kind, "normal", 3, where, _UP))
+            return collision_pieces.CollisionPiece(None, "a plane has no end", plane=pose @ turn)
         case _:
             return collision_pieces.CollisionPiece(None, f"<{kind.tag}> is no geometry that is known")
-    if extent.min() <= 0 or shape.volume == 0:
-        return collision_pieces.CollisionPiece(None, f"a {kind.tag} without volume: {format_numbers(extent)} m")
-    return collision_pieces.CollisionPiece(shape)
+    return collision_pieces.build_primitive(kind.tag, sizes, pose)
 
 
 def read_mesh_scale(mesh: Element, where: str, label: str) -> Floats:
@@ -112,7 +103,7 @@ def read_urdf(path: Path, options: base.ReadOptions, source: bytes | None = None
         meshes.mention_groups(use, mentions_of_element(links.elements[link], collision), len(own))
         for (link, collision), use, own in zip(found, uses, parts, strict=True)
     ]
-    files, missing = _find_files(robot, resolver)
+    files, missing = find_all(document.references(robot), resolver)
     return Asset(
         path=path,
         format="urdf",
@@ -138,19 +129,6 @@ def _mesh_uses(found: LinkCollisions, resolver: Resolver, where: str) -> list[co
         place = f"{where}:{kind.line}" if kind else where
         uses.append(collision_pieces.MeshUse(element.names[0], reference, place, resolver) if is_mesh else None)
     return uses
-
-
-def _find_files(robot: Element, resolver: Resolver) -> tuple[tuple[Path, ...], tuple[str, ...]]:
-    """The referenced files that are there, with their companions, and the references that lead nowhere."""
-    files: dict[Path, None] = {}
-    missing = []
-    for reference in document.references(robot):
-        path = resolver.find(reference)
-        if path is None:
-            missing.append(reference)
-        else:
-            files |= dict.fromkeys([path, *find_companions(path).values()])
-    return tuple(files), tuple(missing)
 
 
 def read_visuals(
