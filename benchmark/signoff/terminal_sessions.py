@@ -59,7 +59,7 @@ _NOTES = (
     "What would make these figures fail: a result that no further answer can make right, as nobody says what is right "
     "of it; such an asset needs review to the end, and is not counted as right.",
     "Not reached, and why. *From none*: on chairs and dispensers, labels that nobody gave are thought of on all hulls "
-    "far from the labelled ones, so most results are wrong and few are sure; *wrong* alone says nothing of labels, and the "
-    "groups that would are worth less than the next result, as each counts its own hulls alone. What is not known to "
-    "be right needs review; hardly anything is signed off wrong.",
+    "far from the labelled ones, so most results are wrong and few are sure; *wrong* alone says nothing of labels, and "
+    "the groups that would are worth less than the next result, as each counts its own hulls alone. What is not known "
+    "to be right needs review; hardly anything is signed off wrong.",
 )
