@@ -127,7 +127,7 @@ def check_limits(engine: Engine, mesh: SymbolicMesh, faulty: frozenset[str]) -> 
 
 
 def _check_names(engine: Engine, mesh: SymbolicMesh) -> Iterator[Finding]:
-    for of, name, problem, remedy, is_hull in mesh.asset.slips if mesh.asset else ():
+    for of, name, problem, remedy, is_hull in mesh.asset.name_problems if mesh.asset else ():
         if of == engine.name and (not is_hull or any(hull.name == name for hull in mesh.hulls)):
             yield Finding(f"{of}-name", "error", (name,) if is_hull else (), f"{name}: {problem}", remedy)
 

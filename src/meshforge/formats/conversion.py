@@ -5,13 +5,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from math import floor
 from pathlib import Path
 
-from meshforge.common import AssetError, join_names
+from meshforge.common import AssetError, GeometryError, join_names, pluralize
 from meshforge.formats.base import Format, Loss, Output, SceneFormat
 from meshforge.formats.references import find_companions
 from meshforge.formats.visuals import Visual, VisualSurfaces
-from meshforge.geometry import Pose
+from meshforge.geometry import Pose, convex_hull, volume_inside
 from meshforge.symbolic import Asset, Body, Feature, FeatureKind, Opaque, Surface, features_of
 
 _WITH_MATERIALS = (".dae", ".glb", ".gltf", ".mtl")
@@ -163,3 +164,24 @@ def _turn_visuals(visuals: Sequence[Surface], turn: Pose) -> Sequence[Surface]:
 
 def _turn_surface(surface: Surface, turn: Pose) -> Surface:
     return replace(surface, vertices=turn.apply(surface.vertices))
+
+
+def note_hulled(pieces: Sequence[Opaque], engines: str) -> list[str]:
+    """A note on pieces of which engines make hulls: which, and the share of its hull that each fills."""
+    if not pieces:
+        return []
+    found = [measure_fill(piece.surface) for piece in pieces if piece.surface]
+    shares = sorted({floor(100 * share) for share in found if share is not None})  # as the reader says it
+    full = f" ({'% to '.join(map(str, dict.fromkeys((shares[0], shares[-1]))))}% full)" if shares else ""
+    which = f"{pluralize(len(pieces), 'non-convex piece')} ({join_names([piece.name for piece in pieces], 3)})"
+    each = "each of " * (len(pieces) > 1)
+    return [f"{each}{which} is written as it is: {engines} will collide with its hull{full}"]
+
+
+def measure_fill(surface: Surface) -> float | None:
+    """The share of its convex hull that a surface encloses; None where it is open, or its hull has no volume."""
+    volume = volume_inside(surface.vertices, surface.faces)
+    try:
+        return volume and min(1.0, volume / convex_hull(surface.vertices[surface.faces].reshape(-1, 3)).volume)
+    except GeometryError:
+        return None

@@ -191,7 +191,7 @@ class Document:
     __slots__ = ()
 
 
-class NameSlip(NamedTuple):
+class NameProblem(NamedTuple):
     """A name that was meant to mark collision for an engine and does not; problem completes `<name>: `."""
 
     engine: str
@@ -209,7 +209,7 @@ class Asset:
     missing: references to visual files that are not there, as written in the document.
     notes: what a user should know about how the file was read; up: the axis that its format says points up.
     mechanism: joints and masses, empty where the format has none.
-    slips: names in it that an engine does not take as they are meant.
+    name_problems: names in it that an engine does not take as they are meant.
     """
 
     path: Path
@@ -224,7 +224,7 @@ class Asset:
     notes: tuple[str, ...] = field(default=())
     mechanism: Mechanism = field(default=Mechanism())
     up: Literal["y", "z"] | None = None
-    slips: tuple[NameSlip, ...] = ()
+    name_problems: tuple[NameProblem, ...] = ()
 
     @property
     def body_poses(self) -> dict[str, Pose]:

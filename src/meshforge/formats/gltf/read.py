@@ -13,7 +13,7 @@ from meshforge.common import AssetError, MeshForgeError, file_digest, pluralize
 from meshforge.formats import mesh_reader, references, slots
 from meshforge.formats.collision_pieces import CollisionElement, drop_repeats, geoms_of, opaque_of, place_surface
 from meshforge.formats.engine_names.conventions import godot_kind, unreal_kind
-from meshforge.formats.engine_names.slips import find_name_slips
+from meshforge.formats.engine_names.name_problems import find_name_problems
 from meshforge.formats.gltf.colliders import CollisionReader, NodeCollision, convention_of, nodes_below_colliders
 from meshforge.formats.gltf.document import BODY, Convention, GltfDocument, NodeRecord
 from meshforge.formats.gltf.physics import body_nodes, is_trigger, physics_extension_of, read_inertial, rigid_pose_of
@@ -23,7 +23,7 @@ from meshforge.formats.meshfile.gltf_scene import GltfScene
 from meshforge.formats.meshfile.surface import GAMMA
 from meshforge.formats.visuals import LazySurfaces
 from meshforge.geometry import Floats, Ints, Pose
-from meshforge.symbolic import Asset, Body, Mechanism, Mentions, NameSlip, Rgba, Surface, unique_names
+from meshforge.symbolic import Asset, Body, Mechanism, Mentions, NameProblem, Rgba, Surface, unique_names
 
 _DAMAGE = (ValueError, LookupError, TypeError, AttributeError)
 
@@ -84,16 +84,16 @@ def read_gltf(path: Path) -> Asset:
         notes=tuple(notes),
         mechanism=Mechanism(inertials=masses),
         up="y",
-        slips=() if physics_extension_of(scene) else tuple(_find_slips(scene)),
+        name_problems=() if physics_extension_of(scene) else tuple(_find_name_problems(scene)),
     )
 
 
-def _find_slips(scene: GltfScene) -> Iterator[NameSlip]:
+def _find_name_problems(scene: GltfScene) -> Iterator[NameProblem]:
     nodes = [placement.node for placement in scene.placements.values()]
     things = [[n, entry(scene.tree, "meshes", n["mesh"])] if "mesh" in n else [n] for n in nodes]
     names = [[name for one in own if isinstance(name := one.get("name"), str)] for own in things]
     bare = [own[0] for node, own in zip(nodes, names, strict=True) if own and "mesh" not in node]
-    return find_name_slips([own for node, own in zip(nodes, names, strict=True) if "mesh" in node], bare)
+    return find_name_problems([own for node, own in zip(nodes, names, strict=True) if "mesh" in node], bare)
 
 
 def name_bodies(scene: GltfScene) -> dict[int, tuple[int, str]]:

@@ -13,7 +13,7 @@ import numpy as np
 
 from meshforge.formats.base import Output, ReadOptions, feature_of_others
 from meshforge.formats.engine_names import bodies, conventions
-from meshforge.formats.engine_names.slips import find_name_slips
+from meshforge.formats.engine_names.name_problems import find_name_problems
 from meshforge.formats.meshfile.obj import ObjText, parse_obj
 from meshforge.formats.meshfile.surface import Soup
 from meshforge.formats.plain.base import MeshFileEdit, PlainFormat
@@ -66,7 +66,7 @@ class ObjFormat(PlainFormat):
         if not isinstance(asset.document, PlainDocument) or not _MARK.search(asset.document.data):
             return asset
         groups = [[name for name in group if name] for group in parse_obj(asset.document.data, "").groups]
-        return replace(asset, slips=tuple(one for one in find_name_slips(groups) if one.engine == "unreal"))
+        return replace(asset, name_problems=tuple(one for one in find_name_problems(groups) if one.engine == "unreal"))
 
     def name_hulls(self, document: PlainDocument, geoms: Sequence[Geom]) -> list[str]:
         if not document.marked:

@@ -10,7 +10,7 @@ import numpy as np
 from meshforge.common import join_names, pluralize
 from meshforge.formats import collision_pieces, link_output, mesh_output
 from meshforge.formats.base import Loss, Output
-from meshforge.formats.concave import note_hulled
+from meshforge.formats.conversion import note_hulled
 from meshforge.formats.kinematic_tree import LIGHT_INERTIAL, JointRules
 from meshforge.formats.slots import Slot, assign_names
 from meshforge.formats.urdf import edit

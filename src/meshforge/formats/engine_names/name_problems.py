@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from meshforge.common import nearest_name
 from meshforge.formats.engine_names.conventions import COLLIDERS, godot_kind, holds_colliders, unreal_kind
-from meshforge.symbolic import NameSlip
+from meshforge.symbolic import NameProblem
 
 _ALIKE = 0.82  # how alike the end of a name and a mark are, from which on it was meant: `colony` and `colonly` are 0.92
 _GODOT = ("convcolonly", "colonly", "convcol")
@@ -17,7 +17,7 @@ _CHANGED = re.compile(r"[^\w-]+")  # in Unreal an underscore
 _REMEDY = "Is {} meant? Spell it so."
 
 
-def find_name_slips(meshes: Iterable[Sequence[str]], parents: Iterable[str] = ()) -> Iterator[NameSlip]:
+def find_name_problems(meshes: Iterable[Sequence[str]], parents: Iterable[str] = ()) -> Iterator[NameProblem]:
     """What is wrong with the names of meshes and of their nodes, several of one thing, and of nodes without a mesh."""
     things = [names for names in meshes if names]
     seen = [name for names in things if not any(map(unreal_kind, names)) for name in names]
@@ -30,15 +30,15 @@ def find_name_slips(meshes: Iterable[Sequence[str]], parents: Iterable[str] = ()
             problem = f"no mesh is called {meant}, so that in Unreal nothing collides by it"
             rename = f"The nearest mesh is {nearest}: call it {hull[:4]}{nearest}_00."
             remedy = rename if seen else f"There is no mesh to be seen: add {meant}."
-            yield NameSlip("unreal", hull, problem, remedy, is_hull=True)
+            yield NameProblem("unreal", hull, problem, remedy, is_hull=True)
     for name in filter(_UNREAL.match, dict.fromkeys(seen)):
-        yield NameSlip("unreal", name, remedy=_REMEDY.format("UCX_" if "C" in name[:3] else "UBX_"))
+        yield NameProblem("unreal", name, remedy=_REMEDY.format("UCX_" if "C" in name[:3] else "UBX_"))
     for names in things:
         marks = [mark for name in names for mark in _find_meant(name, _GODOT) if not any(map(godot_kind, names))]
-        yield from (NameSlip("godot", names[0], remedy=_REMEDY.format(f"-{mark}")) for mark in marks[:1])
+        yield from (NameProblem("godot", names[0], remedy=_REMEDY.format(f"-{mark}")) for mark in marks[:1])
     for name in parents:
         if not holds_colliders(name) and _find_meant(name, [COLLIDERS[1:]]):
-            yield NameSlip("unity", name, remedy=_REMEDY.format(COLLIDERS))
+            yield NameProblem("unity", name, remedy=_REMEDY.format(COLLIDERS))
 
 
 def _find_meant(name: str, marks: Sequence[str]) -> list[str]:
