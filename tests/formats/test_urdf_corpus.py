@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -50,7 +51,9 @@ def test_every_real_file_is_read_or_refused_for_its_own_fault(tmp_path: Path) ->
             assert (len(asset.geoms), len(asset.opaque)) == KNOWN[key], key
         assert write(asset, path.name).main == path.read_bytes(), key
         edit = without(asset, *(geom.name for geom in asset.geoms[::3]))
-        assert_reads_back(edit, read(put(write(edit, path.name), tmp_path / key)))
+        output = write(edit, path.name)  # a name that nobody gave is left out where another element has it
+        edit = replace(edit, geoms=tuple(replace(g, name=output.names.get(g.name, g.name)) for g in edit.geoms))
+        assert_reads_back(edit, read(put(output, tmp_path / key)))
 
 
 def test_one_cabinet_in_two_encodings_has_the_same_hulls() -> None:

@@ -28,7 +28,7 @@ Geo(All, -X) => Each(Scale(Z, 1.25))
 Geo(All, +Y) => Each(Replace(capsule))
 Geo(All, -Y) => Each(Replace(cylinder))
 Geo(All, +Z) => Add(+Z, "block.obj")
-Geo(All, -Z) => Each(Replace(sphere))
+Geo(All, -Z) => Each(Replace(sphere, native))
 """)
 """Deletes, scales, puts native shapes in place of hulls, and adds one."""
 
