@@ -72,7 +72,7 @@ def test_from_files_to_exported_assets_with_accidents_on_the_way(tmp_path: Path)
             assert _answer(person, studio) > 0
             _second_table(person)
             _repair(person, studio)
-            _review(person, other, studio)
+            _review(person, other, studio, tmp_path)
             assert _rules(studio) == TABLES.joinpath("tables.mf").read_text(encoding="utf-8").split("\n\n")[-1].strip()
         assert not person.complaints
         assert not other.complaints
@@ -171,7 +171,7 @@ def _repair(person: Hand, studio: Studio) -> None:
     studio.until(lambda hello: not hello["learning"] and hello["outcome"]["status"] in ("found", "ambiguous"))
 
 
-def _review(person: Hand, other: Hand, studio: Studio) -> None:
+def _review(person: Hand, other: Hand, studio: Studio, folder: Path) -> None:
     """Apply to all, accept one, call one wrong, which the other page shows; export what is signed off."""
     person.press("Alt+4")
     person.click("Apply to all")
@@ -183,6 +183,11 @@ def _review(person: Hand, other: Hand, studio: Studio) -> None:
     person.press("f")
     studio.cards(lambda cards: cards["table_02.obj"]["review"] == "wrong")
     other.page.get_by_role("option", name=re.compile("table_02.obj.*wrong", re.IGNORECASE)).wait_for()
+    hollow = folder / "more" / "hollow.obj"
+    hollow.write_text("v 0 0 0\n", encoding="utf-8")
+    for _ in range(2):  # messages of problems stay: what is below them can still be scrolled to
+        person.page.get_by_label("Files to add").set_input_files(hollow)
+    person.page.get_by_role("alert").filter(has_text="Nothing was added").nth(0).wait_for()
     person.click(person.page.get_by_role("radio", name="Export"))
     person.click(person.page.get_by_role("button", name=re.compile("^Export [1-9][0-9]* asset")))
     person.sees("The last export")

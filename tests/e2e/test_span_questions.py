@@ -49,6 +49,7 @@ def test_a_card_asks_about_each_hull_that_spans_parts_and_yes_splits_it(project:
         assert not project.layout.preparation(first).exists()
         _sees_parts_in_color(person, tmp_path / "view.png")
         person.sees("1 more hull likely spans parts.")
+        _is_beside_its_parts(studio.get("/api/parts/picture", asset=first, hull="base/h0").content)
         _is_marked(person, studio, first)
         person.press("y")
         other = _asked(person, before=first)
@@ -98,29 +99,6 @@ def test_the_job_can_be_stopped_and_says_what_is_wrong(project: Project, tmp_pat
         assert found["state"] == "failed" and "no hull has a label" in found["message"]
         refused = studio.get("/api/parts", asset="a.urdf", hull="base/h0")
         assert refused.status_code == 400 and "nothing is known of parts" in refused.json()["message"]
-
-
-def test_a_cut_whose_parts_are_labelled_is_proposed_on_a_look_alike(project: Project, tmp_path: Path) -> None:
-    with opened(tmp_path, project.folder) as studio:
-        studio.settled()
-        low = project.mesh("c.urdf").hull_of("base/h0").aabb.max[2] - 0.04
-        studio.edit("cut", asset="c.urdf", hull="base/h0", at=[0, 0, low], across=[0, 0, 1])
-        studio.edit("label", asset="c.urdf", hulls=["base/h0#0"], label="leg")
-        studio.edit("label", asset="c.urdf", hulls=["base/h0#1"], label="seat")
-        hello = studio.until(lambda hello: bool(hello["assessment"] and hello["assessment"]["question"]))
-        question = hello["assessment"]["question"]
-        assert question["text"].startswith("base/h0 of d.urdf looks like base/h0 of c.urdf, ")
-        parts = _header(studio.get("/api/parts", asset="d.urdf", hull="base/h0").content)
-        assert parts["like"] == {"asset": "c.urdf", "hull": "base/h0", "parts": [0, 1]}
-        texts = {choice["id"]: choice["text"] for choice in question["choices"]}
-        assert texts == {"no": "no, it is one part", "yes": "split so: leg, seat"}, "nothing is known of each part"
-        _is_beside_its_parts(studio.get("/api/parts/picture", asset="d.urdf", hull="base/h0").content)
-        studio.edit("reply", question=question, choice="yes")
-        assert [hull.label for hull in project.mesh("d.urdf").hulls[:2]] == ["leg", "seat"]
-        hello = studio.until(lambda hello: not hello["assessing"])
-        assert hello["assessment"]["question"] is None, "nothing more is asked, and nobody waits for it"
-        ok(studio.post("/api/undo"))
-        assert len(project.mesh("d.urdf").hulls) == 4
 
 
 def _is_beside_its_parts(packet: bytes) -> None:

@@ -43,6 +43,9 @@ class Workers:
         with self._lock:
             if self._closed:
                 raise MeshForgeError("the studio is being closed")
+            if self._pool and not self._pool.active:  # broken: a process died before it said which work it had taken
+                self._pool.join()
+                self._pool = None
             self._pool = self._pool or ProcessPool(
                 max_workers=self.count, context=server_context(), initializer=begin_isolated
             )
@@ -80,7 +83,9 @@ def project_of_one(project: Project, asset: str) -> Project:
 
 def wait_for(future: Future[Result]) -> Result:
     """The result of some work. Raises MeshForgeError where its process died, took too long or was stopped."""
-    from pebble import ProcessExpired  # lazy: as above
+    from concurrent.futures.process import BrokenProcessPool  # lazy: as above
+
+    from pebble import ProcessExpired
 
     try:
         return future.result()
@@ -88,5 +93,7 @@ def wait_for(future: Future[Result]) -> Result:
         raise StoppedError("the studio is being closed") from None
     except ProcessExpired as error:
         raise MeshForgeError(f"the process that worked on this died (exit code {error.exitcode})") from None
+    except BrokenProcessPool:
+        raise MeshForgeError("the process that worked on this died") from None
     except TimeoutError:
         raise MeshForgeError("this took too long and was stopped") from None
