@@ -152,3 +152,39 @@ def test_an_asset_that_cannot_be_read_fails_alone(run: Run) -> None:
     told = run("apply", "p", "new", "--out", "out", "--workers", "1")
     assert told.code == 1
     assert "failed     x.urdf\n    it could not be prepared: " in told.out and "edited     c.urdf" in told.out
+
+
+@pytest.fixture
+def block(run: Run, monkeypatch: pytest.MonkeyPatch) -> Run:
+    """The project's program makes one block of everything."""
+    Path("p/program.mf").write_text("labels seat, leg\n\nAll => Merge\n")
+    return run
+
+
+def test_new_assets_whose_results_stand_out_end_with_exit_code_1_until_they_are_accepted(block: Run) -> None:
+    words = ("apply", "p", "new", "--out", "out", "--workers", "1")
+    told = block(*words)
+    assert told.code == 1
+    assert "1 result stands out: c.urdf (" in told.out
+    assert told.err.endswith("Look at c.urdf, then: --accept-outliers\n")
+    assert Path("out/c.urdf").exists(), "it is written all the same"
+    assert block(*words).code == 1, "it stands out as before where nothing is left to do"
+    as_json = block(*words, "--json")
+    assert as_json.code == 1 and json.loads(as_json.out)["alarms"]
+    assert block(*words, "--accept-outliers").code == 0
+
+
+def test_an_outlier_of_the_project_is_one_until_it_is_accepted(block: Run) -> None:
+    add_to_project()
+    told = block("apply", "p", "--workers", "1")
+    assert told.code == 1 and "then: meshforge review, or --accept-outliers\n" in told.err
+    project = Project.open("p")
+    for asset in project.assets():
+        assert block("apply", "p", "--workers", "1").code == 1
+        project.set_verdict(asset, "accepted")
+    assert block("apply", "p", "--workers", "1").code == 0
+
+
+def test_a_program_alone_is_never_signed_off_so_its_outliers_are_only_named(block: Run) -> None:
+    told = block("apply", "p/program.mf", "new", "--out", "out", "--workers", "1")
+    assert told.code == 0 and "1 result stands out: c.urdf (" in told.out
