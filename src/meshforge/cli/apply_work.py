@@ -122,9 +122,9 @@ class ApplyWork:
         return standings | {asset: {**standings.get(asset, {}), **self.describe_new(asset)} for asset in self.new}
 
     def find_outliers(self, alarms: Alarms) -> list[str]:
-        """The assets whose results stand out, and are neither accepted nor signed off."""
+        """The assets whose results stand out, and are neither demonstrated, accepted nor signed off."""
         rows = self.project.status().assets if self.project and alarms else ()
-        known = {one.id for one in rows if one.sign_off == "signed off" or one.review == "accepted"}
+        known = {one.id for one in rows if one.sign_off == "signed off" or one.review == "accepted" or one.demonstrated}
         return [asset for asset in alarms if asset not in known]
 
     def describe_new(self, asset: str) -> dict[str, Any]:

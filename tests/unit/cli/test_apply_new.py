@@ -188,3 +188,78 @@ def test_an_outlier_of_the_project_is_one_until_it_is_accepted(block: Run) -> No
 def test_a_program_alone_is_never_signed_off_so_its_outliers_are_only_named(block: Run) -> None:
     told = block("apply", "p/program.mf", "new", "--out", "out", "--workers", "1")
     assert told.code == 0 and "1 result stands out: c.urdf (" in told.out
+
+
+@pytest.fixture
+def named(run: Run) -> Run:
+    """The project's hulls are labelled by a pattern of their names; likeness would say otherwise of those of c.urdf."""
+    project = Project.open("p")
+    project.set_labels("a.urdf", dict.fromkeys([hull.name for hull in project.mesh("a.urdf").hulls]))
+    assert run("label", "p", "--with", "names", "--pattern", "*h[0-4]=leg", "--workers", "1").code == 0
+    return run
+
+
+WORDS = ("apply", "p", "new", "--out", "out", "--workers", "1", "--no-split")
+
+
+def test_new_assets_are_labelled_by_the_patterns_that_labelled_the_family(named: Run) -> None:
+    told = named(*WORDS)
+    assert "note: 4 labels by names" in told.out and "by likeness" not in told.out
+    assert {hull.label for hull in load("out/c.urdf").hulls} == {"leg"}
+    (line,) = map(json.loads, named(*WORDS, "--json").out.splitlines())
+    assert line["guessed"] == {} and line["labelled"]["base/h0"] == {
+        "label": "leg",
+        "confidence": 0.9,
+        "source": "name",
+    }
+
+
+def test_what_names_do_not_say_is_labelled_by_likeness(named: Run) -> None:
+    plan = json.loads(Path("p/preparation.json").read_text())
+    plan["label_sources"][0]["patterns"] = {"*h0": "leg"}
+    Path("p/preparation.json").write_text(json.dumps(plan))
+    told = named(*WORDS)
+    assert "note: 1 label by names" in told.out and "note: 3 labels by likeness to the family; least sure" in told.out
+
+
+def test_files_beside_new_assets_come_before_names_and_likeness(named: Run) -> None:
+    Path("new/semantics.txt").write_text("base free seat\n")
+    assert "note: 4 labels from a file" in named(*WORDS).out
+    Path("new/semantics.txt").write_text("base free leg\n")
+    told = named(*WORDS)
+    assert "edited     c.urdf" in told.out, "another file, another label"
+    Path("new/c.labels.json").write_text(json.dumps({"hulls": {"base/h1": "seat"}}))
+    told = named(*WORDS)
+    assert "note: 3 labels by names" in told.out, "of files beside an asset the first counts, here its labels file"
+    assert {hull.label for hull in load("out/c.urdf").hulls} == {"seat", "leg"}
+
+
+def test_an_asset_that_came_later_is_labelled_likewise_in_the_project(named: Run) -> None:
+    add_to_project()
+    told = named("apply", "p", "--workers", "1", "--no-split")
+    assert "note: 4 labels by names" in told.out
+    assert {one.source for one in Project.open("p").labels("c.urdf").labels.values()} == {"name"}
+
+
+def test_a_project_of_before_sources_were_kept_has_those_of_its_labels(named: Run) -> None:
+    plan = json.loads(Path("p/preparation.json").read_text())
+    del plan["label_sources"]
+    Path("p/preparation.json").write_text(json.dumps(plan))
+    with Path("p/meshforge.toml").open("a") as settings:
+        settings.write('\n[names]\n"*h[0-4]" = "leg"\n')
+    assert "note: 4 labels by names" in named(*WORDS).out
+
+
+def test_labels_that_were_taken_back_label_no_new_asset(named: Run) -> None:
+    project = Project.open("p")
+    hulls = [hull.name for hull in project.mesh("a.urdf").hulls]
+    project.set_labels("a.urdf", dict(zip(hulls, PARTS, strict=True)))
+    told = named(*WORDS)
+    assert "by names" not in told.out and "by likeness to the family" in told.out
+
+
+def test_what_labelled_is_kept_when_all_that_was_prepared_is_removed(named: Run) -> None:
+    assert named("prepare", "p", "--remove").code == 0
+    assert json.loads(Path("p/preparation.json").read_text())["label_sources"][0]["patterns"] == {"*h[0-4]": "leg"}
+    Project.open("p").rename_label("leg", "foot")
+    assert json.loads(Path("p/preparation.json").read_text())["label_sources"][0]["patterns"] == {"*h[0-4]": "foot"}
