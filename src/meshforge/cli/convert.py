@@ -14,7 +14,7 @@ from meshforge.cli import options
 from meshforge.cli.console import progress
 from meshforge.cli.notes import fold_notes
 from meshforge.cli.terminal import print_json, remark
-from meshforge.common import AssetError, UsageError, escape_name, pluralize
+from meshforge.common import UsageError, escape_name, pluralize
 from meshforge.formats import FORMATS, PLUGIN_FORMATS, Loss, SaveResult
 from meshforge.symbolic import Feature, SymbolicMesh
 
@@ -125,9 +125,7 @@ def _convert_one(source: Path, out: Path, given: ConvertArguments) -> None:
         collision=given.collision,
         urdf_capsules=given.urdf_capsules,
     )
-    read_notes = mesh.asset.notes if mesh.asset else ()
-    if given.concave != "keep" and mesh.asset:
-        read_notes = formats.notes_after(mesh.asset, formats.read(saved.path))
+    read_notes = formats.notes_after(mesh.asset, formats.read(saved.path), saved.hulled) if mesh.asset else ()
     if given.json:
         print_json(_to_json(source, saved, len(mesh.hulls), read_notes))
     else:
@@ -135,11 +133,7 @@ def _convert_one(source: Path, out: Path, given: ConvertArguments) -> None:
             remark(f"note: {note}")
         held = [pluralize(feature.count, feature.kind.one, feature.kind.many) for feature in saved.report.held]
         remark(f"wrote {escape_name(str(saved.path))}: {', '.join([pluralize(len(mesh.hulls), 'hull'), *held])}")
-    try:
-        saved.report.refuse_lost_collision(str(source), "Make a hull of each: --concave hull.")
-    except AssetError as error:
-        remark(f"error: {error.message}")
-        raise typer.Exit(1) from None
+    saved.report.refuse_lost_collision(str(source), "Make a hull of each: --concave hull.")
 
 
 def _to_json(source: Path, saved: SaveResult, hulls: int, notes: Sequence[str]) -> dict[str, Any]:
