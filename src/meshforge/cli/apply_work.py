@@ -72,7 +72,6 @@ class ApplyArguments:
     accept_outliers: Annotated[
         bool, typer.Option("--accept-outliers", help="Exit with 0 also where results of a project stand out.")
     ] = False
-    sure: options.OldSure = None
     no_split: Annotated[
         bool, typer.Option("--no-split", help="Leave hulls of new assets that span parts as they are; name them.")
     ] = False

@@ -33,15 +33,6 @@ Workers = Annotated[int | None, typer.Option("--workers", min=1, help="Processes
 EngineName = Literal["mujoco", "physx-cpu", "physx-gpu", "unreal", "unity", "bullet", "godot"]
 
 
-def _refuse_sure(value: float | None) -> None:
-    if value is not None:
-        raise UsageError(
-            "there is no option --sure", remedy=f"It is called --min-confidence: --min-confidence {value:g}"
-        )
-
-
-OldSure = Annotated[float | None, typer.Option("--sure", hidden=True, callback=_refuse_sure)]
-"""The old spelling of --min-confidence, which is an error that names the new one."""
 DryRun = Annotated[bool, typer.Option("--dry-run", help="Say what would be done, write nothing.")]
 ReportPath = Annotated[
     Path | None, typer.Option("--report", help="An HTML page with pictures of each asset, failures first.")

@@ -158,7 +158,7 @@ class AssetError(MeshForgeError):
     """A file that cannot be read or written as an asset."""
 
 
-class LostCollisionError(AssetError):
+class CollisionLossError(AssetError):
     """A format that cannot hold what collides in an asset."""
 
     exit_code = 1

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, ClassVar, Literal
 
-from meshforge.common import AssetError, LostCollisionError, join_names, pluralize
+from meshforge.common import AssetError, CollisionLossError, join_names, pluralize
 from meshforge.symbolic import Asset, Feature, FeatureKind, Surface
 
 _PATHS = (
@@ -233,4 +233,4 @@ def nothing_collides_error(asset: Asset) -> AssetError:
     remedy = "Make a hull of each: convert --concave hull, or meshforge prepare PROJECT --decompose hull."
     names = join_names([piece.name for piece in asset.opaque], 3)
     problem = f"{problem}: {names} cannot collide there without being convex"
-    return LostCollisionError(problem, where=where, remedy=remedy if any(p.surface for p in asset.opaque) else None)
+    return CollisionLossError(problem, where=where, remedy=remedy if any(p.surface for p in asset.opaque) else None)

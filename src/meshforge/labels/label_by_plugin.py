@@ -14,7 +14,7 @@ from meshforge.batch import ExecutionOptions, WorkerFailure, execute
 from meshforge.common import Plugin, ProjectError, Registry, UsageError, blame, describe_error, suggest_among
 from meshforge.labels.merge import LabelOutcome, LabelWriter, OutcomeCallback, can_replace_less_certain, merge_labels
 from meshforge.labels.summary import LabelEvidence, Proposals, group_evidence
-from meshforge.store import AssetFiles, LabelSourceLine, Store, hull_digests
+from meshforge.store import AssetFiles, Store, hull_digests
 from meshforge.symbolic import Label, SymbolicMesh
 
 LABEL_METHODS = ("file", "names", "propagate", "vlm", "consensus", "sources")
@@ -70,8 +70,6 @@ def label_by_plugin(
 ) -> tuple[LabelOutcome, ...]:
     """Give labels to hulls that have none, or a less certain one of a machine; see `LabelStore.label_by_plugin`."""
     writer, reports = LabelWriter(store), list[LabelOutcome]()
-    check_labeler(name)
-    store.add_label_source(LabelSourceLine(source=name))
     with closing(_label_assets(store, name, store.vocabulary, execution)) as results:
         for asset, found in results:
             if found.error:

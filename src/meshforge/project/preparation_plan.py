@@ -142,12 +142,9 @@ def read_piece_engine(store: Store) -> PieceEngine:
 
 
 def forget_plan(store: Store) -> None:
-    """Let new assets be as they are, but for their labels: nothing of all that was prepared is kept."""
+    """Let new assets be as they are: nothing of all that was prepared is kept."""
     with store.lock():
-        if lines := _read(store).label_sources:
-            write_json(store.layout.preparation_plan, PreparationPlanFile(label_sources=lines))
-        else:
-            store.layout.preparation_plan.unlink(missing_ok=True)
+        store.layout.preparation_plan.unlink(missing_ok=True)
 
 
 def _change(store: Store, values: Mapping[str, Any]) -> None:

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from meshforge.store.mesh_cache import MeshCache
     from meshforge.store.meshes import AssetFacts, AssetFiles, geometry_digest, hull_digests, iterate_survey, survey
     from meshforge.store.outputs import AssetOutput, find_outputs
-    from meshforge.store.preparation_plan import LabelSourceLine, PreparationPlanFile
+    from meshforge.store.preparation_plan import PreparationPlanFile
     from meshforge.store.program import CorrectionsFile, DemonstrationFile, ProgramRecord, StepLine, parse_action_text
     from meshforge.store.settings import (
         Settings,
@@ -68,7 +68,6 @@ __all__ = [
     "JsonFile",
     "LabelBefore",
     "LabelFixEvent",
-    "LabelSourceLine",
     "LabelsEvent",
     "MeshCache",
     "Origin",

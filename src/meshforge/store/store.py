@@ -29,7 +29,7 @@ from meshforge.store.feedback import Feedback
 from meshforge.store.layout import Layout, read_derived, read_json, write_json
 from meshforge.store.mesh_cache import MeshCache
 from meshforge.store.meshes import AssetFiles, read_labels_file
-from meshforge.store.preparation_plan import LabelSourceLine, add_label_source, forget_assets
+from meshforge.store.preparation_plan import forget_assets
 from meshforge.store.sign_off import AssessmentFile, SignOff
 from meshforge.store.spans import SinglePartsFile, SpansFile
 from meshforge.symbolic import Label, LabelFile, SymbolicMesh, format_labels, match_labels
@@ -211,11 +211,6 @@ class Store:
         for asset, text in texts.items():
             if text is None:
                 self.layout.labels(asset).unlink(missing_ok=True)
-
-    def add_label_source(self, line: LabelSourceLine) -> None:
-        """Keep by what hulls were labelled, for new assets."""
-        with self.lock():
-            add_label_source(self.layout, line)
 
     # Demonstrations, and edits by hand
 

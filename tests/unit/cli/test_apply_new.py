@@ -199,6 +199,7 @@ def named(run: Run) -> Run:
     return run
 
 
+SOURCES = Path("p/label_sources.json")
 WORDS = ("apply", "p", "new", "--out", "out", "--workers", "1", "--no-split")
 
 
@@ -215,9 +216,9 @@ def test_new_assets_are_labelled_by_the_patterns_that_labelled_the_family(named:
 
 
 def test_what_names_do_not_say_is_labelled_by_likeness(named: Run) -> None:
-    plan = json.loads(Path("p/preparation.json").read_text())
-    plan["label_sources"][0]["patterns"] = {"*h0": "leg"}
-    Path("p/preparation.json").write_text(json.dumps(plan))
+    kept = json.loads(SOURCES.read_text())
+    kept["lines"][0]["options"]["meanings"] = [["*h0", "leg"]]
+    SOURCES.write_text(json.dumps(kept))
     told = named(*WORDS)
     assert "note: 1 label by names" in told.out and "note: 3 labels by likeness to the family; least sure" in told.out
 
@@ -242,9 +243,7 @@ def test_an_asset_that_came_later_is_labelled_likewise_in_the_project(named: Run
 
 
 def test_a_project_of_before_sources_were_kept_has_those_of_its_labels(named: Run) -> None:
-    plan = json.loads(Path("p/preparation.json").read_text())
-    del plan["label_sources"]
-    Path("p/preparation.json").write_text(json.dumps(plan))
+    SOURCES.unlink()
     with Path("p/meshforge.toml").open("a") as settings:
         settings.write('\n[names]\n"*h[0-4]" = "leg"\n')
     assert "note: 4 labels by names" in named(*WORDS).out
@@ -258,8 +257,8 @@ def test_labels_that_were_taken_back_label_no_new_asset(named: Run) -> None:
     assert "by names" not in told.out and "by likeness to the family" in told.out
 
 
-def test_what_labelled_is_kept_when_all_that_was_prepared_is_removed(named: Run) -> None:
-    assert named("prepare", "p", "--remove").code == 0
-    assert json.loads(Path("p/preparation.json").read_text())["label_sources"][0]["patterns"] == {"*h[0-4]": "leg"}
+def test_patterns_add_up_and_follow_a_label_that_is_renamed(named: Run) -> None:
+    assert named("label", "p", "--with", "names", "--pattern", "*top=seat", "--workers", "1").code == 0
     Project.open("p").rename_label("leg", "foot")
-    assert json.loads(Path("p/preparation.json").read_text())["label_sources"][0]["patterns"] == {"*h[0-4]": "foot"}
+    (line,) = json.loads(SOURCES.read_text())["lines"]
+    assert line["options"]["meanings"] == [["*h[0-4]", "foot"], ["*top", "seat"]]

@@ -7,14 +7,14 @@ from dataclasses import replace
 from pathlib import Path
 
 from meshforge.batch import ExecutionOptions
-from meshforge.common import AssetError, ProjectError, relative_name
+from meshforge.common import AssetError, ProjectError
 from meshforge.labels import merge
 from meshforge.labels.from_files import read
 from meshforge.labels.from_files.links import read_semantics
 from meshforge.labels.from_files.points import read_class_names
 from meshforge.labels.names.label_by_names import name_patterns
 from meshforge.labels.summary import LabelEvidence, Proposals, group_evidence
-from meshforge.store import LabelSourceLine, Store
+from meshforge.store import Store
 from meshforge.symbolic import Label, match_labels, read_labels
 
 
@@ -30,16 +30,6 @@ def label_from_files(
     if not store.vocabulary:
         store.set_vocabulary(_read_vocabulary(files, options))
     patterns = name_patterns(store.folder, store.settings, store.vocabulary, options.meanings)
-    store.add_label_source(
-        LabelSourceLine(
-            source="file",
-            patterns=dict(options.meanings),
-            folder=relative_name(source, store.folder) if source and source.is_dir() else None,
-            classes=options.classes,
-            align=options.placing.align,
-            points_up=options.placing.up,
-        )
-    )
     writer, reports = merge.LabelWriter(store), list[merge.LabelOutcome]()
     for asset, content in read.read_label_files(store, files, options, writer.vocabulary, patterns, execution):
         reports.append(_write_asset(writer, asset, content))

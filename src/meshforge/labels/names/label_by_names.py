@@ -14,7 +14,7 @@ from meshforge.common import MeshForgeError, ProjectError, UsageError, suggest_n
 from meshforge.labels.merge import LabelOutcome, LabelWriter, OutcomeCallback, can_fill_gap
 from meshforge.labels.names.words import UNSURE, match_label
 from meshforge.labels.summary import LabelEvidence, Proposals, group_evidence
-from meshforge.store import AssetFacts, LabelSourceLine, Settings, Store, iterate_survey
+from meshforge.store import AssetFacts, Settings, Store, iterate_survey
 from meshforge.symbolic import Label, Mentions, SymbolicMesh, match_labels
 
 MatchKind = Literal["pattern", "word", "likeness"]
@@ -159,7 +159,6 @@ def label_from_names(
 ) -> tuple[LabelOutcome, ...]:
     """Give hulls without a label the one that their names say; see `LabelStore.label_from_names`."""
     patterns = require_patterns(store, store.vocabulary, meanings)
-    store.add_label_source(LabelSourceLine(source="names", patterns=dict(meanings)))
     writer, reports = LabelWriter(store), list[LabelOutcome]()
     for asset, facts in iterate_survey(store.found, store.layout, execution=execution):
         reports.append(_label_asset(writer, asset, facts, patterns))

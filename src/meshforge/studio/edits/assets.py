@@ -15,8 +15,8 @@ from meshforge.signoff import ExclusionReason
 from meshforge.store import ExclusionEvent, parse_action_text
 from meshforge.studio.edits.base import (
     EVENTS_FILE,
+    LABELS,
     PREPARATION_FILES,
-    PREPARATION_PLAN_FILE,
     PROGRAM_FILES,
     Edit,
     JobEdit,
@@ -106,7 +106,7 @@ class LabelFromFiles(Edit):
     """Take over the labels files beside the assets."""
 
     kind: Literal["label-files"] = "label-files"
-    touches = (SETTINGS, "labels", PREPARATION_PLAN_FILE)
+    touches = (SETTINGS, *LABELS)
 
     def apply(self, project: Project) -> None:
         project.label_from_files()
@@ -119,7 +119,7 @@ class LabelFromNames(Edit):
     """Label hulls without a label by the words in their names and in the names of their bodies."""
 
     kind: Literal["label-names"] = "label-names"
-    touches = ("labels", PREPARATION_PLAN_FILE)
+    touches = LABELS
 
     def apply(self, project: Project) -> None:
         project.label_from_names()
@@ -146,7 +146,7 @@ class RenameLabel(Edit):
     """Give a label of the vocabulary another name, wherever it is used."""
 
     kind: Literal["rename-label"] = "rename-label"
-    touches = (SETTINGS, "labels", "demonstrations", "corrections", EVENTS_FILE, PREPARATION_PLAN_FILE, *PROGRAM_FILES)
+    touches = (SETTINGS, *LABELS, "demonstrations", "corrections", EVENTS_FILE, *PROGRAM_FILES)
     old: str
     new: str
 

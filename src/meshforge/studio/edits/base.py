@@ -13,7 +13,7 @@ from meshforge.project import Project
 from meshforge.studio.wire import Wire
 
 PROGRAM_FILE, PREVIOUS_FILE = "program.mf", "program.previous.mf"
-EVENTS_FILE, SINGLE_PARTS_FILE, PREPARATION_PLAN_FILE = "events.jsonl", "single_parts.json", "preparation.json"
+EVENTS_FILE, SINGLE_PARTS_FILE = "events.jsonl", "single_parts.json"
 LEARNED_FILE, LEARNED_BEFORE = "learned.json", f"{STATE}/learned.json"
 """What the program was learned from, and where that was kept before (`Layout.learned_before`)."""
 PROGRAM_FILES = (PROGRAM_FILE, PREVIOUS_FILE, LEARNED_FILE, LEARNED_BEFORE)
@@ -27,6 +27,9 @@ PREPARATION_FILES = (
     EVENTS_FILE,
 )
 """The files that preparing an asset writes."""
+
+LABELS = ("labels", "label_sources.json")
+"""The files that labels from files and names write."""
 
 LabelsByAsset = Mapping[str, Mapping[str, str | None]]
 """Labels of hulls by their names, by asset; None where one is taken away."""

@@ -14,13 +14,7 @@ from meshforge.batch import SETTINGS, STATE, source_files
 from meshforge.common import MeshForgeError, relative_name
 from meshforge.project import Project
 from meshforge.store import Feedback, SpanLine
-from meshforge.studio.edits.base import (
-    EVENTS_FILE,
-    LEARNED_FILE,
-    PREPARATION_PLAN_FILE,
-    PROGRAM_FILE,
-    SINGLE_PARTS_FILE,
-)
+from meshforge.studio.edits.base import EVENTS_FILE, LEARNED_FILE, PROGRAM_FILE, SINGLE_PARTS_FILE
 from meshforge.studio.learning.scheduler import LearningScheduler
 from meshforge.studio.pages import PageState
 from meshforge.studio.queries.programs import read_program_view
@@ -35,6 +29,7 @@ _ASSET_FOLDERS = ("labels/", "demonstrations/", "corrections/", _STAMPS)
 _LEARNING_FOLDERS = ("labels/", "demonstrations/", "prepared/", "templates/")
 _LEARNING_FILES = frozenset((PROGRAM_FILE,))
 
+PREPARATION_PLAN_FILE = "preparation.json"
 _FOUND_FILES = (SINGLE_PARTS_FILE, f"{STATE}/spans.json")
 _QUESTION_FILES = _FOUND_FILES
 
