@@ -109,23 +109,24 @@ def _parse_suffix(to: str) -> str:
 
 
 def _convert_one(source: Path, out: Path, given: ConvertArguments) -> None:
-    mesh = formats.load(source, labels=given.labels)
+    mesh = options.open_asset(source, given.labels, None)
     if given.concave != "keep" and mesh.asset:
         from meshforge.batch import replace_concave  # lazy: 250 modules that only --concave needs
 
         with progress(None, f"hulls for {source.name}"):
             ready = SymbolicMesh.of(replace_concave(mesh.asset, given.concave))
         mesh = ready.with_labels({name: label for name, label in mesh.labels.items() if name in ready.index})
-    saved = formats.convert(
-        mesh,
-        out,
-        link=given.link,
-        overwrite=given.overwrite,
-        names=given.names,
-        collision=given.collision,
-        urdf_capsules=given.urdf_capsules,
-    )
-    read_notes = formats.notes_after(mesh.asset, formats.read(saved.path), saved.hulled) if mesh.asset else ()
+    with progress(None, f"writing {out.name}"):
+        saved = formats.convert(
+            mesh,
+            out,
+            link=given.link,
+            overwrite=given.overwrite,
+            names=given.names,
+            collision=given.collision,
+            urdf_capsules=given.urdf_capsules,
+        )
+        read_notes = formats.notes_after(mesh.asset, formats.read(saved.path), saved.hulled) if mesh.asset else ()
     if given.json:
         print_json(_to_json(source, saved, len(mesh.hulls), read_notes))
     else:

@@ -13,15 +13,7 @@ from meshforge.common import join_names, pluralize
 from meshforge.project import Project
 from meshforge.signoff import ExclusionReason
 from meshforge.store import ExclusionEvent, parse_action_text
-from meshforge.studio.edits.base import (
-    EVENTS_FILE,
-    LABELS,
-    PREPARATION_FILES,
-    PROGRAM_FILES,
-    Edit,
-    JobEdit,
-    LabelsByAsset,
-)
+from meshforge.studio.edits.base import EVENTS_FILE, LABELS, PREPARED_FILES, PROGRAM_FILES, Edit, JobEdit, LabelsByAsset
 from meshforge.studio.wire.requests import HullOfAsset
 
 
@@ -185,7 +177,7 @@ Vector = tuple[float, float, float]
 
 
 class _PreparationEdit(Edit):
-    touches = PREPARATION_FILES
+    touches = PREPARED_FILES
     asset: str
 
 

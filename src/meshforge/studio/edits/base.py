@@ -19,7 +19,7 @@ LEARNED_FILE, LEARNED_BEFORE = "learned.json", f"{STATE}/learned.json"
 PROGRAM_FILES = (PROGRAM_FILE, PREVIOUS_FILE, LEARNED_FILE, LEARNED_BEFORE)
 """The files that accepting a program writes, from the project's folder."""
 
-PREPARATION_FILES = (
+PREPARED_FILES = (
     "prepared/{asset}",
     "labels/{asset}.json",
     "demonstrations/{asset}.json",
