@@ -10,7 +10,9 @@ import pytest
 
 from meshforge.batch import IN_PROCESS
 from meshforge.formats import load
+from meshforge.language import Merge
 from meshforge.project import Project, SplitSettings
+from meshforge.synthesis import Step
 from tests.unit.batch.families import tree
 from tests.unit.cli.in_process import Run, runner
 from tests.unit.project.stools import PARTS, boxes, coarse, write_stool
@@ -182,6 +184,14 @@ def test_an_outlier_of_the_project_is_one_until_it_is_accepted(block: Run) -> No
     for asset in project.assets():
         assert block("apply", "p", "--workers", "1").code == 1
         project.set_verdict(asset, "accepted")
+    assert block("apply", "p", "--workers", "1").code == 0
+
+
+def test_a_result_that_was_demonstrated_is_no_outlier(block: Run) -> None:
+    project = Project.open("p")
+    (asset,) = project.assets()
+    assert block("apply", "p", "--workers", "1").code == 1
+    project.demonstrate(asset, [Step(1, frozenset(hull.name for hull in project.mesh(asset).hulls), Merge())])
     assert block("apply", "p", "--workers", "1").code == 0
 
 
