@@ -63,9 +63,7 @@ def label_file_beside(asset: Path) -> Path | None:
 
 
 def find_file_in_mirror(place: Path, asset: Path) -> Path | None:
-    """The file of an asset in a folder of them, None where it has none; place: where the asset would be there, which
-    may be where it is.
-    """
+    """The file in a folder of them; place: where the asset would be there, which may be where it is."""
     labels = labels_beside(place)
     plain = (place.with_name(place.name + ".json"), labels)
     others = (place.with_suffix(suffix) for suffix in POINTS_SUFFIXES)
@@ -165,11 +163,7 @@ def _read_by_mesh(work: _Work) -> LabelFileContent:
 
 
 def read_label_file(
-    mesh: SymbolicMesh,
-    file: Path,
-    how: LabelFileOptions,
-    vocabulary: Sequence[str],
-    patterns: Sequence[NamePattern],
+    mesh: SymbolicMesh, file: Path, how: LabelFileOptions, vocabulary: Sequence[str], patterns: Sequence[NamePattern]
 ) -> FileLabels:
     """What a file of any kind says of the hulls of an asset. Raises AssetError where it cannot be read."""
     match kind_of(file):
