@@ -72,8 +72,9 @@ def _rewrite_files(store: Store, old: str, new: str) -> Iterator[tuple[Path, str
         yield from _rename_in_steps(path, files.read_json(path, files.DemonstrationFile), old, new)
     for path in map(layout.corrections, layout.ids_with("corrections")):
         yield from _rename_in_steps(path, files.read_json(path, files.CorrectionsFile), old, new)
-    if kept := files.read_json(layout.label_sources, LabelSourcesFile):
-        yield layout.label_sources, files.json_text(rename_in_label_sources(kept, old, new))
+    kept = files.read_json(layout.label_sources, LabelSourcesFile) or LabelSourcesFile()
+    if (after := files.json_text(rename_in_label_sources(kept, old, new))) != files.json_text(kept):
+        yield layout.label_sources, after
     events = files.load_events(layout)
     now = [_rename_in_event(event, layout.events, old, new) for event in events]
     if now != list(events):
