@@ -158,8 +158,21 @@ def test_where_a_format_cannot_hold_it_the_exit_code_is_one_and_a_hull_is_the_re
     assert told.code == 1 and lost(told) and "--concave hull" in told.out and not Path("many/arm.xml").exists()
     assert run("convert", "arm.urdf", "out/hull.xml", "--concave", "hull").code == 0
     assert len(colliding(Path("out/hull.xml"))) == 2
-    refused = run("convert", "arm.urdf", "out/arm.obj", "--names", "unreal")
-    assert refused.code and "--concave hull" in refused.err
+
+
+@pytest.mark.parametrize("words", [["out/arm.obj", "--names", "unreal"], ["out/arm.glb", "--names", "unreal"]])
+def test_where_nothing_at_all_would_collide_the_exit_code_is_one_too(run: Run, words: list[str]) -> None:
+    told = run("convert", "arm.urdf", *words)
+    assert told.code == 1 and "there is no hull to write: base/geom0, tip/geom0 cannot collide" in told.err
+    assert "--concave hull" in told.err and not Path(words[0]).exists()
+    many = run("convert", "arm.urdf", "many", "--to", words[0].partition(".")[2], *words[1:])
+    assert many.code == 1 and "cannot collide there" in many.out
+
+
+def test_where_nothing_is_there_to_collide_the_input_is_what_is_wrong(run: Run) -> None:
+    Path("arm.urdf").write_text('<robot name="arm"><link name="base"/></robot>')
+    told = run("convert", "arm.urdf", "out/arm.obj")
+    assert told.code == 2 and told.err.endswith("there is no hull to write\n")
 
 
 def test_visuals_stay_what_they_are(tmp_path: Path) -> None:

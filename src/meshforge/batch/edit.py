@@ -5,10 +5,11 @@ from __future__ import annotations
 import shutil
 import time
 from collections.abc import Iterable, Iterator, Mapping
-from contextlib import ExitStack
+from contextlib import ExitStack, nullcontext
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from meshforge.batch import outputs, provenance
 from meshforge.batch.corrections import replay_corrections, selections_of
@@ -24,7 +25,6 @@ from meshforge.batch.workers import EXECUTION_DEFAULTS, ExecutionOptions, Worker
 from meshforge.common import AssetError, UsageError, describe_error, join_names
 from meshforge.formats import (
     MarkName,
-    describe_collision,
     format_for,
     format_of,
     format_with_names,
@@ -146,11 +146,8 @@ def _run_program(
     source = followed.mesh
     result = task.program.run(source, task.templates, selections=selections_of(job.selections, task.program))
     mesh, flags = replay_corrections(job.corrections, source, result.mesh, task.program, task.templates)
-    draft = outputs.plan_draft(task, job, asset)
-    if task.options.dry_run:
-        where = describe_collision(mesh, draft.folder / draft.main, task.options.names, task.options.collision)
-        draft = replace(draft, notes=where, reading=asset.notes)
-    else:
+    with TemporaryDirectory() if task.options.dry_run else nullcontext() as aside:
+        draft = outputs.plan_draft(task, job, asset, Path(aside) if aside else None)
         draft = outputs.write_draft(draft, mesh, labels.vocabulary or task.program.labels, task.options)
     outcome = (Unchanged if _has_same_hulls(source, mesh) and not job.preparation else Edited)(
         asset=job.id,
@@ -159,7 +156,7 @@ def _run_program(
         before=len(source.hulls),
         after=len(mesh.hulls),
         seconds=time.perf_counter() - started,
-        notes=(*job.notes, *draft.reading, *_opaque_notes(asset), *_label_notes(followed), *draft.notes),
+        notes=(*job.notes, *draft.reading, *_label_notes(followed), *draft.notes),
         flags=flags,
         measures=measure_edit(source, mesh),
         labels=tuple(sorted({hull.label for hull in source.hulls if hull.label})),
@@ -178,12 +175,6 @@ def _list_effects(source: SymbolicMesh, mesh: SymbolicMesh, trace: Iterable[Rule
         gone = tuple(name for name in line.selected if line.made and name in source.index and name not in left)
         made = tuple(named.get(name, name) for name in line.made)
         yield RuleEffect(line.rule, line.selected, made, line.note, gone)
-
-
-def _opaque_notes(asset: Asset) -> tuple[str, ...]:
-    """What the program cannot have seen."""
-    names = [piece.name for piece in asset.opaque]
-    return (f"no convex hulls, so left as they are: {join_names(names)} ({asset.opaque[0].reason})",) if names else ()
 
 
 def _label_notes(followed: LabelTransfer) -> tuple[str, ...]:

@@ -16,8 +16,8 @@ from meshforge.batch import provenance
 from meshforge.batch.discovery import STATE
 from meshforge.batch.jobs import ApplyOptions, ApplyTask, AssetJob
 from meshforge.batch.outcome import AssetOutcome, Failed
-from meshforge.common import DISK_ERRORS, AssetError, MeshForgeError, file_digest
-from meshforge.formats import labels_beside, notes_after, output_path_of, read, save
+from meshforge.common import DISK_ERRORS, AssetError, MeshForgeError, file_digest, join_names
+from meshforge.formats import SaveResult, labels_beside, notes_after, output_path_of, read, save
 from meshforge.symbolic import Asset, SymbolicMesh, write_labels
 
 DRAFT_FILES, DRAFT_STAMP = "files", "stamp.json"
@@ -50,10 +50,10 @@ def drafts_folder(out: Path) -> Path:
     return out / STATE / "drafts"
 
 
-def plan_draft(task: ApplyTask, job: AssetJob, asset: Asset) -> provenance.OutputDraft:
-    """Where the output of an asset would be."""
+def plan_draft(task: ApplyTask, job: AssetJob, asset: Asset, aside: Path | None) -> provenance.OutputDraft:
+    """Where the output of an asset would be; aside: a folder that goes, where it is not to be kept."""
     attempt = secrets.token_hex(8)  # two nodes may be at it, when one that was given up for dead lives on
-    folder = drafts_folder(task.out) / f"{provenance.text_digest(job.id)}-{attempt}" / DRAFT_FILES
+    folder = (aside or drafts_folder(task.out)) / f"{provenance.text_digest(job.id)}-{attempt}" / DRAFT_FILES
     to = task.options.to
     if to is None:
         return provenance.OutputDraft(folder, output_path_of(asset, job.base, folder).relative_to(folder).as_posix())
@@ -80,7 +80,7 @@ def write_draft(
     )
     written = mesh.with_hulls(replace(hull, name=saved.names.get(hull.name, hull.name)) for hull in mesh.hulls)
     remedy = "Make a hull of each: meshforge prepare PROJECT --decompose hull, or convert --concave hull."
-    saved.report.refuse_lost_collision(str(main), remedy)
+    saved.report.refuse_lost_collision(str(mesh.asset.path if mesh.asset else main), remedy)
     back = read(main)
     order = _check_hulls(back, written, saved.hulled)
     if written.labels:
@@ -88,9 +88,16 @@ def write_draft(
     files = sorted(path for path in plan.folder.rglob("*") if path.is_file())
     digests = {path.relative_to(plan.folder).as_posix(): file_digest(path) for path in files}
     labels = tuple(written.hull_of(name).label if name in written.index else None for name in order)
-    reading = notes_after(mesh.asset, back) if mesh.asset else ()
+    reading = (*notes_after(mesh.asset, back, saved.hulled), *_note_opaque(mesh.asset, saved)) if mesh.asset else ()
     here = tuple(note.replace(f"{plan.folder}{os.sep}", "") for note in reading)
     return provenance.OutputDraft(plan.folder, plan.main, digests, saved.notes, labels, here)
+
+
+def _note_opaque(asset: Asset, saved: SaveResult) -> tuple[str, ...]:
+    """What the program cannot have seen, but for what the file says more of."""
+    pieces = [piece for piece in asset.opaque if saved.names.get(piece.name, piece.name) not in saved.hulled]
+    names = join_names([piece.name for piece in pieces])
+    return (f"no convex hulls, so left as they are: {names} ({pieces[0].reason})",) if pieces else ()
 
 
 def _check_hulls(written: Asset, mesh: SymbolicMesh, hulled: tuple[str, ...]) -> list[str]:

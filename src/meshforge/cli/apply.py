@@ -15,13 +15,12 @@ from meshforge import batch
 from meshforge.batch import apply as run_program
 from meshforge.checks import CheckOptions
 from meshforge.cli import options
-from meshforge.cli.apply_new import remark_new
 from meshforge.cli.apply_work import Alarms, ApplyArguments, ApplyWork
 from meshforge.cli.console import progress
 from meshforge.cli.notes import NoteLog
 from meshforge.cli.report import NOTHING_WRITTEN, describe_failure, write_report_page
 from meshforge.cli.terminal import print_json, remark
-from meshforge.common import UsageError, escape_name, pluralize
+from meshforge.common import UsageError, escape_name, join_names, pluralize
 
 
 @options.takes(ApplyArguments)
@@ -29,10 +28,12 @@ def apply(given: ApplyArguments) -> None:
     """Run a program on assets; each goes back into its own format below --out, labels beside it.
 
     Assets that are given beside a project, and those that came to it later, are prepared first as the project's were:
-    pieces decomposed, hulls that span parts split, labels taken by likeness. What was guessed is said of each.
+    pieces decomposed, hulls that span parts split, labels taken from the files, names and plug-ins that labelled the
+    project, else by likeness. What was guessed is said of each.
     Results that stand out of the family are named at the end; with --json all lines come then.
     A run that was stopped or killed goes on where it was: the same command again. Exit code 1 when some assets failed
-    or were held: they are named, and the others are done.
+    or were held, or where results of a project stand out that are neither demonstrated, accepted nor signed off: they
+    are named, and the others are done.
     """
     measures = CheckOptions().with_checks(given.check) if given.check else None
     if measures and not given.report:
@@ -81,7 +82,11 @@ def _run(given: ApplyArguments, work: ApplyWork, measures: CheckOptions | None) 
         for asset, why in work.finish(alarms).items():
             remark(f"{escape_name(asset)} is no longer signed off: {why}")
     _print_lines(done, alarms, work.describe_standings() if done else {})
-    remark_new(work.new)
+    if work.new:
+        from meshforge.project import describe_new  # lazy: 170 modules that a program file does not need
+
+        if text := describe_new(list(work.new.values())):
+            remark(text)
     summary.held = work.held
     for held in work.held:
         if given.json:
@@ -97,7 +102,10 @@ def _run(given: ApplyArguments, work: ApplyWork, measures: CheckOptions | None) 
         remark(text)
     if given.report:
         _write_report(given.report, work, summary, perf_counter() - started, measures)
-    return int(summary.counts["failed"] > 0 or bool(work.held))
+    outliers = work.find_outliers(alarms) if given.program.is_dir() and not given.accept_outliers else []
+    if outliers:
+        remark(f"Look at {join_names(outliers)}, then: {'meshforge review, or ' * bool(work.project)}--accept-outliers")
+    return int(summary.counts["failed"] > 0 or bool(work.held) or bool(outliers))
 
 
 def _print_lines(

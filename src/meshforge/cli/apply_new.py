@@ -117,11 +117,3 @@ def hold(asset: str, found: AssetConfidence | None, out: Path, why: str | None =
         why += "; the output of an earlier run stays as it is"
     doubts = tuple(doubt.to_json() for doubt in found.doubts) if found else ()
     return batch.Held(asset, found.probability if found else 0.0, doubts, why, kept)
-
-
-def remark_new(results: Mapping[str, NewAssetResult]) -> None:
-    """Say how many hulls of new assets were split, and how many were left that likely span parts."""
-    from meshforge.project import describe_new  # lazy: 170 modules
-
-    if text := describe_new(list(results.values())):
-        remark(text)

@@ -69,7 +69,9 @@ class ApplyArguments:
             max=1.0,
         ),
     ] = None
-    sure: options.OldSure = None
+    accept_outliers: Annotated[
+        bool, typer.Option("--accept-outliers", help="Exit with 0 also where results of a project stand out.")
+    ] = False
     no_split: Annotated[
         bool, typer.Option("--no-split", help="Leave hulls of new assets that span parts as they are; name them.")
     ] = False
@@ -118,6 +120,12 @@ class ApplyWork:
         }
         return standings | {asset: {**standings.get(asset, {}), **self.describe_new(asset)} for asset in self.new}
 
+    def find_outliers(self, alarms: Alarms) -> list[str]:
+        """The assets whose results stand out, and are neither demonstrated, accepted nor signed off."""
+        rows = self.project.status().assets if self.project and alarms else ()
+        known = {one.id for one in rows if one.sign_off == "signed off" or one.review == "accepted" or one.demonstrated}
+        return [asset for asset in alarms if asset not in known]
+
     def describe_new(self, asset: str) -> dict[str, Any]:
         """What was done to a new asset before, nothing of another."""
         return self.new[asset].to_json() if asset in self.new else {}
@@ -140,7 +148,8 @@ def _work_of_project(given: ApplyArguments, stack: ExitStack) -> ApplyWork:
     new = prepare_later(project, folder, new_options)
     held = _hold_back(project, out, given.min_confidence) if given.min_confidence is not None else ()
     program, jobs, templates = project.work()
-    _name_excluded(project)
+    if away := [f"{asset} ({one.reason})" for asset, one in project.feedback().exclusions.items()]:
+        remark(f"excluded, and not edited: {join_names(away)}")
     names = {one.asset for one in held}
     rest = [job for job in new.update(jobs) if job.id not in names]
     finish = project.renew_sign_offs if out.absolute() == project.layout.edited else _sign_nothing_off
@@ -195,12 +204,6 @@ def _hold_back(project: Project, out: Path, bar: float) -> tuple[batch.Held, ...
     """The assets of a project whose edits are less sure than a bar, the least sure first."""
     assessment = _review(project, bar).assessment
     return tuple(hold(name, assessment.assets.get(name), out) for name in assessment.held)
-
-
-def _name_excluded(project: Project) -> None:
-    away = [f"{asset} ({one.reason})" for asset, one in project.feedback().exclusions.items()]
-    if away:
-        remark(f"excluded, and not edited: {join_names(away)}")
 
 
 def _work_of_program(given: ApplyArguments) -> ApplyWork:

@@ -126,8 +126,7 @@ def check(given: CheckArguments) -> None:
                 print_json(row["found"], compact=True)
             else:
                 typer.echo(_number_notes(log, job.id, row["said"]))
-    if not given.json:
-        log.print_repeated()
+    log.print_repeated()
     if not given.json and len(jobs) > _FEW:
         typer.echo(f"{pluralize(len(jobs), 'asset')}, {failed:,} with errors")
     if given.report and page:
@@ -178,8 +177,7 @@ def _number_notes(log: NoteLog, asset: str, said: str) -> str:
     """What is printed about an asset, without the notes that were printed on another one."""
     head, *lines = said.split("\n")
     notes = [line for line in lines if line.startswith(("  note: ", "  engine: "))]
-    described = log.describe(asset, head, notes, start="")
-    return "\n".join([described, *(line for line in lines if line not in notes)])
+    return "\n".join([log.describe(asset, head, notes, start=""), *(line for line in lines if line not in notes)])
 
 
 def _describe_check(outcome: batch.CheckOutcome) -> str:

@@ -11,6 +11,7 @@ from meshforge.common import UsageError
 
 OTHER_SPELLINGS = {
     "--again": ("--fresh", "--redo", "--rerun", "--force"),
+    "--min-confidence": ("--sure",),
     "--decompose": ("--method", "--engine", "--decomposer"),
 }
 """What options were called once, or are called elsewhere, by what they are called here."""

@@ -14,7 +14,7 @@ from meshforge.cli import options
 from meshforge.cli.console import progress
 from meshforge.cli.notes import fold_notes
 from meshforge.cli.terminal import print_json, remark
-from meshforge.common import AssetError, UsageError, escape_name, pluralize
+from meshforge.common import UsageError, escape_name, pluralize
 from meshforge.formats import FORMATS, PLUGIN_FORMATS, Loss, SaveResult
 from meshforge.symbolic import Feature, SymbolicMesh
 
@@ -109,25 +109,24 @@ def _parse_suffix(to: str) -> str:
 
 
 def _convert_one(source: Path, out: Path, given: ConvertArguments) -> None:
-    mesh = formats.load(source, labels=given.labels)
+    mesh = options.open_asset(source, given.labels, None)
     if given.concave != "keep" and mesh.asset:
         from meshforge.batch import replace_concave  # lazy: 250 modules that only --concave needs
 
         with progress(None, f"hulls for {source.name}"):
             ready = SymbolicMesh.of(replace_concave(mesh.asset, given.concave))
         mesh = ready.with_labels({name: label for name, label in mesh.labels.items() if name in ready.index})
-    saved = formats.convert(
-        mesh,
-        out,
-        link=given.link,
-        overwrite=given.overwrite,
-        names=given.names,
-        collision=given.collision,
-        urdf_capsules=given.urdf_capsules,
-    )
-    read_notes = mesh.asset.notes if mesh.asset else ()
-    if given.concave != "keep" and mesh.asset:
-        read_notes = formats.notes_after(mesh.asset, formats.read(saved.path))
+    with progress(None, f"writing {out.name}"):
+        saved = formats.convert(
+            mesh,
+            out,
+            link=given.link,
+            overwrite=given.overwrite,
+            names=given.names,
+            collision=given.collision,
+            urdf_capsules=given.urdf_capsules,
+        )
+        read_notes = formats.notes_after(mesh.asset, formats.read(saved.path), saved.hulled) if mesh.asset else ()
     if given.json:
         print_json(_to_json(source, saved, len(mesh.hulls), read_notes))
     else:
@@ -135,11 +134,7 @@ def _convert_one(source: Path, out: Path, given: ConvertArguments) -> None:
             remark(f"note: {note}")
         held = [pluralize(feature.count, feature.kind.one, feature.kind.many) for feature in saved.report.held]
         remark(f"wrote {escape_name(str(saved.path))}: {', '.join([pluralize(len(mesh.hulls), 'hull'), *held])}")
-    try:
-        saved.report.refuse_lost_collision(str(source), "Make a hull of each: --concave hull.")
-    except AssetError as error:
-        remark(f"error: {error.message}")
-        raise typer.Exit(1) from None
+    saved.report.refuse_lost_collision(str(source), "Make a hull of each: --concave hull.")
 
 
 def _to_json(source: Path, saved: SaveResult, hulls: int, notes: Sequence[str]) -> dict[str, Any]:

@@ -9,6 +9,7 @@ from typing import Annotated
 
 import typer
 
+from meshforge.cli.console import progress
 from meshforge.cli.extractors import is_extractor, labels_of_project, select_hulls
 from meshforge.cli.hulls import find_hulls
 from meshforge.cli.options import asset_id
@@ -45,7 +46,8 @@ def demonstrate(
         remark(f"{escape_name(asset)}: nothing is demonstrated any more")
         return
     if steps:
-        opened.demonstrate(asset, _record_steps(opened, asset, steps))
+        with progress(None, f"reading {asset}"):
+            opened.demonstrate(asset, _record_steps(opened, asset, steps))
     for step in opened.steps(asset):
         typer.echo(
             f"{step.rule}. {_format_selection(step)} => {step.action}{f' as {step.label}' if step.label else ''}"

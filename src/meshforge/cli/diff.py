@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from meshforge import inspection
+from meshforge.cli.console import progress
 from meshforge.cli.options import Json
 from meshforge.cli.terminal import print_json, remark
 
@@ -21,7 +22,8 @@ def diff(
     json: Json = False,
 ) -> None:
     """Compare two assets hull by hull: removed, made, changed, kept, with counts and volumes."""
-    found = inspection.diff(before, after, out)
+    with progress(None, "comparing"):
+        found = inspection.diff(before, after, out)
     if out:
         remark(f"wrote {out}")
     if json:

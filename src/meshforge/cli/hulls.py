@@ -16,13 +16,12 @@ LISTING = "meshforge info ASSET"
 def find_hulls(
     text: str, hulls: Collection[str], where: str, listing: str = LISTING, numbered: Sequence[str] | None = None
 ) -> frozenset[str]:
-    """The hulls that names, numbers as `#5`, ranges as `#22-26` or `geom#22-26`, or patterns,
-    with commas between, stand for.
+    """The hulls of names, numbers `#5`, ranges `#22-26` or `geom#22-26`, or patterns, with commas between.
 
     A name counts before a number, and both before a pattern, which is compared with the whole name, `BODY/HULL`; `*`
-    stands for slashes too. hulls: the names of all; where: the argument that an error
-    is about; listing: the command that lists them; numbered: their names in the order of that list, where that is not
-    the order of `hulls`. Raises UsageError for a part that is no hull's name or number and matches none.
+    stands for slashes too. hulls: the names of all; where: the argument that an error is about; listing: the command
+    that lists them; numbered: their names in the order of that list, where that is not the order of `hulls`.
+    Raises UsageError for a part that is no hull's name or number and matches none.
     """
     if text in hulls:  # names may have commas
         return frozenset((text,))

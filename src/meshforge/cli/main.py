@@ -136,7 +136,7 @@ def _run(debug: bool) -> None:
     except Exception as error:  # no traceback reaches a user who did not ask for it
         if debug:
             raise
-        from meshforge.common import describe_error  # lazy: only an error needs it
+        from meshforge.common import MeshForgeError, describe_error  # lazy: only an error needs it
 
         print(f"error: {describe_error(error, fault='--debug shows where it came from')}", file=sys.stderr)
-        sys.exit(2)
+        sys.exit(error.exit_code if isinstance(error, MeshForgeError) else 2)

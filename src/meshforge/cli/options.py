@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeVar, get_args, ge
 
 import typer
 
+from meshforge.cli.console import progress
 from meshforge.common import UsageError, join_names, plain_path
 from meshforge.formats import Collision, MarkName
 
@@ -33,15 +34,6 @@ Workers = Annotated[int | None, typer.Option("--workers", min=1, help="Processes
 EngineName = Literal["mujoco", "physx-cpu", "physx-gpu", "unreal", "unity", "bullet", "godot"]
 
 
-def _refuse_sure(value: float | None) -> None:
-    if value is not None:
-        raise UsageError(
-            "there is no option --sure", remedy=f"It is called --min-confidence: --min-confidence {value:g}"
-        )
-
-
-OldSure = Annotated[float | None, typer.Option("--sure", hidden=True, callback=_refuse_sure)]
-"""The old spelling of --min-confidence, which is an error that names the new one."""
 DryRun = Annotated[bool, typer.Option("--dry-run", help="Say what would be done, write nothing.")]
 ReportPath = Annotated[
     Path | None, typer.Option("--report", help="An HTML page with pictures of each asset, failures first.")
@@ -294,13 +286,15 @@ def open_asset(asset: Path, labels: Path | None, project: Path | None) -> Symbol
     if project is None:
         from meshforge.formats import load  # lazy: most commands take several assets
 
-        return load(asset, labels=labels)
+        with progress(None, f"reading {asset.name}"):
+            return load(asset, labels=labels)
     if labels:
         raise UsageError("a project has its own labels", remedy="Leave --labels out, or --project.")
     from meshforge.project import Project as Opened  # lazy: 500 modules that only --project needs
 
     home = Opened.open(project)
-    return home.mesh(asset_id(asset, home))
+    with progress(None, f"reading {asset.name}"):
+        return home.mesh(asset_id(asset, home))
 
 
 def asset_id(asset: str | Path, project: Project) -> str:

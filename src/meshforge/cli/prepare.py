@@ -64,7 +64,6 @@ class PrepareArguments:
             "--min-confidence", metavar="P", help="Split hulls that span parts with at least this probability [0.9]."
         ),
     ] = None
-    sure: options.OldSure = None
     dry_run: Annotated[bool, typer.Option("--dry-run", help="Say which hulls would be split; write nothing.")] = False
     limits: Annotated[
         options.EngineName | None,

@@ -10,6 +10,7 @@ from typing import Annotated, Literal
 import typer
 
 from meshforge import inspection
+from meshforge.cli.console import progress
 from meshforge.cli.options import AssetFile, InProject, LabelsPath, open_asset, takes
 from meshforge.cli.terminal import remark
 from meshforge.common import UsageError, escape_name, pluralize
@@ -89,14 +90,17 @@ def render(given: RenderArguments) -> None:
             check_picture_path(given.out)
         side = _parse_side(given.size or "1024x1024")
         mesh = open_asset(given.asset, given.labels, given.project)
-        remark(f"wrote {write_part_pictures(mesh, given.out, side)}")
+        with progress(None, "drawing"):
+            wrote = write_part_pictures(mesh, given.out, side)
+        remark(f"wrote {wrote}")
         return
     check_picture_path(given.out)  # before the asset is read, which may take its time
     mesh = open_asset(given.asset, given.labels, given.project)
     views, size = _parse_views(given.views), _parse_pixels(given.size or "900x700")
-    inspection.render(
-        mesh, given.out, views=views, color_by=given.color_by, size=size, ghost=given.ghost, names=given.names
-    )
+    with progress(None, "drawing"):
+        inspection.render(
+            mesh, given.out, views=views, color_by=given.color_by, size=size, ghost=given.ghost, names=given.names
+        )
     remark(f"wrote {escape_name(str(given.out))}")
 
 
@@ -116,8 +120,8 @@ def _write_turntable(given: RenderArguments, path: Path) -> None:
     size = _parse_pixels(given.size or "480x400")
     mesh = open_asset(given.asset, given.labels, given.project)
     color_by = given.color_by or ("label" if mesh.labels else "hull")
-    pictures = draw_turn([mesh], list_turns(), size=size, color_by=color_by)
-    write_gif(path, [image for (image,) in pictures])
+    with progress(None, "drawing"):
+        write_gif(path, [image for (image,) in draw_turn([mesh], list_turns(), size=size, color_by=color_by)])
     remark(f"wrote {escape_name(str(path))}")
 
 

@@ -33,7 +33,6 @@ class ReviewArguments:
             "--min-confidence", help="The probability from which on a result is signed off.", min=0.5, max=1.0
         ),
     ] = BAR
-    sure: options.OldSure = None
     answers: Annotated[
         Path | None, typer.Option("--answers", help="A JSON file of replies to questions that are asked, in any order.")
     ] = None

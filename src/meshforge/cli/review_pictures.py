@@ -3,8 +3,10 @@ choice selects, or the asset before and after."""
 
 from __future__ import annotations
 
+from contextlib import suppress
 from pathlib import Path
 
+from meshforge.cli.console import progress
 from meshforge.cli.mesh_pictures import MeshPictures
 from meshforge.common import MeshForgeError
 from meshforge.project import Project, ProjectReview
@@ -17,10 +19,9 @@ def draw_question(project: Project, found: ProjectReview, question: ReviewQuesti
     away. None where it cannot be drawn."""
     pictures = MeshPictures(project, lambda: found.state.meshes, project.layout.review_pictures)
     pictures.clear()
-    try:
+    with progress(None, "drawing"), suppress(MeshForgeError):
         return _draw(pictures, found, question)
-    except MeshForgeError:
-        return []
+    return []
 
 
 def _draw(pictures: MeshPictures, found: ProjectReview, question: ReviewQuestion) -> list[Path]:

@@ -12,6 +12,7 @@ from pathlib import Path
 from types import NoneType
 from typing import Any
 
+from meshforge.cli.console import progress
 from meshforge.cli.synthesize_text import describe_change
 from meshforge.cli.terminal import catch_interrupt, remark
 from meshforge.common import UsageError
@@ -36,15 +37,19 @@ class LearningSession:
 
     def learn(self, confirm: Callable[[Repair], bool] | None = None) -> LearningOutcome:
         """What is learned from all that is known by now."""
-        meshes = self.meshes()
-        with catch_interrupt() as stop:
+        with progress(None, "learning") as shown, catch_interrupt() as stop:
+
+            def ask(repair: Repair) -> bool:
+                shown.clear()
+                return confirm is not None and confirm(repair)
+
             outcome = self.project.synthesize(
                 accept=self.keep,
                 options=self.options,
-                confirm=confirm,
+                confirm=ask if confirm else None,
                 stop=stop,
                 answers=tuple(self.given.values()),
-                meshes=meshes,
+                meshes=self.meshes(),
             )
             self.stopped = stop()
         return outcome

@@ -24,6 +24,7 @@ from meshforge.common.files import (
 )
 from meshforge.common.messages import (
     AssetError,
+    CollisionLossError,
     DemonstrationError,
     GeometryError,
     HullNotFoundError,
@@ -63,6 +64,7 @@ __all__ = [
     "DISK_ERRORS",
     "PLUGIN_KINDS",
     "AssetError",
+    "CollisionLossError",
     "DemonstrationError",
     "FileState",
     "FileStates",

@@ -9,7 +9,7 @@ import errno
 import os
 import re
 from collections.abc import Collection, Iterable, Sequence
-from typing import Any
+from typing import Any, ClassVar
 
 _UNSAFE = re.compile(
     r"[\x00-\x1f\x7f-\x9f\u00ad\u061c\u180e\u200b-\u200f\u2028-\u202e\u2060-\u206f\ufeff\ufff9-\ufffb"
@@ -93,6 +93,8 @@ class MeshForgeError(Exception):
     Instances pickle, so that they can come back from worker processes whole.
     """
 
+    exit_code: ClassVar[int] = 2
+
     def __init__(self, problem: str, *, where: str | None = None, remedy: str | None = None) -> None:
         self.problem = problem
         self.where = where
@@ -154,6 +156,12 @@ class HullNotFoundError(MeshForgeError, KeyError):
 
 class AssetError(MeshForgeError):
     """A file that cannot be read or written as an asset."""
+
+
+class CollisionLossError(AssetError):
+    """A format that cannot hold what collides in an asset."""
+
+    exit_code = 1
 
 
 class GeometryError(MeshForgeError):

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from meshforge.formats.mesh_reader import read_triangles, split_into_pieces
     from meshforge.formats.meshfile.surface import RawSurface
     from meshforge.formats.mjcf.trial import MujocoTrial, try_in_mujoco
-    from meshforge.formats.output_tree import SaveResult, describe_collision, output_path_of, save
+    from meshforge.formats.output_tree import SaveResult, output_path_of, save
     from meshforge.formats.plain.obj_text import format_obj
     from meshforge.formats.plain.parts import MeshPart
     from meshforge.formats.registry import (
@@ -79,7 +79,6 @@ __all__ = [
     "all_suffixes",
     "convert",
     "decompose",
-    "describe_collision",
     "format_for",
     "format_obj",
     "format_of",

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, ClassVar, Literal
 
-from meshforge.common import AssetError, join_names, pluralize
+from meshforge.common import AssetError, CollisionLossError, join_names, pluralize
 from meshforge.symbolic import Asset, Feature, FeatureKind, Surface
 
 _PATHS = (
@@ -223,3 +223,14 @@ def note_renames(names: Mapping[str, str]) -> tuple[str, ...]:
         return ()
     shown = join_names([f"{old} is now {new}" for old, new in names.items()], 3)
     return (f"hulls are called otherwise in what is written: {shown}",)
+
+
+def nothing_collides_error(asset: Asset) -> AssetError:
+    """The error on an asset of which nothing that collides can be written."""
+    problem, where = "there is no hull to write", str(asset.path)
+    if not asset.opaque:
+        return AssetError(problem, where=where)
+    remedy = "Make a hull of each: convert --concave hull, or meshforge prepare PROJECT --decompose hull."
+    names = join_names([piece.name for piece in asset.opaque], 3)
+    problem = f"{problem}: {names} cannot collide there without being convex"
+    return CollisionLossError(problem, where=where, remedy=remedy if any(p.surface for p in asset.opaque) else None)

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from math import floor
 from pathlib import Path
 
-from meshforge.common import AssetError, GeometryError, join_names, pluralize
+from meshforge.common import CollisionLossError, GeometryError, join_names, pluralize
 from meshforge.formats.base import Format, Loss, Output, SceneFormat
 from meshforge.formats.references import find_companions
 from meshforge.formats.visuals import Visual, VisualSurfaces
@@ -37,10 +37,10 @@ class ConversionReport:
         return (*self.remarks, *map(str, self.lost))
 
     def refuse_lost_collision(self, where: str, remedy: str) -> None:
-        """Raise AssetError where non-convex pieces, which collided, do not any more."""
+        """Raise CollisionLossError where non-convex pieces, which collided, do not any more."""
         if lost := [loss for loss in self.lost if loss.kind is FeatureKind.OPAQUE and self.marked]:
             names = join_names([name for loss in lost for name in loss.names], 3)
-            raise AssetError(f"{names} would collide no more: {lost[0].why}", where=where, remedy=remedy)
+            raise CollisionLossError(f"{names} would collide no more: {lost[0].why}", where=where, remedy=remedy)
 
 
 def report_conversion(

@@ -123,15 +123,6 @@ def _format_of_output(out: Path, asset: Asset, names: MarkName | None) -> Format
     return format_with_names(known, names) if names else known
 
 
-def describe_collision(
-    what: SymbolicMesh, out: Path, names: MarkName | None, collision: Collision | None
-) -> tuple[str, ...]:
-    """What `save` would say of where it writes hulls, for a scene in which nothing is marked as collision."""
-    asset = what.to_asset()
-    known = _format_of_output(out, asset, names)
-    return _note_collision(asset, known, _place_collision(asset, known, names, collision))
-
-
 def _place_collision(
     asset: Asset, known: Format, names: MarkName | None, collision: Collision | None
 ) -> Collision | None:

@@ -4,7 +4,7 @@ alone or many, with the labels that lie beside them."""
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import replace
 from math import floor
 from pathlib import Path
@@ -28,7 +28,7 @@ from meshforge.formats.urdf.format import UrdfFormat, UrdfWithCapsules
 from meshforge.formats.urdf.xacro import XacroFormat
 from meshforge.formats.usd.format import UsdFormat
 from meshforge.formats.usd.live_stage import StageObject, read_stage
-from meshforge.symbolic import Asset, Label, SymbolicMesh, read_labels, transfer_labels
+from meshforge.symbolic import Asset, FileNote, Label, SymbolicMesh, read_labels, transfer_labels
 
 _HEAD = 4096  # bytes by which a format tells its assets from other files of its suffix
 _UNREAD = {".mjb": "is a model compiled for one version of MuJoCo: open the XML it was made from"}
@@ -221,8 +221,9 @@ def read(source: Source, options: ReadOptions | None = None) -> Asset:
         if not is_text(str(file)):
             raise AssetError("this name is not UTF-8", where=str(file), remedy="Rename the file.")
     refuse_far(asset)
-    notes = [note_if_odd_size(asset) if asset.geoms or asset.opaque else NO_GEOMETRY, _note_fills(asset)]
-    return replace(asset, notes=(*asset.notes, *filter(None, notes))) if any(notes) else asset
+    found = [note_if_odd_size(asset) if asset.geoms or asset.opaque else NO_GEOMETRY, _note_fills(asset)]
+    notes = tuple(FileNote(note) for note in found if note)
+    return replace(asset, notes=(*asset.notes, *notes)) if notes else asset
 
 
 def _note_fills(asset: Asset) -> str | None:
@@ -233,10 +234,16 @@ def _note_fills(asset: Asset) -> str | None:
     return f"not convex: {join_names(shares)}, {advice}" if shares else None
 
 
-def notes_after(before: Asset, written: Asset) -> tuple[str, ...]:
+def notes_after(before: Asset, written: Asset, hulled: Collection[str] = ()) -> tuple[str, ...]:
     """What is to be known about how an asset was read, now that it is written: in its own format, of what is there now,
-    since an edit may have dealt with what was to be said of the input."""
-    return written.notes if written.format == before.format else before.notes
+    since an edit may have dealt with what was to be said of the input; in another one, of what either file is, of the
+    one that was written alone. hulled: its hulls of which enough was said."""
+    if written.format == before.format:
+        return written.notes
+    known = _note_fills(written)
+    fills = _note_fills(replace(written, geoms=tuple(geom for geom in written.geoms if geom.name not in hulled)))
+    now = [note for note in written.notes if isinstance(note, FileNote) and note != known]
+    return (*(note for note in before.notes if not isinstance(note, FileNote)), *now, *filter(None, [fills]))
 
 
 def _read_source(source: Source, options: ReadOptions) -> Asset:

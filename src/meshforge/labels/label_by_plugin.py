@@ -120,15 +120,19 @@ def _label_assets(
 def _label_asset(name: str, vocabulary: tuple[str, ...], files: AssetFiles) -> _AssetLabels:
     try:
         mesh = files.read_mesh()
-        plugin, kind = LABELERS.plugin(name), LABELERS[name]
-        with blame(plugin, str(files.path)):
-            said = dict(kind().label(mesh, vocabulary))
-            if plugin and (problem := _find_odd_label(said)):
-                raise plugin.error(problem, str(files.path))
-            given = {hull: replace(label, source="plugin", given=None) for hull, label in said.items()}
-        return _AssetLabels(hull_digests(mesh), mesh.labels, given)
+        return _AssetLabels(hull_digests(mesh), mesh.labels, ask_labeler(name, mesh, vocabulary, str(files.path)))
     except Exception as error:  # an asset that fails never stops the others
         return _AssetLabels(error=describe_error(error, str(files.path)))
+
+
+def ask_labeler(name: str, mesh: SymbolicMesh, vocabulary: Sequence[str], where: str) -> dict[str, Label]:
+    """The labels that a labeller gives to hulls, by name; where: the asset. Raises PluginError where it fails."""
+    plugin, kind = LABELERS.plugin(name), LABELERS[name]
+    with blame(plugin, where):
+        said = dict(kind().label(mesh, vocabulary))
+        if plugin and (problem := _find_odd_label(said)):
+            raise plugin.error(problem, where)
+        return {hull: replace(label, source="plugin", given=None) for hull, label in said.items()}
 
 
 def _find_odd_label(said: Mapping[Any, Any]) -> str | None:

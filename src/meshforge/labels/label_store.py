@@ -13,6 +13,7 @@ from meshforge.labels.family_comparison import Stage, WriteBlock, ignore_stage
 from meshforge.labels.label_by_consensus import ConsensusResult, SourceRestoration
 from meshforge.labels.label_by_plugin import label_by_plugin, propose_by_plugin
 from meshforge.labels.label_by_propagation import PropagationResult
+from meshforge.labels.label_sources import keep_label_source
 from meshforge.labels.merge import LabelOutcome, OutcomeCallback, ignore_report, set_labels, set_labels_of
 from meshforge.labels.summary import Proposals, Tally, describe_label_plan, tally, write_contact_sheets
 from meshforge.store import Store, VlmSettings
@@ -54,7 +55,10 @@ class LabelStore(Store):
         Raises ProjectError: no file at all; UsageError: a wrong pattern, or one file for several assets; AssetError: a
         file that cannot be read while a vocabulary is looked for.
         """
-        return from_files.label_from_files(self, source, options or from_files.LabelFileOptions(), execution, report)
+        how = options or from_files.LabelFileOptions()
+        outcomes = from_files.label_from_files(self, source, how, execution, report)
+        keep_label_source(self, "file", how, source)
+        return outcomes
 
     def propose_from_files(
         self,
@@ -82,7 +86,9 @@ class LabelStore(Store):
         words that are nearly those. report: called with the outcome of each asset, in their order.
         Raises ProjectError: no vocabulary; UsageError: a wrong pattern.
         """
-        return names.label_from_names(self, meanings, execution, report)
+        outcomes = names.label_from_names(self, meanings, execution, report)
+        keep_label_source(self, "names", from_files.LabelFileOptions(meanings))
+        return outcomes
 
     def propose_from_names(
         self,
@@ -187,7 +193,9 @@ class LabelStore(Store):
         report: called with the outcome of each asset, in their order; what the plug-in does wrong is a problem in it.
         Raises ProjectError: no vocabulary; UsageError: no such labeller; PluginError: it cannot be loaded.
         """
-        return label_by_plugin(self, name, execution, report)
+        outcomes = label_by_plugin(self, name, execution, report)
+        keep_label_source(self, name, from_files.LabelFileOptions())
+        return outcomes
 
     def propose_by_plugin(
         self, name: str, vocabulary: Sequence[str] | None = None, *, execution: ExecutionOptions = IN_PROCESS

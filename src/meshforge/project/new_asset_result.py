@@ -3,6 +3,7 @@ parts, labels by likeness) in words, as JSON and as doubts; and how probable its
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
@@ -21,6 +22,7 @@ from meshforge.symbolic import Label, LabelFile
 from meshforge.synthesis import LearningOutcome
 
 _DIGITS = 3
+_BY: Mapping[str, str] = {"name": "by names", "plugin": "by a plug-in"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,7 +51,8 @@ class NewAssetResult:
     """What became of a new asset before the program.
 
     splits: hulls that were split; spanning: those that likely span parts and were not; guesses: labels that the family
-    gave to hulls that had none; notes: all else; problem: why it could not be prepared.
+    gave to hulls that had none; taken: labels that files, names and plug-ins gave to them before; notes: all else;
+    problem: why it could not be prepared.
     """
 
     asset: str
@@ -58,6 +61,7 @@ class NewAssetResult:
     guesses: Mapping[str, Label] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
     problem: str | None = None
+    taken: Mapping[str, Label] = field(default_factory=dict)
 
     @property
     def doubts(self) -> tuple[Doubt, ...]:
@@ -85,6 +89,8 @@ class NewAssetResult:
     def describe(self) -> tuple[str, ...]:
         """A sentence on each split, each hull that was left, and on the labels."""
         rows = [*map(str, self.splits), *(f"{span}: not split" for span in self.spanning)]
+        counts = Counter(_BY.get(one.source, "from a file") for one in self.taken.values())
+        rows += [f"{pluralize(count, 'label')} {by}" for by, count in counts.items()]
         if self.guesses:
             name, least = min(self.guesses.items(), key=lambda row: row[1].confidence)
             rows.append(
@@ -111,6 +117,10 @@ class NewAssetResult:
                 {"hull": one.hull, "chance": round(one.chance, _DIGITS), "holds": list(one.shares)}
                 for one in self.spanning
             ],
+            "labelled": {
+                name: {"label": one.name, "confidence": one.confidence, "source": one.source}
+                for name, one in self.taken.items()
+            },
             "guessed": {name: {"label": one.name, "confidence": one.confidence} for name, one in self.guesses.items()},
             "sure_at_most": round(self.probability, _DIGITS),
         }

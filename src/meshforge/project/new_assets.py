@@ -1,5 +1,6 @@
 """Assets that are not of a project, or came to it later, prepared as it says: decomposed as its own, hulls that span
-parts split where that is sure enough, and hulls without a label given the likeliest one.
+parts split where that is sure enough, and hulls without a label given the one that files, names or plug-ins say, if
+these labelled its own, else the likeliest one.
 
 Each is compared with the project's labelled assets alone, in a worker process: what becomes of it does not depend on
 the other new ones, nor on the number of workers, and no process holds more than these and one new asset.
@@ -20,6 +21,7 @@ from meshforge.formats import read
 from meshforge.geometry import cache_folder
 from meshforge.labels import NEW, HullSpan, ReferenceFamily, ignore_stage, read_reference_family
 from meshforge.labels.family_comparison import Stage
+from meshforge.labels.label_sources import FamilyLabelSources
 from meshforge.labels.merge import LabelWriter, can_fill_gap
 from meshforge.project.new_asset_memory import NewAssetFolder, digest_basis
 from meshforge.project.new_asset_result import HullSplit, NewAssetResult, parts_of
@@ -27,7 +29,7 @@ from meshforge.project.preparation_plan import PreparationPlan, extend_plan, fin
 from meshforge.project.prepare import exchange_preparation
 from meshforge.project.span_search import plan_splits
 from meshforge.store import Store, hull_digests
-from meshforge.symbolic import Asset, LabelFile, SymbolicMesh, read_labels, transfer_labels, write_labels
+from meshforge.symbolic import Asset, Label, LabelFile, SymbolicMesh, read_labels, transfer_labels, write_labels
 
 _NO_LABELS = "no hull of the project has a label, so nothing says which hulls span parts"
 
@@ -61,10 +63,12 @@ class _WorkerOutcome:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Task:
-    """family: None where nothing is labelled; split: whether hulls are split; guess: whether hulls without a label get
-    one; contact: the threshold, None for the language's own."""
+    """family: None where nothing is labelled; sources: by what hulls are labelled before likeness, None where they are
+    not; split: whether hulls are split; guess: whether hulls without a label get one; contact: the threshold, None for
+    the language's own."""
 
     family: ReferenceFamily | None
+    sources: FamilyLabelSources | None
     split: bool
     guess: bool
     contact: float | None
@@ -140,8 +144,8 @@ def _keep_in_project(store: Store, asset: str, found: _WorkerOutcome) -> list[st
         part = after if is_last else after.with_only(after.steps[:count])
         notes += exchange_preparation(store, asset, part, seen, labels if is_last else None)
         seen = batch.record_digest(store.layout.preparation(asset))
-    if found.result.guesses:
-        LabelWriter(store).write(asset, hull_digests(found.mesh), found.result.guesses, can_fill_gap)
+    if labels := {**found.result.taken, **found.result.guesses}:
+        LabelWriter(store).write(asset, hull_digests(found.mesh), labels, can_fill_gap)
     return notes
 
 
@@ -156,8 +160,9 @@ def prepare_aside(
     shared = [task.family.digest if task.family else None, task.split, task.guess, task.contact]
     homes = {one.id: NewAssetFolder(folder, one.id, one.path) for one in assets}
     basis = {
-        one.id: digest_basis(one.plan, one.labels, one.preparation, [*shared, json.dumps(dict(one.single))])
+        one.id: digest_basis(one.plan, one.labels, one.preparation, [*shared, json.dumps(dict(one.single)), said])
         for one in assets
+        for said in [task.sources.digest(one.id, one.path) if task.sources else None]
     }
     known = {one.id: result for one in assets if (result := homes[one.id].read(basis[one.id]))}
     fresh = _prepare_all(task, [one for one in assets if one.id not in known], options)
@@ -199,7 +204,8 @@ def _make_task(store: Store, assets: Sequence[NewAsset], options: NewAssetOption
         family = read_reference_family(
             store, options.execution, options.stage, engine or "coacd", without=without, spans=engine is not None
         )
-    return _Task(family, options.split, options.guess, store.settings.thresholds.contact)
+    sources = FamilyLabelSources.of(store) if options.guess else None
+    return _Task(family, sources, options.split, options.guess, store.settings.thresholds.contact)
 
 
 def _prepare_all(task: _Task, assets: Sequence[NewAsset], options: NewAssetOptions) -> Iterator[_WorkerOutcome | str]:
@@ -216,14 +222,16 @@ def _prepare(task: _Task, work: NewAsset) -> _WorkerOutcome | str:
         source = read(work.path)
         after, notes = _decompose(source, before, work.plan)
         labels = read_labels(work.labels) if work.labels and work.labels.exists() else LabelFile()
-        mesh = _build_mesh(source, after, labels, task.contact)
+        mesh, taken, odd = _take_labels(task, work, _build_mesh(source, after, labels, task.contact))
         found = _SplitOutcome(after)
         if work.plan.split and mesh.hulls:
             found = _split(task, source, after, mesh, work)
             if found.splits:
                 mesh = _build_mesh(source, found.preparation, labels, task.contact).with_labels(parts_of(found.splits))
+                mesh, taken, _ = _take_labels(task, work, mesh)  # what is odd of hulls that are gone was said
         guesses = task.family.infer_labels(mesh) if task.guess and task.family and mesh.hulls else {}
-        result = NewAssetResult(work.id, found.splits, found.spanning, guesses, (*found.notes, *notes))
+        notes = (*found.notes, *notes, *odd)
+        result = NewAssetResult(work.id, found.splits, found.spanning, guesses, notes, taken=taken)
         words = labels.vocabulary or (task.family.words if task.family else ())
         files = batch.asset_digests(work.path, source.files, work.path.parent)
         return _WorkerOutcome(files, found.preparation, seen, mesh.with_labels(guesses), words, result)
@@ -236,6 +244,14 @@ def _build_mesh(
 ) -> SymbolicMesh:
     mesh = transfer_labels(labels, SymbolicMesh.of(batch.apply_preparation(source, preparation))).mesh
     return mesh if contact is None else replace(mesh, epsilon=contact)
+
+
+def _take_labels(
+    task: _Task, work: NewAsset, mesh: SymbolicMesh
+) -> tuple[SymbolicMesh, Mapping[str, Label], Sequence[str]]:
+    """A mesh with the labels that files, names and plug-ins give to its hulls without one; these labels, and notes."""
+    taken, odd = task.sources.label(work.id, work.path, mesh) if task.sources else ({}, ())
+    return mesh.with_labels(taken), taken, odd
 
 
 def _decompose(

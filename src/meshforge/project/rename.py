@@ -9,6 +9,7 @@ from pathlib import Path
 from meshforge import store as files
 from meshforge.batch import action_text
 from meshforge.common import ProgramError, ProjectError, suggest_name, write_atomically
+from meshforge.labels.label_sources import LabelSourcesFile, rename_in_label_sources
 from meshforge.language import Program, rename_in_orient, rename_in_program
 from meshforge.project import learn
 from meshforge.store import Store
@@ -71,6 +72,9 @@ def _rewrite_files(store: Store, old: str, new: str) -> Iterator[tuple[Path, str
         yield from _rename_in_steps(path, files.read_json(path, files.DemonstrationFile), old, new)
     for path in map(layout.corrections, layout.ids_with("corrections")):
         yield from _rename_in_steps(path, files.read_json(path, files.CorrectionsFile), old, new)
+    kept = files.read_json(layout.label_sources, LabelSourcesFile) or LabelSourcesFile()
+    if (after := files.json_text(rename_in_label_sources(kept, old, new))) != files.json_text(kept):
+        yield layout.label_sources, after
     events = files.load_events(layout)
     now = [_rename_in_event(event, layout.events, old, new) for event in events]
     if now != list(events):

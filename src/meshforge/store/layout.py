@@ -47,6 +47,11 @@ class Layout:
         return self.folder / "preparation.json"
 
     @property
+    def label_sources(self) -> Path:
+        """By what hulls were labelled."""
+        return self.folder / "label_sources.json"
+
+    @property
     def settings(self) -> Path:
         """What the project is about, as its owner writes it."""
         return self.folder / SETTINGS

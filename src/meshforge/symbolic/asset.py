@@ -201,13 +201,20 @@ class NameProblem(NamedTuple):
     is_hull: bool = False
 
 
+class FileNote(str):
+    """A note on a file as it is: not true of what is written from it in another format."""
+
+    __slots__ = ()
+
+
 @dataclass(frozen=True, eq=False)
 class Asset:
     """A file with collision geometry; immutable, an edit is a new asset with other geoms.
 
     files: every file that the document refers to, found, absolute, in order of mention.
     missing: references to visual files that are not there, as written in the document.
-    notes: what a user should know about how the file was read; up: the axis that its format says points up.
+    notes: what a user should know about how the file was read, and what it is (`FileNote`); up: the axis that its
+    format says points up.
     mechanism: joints and masses, empty where the format has none.
     name_problems: names in it that an engine does not take as they are meant.
     """

@@ -10,7 +10,9 @@ import pytest
 
 from meshforge.batch import IN_PROCESS
 from meshforge.formats import load
+from meshforge.language import Merge
 from meshforge.project import Project, SplitSettings
+from meshforge.synthesis import Step
 from tests.unit.batch.families import tree
 from tests.unit.cli.in_process import Run, runner
 from tests.unit.project.stools import PARTS, boxes, coarse, write_stool
@@ -152,3 +154,121 @@ def test_an_asset_that_cannot_be_read_fails_alone(run: Run) -> None:
     told = run("apply", "p", "new", "--out", "out", "--workers", "1")
     assert told.code == 1
     assert "failed     x.urdf\n    it could not be prepared: " in told.out and "edited     c.urdf" in told.out
+
+
+@pytest.fixture
+def block(run: Run, monkeypatch: pytest.MonkeyPatch) -> Run:
+    """The project's program makes one block of everything."""
+    Path("p/program.mf").write_text("labels seat, leg\n\nAll => Merge\n")
+    return run
+
+
+def test_new_assets_whose_results_stand_out_end_with_exit_code_1_until_they_are_accepted(block: Run) -> None:
+    words = ("apply", "p", "new", "--out", "out", "--workers", "1")
+    told = block(*words)
+    assert told.code == 1
+    assert "1 result stands out: c.urdf (" in told.out
+    assert told.err.endswith("Look at c.urdf, then: --accept-outliers\n")
+    assert Path("out/c.urdf").exists(), "it is written all the same"
+    assert block(*words).code == 1, "it stands out as before where nothing is left to do"
+    as_json = block(*words, "--json")
+    assert as_json.code == 1 and json.loads(as_json.out)["alarms"]
+    assert block(*words, "--accept-outliers").code == 0
+
+
+def test_an_outlier_of_the_project_is_one_until_it_is_accepted(block: Run) -> None:
+    add_to_project()
+    told = block("apply", "p", "--workers", "1")
+    assert told.code == 1 and "then: meshforge review, or --accept-outliers\n" in told.err
+    project = Project.open("p")
+    for asset in project.assets():
+        assert block("apply", "p", "--workers", "1").code == 1
+        project.set_verdict(asset, "accepted")
+    assert block("apply", "p", "--workers", "1").code == 0
+
+
+def test_a_result_that_was_demonstrated_is_no_outlier(block: Run) -> None:
+    project = Project.open("p")
+    (asset,) = project.assets()
+    assert block("apply", "p", "--workers", "1").code == 1
+    project.demonstrate(asset, [Step(1, frozenset(hull.name for hull in project.mesh(asset).hulls), Merge())])
+    assert block("apply", "p", "--workers", "1").code == 0
+
+
+def test_a_program_alone_is_never_signed_off_so_its_outliers_are_only_named(block: Run) -> None:
+    told = block("apply", "p/program.mf", "new", "--out", "out", "--workers", "1")
+    assert told.code == 0 and "1 result stands out: c.urdf (" in told.out
+
+
+@pytest.fixture
+def named(run: Run) -> Run:
+    """The project's hulls are labelled by a pattern of their names; likeness would say otherwise of those of c.urdf."""
+    project = Project.open("p")
+    project.set_labels("a.urdf", dict.fromkeys([hull.name for hull in project.mesh("a.urdf").hulls]))
+    assert run("label", "p", "--with", "names", "--pattern", "*h[0-4]=leg", "--workers", "1").code == 0
+    return run
+
+
+SOURCES = Path("p/label_sources.json")
+WORDS = ("apply", "p", "new", "--out", "out", "--workers", "1", "--no-split")
+
+
+def test_new_assets_are_labelled_by_the_patterns_that_labelled_the_family(named: Run) -> None:
+    told = named(*WORDS)
+    assert "note: 4 labels by names" in told.out and "by likeness" not in told.out
+    assert {hull.label for hull in load("out/c.urdf").hulls} == {"leg"}
+    (line,) = map(json.loads, named(*WORDS, "--json").out.splitlines())
+    assert line["guessed"] == {} and line["labelled"]["base/h0"] == {
+        "label": "leg",
+        "confidence": 0.9,
+        "source": "name",
+    }
+
+
+def test_what_names_do_not_say_is_labelled_by_likeness(named: Run) -> None:
+    kept = json.loads(SOURCES.read_text())
+    kept["lines"][0]["options"]["meanings"] = [["*h0", "leg"]]
+    SOURCES.write_text(json.dumps(kept))
+    told = named(*WORDS)
+    assert "note: 1 label by names" in told.out and "note: 3 labels by likeness to the family; least sure" in told.out
+
+
+def test_files_beside_new_assets_come_before_names_and_likeness(named: Run) -> None:
+    Path("new/semantics.txt").write_text("base free seat\n")
+    assert "note: 4 labels from a file" in named(*WORDS).out
+    Path("new/semantics.txt").write_text("base free leg\n")
+    told = named(*WORDS)
+    assert "edited     c.urdf" in told.out, "another file, another label"
+    Path("new/c.labels.json").write_text(json.dumps({"hulls": {"base/h1": "seat"}}))
+    told = named(*WORDS)
+    assert "note: 3 labels by names" in told.out, "of files beside an asset the first counts, here its labels file"
+    assert {hull.label for hull in load("out/c.urdf").hulls} == {"seat", "leg"}
+
+
+def test_an_asset_that_came_later_is_labelled_likewise_in_the_project(named: Run) -> None:
+    add_to_project()
+    told = named("apply", "p", "--workers", "1", "--no-split")
+    assert "note: 4 labels by names" in told.out
+    assert {one.source for one in Project.open("p").labels("c.urdf").labels.values()} == {"name"}
+
+
+def test_a_project_of_before_sources_were_kept_has_those_of_its_labels(named: Run) -> None:
+    SOURCES.unlink()
+    with Path("p/meshforge.toml").open("a") as settings:
+        settings.write('\n[names]\n"*h[0-4]" = "leg"\n')
+    assert "note: 4 labels by names" in named(*WORDS).out
+
+
+def test_labels_that_were_taken_back_label_no_new_asset(named: Run) -> None:
+    project = Project.open("p")
+    hulls = [hull.name for hull in project.mesh("a.urdf").hulls]
+    project.set_labels("a.urdf", dict(zip(hulls, PARTS, strict=True)))
+    told = named(*WORDS)
+    assert "by names" not in told.out and "by likeness to the family" in told.out
+
+
+def test_patterns_add_up_and_follow_a_label_that_is_renamed(named: Run) -> None:
+    assert named("label", "p", "--with", "names", "--pattern", "*top=seat", "--workers", "1").code == 0
+    Project.open("p").rename_label("leg", "foot")
+    (line,) = json.loads(SOURCES.read_text())["lines"]
+    assert line["options"]["meanings"] == [["*h[0-4]", "foot"], ["*top", "seat"]]

@@ -26,7 +26,7 @@ import sys, threading, time
 sys.path.remove("")  # as the command that pip installs
 threading.Thread(target=time.sleep, args=[60], daemon=True).start()
 from meshforge.cli import main
-sys.argv[1:] = ["apply", "project", "--again", "--workers", "2"]
+sys.argv[1:] = ["apply", "project", "--again", "--workers", "2", "--accept-outliers"]
 main()
 """
 _SAFE = "PYTHONSAFEPATH"

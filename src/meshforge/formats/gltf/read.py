@@ -23,7 +23,7 @@ from meshforge.formats.meshfile.gltf_scene import GltfScene
 from meshforge.formats.meshfile.surface import GAMMA
 from meshforge.formats.visuals import LazySurfaces
 from meshforge.geometry import Floats, Ints, Pose
-from meshforge.symbolic import Asset, Body, Mechanism, Mentions, NameProblem, Rgba, Surface, unique_names
+from meshforge.symbolic import Asset, Body, FileNote, Mechanism, Mentions, NameProblem, Rgba, Surface, unique_names
 
 _DAMAGE = (ValueError, LookupError, TypeError, AttributeError)
 
@@ -254,19 +254,19 @@ def _name_of(thing: Json) -> str:
 def collect_notes(scene: GltfScene, convention: Convention) -> Iterator[str]:
     """The notes on a scene, whose collision was read by a convention."""
     if convention in _HOW:
-        yield _HOW[convention]
+        yield FileNote(_HOW[convention])
     elif "Texture" in str(entries(scene.tree, "materials")):  # else it is a mesh file as any other
         yield "no node is marked as collision: all meshes are taken for it"
     placements, tree = scene.placements, scene.tree
     outside = [k for k, node in enumerate(entries(tree, "nodes")) if k not in placements and "mesh" in node]
     if outside:
-        yield f"{pluralize(len(outside), 'node')} with a mesh outside of the scene are left as they are"
+        yield FileNote(f"{pluralize(len(outside), 'node')} with a mesh outside of the scene are left as they are")
     if len(entries(tree, "scenes")) > 1:
         default = "the default one" if "scene" in tree else "the first, as none is the default"
         yield f"of {len(entries(tree, 'scenes'))} scenes it is {default} that is read"
     triggers = sum(is_trigger(placement.node, tree) for placement in placements.values())
     if triggers:
-        yield f"{pluralize(triggers, 'trigger')} detect bodies without colliding: they are left as they are"
+        yield FileNote(f"{pluralize(triggers, 'trigger')} detect bodies without colliding: they are left as they are")
     shown = [placement.node for placement in placements.values() if "mesh" in placement.node]
     if skinned := sum("skin" in node for node in shown):
         yield f"{pluralize(skinned, 'skinned mesh', 'skinned meshes')} are taken in the pose that the file has"

@@ -21,7 +21,7 @@ from meshforge.formats.mjcf.shapes import MjcfShapes, mesh_frame, mesh_surface
 from meshforge.formats.visuals import Visual, VisualSurfaces
 from meshforge.formats.xml import Element, XmlText, parse_xml
 from meshforge.geometry import Polytope, rotation_of_quaternion
-from meshforge.symbolic import Asset, Body
+from meshforge.symbolic import Asset, Body, FileNote
 
 _LEVELS = 3  # folders above a fragment in which a file that includes it may lie
 _MOST_FILES, _MOST_BYTES = 200, 2_000_000  # looked at in each folder, and read of each file
@@ -80,11 +80,12 @@ def _compile_or_reduce(tree: MjcfTree) -> tuple[FlatText, EngineModel, frozenset
 
 
 def _collect_notes(tree: MjcfTree, made: EngineModel, refusal: str) -> tuple[str, ...]:
-    notes = [f"{refusal}; read for its collision geometry only"] if refusal else []
-    notes += [f"MuJoCo refuses this file: {fault}" for fault in tree.faults]
-    notes += [f"MuJoCo warns: {warning}" for warning in made.warnings]
+    notes = [FileNote(f"{refusal}; read for its collision geometry only")] if refusal else []
+    notes += [FileNote(f"MuJoCo refuses this file: {fault}") for fault in tree.faults]
+    notes += [FileNote(f"MuJoCo warns: {warning}") for warning in made.warnings]
     if flexible := int(made.model.nflex):
-        notes.append(f"{pluralize(flexible, 'flexible body', 'flexible bodies')}: no hulls, left as authored")
+        bodies = pluralize(flexible, "flexible body", "flexible bodies")
+        notes.append(FileNote(f"{bodies}: no hulls, left as authored"))
     return tuple(notes)
 
 

@@ -20,7 +20,7 @@ from meshforge.formats.plain.base import MeshFileEdit, PlainFormat
 from meshforge.formats.plain.obj_text import edit_obj, format_obj
 from meshforge.formats.plain.parts import VISUAL_ONLY, MeshPart, PlainDocument, TargetTriangles, corners_of
 from meshforge.geometry import Piece, Shape
-from meshforge.symbolic import Asset, Feature, FeatureKind, Geom, Surface
+from meshforge.symbolic import Asset, Feature, FeatureKind, FileNote, Geom, Surface
 
 _MATERIAL = re.compile(rb"^[ \t]*usemtl[ \t]+([^\r\n]+)", re.M)
 _OTHERS = {
@@ -36,7 +36,9 @@ _SCALE = (
     "numbers are metres: Unreal's importers of OBJ take them for centimetres, so import it with a uniform scale of 100"
 )
 
-MARKED_NOTE = "its collision is the groups that Unreal takes by their names, UCX_ and the like; the rest is only seen"
+MARKED_NOTE = FileNote(
+    "its collision is the groups that Unreal takes by their names, UCX_ and the like; the rest is only seen"
+)
 
 
 class ObjFormat(PlainFormat):

@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from meshforge.common import AssetError
+from meshforge.formats.base import nothing_collides_error
 from meshforge.formats.meshfile.surface import Soup
 from meshforge.geometry import Box, Floats, Ints, Piece, Polytope
 from meshforge.symbolic import Asset, Document, Geom, Surface, unique_names
@@ -130,7 +131,7 @@ def collect_parts(asset: Asset) -> tuple[MeshPart, ...]:
     seen = tuple(MeshPart(piece.name, piece.surface) for piece in asset.opaque if piece.surface)
     parts = to_parts(asset.geoms)[0] + seen
     if not parts:
-        raise AssetError("there is no hull to write", where=str(asset.path))
+        raise nothing_collides_error(asset)
     return parts
 
 

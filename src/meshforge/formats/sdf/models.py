@@ -13,6 +13,7 @@ from meshforge.formats.sdf.document import ModelResolver, SdfSource, Version, pa
 from meshforge.formats.sdf.frames import MODEL, WORLD, FrameTable, SdfFrame, is_true, pose_of, text_of
 from meshforge.formats.xml import Element, XmlText
 from meshforge.geometry import Pose
+from meshforge.symbolic import FileNote
 
 _DEEPEST = 50  # models one in another; no author nests so far
 _MOST_MODELS = 5000  # models of one asset, so that includes of includes end
@@ -116,7 +117,8 @@ class _Composer:
         if not self.tree.scopes:
             raise AssetError("there is no <model> in it", where=str(path))
         if len(models) > 1 and not worlds:
-            self.tree.notes.append(f"it holds {len(models)} models, of which new Gazebo takes the first alone")
+            text = f"it holds {len(models)} models, of which new Gazebo takes the first alone"
+            self.tree.notes.append(FileNote(text))
         self._place_links(path)
 
     def _open_file(self, path: Path, place: str | None, reference: str) -> _File:

@@ -17,7 +17,7 @@ from meshforge.formats.sdf.frames import text_of
 from meshforge.formats.sdf.mechanism import compute_masses, has_computed_mass, read_joints, read_masses
 from meshforge.formats.visuals import Visual, VisualSurfaces
 from meshforge.formats.xml import Element, parse_numbers
-from meshforge.symbolic import Asset, Body, Mechanism, Mentions, Rgba
+from meshforge.symbolic import Asset, Body, FileNote, Mechanism, Mentions, Rgba
 
 _UNIT = re.compile(rb"<unit\b[^>]*?\bmeter\s*=\s*[\"']\s*([0-9.eE+-]+)\s*[\"']")
 _HEAD_BYTES = 100_000  # bytes within which a file says its unit
@@ -181,12 +181,14 @@ def collect_notes(tree: models.ModelTree) -> Iterator[str]:
     path = tree.sources[0].path
     if tree.worlds:
         count = sum(scope.depth == 1 for scope in tree.scopes)
-        yield f"it is a world of {pluralize(count, 'model')}, which is only read"
+        yield FileNote(f"it is a world of {pluralize(count, 'model')}, which is only read")
     if tree.version > document.NEWEST:
         own, known = (".".join(map(str, version)) for version in (tree.version, document.NEWEST))
         yield f"SDF {own} is newer than {known}: what is new in it is not understood"
     if not document.is_main_file(path) and (newest := document.find_main_file(path.parent)) is not None:
-        yield f"{document.CONFIG} names {newest.name} for newer versions of Gazebo, which do not read this file"
+        yield FileNote(
+            f"{document.CONFIG} names {newest.name} for newer versions of Gazebo, which do not read this file"
+        )
     if actors := [actor.line for actor in tree.root.each("actor")]:
         yield f"{pluralize(len(actors), 'actor')}, the first on line {actors[0]}: passed over"
     kinds = [(collision.element.line, document.geometry_of(collision.element)) for collision in tree.collisions]
@@ -194,7 +196,8 @@ def collect_notes(tree: models.ModelTree) -> Iterator[str]:
         yield f"{pluralize(len(bare), 'collision')} without geometry ({join_names(bare, 3)}): passed over"
     cut = [k for _, k in kinds if k is not None and k.attributes.get("optimization") == "convex_decomposition"]
     if cut:
-        yield f"{pluralize(len(cut), 'mesh', 'meshes')} to be decomposed by Gazebo when loaded, shown as authored"
+        meshes = pluralize(len(cut), "mesh", "meshes")
+        yield FileNote(f"{meshes} to be decomposed by Gazebo when loaded, shown as authored")
 
 
 def find_files(sources: Sequence[document.SdfSource]) -> tuple[tuple[Path, ...], tuple[str, ...]]:

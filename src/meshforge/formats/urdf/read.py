@@ -18,7 +18,7 @@ from meshforge.formats.urdf.document import UrdfLinks, read_links, read_mechanis
 from meshforge.formats.visuals import Visual, VisualSurfaces
 from meshforge.formats.xml import Element, XmlText
 from meshforge.geometry import Floats, Pose
-from meshforge.symbolic import Asset, Body, Mentions, Rgba
+from meshforge.symbolic import Asset, Body, FileNote, Mentions, Rgba
 
 _UP = (0.0, 0.0, 1.0)
 
@@ -220,6 +220,6 @@ def collect_notes(robot: Element, links: UrdfLinks, found: LinkCollisions) -> It
         place = f"a collision of link {link!r} on line {collision.line} has"
         shapes = [len(geometry.children) for geometry in collision.each("geometry")]
         if not shapes or not shapes[0]:
-            yield f"{place} no geometry and is left as it is"
+            yield FileNote(f"{place} no geometry and is left as it is")
         elif sum(shapes) > 1:
             yield f"{place} {sum(shapes)} shapes, of which one counts, as for engines"

@@ -17,7 +17,7 @@ from meshforge.formats.mesh_reader import read_content
 from meshforge.formats.references import Resolver
 from meshforge.formats.urdf.format import UrdfFormat
 from meshforge.formats.xml import XmlText, parse_xml
-from meshforge.symbolic import Asset
+from meshforge.symbolic import Asset, FileNote
 
 SUFFIX = ".xacro"
 _LOCK = threading.Lock()  # xacro keeps what it is at in variables of its module
@@ -44,7 +44,8 @@ class XacroFormat(UrdfFormat):
 
         source, included = expand(path, options)
         asset = read_urdf(path, options, source)
-        note = f"expanded by xacro; it is written as plain URDF, {self.output_name(path.name)}, without its macros"
+        name = self.output_name(path.name)
+        note = FileNote(f"expanded by xacro; it is written as plain URDF, {name}, without its macros")
         return replace(asset, files=tuple(dict.fromkeys((*asset.files, *included))), notes=(note, *asset.notes))
 
     def output_name(self, name: str) -> str:

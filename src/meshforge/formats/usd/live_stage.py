@@ -9,9 +9,9 @@ from typing import Any, Protocol, runtime_checkable
 from meshforge.common.processes import call_isolated
 from meshforge.formats.temporary import make_folder
 from meshforge.formats.usd.stage import usd
-from meshforge.symbolic import Asset
+from meshforge.symbolic import Asset, FileNote
 
-_FLAT = "read from a stage that differs from its files: flattened into one layer, which is what gets edited"
+_FLAT = FileNote("read from a stage that differs from its files: flattened into one layer, which is what gets edited")
 
 
 @runtime_checkable

@@ -19,7 +19,7 @@ from meshforge.formats.usd.mechanism import read_mechanism
 from meshforge.formats.usd.shapes import read_instances, read_mesh, read_parts
 from meshforge.formats.usd.stage import PrimRecord, UsdDocument, UsdStage, usd
 from meshforge.formats.visuals import LazySurfaces
-from meshforge.symbolic import Asset, Geom, Mentions, Rgba, Surface
+from meshforge.symbolic import Asset, FileNote, Geom, Mentions, Rgba, Surface
 
 _LABELS = "SemanticsLabelsAPI:"
 _ISAAC = "SemanticsAPI:"
@@ -180,14 +180,14 @@ def collect_notes(scene: UsdStage, physics: bool) -> Iterator[str]:
     ]
     off = [prim.GetName() for prim in solid if not colliders.is_collider(scene, prim)]
     if off:
-        yield f"{pluralize(len(off), 'collider')} switched off are left as they are ({join_names(off, 3)})"
+        yield FileNote(f"{pluralize(len(off), 'collider')} switched off are left as they are ({join_names(off, 3)})")
     triggers = sum(colliders.has_schema(prim, colliders.TRIGGER) for prim in prims)
     if triggers:
-        yield f"{pluralize(triggers, 'trigger')} detect bodies without colliding: they are left as they are"
+        yield FileNote(f"{pluralize(triggers, 'trigger')} detect bodies without colliding: they are left as they are")
     if chosen := [prim.GetName() for prim in prims if prim.HasVariantSets()]:
         yield f"of variants, the selected ones are read ({join_names(chosen, 3)})"
     if sum(prim.IsInstance() for prim in prims):
-        yield "what an edit changes in an instance becomes that instance's own: it is no longer shared"
+        yield FileNote("what an edit changes in an instance becomes that instance's own: it is no longer shared")
 
 
 def read_stage_surfaces(asset: Asset, document: UsdDocument) -> tuple[Surface, ...]:

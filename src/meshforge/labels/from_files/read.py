@@ -37,7 +37,7 @@ def find_label_files(found: AssetSet, source: Path | None) -> dict[str, Path]:
             raise UsageError(problem, where=str(source), remedy="Give a folder that mirrors theirs.")
         files = dict.fromkeys(found.ids, source)
     elif source.is_dir():
-        files = {asset: _file_in_mirror(source / asset, path) for asset, path in found.ids.items()}
+        files = {asset: find_file_in_mirror(source / asset, path) for asset, path in found.ids.items()}
     else:
         raise UsageError("there is no such labels file or folder", where=str(source))
     return {asset: file for asset, file in files.items() if file}
@@ -62,7 +62,7 @@ def label_file_beside(asset: Path) -> Path | None:
     return labels if labels.is_file() else points_beside(labels) or semantics_beside(asset)
 
 
-def _file_in_mirror(place: Path, asset: Path) -> Path | None:
+def find_file_in_mirror(place: Path, asset: Path) -> Path | None:
     """The file in a folder of them; place: where the asset would be there, which may be where it is."""
     labels = labels_beside(place)
     plain = (place.with_name(place.name + ".json"), labels)
@@ -141,22 +141,34 @@ def _read_by_facts(facts: AssetFacts, file: Path) -> LabelFileContent:
     if facts.error:
         return LabelFileContent(error=facts.error)
     try:
-        labels_file = read_labels(file)
+        return LabelFileContent(facts.hulls, _take_labels_file(file, facts.hulls))
     except MeshForgeError as error:
         return LabelFileContent(facts.hulls, error=error.message)
-    homes = match_labels(labels_file, facts.hulls)
-    present = {name: homes.labels[name] for name in facts.hulls if name in homes.labels}
-    return LabelFileContent(facts.hulls, FileLabels({name: labels_file.labels[name] for name in homes.gone} | present))
+
+
+def _take_labels_file(file: Path, hulls: Mapping[str, str]) -> FileLabels:
+    labels_file = read_labels(file)
+    homes = match_labels(labels_file, hulls)
+    present = {name: homes.labels[name] for name in hulls if name in homes.labels}
+    return FileLabels({name: labels_file.labels[name] for name in homes.gone} | present)
 
 
 def _read_by_mesh(work: _Work) -> LabelFileContent:
     try:
         mesh = SymbolicMesh.of(read_prepared(work.path, work.preparation))
-        if kind_of(work.file) == "points":
-            how = work.options
-            given = label_by_points(mesh, work.file, how.classes, how.placing, work.vocabulary, work.patterns)
-        else:
-            given = label_by_links(mesh, work.file, work.vocabulary, work.patterns)
+        given = read_label_file(mesh, work.file, work.options, work.vocabulary, work.patterns)
         return LabelFileContent(hull_digests(mesh), given)
     except Exception as error:  # one asset never stops the others
         return LabelFileContent(error=describe_error(error, str(work.path)))
+
+
+def read_label_file(
+    mesh: SymbolicMesh, file: Path, how: LabelFileOptions, vocabulary: Sequence[str], patterns: Sequence[NamePattern]
+) -> FileLabels:
+    """What a file of any kind says of the hulls of an asset. Raises AssetError where it cannot be read."""
+    match kind_of(file):
+        case "labels file":
+            return _take_labels_file(file, hull_digests(mesh))
+        case "points":
+            return label_by_points(mesh, file, how.classes, how.placing, vocabulary, patterns)
+    return label_by_links(mesh, file, vocabulary, patterns)

@@ -13,7 +13,7 @@ from meshforge.common import join_names, pluralize
 from meshforge.project import Project
 from meshforge.signoff import ExclusionReason
 from meshforge.store import ExclusionEvent, parse_action_text
-from meshforge.studio.edits.base import EVENTS_FILE, PREPARATION_FILES, PROGRAM_FILES, Edit, JobEdit, LabelsByAsset
+from meshforge.studio.edits.base import EVENTS_FILE, LABELS, PREPARED_FILES, PROGRAM_FILES, Edit, JobEdit, LabelsByAsset
 from meshforge.studio.wire.requests import HullOfAsset
 
 
@@ -98,7 +98,7 @@ class LabelFromFiles(Edit):
     """Take over the labels files beside the assets."""
 
     kind: Literal["label-files"] = "label-files"
-    touches = (SETTINGS, "labels")
+    touches = (SETTINGS, *LABELS)
 
     def apply(self, project: Project) -> None:
         project.label_from_files()
@@ -111,7 +111,7 @@ class LabelFromNames(Edit):
     """Label hulls without a label by the words in their names and in the names of their bodies."""
 
     kind: Literal["label-names"] = "label-names"
-    touches = ("labels",)
+    touches = LABELS
 
     def apply(self, project: Project) -> None:
         project.label_from_names()
@@ -138,7 +138,7 @@ class RenameLabel(Edit):
     """Give a label of the vocabulary another name, wherever it is used."""
 
     kind: Literal["rename-label"] = "rename-label"
-    touches = (SETTINGS, "labels", "demonstrations", "corrections", EVENTS_FILE, *PROGRAM_FILES)
+    touches = (SETTINGS, *LABELS, "demonstrations", "corrections", EVENTS_FILE, *PROGRAM_FILES)
     old: str
     new: str
 
@@ -177,7 +177,7 @@ Vector = tuple[float, float, float]
 
 
 class _PreparationEdit(Edit):
-    touches = PREPARATION_FILES
+    touches = PREPARED_FILES
     asset: str
 
 

@@ -19,7 +19,7 @@ LEARNED_FILE, LEARNED_BEFORE = "learned.json", f"{STATE}/learned.json"
 PROGRAM_FILES = (PROGRAM_FILE, PREVIOUS_FILE, LEARNED_FILE, LEARNED_BEFORE)
 """The files that accepting a program writes, from the project's folder."""
 
-PREPARATION_FILES = (
+PREPARED_FILES = (
     "prepared/{asset}",
     "labels/{asset}.json",
     "demonstrations/{asset}.json",
@@ -27,6 +27,9 @@ PREPARATION_FILES = (
     EVENTS_FILE,
 )
 """The files that preparing an asset writes."""
+
+LABELS = ("labels", "label_sources.json")
+"""The files that labels from files and names write."""
 
 LabelsByAsset = Mapping[str, Mapping[str, str | None]]
 """Labels of hulls by their names, by asset; None where one is taken away."""

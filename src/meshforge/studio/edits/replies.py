@@ -15,7 +15,7 @@ from meshforge.common import pluralize
 from meshforge.project import Project, has_agreed_labels
 from meshforge.signoff import HullPlace, ReviewChoice, ReviewQuestion, ReviewReply, question_of
 from meshforge.signoff.question import NO
-from meshforge.studio.edits.base import EVENTS_FILE, PREPARATION_FILES, Edit, LabelsByAsset
+from meshforge.studio.edits.base import EVENTS_FILE, PREPARED_FILES, Edit, LabelsByAsset
 from meshforge.studio.wire.requests import HullOfAsset
 from meshforge.studio.wire.signoff import ReviewQuestionView
 
@@ -130,7 +130,7 @@ class ReplyToQuestion(Edit):
             case signoff.OrientationQuestion():
                 yield layout.settings
             case signoff.SpanQuestion():
-                names = (name.format(asset=self._asked.asset) for name in PREPARATION_FILES)
+                names = (name.format(asset=self._asked.asset) for name in PREPARED_FILES)
                 yield from (layout.single_parts, *(project.folder / name for name in names))
             case signoff.ReadingQuestion() | signoff.DemonstrationQuestion():
                 return
