@@ -85,7 +85,7 @@ def wait_for(future: Future[Result]) -> Result:
     """The result of some work. Raises MeshForgeError where its process died, took too long or was stopped."""
     from concurrent.futures.process import BrokenProcessPool  # lazy: as above
 
-    from pebble import ProcessExpired
+    from pebble import ProcessExpired  # lazy: as above
 
     try:
         return future.result()
