@@ -47,7 +47,6 @@ def print_table(columns: Sequence[str], rows: Iterable[Sequence[Any]], *, right:
 
 
 def _print_plain_table(columns: Sequence[str], rows: Sequence[Sequence[str]], right: Sequence[str]) -> None:
-    """What rich prints where there is no terminal."""
     widths = [max(map(len, column)) for column in zip(columns, *rows, strict=True)]
     rule = "─" * (sum(widths) + 3 * (len(widths) - 1))
     lines = [

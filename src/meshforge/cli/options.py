@@ -326,7 +326,6 @@ def _last_names(asset: str) -> tuple[str, str]:
 
 
 def _count_other_parts(typed: str, asset: str) -> int:
-    """How many parts of a path are not those of an id."""
     return len(set(PurePath(typed).parts) ^ set(PurePath(asset).parts))
 
 

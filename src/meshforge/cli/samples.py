@@ -37,6 +37,5 @@ def samples(
 
 
 def _format_next(family: SampleFamily, folder: Path) -> str:
-    """The command that makes a project of a family in a folder."""
     pattern = quote_path(folder.absolute() / family.pattern)
     return f"meshforge new {family.name} {pattern} --vocabulary {','.join(family.vocabulary)}"

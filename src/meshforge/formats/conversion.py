@@ -105,7 +105,6 @@ def _find_faded_materials(asset: Asset, target: Format) -> list[Loss]:
 
 
 def _merge_losses(losses: Sequence[Loss]) -> list[Loss]:
-    """Losses of like things for a like reason as one."""
     alike: dict[tuple[FeatureKind, str, str | None], list[Loss]] = {}
     for loss in losses:
         alike.setdefault((loss.kind, loss.why, loss.instead), []).append(loss)

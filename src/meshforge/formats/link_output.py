@@ -80,7 +80,6 @@ class LinkCreator(ABC):
         return shown
 
     def _add_mesh(self, body: str, shape: Shape | str) -> str | None:
-        """The file of a visual shape that the format lacks."""
         if not isinstance(shape, Shape) or isinstance(shape, self.native):
             return None
         return self.maker.files.add(f"{body}-visual", "", shape.vertices, shape.faces)

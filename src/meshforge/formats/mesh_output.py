@@ -149,7 +149,6 @@ class VisualFiles:
         return self._make_obj(f"{mesh.stem}-visual", soup.vertices, soup.faces)
 
     def _bake(self, body: str, visual: Visual) -> LinkVisual | None:
-        """An OBJ of a visual under a map that shears."""
         surfaces = visual.surfaces()
         if not surfaces:
             self.refused.append(body)

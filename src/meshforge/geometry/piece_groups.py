@@ -133,5 +133,4 @@ class _Merger:
 
 
 def _unite(a: PieceGroup, b: PieceGroup, shape: Polytope) -> PieceGroup:
-    """Two groups as one of the kind of the first."""
     return PieceGroup(shape, tuple(sorted(a.members + b.members)), a.kind, (*a.pieces, *b.pieces))

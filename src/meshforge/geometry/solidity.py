@@ -154,7 +154,6 @@ def _is_deep(points: Floats, corners: Ints, hull: Polytope, share: float) -> boo
 
 
 def _judge_fill(points: Floats, corners: Ints, hull: Polytope) -> SolidityVerdict:
-    """The verdict on triangles as they are wound."""
     size = float(np.ptp(points, axis=0).max())
     origin = hull.centroid
     a, b, c = (points[corners[:, k]] - origin for k in range(3))

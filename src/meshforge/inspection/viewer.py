@@ -54,7 +54,6 @@ def _is_interactive() -> bool:
 
 
 def _wait(server: Any) -> None:
-    """Keep the viewer open until Ctrl-C."""
     print("Ctrl-C closes it")
     try:
         while True:

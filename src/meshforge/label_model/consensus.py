@@ -194,7 +194,6 @@ class FamilyContext:
         return share, together
 
     def _share_own(self, chances: Floats, informed: _Helpers, prior: Floats) -> Floats:
-        """The shares of the labels among look-alikes of the same mesh."""
         hulls, apart = self.lookalikes.own, self.lookalikes.own_apart
         there = np.isfinite(apart) & informed.usable[hulls]
         alike = np.where(there, _alike(np.where(there, apart, 99.0), _ALIKE_OWN), 0.0) * informed.worth[hulls]

@@ -132,7 +132,6 @@ class LookalikeSearch:
         return self._last[1]
 
     def _find_own(self) -> Lookalikes:
-        """Those of the same mesh alone."""
         from scipy.spatial.distance import cdist  # lazy: 0.5 s, half of all imports
 
         count, starts = len(self.rows), self._starts.tolist()
@@ -148,7 +147,6 @@ class LookalikeSearch:
         return Lookalikes(nothing.astype(np.int32), nothing.astype(precision), own, own_apart)
 
     def _extend(self, known: Lookalikes, more: Ints) -> Lookalikes:
-        """The same where more meshes are looked at."""
         places = np.searchsorted(self._meshes, more)
         spans = [slice(start, end) for start, end in zip(self._starts[places], self._starts[places + 1], strict=True)]
         compared = [

@@ -138,7 +138,6 @@ def describe_surroundings(whole: WholeShape) -> Floats:
 
 
 def _describe_rows(whole: WholeShape, pieces: Sequence[Floats]) -> Floats:
-    """The rows of some of the hulls."""
     points = np.concatenate([points_inside(piece, whole.axis, SEEN_FROM) for piece in pieces])
     offsets = (whole.seen[None] - points[:, None]) / whole.size
     squares = (offsets**2).sum(axis=2)

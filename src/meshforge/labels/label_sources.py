@@ -99,7 +99,6 @@ class FamilyLabelSources:
         return found, problems
 
     def _ask(self, line: LabelSourceLine, asset: str, path: Path, mesh: SymbolicMesh) -> Mapping[str, Label]:
-        """What one source says of an asset."""
         words = self.settings.vocabulary
         known = [(text, label) for text, label in line.options.meanings if not label or label in words]
         patterns = name_patterns(self.folder, self.settings, words, known)

@@ -80,7 +80,6 @@ def _perpendicular_part(directions: list[Floats], orient: Orient) -> Floats:
 
 
 def _landmark_direction(mesh: SymbolicMesh, pair: LandmarkPair, labels: Sequence[str | None] | None) -> Floats:
-    """The unit vector from the start of a pair to its end."""
     (start, from_names), (end, to_names) = (_landmark_centre(mesh, base, labels) for base in (pair.start, pair.end))
     norm = float(np.linalg.norm(end - start))
     if norm <= SLACK * mesh.diagonal:

@@ -161,7 +161,6 @@ def _list_spans(spans: SpansFile, asset: str, facts: AssetFacts) -> dict[str, st
 
 
 def _describe_unknown_hulls(store: Store, asset: str, facts: AssetFacts) -> Iterator[str]:
-    """A sentence for each hull that is demonstrated and is no more."""
     try:
         steps = () if facts.error else store.steps(asset)
     except MeshForgeError as error:

@@ -159,6 +159,5 @@ def has_agreed_labels(store: Store) -> bool:
 
 
 def _agree_again(store: Store) -> None:
-    """Let the labels that consensus gave follow what a person said."""
     if has_agreed_labels(store):
         label_by_consensus(store, IN_PROCESS, ignore_stage, ignore_report)

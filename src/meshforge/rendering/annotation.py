@@ -130,7 +130,6 @@ def _chip_width(entry: LegendEntry, size: tuple[int, int]) -> float:
 
 
 def _draw_scale(draw: Any, size: tuple[int, int], top: int) -> None:
-    """The colours of confidence from 0 to 1."""
     u = text_scale(size)
     small, length, high = round(13 * u), round(150 * u), round(12 * u)
     x = round(16 * u)

@@ -70,7 +70,6 @@ def _is_readable(places: Sequence[NumberPlace], items: Ints) -> bool:
 
 
 def _share_covered(place: NumberPlace, items: Ints) -> float:
-    """How much of the box of a text lies on hulls."""
     left, top, right, bottom = (round(side) for side in place.box)
     return float((items[top:bottom, left:right] >= 0).mean())
 

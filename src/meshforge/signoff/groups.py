@@ -92,7 +92,6 @@ def _gain(family: FamilyTrial, some: Sequence[_Suspect]) -> float:
 
 
 def _best_of(family: FamilyTrial, label: str, some: Sequence[_Suspect]) -> LookalikeGroup:
-    """The first hulls of some that are worth most a second."""
     best: LookalikeGroup | None = None
     for count in range(1, min(len(some), MOST_HULLS) + 1):
         part = some[:count]

@@ -103,6 +103,5 @@ def _features_of_mechanism(asset: Asset) -> Iterator[Feature]:
 
 
 def _feature_of_names(what: FeatureKind, names: Iterable[str]) -> Feature:
-    """A feature of things of which some have no name."""
     names = list(names)
     return Feature(what, tuple(name for name in names if name), sum(not name for name in names))

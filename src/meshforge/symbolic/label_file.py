@@ -244,7 +244,6 @@ def match_labels(file: LabelFile, hulls: Mapping[str, str]) -> LabelMatch:
 
 
 def _match_renamed(file: LabelFile, here: Mapping[str, str]) -> dict[str, str]:
-    """The new name of each labelled hull that has another one now."""
     authored = Counter(file.digests.values())
     present = Counter(here.values())
     names = {geometry: name for name, geometry in here.items()}

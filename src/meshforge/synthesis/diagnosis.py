@@ -157,7 +157,6 @@ def _find_difference(wanted: Extractor, examples: Sequence[Example], extremity: 
 
 
 def _find_place(rule: int, wanted: Extractor, ranked: RankedReadings, names: Sequence[str], options: Options) -> str:
-    """Where a consistent extractor stands among the readings."""
     does = ranked.field.bits(wanted)
     place = next((k for k, term in enumerate(ranked.terms) if term.bits == does), None)
     if place is None and options.strategy == "paper":

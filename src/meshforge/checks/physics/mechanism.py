@@ -45,7 +45,6 @@ class JointTree:
         return tree
 
     def _is_below(self, joint: Joint) -> bool:
-        """Whether the parent of a joint hangs below its child."""
         at: str | None = joint.parent
         while at is not None and at != joint.child:
             at = self.above.get(at)
@@ -123,7 +122,6 @@ def _parse_contact(attributes: dict[str, str]) -> ContactAttributes:
 
 
 def _number_pairs(pairs: tuple[tuple[str, str], ...], sources: list[str]) -> Iterator[frozenset[int]]:
-    """The pairs of hulls that were made of the geoms of a pair."""
     wanted = {frozenset(pair) for pair in pairs}
     touched = {name for pair in pairs for name in pair}
     for first, second in combinations([k for k, name in enumerate(sources) if name in touched], 2):

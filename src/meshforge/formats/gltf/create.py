@@ -145,7 +145,6 @@ class EngineCreator:
         return *pack_new(self.draft, stem, self.is_binary), known
 
     def _build_document(self) -> GltfDocument:
-        """What tells a reader how collision is marked."""
         return GltfDocument(b"", self.engine.engine, ())
 
     def _show(self, family: EngineBody, node: int, mesh: int) -> None:

@@ -145,7 +145,6 @@ def _remove_items(items: Sequence[_Item], kept: Sequence[bool]) -> Iterator[_Cha
 
 
 def _add_items(items: Sequence[_Item], kept: Sequence[bool], texts: Sequence[str], style: _Layout) -> Iterator[_Change]:
-    """The change that puts items behind the last one."""
     if texts:
         first = "" if not any(kept) else style.between
         yield _Change(items[-1].end, items[-1].end, first + style.between.join(texts))

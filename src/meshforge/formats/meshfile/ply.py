@@ -260,7 +260,6 @@ def _find_vertices(rows: list[PlyRows], where: str) -> Floats:
 
 
 def _find_corners(rows: list[PlyRows], where: str) -> Any:
-    """The lists of vertices of all faces."""
     found = next((r for r in rows if r.element.name == "face"), None)
     if found is None and any(r.element.name == "tristrips" for r in rows):
         raise AssetError("its faces are triangle strips, which are not read", where=where, remedy="Export triangles.")

@@ -74,7 +74,6 @@ def _read_surface(node: VrmlNode, world: Floats, name: str | None, where: str) -
 
 
 def _split_polygons(indices: list[int]) -> list[list[int]]:
-    """The polygons of indices that -1 parts."""
     polygons: list[list[int]] = [[]]
     for index in indices:
         if index == -1:

@@ -155,7 +155,6 @@ class MjcfEdit:
         return after, {wanted: read for _, wanted, read in misread}
 
     def _names_of_kept(self) -> set[str]:
-        """The name attributes of the geoms that stay."""
         return {self.authored.spec_geoms[e.number].name for e in self.expected if isinstance(e, OldGeom)}
 
     def _build_tree(self) -> MjcfTree:

@@ -78,7 +78,6 @@ def find_differences(
 
 
 def _compare_fields(one: mujoco.MjModel, other: mujoco.MjModel, masses: bool) -> Iterator[str]:
-    """What belongs neither to geoms nor to meshes."""
     names = [n for n in dir(one) if n.startswith(_OTHERS) and not n.endswith("pathadr")]
     plain = [name for name in names if name not in _NOT_COMPARED and name not in _OF_MASS]
     for name in [*_OF_BODY, *(_OF_MASS if masses else ()), *plain]:

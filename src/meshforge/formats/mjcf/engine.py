@@ -119,7 +119,6 @@ def failure_types() -> tuple[type[Exception], ...]:
 
 @contextmanager
 def _provide_files(tree: MjcfTree, flat: FlatText) -> Iterator[mujoco.MjVfs]:
-    """The files that MuJoCo shall see instead of those on disk."""
     with mujoco.MjVfs() as vfs:
         included = {source.path for source in tree.sources}
         seen = {path: data for path, data in tree.files.items() if path not in included}

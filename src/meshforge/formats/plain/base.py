@@ -211,7 +211,6 @@ def _surface_of(soup: Soup, piece: Piece) -> Surface:
 
 
 def _visual_surface(soup: Soup) -> tuple[Surface, ...]:
-    """What is only seen of a file whose names mark collision."""
     faces = soup.faces[soup.group < 0]
     if not len(faces):
         return ()

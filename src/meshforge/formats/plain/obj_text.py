@@ -53,7 +53,6 @@ class _ObjEditor:
         return body + format_obj(self.edit.parts, int(self.kept.sum()), self.end, colors, words)
 
     def _target_groups(self) -> dict[int, ObjGroup]:
-        """The group that each face statement which stays should be in."""
         document, text = self.edit.document, self.text
         touched = set(text.face_group[~self.edit.stays].tolist())
         wanted: dict[int, ObjGroup] = {}

@@ -123,7 +123,6 @@ class _Creator(link_output.LinkCreator):
         return elements.joint_lines(made, self.links.get(made.parent, WORLD), self.links[made.child], coupling)
 
     def _collect_notes(self) -> tuple[str, ...]:
-        """What Gazebo makes of what the file does not say."""
         notes = [*self.chain.notes, *self.couplings.notes, *self.maker.notes]
         renamed = [f"{link} as {name}" for link, name in self.links.items() if link != name]
         if renamed:

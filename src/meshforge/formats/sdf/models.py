@@ -216,7 +216,6 @@ class _Composer:
         self._add_frame(scope, name, link, body=body)
 
     def _add_frames(self, scope: ModelScope, elements: Iterable[Element]) -> None:
-        """The frames of joints and of `<frame>` elements."""
         for child in elements:
             if name := child.attributes.get("name", ""):
                 if child.tag == "joint":

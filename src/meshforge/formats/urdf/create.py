@@ -76,7 +76,6 @@ class _Creator(link_output.LinkCreator):
         return [b'  <link name="%s">' % escape(link), *inside, b"  </link>"]
 
     def _collect_notes(self) -> tuple[str, ...]:
-        """What engines make of what the file does not say."""
         notes = [*self.chain.notes, *self.couplings.notes]
         written = {name for own in self.slots.values() for slot in own for name in slot.names}
         notes += note_hulled([p for p in self.asset.opaque if p.name in written], "MuJoCo and Bullet")

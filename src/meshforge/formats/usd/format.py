@@ -74,7 +74,6 @@ class UsdFormat(base.SceneFormat):
 
 
 def _read_features(path: Path) -> list[Feature]:
-    """The features of a USD file that its asset does not have."""
     with usd(str(path)):
         return [base.feature_of_others(kind for prim in UsdStage.open(path).prims() for kind in _list_others(prim))]
 

@@ -94,7 +94,6 @@ class _PictureSeries:
             self._keep(picture)
 
     def _show_left(self) -> None:
-        """Takes pictures until each hull has its number."""
         lost: set[int] = set()
         while left := [k for k in self._subject.wanted if k not in self._clear and k not in lost]:
             picture = self._draw_close_up(left)

@@ -81,7 +81,6 @@ def choose_views(quality: Mapping[View, Floats], most: int) -> list[View]:
 
 
 def _value_of(views: Sequence[View], quality: Mapping[View, Floats]) -> float:
-    """What the best two views of each hull are worth."""
     if not views:
         return 0.0
     ranked = np.sort([quality[view] for view in views], axis=0)[::-1]

@@ -190,7 +190,6 @@ def _read_mark(folder: Path) -> dict[str, None]:
 
 
 def _remove_files(folder: Path, names: Iterable[str]) -> None:
-    """Take away what earlier exports wrote and this one does not."""
     gone = set(names)
     for name in gone:
         (folder / name).unlink(missing_ok=True)

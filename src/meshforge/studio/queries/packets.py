@@ -135,7 +135,6 @@ def finding_views(findings: Iterable[Finding]) -> tuple[wire.FindingView, ...]:
 
 
 def _has_hull(source: SymbolicMesh, hull: Hull) -> bool:
-    """Whether the asset has a hull of that name and shape."""
     if hull.name not in source.index:
         return False
     mine = source.hull_of(hull.name).shape

@@ -173,7 +173,6 @@ def select_hulls(
 
 
 def _end_of(text: str) -> tuple[int, int]:
-    """Lines and columns from the beginning of a text to its end."""
     return text.count("\n"), len(text) - (text.rfind("\n") + 1)
 
 

@@ -113,7 +113,6 @@ def _step_before_learning(
 
 
 def _step_for_propagation(cards: Sequence[Card], propagated: PropagationState | None) -> Next | None:
-    """What leads to sure labels with the least work."""
     bare = [card for card in cards if card.hulls and _count_unlabelled(card) == len(card.labels)]
     is_one_whole = any(card.hulls and card.given == card.hulls for card in cards)
     if bare and is_one_whole:

@@ -146,7 +146,6 @@ def suggest_orientation(
 
 
 def _vary(trials: Trials, directives: Directives, given: Orient, limit: int) -> OrientationFit | None:
-    """The best directive that keeps the pairs that are given."""
     toggled = replace(given, snap=not given.snap)
     return trials.best([toggled, *(directives.with_two_pairs(given.pairs) if len(given.pairs) == 1 else [])], limit)
 

@@ -126,7 +126,6 @@ class Search:
             self.decisive = tuple(sorted({*self.decisive, *list(positions(wrong))[:_MAX_COUNTEREXAMPLES]}))
 
     def _find_smallest(self) -> Extractor | None:
-        """The first extractor that is right on the decisive groups."""
         groups, shortcuts = self.decisive, self.options.shortcuts
         whole = groups == tuple(range(self.width))
         terms = [Term(_pack(t.bits, groups, whole), t.key, t.form) for t in self.field.terms]
