@@ -168,7 +168,6 @@ def _run_program(
 
 
 def _list_effects(source: SymbolicMesh, mesh: SymbolicMesh, trace: Iterable[RuleTrace]) -> Iterator[RuleEffect]:
-    """What each rule did, in the names of the file that is written."""
     named = mesh.names_in_file
     left = {named.get(hull.name, hull.name) for hull in mesh.hulls}
     for line in trace:

@@ -99,7 +99,6 @@ def _connect() -> tuple[Any, bool]:
 
 
 def _count_cores(ray: Any) -> tuple[int, int]:
-    """The processors of the smallest node that has any, and of all nodes."""
     counts = [int(node["Resources"].get("CPU", 0)) for node in ray.nodes() if node["Alive"]]
     counts = [count for count in counts if count]
     if not counts:

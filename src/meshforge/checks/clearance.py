@@ -167,7 +167,6 @@ def _build_region(kind: RegionKind, part: Mask, grid: Grid, mesh: SymbolicMesh) 
 
 
 def _find_fillers(part: Mask, grid: Grid, hulls: list[Hull]) -> tuple[str, ...]:
-    """The hulls that fill a region, by how much they fill."""
     shares = [(np.count_nonzero(voxelize_hulls(grid, [h.shape]) & part), h.name) for h in hulls]
     return tuple(name for count, name in sorted(shares, key=lambda s: (-s[0], s[1])) if count)
 

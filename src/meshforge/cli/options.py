@@ -320,7 +320,6 @@ def asset_id(asset: str | Path, project: Project) -> str:
 
 
 def _last_names(asset: str) -> tuple[str, str]:
-    """The file name of an asset, with its suffix and without."""
     path = PurePath(asset)
     return path.name, path.stem
 

@@ -177,7 +177,6 @@ def _describe(event: AnswerEvent | LabelFixEvent) -> str:
 
 
 def _forget_answers(project: Project, folder: Path, ids: Sequence[str]) -> None:
-    """Take back what has one of these ids, or everything by `all`."""
     if "all" in ids:
         count = len(project.feedback().answers_and_fixes)
         notes = list(project.forget_answers())

@@ -104,7 +104,6 @@ def read_answers(path: Path, project: Project) -> ScriptAnswers:
 
 
 def _describe_misfit(entry: Any) -> str:
-    """What of an entry has not the right form, as far as that is plain."""
     if not isinstance(entry, dict):
         return "it is no object {...}"
     direct = "question" not in entry

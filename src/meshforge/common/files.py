@@ -173,7 +173,6 @@ def quote_path(path: Path) -> str:
 
 
 def _mode_of(path: Path) -> int:
-    """The mode of the file that is replaced, or that of any new file."""
     if path.exists():
         return path.stat().st_mode & 0o777
     mask = os.umask(0)
@@ -201,7 +200,6 @@ def _split_at_stars(pattern: str) -> tuple[str, bool, str]:
 
 
 def _walk_folders(start: str, root: Path) -> Iterator[str]:
-    """A folder and all below it that are not hidden."""
     waiting = [start]
     while waiting:
         folder = waiting.pop()

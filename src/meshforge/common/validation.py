@@ -90,7 +90,6 @@ def _name_field(steps: Sequence[int | str]) -> str:
 
 
 def _describe_json_error(text: str) -> str:
-    """Where a file stops being JSON, as far as the parser's message says it."""
     found = re.search(r"line (\d+) column (\d+)", text)
     place = f" (line {found[1]}, column {found[2]})" if found else ""
     return f"this JSON is nested too deeply{place}" if "recursion" in text else f"this is no JSON{place}"

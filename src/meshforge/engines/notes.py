@@ -32,7 +32,6 @@ def _as_written(geom: Geom, native: Collection[str]) -> Geom:
 
 
 def _find_broken_rules(engine: Engine, geoms: Sequence[Geom]) -> list[Finding]:
-    """What the engine refuses or changes, and native shapes that it lacks."""
     limits = (limit for limit in engine.limits if limit.severity == "error")
     broken = [finding for limit in limits if (finding := check_limit(engine, limit, geoms))]
     return [*broken, *check_primitives(engine, geoms)]

@@ -115,7 +115,6 @@ def _merge_losses(losses: Sequence[Loss]) -> list[Loss]:
 
 
 def _body_feature(what: FeatureKind, bodies: list[str | None]) -> Feature:
-    """A feature of things without names, named by the bodies that have them."""
     names = tuple(dict.fromkeys(body for body in bodies if body))
     return Feature(what, names, len(bodies) - len(names))
 

@@ -137,6 +137,5 @@ def _describe_parts(known: SurfaceParts | None, by: DecomposeBy) -> list[str]:
 
 
 def _to_asset(path: Path, names: Sequence[str], hulls: Sequence[Polytope], notes: Sequence[str]) -> Asset:
-    """The hulls as an asset of one body, to be written in any format."""
     geoms = tuple(Geom(name, "body", hull) for name, hull in zip(names, hulls, strict=True))
     return Asset(path, "decomposition", (Body("body", Pose.identity()),), geoms, Document(), notes=tuple(notes))

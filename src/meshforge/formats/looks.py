@@ -37,7 +37,6 @@ def read_looks(path: Path) -> list[Surface]:
 
 
 def _read_mesh(mesh: Any, suffix: str) -> Surface:
-    """A mesh of trimesh with the base colour of its material, or its picture."""
     vertices, faces = np.array(mesh.vertices, dtype=np.float64), np.array(mesh.faces, dtype=np.int64)
     material, places = getattr(mesh.visual, "material", None), getattr(mesh.visual, "uv", None)
     image = getattr(material, "baseColorTexture", getattr(material, "image", None))

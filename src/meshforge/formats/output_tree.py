@@ -172,7 +172,6 @@ def _asset_of_mesh(mesh: SymbolicMesh) -> Asset:
 
 
 def _plan_files(output: Output, out: Path, is_folder: bool) -> dict[Path, Content]:
-    """What each file is to hold, the main file last."""
     folder = out if is_folder else out.parent
     beside: dict[str, Content] = {**output.copies, **output.made}
     plan: dict[Path, Content] = {Path(os.path.normpath(folder / name)): content for name, content in beside.items()}
@@ -222,7 +221,6 @@ def _find_extra_files(plan: Mapping[Path, Content], out: Path, overwrite: bool) 
 
 @contextmanager
 def _build_aside(out: Path) -> Iterator[Path]:
-    """A new folder beside `out`, which becomes `out` once all is in it."""
     try:
         out.parent.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryDirectory(prefix=f".{out.name}.", suffix=".tmp", dir=out.parent) as holder:

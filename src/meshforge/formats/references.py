@@ -119,7 +119,6 @@ def _read_package_name(folder: Path) -> str | None:
 
 
 def _find_similar(path: Path) -> Path | None:
-    """A file in the same folder whose name is nearly that of `path`."""
     try:
         entries = [entry for entry in path.parent.iterdir() if entry.suffix.lower() == path.suffix.lower()]
         names = sorted(entry.name for entry in entries if entry.is_file())

@@ -224,7 +224,6 @@ def child_indent_of(data: bytes, parent: xml.Element) -> bytes:
 
 
 def _join_slots(data: bytes, slots: Iterable[Slot], lead: bytes | None) -> bytes:
-    """Elements one after another, each on lines of its own where the first is."""
     gap = b"" if lead is None else xml.newline_of(data) + lead
     return gap.join(slot.to_bytes(data) for slot in slots)
 

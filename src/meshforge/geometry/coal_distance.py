@@ -51,7 +51,6 @@ def measure_gaps(shapes: Sequence[Shape], pairs: Sequence[tuple[int, int]], low:
 
 
 def _measure_gaps(pairs: list[tuple[CoalObject, CoalObject]]) -> list[float]:
-    """The distance of each pair, in units of their frame."""
     request, result = coal.DistanceRequest(), coal.DistanceResult()
     request.enable_signed_distance = False
     request.gjk_tolerance = _TOLERANCE

@@ -175,7 +175,6 @@ def _normalize(points: Floats) -> Floats:
 
 
 def _is_valid_hull(unit: Floats, kept: Ints, faces: Ints, reach: float) -> bool:
-    """Whether the hull is what it should be, with all points inside to `reach`."""
     vertices = unit[kept]
     return is_convex_hull(vertices, faces, _CONVEXITY) and (
         len(kept) == len(unit) or not rises_above(np.delete(unit, kept, axis=0), vertices, faces, reach)

@@ -258,12 +258,10 @@ class PieceReader:
         return PieceFaces(faces, judge_solidity(self.points, corners))
 
     def _corners_of(self, faces: Ints, near: Ints | None = None) -> Ints:
-        """The corners (k, 3) of the distinct ones of some faces."""
         corners = self.placed[faces] if near is None else near[self.placed[faces]]
         return corners[connectivity.distinct_faces(corners, np.zeros(len(corners), dtype=np.int64))]
 
     def _choose_better(self, parts: list[PieceFaces], faces: Ints) -> list[PieceFaces]:
-        """The parts, or the whole, whichever accounts for more by valid hulls."""
         parts = _join_backs(parts)
         if all(part.verdict.shape for part in parts):
             return parts

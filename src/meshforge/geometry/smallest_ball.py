@@ -32,7 +32,6 @@ def smallest_ball(centers: Floats, radii: Floats | None = None) -> tuple[Floats,
 
 
 def _farthest_point(center: Floats, radius: float, origin: Floats) -> Floats:
-    """The point (d,) of a ball that is farthest from `origin`."""
     away = center - origin
     length = float(np.linalg.norm(away))
     unit = away / length if length > 0 else np.eye(len(center))[0]

@@ -170,7 +170,6 @@ class FamilyContext:
         return found
 
     def _share_nearest(self, chances: Floats, informed: _Helpers, prior: Floats) -> Floats:
-        """The shares of the labels among the nearest hulls, the nearer the more."""
         hulls, apart = self.lookalikes.nearest(informed.usable, _NEAREST, PER_MESH)
         there = np.isfinite(apart)
         gaps = np.where(there, apart, 99.0)
@@ -213,7 +212,6 @@ class FamilyContext:
 
 
 def _alike(apart: Floats, half: float, soft: float = _SOFT) -> Floats:
-    """To which degree hulls are alike, by their distance."""
     found: Floats = 1 / (1 + np.exp((apart - half) / soft))
     return found
 

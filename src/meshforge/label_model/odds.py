@@ -144,7 +144,6 @@ class LabelBeliefs:
         return LabelOdds(hull, odds, self._similar(asset, row))
 
     def _similar(self, asset: str, row: int) -> tuple[str, ...]:
-        """The labels of the most similar hulls of which something is said."""
         posterior = self.posterior
         seen, place = posterior.seen, posterior.table.spans[self._places[asset]].start + row
         found = posterior.table.find_lookalikes(seen).nearest_of(place, seen.known, MAX_MENTIONED, PER_MESH)

@@ -150,7 +150,6 @@ def _find_doubtful(
     cache: DescriptorCache,
     stop: Callable[[], bool] | None,
 ) -> Iterator[tuple[str, tuple[int, ...]]]:
-    """The assets that may lie on another side, and on which."""
     for place, sides in find_doubtful_sides(table, said, lambda place: cache.read_sides(assets[place])):
         raise_if_stopped(stop)
         if sides:

@@ -54,7 +54,6 @@ def propose_propagated(
 
 
 def _share_labels(compared: FamilyComparison) -> Iterator[tuple[str, dict[str, Label]]]:
-    """The likeliest label of each hull, asset by asset."""
     found = compared.found
     return compared.share_out([label for place in range(len(compared.assets)) for label in found.labels(place)])
 

@@ -266,7 +266,6 @@ def label_new_hulls(
 
 
 def _choose_label(by_overlap: Label | None, known: Label | None) -> Label | None:
-    """The label that is known, or a person's by overlap where it is the same."""
     is_same = by_overlap and known and by_overlap.name == known.name and by_overlap.source in HUMAN_SOURCES
     return by_overlap if is_same else known
 

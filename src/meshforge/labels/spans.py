@@ -123,7 +123,6 @@ class SpanReport:
         return found if any(found.values()) else {}
 
     def _list_spans(self, asset: str, posterior: SpanPosterior, unseen: bool) -> Iterator[HullSpan]:
-        """Those of hulls whose body has a surface, or has none."""
         place, mesh = self._places[asset], self.meshes[asset]
         bare = set(self.bare.get(asset, ()))
         rows = zip(mesh.hulls, posterior.chances_of(place).tolist(), posterior.shares_of(place), strict=True)

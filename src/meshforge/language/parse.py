@@ -92,7 +92,6 @@ def attach_comments(text: str, lines: Sequence[int]) -> tuple[list[Comments], Co
 
 
 def _comment_of(line: str) -> str | None:
-    """The comment in a line of program text, without its `#`."""
     for match in _TEXT_OR_COMMENT.finditer(line):
         if match["comment"] is not None:
             return match["comment"].rstrip()
@@ -100,7 +99,6 @@ def _comment_of(line: str) -> str | None:
 
 
 def _squeeze_blanks(lines: Iterable[str | None], *, first: bool) -> CommentLines:
-    """The lines with several empty ones as one, and none at the start of a text."""
     out: list[str | None] = []
     for line in lines:
         if line is not None or (out[-1] is not None if out else not first):

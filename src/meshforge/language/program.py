@@ -170,7 +170,6 @@ class Program:
 
 
 def _find_hulls(mesh: SymbolicMesh, rule: int, names: Collection[str]) -> int:
-    """The bit set of hulls by their names."""
     if gone := sorted(set(names) - mesh.index.keys()):
         raise ProgramError(f"rule {rule} is to select {gone[0]} here, and there is no such hull")
     return mask_of(mesh.index[name] for name in names)

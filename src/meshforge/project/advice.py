@@ -58,7 +58,6 @@ class Adviser:
         )
 
     def _advise_before_learning(self) -> Advice | None:
-        """Labels, then a demonstration."""
         shown = any(asset.demonstrated for asset in self.assets)
         if not any(asset.labelled for asset in self.assets):
             return None if shown else self._advise_label_source(self.assets)
@@ -66,7 +65,6 @@ class Adviser:
         return (self._advise_labels(bare) if bare else None) or (None if shown else self._advise_demonstration())
 
     def _advise_new_assets(self) -> Advice | None:
-        """Labels for assets that the program cannot be applied to for want of any."""
         bare = [asset for asset in self.assets if asset.hulls and not asset.labelled and not asset.is_done]
         if not bare:
             return None
@@ -129,7 +127,6 @@ class Adviser:
 
     @property
     def _behind(self) -> list[AssetStatus]:
-        """The assets whose output is not up to date, but for those that are given up."""
         some = (asset for asset in self.assets if not asset.is_done and not asset.excluded)
         return [asset for asset in some if asset.output != "failed" or asset.stale]
 

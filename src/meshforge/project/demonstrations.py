@@ -254,7 +254,6 @@ def _label_of_repair(correction: LabelCorrection) -> Label:
 
 
 def _repair_label(store: Store, mesh: SymbolicMesh, right: LabelCorrection) -> tuple[dict[str, Label], str | None]:
-    """The labels of a mesh with one repaired, and why that cannot be."""
     given = {right.hull: _label_of_repair(right)}
     labels, report = merge.merge_labels(right.asset, mesh.index, mesh.labels, given, store.vocabulary)
     if report.problems:

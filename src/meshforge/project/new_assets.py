@@ -257,7 +257,6 @@ def _take_labels(
 def _decompose(
     source: Asset, before: batch.Preparation, plan: PreparationPlan
 ) -> tuple[batch.Preparation, tuple[str, ...]]:
-    """The preparation with the decompositions of the plan, and notes on these."""
     notes = list[str]()
     for one in plan.decompose:
         done = batch.decompose_asset(

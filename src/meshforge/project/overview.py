@@ -199,7 +199,6 @@ def _find_changes(output: AssetOutput, edit: OutputInputs | None) -> tuple[str, 
 
 
 def _find_lost_ids(store: Store) -> tuple[str, ...]:
-    """The ids that something is kept for, though there is no such asset."""
     kept = {asset for kind in ("labels", "demonstrations", "corrections") for asset in store.layout.ids_with(kind)}
     kept |= set(store.layout.ids_with_preparation())
     return tuple(sorted(kept - {*store.assets(), *store.found.left_out}))

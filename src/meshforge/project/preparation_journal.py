@@ -156,7 +156,6 @@ def finish_undo(store: Store, asset: str, place: int) -> bool:
 
 
 def _restore_selections(store: Store, asset: str, undone: Sequence[StepSelections]) -> None:
-    """Bring back what selections were before steps, the last one first."""
     for step in undone:
         selections.restore_selections(store, asset, step.changes, step.successors)
 

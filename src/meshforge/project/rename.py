@@ -119,7 +119,6 @@ def _rename_in_event(event: files.Event, where: Path, old: str, new: str) -> fil
 
 
 def _rename_in_id(name: str, old: str, new: str) -> str:
-    """The id of a label fix, which ends in the label that it gives."""
     return f"{name.removesuffix(f'={old}')}={new}" if "#" in name and name.endswith(f"={old}") else name
 
 

@@ -88,7 +88,6 @@ def _snooze(store: Store, said: Origin) -> None:
 
 
 def _do(store: Store, said: Origin, effect: Callable[[], object]) -> None:
-    """Keep that there was a reply, and do what it says."""
     store.add_events_before(effect, ReplyEvent(question=said.question, by=said.by))
 
 

@@ -84,7 +84,6 @@ def turn_render_mesh(one: RenderMesh, pose: Pose) -> RenderMesh:
 
 
 def _measure_light(hits: RayHits, frame: ViewFrame, camera: Camera) -> Floats32:
-    """How bright each pixel (h, w) is, in 0..1, lines drawn in."""
     scene = hits.scene
     light = np.zeros(hits.item.shape, np.float32)
     rows, columns = np.nonzero(hits.item >= 0)
@@ -107,7 +106,6 @@ def _brightness_of(normals: Floats, frame: ViewFrame, camera: Camera) -> Floats3
 
 
 def _fine_pixels(pixels: npt.NDArray[Number], fine: int) -> npt.NDArray[Number]:
-    """The fine pixels of each pixel (fine * fine, h, w)."""
     return np.stack([pixels[r::fine, c::fine] for r in range(fine) for c in range(fine)])
 
 

@@ -165,7 +165,6 @@ def _shade_tint(
 
 
 def _shell_shares(layer: DrawLayer, hits: RayHits, solid: RayHits, camera: Camera) -> Floats32:
-    """How much of a shell each pixel (h, w) shows."""
     share = np.zeros(hits.item.shape, np.float32)
     share[hits.item >= 0] = layer.before
     rows, columns = pixels_where((hits.item >= 0) & (solid.item >= 0))

@@ -73,7 +73,6 @@ def place_numbers(
 def _place_inside(
     items: Ints, item: int, middle: LabelAnchor, sizes: Mapping[int, TextSize], places: Sequence[NumberPlace]
 ) -> NumberPlace | None:
-    """The number on its hull, as large as fits there."""
     taken = np.array([p.box for p in places]).reshape(-1, 4)
     for height, (wide, high) in sizes.items():
         left, top = round(middle.column - wide / 2), round(middle.row - high / 2)

@@ -166,7 +166,6 @@ def _cast_adaptively(scene: RayScene, camera: Camera, stepping: bool) -> tuple[R
 
 
 def _upsample(coarse: Any, x: slice, y: slice) -> Any:
-    """A picture of every second pixel with each doubled along both sides."""
     return coarse.repeat(2, axis=0).repeat(2, axis=1)[: y.stop - y.start, : x.stop - x.start]
 
 
@@ -192,7 +191,6 @@ def _find_uneven(scene: RayScene, seen: Ints) -> Any:
 
 
 def _find_depths(scene: RayScene, camera: Camera, seen: Ints, x: slice, y: slice) -> Floats:
-    """How far along its ray each hit (h, w) lies."""
     rows, columns = np.nonzero(seen >= 0)
     depth = np.zeros(seen.shape)
     depth[rows, columns] = scene.depth(

@@ -182,7 +182,6 @@ def prepare_for_rays(scene: RayScene, towards: Floats | None) -> RayScene:
 
 
 def _item_centers(scene: RayScene) -> Floats:
-    """The middle (m, 3) of the thing that each triangle belongs to."""
     count = np.maximum(np.bincount(scene.item), 1)
     sums = [np.bincount(scene.item, part) for part in scene.corners.mean(axis=1).T]
     return (np.stack(sums, axis=1) / count[:, None])[scene.item]

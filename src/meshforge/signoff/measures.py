@@ -79,7 +79,6 @@ def _extents_of(box: Aabb | None) -> Extents:
 
 
 def _compare_space(before: SymbolicMesh, after: SymbolicMesh) -> tuple[float, float, float]:
-    """The shares free, filled and freed of an edit."""
     points = _points_within(before)
     kept = {id(hull.shape) for hull in before.hulls} & {id(hull.shape) for hull in after.hulls}
     both = _cover(points, [hull.shape for hull in before.hulls if id(hull.shape) in kept])

@@ -92,7 +92,6 @@ def _is_used_later(state: ReviewState, asset: str, rule: int, hulls: Sequence[st
 
 
 def _is_refused(state: ReviewState, rule: int, trial: Trial, mask: int | None) -> bool:
-    """Whether a person said of just that selection that it is not meant."""
     refused = [some for one in state.answers if (one.rule, one.asset) == (rule, trial.asset) for some in one.refused]
     return bool(refused) and mask is not None and frozenset(trial.names(rule, mask)) in refused
 

@@ -139,7 +139,6 @@ class History:
         self._files.end()
 
     def _recover(self, project: Project) -> None:
-        """Complete what was under way, after reading what other processes did."""
         self._files.refresh()
         pending = self._files.read_pending()
         if pending is None:

@@ -129,7 +129,6 @@ class EntryFiles:
         return self._folder / "entries" / f"{number:06}.json"
 
     def _read_all(self) -> list[HistoryEntry]:
-        """The entries up to the first one that is not there or cannot be read."""
         found: list[HistoryEntry] = []
         while True:
             try:

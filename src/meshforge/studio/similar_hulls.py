@@ -157,7 +157,6 @@ def _find_places(described: Mapping[str, _HullRows], request: SimilarRequest) ->
 
 
 def _group(described: Mapping[str, _HullRows], places: Ints) -> tuple[HullsOfAsset, ...]:
-    """Hulls by their places among those of all assets, asset by asset."""
     found, start = list[HullsOfAsset](), 0
     for asset, one in described.items():
         own: list[int] = (places[(places >= start) & (places < start + len(one.names))] - start).tolist()

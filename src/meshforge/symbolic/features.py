@@ -76,7 +76,6 @@ def features_of(asset: Asset) -> list[Feature]:
 
 
 def _features_of_geoms(asset: Asset) -> Iterator[Feature]:
-    """Names, bodies, native shapes, and pieces that are no hulls."""
     yield Feature(FeatureKind.NAMES, tuple(g.name for g in asset.geoms if not _UNNAMED.fullmatch(g.name)))
     if len(asset.bodies) > 1:
         yield Feature(FeatureKind.BODIES, tuple(body.name for body in asset.bodies))

@@ -157,7 +157,6 @@ def _parse_label(label: str, name: str, rest: Mapping[Any, Any], path: Path) -> 
 
 
 def _parse_given(name: str, value: Any, path: Path) -> Label | None:
-    """The label that an inferred one replaced, which was not inferred itself."""
     match value:
         case None:
             return None

@@ -185,8 +185,6 @@ def _stage_or_none(mesh: SymbolicMesh, orient: Orient | None, contact: float | N
 
 
 def _count_selections(mesh: SymbolicMesh, vocabulary: Sequence[str], delta: float) -> int:
-    """How many different sets of hulls are selected on a mesh, the empty one too."""
-
     def count() -> int:
         used = [label for label in vocabulary if any(hull.label == label for hull in mesh.hulls)]
         return len({0, *(select_mask(one, mesh, delta) for one in _small_extractors(used))})

@@ -175,7 +175,6 @@ def _find_place(rule: int, wanted: Extractor, ranked: RankedReadings, names: Seq
 
 
 def _explain_preference(ranked: RankedReadings, place: int, names: Sequence[str]) -> str:
-    """Why another reading was taken, and what would help."""
     differs = [names[k] for k in ranked.differences(place)]
     first, second = ranked.beliefs[0], ranked.beliefs[place]
     better = "more believable" if first >= second else "smaller, though less believable"

@@ -250,7 +250,6 @@ def advance(
 
 
 def _mask_of_step(replay: Replay, number: int) -> int:
-    """The hulls of a step by their names, as a bit set."""
     step = replay.demo.step(number)
     wanted = sorted(step.select) if step and step.select else []
     for name in wanted:

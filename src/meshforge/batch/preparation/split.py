@@ -142,7 +142,6 @@ def _divide(
     software: dict[str, str],
     rows: Sequence[tuple[Geom, HullDivision]],
 ) -> record.Preparation:
-    """A preparation with one step more, in which parts take the place of hulls."""
     taken = {*(g.name for g in asset.geoms), *(o.name for o in asset.opaque), *before.hull_digests}
     entries = list[record.Replacement]()
     for geom, one in rows:

@@ -175,7 +175,6 @@ def _describe_findings(found: Sequence[Finding]) -> str:
 
 
 def _kinds(assets: Sequence[contents.ReportAsset]) -> list[str]:
-    """The kinds of assets that there are, in the order of their buttons."""
     present = {word for asset in assets for word in (asset.status, asset.standing and asset.standing.word)}
     kinds: list[str] = [word for word in (*STATUSES, *get_args(contents.StandingWord)) if word in present]
     if any(asset.demonstrated for asset in assets):

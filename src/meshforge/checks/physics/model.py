@@ -138,7 +138,6 @@ def _estimate_load(joint: Joint, mesh: SymbolicMesh, tree: mechanism.JointTree) 
 
 
 def _add_hull(spec: Any, body: Any, name: str, hull: Hull, local: Pose) -> None:
-    """Add a hull: a native shape as itself, any other as a mesh."""
     import mujoco  # lazy: 0.3 s, only the physics checks need it
 
     geoms = mujoco.mjtGeom

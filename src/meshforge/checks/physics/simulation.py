@@ -235,6 +235,5 @@ def find_body_overlaps(mesh: SymbolicMesh, tree: JointTree) -> tuple[BodyOverlap
 
 
 def _hull_numbers(model: Any) -> list[int]:
-    """The number of the hull of each geom, -1 for the plane."""
     names = [model.geom(g).name for g in range(model.ngeom)]
     return [-1 if name == FLOOR else int(name.rpartition(" ")[2]) for name in names]

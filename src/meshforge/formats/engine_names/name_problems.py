@@ -42,7 +42,6 @@ def find_name_problems(meshes: Iterable[Sequence[str]], parents: Iterable[str] =
 
 
 def _find_meant(name: str, marks: Sequence[str]) -> list[str]:
-    """The marks that the end of a name was meant to be, the likeliest first."""
     words = re.split(r"[-_$. ]+", re.sub(r"[0-9\x00-\x20_.]+\Z", "", name).lower())
     ends = ["".join(words[-2:]), words[-1]] if len(words) > 1 else []
     close = [mark for end in ends for mark in difflib.get_close_matches(end, marks, 1, _ALIKE)]

@@ -159,7 +159,6 @@ class CollisionReader:
         return self._pieces[index]
 
     def _hull_part(self, mesh: GltfMesh, linear: Floats, offset: Floats) -> CollisionPiece:
-        """A whole mesh as one hull, as engines take it."""
         if not len(mesh.faces):
             return CollisionPiece(None, "the mesh holds no triangles")
         if _is_degenerate(linear):

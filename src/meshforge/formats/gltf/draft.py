@@ -239,7 +239,6 @@ class SceneReferences:
 
 
 def _animation_targets(tree: Json) -> Iterator[tuple[int, str]]:
-    """The nodes that animations change, with what of them."""
     for animation in entries(tree, "animations"):
         for channel in entries(animation, "channels"):
             target = channel.get("target", {})

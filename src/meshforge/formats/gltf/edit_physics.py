@@ -93,7 +93,6 @@ class PhysicsStyle(EditStyle):
     def _add_mesh(
         self, node: Json, drawn: bool, holder: int | None, like: Json, mesh: int, name: str, *, hulled: bool = True
     ) -> None:
-        """Add a node that collides with a mesh, or with its hull."""
         own = len(entries(self.draft.tree, "nodes")) if drawn else None
         if drawn:
             node["mesh"] = mesh
@@ -139,7 +138,6 @@ def is_drawn(node: Json) -> bool:
 
 
 def _remove_collider(node: Json) -> None:
-    """Take the collider from a node, and what is empty then."""
     extensions = node.get("extensions", {})
     for name in (physics.KHR, physics.OMI):
         own = extensions.get(name, {})
@@ -204,7 +202,6 @@ def write_mesh_geometry(
 
 
 def _add_carrier(draft: SceneDraft, mesh: int) -> int:
-    """A node outside of all scenes that holds a mesh for a collider."""
     nodes: list[Any] = draft.tree.setdefault("nodes", [])
     nodes.append({"name": str(draft.tree["meshes"][mesh].get("name", "")), "mesh": mesh})
     return len(nodes) - 1

@@ -183,7 +183,6 @@ class UnrealStyle(EditStyle):
         self.add_mesh_node(name, draft.add_shape_mesh(draft.shape_in(geom.shape, holder), name), holder, geom.name)
 
     def _next_name(self, geom: Geom, parent: NodeRecord | None) -> str:
-        """The next name of a collision node of the mesh that the parent stands for."""
         nodes, meshes = entries(self.draft.tree, "nodes"), entries(self.draft.tree, "meshes")
         names = [str(thing.get("name", "")) for thing in (*nodes, *meshes)]
         shown = [str(node["name"]) for node in nodes if node.get("name") and "mesh" in node]

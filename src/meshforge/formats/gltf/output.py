@@ -106,7 +106,6 @@ def _list_embedded(scene: GltfScene, base: EditBase) -> set[str]:
 
 
 def _json_text(source: bytes, tree: Json, is_binary: bool) -> bytes:
-    """The JSON of a tree, with the text of the source where that is the same."""
     mark = codecs.BOM_UTF8 if source.startswith(codecs.BOM_UTF8) and not is_binary else b""
     text = rewrite_json(source.decode("utf-8-sig").rstrip("\0"), tree).encode()
     return text.rstrip(b" ") if is_binary else mark + text

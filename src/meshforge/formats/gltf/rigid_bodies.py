@@ -61,7 +61,6 @@ def _create_rigid_bodies(asset: Asset, tree: BodyTree, path: PurePosixPath) -> O
 
 
 def _list_joints(asset: Asset) -> list[Loss]:
-    """The joints that are no longer there, and what to do about them."""
     joints = [joint for joint in asset.mechanism.joints if joint.kind != "fixed"]
     free = [joint for joint in joints if joint.kind == "floating"]
     balls = [joint for joint in joints if joint.kind == "ball"]
@@ -78,7 +77,6 @@ def _list_joints(asset: Asset) -> list[Loss]:
 
 
 def _weld_bodies(asset: Asset, carriers: Mapping[str, str]) -> Asset:
-    """The asset with what belongs to each body on the one that carries it."""
     if isinstance(asset.visuals, VisualSurfaces):
         shown = (replace(visual, body=carriers.get(visual.body, visual.body)) for visual in asset.visuals.visuals)
         visuals: Sequence[Surface] = VisualSurfaces(tuple(shown))

@@ -47,7 +47,6 @@ def _open_document(data: bytes, where: str) -> Any:
 
 @contextmanager
 def _report_damage(where: str) -> Iterator[None]:
-    """What pycollada raises for a damaged file, as one kind of error."""
     from collada.common import DaeError  # lazy: as collada
 
     try:

@@ -110,7 +110,6 @@ class Buffers:
         return self.path.parent / unquote(uri).replace("\\", "/")
 
     def _apply_sparse(self, values: npt.NDArray[Any], sparse: Json) -> npt.NDArray[Any]:
-        """Values (count, width) with those of a sparse accessor in their places."""
         count = sparse["count"]
         if not isinstance(count, int) or count < 0:
             raise ValueError(f"a sparse accessor of {count!r} values")
@@ -122,7 +121,6 @@ class Buffers:
         return values
 
     def _read_strided(self, index: Any, source: Json, count: int, kind: np.dtype[Any], width: int) -> npt.NDArray[Any]:
-        """So many rows of a buffer view, from the byte offset of `source` on."""
         data, view = self.view(index), entry(self.tree, "bufferViews", index)
         start, row = source.get("byteOffset", 0), kind.itemsize * width
         stride = view.get("byteStride") or row

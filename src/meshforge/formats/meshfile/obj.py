@@ -217,7 +217,6 @@ def group_name_of(statement: bytes) -> str:
 
 
 def _quote(statement: bytes) -> str:
-    """A statement as messages show it, of a long one the beginning."""
     text = surface.text_of(statement.strip())
     return repr(text if len(text) <= _SHOWN else f"{text[:_SHOWN]}...")
 

@@ -276,7 +276,6 @@ def _find_corners(rows: list[PlyRows], where: str) -> Any:
 
 
 def _find_faces(rows: list[PlyRows], count: int, where: str) -> tuple[Ints, Ints]:
-    """Triangles (m, 3) and the row of each (m,)."""
     read = _find_corners(rows, where)
     if isinstance(read, np.ndarray) and read.dtype.kind in "iu":
         table = read.astype(np.int64)  # first, since -1 is out of bounds for a type without sign

@@ -55,7 +55,6 @@ class StlText:
 
 
 def _surface_of(name: str | None, corners: Floats) -> RawSurface:
-    """Triangles (m, 3, 3) in their order, without shared vertices."""
     return RawSurface(name, corners.reshape(-1, 3), np.arange(3 * len(corners), dtype=np.int64).reshape(-1, 3))
 
 

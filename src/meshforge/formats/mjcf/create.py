@@ -113,7 +113,6 @@ class _Creator:
         yield b"  </equality>"
 
     def _place_of(self, body: str) -> str:
-        """The body in which the element of a body stands, empty for the world."""
         parent = self.tree.parent(body)
         floats = [joint.kind for joint in self.tree.joints[body]] == ["floating"]
         if parent is None or self.bodies[parent] == WORLD or (floats and self.tree.is_static(parent)):

@@ -166,7 +166,6 @@ class MjcfEdit:
         return tree
 
     def _find_reweighed(self) -> list[int]:
-        """The bodies that have to say their masses, besides those that do."""
         try:
             found = edit_check.find_changed_masses(self.authored, self.read_back_unscaled())
         except AssetError:  # perhaps for a body that has lost the geoms that it has its mass from

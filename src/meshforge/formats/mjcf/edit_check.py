@@ -114,7 +114,6 @@ def _compare_kept(before: MjcfModel, after: MjcfModel, number: dict[int, int]) -
 
 
 def _compare_references(one: mujoco.MjModel, other: mujoco.MjModel, number: dict[int, int]) -> Iterator[str]:
-    """Numbers of geoms, where other elements refer to them."""
     geom, wraps = mujoco.mjtObj.mjOBJ_GEOM, (mujoco.mjtWrap.mjWRAP_SPHERE, mujoco.mjtWrap.mjWRAP_CYLINDER)
     kinds = {
         "pair_geom1": np.ones(one.npair, bool),
@@ -132,7 +131,6 @@ def _compare_references(one: mujoco.MjModel, other: mujoco.MjModel, number: dict
 
 
 def _data_name(model: mujoco.MjModel, geom: int) -> str:
-    """The mesh of a geom, or that it has none."""
     data = int(model.geom_dataid[geom])
     of_mesh = model.geom_type[geom] != mujoco.mjtGeom.mjGEOM_HFIELD
     return "" if data < 0 else str(model.mesh(data).name if of_mesh else model.hfield(data).name)

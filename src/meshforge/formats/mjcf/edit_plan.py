@@ -156,7 +156,6 @@ class MjcfPlan:
         refuse_referenced(self.tree, removed)
 
     def _place_new(self, geom: Geom) -> None:
-        """A new element after that of its parent, or else at the end of its body."""
         body = self._body_of(geom)
         parent = self.owner.get(geom.parent or "")
         pose, volume = self.body_poses[geom.body], self._parent_volume(geom)

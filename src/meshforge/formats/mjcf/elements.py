@@ -246,7 +246,6 @@ def mass_error(body: str, why: str, tree: MjcfTree) -> AssetError:
 
 
 def _inertials_of(node: MjcfNode) -> Iterable[MjcfNode]:
-    """The `<inertial>` of a body, which may stand in a frame."""
     for child in node.children:
         if child.tag == "inertial":
             yield child

@@ -148,7 +148,6 @@ def collect_warnings(warnings: list[str]) -> Iterator[None]:
 
 
 def _error_of(message: str, tree: MjcfTree, flat: FlatText) -> AssetError:
-    """MuJoCo's message in one line, about the authored file and line."""
     lines = [node for number in _LINE.findall(message) if (node := flat.node_at(f"line {number}"))]
     where = tree.where(lines[-1]) if lines else str(tree.main.path)
     remedy = _UNKNOWN_CLASS if "unknown default class" in message else None
@@ -156,7 +155,6 @@ def _error_of(message: str, tree: MjcfTree, flat: FlatText) -> AssetError:
 
 
 def _clean_message(message: str) -> str:
-    """A message of MuJoCo in one line, without the line numbers of our text."""
     text = _NAMELESS.sub("", _PARSER.sub("", _HEAD.sub("", message.strip())))
     return " ".join(_NAMED.sub(r"(element '\1') ", text).split())
 

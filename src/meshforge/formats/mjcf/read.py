@@ -152,7 +152,6 @@ def refuse_excess(tree: MjcfTree) -> None:
 
 
 def _describe_excess(node: MjcfNode) -> str:
-    """The attributes that make an element too large, empty where none do."""
     if node.tag == "mesh" and "builtin" in node.attributes:
         names: tuple[str, ...] = ("params",)
         too_large = max(_read_numbers(node, names), default=0.0) > _FINEST

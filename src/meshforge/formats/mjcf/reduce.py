@@ -219,7 +219,6 @@ def _replace_visuals(tree: MjcfTree, flat: engine.FlatText, spec: mujoco.MjSpec,
 
 
 def _has_mass(geom: mujoco.MjsGeom, spec: mujoco.MjSpec) -> bool:
-    """Whether a geom adds to the mass that its body has from its geoms."""
     first, last = spec.compiler.inertiagrouprange
     return bool(first <= geom.group <= last and (geom.density > 0 if isnan(geom.mass) else geom.mass > 0))
 

@@ -139,7 +139,6 @@ def _add_model(path: Path, files: dict[Path, None], missing: dict[str, None]) ->
 
 
 def _plugin_files(tree: MjcfTree) -> Iterator[Path]:
-    """Files that settings of plugins name, beside the main file."""
     for node in tree.root.walk():
         value = node.attributes.get("value", "") if node.tag == "config" else ""
         if value and "\0" not in value:
@@ -258,7 +257,6 @@ def is_shown_whole(path: Path) -> bool:
 
 
 def _is_one_group(data: bytes) -> bool:
-    """Whether no group begins after the first face of an OBJ."""
     first = _FACE.search(data)
     return first is not None and b"\\\n" not in data and _GROUP.search(data, first.end()) is None
 

@@ -204,7 +204,6 @@ def _mentions_of(soup: Soup, piece: Piece) -> Mentions:
 
 
 def _surface_of(soup: Soup, piece: Piece) -> Surface:
-    """The triangles of a piece, in parts by the groups and materials of the file."""
     own = piece.face_indices
     materials = next(((owner[own], names) for kind, owner, names in soup.mentions if kind == "material"), None)
     return Surface(piece.vertices, piece.faces, parts=parts_of_groups(soup.group[own], soup.names, materials))

@@ -180,7 +180,6 @@ class FolderWriter:
         self.documents[file] = self.format_of(Path(file)).parse_document(data, Path(file))[0]
 
     def _find_free_name(self, name: str, suffix: str) -> str:
-        """A file name for a hull that no other file has, in any case of letters."""
         safe = re.sub(r"[^\w.#~@ +-]+", "_", name)[:_LONGEST].strip(". ") or "hull"
         taken = {file.lower() for file in self.documents}
         stem, number = safe, 2

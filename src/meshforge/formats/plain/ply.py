@@ -91,7 +91,6 @@ class _PlyEditor:
         self._refuse_misfits()
 
     def _corners_of_bare_faces(self, faces: PlyRows) -> list[int]:
-        """The vertices of faces of two corners, which stay."""
         bare = set(range(faces.element.rows)).difference(self.text.face_at.tolist())
         lists = [faces.values[key] for key in INDEX_NAMES if key in faces.values]
         return [int(corner) for read in lists for k in bare for corner in read[k]]

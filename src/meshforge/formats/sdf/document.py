@@ -130,7 +130,6 @@ class ModelResolver(Resolver):
         return placement(reference)
 
     def _is_own(self, name: str, rest: str) -> bool:
-        """Whether a model's file is, or is to be, in the folder itself."""
         found = next((path for path in Resolver.candidates(self, f"model://{name}/{rest}") if is_file(path)), None)
         if found is not None:
             return found == self._join(self.folder, rest)

@@ -70,7 +70,6 @@ def read_joints(tree: ModelTree) -> SdfJoints:
 
 
 def _is_below(parents: dict[str, str], body: str, wanted: str) -> bool:
-    """Whether a body hangs, at any depth, on another."""
     at: str | None = body
     while at is not None:
         if at == wanted:
@@ -211,7 +210,6 @@ def compute_masses(
 
 
 def _sum_inertias(parts: Sequence[tuple[Geom, float]]) -> tuple[float, np.ndarray, np.ndarray] | None:
-    """The mass, its centre and the inertia about it of shapes of given densities."""
     if not parts:
         return None
     masses = np.array([density * geom.shape.volume for geom, density in parts])

@@ -115,7 +115,6 @@ def read_visuals(tree: models.ModelTree) -> VisualSurfaces:
 
 
 def _read_color(visual: Element) -> Rgba | None:
-    """The diffuse colour of a visual, as transparent as it says."""
     found = parse_numbers(text_of(visual.first("material"), "diffuse"))
     if not found or len(found) not in (3, 4):
         return None

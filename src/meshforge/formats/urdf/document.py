@@ -177,7 +177,6 @@ def _read_joint_ends(element: Element, links: Mapping[str, Element], where: str)
 
 
 def _place_links(links: Mapping[str, Element], parents: Mapping[str, _JointEnds], where: str) -> dict[str, Pose]:
-    """root_T_link of all links, each after its parent."""
     poses: dict[str, Pose] = {}
     for name in links:
         chain: dict[str, None] = {}

@@ -153,7 +153,6 @@ def _read_colors(robot: Element, where: str) -> dict[str, Rgba]:
 
 
 def _read_color(material: Element | None, named: Mapping[str, Rgba], where: str) -> Rgba | None:
-    """The colour that a material says, or else the one of its name."""
     if material is None:
         return None
     color = material.first("color")

@@ -67,7 +67,6 @@ class UsdEdit:
         return found
 
     def _remove(self, element: PrimRecord, source: PrimCollision, staying: Sequence[int]) -> None:
-        """Take a prim's collision, and put the pieces that stay beside it."""
         if element.fixed:
             raise AssetError(f"hull {element.names[0]!r} cannot be changed: it {element.fixed}", where=self._where)
         self._how[remove_collision(self.scene, self.layer, source.prim, self.document.physics)] += 1
@@ -84,7 +83,6 @@ class UsdEdit:
         self._finish(spec, name, body, source, "convexHull" if part.shape else "none")
 
     def _add_hull(self, geom: Geom, parent: PrimCollision | None) -> None:
-        """A new prim beside that of its parent, or below its body."""
         if parent is not None and parent.fixed:
             raise AssetError(f"hull {geom.name!r} takes after {parent.path}, which {parent.fixed}", where=self._where)
         holder, space = self._find_holder(parent, geom.body)

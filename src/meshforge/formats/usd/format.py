@@ -79,7 +79,6 @@ def _read_features(path: Path) -> list[Feature]:
 
 
 def _list_others(prim: Any) -> Iterator[str]:
-    """What no conversion takes of a prim, each kind once."""
     kind, attributes = str(prim.GetTypeName()), prim.GetAuthoredAttributes()
     names = {attribute.GetName() for attribute in attributes}
     if kind in _OTHERS or kind.endswith("Light"):

@@ -142,7 +142,6 @@ def _joint_position(kind: JointKind, axis: Floats, first: Pose, second: Pose, me
 
 
 def _force_unit(scene: UsdStage, kind: JointKind) -> float:
-    """The newtons, or newton metres, of the stage's unit."""
     return scene.kilograms * scene.metres ** (2 if kind == "revolute" else 1)
 
 

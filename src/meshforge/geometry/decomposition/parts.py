@@ -104,7 +104,6 @@ def _list(names: Sequence[str]) -> str:
 
 
 def _find_small(vertices: Floats, faces: Ints, places: Ints, count: int) -> Bools:
-    """Which parts (count,) are too small to stand alone."""
     low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
     corners = vertices[faces]
     np.minimum.at(low, places, corners.min(axis=1))
@@ -140,7 +139,6 @@ def _faces_of(vertices: Floats, corners: Ints) -> Ints:
 
 
 def _count_contacts(corners: Ints, places: Ints, count: int) -> Ints:
-    """How many vertices each two parts share (count, count)."""
     own = np.unique(np.column_stack([corners.ravel(), np.repeat(places, 3)]), axis=0)
     contacts = np.zeros((count, count), dtype=np.int64)
     starts = np.flatnonzero(np.diff(own[:, 0], prepend=-1))

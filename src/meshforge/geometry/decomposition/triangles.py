@@ -164,7 +164,6 @@ def _plane_of(points: Floats) -> tuple[Floats, Floats]:
 
 
 def _make_cap(vertices: Floats, loops: list[Ints]) -> Ints:
-    """The triangles (m, 3) between loops of one plane."""
     rim = np.concatenate(loops)
     center, axes = _plane_of(vertices[rim])
     outlines = [(vertices[loop] - center) @ axes[:2].T for loop in loops]

@@ -140,7 +140,6 @@ def _is_short_for(word: str, meant: str) -> bool:
 
 
 def _is_misspelt(word: str, meant: str) -> bool:
-    """Whether one letter is wrong, missing or too many."""
     if len(meant) < _LONG or abs(len(word) - len(meant)) > 1:
         return False
     same = next((k for k, (a, b) in enumerate(zip(word, meant, strict=False)) if a != b), min(len(word), len(meant)))
@@ -225,7 +224,6 @@ def _split_word(word: str, known: Collection[str]) -> Words:
 
 
 def _find_mentions(words: Words, label: str, wanted: Words) -> list[_Mention]:
-    """Where the words of a label are in a name, one by one or joined."""
     runs = [(start, start + count) for count in {1, 2, len(wanted)} for start in range(len(words) - count + 1)]
     sure = [(start, end, _sureness(words[start:end], wanted)) for start, end in runs if end > start]
     return [_Mention(label, start, end, value) for start, end, value in sure if value]

@@ -96,7 +96,6 @@ def _entries(text: str) -> list[tuple[int, str]]:
 
 
 def _documents(text: str) -> Iterator[Any]:
-    """All JSON objects and lists in a text that are whole, outermost only."""
     decoder, place = json.JSONDecoder(), 0
     while match := _BRACKET.search(text, place):
         try:

@@ -195,7 +195,6 @@ class Transport:
         return RefusalError(f"the server refused the question ({status}): {said}", where=where)
 
     def _redact(self, text: str) -> str:
-        """A text of the server's without the key, should it repeat that."""
         return text.replace(self._key, "...") if self._key else text
 
 

@@ -112,7 +112,6 @@ class _PictureSeries:
         return [k for k in self._subject.wanted if self._clear.get(k, 0) < enough]
 
     def _pixels_of_numbered(self, picture: LabelingPicture, hulls: Iterable[int]) -> list[int]:
-        """How many pixels show each of these hulls that has its number in a picture."""
         names = (self._subject.mesh.hulls[k].name for k in hulls)
         return [picture.visible_pixels[name] for name in names if name in picture.numbered]
 
@@ -170,7 +169,6 @@ def choose_best(
 
 
 def _group_near(subject: LabelingSubject, left: Sequence[int]) -> list[int]:
-    """Those of some hulls that are near the first, or near one that is."""
     low, high = (corner[list(left)] for corner in subject.mesh.corners)
     found = np.zeros(len(left), bool)
     fresh = found.copy()

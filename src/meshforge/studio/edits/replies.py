@@ -116,7 +116,6 @@ class ReplyToQuestion(Edit):
         return self.choice is None and not self._labels and not isinstance(self._asked, signoff.ReadingQuestion)
 
     def _list_more_paths(self, project: Project) -> Iterator[Path]:
-        """The files and folders beside the events that the reply may change."""
         if self._is_put_off:
             return
         layout = project.layout

@@ -116,7 +116,6 @@ def _view_choice(choice: ReviewChoice) -> wire.ReviewChoiceView:
 
 
 def _explain_reading(choice: ReviewChoice) -> str:
-    """The extractor of a choice in words, empty where its text is none."""
     if choice.select is None:
         return ""
     try:

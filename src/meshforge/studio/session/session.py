@@ -216,7 +216,6 @@ class Session:
         return any(asset in shown for asset in self.project.assets())
 
     def _end_learning(self, outcome: OutcomeView) -> None:
-        """A learning run is over: it wrote its program, unless a person's is there."""
         with self._mutex:
             take, self._take_learned = self._take_learned, False
             if take and outcome.program and self.learning.is_latest(outcome.number):

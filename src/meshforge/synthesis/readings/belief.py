@@ -167,7 +167,6 @@ def _strangeness(field: ObservationTable, selections: Sequence[int]) -> Floats:
 
 
 def _unpack(readings: Sequence[int], width: int) -> npt.NDArray[np.bool_]:
-    """Whether each reading has each group: (readings, width)."""
     size = (width + 7) // 8
     packed = np.frombuffer(b"".join(row.to_bytes(size, "little") for row in readings), np.uint8)
     return np.unpackbits(packed.reshape(len(readings), size), axis=1, count=width, bitorder="little").astype(np.bool_)
