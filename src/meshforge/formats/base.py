@@ -199,6 +199,12 @@ class SceneFormat(Format):
         """
 
 
+def no_hulls_error(asset: Asset) -> AssetError:
+    """The error on an asset of which nothing can be written that collides."""
+    remedy = "Make hulls of its non-convex pieces: convert --concave decompose, or hull." if asset.opaque else None
+    return AssetError("there is no hull to write", where=str(asset.path), remedy=remedy)
+
+
 def feature_of_others(kinds: Iterable[str]) -> Feature:
     """The feature of elements that no conversion takes: each kind is named once."""
     each = list(kinds)

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 
-from meshforge.common import AssetError, join_names
+from meshforge.common import join_names
 from meshforge.formats import base, visuals
 from meshforge.formats.engine_names.conventions import CollisionNames
 from meshforge.formats.meshfile.surface import stack_triangles
@@ -61,8 +61,7 @@ class _Namer:
         asset, engine = self.asset, self.engine
         collides = [piece for piece in asset.opaque if _has_triangles(piece)] if engine.takes_opaque else []
         if not asset.geoms and not collides:
-            remedy = "Make hulls of its non-convex pieces: convert --concave hull." if asset.opaque else None
-            raise AssetError("there is no hull to write", where=str(asset.path), remedy=remedy)
+            raise base.no_hulls_error(asset)
         bases = [self.stem] if [body.name for body in asset.bodies] == [_NAMELESS] else [b.name for b in asset.bodies]
         names = [self._claim_name(engine.body, name) for name in bases]
         found = [self._name_body(*pair) for pair in zip(asset.bodies, names, strict=True)]

@@ -13,8 +13,8 @@ from pathlib import PurePosixPath
 
 import numpy as np
 
-from meshforge.common import AssetError, join_names
-from meshforge.formats.base import Loss, Output, note_renames
+from meshforge.common import join_names
+from meshforge.formats.base import Loss, Output, no_hulls_error, note_renames
 from meshforge.formats.collision_pieces import names_to_keep, refuse_changed_files
 from meshforge.formats.engine_names.conventions import CollisionNames
 from meshforge.formats.gltf.document import Convention, GltfDocument, NodeRecord
@@ -62,7 +62,7 @@ def write_gltf_beside(asset: Asset, document: GltfDocument, name: str, engine: C
         for piece in _list_pieces(asset, document):
             writer.add(piece)
         if not draft.expected:
-            raise AssetError("there is no hull to write", where=str(asset.path))
+            raise no_hulls_error(asset)
         marked = GltfDocument(b"", convention, (), document.bodies)
         names = assign_names(draft, marked, renames=engine is None)
         output = pack_scene(base, scene, draft.geometry, name)

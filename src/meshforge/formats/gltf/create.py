@@ -11,8 +11,7 @@ from urllib.parse import quote
 
 import numpy as np
 
-from meshforge.common import AssetError
-from meshforge.formats.base import Output
+from meshforge.formats.base import Output, no_hulls_error
 from meshforge.formats.engine_names.bodies import EngineBodies, EngineBody, name_bodies
 from meshforge.formats.engine_names.conventions import CollisionNames, godot_kind, unreal_kind
 from meshforge.formats.gltf.document import BODY, Convention, GltfDocument
@@ -68,7 +67,7 @@ class _Creator:
         for piece in self.asset.opaque:
             self._add_opaque(style, piece)
         if not self.draft.expected:
-            raise AssetError("there is no hull to write", where=str(self.asset.path))
+            raise no_hulls_error(self.asset)
         for body, surface in seen:
             self._add_visual(body, surface)
         bodies = tuple((node, body) for body, node in self.nodes.items())

@@ -8,8 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from meshforge.common import AssetError
-from meshforge.formats.base import Output
+from meshforge.formats.base import Output, no_hulls_error
 from meshforge.formats.collision_pieces import names_to_keep
 from meshforge.formats.libraries import pxr
 from meshforge.formats.usd import colliders, prims
@@ -33,7 +32,7 @@ def write_usd_beside(asset: Asset, document: UsdDocument, name: str) -> Output:
         for piece in pieces:
             writer.add(piece)
         if not writer.count:
-            raise AssetError("there is no hull to write", where=str(asset.path))
+            raise no_hulls_error(asset)
         return note_hulls(writer.hulled), {}
 
     return edit_root_layer(asset, document, PurePosixPath(name), author)
