@@ -209,8 +209,7 @@ def _work_of_program(given: ApplyArguments) -> ApplyWork:
     if given.no_split:
         raise UsageError("--no-split needs a project: a program alone splits no hulls")
     if not given.program.exists():
-        beside = given.program.parent.glob("*")
-        names = [path.name for path in beside if path.suffix == ".mf" or path.is_dir()]
+        names = (path.name for path in given.program.parent.glob("*") if path.suffix == ".mf" or path.is_dir())
         near = suggest_name(given.program.name, names)
         raise UsageError("there is no such project or program", where=str(given.program), remedy=near)
     if not given.assets or given.out is None:

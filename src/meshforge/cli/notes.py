@@ -54,10 +54,7 @@ def fold_notes(notes: Iterable[str]) -> Iterator[str]:
 
 
 def _kind_of(note: str, asset: str) -> str:
-    """A note without names and counts, by which it is the same as another: `2 masses (a, b) are left out: ...`.
-
-    The names of the asset's own hulls mostly contain that of the asset.
-    """
+    """A note without names, also that of the asset, and counts, by which it is the same as another."""
     note = re.sub(rf"(?<![^\W_]){re.escape(Path(asset).stem)}(?![^\W_])", "", note)
     note = re.sub(r" \(also .*\)$", "", note)
     if counted := re.match(r"(?:  note: )?[\d,]+ (\w{3})\w*(?: elements?)?(.*)", note, re.DOTALL):
