@@ -12,9 +12,10 @@ import pytest
 import trimesh
 from PIL import Image
 
-from meshforge.formats import read
+from meshforge.formats import labels_beside, read
 from meshforge.language import Program
 from meshforge.project import Project
+from meshforge.symbolic import SymbolicMesh, read_labels, transfer_labels
 from tests.engine_rules import godot_word, unreal_target
 from tests.gltf_files import KHR, tree_of
 from tests.gltf_validation import errors
@@ -232,3 +233,13 @@ def test_marks_that_a_format_cannot_have_are_one_error_before_anything_is_writte
     told = meshforge("apply", "p.mf", "in", "--out", "out", "--names", "usd", cwd=folder, code=2).err
     assert "in/scene.glb: glTF files cannot be marked by UsdPhysics" in told and told.count("error") == 1
     assert not (folder / "out").exists()
+
+
+def test_labels_beside_the_result_are_those_of_its_hulls_as_they_read_back(folder: Path) -> None:
+    (folder / "p.mf").write_text("Is(ball) => Replace(cylinder, tight)\nIs(leg) => Replace(cylinder)\n")
+    assert meshforge("apply", "p.mf", "in", "--out", "out", "--workers", "1", cwd=folder).code == 0
+    told = meshforge("convert", "out/scene.glb", "urdf/scene.urdf", cwd=folder)
+    assert "changed since they were labelled" not in told.out + told.err
+    for path in (folder / "out" / "scene.glb", folder / "urdf" / "scene.urdf"):
+        followed = transfer_labels(read_labels(labels_beside(path)), SymbolicMesh.of(read(path)))
+        assert followed.changed == () and len(followed.mesh.labels) == 2

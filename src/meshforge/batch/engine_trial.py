@@ -70,9 +70,18 @@ def try_mujoco(engine: str, path: Path | None, mesh: SymbolicMesh) -> EngineTria
         command = f"meshforge convert {quote_path(path)} {quote_path(path.with_suffix('.xml'))}"
         remedy = f"Fix what the message names; or give MuJoCo an MJCF, which it takes: {command}"
     given: Given = "file" if own else "conversion"
-    return EngineTrial(
-        engine, _name_of(path), f"MuJoCo {found.version}", given, found.refusal, found.warnings, remedy=remedy
-    )
+    asked = f"MuJoCo {found.version}"
+    joined = tuple(_find_joined(mesh).items()) if form == "urdf" and not found.refusal else ()
+    return EngineTrial(engine, _name_of(path), asked, given, found.refusal, found.warnings, joined, remedy=remedy)
+
+
+def _find_joined(mesh: SymbolicMesh) -> dict[str, tuple[str, ...]]:
+    """The hulls of each collision mesh that has several: of a URDF's, MuJoCo makes one."""
+    joined = dict[str, tuple[str, ...]]()
+    for geom in mesh.asset.geoms if mesh.asset else ():
+        if geom.element:
+            joined[geom.element] = (*joined.get(geom.element, ()), geom.name)
+    return joined
 
 
 def _describe_absence(engine: str, path: Path | None) -> EngineTrial:

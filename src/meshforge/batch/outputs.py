@@ -9,7 +9,7 @@ import secrets
 import shutil
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 from meshforge.batch import provenance
@@ -78,10 +78,10 @@ def write_draft(
         collision=options.collision,
         urdf_capsules=options.urdf_capsules,
     )
-    written = mesh.with_hulls(replace(hull, name=saved.names.get(hull.name, hull.name)) for hull in mesh.hulls)
     remedy = "Make a hull of each: meshforge prepare PROJECT --decompose hull, or convert --concave hull."
     saved.report.refuse_lost_collision(str(mesh.asset.path if mesh.asset else main), remedy)
     back = read(main)
+    written = mesh.as_written(saved.names, back)
     order = _check_hulls(back, written, saved.hulled)
     if written.labels:
         write_labels(labels_beside(main), written, vocabulary)

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import chain
 from typing import Any, Literal
 
+from meshforge.common import join_names, pluralize
 from meshforge.engines import Finding, find_engine
 
 Given = Literal["file", "conversion"]
@@ -17,7 +19,8 @@ class EngineTrial:
     """What an engine says of an asset, besides our table of its limits.
 
     engine, file: names; asked: the program and version that was run, None where none was; given: what it was given;
-    refusal, warnings: in its own words; untried: why an engine that can be asked was not, empty for one that cannot;
+    refusal, warnings: in its own words; joined: each collision mesh of which it makes one hull, with the hulls that are
+    read of it; untried: why an engine that can be asked was not, empty for one that cannot;
     remedy: for a refusal, or for one that was not tried.
     """
 
@@ -27,6 +30,7 @@ class EngineTrial:
     given: Given | None = None
     refusal: str | None = None
     warnings: tuple[str, ...] = ()
+    joined: tuple[tuple[str, tuple[str, ...]], ...] = ()
     untried: str = ""
     remedy: str = ""
 
@@ -51,6 +55,11 @@ class EngineTrial:
         if self.refusal:
             message = f"{self.asked} refuses {self._subject}: {self.refusal}"
             yield Finding(f"{self.engine}-refused", "error", (), message, self.remedy or "Fix what the message names.")
+        if self.joined:
+            names = join_names([f"{element} ({pluralize(len(of), 'hull')} here)" for element, of in self.joined])
+            message = f"{self.asked} makes one hull of all of a collision mesh, which closes what is between: {names}"
+            remedy = "meshforge convert to an MJCF writes a geom for each hull."
+            yield Finding(f"{self.engine}-joins", "warning", tuple(chain(*dict(self.joined).values())), message, remedy)
         for warning in self.warnings:
             yield Finding(f"{self.engine}-warned", "warning", (), f"{self.asked} warns: {warning}", "")
 

@@ -17,7 +17,7 @@ from meshforge.cli import options
 from meshforge.cli.apply_new import hold, hold_new, prepare_given, prepare_later
 from meshforge.cli.console import progress
 from meshforge.cli.terminal import remark
-from meshforge.common import UsageError, join_names
+from meshforge.common import UsageError, join_names, suggest_name
 from meshforge.language import Program, Template
 
 if TYPE_CHECKING:
@@ -211,6 +211,10 @@ def _work_of_program(given: ApplyArguments) -> ApplyWork:
         raise UsageError("--min-confidence needs a project: a program alone does not say how sure its results are")
     if given.no_split:
         raise UsageError("--no-split needs a project: a program alone splits no hulls")
+    if not given.program.exists():
+        names = (path.name for path in given.program.parent.glob("*") if path.suffix == ".mf" or path.is_dir())
+        near = suggest_name(given.program.name, names)
+        raise UsageError("there is no such project or program", where=str(given.program), remedy=near)
     if not given.assets or given.out is None:
         lacking = "assets" if not given.assets else "--out DIR"
         raise UsageError(f"{lacking} is missing", remedy="meshforge apply PROGRAM ASSETS... --out DIR")

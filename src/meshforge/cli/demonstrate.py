@@ -14,8 +14,8 @@ from meshforge.cli.extractors import is_extractor, labels_of_project, select_hul
 from meshforge.cli.hulls import find_hulls
 from meshforge.cli.options import asset_id
 from meshforge.cli.terminal import remark
-from meshforge.common import escape_name
-from meshforge.language import Program, apply_action, to_canonical_frame
+from meshforge.common import escape_name, join_names, pluralize
+from meshforge.language import ActionResult, Program, apply_action, to_canonical_frame
 from meshforge.project import Project
 from meshforge.symbolic import SymbolicMesh, mask_of
 from meshforge.synthesis import Step
@@ -45,18 +45,23 @@ def demonstrate(
         opened.demonstrate(asset, ())
         remark(f"{escape_name(asset)}: nothing is demonstrated any more")
         return
+    with progress(None, f"reading {asset}"):
+        recorded = _record_steps(opened, asset, steps or ())
     if steps:
-        with progress(None, f"reading {asset}"):
-            opened.demonstrate(asset, _record_steps(opened, asset, steps))
+        opened.demonstrate(asset, [step for step, _ in recorded])
+    results = {step.rule: said for step, said in recorded}
     for step in opened.steps(asset):
         typer.echo(
             f"{step.rule}. {_format_selection(step)} => {step.action}{f' as {step.label}' if step.label else ''}"
         )
+        if results.get(step.rule):
+            remark(f"   {results[step.rule]}")
     if steps:
         remark(f"Next: meshforge synthesize {project}")
 
 
-def _record_steps(project: Project, asset: str, texts: Sequence[str]) -> list[Step]:
+def _record_steps(project: Project, asset: str, texts: Sequence[str]) -> list[tuple[Step, str]]:
+    """The steps, each with what it does to the hulls, in words."""
     mesh = to_canonical_frame(project.mesh(asset), project.orientation, project.settings.thresholds.contact)[0]
     numbered, recorded, used = tuple(mesh.index), [], frozenset[str]()
     for number, text in enumerate(texts, 1):
@@ -64,13 +69,24 @@ def _record_steps(project: Project, asset: str, texts: Sequence[str]) -> list[St
         (rule,) = Program.parse(f"All => {done_to_them.strip()}", f"step {number}").rules
         action, label = rule.action, rule.label
         select = _parse_hulls(hulls.strip(), mesh, f"step {number}", numbered, project)
-        recorded.append(Step(number, select, action, label))
+        result = ""
         if select:
             templates = project.templates(action.templates)
             mask = mask_of(mesh.index[name] for name in select)
             done = apply_action(mesh, mask, action, templates, label, used)
+            result = _describe_result(len(select), done)
             mesh, used = done.mesh, done.used
+        recorded.append((Step(number, select, action, label), result))
     return recorded
+
+
+def _describe_result(before: int, done: ActionResult) -> str:
+    """What a step did: `5 hulls -> 1, of which a~1 joins a, b and 3 more`."""
+    joined = next((name for name, of in zip(done.made, done.sources, strict=True) if len(of) > 1), None)
+    said = f"{pluralize(before, 'hull')} -> {len(done.made)}"
+    if joined is not None:
+        said += f", of which {escape_name(joined)} joins {join_names(done.sources[done.made.index(joined)])}"
+    return said + (f"; {done.note}" if done.note else "")
 
 
 def _parse_hulls(

@@ -55,6 +55,8 @@ def _find_part(part: str, hulls: Collection[str], where: str, listing: str, numb
             remedy = f"A name begins with that of its body. Write it so: '*/{part}'"
         elif any(name.startswith(f"{part}/") for name in hulls):
             remedy = f"That is a body. For all of its hulls, write: '{part}/*'"
+        elif re.fullmatch("[0-9]+(-[0-9]+)?", part):
+            remedy = f"A number stands behind a #. Write it so: '#{part}'"
         raise UsageError(f"{where}: no hull is named {part!r}", remedy=remedy)
     return hits
 

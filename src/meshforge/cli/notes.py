@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
+from pathlib import Path
 
 import typer
 
@@ -24,7 +25,7 @@ class NoteLog:
         """What is printed on an asset: a line, with the numbers of notes that were printed already, and new ones."""
         new = list[str]()
         for note in fold_notes(notes):
-            row = self._rows.setdefault(_kind_of(note), [f"[{len(self._rows) + 1}]"])
+            row = self._rows.setdefault(_kind_of(note, asset), [f"[{len(self._rows) + 1}]"])
             if self._numbered and row[1:2] not in ([], [asset]):
                 head += f" {row[0]}"
             else:
@@ -52,8 +53,9 @@ def fold_notes(notes: Iterable[str]) -> Iterator[str]:
         yield f"{first} (also {names})" if others else first
 
 
-def _kind_of(note: str) -> str:
-    """A note without names and counts, by which it is the same as another: `2 masses (a, b) are left out: ...`."""
+def _kind_of(note: str, asset: str) -> str:
+    """A note without names, also that of the asset, and counts, by which it is the same as another."""
+    note = re.sub(rf"(?<![^\W_]){re.escape(Path(asset).stem)}(?![^\W_])", "", note)
     note = re.sub(r" \(also .*\)$", "", note)
     if counted := re.match(r"(?:  note: )?[\d,]+ (\w{3})\w*(?: elements?)?(.*)", note, re.DOTALL):
         names = "" if counted[1] == "oth" else r" \([^)]*\)"  # of other elements these are kinds, not names

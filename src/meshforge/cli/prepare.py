@@ -175,7 +175,9 @@ def print_results(project: Project, results: Iterable[PreparationResult], json: 
         else:
             _print_one(result)
     if has_made and not json:
-        remark(f"Next: meshforge apply {quote_path(project.folder)} writes what is prepared, also without a program")
+        has_program = project.layout.program.exists()
+        what = "runs the program on it" if has_program else "writes what is prepared, also without a program"
+        remark(f"Next: meshforge apply {quote_path(project.folder)} {what}")
     return int(failed)
 
 

@@ -54,7 +54,8 @@ def read_replies(path: Path) -> list[ScriptReply]:
     try:
         rows = json.loads(path.read_text("utf-8-sig"))
     except (OSError, UnicodeDecodeError) as error:
-        raise UsageError("the replies cannot be read", where=str(path)) from error
+        why = "they are not UTF-8 text" if isinstance(error, UnicodeDecodeError) else error.strerror
+        raise UsageError(f"the replies cannot be read: {why}", where=str(path)) from error
     except (ValueError, RecursionError) as error:
         raise UsageError("this is no JSON", where=str(path), remedy=_FORM) from error
     if not isinstance(rows, list):

@@ -64,7 +64,8 @@ def _to_row(asset: AssetStatus) -> tuple[object, ...]:
     spans = (
         f"{'; '.join(asset.spans.values())} (meshforge review, or prepare --split-spanning)" if asset.spans else None
     )
-    remarks = [text for text in (asset.error, stale, asset.review, bare, spans, *asset.prepared, *asset.flags) if text]
+    error = "; ".join(line.strip() for line in (asset.error or "").splitlines())
+    remarks = [text for text in (error, stale, asset.review, bare, spans, *asset.prepared, *asset.flags) if text]
     labelled = "" if not asset.hulls else "all" if asset.labelled == asset.hulls else asset.labelled
     output = "" if asset.output == "none" else asset.output
     return asset.id, asset.hulls, labelled, "yes" if asset.demonstrated else "", output, "; ".join(remarks)

@@ -10,7 +10,7 @@ from meshforge.formats.base import Collision
 from meshforge.formats.engine_names.conventions import MarkName
 from meshforge.formats.mjcf.spec import build_spec
 from meshforge.formats.output_tree import SaveResult, make_output, save
-from meshforge.formats.registry import Source, labels_beside, to_mesh
+from meshforge.formats.registry import Source, labels_beside, read, to_mesh
 from meshforge.symbolic import SymbolicMesh, write_labels
 
 
@@ -50,6 +50,5 @@ def _write_labels(mesh: SymbolicMesh, saved: SaveResult, overwrite: bool) -> Sav
         note = f"{path} is there already and was left as it is"
         report = replace(saved.report, remarks=(*saved.report.remarks, note))
         return replace(saved, notes=(*saved.notes, note), report=report)
-    renamed = mesh.with_hulls(replace(hull, name=saved.names.get(hull.name, hull.name)) for hull in mesh.hulls)
-    write_labels(path, renamed, ())
+    write_labels(path, mesh.as_written(saved.names, read(saved.path)), ())
     return saved

@@ -206,6 +206,15 @@ class SymbolicMesh:
         named = self.names_in_file
         return self.asset.with_geoms(Geom(named.get(h.name, h.name), h.body, h.shape, h.parent) for h in self.hulls)
 
+    def as_written(self, names: Mapping[str, str], back: Asset) -> SymbolicMesh:
+        """The mesh with the names and shapes of its hulls in the file that was written of it, for the labels beside it.
+
+        names: those in the file, of hulls that have another one there; back: the file as it reads back.
+        """
+        there = {geom.name: geom.shape for geom in back.geoms}
+        renamed = (replace(hull, name=names.get(hull.name, hull.name)) for hull in self.hulls)
+        return SymbolicMesh(tuple(replace(hull, shape=there.get(hull.name, hull.shape)) for hull in renamed))
+
     @property
     def names_in_file(self) -> dict[str, str]:
         """The names of hulls that alone took the place of one, with the name of that, which they get in a file."""

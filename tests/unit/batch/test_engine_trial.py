@@ -16,6 +16,7 @@ from meshforge.checks import CheckOptions
 from meshforge.formats import load
 from tests.corpus_case import ROOT
 from tests.mjcf_engines import model, put
+from tests.unit.batch.preparation.samples import write_boxes
 from tests.unit.cli.in_process import Run, runner
 
 BOX = '<geom type="box" size=".1 .1 .1"/>'
@@ -199,3 +200,16 @@ def test_of_all_broken_files_none_that_mujoco_refuses_is_legal(
     read = [outcome for outcome in outcomes if outcome.error is None]
     refused = [outcome for outcome in read if refusal(outcome.path)]
     assert refused and all(outcome.has_failed for outcome in refused)
+
+
+def test_a_mesh_of_several_hulls_that_mujoco_makes_one_of_is_not_called_legal_without_a_word(
+    run: Run, tmp_path: Path
+) -> None:
+    write_boxes(tmp_path / "row.obj")
+    mesh = '<collision name="row"><geometry><mesh filename="row.obj"/></geometry></collision>'
+    (tmp_path / "row.urdf").write_text(f'<robot name="r"><link name="a">{mesh}</link></robot>')
+    told = run("check", "row.urdf", "--engine", "mujoco")
+    assert mujoco.MjModel.from_xml_path("row.urdf").ngeom == 1
+    assert "makes one hull of all of a collision mesh, which closes what is between: a/row (3 hulls here)" in told.out
+    assert run("convert", "row.urdf", "row.xml").code == 0 and mujoco.MjModel.from_xml_path("row.xml").ngeom == 3
+    assert ": legal (MuJoCo" in run("check", "row.xml", "--engine", "mujoco").out

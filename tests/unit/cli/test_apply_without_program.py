@@ -80,3 +80,27 @@ def test_nothing_follows_where_nothing_was_made(run: Run) -> None:
     assert run("prepare", "p", "stand.urdf", *HULL).code == 0
     assert run("prepare", "p", "stand.urdf", *HULL).err == ""
     assert run("prepare", "p", "--remove").err == ""
+
+
+def test_with_a_program_apply_is_said_to_run_it(run: Run) -> None:
+    assert "writes what is prepared, also without" in run("prepare", "p", "stand.urdf", *HULL).err
+    Path("p/program.mf").write_text("Is(a) => Delete\n")
+    assert "Next: meshforge apply p runs the program on it" in run("prepare", "p", "stand.urdf", *HULL, "--again").err
+
+
+def test_a_project_or_program_that_is_not_there_is_said_with_the_nearest_name(run: Run) -> None:
+    Path("row.mf").write_text("Is(a) => Delete\n")
+    for words, near in ((("rows.mf", "in", "--out", "out"), "row.mf"), (("q",), None)):
+        told = run("apply", *words)
+        assert told.code == 2 and f"{words[0]}: there is no such project or program" in told.err
+        assert near is None or f"Did you mean '{near}'?" in told.err
+
+
+def test_what_status_says_of_a_file_is_one_line(run: Run) -> None:
+    Path("in/row.obj").write_text("v 0 0\n")
+    assert "\\n" not in run("status", "p").out
+
+
+def test_without_hulls_to_write_the_message_names_what_makes_them(run: Run) -> None:
+    told = run("convert", "in/corner.obj", "corner.glb", "--names", "unreal")
+    assert told.code == 2 and "there is no hull to write" in told.err and "--concave decompose" in told.err

@@ -105,3 +105,18 @@ def test_a_hull_that_is_called_as_an_extractor_or_a_number_is_meant_first(run: R
     assert run("demonstrate", "p", "t0.obj", "Is(leg) => Delete", "#0 => Delete").out == (
         "1. Is(leg) => Delete\n2. #0 => Delete\n"
     )
+
+
+def test_each_step_says_how_many_hulls_it_makes_and_which_it_joins(run: Run) -> None:
+    said = run(
+        "demonstrate", "p", "t0.obj", "left_* => Each(Replace(box, tight))", "right_* => Delete", "nothing => Merge"
+    )
+    assert said.err.splitlines()[:2] == [
+        "   2 hulls -> 1, of which left_low~1 joins left_low, left_high",
+        "   2 hulls -> 0",
+    ]
+    assert "hull" not in run("demonstrate", "p", "t0.obj").err
+
+
+def test_a_number_without_its_sign_is_an_error_that_shows_it(run: Run) -> None:
+    assert "Write it so: '#1-3'" in run("demonstrate", "p", "t0.obj", "#0,1-3 => Delete").err

@@ -28,18 +28,18 @@ def test_a_note_on_many_hulls_names_the_first_of_them() -> None:
 
 def test_a_note_on_many_assets_is_printed_once_and_its_number_after(capsys: pytest.CaptureFixture[str]) -> None:
     log = NoteLog(numbered=True)
-    first = log.describe("a", "edited a", [LOST.format("1 mass", "x", "is"), CAPSULE.format(1), CAPSULE.format(2)])
+    first = log.describe("crate", "edited a", [LOST.format("1 mass", "x", "is"), CAPSULE.format(1), CAPSULE.format(2)])
     assert first.splitlines() == [
         "edited a",
         f"    note: {LOST.format('1 mass', 'x', 'is')} [1]",
         f"    note: {CAPSULE.format(1)} (also c2) [2]",
     ]
-    assert log.describe("b", "edited b", [LOST.format("2 masses", "y, z", "are"), "odd"]) == (
+    assert log.describe("desk", "edited b", [LOST.format("2 masses", "y, z", "are"), "odd"]) == (
         "edited b [1]\n    note: odd [3]"
     )
-    assert log.describe("c", "edited c", [CAPSULE.format(9), LOST.format("1 mass", "w", "is")]) == "edited c [2] [1]"
+    assert log.describe("lamp", "edited c", [CAPSULE.format(9), LOST.format("1 mass", "w", "is")]) == "edited c [2] [1]"
     log.print_repeated()
-    assert capsys.readouterr().out == "    [1] on 3 assets: a, b, c\n    [2] on 2 assets: a, c\n"
+    assert capsys.readouterr().out == "    [1] on 3 assets: crate, desk, lamp\n    [2] on 2 assets: crate, lamp\n"
 
 
 @pytest.mark.parametrize(
@@ -53,8 +53,18 @@ def test_a_note_on_many_assets_is_printed_once_and_its_number_after(capsys: pyte
 )
 def test_notes_that_say_another_thing_are_both_printed(one: str, other: str) -> None:
     log = NoteLog(numbered=True)
-    log.describe("a", "a", [one])
-    assert log.describe("b", "b", [other]) == f"b\n    note: {other} [2]"
+    log.describe("first", "first", [one])
+    assert log.describe("second", "second", [other]) == f"second\n    note: {other} [2]"
+
+
+def test_a_note_that_names_the_asset_and_its_hulls_is_printed_once() -> None:
+    log, note = (
+        NoteLog(numbered=True),
+        "2 hull names ({0}#0, {0}#1) are written otherwise: they read back as UCX_{0}_00",
+    )
+    log.describe("in/jar.gltf", "jar", [note.format("jar")])
+    assert log.describe("in/mug.gltf", "mug", [note.format("mug")]) == "mug [1]"
+    assert log.describe("in/ug.gltf", "ug", [note.format("mug")]).startswith("ug\n")
 
 
 def test_a_run_over_one_asset_has_no_numbers() -> None:

@@ -196,3 +196,9 @@ def test_a_demonstration_is_asked_for_with_its_command() -> None:
         "Show it: meshforge demonstrate tables a.obj 'HULLS => ACTION' ..."
     )
     assert parse_reply("", DEMONSTRATE) == ReviewReply("demonstrate-1", later=True)
+
+
+def test_replies_that_are_not_utf_8_say_so(tmp_path: Path) -> None:
+    (tmp_path / "a.json").write_bytes(b"\xff")
+    with pytest.raises(UsageError, match="not UTF-8 text"):
+        read_replies(tmp_path / "a.json")

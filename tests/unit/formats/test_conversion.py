@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.formats import read, save
+from meshforge.formats import convert, labels_beside, read, save
 from meshforge.geometry import Floats, convex_hull
-from meshforge.symbolic import Asset
+from meshforge.symbolic import Asset, SymbolicMesh, read_labels, transfer_labels
 from tests.asset_bounds import bounds_of
 from tests.conversion_samples import SAMPLES
 from tests.gltf_files import KHR, SceneFile
@@ -104,3 +104,14 @@ def test_what_is_seen_of_a_scene_around_a_moving_body_is_no_part_of_it(target: s
     assert [geom.body for geom in after.geoms] == ["ball"]
     assert [surface.body for surface in after.visuals if surface.body == "ball"] == []
     assert len(after.visuals) == 1
+
+
+@pytest.mark.parametrize("sample", SAMPLES)
+@pytest.mark.parametrize("target", SUFFIXES)
+def test_labels_beside_a_converted_file_are_those_of_its_hulls(target: str, sample: str, tmp_path: Path) -> None:
+    mesh = SymbolicMesh.of(SAMPLES[sample]())
+    out = tmp_path / f"thing{target}"
+    convert(mesh.with_labels({hull.name: "leg" for hull in mesh.hulls}), out)
+    followed = transfer_labels(read_labels(labels_beside(out)), SymbolicMesh.of(read(out)))
+    assert (followed.changed, followed.renamed, followed.gone) == ((), (), ())
+    assert len(followed.mesh.labels) == len(mesh.hulls)

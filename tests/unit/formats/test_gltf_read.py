@@ -405,3 +405,20 @@ def test_unreal_goes_before_godot_and_physics_before_both(tmp_path: Path) -> Non
     assert names(asset_of(scene, tmp_path)) == ["UCX_a"]
     scene.collider("ball", {"type": "sphere", "sphere": {"radius": 2}})
     assert names(asset_of(scene, tmp_path)) == ["ball"]
+
+
+def test_a_node_that_is_only_the_shape_of_a_collider_is_not_said_to_be_outside_of_the_scene(tmp_path: Path) -> None:
+    scene = SceneFile()
+    scene.node("shape", box())
+    scene.node("nowhere", box((4, 0, 0)))
+    scene.node("wall", extensions={KHR: {"collider": {"geometry": {"node": 0, "convexHull": True}}}})
+    scene.tree |= {"scenes": [{"nodes": [2]}], "scene": 0}
+    asset = asset_of(scene, tmp_path)
+    assert names(asset) == ["wall"]
+    assert "1 node with a mesh outside of the scene is left as it is" in asset.notes
+
+
+def test_a_name_that_is_not_utf_8_is_a_message_in_words(tmp_path: Path) -> None:
+    (tmp_path / "latin.gltf").write_bytes(b'{"asset": {"version": "2.0"}, "nodes": [{"name": "\xe9"}]}')
+    with pytest.raises(AssetError, match="its JSON is not UTF-8 text, from byte"):
+        read(tmp_path / "latin.gltf")

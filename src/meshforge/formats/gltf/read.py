@@ -16,8 +16,15 @@ from meshforge.formats.engine_names.conventions import godot_kind, unreal_kind
 from meshforge.formats.engine_names.name_problems import find_name_problems
 from meshforge.formats.gltf.colliders import CollisionReader, NodeCollision, convention_of, nodes_below_colliders
 from meshforge.formats.gltf.document import BODY, Convention, GltfDocument, NodeRecord
-from meshforge.formats.gltf.physics import body_nodes, is_trigger, physics_extension_of, read_inertial, rigid_pose_of
-from meshforge.formats.meshfile.gltf_document import Json, entries, entry, report_damage
+from meshforge.formats.gltf.physics import (
+    KHR,
+    body_nodes,
+    is_trigger,
+    physics_extension_of,
+    read_inertial,
+    rigid_pose_of,
+)
+from meshforge.formats.meshfile.gltf_document import Json, entries, entry, extension, report_damage
 from meshforge.formats.meshfile.gltf_meshes import GltfMesh
 from meshforge.formats.meshfile.gltf_scene import GltfScene
 from meshforge.formats.meshfile.surface import GAMMA
@@ -258,9 +265,13 @@ def collect_notes(scene: GltfScene, convention: Convention) -> Iterator[str]:
     elif "Texture" in str(entries(scene.tree, "materials")):  # else it is a mesh file as any other
         yield "no node is marked as collision: all meshes are taken for it"
     placements, tree = scene.placements, scene.tree
-    outside = [k for k, node in enumerate(entries(tree, "nodes")) if k not in placements and "mesh" in node]
+    colliders = [(extension(placement.node, KHR) or {}).get("collider") or {} for placement in placements.values()]
+    shapes = {(collider.get("geometry") or {}).get("node") for collider in colliders}  # their meshes collide
+    nodes = entries(tree, "nodes")
+    outside = [k for k, node in enumerate(nodes) if k not in placements and k not in shapes and "mesh" in node]
     if outside:
-        yield FileNote(f"{pluralize(len(outside), 'node')} with a mesh outside of the scene are left as they are")
+        are = "is left as it is" if len(outside) == 1 else "are left as they are"
+        yield FileNote(f"{pluralize(len(outside), 'node')} with a mesh outside of the scene {are}")
     if len(entries(tree, "scenes")) > 1:
         default = "the default one" if "scene" in tree else "the first, as none is the default"
         yield f"of {len(entries(tree, 'scenes'))} scenes it is {default} that is read"

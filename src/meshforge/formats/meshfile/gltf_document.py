@@ -137,6 +137,8 @@ def report_damage(where: str) -> Iterator[None]:
             yield
     except _DAMAGE as error:
         problem = f"{error.args[0]!r} is missing in it" if isinstance(error, KeyError) and error.args else str(error)
+        if isinstance(error, UnicodeDecodeError):
+            problem = f"its JSON is not UTF-8 text, from byte {error.start:,} on"
         raise AssetError(f"this glTF file is damaged: {problem}", where=where, remedy="Export it again.") from error
 
 
