@@ -40,4 +40,6 @@ def test_no_hull_has_more(tmp_path: Path, engine: str) -> None:
     (tmp_path / "ball.obj").write_text("\n".join(lines) + "\n")
     words = ("decompose", "ball.obj", "-o", "out.obj", "--decompose", engine, "--max-vertices", "20")
     meshforge(*words, *(() if engine == "hull" else ("--set", "resolution=2000")), cwd=tmp_path)
-    assert max(len(hull.vertices) for hull in load(tmp_path / "out.obj").hulls) <= 20
+    hulls = load(tmp_path / "out.obj").hulls
+    assert max(len(hull.vertices) for hull in hulls) <= 20
+    assert sum(hull.volume for hull in hulls) >= 0.99 * ball.volume, "it lies around the ball: no corner is left out"

@@ -28,6 +28,10 @@ from meshforge.geometry.decomposition.triangles import TriangleMesh
 from meshforge.geometry.decomposition.worker import JOBS, MESH, PIECES
 
 
+_TOLD = {"max_ch_vertex": 256, "max_hull_vertices": 64}
+"""The least limits of vertices that engines are told: their defaults, at which hulls lose hardly anything."""
+
+
 def _option(default: Any, help: str, low: float | None = None, high: float | None = None, *choices: str) -> Any:
     return field(default=default, metadata={"help": help, "low": low, "high": high, "choices": choices})
 
@@ -46,6 +50,12 @@ class _Settings:
     def as_dict(self) -> dict[str, Any]:
         """The fields by name, for JSON."""
         return asdict(self)  # type: ignore[call-overload,no-any-return]  # as above
+
+    def as_told(self) -> dict[str, Any]:
+        """What the engine is told: it reduces hulls by leaving corners out, which may cost a third of them, so it may
+        keep many; what is over the limit is reduced to a hull around it."""
+        told = self.as_dict()
+        return told | {name: max(most, told[name]) for name, most in _TOLD.items() if name in told}
 
 
 def _check(
@@ -76,7 +86,7 @@ class CoacdSettings(_Settings):
     mcts_max_depth: int = _option(3, "Cuts that the search looks ahead.", 2, 7)
     pca: bool = _option(False, "Cut along the principal axes instead of the coordinate axes.")
     merge: bool = _option(True, "Merge hulls again where that costs no accuracy.")
-    decimate: bool = _option(False, "Reduce each hull to max_ch_vertex vertices.")
+    decimate: bool = _option(False, "Put a hull of max_ch_vertex vertices at most around each hull.")
     max_ch_vertex: int = _option(256, "Most vertices of a hull when decimating.", 4, 4096)
     extrude: bool = _option(False, "Extend neighbouring hulls into each other along their cuts.")
     extrude_margin: float = _option(0.01, "How far to extend hulls.", 0, 1)
@@ -180,7 +190,7 @@ def run_engines(jobs: Sequence[EngineJob], control: EngineControl) -> list[list[
         folder, found = Path(name), list[list[EnginePiece] | GeometryError]()
         for number, (mesh, _) in enumerate(jobs):
             np.savez(folder / MESH.format(number), vertices=mesh.vertices, faces=mesh.faces)
-        rows = [{"engine": settings.engine, **settings.as_dict()} for _, settings in jobs]
+        rows = [{"engine": settings.engine, **settings.as_told()} for _, settings in jobs]
         (folder / JOBS).write_text(json.dumps(rows))
         log, started = folder / "errors.txt", time.monotonic()
         while len(found) < len(jobs):
