@@ -9,23 +9,11 @@ from typing import Annotated, Literal
 
 import typer
 
-from meshforge import inspection
+from meshforge import inspection, rendering
 from meshforge.cli.console import progress
 from meshforge.cli.options import AssetFile, InProject, LabelsPath, open_asset, takes
 from meshforge.cli.terminal import remark
 from meshforge.common import UsageError, escape_name, pluralize
-from meshforge.rendering import (
-    VIEWS,
-    View,
-    check_picture_path,
-    draw_labeling_pictures,
-    draw_turn,
-    list_turns,
-    make_contact_sheet,
-    write_gif,
-    write_picture,
-    write_png,
-)
 from meshforge.symbolic import SymbolicMesh
 
 _LABELLING = "labelling"
@@ -87,14 +75,14 @@ def render(given: RenderArguments) -> None:
     if given.views.strip() == _LABELLING:
         _refuse_looks(given)
         if _is_sheet(given.out):
-            check_picture_path(given.out)
+            rendering.check_picture_path(given.out)
         side = _parse_side(given.size or "1024x1024")
         mesh = open_asset(given.asset, given.labels, given.project)
         with progress(None, "drawing"):
             wrote = write_part_pictures(mesh, given.out, side)
         remark(f"wrote {wrote}")
         return
-    check_picture_path(given.out)  # before the asset is read, which may take its time
+    rendering.check_picture_path(given.out)  # before the asset is read, which may take its time
     mesh = open_asset(given.asset, given.labels, given.project)
     views, size = _parse_views(given.views), _parse_pixels(given.size or "900x700")
     with progress(None, "drawing"):
@@ -121,7 +109,10 @@ def _write_turntable(given: RenderArguments, path: Path) -> None:
     mesh = open_asset(given.asset, given.labels, given.project)
     color_by = given.color_by or ("label" if mesh.labels else "hull")
     with progress(None, "drawing"):
-        write_gif(path, [image for (image,) in draw_turn([mesh], list_turns(), size=size, color_by=color_by)])
+        rendering.write_gif(
+            path,
+            [image for (image,) in rendering.draw_turn([mesh], rendering.list_turns(), size=size, color_by=color_by)],
+        )
     remark(f"wrote {escape_name(str(path))}")
 
 
@@ -143,12 +134,14 @@ def _parse_side(text: str) -> int:
     return width
 
 
-def _parse_views(text: str) -> list[View]:
-    known: dict[str, View] = {view: view for view in VIEWS}
+def _parse_views(text: str) -> list[rendering.View]:
+    known: dict[str, rendering.View] = {view: view for view in rendering.VIEWS}
     names = [name.strip() for name in text.split(",")]
     for name in names:
         if name not in known:
-            raise UsageError(f"there is no view {name!r}", remedy=f"Views: {', '.join(VIEWS)}; or {_LABELLING}.")
+            raise UsageError(
+                f"there is no view {name!r}", remedy=f"Views: {', '.join(rendering.VIEWS)}; or {_LABELLING}."
+            )
     return [known[name] for name in names]
 
 
@@ -170,21 +163,21 @@ def write_part_pictures(mesh: SymbolicMesh, out: Path, size: int) -> str:
     size: pixels along each picture's sides. Returns what is written, in words. Raises UsageError for a mesh without
     hulls, and where it cannot be written.
     """
-    taken = draw_labeling_pictures(mesh, size=size)
+    taken = rendering.draw_labeling_pictures(mesh, size=size)
     if not taken:
         raise UsageError(
             "there are no hulls to be named", remedy="`meshforge decompose` makes hulls, and `new --decompose` too."
         )
     if _is_sheet(out):
-        write_picture(
+        rendering.write_picture(
             out,
-            make_contact_sheet(
+            rendering.make_contact_sheet(
                 [image for shot in taken for image in (shot.marked, shot.plain)], columns=_SHEET_COLUMNS
             ),
         )
         return f"{out}: {pluralize(len(taken), 'picture')}, each with its plain one"
     for k, shot in enumerate(taken, 1):
         stem = "-".join([f"{k:02}", *shot.name.replace(",", " ").split()])
-        write_png(out / f"{stem}.png", shot.marked)
-        write_png(out / f"{stem}-plain.png", shot.plain)
+        rendering.write_png(out / f"{stem}.png", shot.marked)
+        rendering.write_png(out / f"{stem}-plain.png", shot.plain)
     return f"{pluralize(len(taken), 'picture')} to {out}, each with its plain one"

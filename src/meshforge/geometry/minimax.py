@@ -4,7 +4,7 @@ linear programmes with a trust region (see Conn, Gould and Toint, Trust-Region M
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from typing import Any
+from typing import Any, Self, TypeVar
 
 import numpy as np
 
@@ -22,17 +22,17 @@ _NEAR = 12  # triangles by height, and as many by distance, among which the near
 
 def turn_planes(normals: Floats, hull: Polytope) -> Floats:
     """The corners (n, 3) of a polytope around a hull, of as many planes as there are normals (k, 3) to start from."""
-    inner = _InnerHull(hull)
-    return inner.scale_back(_descend(_Planes(inner, normals), 0.2).corners)
+    inner = InnerHull(hull)
+    return inner.scale_back(descend(_Planes(inner, normals), 0.2).corners)
 
 
 def move_vertices(vertices: Floats, hull: Polytope) -> Floats:
     """The vertices (n, 3) of a polytope around a hull, of at most as many as there are to start from."""
-    inner = _InnerHull(hull)
-    return inner.scale_back(_descend(_Vertices(inner, (vertices - inner.middle) / inner.size), 0.02).corners)
+    inner = InnerHull(hull)
+    return inner.scale_back(descend(_Vertices(inner, (vertices - inner.middle) / inner.size), 0.02).corners)
 
 
-class _InnerHull:
+class InnerHull:
     """The hull that is enclosed, of size 1 about the middle of its vertices."""
 
     def __init__(self, hull: Polytope) -> None:
@@ -66,7 +66,7 @@ class _InnerHull:
         return np.argpartition(-(normals @ self.points.T), most, axis=1)[:, : most + 1]
 
 
-class _Program:
+class LinearProgram:
     """A linear programme: the least bound on the errors, its last variable; rows are upper limits."""
 
     def __init__(self, count: int) -> None:
@@ -77,7 +77,7 @@ class _Program:
         """Let sums of entries (k, c) times the variables of columns (k, c) be at most (k,)."""
         self._parts.append((columns, entries, most))
 
-    def solve(self, low: Floats, high: Floats) -> Floats | None:
+    def solve(self, low: Floats, high: Floats, method: str = "highs") -> Floats | None:
         from scipy.optimize import linprog  # lazy: slow to import, only simplifying needs it
         from scipy.sparse import csr_array, vstack  # lazy: as above
 
@@ -91,42 +91,46 @@ class _Program:
         limits = np.concatenate([most for _, _, most in self._parts])
         cost = np.eye(self._count)[-1]
         rows: Any = vstack(blocks)  # the stubs of scipy know no sparse ones
-        found = linprog(cost, rows, limits, bounds=np.column_stack([low, high]), method="highs")  # type: ignore[call-overload]
+        found = linprog(cost, rows, limits, bounds=np.column_stack([low, high]), method=method)  # type: ignore[call-overload]
         return np.asarray(found.x) if found.status == 0 else None
 
 
-class _State(ABC):
+class State(ABC):
     """A polytope around the inner hull; corners: (n, 3), of which `error` is the farthest from it."""
 
     corners: Floats
     error: float
 
     @abstractmethod
-    def move(self, step: float) -> _State | None:
+    def move(self, step: float) -> Self | None:
         """The state after a programme whose variables change by at most `step`; None where that has no answer."""
 
 
-def _descend(state: _State, step: float) -> _State:
+_S = TypeVar("_S", bound=State)
+
+
+def descend(state: _S, step: float, rounds: int = _ROUNDS, gain: float = _GAIN, least: float = _LEAST_STEP) -> _S:
+    """The best state that moves lead to, of fewer and shorter steps; gain: see _GAIN; least: the shortest step."""
     from scipy.spatial import QhullError  # lazy: slow to import
 
-    for _ in range(_ROUNDS):
+    for _ in range(rounds):
         try:
             moved = state.move(step)
         except QhullError:
             moved = None
-        if moved is not None and moved.error < state.error * (1 - _GAIN):
+        if moved is not None and moved.error < state.error * (1 - gain):
             state, step = moved, step * 1.3
         else:
             step /= 3
-            if step < _LEAST_STEP:
+            if step < least:
                 break
     return state
 
 
-class _Planes(_State):
+class _Planes(State):
     """Planes that support the inner hull; each corner lies in three of them."""
 
-    def __init__(self, inner: _InnerHull, normals: Floats) -> None:
+    def __init__(self, inner: InnerHull, normals: Floats) -> None:
         from scipy.spatial import HalfspaceIntersection  # lazy: slow to import
 
         self.inner = inner
@@ -138,31 +142,31 @@ class _Planes(_State):
         self.gaps, self.away = inner.measure_gaps(self.corners)
         self.error = float(self.gaps.max())
 
-    def move(self, step: float) -> _Planes | None:
+    def move(self, step: float) -> Self | None:
         """Variables: changes of the normals, changes of the offsets."""
         count, far = len(self.normals), self.gaps > self.error / 3
         owners, corners = self.owners[far], self.corners[far]
         pulls = np.linalg.solve(self.normals[owners].transpose(0, 2, 1), self.away[far][:, :, None])[:, :, 0]
         turns = -pulls[:, :, None] * corners[:, None]
-        program = _Program(4 * count + 1)
-        columns = [_of_vectors(owners), 3 * count + owners, np.full((len(owners), 1), 4 * count)]
+        program = LinearProgram(4 * count + 1)
+        columns = [of_vectors(owners), 3 * count + owners, np.full((len(owners), 1), 4 * count)]
         entries = np.hstack([turns.reshape(len(owners), -1), pulls, -np.ones((len(owners), 1))])
         program.limit(np.hstack(columns), entries, -self.gaps[far])
         near = self.inner.find_supports(self.normals)
         plane = np.repeat(np.arange(count), near.shape[1])
         points = self.inner.points[near.ravel()]
-        columns = [_of_vectors(plane[:, None]), 3 * count + plane[:, None]]
+        columns = [of_vectors(plane[:, None]), 3 * count + plane[:, None]]
         entries = np.hstack([points, -np.ones((len(points), 1))])
         program.limit(np.hstack(columns), entries, self.offsets[plane] - (points * self.normals[plane]).sum(axis=1))
         high = np.concatenate([np.full(3 * count, step), np.full(count + 1, np.inf)])
         found = program.solve(np.append(-high[:-1], 0.0), high)
-        return None if found is None else _Planes(self.inner, self.normals + found[: 3 * count].reshape(-1, 3))
+        return None if found is None else type(self)(self.inner, self.normals + found[: 3 * count].reshape(-1, 3))
 
 
-class _Vertices(_State):
+class _Vertices(State):
     """Vertices of a polytope, grown about the middle until it holds the inner hull."""
 
-    def __init__(self, inner: _InnerHull, vertices: Floats) -> None:
+    def __init__(self, inner: InnerHull, vertices: Floats) -> None:
         from scipy.spatial import ConvexHull  # lazy: slow to import
 
         self.inner, made = inner, ConvexHull(vertices)
@@ -175,12 +179,12 @@ class _Vertices(_State):
         self.gaps, self.away = inner.measure_gaps(self.corners)
         self.error = float(self.gaps.max())
 
-    def move(self, step: float) -> _Vertices | None:
+    def move(self, step: float) -> Self | None:
         """Variables: moves of the vertices."""
         count = len(self.corners)
-        program = _Program(3 * count + 1)
+        program = LinearProgram(3 * count + 1)
         own = np.arange(count)[:, None]
-        columns = np.hstack([_of_vectors(own), np.full((count, 1), 3 * count)])
+        columns = np.hstack([of_vectors(own), np.full((count, 1), 3 * count)])
         program.limit(columns, np.hstack([self.away, -np.ones((count, 1))]), -self.gaps)
         a, b, c = (self.corners[self.faces[:, k]] for k in range(3))
         normals = np.cross(b - a, c - a)
@@ -194,13 +198,13 @@ class _Vertices(_State):
         weights = np.column_stack([1 - second - third, second, third])
         entries = -weights[:, :, None] * self.normals[face][:, None]
         over = (away * self.normals[face]).sum(axis=1)
-        program.limit(_of_vectors(self.faces[face]), entries.reshape(len(face), -1), -over)
+        program.limit(of_vectors(self.faces[face]), entries.reshape(len(face), -1), -over)
         high = np.append(np.full(3 * count, step), np.inf)
         found = program.solve(np.append(-high[:-1], 0.0), high)
         moved = None if found is None else self.corners + found[:-1].reshape(-1, 3)
-        return None if moved is None else _Vertices(self.inner, moved)
+        return None if moved is None else type(self)(self.inner, moved)
 
 
-def _of_vectors(numbers: Ints) -> Ints:
+def of_vectors(numbers: Ints) -> Ints:
     """The columns (k, 3 c) of the three variables of each of numbers (k, c)."""
     return (numbers[:, :, None] * 3 + np.arange(3)).reshape(len(numbers), -1)

@@ -13,6 +13,7 @@ from meshforge.common import GeometryError
 from meshforge.geometry import minimax
 from meshforge.geometry.arrays import Floats, Ints, nearest_on_triangles
 from meshforge.geometry.convex import convex_hull, principal_extents
+from meshforge.geometry.flat_faces import flatten_faces
 from meshforge.geometry.shape import Polytope
 from meshforge.geometry.surface import planes_of, polygon_sizes
 
@@ -42,15 +43,20 @@ class Enclosure:
 def enclose(hull: Polytope, budget: HullBudget) -> Enclosure | None:
     """A convex hull within a budget that holds all of another hull and sticks out little; None where none was found.
 
-    Found in two ways, of which the closer one counts: planes around the hull, more and more of them, then turned; and
-    the outermost vertices of the hull, so many that the triangles between them are within the budget, then moved.
+    Found in three ways, of which the closest counts: planes around the hull, more and more of them, then turned; the
+    outermost vertices of the hull, so many that the triangles between them are within the budget, then moved; and,
+    where vertices and faces both bind, all vertices that there may be, whose triangles are joined to flat faces.
     """
     if _is_within_budget(hull, budget):
         return Enclosure(hull, 0.0)
-    found, most = [_enclose_by_planes(hull, budget)], int(min(budget.vertices, (budget.polygons + 4) // 2))
-    if 4 < most < len(hull.vertices):
-        start = _choose_vertices(hull, most)
+    found = [_enclose_by_planes(hull, budget)]
+    flat = (budget.polygons + 4) / 2  # so many vertices have no more triangles; more need flat faces of four and more
+    if 4 < min(budget.vertices, flat) < len(hull.vertices):
+        start = _choose_vertices(hull, int(min(budget.vertices, flat)))
         found.append(_check_improved(hull, partial(minimax.move_vertices, start, hull), budget))
+    if flat < budget.vertices < 2 * budget.polygons - 4:  # both numbers bind
+        start = _choose_vertices(hull, min(int(budget.vertices), len(hull.vertices)))
+        found.append(_check_improved(hull, partial(flatten_faces, start, int(budget.polygons), hull), budget))
     return min((made for made in found if made), key=lambda made: made.error, default=None)
 
 

@@ -14,16 +14,9 @@ from meshforge.formats import mesh_reader, references, slots
 from meshforge.formats.collision_pieces import CollisionElement, drop_repeats, geoms_of, opaque_of, place_surface
 from meshforge.formats.engine_names.conventions import godot_kind, unreal_kind
 from meshforge.formats.engine_names.name_problems import find_name_problems
+from meshforge.formats.gltf import physics
 from meshforge.formats.gltf.colliders import CollisionReader, NodeCollision, convention_of, nodes_below_colliders
 from meshforge.formats.gltf.document import BODY, Convention, GltfDocument, NodeRecord
-from meshforge.formats.gltf.physics import (
-    KHR,
-    body_nodes,
-    is_trigger,
-    physics_extension_of,
-    read_inertial,
-    rigid_pose_of,
-)
 from meshforge.formats.meshfile.gltf_document import Json, entries, entry, extension, report_damage
 from meshforge.formats.meshfile.gltf_meshes import GltfMesh
 from meshforge.formats.meshfile.gltf_scene import GltfScene
@@ -70,12 +63,12 @@ def read_gltf(path: Path) -> Asset:
         )
         geoms = geoms_of(*pieces)
         hulls = {name: [geom.shape for geom in geoms if geom.body == name] for _, name in _nodes_of(bodies)}
-        found = (read_inertial(scene.placements[node], name, hulls[name]) for node, name in _nodes_of(bodies))
+        found = (physics.read_inertial(scene.placements[node], name, hulls[name]) for node, name in _nodes_of(bodies))
         masses = tuple(inertial for inertial in found if inertial is not None)
         digests = tuple((file, file_digest(file)) for file in scene.buffers.files() if file.is_file())
     if not sources:
         raise AssetError("there is no mesh and no collider in its scene", where=str(path))
-    moving = [Body(name, rigid_pose_of(scene.placements[node])) for node, name in _nodes_of(bodies)]
+    moving = [Body(name, physics.rigid_pose_of(scene.placements[node])) for node, name in _nodes_of(bodies)]
     owners = {node: name for node, (_, name) in bodies.items()}
     files, missing = _find_files(scene, path)
     return Asset(
@@ -91,7 +84,7 @@ def read_gltf(path: Path) -> Asset:
         notes=tuple(notes),
         mechanism=Mechanism(inertials=masses),
         up="y",
-        name_problems=() if physics_extension_of(scene) else tuple(_find_name_problems(scene)),
+        name_problems=() if physics.physics_extension_of(scene) else tuple(_find_name_problems(scene)),
     )
 
 
@@ -105,7 +98,7 @@ def _find_name_problems(scene: GltfScene) -> Iterator[NameProblem]:
 
 def name_bodies(scene: GltfScene) -> dict[int, tuple[int, str]]:
     """For each node in a rigid body, the node that is the body, and the body's name."""
-    owners = body_nodes(scene)
+    owners = physics.body_nodes(scene)
     nodes = list(dict.fromkeys(owners.values()))
     own = [scene.placements[node].node.get("name") for node in nodes]
     wanted = [name if isinstance(name, str) and name else f"body{k}" for k, name in enumerate(own)]
@@ -265,7 +258,9 @@ def collect_notes(scene: GltfScene, convention: Convention) -> Iterator[str]:
     elif "Texture" in str(entries(scene.tree, "materials")):  # else it is a mesh file as any other
         yield "no node is marked as collision: all meshes are taken for it"
     placements, tree = scene.placements, scene.tree
-    colliders = [(extension(placement.node, KHR) or {}).get("collider") or {} for placement in placements.values()]
+    colliders = [
+        (extension(placement.node, physics.KHR) or {}).get("collider") or {} for placement in placements.values()
+    ]
     shapes = {(collider.get("geometry") or {}).get("node") for collider in colliders}  # their meshes collide
     nodes = entries(tree, "nodes")
     outside = [k for k, node in enumerate(nodes) if k not in placements and k not in shapes and "mesh" in node]
@@ -275,7 +270,7 @@ def collect_notes(scene: GltfScene, convention: Convention) -> Iterator[str]:
     if len(entries(tree, "scenes")) > 1:
         default = "the default one" if "scene" in tree else "the first, as none is the default"
         yield f"of {len(entries(tree, 'scenes'))} scenes it is {default} that is read"
-    triggers = sum(is_trigger(placement.node, tree) for placement in placements.values())
+    triggers = sum(physics.is_trigger(placement.node, tree) for placement in placements.values())
     if triggers:
         yield FileNote(f"{pluralize(triggers, 'trigger')} detect bodies without colliding: they are left as they are")
     shown = [placement.node for placement in placements.values() if "mesh" in placement.node]

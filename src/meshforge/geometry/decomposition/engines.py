@@ -27,7 +27,6 @@ from meshforge.geometry.decomposition import worker
 from meshforge.geometry.decomposition.triangles import TriangleMesh
 from meshforge.geometry.decomposition.worker import JOBS, MESH, PIECES
 
-
 _TOLD = {"max_ch_vertex": 256, "max_hull_vertices": 64}
 """The least limits of vertices that engines are told: their defaults, at which hulls lose hardly anything."""
 

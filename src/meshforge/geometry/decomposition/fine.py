@@ -18,6 +18,7 @@ import numpy as np
 from meshforge.common import GeometryError
 from meshforge.geometry.arrays import Floats, Ints
 from meshforge.geometry.convex import FLATNESS, convex_hull, principal_extents
+from meshforge.geometry.decomposition import regions
 from meshforge.geometry.decomposition.by_parts import scale_settings
 from meshforge.geometry.decomposition.creases import Creases, cut_at_creases, find_creases
 from meshforge.geometry.decomposition.engines import (
@@ -27,13 +28,6 @@ from meshforge.geometry.decomposition.engines import (
     VhacdSettings,
     unpack_arrays,
     unpack_pieces,
-)
-from meshforge.geometry.decomposition.regions import (
-    FinePiece,
-    find_solids,
-    list_region_solids,
-    number_pieces,
-    turn_outward,
 )
 from meshforge.geometry.decomposition.run import (
     cache_key,
@@ -64,33 +58,33 @@ _NAME = "a piece of the surface"
 
 def decompose_finely(
     vertices: Floats, faces: Ints, engine: PieceEngine = "coacd", *, cache: Path | None = None
-) -> tuple[FinePiece, ...]:
+) -> tuple[regions.FinePiece, ...]:
     """Fine convex pieces of vertices (n, 3) [m] and faces (m, 3), the same for the same input.
 
     engine: which makes them; cache: a folder for the pieces and for results of the engine, None keeps none.
     Raises GeometryError: nothing that has an area, a coordinate that is not finite.
     """
-    mesh, settings = turn_outward(clean_triangles(vertices, faces)), FINE_SETTINGS[engine]
+    mesh, settings = regions.turn_outward(clean_triangles(vertices, faces)), FINE_SETTINGS[engine]
     key = _cache_key(mesh, settings)
     if cache and (known := read_entry(cache, key)) is not None:
         return _unpack(known)
     pieces, failed = _decompose_mesh(mesh, settings, cache)
-    found = number_pieces(pieces, mesh.vertices, mesh.faces)
+    found = regions.number_pieces(pieces, mesh.vertices, mesh.faces)
     if cache and not failed:  # an engine that was killed may not be the next time
         with suppress(OSError):  # a cache that cannot be written costs time alone
             write_entry(cache, key, _pack(found))
     return found
 
 
-def _pack(pieces: Sequence[FinePiece]) -> bytes:
+def _pack(pieces: Sequence[regions.FinePiece]) -> bytes:
     numbers = np.array([(piece.region, piece.solid) for piece in pieces], dtype=np.int64).reshape(-1, 2)
     return pack_pieces([(piece.shape.vertices, piece.shape.faces) for piece in pieces], numbers=numbers)
 
 
-def _unpack(content: bytes) -> tuple[FinePiece, ...]:
+def _unpack(content: bytes) -> tuple[regions.FinePiece, ...]:
     (numbers,) = unpack_arrays(content, "numbers")
     rows = zip(unpack_pieces(content), numbers.tolist(), strict=True)
-    return tuple(FinePiece(Polytope(*piece), region, solid) for piece, (region, solid) in rows)
+    return tuple(regions.FinePiece(Polytope(*piece), region, solid) for piece, (region, solid) in rows)
 
 
 def _cache_key(mesh: TriangleMesh, settings: DecomposeSettings) -> str:
@@ -139,7 +133,7 @@ def _decompose_mesh(
 
 def _list_solids(mesh: TriangleMesh, settings: DecomposeSettings) -> list[_Solid]:
     """The solids of a mesh, small ones and all but the largest of many as one piece each."""
-    solids = [mesh.faces[own] for own in find_solids(mesh.vertices, mesh.faces)]
+    solids = [mesh.faces[own] for own in regions.find_solids(mesh.vertices, mesh.faces)]
     sizes = [float(np.linalg.norm(np.ptp(mesh.vertices[solid], axis=(0, 1)))) for solid in solids]
     least = max(_SMALL * mesh.diagonal, sorted(sizes, reverse=True)[_MOST - 1] if len(sizes) >= _MOST else 0.0)
     return [
@@ -154,7 +148,7 @@ def _list_regions(solid: _Solid) -> list[_Solid]:
         return []
     size = np.ptp(solid.vertices[solid.faces], axis=(0, 1))
     found = list[_Solid]()
-    for region in list_region_solids(solid.vertices, solid.faces):
+    for region in regions.list_region_solids(solid.vertices, solid.faces):
         own = scale_settings(solid.settings, np.ptp(region.vertices[region.faces], axis=(0, 1)), size, -1)
         found.append(_Solid(region.vertices, region.faces, own, region.open_edges > 0))
     return found
