@@ -44,7 +44,8 @@ class PrepareArguments:
     option: options.EngineOptions = None
     max_vertices: options.MaxVertices = None
     only: Annotated[
-        list[str] | None, typer.Option("--only", help="Only pieces and bodies of this name or pattern; repeatable.")
+        list[str] | None,
+        typer.Option("--only", help="Only pieces, hulls and bodies of this name or pattern; repeatable."),
     ] = None
     again: Annotated[bool, typer.Option("--again", help="Decompose anew what is decomposed already.")] = False
     hollow: options.Hollow = False
@@ -126,8 +127,6 @@ def _divide_spanning(project: Project, given: PrepareArguments) -> int:
     """Split hulls that span parts, or rebuild their bodies, and print what became of each asset; the exit code."""
     these = "--split-spanning and --rebuild-spanning"
     options.refuse_with(given.context, ("option", "max_vertices", "again", "hollow", "by"), these)
-    instead = "Name the assets in its place; for one hull of an asset: meshforge split PROJECT ASSET HULL"
-    options.refuse_with(given.context, ("only",), these, instead)
     options.refuse_hull(given.method, these)
     results = project.split_spanning(
         [options.asset_id(asset, project) for asset in given.assets] if given.assets else None,
@@ -135,6 +134,7 @@ def _divide_spanning(project: Project, given: PrepareArguments) -> int:
             SPLIT_DEFAULTS.sure if given.min_confidence is None else given.min_confidence,
             given.rebuild_spanning,
             "vhacd" if given.method is options.EngineMethod.VHACD else "coacd",
+            tuple(given.only or ()),
         ),
         dry_run=given.dry_run,
         engine=given.limits,

@@ -34,11 +34,12 @@ class DecompositionPlan:
 class SplitSettings:
     """How hulls that span parts are split. sure: the probability from which that is done; rebuild: whether all hulls of
     their bodies that stand for its surface are made anew, each of one part; pieces: the engine of the fine pieces that
-    they are found and divided by."""
+    they are found and divided by; only: names of hulls and bodies, or patterns of them, none for all."""
 
     sure: float = 0.9
     rebuild: bool = False
     pieces: PieceEngine = "coacd"
+    only: tuple[str, ...] = ()
 
 
 SPLIT_DEFAULTS = SplitSettings()
@@ -61,7 +62,7 @@ class PreparationPlan:
 def read_preparation_plan(store: Store) -> PreparationPlan:
     """What a project says about new assets. Raises ProjectError where its file is damaged."""
     kept = _read(store)
-    split = None if kept.sure is None else SplitSettings(kept.sure, kept.rebuild, kept.pieces)
+    split = None if kept.sure is None else SplitSettings(kept.sure, kept.rebuild, kept.pieces, kept.only)
     ways = dict[str, list[str]]()
     for asset in store.layout.ids_with_preparation():
         if asset not in store.found.ids:

@@ -13,7 +13,7 @@ class PreparationPlanFile(JsonFile):
     """preparation.json. decomposed, split: the ids of the assets that were there when pieces of all were decomposed
     last, and when hulls of all that span parts were split last; None where that was never done. sure: the probability
     from which they were split; rebuild: whether all hulls of their bodies were made anew; pieces: the engine of the
-    fine pieces that they were found by.
+    fine pieces that they were found by; only: which hulls and bodies, all where there are none.
     """
 
     decomposed: tuple[str, ...] | None = None
@@ -21,6 +21,7 @@ class PreparationPlanFile(JsonFile):
     sure: float | None = None
     rebuild: bool = False
     pieces: PieceEngine = "coacd"
+    only: tuple[str, ...] = ()
 
 
 def forget_assets(layout: Layout, assets: Collection[str]) -> None:

@@ -103,4 +103,4 @@ def test_what_status_says_of_a_file_is_one_line(run: Run) -> None:
 
 def test_without_hulls_to_write_the_message_names_what_makes_them(run: Run) -> None:
     told = run("convert", "in/corner.obj", "corner.glb", "--names", "unreal")
-    assert told.code == 2 and "there is no hull to write" in told.err and "--concave decompose" in told.err
+    assert told.code == 1 and "there is no hull to write" in told.err and "--concave decompose" in told.err

@@ -81,14 +81,27 @@ def test_another_engine_makes_the_fine_pieces(run: Run, tmp_path: Path) -> None:
     assert told.code == 0 and not (tmp_path / "p/prepared/c.urdf").exists()
 
 
-@pytest.mark.parametrize("option", [("--set", "resolution=5"), ("--only", "base"), ("--hollow",), ("--by", "parts")])
+@pytest.mark.parametrize("option", [("--set", "resolution=5"), ("--hollow",), ("--by", "parts")])
 @pytest.mark.parametrize("what", ["--split-spanning", "--rebuild-spanning"])
 def test_settings_of_a_decomposition_do_not_go_with_fine_pieces(run: Run, what: str, option: tuple[str, ...]) -> None:
     told = run("prepare", "p", what, "--decompose", "vhacd", *option)
     assert told.code == 2 and told.out == ""
     assert f"{option[0]} does not go with --split-spanning and --rebuild-spanning\n" in told.err
-    instead = "Name the assets in its place; for one hull of an asset: meshforge split PROJECT ASSET HULL"
-    assert (instead in told.err) == (option[0] == "--only")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("what", "hulls"), [("--split-spanning", 2), ("--rebuild-spanning", 5)])
+def test_only_some_hulls_and_bodies(run: Run, tmp_path: Path, what: str, hulls: int) -> None:
+    words = ("prepare", "p", "c.urdf", what, "--min-confidence", "0.7", "--workers", "1", "--only")
+    told = run(*words, "base/h1")
+    assert told.code == 0 and not (tmp_path / "p/prepared/c.urdf").exists() and "matches" not in told.out
+    assert "no hull or body matches lid" in run(*words, "lid").out
+    assert f"into {hulls} hulls" in run(*words, "lid", "--only", "bas*").out
+    kept = json.loads((tmp_path / "p/prepared/c.urdf/preparation.json").read_text())
+    assert kept["steps"][0]["settings"]["only"] == ["lid", "bas*"]
+    assert not (tmp_path / "p/preparation.json").exists(), "it was not done to all assets"
+    run("prepare", "p", what, "--min-confidence", "0.7", "--workers", "1", "--only", "bas*")
+    assert json.loads((tmp_path / "p/preparation.json").read_text())["only"] == ["bas*"]
 
 
 def test_as_json(run: Run) -> None:
