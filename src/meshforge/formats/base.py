@@ -230,7 +230,7 @@ def nothing_collides_error(asset: Asset) -> AssetError:
     problem, where = "there is no hull to write", str(asset.path)
     if not asset.opaque:
         return AssetError(problem, where=where)
-    remedy = "Make hulls of each: convert --concave decompose, or hull: one each; or meshforge prepare PROJECT --decompose."
+    remedy = "Make hulls of each: convert --concave decompose, or hull for one; or prepare PROJECT --decompose."
     names = join_names([piece.name for piece in asset.opaque], 3)
     problem = f"{problem}: {names} cannot collide there without being convex"
     return CollisionLossError(problem, where=where, remedy=remedy if any(p.surface for p in asset.opaque) else None)
