@@ -166,3 +166,10 @@ def test_a_glob_matches_what_python_matches(pattern: str, tmp_path: Path) -> Non
     theirs = {Path(name) for name in glob(pattern, root_dir=tmp_path, recursive=True)}  # noqa: PTH207
     assert {path for path in ours if (tmp_path / path).is_file()} == {p for p in theirs if (tmp_path / p).is_file()}
     assert ours <= theirs
+
+
+def test_the_nearest_name_of_a_mistyped_file_is_proposed(tmp_path: Path) -> None:
+    (tmp_path / "ketchup.obj").write_text("")
+    with pytest.raises(UsageError, match="there is no such file") as raised:
+        expand([tmp_path / "ketchap.obj"])
+    assert raised.value.remedy == "Did you mean 'ketchup.obj'?"
