@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -11,7 +11,7 @@ from meshforge import batch
 from meshforge.common import file_digest, relative_name
 from meshforge.labels.from_files.read import LabelFileOptions, find_file_in_mirror, label_file_beside, read_label_file
 from meshforge.labels.label_by_plugin import ask_labeler
-from meshforge.labels.merge import can_fill_gap, can_replace_less_certain, merge_labels
+from meshforge.labels.merge import LabelOutcome, can_fill_gap, can_replace_less_certain, merge_labels
 from meshforge.labels.names.label_by_names import match_names, name_patterns, names_of_mesh, to_label
 from meshforge.store import JsonFile, Settings, Store, read_json, write_json
 from meshforge.symbolic import Label, SymbolicMesh
@@ -34,8 +34,12 @@ class LabelSourcesFile(JsonFile):
     lines: tuple[LabelSourceLine, ...] = ()
 
 
-def keep_label_source(store: Store, source: str, how: LabelFileOptions, folder: Path | None = None) -> None:
-    """Keep by what hulls were labelled; patterns add to those that were given before."""
+def keep_label_source(
+    store: Store, outcomes: Iterable[LabelOutcome], source: str, how: LabelFileOptions, folder: Path | None = None
+) -> None:
+    """Keep by what hulls were labelled, if any were; patterns add to those that were given before."""
+    if not any(one.taken or one.same or one.kept for one in outcomes):
+        return
     where = relative_name(folder, store.folder) if folder and folder.is_dir() else None
     with store.lock():
         kept = read_json(store.layout.label_sources, LabelSourcesFile) or LabelSourcesFile()

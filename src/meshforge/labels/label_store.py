@@ -57,7 +57,7 @@ class LabelStore(Store):
         """
         how = options or from_files.LabelFileOptions()
         outcomes = from_files.label_from_files(self, source, how, execution, report)
-        keep_label_source(self, "file", how, source)
+        keep_label_source(self, outcomes, "file", how, source)
         return outcomes
 
     def propose_from_files(
@@ -87,7 +87,7 @@ class LabelStore(Store):
         Raises ProjectError: no vocabulary; UsageError: a wrong pattern.
         """
         outcomes = names.label_from_names(self, meanings, execution, report)
-        keep_label_source(self, "names", from_files.LabelFileOptions(meanings))
+        keep_label_source(self, outcomes, "names", from_files.LabelFileOptions(meanings))
         return outcomes
 
     def propose_from_names(
@@ -194,7 +194,7 @@ class LabelStore(Store):
         Raises ProjectError: no vocabulary; UsageError: no such labeller; PluginError: it cannot be loaded.
         """
         outcomes = label_by_plugin(self, name, execution, report)
-        keep_label_source(self, name, from_files.LabelFileOptions())
+        keep_label_source(self, outcomes, name, from_files.LabelFileOptions())
         return outcomes
 
     def propose_by_plugin(
