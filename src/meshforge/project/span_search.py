@@ -12,7 +12,7 @@ from types import MappingProxyType
 from typing import Any
 
 from meshforge import batch
-from meshforge.batch.preparation.decompose import is_chosen
+from meshforge.batch.preparation.decompose import matches_only
 from meshforge.batch.preparation.record import PreparationStep
 from meshforge.common import ProjectError, describe_error, join_names
 from meshforge.formats import read
@@ -124,9 +124,7 @@ def plan_splits(
 def _plan_likely(
     report: SpanReport, asset: str, how: SplitSettings, single: Mapping[str, str], likely: Mapping[str, Split]
 ) -> SplitPlan:
-    spans = [
-        span for span in report.spans_of(asset) if span.hull in likely and _is_chosen(report, asset, span.hull, how)
-    ]
+    spans = [span for span in report.spans_of(asset) if span.hull in likely and _matches(report, asset, span.hull, how)]
     left = tuple(span for span in spans if single.get(span.hull) == likely[span.hull].span.geometry)
     asked = [span for span in spans if span not in left]
     sure = tuple(span for span in asked if span.chance >= how.sure)
@@ -137,8 +135,8 @@ def _plan_likely(
     return replace(plan, splits=splits, whole=tuple(span for span in sure if not likely[span.hull].shapes))
 
 
-def _is_chosen(report: SpanReport, asset: str, hull: str, how: SplitSettings) -> bool:
-    return any(is_chosen(name, how.only) for name in (hull, report.meshes[asset].hull_of(hull).body))
+def _matches(report: SpanReport, asset: str, hull: str, how: SplitSettings) -> bool:
+    return any(matches_only(name, how.only) for name in (hull, report.meshes[asset].hull_of(hull).body))
 
 
 def _rebuild(report: SpanReport, asset: str, plan: SplitPlan) -> SplitPlan:
@@ -214,12 +212,9 @@ def _describe(
     report: SpanReport, asset: str, how: SplitSettings, single: Mapping[str, str], seen: _Steps
 ) -> AssetSpans:
     bare = (f"{name} stands for no surface: left as it is" for name in report.bare.get(asset, ()))
-    missed = not any(_is_chosen(report, asset, hull.name, how) for hull in report.meshes[asset].hulls)
-    notes = (
-        *report.notes.get(asset, ()),
-        *bare,
-        *([f"no hull or body matches {join_names(how.only)}"] if missed else []),
-    )
+    matches = not how.only or any(_matches(report, asset, hull.name, how) for hull in report.meshes[asset].hulls)
+    missed = [] if matches else [f"no hull or body matches {join_names(how.only)}"]
+    notes = (*report.notes.get(asset, ()), *bare, *missed)
     found = list_likely(report, asset, min(how.sure, LIKELY), seen.list_parts(how))
     likely = {hull: one for hull, one in found.items() if one.span.chance >= LIKELY}
     return AssetSpans(_plan_likely(report, asset, how, single, found), notes, likely, seen.digest)

@@ -78,7 +78,7 @@ def decompose_asset(
     if by == "labels" and bare:
         bare = _label_sources(fit.asset, bare, told.append)
     missed = _describe_no_match(only, [*(source.what for source in bare), *kept.source_names])
-    chosen = [source for source in bare if is_chosen(source.what, only)]
+    chosen = [source for source in bare if matches_only(source.what, only)]
     for number, source in enumerate(chosen):
         progress(number, len(chosen))
         try:
@@ -183,20 +183,20 @@ def _name_by_parts(base: str, parts: Sequence[str], taken: set[str]) -> list[str
 def _drop_decompositions(before: record.Preparation, only: Sequence[str]) -> record.Preparation:
     kept = []
     for step in before.steps:
-        stay = tuple(r for r in step.replaced if step.do != "decompose" or not is_chosen(r.what, only))
+        stay = tuple(r for r in step.replaced if step.do != "decompose" or not matches_only(r.what, only))
         kept += [record.PreparationStep(step.do, step.settings, step.software, stay)] if stay else []
     return before.with_only(kept)
 
 
 def _describe_no_match(only: Sequence[str], there: Sequence[str]) -> str | None:
     """A sentence where no piece or body that can be decomposed has a name that was asked for."""
-    if any(is_chosen(name, only) for name in there) or not only:
+    if any(matches_only(name, only) for name in there) or not only:
         return None
     known = f"it has {join_names(there)}" if there else "it has none that can be decomposed"
     return f"no piece or body matches {join_names(only)}: {known}"
 
 
-def is_chosen(name: str, only: Sequence[str]) -> bool:
+def matches_only(name: str, only: Sequence[str]) -> bool:
     """Whether a piece or body is one of these names, or matches one of these patterns; all are where there are none."""
     return not only or any(name == pattern or fnmatchcase(name, pattern) for pattern in only)
 

@@ -27,8 +27,8 @@ from meshforge.geometry.decomposition import worker
 from meshforge.geometry.decomposition.triangles import TriangleMesh
 from meshforge.geometry.decomposition.worker import JOBS, MESH, PIECES
 
-_TOLD = {"max_ch_vertex": 256, "max_hull_vertices": 64}
-"""The least limits of vertices that engines are told: their defaults, at which hulls lose hardly anything."""
+_LEAST_LIMITS = {"max_ch_vertex": 256, "max_hull_vertices": 64}
+"""The least limits of vertices that are given to engines: their defaults, at which hulls lose hardly anything."""
 
 
 def _option(default: Any, help: str, low: float | None = None, high: float | None = None, *choices: str) -> Any:
@@ -50,11 +50,11 @@ class _Settings:
         """The fields by name, for JSON."""
         return asdict(self)  # type: ignore[call-overload,no-any-return]  # as above
 
-    def as_told(self) -> dict[str, Any]:
-        """What the engine is told: it reduces hulls by leaving corners out, which may cost a third of them, so it may
-        keep many; what is over the limit is reduced to a hull around it."""
-        told = self.as_dict()
-        return told | {name: max(most, told[name]) for name, most in _TOLD.items() if name in told}
+    def as_engine_options(self) -> dict[str, Any]:
+        """The fields that the engine gets: it reduces hulls by leaving corners out, which may cost a third of their
+        volume, so it may keep many; what is over the limit is reduced to a hull around it."""
+        options = self.as_dict()
+        return options | {name: max(most, options[name]) for name, most in _LEAST_LIMITS.items() if name in options}
 
 
 def _check(
@@ -189,7 +189,7 @@ def run_engines(jobs: Sequence[EngineJob], control: EngineControl) -> list[list[
         folder, found = Path(name), list[list[EnginePiece] | GeometryError]()
         for number, (mesh, _) in enumerate(jobs):
             np.savez(folder / MESH.format(number), vertices=mesh.vertices, faces=mesh.faces)
-        rows = [{"engine": settings.engine, **settings.as_told()} for _, settings in jobs]
+        rows = [{"engine": settings.engine, **settings.as_engine_options()} for _, settings in jobs]
         (folder / JOBS).write_text(json.dumps(rows))
         log, started = folder / "errors.txt", time.monotonic()
         while len(found) < len(jobs):

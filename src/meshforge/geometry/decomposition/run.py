@@ -162,7 +162,7 @@ def cache_folder(environment: Mapping[str, str] = os.environ) -> Path:
 def cache_key(mesh: TriangleMesh, settings: engines.DecomposeSettings) -> str:
     """A digest of geometry, settings, engine and its version."""
     wheel = version(settings.package)
-    header = json.dumps([settings.engine, wheel, settings.as_told(), mesh.vertices.shape], sort_keys=True)
+    header = json.dumps([settings.engine, wheel, settings.as_engine_options(), mesh.vertices.shape], sort_keys=True)
     return hashlib.blake2b(header.encode() + mesh.vertices.tobytes() + mesh.faces.tobytes(), digest_size=20).hexdigest()
 
 
