@@ -10,7 +10,7 @@ from functools import cached_property
 from pathlib import Path
 
 from meshforge.common import MeshForgeError, UsageError, expand_glob, is_link_cycle, plain_path, relative_name, to_text
-from meshforge.common.messages import suggest_name
+from meshforge.common.messages import nearest_name, suggest_name
 from meshforge.formats import MESH_SUFFIXES, all_suffixes, is_asset, is_description, read
 
 STATE = ".meshforge"
@@ -114,7 +114,8 @@ def _match_pattern(pattern: str, root: Path) -> list[Path]:
     elif glob.has_magic(pattern):
         found = _match_glob(pattern, root)
     else:
-        near = suggest_name(path.name, (one.name for one in path.parent.glob("*")))
+        alike = (one.name for one in path.parent.glob("*") if nearest_name(path.stem, [one.stem]))
+        near = suggest_name(path.name, alike)
         raise UsageError("there is no such file or folder", where=pattern, remedy=near)
     if not found:
         raise UsageError("no assets here", where=pattern, remedy=f"Known suffixes: {', '.join(all_suffixes())}.")

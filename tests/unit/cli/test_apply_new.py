@@ -268,7 +268,8 @@ def test_labels_that_were_taken_back_label_no_new_asset(named: Run) -> None:
 
 
 def test_patterns_add_up_and_follow_a_label_that_is_renamed(named: Run) -> None:
-    assert named("label", "p", "--with", "names", "--pattern", "*top=seat", "--workers", "1").code == 0
+    Project.open("p").set_labels("a.urdf", {"base/h4": None})
+    assert named("label", "p", "--with", "names", "--pattern", "*h4=seat", "--workers", "1").code == 0
     Project.open("p").rename_label("leg", "foot")
     (line,) = json.loads(SOURCES.read_text())["lines"]
-    assert line["options"]["meanings"] == [["*h[0-4]", "foot"], ["*top", "seat"]]
+    assert line["options"]["meanings"] == [["*h[0-4]", "foot"], ["*h4", "seat"]]
