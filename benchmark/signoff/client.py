@@ -37,8 +37,10 @@ class Client(TaskClient):
     """By the public methods of `Project`. found: by the last look; program: of the project then."""
 
     name = "Project"
+    says_what_is_right = True
+    """Whether the person says of a wrong result which hulls or labels are right, or no more than that it is wrong."""
     shows_corrections = True
-    """Whether the person shows the edit where a result is wrong, or says no more than that it is."""
+    """Whether they show the whole edit of a result that is wrong for another reason."""
 
     def __init__(self, project: Project) -> None:
         super().__init__(project)

@@ -20,7 +20,7 @@ from benchmark.signoff.conditions import ERRS, NONE, list_tasks
 from benchmark.signoff.queue import Review
 from benchmark.signoff.session_tables import tell_amiss, tell_early, tell_ends
 from benchmark.signoff.sessions import Unit, run_sessions
-from benchmark.signoff.terminal import AnswersClient
+from benchmark.signoff.terminal import WrongClient
 from benchmark.study import FLAT, REPORTED, TRUE
 from benchmark.study.condition import PROPAGATED, SYSTEMATIC
 from benchmark.tasks import DIFFICULTIES
@@ -30,7 +30,7 @@ FROZEN = Path(__file__).resolve().parent / "unchanged.json"
 COMMAND = "python -m benchmark.signoff unchanged"
 CONDITIONS = {
     Client.name: (TRUE, FLAT, SYSTEMATIC, PROPAGATED[2], NONE, ERRS),
-    AnswersClient.name: (FLAT, NONE),
+    WrongClient.name: (FLAT, NONE),
 }
 """Under which labels, by what a person does it with."""
 TITLE = "Through the product, before anything was changed"

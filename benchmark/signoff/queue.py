@@ -182,7 +182,7 @@ class ReviewCourse:
         """Say what is right of a result that is wrong: which hulls, or which labels where the mesh is turned wrongly or
         the program cannot run; where no label helps, show the whole edit."""
         name = question.asset
-        if not self.client.shows_corrections:
+        if not self.client.says_what_is_right:
             self._reply(question, reply)
             return
         done, wanted = output.selections if output else None, self.bench.truth.reference[name]
@@ -196,7 +196,7 @@ class ReviewCourse:
         if labels:
             self.client.take_labels()
             self.desk = self.desk.with_meshes(self.client.read_meshes())
-        elif name in self._showable() or name in self.reviewer.slipped:
+        elif self.client.shows_corrections and (name in self._showable() or name in self.reviewer.slipped):
             self._show(name, "correction")
 
     def _look_through(self, name: str, hulls: Collection[str] | None = None) -> bool:

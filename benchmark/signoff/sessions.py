@@ -12,12 +12,12 @@ from benchmark.report import Tell
 from benchmark.signoff.client import Client
 from benchmark.signoff.conditions import open_bench_of
 from benchmark.signoff.queue import Review, sign_off
-from benchmark.signoff.terminal import AnswersClient, ProcessClient, TerminalClient
+from benchmark.signoff.terminal import AnswersClient, ProcessClient, TerminalClient, WrongClient
 from benchmark.study import CONDITIONS
 from meshforge.project import Project
 
 CLIENTS: Mapping[str, Callable[[Project], Client]] = {
-    one.name: one for one in (Client, TerminalClient, AnswersClient, ProcessClient)
+    one.name: one for one in (Client, TerminalClient, AnswersClient, WrongClient, ProcessClient)
 }
 """What a person does it with, by its name."""
 

@@ -94,8 +94,15 @@ class AnswersClient(TerminalClient):
     shows_corrections = False
 
 
+class WrongClient(AnswersClient):
+    """The same, and of a wrong result no more is said than that it is wrong."""
+
+    name = 'answers alone, "wrong" and no more'
+    says_what_is_right = False
+
+
 class ProcessClient(AnswersClient):
-    """The same, each command in a process of its own."""
+    """By files of answers alone, each command in a process of its own."""
 
     name = "answers alone, by processes"
 

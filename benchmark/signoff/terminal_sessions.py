@@ -1,8 +1,9 @@
-"""The same person at a terminal, by files of answers alone: a result is called right or wrong, and no more is said."""
+"""The same person at a terminal, by files of answers alone; and one who says of a wrong result no more than that."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from operator import eq
 
 from benchmark.report import Goal, Result, Tell
 from benchmark.signoff.conditions import NONE, list_people, list_tasks
@@ -10,45 +11,54 @@ from benchmark.signoff.outcomes import mean_over_tasks, right_when_done, share, 
 from benchmark.signoff.queue import Review
 from benchmark.signoff.session_tables import tell_amiss, tell_ends, tell_long
 from benchmark.signoff.sessions import Unit, read_reviews, run_sessions
-from benchmark.signoff.terminal import AnswersClient, ProcessClient
+from benchmark.signoff.terminal import AnswersClient, ProcessClient, WrongClient
 from benchmark.study import FLAT
 
 _WANTED = {FLAT: 98.0, NONE: 97.0}
 _BY_PROCESSES = ("cup-easy", "knife-easy", "chair-easy", "dispenser-medium", "table-medium")
-_MANY = len(_BY_PROCESSES)
-"""Sessions that are held by real processes too, one person a task."""
+"""Tasks whose sessions under noisy labels are held by real processes too, one person a task."""
 
 
 def measure(tell: Tell, quick: bool) -> Result:
     """Sign the families off by `review --answers` under noisy labels, and from none."""
     names = [name for name in list_tasks() if not quick or name == "cup-easy"]
-    people = max(len(list_people(names[0], one)) for one in _WANTED)
+    people = 1 if quick else max(len(list_people(names[0], one)) for one in _WANTED)
     units = [
-        Unit(name, one.name, list_people(name, one)[place], None, AnswersClient.name)
-        for place in range(1 if quick else people)
+        Unit(name, one.name, list_people(name, one)[place], None, client.name)
+        for client, persons in ((AnswersClient, people), (WrongClient, 1))
+        for place in range(persons)
         for name in names
         for one in _WANTED
     ]
-    rows = read_reviews(run_sessions(units, tell))
-    same = [one for one in units if one.task in _BY_PROCESSES and one.condition == FLAT.name][: 1 if quick else _MANY]
-    again = read_reviews(run_sessions([one._replace(client=ProcessClient.name) for one in same], tell))
-    return summarize(rows, again)
+    rows = run_sessions(units, tell)
+    same = [place for place, one in enumerate(units) if _is_held_again(one)][: 1 if quick else len(_BY_PROCESSES)]
+    again = run_sessions([units[place]._replace(client=ProcessClient.name) for place in same], tell)
+    found = list(zip((one.client for one in units), read_reviews(rows), strict=True))
+    return summarize(found, read_reviews([rows[place] for place in same]), read_reviews(again))
 
 
-def summarize(rows: Sequence[Review], again: Sequence[Review]) -> Result:
-    """What the sessions come to; again: some of them, held by real processes."""
-    some = {one: [row for row in rows if row.condition == one.name] for one in _WANTED}
-    groups = {(one.name, AnswersClient.name): mine for one, mine in some.items()}
+def _is_held_again(unit: Unit) -> bool:
+    return unit.task in _BY_PROCESSES and (unit.condition, unit.client) == (FLAT.name, AnswersClient.name)
+
+
+def summarize(found: Sequence[tuple[str, Review]], same: Sequence[Review], again: Sequence[Review]) -> Result:
+    """What the sessions come to, each with the name of its client; same, again: some of them in one process, and by
+    processes of their own."""
+    groups = {
+        (one.name, client): [row for name, row in found if (name, row.condition) == (client, one.name)]
+        for client in (AnswersClient.name, WrongClient.name)
+        for one in _WANTED
+    }
     goals = [
-        Goal(f"right and signed off when done, {one.name}, %", "at least", _WANTED[one],
-             mean_over_tasks(mine, right_when_done))
-        for one, mine in some.items()
+        Goal(f"right and signed off when done, {one.name}, %", "at least", wanted,
+             mean_over_tasks(groups[one.name, AnswersClient.name], right_when_done))
+        for one, wanted in _WANTED.items()
     ]  # fmt: skip
-    worst = max(mean_over_tasks(mine, wrong_when_done) for mine in some.values())
+    worst = max(mean_over_tasks(mine, wrong_when_done) for mine in groups.values())
     goals.append(Goal("signed off, yet wrong, most of all conditions, %", "at most", 1.0, worst))
-    agree = share(sum(row in rows for row in again), len(again))
+    agree = share(sum(map(eq, same, again)), len(again))
     goals.append(Goal("sessions by processes of their own that come to the same, %", "at least", 100.0, agree))
-    tables = (tell_ends(groups), tell_amiss([(AnswersClient.name, row) for row in rows]), tell_long(groups))
+    tables = (tell_ends(groups), tell_amiss(found), tell_long(groups))
     return Result("terminal_sessions", "By files of answers alone", tables, tuple(goals), _NOTES)
 
 
