@@ -9,7 +9,7 @@ import subprocess
 import sys
 from collections.abc import Iterable, Mapping
 from contextlib import redirect_stderr, redirect_stdout
-from typing import Any, get_args
+from typing import Any
 from unittest.mock import patch
 
 from benchmark.signoff.client import Client, FamilyStatus
@@ -20,15 +20,13 @@ from meshforge.cli.review import review
 from meshforge.cli.synthesize import synthesize
 from meshforge.common import MeshForgeError
 from meshforge.project import Project
-from meshforge.signoff import HullPlace, ReviewChoice, ReviewQuestion, ReviewReply, UnseenLabelQuestion
+from meshforge.signoff import ReviewQuestion, ReviewReply, question_of
 from meshforge.synthesis import Answer, Step
 
 _REFUSED = 2
 """The exit code of a command that did nothing."""
 _PICTURES = "meshforge.cli.review.draw_question"  # nobody looks at them here, and they take half of the time
 _PROCESSORS = "meshforge.batch.workers.count_processors"  # sessions run side by side; results are the same
-_KINDS: dict[str, type[ReviewQuestion]] = {kind.kind: kind for kind in get_args(ReviewQuestion)}
-_KINDS["label"] = UnseenLabelQuestion
 _COMMANDS = {one.__name__: load_command(one.__name__) for one in (demonstrate, label, review, synthesize)}
 
 
@@ -53,7 +51,7 @@ class TerminalClient(Client):
         if (question.rule, question.asset) in self._refused:
             reply = ReviewReply(question.id)
         file = self.project.folder.parent / "answers.json"
-        file.write_text(json.dumps([_format_reply(reply)]), encoding="utf-8")
+        file.write_text(json.dumps([{"id": reply.question, **reply.to_json()}]), encoding="utf-8")
         self._told = self._call("review", "--answers", str(file), "--json")
 
     def demonstrate(self, asset: str, steps: Iterable[Step]) -> None:
@@ -117,15 +115,6 @@ class ProcessClient(AnswersClient):
         return done.stdout
 
 
-def _format_reply(reply: ReviewReply) -> dict[str, Any]:
-    """One entry of the file of replies."""
-    exceptions = {f"{place.asset}#{place.hull}": label for place, label in reply.exceptions.items()}
-    selections = {str(rule): sorted(hulls) for rule, hulls in reply.selections.items()}
-    labels = dict(reply.labels)
-    row = {"id": reply.question, "choice": reply.choice, "exceptions": exceptions, "later": reply.later}
-    return {**row, "selections": selections, "labels": labels}
-
-
 def _format_step(step: Step) -> str:
     """One step as it is typed."""
     hulls = "open" if step.select is None else ",".join(sorted(step.select)) or "nothing"
@@ -138,16 +127,5 @@ def _read_status(told: Mapping[str, Any], assets: Iterable[str]) -> FamilyStatus
     excluded = frozenset(told["excluded"])
     signed = [name for name in assets if name not in held and name not in excluded]
     assert len(signed) == told["signed_off"]
-    question = _read_question(told["question"]) if told["question"] else None
+    question = question_of(told["question"]) if told["question"] else None
     return FamilyStatus(question, bool(signed) or any(held.values()), signed, list(held), excluded, held)
-
-
-def _read_question(told: Mapping[str, Any]) -> ReviewQuestion:
-    choices = tuple(
-        ReviewChoice(one["id"], one["text"], one["label"], None if one["select"] is None else tuple(one["select"]))
-        for one in told["choices"]
-    )
-    hulls = tuple(HullPlace(one["asset"], one["hull"]) for one in told["hulls"])
-    figures = float(told["seconds"]), float(told["gain"])
-    kind = _KINDS[told["kind"]]
-    return kind(told["text"], *figures, told["asset"], told["rule"], hulls, choices, told["id"])

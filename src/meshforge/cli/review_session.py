@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import shlex
 from collections.abc import Sequence
 from dataclasses import replace
@@ -15,7 +16,7 @@ from meshforge.cli.review_text import format_prompt, format_question, format_rep
 from meshforge.cli.terminal import remark
 from meshforge.common import MeshForgeError, UsageError
 from meshforge.project import Project, ProjectReview, format_review
-from meshforge.signoff import ResultQuestion, ReviewQuestion, ReviewReply
+from meshforge.signoff import ResultQuestion, ReviewQuestion, ReviewReply, question_of
 from meshforge.signoff.question import WRONG, QuestionBase
 
 _FEW_HELD = 3  # assets that need review and are named beside a question
@@ -34,16 +35,40 @@ class ReviewSession:
         """Take replies, each once its question is asked; how many did not fit. One that was taken before, as by a
         command that was killed, fits."""
         waiting = list(replies)
-        while asked := next(
-            ((one, question) for one in waiting if (question := one.find(self.found.assessment))), None
-        ):
+        while asked := next(((one, question) for one in waiting if (question := self._find(one))), None):
             waiting.remove(asked[0])
             self._reply(asked[1], asked[0].to_reply(asked[1]))
-        known = self._project.feedback().replied
-        for one in waiting:
-            skipped = "this question is not asked any more, so the reply is skipped"
-            remark(f"{one.question}: {'it was replied to before' if one.question in known else skipped}")
-        return sum(one.question not in known for one in waiting)
+        return sum(not self._reply_again(one) for one in waiting)
+
+    def _find(self, one: ScriptReply) -> ReviewQuestion | None:
+        """The question that it replies to, if it is asked now; what it chooses may be offered no more after another
+        reply."""
+        question = one.find(self.found.assessment)
+        is_gone = question and isinstance(one.choice, str) and question.choice(one.choice) is None
+        return None if is_gone and one.question in self._project.feedback().replied else question
+
+    def _reply_again(self, one: ScriptReply) -> bool:
+        """Whether a reply to a question that is not asked now fits: it was taken before, or the one before gives way
+        to it."""
+        before = self._project.feedback().replied.get(one.question)
+        if before is None:
+            remark(f"{one.question}: this question is not asked any more, so the reply is skipped")
+            return False
+        said = before.said
+        reply = one.to_reply(question_of(said.asked)) if said else None
+        if said is None or reply is None or reply.later or reply.to_json() == said.reply:
+            remark(f"{one.question}: it was replied to before")
+            return True
+        question = question_of(said.asked)
+        try:
+            self._project.reply_again(question, reply)
+        except MeshForgeError as error:
+            remark(f"{one.question}: {error.message}")
+            return False
+        was, now = (json.dumps(row, ensure_ascii=False) for row in (said.reply, reply.to_json()))
+        remark(f"{one.question}: {before.by or 'somebody'} said {was} before, now it is {now}: the last word counts")
+        self.found = self._look()
+        return True
 
     def converse(self, by: str | None = None, kinds: tuple[type[QuestionBase], ...] = (QuestionBase,)) -> None:
         """Ask at the terminal until nothing of some kinds is left, or the person has enough; what was said is kept at

@@ -15,7 +15,7 @@ from meshforge.label_model import FamilyPosterior, FamilyTable, Observations, co
 from meshforge.labels.by_hand import label_command
 from meshforge.labels.descriptor_cache import DescriptorCache
 from meshforge.labels.merge import LabelOutcome, LabelWriter, OutcomeCallback, ReplacePolicy, infer_over
-from meshforge.store import Store, survey
+from meshforge.store import Store, iterate_survey
 from meshforge.symbolic import Label, match_labels
 
 HullLabels = Mapping[str, Label]
@@ -77,7 +77,7 @@ def compare_assets(
     Raises ProjectError: no vocabulary, or nothing is said at all.
     """
     with stage(len(store.assets()), "reading") as advance:
-        facts = survey(store.found, store.layout, execution=execution, progress=advance)
+        facts = dict(iterate_survey(store.found, store.layout, execution=execution, progress=advance))
     lost = {asset: own.error for asset, own in facts.items() if own.error}
     current = dict[str, HullLabels]()
     for asset, own in facts.items():

@@ -11,7 +11,7 @@ from meshforge.common import AssetError, ProjectError, file_state, join_names, s
 from meshforge.geometry import Shape, digest, overlap_volume
 from meshforge.label_model import evidence_of
 from meshforge.rendering import UNSURE
-from meshforge.store import Store, hull_digests, survey
+from meshforge.store import Store, hull_digests, iterate_survey
 from meshforge.symbolic import HUMAN_SOURCES, INFERRED_SOURCES, Label, SymbolicMesh
 
 ReplacePolicy = Callable[[Label | None, Label], bool]
@@ -76,7 +76,7 @@ def _read_digests(store: Store, assets: Collection[str]) -> dict[str, Mapping[st
 
     Raises AssetError where one cannot be read.
     """
-    facts = survey(store.found, store.layout, assets) if len(assets) > 1 else {}
+    facts = dict(iterate_survey(store.found, store.layout, assets)) if len(assets) > 1 else {}
     known = {asset: one.hulls for asset, one in facts.items() if not one.error}
     return {asset: known[asset] if asset in known else hull_digests(store.mesh(asset)) for asset in assets}
 

@@ -9,7 +9,7 @@ from meshforge.common import MeshForgeError, file_state
 from meshforge.labels.from_files.read import kind_of, label_file_beside
 from meshforge.labels.merge import is_protected
 from meshforge.labels.names.label_by_names import NamePattern, match_names, name_patterns, names_of_facts, to_label
-from meshforge.store import AssetFacts, Store, survey
+from meshforge.store import AssetFacts, Store, iterate_survey
 from meshforge.symbolic import HUMAN_SOURCES, Label, match_labels, read_labels
 
 
@@ -43,7 +43,7 @@ class OfferCache:
         settings, rows = store.settings, dict[str, _AssetOffer]()
         vocabulary, meanings = settings.vocabulary, tuple(settings.names.items())
         patterns = name_patterns(store.folder, settings, vocabulary) if vocabulary else ()
-        for asset, facts in survey(store.found, store.layout, only).items():
+        for asset, facts in iterate_survey(store.found, store.layout, only):
             file, labels = label_file_beside(store.path(asset)), store.layout.labels(asset)
             times = (file_state(labels), file, file_state(file) if file else None)
             state = (vocabulary, meanings, facts.files, facts.preparation, *times)

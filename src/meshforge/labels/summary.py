@@ -14,7 +14,7 @@ from pathlib import Path
 from meshforge.batch import AssetJob, ExecutionOptions, plan_run, run_isolated
 from meshforge.common import AssetError, MeshForgeError
 from meshforge.rendering import UNLABELLED, UNSURE, encode_png, label_colors, make_contact_sheet, render, write_png
-from meshforge.store import AssetFiles, Store, survey
+from meshforge.store import AssetFiles, Store, iterate_survey
 from meshforge.symbolic import HUMAN_SOURCES, LABEL_SOURCES, Label, match_labels
 
 
@@ -131,7 +131,7 @@ def tally(store: Store, progress: Callable[[], None] | None = None) -> Tally:
     hulls = unlabelled = 0
     doubtful: dict[str, int] = {}
     unreadable: dict[str, str] = {}
-    for asset, facts in survey(store.found, store.layout, progress=progress).items():
+    for asset, facts in iterate_survey(store.found, store.layout, progress=progress):
         if facts.error:
             unreadable[asset] = facts.error
             continue

@@ -57,8 +57,8 @@ def correct_selection(store: Store, asset: str, rule: int, select: Sequence[str]
         feedback = store.feedback()
         known = feedback.verdict_on(asset)
         if asset not in store.demonstration_ids() and (known or f"{rule}:{asset}" in feedback.answers):
-            more = [files.VerdictEvent(asset=asset, by=said.by, question=said.question)] if known else []
-            store.add_events(check_answer(store, Answer(rule, asset, select)).with_question(*said), *more)
+            more = [files.VerdictEvent(asset=asset, **said._asdict())] if known else []
+            store.add_events(check_answer(store, Answer(rule, asset, select)).with_origin(said), *more)
             return
         steps = store.steps(asset)
         if rule > len(steps) or steps[rule - 1].open:
@@ -212,7 +212,7 @@ def confirm(store: Store, right: LabelCorrection, said: Origin = NO_ORIGIN) -> s
         is_repeated = known and known.accepted and current == _label_of_repair(right)
         before = known.before if known and is_repeated else files.LabelBefore.of(current)
         # the record first: killed in between, the repair is merely proposed again
-        store.add_events(event.model_copy(update={"before": before}).with_question(*said))
+        store.add_events(event.model_copy(update={"before": before}).with_origin(said))
         store.write_labels(right.asset, files.hull_digests(mesh), labels, store.vocabulary)
     return event.id
 
@@ -221,7 +221,7 @@ def reject(store: Store, wrong: LabelCorrection, said: Origin = NO_ORIGIN) -> st
     """Refuse a repair, so that it is not proposed again; give its id."""
     store.path(wrong.asset)
     event = files.LabelFixEvent(asset=wrong.asset, hull=wrong.hull, was=wrong.was, to=wrong.to, accepted=False)
-    store.add_events(event.with_question(*said))
+    store.add_events(event.with_origin(said))
     return event.id
 
 

@@ -27,7 +27,7 @@ from meshforge.store import (
     VerdictEvent,
     find_outputs,
     geometry_digest,
-    survey,
+    iterate_survey,
 )
 from meshforge.symbolic import LabelFile, match_labels
 
@@ -53,7 +53,7 @@ def compute_status(
         store.path(asset)
     settings, ids, work, said = store.settings, store.found.ids, build_jobs(store, only), store.feedback()
     execution = ExecutionOptions(workers=workers, stop=stop)
-    facts = survey(store.found, store.layout, only, execution=execution, progress=progress, verify=verify)
+    facts = dict(iterate_survey(store.found, store.layout, only, execution=execution, progress=progress, verify=verify))
     outputs = find_outputs(store.layout, facts, verify=verify)
     program, task, problem = _read_program(store)
     bare = None if program or problem else make_empty_program(store)

@@ -22,7 +22,7 @@ from meshforge.project import (
     span_splits,
     spans,
 )
-from meshforge.project.replies import reply_to
+from meshforge.project.replies import reply_again, reply_to
 from meshforge.project.review import review_project
 from meshforge.store import MeshCache, add_assets, create_folder, find_assets
 
@@ -122,5 +122,6 @@ class Project(LabelStore):
     set_verdict = run.review_assets
     review = review_project
     reply = reply_to
+    reply_again = reply_again
     renew_sign_offs = sign_offs.renew_sign_offs
     status = overview.compute_status

@@ -15,7 +15,7 @@ from meshforge.project import demonstrations, run
 from meshforge.project.span_questions import answer_span
 from meshforge.signoff import ReviewChoice, ReviewQuestion, ReviewReply
 from meshforge.signoff.question import EXCLUDE, NO, RIGHT, WRONG
-from meshforge.store import ExclusionEvent, LabelsEvent, Origin, ReplyEvent, SnoozeEvent, Store
+from meshforge.store import ExclusionEvent, LabelsEvent, Origin, ReplyEvent, SnoozeEvent, Store, VerdictEvent
 from meshforge.synthesis import Answer, LabelCorrection
 
 
@@ -24,7 +24,7 @@ def reply_to(store: Store, question: ReviewQuestion, reply: ReviewReply) -> None
 
     Raises ProjectError, with nothing kept, where the reply does not fit.
     """
-    choice, said = find_choice(question, reply), Origin(question.id, reply.by)
+    choice, said = find_choice(question, reply), Origin.of(question, reply)
     if reply.later:
         _snooze(store, said)
         return
@@ -33,7 +33,7 @@ def reply_to(store: Store, question: ReviewQuestion, reply: ReviewReply) -> None
             refused = [one.select or () for one in question.choices] if choice is None else []
             select = None if choice is None else choice.select
             answer = Answer(question.rule or 1, question.asset, select, refused)
-            store.add_events(demonstrations.check_answer(store, answer).with_question(*said))
+            store.add_events(demonstrations.check_answer(store, answer).with_origin(said))
         case signoff.GroupQuestion():
             _label(store, question, choice, reply)
         case signoff.RepairQuestion():
@@ -66,6 +66,38 @@ def reply_to(store: Store, question: ReviewQuestion, reply: ReviewReply) -> None
             assert_never(question)
 
 
+def reply_again(store: Store, question: ReviewQuestion, reply: ReviewReply) -> None:
+    """Take another reply to a question that was replied to before: the last word counts. A verdict is on the result as
+    it was then.
+
+    Raises ProjectError, with nothing kept, where what followed from the reply before is not undone by a reply.
+    """
+    before = store.feedback().replied.get(question.id)
+    choice, said = find_choice(question, reply), Origin.of(question, reply)
+    if isinstance(before, SnoozeEvent):
+        reply_to(store, question, reply)
+        return
+    match question, before:
+        case signoff.ReadingQuestion(), _:
+            reply_to(store, question, reply)
+        case ((signoff.GroupQuestion() | signoff.RepairQuestion()), _) if reply.exceptions or (choice and choice.label):
+            reply_to(store, question, reply)
+        case signoff.ResultQuestion(), VerdictEvent() if choice and choice.id in EXCLUDE:
+            excluded = ExclusionEvent(asset=question.asset, reason=EXCLUDE[choice.id], **said._asdict())
+            store.add_events(VerdictEvent(asset=question.asset), excluded)
+        case signoff.ResultQuestion(), _ if choice and choice.id in EXCLUDE:
+            reply_to(store, question, reply)
+        case signoff.ResultQuestion(), VerdictEvent() if choice:
+            run.revise_verdict(store, before, reply, said)
+            if reply.labels:
+                _agree_again(store)
+        case signoff.ResultQuestion(), ExclusionEvent() if choice:  # its result may be another one by now
+            store.add_events(ExclusionEvent(asset=question.asset, **said._asdict()))
+        case _:
+            problem = f"question {question.id} was replied to before, and what followed from that stays"
+            raise ProjectError(problem, remedy="Change it by hand: its demonstration, its labels, or how it is split.")
+
+
 def find_choice(question: ReviewQuestion, reply: ReviewReply) -> ReviewChoice | None:
     """The choice that a reply names, None for none of them. Raises ProjectError for one that there is not, and for more
     than can be said to the question."""
@@ -84,21 +116,21 @@ def find_choice(question: ReviewQuestion, reply: ReviewReply) -> ReviewChoice | 
 
 
 def _snooze(store: Store, said: Origin) -> None:
-    store.add_events(SnoozeEvent(question=said.question, by=said.by))
+    store.add_events(SnoozeEvent(**said._asdict()))
 
 
 def _do(store: Store, said: Origin, effect: Callable[[], object]) -> None:
-    store.add_events_before(effect, ReplyEvent(question=said.question, by=said.by))
+    store.add_events_before(effect, ReplyEvent(**said._asdict()))
 
 
 def _judge(store: Store, question: signoff.ResultQuestion, choice: ReviewChoice | None, reply: ReviewReply) -> None:
     """Keep a verdict on the result as the program makes it now, or why an asset is given up."""
-    asset, said = question.asset, Origin(question.id, reply.by)
+    asset, said = question.asset, Origin.of(question, reply)
     if choice is None:
         _snooze(store, said)
     elif choice.id in EXCLUDE:
         reason = EXCLUDE[choice.id]
-        store.add_events(ExclusionEvent(asset=asset, reason=reason, question=question.id, by=reply.by))
+        store.add_events(ExclusionEvent(asset=asset, reason=reason, **said._asdict()))
     elif choice.id == RIGHT:
         _make_output(store, asset)
         run.review_assets(store, asset, "accepted", said=said)
@@ -128,17 +160,18 @@ def _label(
     labels = dict[str, dict[str, str]]()
     for place, label in sorted({**given, **reply.exceptions}.items()):
         labels.setdefault(place.asset, {})[place.hull] = str(label)
+    said = Origin.of(question, reply)
     if not labels:
-        _snooze(store, Origin(question.id, reply.by))
+        _snooze(store, said)
         return
-    event = LabelsEvent(labels=labels, question=question.id, by=reply.by)
+    event = LabelsEvent(labels=labels, **said._asdict())
     store.add_events_before(lambda: set_labels_of(store, labels, "user", 1.0), event)
     _agree_again(store)
 
 
 def _repair(store: Store, question: signoff.RepairQuestion, choice: ReviewChoice | None, reply: ReviewReply) -> None:
     """Fix the label of a hull, so that it can be withdrawn, or keep it; what was refused is not proposed again."""
-    (place,), said = question.hulls, Origin(question.id, reply.by)
+    (place,), said = question.hulls, Origin.of(question, reply)
     label = reply.exceptions.get(place) or (choice.label if choice else None)
     if label is None:
         _snooze(store, said)

@@ -17,6 +17,8 @@ from meshforge.geometry import digest
 from meshforge.labels import pick_evenly
 from meshforge.labels.merge import set_labels_of
 from meshforge.language import Action, Program, RunResult, Template
+from meshforge.signoff import ReviewReply
+from meshforge.signoff.question import WRONG
 from meshforge.store import NO_ORIGIN, ExclusionEvent, Feedback, Origin, Store, Verdict, VerdictEvent
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Demonstration, advance, begin_replay, memoize
@@ -176,6 +178,18 @@ def review_assets(
         store.add_events_before(lambda: set_labels_of(store, given, "user", 1.0), *events, *more)
 
 
+def revise_verdict(store: Store, before: VerdictEvent, reply: ReviewReply, said: Origin) -> None:
+    """Another verdict on the result that one was given on before; where it is right now, what the rules did there is
+    what they should do. Raises ProjectError, with nothing written: no such rule, hull or label."""
+    verdict: Verdict = "wrong" if reply.choice == WRONG else "accepted"
+    meant = before.seen if verdict == "accepted" else ()
+    if reply.selections:
+        meant = _replace_selections(store, before.asset, before.seen, reply.selections)
+    event = before.model_copy(update={"verdict": verdict, "note": None, "meant": meant, **said._asdict()})
+    given = {before.asset: reply.labels} if reply.labels else {}
+    store.add_events_before(lambda: set_labels_of(store, given, "user", 1.0), event)
+
+
 def _judge(
     store: Store,
     asset: str,
@@ -195,9 +209,8 @@ def _judge(
     seen = (_read_selections(store, stamp) or _run_for_selections(store, asset, verdict)) if verdict and alone else ()
     before = find_selections(store.feedback(), asset) if verdict == "accepted" else ()  # it is made with these
     meant = _replace_selections(store, asset, seen, selections) if selections else before
-    by, question = said.by, said.question
     return VerdictEvent(
-        asset=asset, verdict=verdict, note=note, output=output, seen=seen, meant=meant, by=by, question=question
+        asset=asset, verdict=verdict, note=note, output=output, seen=seen, meant=meant, **said._asdict()
     )
 
 

@@ -37,7 +37,7 @@ from meshforge.store import (
     Store,
     find_changes,
     find_outputs,
-    survey,
+    iterate_survey,
 )
 
 Clock = Callable[[], datetime]
@@ -55,7 +55,7 @@ def find_inputs(store: Store, execution: ExecutionOptions = EXECUTION_DEFAULTS) 
 
 
 def _digest_edits(store: Store, task: ApplyTask, execution: ExecutionOptions) -> dict[str, OutputInputs]:
-    facts = survey(store.found, store.layout, execution=execution)
+    facts = dict(iterate_survey(store.found, store.layout, execution=execution))
     return {
         job.id: inputs_of(task, job, facts[job.id].digests) for job in run.build_jobs(store) if not facts[job.id].error
     }

@@ -24,7 +24,6 @@ if TYPE_CHECKING:
         ReviewReply,
         SlipQuestion,
         SpanQuestion,
-        UnseenLabelQuestion,
         question_of,
     )
     from meshforge.signoff.review import assess_asset, review_family
@@ -53,7 +52,6 @@ __all__ = [
     "ReviewState",
     "SlipQuestion",
     "SpanQuestion",
-    "UnseenLabelQuestion",
     "assess_asset",
     "describe_odd_results",
     "measure_edit",

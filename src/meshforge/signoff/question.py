@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from hashlib import blake2b
-from typing import Any, ClassVar, Literal, NamedTuple, TypeVar
+from typing import Any, ClassVar, Literal, NamedTuple, TypeVar, get_args
 
-from meshforge.language import Orient, Program
+from meshforge.language import Orient, Program, show
 
 QuestionKind = Literal[
     "group", "repair", "reading", "label", "selection", "orientation", "result", "demonstrate", "span"
@@ -46,6 +46,16 @@ class ReviewChoice:
     def of_label(label: str) -> ReviewChoice:
         return ReviewChoice(label, label, label)
 
+    @property
+    def orient_text(self) -> str | None:
+        """How assets are turned, without the word `orient`."""
+        return show(self.orient).removeprefix("orient ") if self.orient else None
+
+    def to_json(self) -> dict[str, Any]:
+        select = None if self.select is None else list(self.select)
+        turned = {"orient": self.orient_text} if self.orient else {}
+        return {"id": self.id, "text": self.text, "label": self.label, "select": select, **turned}
+
 
 @dataclass(frozen=True, slots=True)
 class QuestionBase:
@@ -83,78 +93,61 @@ class QuestionBase:
             "asset": self.asset,
             "rule": self.rule,
             "hulls": [{"asset": place.asset, "hull": place.hull} for place in self.hulls],
-            "choices": [
-                {
-                    "id": choice.id,
-                    "text": choice.text,
-                    "label": choice.label,
-                    "select": None if choice.select is None else list(choice.select),
-                }
-                for choice in self.choices
-            ],
+            "choices": [choice.to_json() for choice in self.choices],
         }
 
 
 class GroupQuestion(QuestionBase):
     """What hulls that look alike are."""
 
-    __slots__ = ()
     kind: ClassVar[QuestionKind] = "group"
 
 
 class RepairQuestion(QuestionBase):
     """Whether one hull has another label, with which what was shown makes sense."""
 
-    __slots__ = ()
     kind: ClassVar[QuestionKind] = "repair"
 
 
 class ReadingQuestion(QuestionBase):
     """What a rule means on an asset."""
 
-    __slots__ = ()
     kind: ClassVar[QuestionKind] = "reading"
 
 
 class UnseenLabelQuestion(ReadingQuestion):
     """What a rule means on an asset with a label that no demonstration shows."""
 
-    __slots__ = ()
     kind: ClassVar[QuestionKind] = "label"
 
 
 class SlipQuestion(QuestionBase):
     """Whether hulls were selected, or left out, by mistake where a rule was shown or answered."""
 
-    __slots__ = ()
     kind: ClassVar[QuestionKind] = "selection"
 
 
 class OrientationQuestion(QuestionBase):
     """Whether assets are turned first."""
 
-    __slots__ = ()
     kind: ClassVar[QuestionKind] = "orientation"
 
 
 class ResultQuestion(QuestionBase):
     """Whether a result is right."""
 
-    __slots__ = ()
     kind: ClassVar[QuestionKind] = "result"
 
 
 class DemonstrationQuestion(QuestionBase):
     """Asks for a demonstration."""
 
-    __slots__ = ()
     kind: ClassVar[QuestionKind] = "demonstrate"
 
 
 class SpanQuestion(QuestionBase):
     """Whether a hull that likely spans parts is split."""
 
-    __slots__ = ()
     kind: ClassVar[QuestionKind] = "span"
 
 
@@ -168,24 +161,11 @@ ReviewQuestion = (
     | DemonstrationQuestion
     | SpanQuestion
 )
-_KINDS: Mapping[str, type[ReviewQuestion]] = {
-    one.kind: one
-    for one in (
-        GroupQuestion,
-        RepairQuestion,
-        ReadingQuestion,
-        UnseenLabelQuestion,
-        SlipQuestion,
-        OrientationQuestion,
-        ResultQuestion,
-        DemonstrationQuestion,
-        SpanQuestion,
-    )
-}
+_KINDS: Mapping[str, type[ReviewQuestion]] = {one.kind: one for one in (*get_args(ReviewQuestion), UnseenLabelQuestion)}
 
 
 def question_of(asked: Mapping[str, Any]) -> ReviewQuestion:
-    """The question that somebody was asked; asked: as `to_json` writes it, orient: of a choice, as a program's text."""
+    """The question that somebody was asked; asked: as `to_json` writes it."""
     choices = tuple(
         ReviewChoice(
             one["id"],
@@ -197,16 +177,8 @@ def question_of(asked: Mapping[str, Any]) -> ReviewQuestion:
         for one in asked["choices"]
     )
     hulls = tuple(HullPlace(one["asset"], one["hull"]) for one in asked["hulls"])
-    return _KINDS[asked["kind"]](
-        text=asked["text"],
-        seconds=asked["seconds"],
-        gain=asked["gain"],
-        asset=asked["asset"],
-        rule=asked["rule"],
-        hulls=hulls,
-        choices=choices,
-        id=asked["id"],
-    )
+    rest = {name: asked[name] for name in ("text", "seconds", "gain", "asset", "rule", "id")}
+    return _KINDS[asked["kind"]](hulls=hulls, choices=choices, **rest)
 
 
 Draft = TypeVar("Draft", bound=QuestionBase)
@@ -236,3 +208,11 @@ class ReviewReply:
     labels: Mapping[str, str] = field(default_factory=dict)
     later: bool = False
     by: str | None = None
+
+    def to_json(self) -> dict[str, Any]:
+        """As an entry of a file of replies, without its id; what is empty is left out."""
+        exceptions = {f"{place.asset}#{place.hull}": label for place, label in sorted(self.exceptions.items())}
+        selections = {str(rule): sorted(hulls) for rule, hulls in sorted(self.selections.items())}
+        said = {"exceptions": exceptions, "selections": selections, "labels": dict(sorted(self.labels.items()))}
+        more = {"later": True} if self.later else {}
+        return {"choice": self.choice, **{name: row for name, row in said.items() if row}, **more}

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from meshforge.store.feedback import Feedback
     from meshforge.store.layout import JsonFile, json_text, read_json, write_json
     from meshforge.store.mesh_cache import MeshCache
-    from meshforge.store.meshes import AssetFacts, AssetFiles, geometry_digest, hull_digests, iterate_survey, survey
+    from meshforge.store.meshes import AssetFacts, AssetFiles, geometry_digest, hull_digests, iterate_survey
     from meshforge.store.outputs import AssetOutput, find_outputs
     from meshforge.store.preparation_plan import PreparationPlanFile
     from meshforge.store.program import CorrectionsFile, DemonstrationFile, ProgramRecord, StepLine, parse_action_text
@@ -105,7 +105,6 @@ __all__ = [
     "parse_action_text",
     "read_json",
     "set_value",
-    "survey",
     "toml_value",
     "write_json",
 ]

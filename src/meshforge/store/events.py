@@ -10,7 +10,7 @@ from pydantic import ConfigDict, Field, SerializerFunctionWrapHandler, TypeAdapt
 
 from meshforge.batch import RuleSelection
 from meshforge.common import ProjectError, first_validation_error
-from meshforge.signoff.question import ExclusionReason
+from meshforge.signoff.question import ExclusionReason, QuestionBase, ReviewReply
 from meshforge.store.layout import JsonFile
 from meshforge.symbolic import Label, LabelSource
 from meshforge.synthesis import Answer, LabelCorrection
@@ -20,23 +20,37 @@ Verdict = Literal["accepted", "wrong"]
 Probability = Annotated[float, Field(ge=0, le=1)]
 
 
+class QuestionAndReply(JsonFile):
+    """A question and the reply to it, as the files of questions and of replies have them."""
+
+    asked: dict[str, Any]
+    reply: dict[str, Any]
+
+
 class Origin(NamedTuple):
-    """Where an event comes from: the id of the question that it replies to, and the name that the person gave."""
+    """Where an event comes from: the id of the question that it replies to, the name that the person gave, and what was
+    asked and said."""
 
     question: str | None = None
     by: str | None = None
+    said: QuestionAndReply | None = None
+
+    @staticmethod
+    def of(question: QuestionBase, reply: ReviewReply) -> Origin:
+        return Origin(question.id, reply.by, QuestionAndReply(asked=question.to_json(), reply=reply.to_json()))
 
 
 NO_ORIGIN = Origin()
 
 
 class _Line(JsonFile):
-    """One event. by: the name that a person gave; question: the id of the one that it replies to."""
+    """One event. by, question, said: see `Origin`."""
 
     model_config = ConfigDict(populate_by_name=True)
 
     by: str | None = None
     question: str | None = None
+    said: QuestionAndReply | None = None
 
     @model_serializer(mode="wrap")
     def _leave_out_defaults(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
@@ -57,9 +71,9 @@ class _Withdrawable(_Line):
     def id(self) -> str:
         """Follows from the other fields; of one id only the last event counts."""
 
-    def with_question(self, question: str | None, by: str | None) -> Self:
+    def with_origin(self, said: Origin) -> Self:
         """The same as the reply to a question."""
-        return self.model_copy(update={"question": question, "by": by})
+        return self.model_copy(update=said._asdict())
 
 
 class AnswerEvent(_Withdrawable):

@@ -14,7 +14,7 @@ from meshforge.store.events import Event, parse_events
 @dataclass(frozen=True, eq=False)
 class Feedback:
     """answers, fixes: by id, in the order of their ids; verdicts: of each asset, in order, those since the last that
-    was taken back; exclusions: by asset; snoozed, replied: ids of questions.
+    was taken back; exclusions: by asset; snoozed: ids of questions; replied: the last reply to each.
     """
 
     answers: Mapping[str, kinds.AnswerEvent] = field(default_factory=dict)
@@ -22,7 +22,7 @@ class Feedback:
     verdicts: Mapping[str, tuple[kinds.VerdictEvent, ...]] = field(default_factory=dict)
     exclusions: Mapping[str, kinds.ExclusionEvent] = field(default_factory=dict)
     snoozed: tuple[str, ...] = ()
-    replied: frozenset[str] = frozenset()
+    replied: Mapping[str, Event] = field(default_factory=dict)
 
     @property
     def answers_and_fixes(self) -> Mapping[str, kinds.AnswerEvent | kinds.LabelFixEvent]:
@@ -39,7 +39,7 @@ class Feedback:
         """What events come to; of several on one thing the last counts."""
         answers, fixes = dict[str, kinds.AnswerEvent](), dict[str, kinds.LabelFixEvent]()
         verdicts, exclusions = dict[str, tuple[kinds.VerdictEvent, ...]](), dict[str, kinds.ExclusionEvent]()
-        snoozed, replied = dict[str, None](), set[str]()
+        snoozed, replied = dict[str, None](), dict[str, Event]()
         for event in events:
             match event:
                 case kinds.AnswerEvent():
@@ -59,14 +59,14 @@ class Feedback:
                     pass
                 case _:
                     assert_never(event)
-            replied |= {event.question} if event.question else set()
+            replied |= {event.question: event} if event.question else {}
         return Feedback(
             {one.id: one for one in sorted(answers.values(), key=lambda one: (one.rule, one.asset))},
             dict(sorted(fixes.items())),
             dict(sorted((asset, some) for asset, some in verdicts.items() if some)),
             dict(sorted((asset, one) for asset, one in exclusions.items() if one.reason)),
             tuple(snoozed),
-            frozenset(replied),
+            replied,
         )
 
 

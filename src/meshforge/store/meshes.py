@@ -82,19 +82,6 @@ class _SurveyFile(BaseModel):
     assets: dict[str, AssetFacts]
 
 
-def survey(
-    found: batch.AssetSet,
-    layout: Layout,
-    only: Collection[str] | None = None,
-    *,
-    execution: batch.ExecutionOptions | None = None,
-    progress: Callable[[], None] | None = None,
-    verify: bool = False,
-) -> dict[str, AssetFacts]:
-    """The facts of all assets, or of some, by id; see `iterate_survey`."""
-    return dict(iterate_survey(found, layout, only, execution=execution, progress=progress, verify=verify))
-
-
 def iterate_survey(
     found: batch.AssetSet,
     layout: Layout,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 
 from meshforge.common import MeshForgeError
-from meshforge.language import explain, parse_extractor, show
+from meshforge.language import explain, parse_extractor
 from meshforge.project import (
     AssessmentBasis,
     FamilyAssessment,
@@ -111,7 +111,7 @@ def _view_choice(choice: ReviewChoice) -> wire.ReviewChoiceView:
         label=choice.label,
         select=choice.select,
         sentence=_explain_reading(choice),
-        orient=show(choice.orient).removeprefix("orient ") if choice.orient else None,
+        orient=choice.orient_text,
     )
 
 

@@ -1,0 +1,158 @@
+"""Two people reply otherwise to one question, one after the other: the last word counts, and both are shown."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import pytest
+
+from meshforge.project import Project, ProjectReview
+from tests.loop.command import Done
+from tests.unit.cli.in_process import Run, runner
+from tests.unit.project.replying import (
+    ASKED,
+    CASES,
+    MAKERS,
+    STRICT,
+    Case,
+    copy,
+    find_question,
+    look,
+    probabilities,
+    write,
+)
+
+
+class Place(NamedTuple):
+    """A project and what replies are given with. first: to the question, by Ada; question: its id."""
+
+    project: Project
+    run: Run
+    question: str
+
+    def say(self, reply: Mapping[str, Any], by: str) -> Done:
+        Path("said.json").write_text(json.dumps([{"id": self.question, **reply}]))
+        options = "--min-confidence", str(STRICT), "--answers", "said.json", "--by", by
+        return self.run("review", self.project.folder.name, *options)
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
+    folders = dict[str, Path]()
+
+    def make(name: str) -> Path:
+        if name not in folders:
+            folders[name] = tmp_path_factory.mktemp(name)
+            look(MAKERS[name](folders[name]))
+        return folders[name]
+
+    return make
+
+
+@pytest.fixture
+def place(
+    made: Callable[[str], Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> Callable[[Case], Place]:
+    monkeypatch.setattr("meshforge.cli.review.draw_question", lambda *_: [])  # pictures are slow
+    count = iter(range(9))
+
+    def ask(case: Case) -> Place:
+        project = copy(made(case.family), tmp_path / str(next(count)), monkeypatch)
+        question = find_question(look(project), case.kind, case.asset)
+        return Place(project, runner(monkeypatch, capsys), question.id)
+
+    return ask
+
+
+PAIRS = (
+    ("right", "wrong"),
+    ("right", "wrong, other hulls"),
+    ("right", "wrong, other labels"),
+    ("right", "not solved"),
+    ("later", "right"),
+    ("later", "wrong"),
+    ("a group is what it is called", "a group is something else"),
+    ("a group is something else", "a group is what it is called"),
+    ("a group is what it is called", "one of a group is something else"),
+    ("the reading that stands out", "another reading"),
+    ("another reading", "none of the readings"),
+    ("none of the readings", "the reading that stands out"),
+    ("no slip", "a slip"),
+    ("not turned", "turned"),
+)
+
+
+@pytest.mark.parametrize(("first", "last"), PAIRS)
+def test_the_last_word_counts_as_if_it_were_the_only_one(place: Callable[[Case], Place], first: str, last: str) -> None:
+    alone = place(CASES[last])
+    alone.say(CASES[last].reply, "Ada")
+    both = place(CASES[first])
+    both.say(CASES[first].reply, "Ada")
+    told = both.say(CASES[last].reply, "Bob")
+    assert (sums(look(both.project)), told.code) == (sums(look(alone.project)), told.code)
+    assert f"{both.question}: Ada said {{" in told.err and "the last word counts" in told.err
+    if last != "wrong":  # after which it is asked what is right
+        again = both.say(CASES[last].reply, "Bob")
+        assert f"{both.question}: it was replied to before" in again.err
+
+
+STAYS = (("a slip", "no slip"), ("turned", "not turned"), ("a group is something else", "none of the labels"))
+
+
+@pytest.mark.parametrize(("first", "last"), STAYS)
+def test_what_a_reply_cannot_undo_stays_and_that_is_said(place: Callable[[Case], Place], first: str, last: str) -> None:
+    both = place(CASES[first])
+    both.say(CASES[first].reply, "Ada")
+    before, events = sums(look(both.project)), both.project.layout.events.read_bytes()
+    told = both.say({"choice": None} if last not in CASES else CASES[last].reply, "Bob")
+    assert told.code == 1 and "was replied to before, and what followed from that stays" in told.err
+    assert "Change it by hand" in told.err
+    assert (sums(look(both.project)), both.project.layout.events.read_bytes()) == (before, events)
+
+
+def test_a_result_that_was_called_wrong_is_right_after_all(place: Callable[[Case], Place]) -> None:
+    alone, both = place(CASES["right"]), place(CASES["wrong"])
+    alone.say(CASES["right"].reply, "Ada")
+    both.say(CASES["wrong, other hulls"].reply, "Ada")
+    shown = both.project.feedback().verdict_on(ASKED)
+    told = both.say(CASES["right"].reply, "Bob")
+    assert 'said {"choice": "wrong", "selections": {"1": ' in told.err
+    last = both.project.feedback().verdict_on(ASKED)
+    assert shown and last and (last.by, last.verdict, last.meant) == ("Bob", "accepted", shown.seen)
+    assert ASKED in look(both.project).assessment.signed_off
+    write(both.project)
+    write(alone.project)
+    edited = [one.project.layout.edited / ASKED for one in (alone, both)]
+    assert edited[0].read_bytes() == edited[1].read_bytes()
+
+
+def test_wrong_and_no_more_gives_way_to_right(place: Callable[[Case], Place]) -> None:
+    both = place(CASES["wrong"])
+    both.say(CASES["wrong"].reply, "Ada")
+    assert ASKED in look(both.project).assessment.held
+    told = both.say(CASES["right"].reply, "Bob")
+    assert f'{both.question}: Ada said {{"choice": "wrong"}} before, now it is {{"choice": "right"}}' in told.err
+    assert ASKED in look(both.project).assessment.signed_off
+
+
+def test_who_includes_an_asset_again_is_asked_about_it(place: Callable[[Case], Place]) -> None:
+    both = place(CASES["not solved"])
+    both.say(CASES["not solved"].reply, "Ada")
+    assert look(both.project).assessment.excluded == {ASKED: "not solved"}
+    both.say(CASES["right"].reply, "Bob")
+    found = look(both.project)
+    assert not found.assessment.excluded and ASKED in found.assessment.held
+
+
+def test_a_choice_that_never_was_is_no_last_word(place: Callable[[Case], Place]) -> None:
+    both = place(CASES["right"])
+    both.say(CASES["right"].reply, "Ada")
+    told = both.say({"choice": "perhaps"}, "Bob")
+    assert told.code == 1 and f"{both.question}: question {both.question} has no choice 'perhaps'" in told.err
+
+
+def sums(found: ProjectReview) -> object:
+    return probabilities(found), found.assessment.held, found.assessment.excluded, found.assessment.looked_at
