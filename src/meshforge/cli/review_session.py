@@ -41,15 +41,13 @@ class ReviewSession:
         return sum(not self._reply_again(one) for one in waiting)
 
     def _find(self, one: ScriptReply) -> ReviewQuestion | None:
-        """The question that it replies to, if it is asked now; what it chooses may be offered no more after another
-        reply."""
+        """The question that it replies to, if it is asked now with that choice, or was never replied to."""
         question = one.find(self.found.assessment)
         is_gone = question and isinstance(one.choice, str) and question.choice(one.choice) is None
         return None if is_gone and one.question in self._project.feedback().replied else question
 
     def _reply_again(self, one: ScriptReply) -> bool:
-        """Whether a reply to a question that is not asked now fits: it was taken before, or the one before gives way
-        to it."""
+        """Whether a reply to a question that is not asked now fits: as it was taken before, or in place of another."""
         before = self._project.feedback().replied.get(one.question)
         if before is None:
             remark(f"{one.question}: this question is not asked any more, so the reply is skipped")

@@ -74,19 +74,14 @@ def reply_again(store: Store, question: ReviewQuestion, reply: ReviewReply) -> N
     """
     before = store.feedback().replied.get(question.id)
     choice, said = find_choice(question, reply), Origin.of(question, reply)
-    if isinstance(before, SnoozeEvent):
-        reply_to(store, question, reply)
-        return
     match question, before:
-        case signoff.ReadingQuestion(), _:
+        case (_, SnoozeEvent()) | (signoff.ReadingQuestion(), _):
             reply_to(store, question, reply)
         case ((signoff.GroupQuestion() | signoff.RepairQuestion()), _) if reply.exceptions or (choice and choice.label):
             reply_to(store, question, reply)
-        case signoff.ResultQuestion(), VerdictEvent() if choice and choice.id in EXCLUDE:
+        case signoff.ResultQuestion(), _ if choice and choice.id in EXCLUDE:
             excluded = ExclusionEvent(asset=question.asset, reason=EXCLUDE[choice.id], **said._asdict())
             store.add_events(VerdictEvent(asset=question.asset), excluded)
-        case signoff.ResultQuestion(), _ if choice and choice.id in EXCLUDE:
-            reply_to(store, question, reply)
         case signoff.ResultQuestion(), VerdictEvent() if choice:
             run.revise_verdict(store, before, reply, said)
             if reply.labels:

@@ -8,7 +8,8 @@ import pytest
 
 from meshforge.checks import check
 from meshforge.engines import Finding
-from meshforge.formats import load
+from meshforge.formats import load, save
+from meshforge.formats.engine_names.conventions import EngineName
 from tests.soups import box
 from tests.unit.cli.in_process import runner
 from tests.unit.formats.test_marked_convex import write_nodes, write_obj
@@ -76,7 +77,8 @@ def test_a_suffix_that_godot_does_not_know_is_an_error(tmp_path: Path, name: str
 def test_words_that_only_look_like_marks_are_none(tmp_path: Path) -> None:
     names = ("Gate-convcolonly", "Post-col", "Ant-color", "a_column", "b-control", "c-collection", "d-conveyor", "colt")
     assert findings_of(tmp_path, "godot", *names) == []
-    assert findings_of(tmp_path, "unity", *names, parents=("Gate_colliders", "colours", "Gate_collection")) == []
+    plain = [name for name in names if name not in ("Gate-convcolonly", "Post-col")]
+    assert findings_of(tmp_path, "unity", *plain, parents=("Gate_colliders", "colours", "Gate_collection")) == []
 
 
 @pytest.mark.parametrize("parent", ["Gate_coliders", "Gate_collider", "Gate-colliders"])
@@ -118,3 +120,42 @@ def test_the_command_fails_and_says_what_to_do(
     assert done.code == 1
     assert "error: UCX_Fence_00: no mesh is called Fence, so that in Unreal nothing collides by it" in done.out
     assert "The nearest mesh is Gate: call it UCX_Gate_00." in done.out
+
+
+MARKS: tuple[EngineName, ...] = ("unreal", "godot", "unity")
+
+
+@pytest.mark.parametrize(
+    ("names", "marks"),
+    [(("Gate", "UCX_Gate_00"), "unreal"), (("Gate", "Gate-convcolonly"), "godot")],
+)
+def test_marks_of_another_engine_are_an_error(tmp_path: Path, names: tuple[str, str], marks: str) -> None:
+    mesh = load(write_nodes(tmp_path / "gate.glb", dict.fromkeys(names, box())))
+    for engine in MARKS:
+        told = [one for one in check(mesh, engine) if one.rule == f"{engine}-name"]
+        if engine == marks:
+            assert not told
+            continue
+        (finding,) = told
+        title, other = engine.capitalize(), marks.capitalize()
+        assert (finding.severity, finding.hulls) == ("error", (names[1],))
+        assert finding.message == f"{names[1]}: {title} takes no mark of {other}, so that nothing collides by it"
+        assert finding.remedy == f"Mark it for {title}: meshforge convert FILE OUT --names {engine}."
+        save(mesh, tmp_path / f"{engine}.glb", names=engine)
+        assert not [one for one in check(load(tmp_path / f"{engine}.glb"), engine) if one.severity == "error"]
+
+
+def test_an_obj_for_unreal_is_nothing_for_godot(tmp_path: Path) -> None:
+    write_obj(tmp_path / "gate.obj", box(), "UCX_Gate_00")
+    text = (tmp_path / "gate.obj").read_text()
+    (tmp_path / "gate.obj").write_text(text + "g Gate\nf 1 2 3\n")
+    mesh = load(tmp_path / "gate.obj")
+    assert [one.rule for one in check(mesh, "godot") if one.severity == "error"] == ["godot-name"]
+    assert not [one for one in check(mesh, "mujoco") if one.severity == "error"]
+
+
+def test_a_file_with_marks_of_several_engines_is_right_for_each(tmp_path: Path) -> None:
+    names = ("Gate", "UCX_Gate_00", "Gate-convcolonly")
+    mesh = load(write_nodes(tmp_path / "gate.glb", dict.fromkeys(names, box()), ("Gate_colliders",)))
+    for engine in MARKS:
+        assert not [one for one in check(mesh, engine) if one.rule == f"{engine}-name"]

@@ -96,6 +96,10 @@ class EngineGltf(GltfFormat):
 
     engine: ClassVar[CollisionNames]
 
+    def __init_subclass__(cls) -> None:
+        name, cls.engines, cls.holds = cls.engine.title, (cls.engine.engine,), cls.engine.holds
+        cls.title, cls.marks, cls.instead = f"glTF for {name}", f"under names for {name}", fallbacks_of(cls.engine)
+
     def can_write_back(self, asset: Asset) -> bool:
         return isinstance(asset.document, GltfDocument) and asset.document.convention == self.engine.engine
 
@@ -109,22 +113,12 @@ class GltfForUnreal(EngineGltf):
     """With prefixes: `UCX_table_00`."""
 
     engine = UnrealNames()
-    engines = ("unreal",)
-    title = "glTF for Unreal"
-    marks = "under names for Unreal"
-    holds = engine.holds
-    instead = fallbacks_of(engine)
 
 
 class GltfForGodot(EngineGltf):
     """With suffixes: `leg-convcolonly`; rigid bodies, where anything moves, by OMI_physics_body."""
 
     engine = GodotNames()
-    engines = ("godot",)
-    title = "glTF for Godot"
-    marks = "under names for Godot"
-    holds = engine.holds
-    instead = fallbacks_of(engine)
 
     def create(self, asset: Asset, name: str) -> Output:
         from meshforge.formats.gltf import rigid_bodies  # lazy: only glTF needs it
@@ -136,11 +130,6 @@ class GltfForUnity(EngineGltf):
     """With a node for what collides: `table_colliders`."""
 
     engine = UnityNames()
-    engines = ("unity",)
-    title = "glTF for Unity"
-    marks = "under names for Unity"
-    holds = engine.holds
-    instead = fallbacks_of(engine)
 
 
 def features_of(document: GltfDocument, asset: Asset) -> list[Feature]:

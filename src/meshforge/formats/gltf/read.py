@@ -84,16 +84,19 @@ def read_gltf(path: Path) -> Asset:
         notes=tuple(notes),
         mechanism=Mechanism(inertials=masses),
         up="y",
-        name_problems=() if physics.physics_extension_of(scene) else tuple(_find_name_problems(scene)),
+        name_problems=()
+        if physics.physics_extension_of(scene)
+        else tuple(_find_name_problems(scene, reader.convention, [geom.name for geom in geoms])),
     )
 
 
-def _find_name_problems(scene: GltfScene) -> Iterator[NameProblem]:
+def _find_name_problems(scene: GltfScene, marks: str, hulls: Sequence[str]) -> Iterator[NameProblem]:
     nodes = [placement.node for placement in scene.placements.values()]
     things = [[n, entry(scene.tree, "meshes", n["mesh"])] if "mesh" in n else [n] for n in nodes]
     names = [[name for one in own if isinstance(name := one.get("name"), str)] for own in things]
     bare = [own[0] for node, own in zip(nodes, names, strict=True) if own and "mesh" not in node]
-    return find_name_problems([own for node, own in zip(nodes, names, strict=True) if "mesh" in node], bare)
+    meshes = [own for node, own in zip(nodes, names, strict=True) if "mesh" in node]
+    return find_name_problems(meshes, bare, marks, *hulls[:1])
 
 
 def name_bodies(scene: GltfScene) -> dict[int, tuple[int, str]]:

@@ -68,7 +68,9 @@ class ObjFormat(PlainFormat):
         if not isinstance(asset.document, PlainDocument) or not _MARK.search(asset.document.data):
             return asset
         groups = [[name for name in group if name] for group in parse_obj(asset.document.data, "").groups]
-        return replace(asset, name_problems=tuple(one for one in find_name_problems(groups) if one.engine == "unreal"))
+        marks = ("unreal", *(geom.name for geom in asset.geoms[:1])) if asset.document.marked else ()
+        found = find_name_problems(groups, (), *marks)
+        return replace(asset, name_problems=tuple(one for one in found if one.engine == "unreal" or one.is_hull))
 
     def name_hulls(self, document: PlainDocument, geoms: Sequence[Geom]) -> list[str]:
         if not document.marked:
