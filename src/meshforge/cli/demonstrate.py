@@ -58,6 +58,8 @@ def demonstrate(
             remark(f"   {results[step.rule]}")
     if steps:
         remark(f"Next: meshforge synthesize {project}")
+    elif not opened.steps(asset):
+        remark(f"{escape_name(asset)}: nothing is demonstrated yet")
 
 
 def _record_steps(project: Project, asset: str, texts: Sequence[str]) -> list[tuple[Step, str]]:

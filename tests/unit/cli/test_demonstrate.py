@@ -43,6 +43,16 @@ def test_hulls_are_given_by_number_or_by_an_extractor(run: Run, hulls: str, reco
     assert run("demonstrate", "p", "t0.obj", f"{hulls} => Delete").out == f"1. {recorded} => Delete\n"
 
 
+def test_who_asks_what_is_demonstrated_is_told_that_nothing_is(run: Run) -> None:
+    assert (run("demonstrate", "p", "t0.obj").out, run("demonstrate", "p", "t0.obj").err) == (
+        "",
+        "t0.obj: nothing is demonstrated yet\n",
+    )
+    run("demonstrate", "p", "t0.obj", "#0 => Delete")
+    told = run("demonstrate", "p", "t0.obj")
+    assert (told.out, told.err) == ("1. top => Delete\n", "")
+
+
 def test_an_extractor_sees_what_earlier_steps_made_and_numbers_stay_those_of_the_list(run: Run) -> None:
     steps = ("Is(leg) => Merge as misc", "Is(misc) => Each(Replace(box))", "#0 => Replace(box)")
     told = run("demonstrate", "p", "t0.obj", *steps).out.splitlines()
