@@ -63,17 +63,18 @@ def summarize(found: Sequence[tuple[str, Review]], same: Sequence[Review], again
 
 
 _NOTES = (
-    "*Answers alone*: the person demonstrates where `review --json` asks for it, and replies by `review --answers FILE "
-    "--json`. Of a result that is wrong the file says which hulls rules should have selected, or which labels are "
-    "wrong; where neither helps, no more than that it is wrong. Three people a task, on three decompositions.",
-    'The goals are held to *answers alone*. *"Wrong" and no more*: the same, by one person a task, who says nothing else '
-    "of a result that is wrong, as all did before anything was changed (below), when files of answers held no more.",
-    "The commands run in one process; five sessions are held again by a process for each command, and must come to the "
-    "same, act by act. A person's seconds are those of clicks: who types names of hulls takes longer.",
+    "*Answers alone*: the person demonstrates where `review --json` asks for it, and replies by `review --answers "
+    "FILE --json`. Of a result that is wrong the file says which hulls rules should have selected, or which labels "
+    "are wrong; where neither helps, no more than that it is wrong. Three people a task, on three decompositions.",
+    'The goals are held to *answers alone*. *"Wrong" and no more*: the same, by one person a task, who says nothing '
+    "else of a result that is wrong, as all did before anything was changed (below), when files of answers held no "
+    "more.",
+    "The commands run in one process; five sessions are held again by a process for each command, and must come to "
+    "the same, act by act. A person's seconds are those of clicks: who types names of hulls takes longer.",
     "What would make these figures fail: a result that no further answer can make right, as nobody says what is right "
     "of it; such an asset needs review to the end, and is not counted as right.",
-    '*"Wrong" and no more*, from none, is behind, and why: on chairs and dispensers, labels that nobody gave are thought '
-    "of on all hulls far from the labelled ones, so most results are wrong and few are sure; *wrong* alone says nothing "
-    "of labels, and the groups that would are worth less than the next result, as each counts its own hulls alone. What "
-    "is not known to be right needs review; hardly anything is signed off wrong.",
+    '*"Wrong" and no more*, from none, is behind, and why: on chairs and dispensers, labels that nobody gave are '
+    "thought of on all hulls far from the labelled ones, so most results are wrong and few are sure; *wrong* alone "
+    "says nothing of labels, and the groups that would are worth less than the next result, as each counts its own "
+    "hulls alone. What is not known to be right needs review; hardly anything is signed off wrong.",
 )
