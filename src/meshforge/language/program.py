@@ -133,15 +133,16 @@ class Program:
         templates = templates or {}
         try:
             check_templates(self.templates, templates)
-            self._check_has_labels(mesh)
+            self.check_has_labels(mesh)
             return self._run_rules(mesh, templates, selections, memo)
         except MeshForgeError as error:
             raise error.at(str(mesh.asset.path)) if mesh.asset else error from None
 
-    def _check_has_labels(self, mesh: SymbolicMesh) -> None:
+    def check_has_labels(self, mesh: SymbolicMesh) -> None:
+        """Raise ProgramError where it asks for labels and no hull has one."""
         if self.labels_asked and mesh.hulls and not any(hull.label for hull in mesh.hulls):
             remedy = "Label the asset first (meshforge label), or give its labels with --labels FILE."
-            raise ProgramError("no labels: the program asks for labels, and no hull has one", remedy=remedy)
+            raise ProgramError("the program asks for labels, and no hull has one", remedy=remedy)
 
     def _run_rules(
         self,

@@ -63,9 +63,8 @@ def try_program(asset: str, mesh: SymbolicMesh, program: Program, templates: Map
     """The program on an asset."""
     delta = EXTREMITY if program.extremity is None else program.extremity
     meshes, selections = list[SymbolicMesh](), list[int]()
-    if program.labels and not any(hull.label for hull in mesh.hulls):
-        return Trial(asset, (), (), error="no hull has a label")
     try:
+        program.check_has_labels(mesh)
         replay = begin_replay(asset, Demonstration(mesh, (), asset), program.orient, program.contact)
         for number, rule in enumerate(program.rules, 1):
             meshes.append(replay.mesh)

@@ -8,7 +8,7 @@ from dataclasses import replace
 import pytest
 
 from meshforge.label_model import model_family
-from meshforge.language import Delete, Program
+from meshforge.language import Delete, Program, ProgramError
 from meshforge.signoff import (
     BAR,
     Assessment,
@@ -25,6 +25,7 @@ from meshforge.signoff import (
 )
 from meshforge.signoff.confidence import NO_EDIT
 from meshforge.signoff.question import EXCLUDE, NO, NOT_OF_FAMILY, NOT_SOLVED, RIGHT, WRONG
+from meshforge.signoff.trial import try_program
 from meshforge.symbolic import Label, SymbolicMesh
 from meshforge.synthesis import (
     Ambiguous,
@@ -224,7 +225,22 @@ def test_a_program_that_cannot_run_on_an_asset_is_said_so() -> None:
     meshes = {**tables(), "bare": table().with_labels(dict.fromkeys(table().index))}
     found = review(ReviewState(meshes, FRAME, demos=shown(meshes, "t0")))
     assert found.assets["bare"].probability < 0.05
-    assert found.assets["bare"].doubts[0].text == "the program cannot run: no hull has a label"
+    assert (
+        found.assets["bare"].doubts[0].text
+        == "the program cannot run: the program asks for labels, and no hull has one"
+    )
+
+
+@pytest.mark.parametrize(("text", "runs"), [("All => Replace(box)", True), ("Is(leg) => Delete", False)])
+def test_only_a_program_that_asks_for_labels_needs_some(text: str, runs: bool) -> None:
+    bare = table().with_labels(dict.fromkeys(table().index))
+    program = Program.parse(f"labels leg, panel\n\n{text}\n")
+    assert (try_program("bare", bare, program, {}).error is None) == runs
+    if runs:
+        assert program.run(bare).mesh.hulls
+    else:
+        with pytest.raises(ProgramError, match="asks for labels"):
+            program.run(bare)
 
 
 def test_nobody_is_asked_whether_a_result_is_right_that_cannot_be() -> None:
@@ -236,7 +252,7 @@ def test_nobody_is_asked_whether_a_result_is_right_that_cannot_be() -> None:
         state = snooze(state, question)
     bare = [one for one in asked if one.asset == "bare"]
     assert [choice.id for one in bare for choice in one.choices] == [WRONG, *EXCLUDE]
-    assert bare[0].text.startswith("The program cannot run on bare: no hull has a label. ")
+    assert bare[0].text.startswith("The program cannot run on bare: the program asks for labels, and no hull has one. ")
     others = {choice.id for one in asked if one.asset != "bare" for choice in one.choices}
     assert others == {RIGHT, WRONG, *EXCLUDE}
 
