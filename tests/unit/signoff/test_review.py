@@ -7,8 +7,9 @@ from dataclasses import replace
 
 import pytest
 
+from meshforge.common import ProgramError
 from meshforge.label_model import model_family
-from meshforge.language import Delete, Program, ProgramError
+from meshforge.language import Delete, Program
 from meshforge.signoff import (
     BAR,
     Assessment,
