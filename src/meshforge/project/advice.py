@@ -45,7 +45,7 @@ class Adviser:
         )
         if self.rules is None and any(asset.prepared and not asset.is_done for asset in self.assets):
             return replace(
-                found, say=f"{found.say} Or write what is prepared, without a program: {self._type('apply')}"
+                found, say=f"{found.say} Or write what is prepared, without a program ({self._type('apply')})."
             )
         return found
 
@@ -96,8 +96,8 @@ class Adviser:
             return Advice("No asset has hulls that can be read: fix what the remarks name.")
         usual = next(asset for asset in self.assets if len(asset.names) == counts[(len(counts) - 1) // 2])
         say = (
-            f"No hull has a label yet: label those of an asset by hand, best first {usual.id}, here or in the studio. "
-            f"The names of hulls: meshforge info {quote_path(Path(usual.id))} --project {quote_path(self.folder)}"
+            f"No hull has a label yet: label those of an asset by hand, best first {usual.id}, here or in the studio "
+            f"(names of hulls: meshforge info {quote_path(Path(usual.id))} --project {quote_path(self.folder)})."
         )
         return Advice(say, label_command(self.folder, usual.id, usual.names[0], self.vocabulary))
 
@@ -106,8 +106,8 @@ class Adviser:
         example = self.first(labelled) or next(iter(labelled or self.paths))
         quoted = quote_path(Path(example))
         return Advice(
-            f"Nothing is demonstrated yet: show the steps of the edit on an asset or two, best first on {example}. "
-            f"The names of hulls: meshforge info {quoted} --project {quote_path(self.folder)}",
+            f"Nothing is demonstrated yet: show the steps of the edit on an asset or two, best first on {example} "
+            f"(names of hulls: meshforge info {quoted} --project {quote_path(self.folder)}).",
             self._type(f"demonstrate {quoted} 'HULLS => ACTION' ..."),
         )
 

@@ -43,7 +43,7 @@ def test_the_asset_that_tells_most_is_advised_and_one_that_cannot_be_read_passed
     first = suggest_first_demonstration(project, project.assets())
     advised = of(project).next
     assert first in project.assets()
-    assert f"best first on {first}." in advised.say
+    assert f"best first on {first} (" in advised.say
     assert first in (advised.command or "")
     project.path(first).write_text("no obj")
     assert suggest_first_demonstration(project, project.assets()) not in (first, None)
