@@ -228,7 +228,7 @@ def test_a_program_that_cannot_run_on_an_asset_is_said_so() -> None:
     assert found.assets["bare"].probability < 0.05
     assert (
         found.assets["bare"].doubts[0].text
-        == "the program cannot run: the program asks for labels, and no hull has one"
+        == "the program cannot run: it has no labels, though the program asks for some"
     )
 
 
@@ -240,7 +240,7 @@ def test_only_a_program_that_asks_for_labels_needs_some(text: str, runs: bool) -
     if runs:
         assert program.run(bare).mesh.hulls
     else:
-        with pytest.raises(ProgramError, match="asks for labels"):
+        with pytest.raises(ProgramError, match="no labels"):
             program.run(bare)
 
 
@@ -253,7 +253,9 @@ def test_nobody_is_asked_whether_a_result_is_right_that_cannot_be() -> None:
         state = snooze(state, question)
     bare = [one for one in asked if one.asset == "bare"]
     assert [choice.id for one in bare for choice in one.choices] == [WRONG, *EXCLUDE]
-    assert bare[0].text.startswith("The program cannot run on bare: the program asks for labels, and no hull has one. ")
+    assert bare[0].text.startswith(
+        "The program cannot run on bare: it has no labels, though the program asks for some. "
+    )
     others = {choice.id for one in asked if one.asset != "bare" for choice in one.choices}
     assert others == {RIGHT, WRONG, *EXCLUDE}
 
