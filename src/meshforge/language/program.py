@@ -142,7 +142,7 @@ class Program:
         """Raise ProgramError where it asks for labels and no hull has one."""
         if self.labels_asked and mesh.hulls and not any(hull.label for hull in mesh.hulls):
             remedy = "Label the asset first (meshforge label), or give its labels with --labels FILE."
-            raise ProgramError("it has no labels, though the program asks for some", remedy=remedy)
+            raise ProgramError("no labels, though the program asks for some", remedy=remedy)
 
     def _run_rules(
         self,
