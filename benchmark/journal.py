@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from benchmark.report import Tell
+from script.stubs import read_offers
 
 ROOT = Path(__file__).resolve().parents[1]
 JOURNALS = ROOT / ".bench"
@@ -68,7 +69,10 @@ def _find_source(name: str) -> Path | None:
 @cache
 def _list_imports(path: Path) -> frozenset[str]:
     found = set[str]()
-    for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+    tree = ast.parse(path.read_text("utf-8"))
+    source = _FOLDERS["meshforge"]
+    package = ".".join(path.relative_to(source).parts[:-1]) if path.is_relative_to(source) else ""
+    for node in (*ast.walk(tree), *read_offers(tree, package)):
         if isinstance(node, ast.Import):
             found |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom) and node.module:

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import ast
+import compileall
 import os
+import shutil
 import subprocess
 import sys
 from importlib import import_module
@@ -12,8 +15,8 @@ from zipfile import ZipFile
 import pytest
 
 import meshforge
-from meshforge.common.exports import find_homes
 from meshforge.samples import TABLES
+from script.stubs import read_offers
 
 SOURCE = Path(meshforge.__file__).parent
 LAZY = sorted(
@@ -24,12 +27,15 @@ LAZY = sorted(
 TABLE = str(TABLES / "table_03.obj")
 
 
+def read_tree(name: str) -> ast.Module:
+    return ast.parse(SOURCE.joinpath(*name.split(".")[1:], "__init__.py").read_text("utf-8"))
+
+
 @pytest.mark.parametrize("name", LAZY)
 def test_every_name_that_a_package_offers_is_there_and_no_other(name: str) -> None:
     package = import_module(name)
     for offered in package.__all__:
         assert getattr(package, offered) is not None
-    assert set(find_homes(name)) <= set(package.__all__)
     with pytest.raises(AttributeError, match=f"module '{name}' has no attribute 'nothing'"):
         package.nothing  # noqa: B018
 
@@ -38,8 +44,7 @@ def test_every_name_that_a_package_offers_is_there_and_no_other(name: str) -> No
 def test_no_name_is_that_of_a_module_which_would_take_its_place(name: str) -> None:
     folder = SOURCE.joinpath(*name.split(".")[1:])
     modules = {path.stem for path in folder.iterdir() if path.suffix == ".py" or path.is_dir()}
-    import_module(name)
-    assert not modules & set(find_homes(name))
+    assert not modules & {one.name for node in read_offers(read_tree(name), name) for one in node.names}
 
 
 @pytest.mark.slow
@@ -71,11 +76,30 @@ def test_a_command_imports_no_more_than_it_needs(words: list[str], absent: tuple
     assert done.stdout.splitlines()[-1] == "ABSENT []"
 
 
+def test_names_are_found_without_any_source(tmp_path: Path) -> None:
+    """As in a program that was frozen: compiled modules and data, no `.py`."""
+    tree = tmp_path / "meshforge"
+    shutil.copytree(SOURCE, tree, ignore=shutil.ignore_patterns("__pycache__", "static", "*.pyi"))
+    assert compileall.compile_dir(tree, quiet=1, legacy=True)
+    for path in tree.rglob("*.py"):
+        path.unlink()
+    code = (
+        "import meshforge as mf, meshforge.batch as batch\n"
+        "from meshforge.cli import main\n"
+        "print([getattr(mf, name) is not None for name in mf.__all__].count(False), len(batch.__all__) > 50)\n"
+        f"import sys; sys.argv[1:] = ['info', {TABLE!r}]; main()"
+    )
+    environment = {**os.environ, "PYTHONPATH": str(tmp_path)}
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=tmp_path, env=environment)
+    first, second, *_ = done.stdout.splitlines() or [done.stderr]
+    assert (first, done.returncode) == ("0 True", 0), done.stderr
+    assert "table_03.obj: obj, 36 hulls" in second
+
+
 def test_names_are_found_in_a_zip_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    block = "if TYPE_CHECKING:\n    from zipped_package.home import (\n        answer,\n    )\nelse:\n"
-    imports = "from typing import TYPE_CHECKING\n\nfrom meshforge.common.exports import export_lazily\n\n"
+    text = "from meshforge.common.exports import export_lazily\n\n__getattr__, __all__ = export_lazily(__name__, {})\n"
     with ZipFile(tmp_path / "package.zip", "w") as file:
-        file.writestr("zipped_package/__init__.py", f"{imports}{block}    __getattr__ = export_lazily(__name__)\n")
+        file.writestr("zipped_package/__init__.py", text.replace("{}", "{'home': 'answer'}"))
         file.writestr("zipped_package/home.py", "answer = 42\n")
     monkeypatch.syspath_prepend(str(tmp_path / "package.zip"))
     assert import_module("zipped_package").answer == 42

@@ -3,228 +3,46 @@ in place, and the report."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from meshforge.common.exports import export_lazily
 
-if TYPE_CHECKING:
-    from meshforge.batch.archive import write_archive
-    from meshforge.batch.check import CheckJournal, CheckOutcome, CheckTask, check_asset, check_assets, open_journal
-    from meshforge.batch.corrections import (
-        Correction,
-        RuleSelection,
-        action_text,
-        action_text_without_each,
-        replay_corrections,
-        selections_of,
-    )
-    from meshforge.batch.discovery import (
-        ADDED,
-        OWN_FOLDERS,
-        SETTINGS,
-        STATE,
-        AssetSet,
-        asset_id,
-        expand,
-        find_assets_in,
-    )
-    from meshforge.batch.edit import apply
-    from meshforge.batch.engine_trial import ENGINES_TO_ASK, examine_file
-    from meshforge.batch.execution import execute
-    from meshforge.batch.inputs import inputs_of
-    from meshforge.batch.jobs import (
-        APPLY_DEFAULTS,
-        ApplyOptions,
-        ApplyTask,
-        AssetJob,
-        load_named_templates,
-        load_templates,
-        make_jobs,
-        plan_run,
-        read_template,
-        template_folders,
-    )
-    from meshforge.batch.lock import hold_lock
-    from meshforge.batch.outcome import (
-        MOST_SHOWN,
-        AssetOutcome,
-        Failed,
-        Held,
-        RuleEffect,
-        RunSummary,
-        Skipped,
-        describe_alarms,
-        status_of,
-        to_json_line,
-    )
-    from meshforge.batch.preparation.decompose import Concave, DecompositionResult, decompose_asset, replace_concave
-    from meshforge.batch.preparation.record import (
-        Preparation,
-        Replacement,
-        apply_preparation,
-        find_sources,
-        find_surfaces,
-        replay_preparation,
-    )
-    from meshforge.batch.preparation.split import HullDivision, cut_hull, divide_hulls, split_hull
-    from meshforge.batch.preparation.storage import (
-        RECORD_FILE,
-        read_preparation,
-        read_prepared,
-        read_steps,
-        record_digest,
-        remove_preparation,
-        write_preparation,
-    )
-    from meshforge.batch.provenance import (
-        OutputInputs,
-        Stamp,
-        asset_digests,
-        content_digest,
-        has_same_files,
-        program_digest,
-        read_stamp,
-        software_version,
-        source_files,
-        stamp_path,
-        template_digests,
-        text_digest,
-        value_digest,
-    )
-    from meshforge.batch.report.contents import (
-        AssetStanding,
-        EarlierExamination,
-        LabelStatus,
-        MeshReader,
-        ReportAsset,
-        ReportStatus,
-        RunFigures,
-        StandingWord,
-        TopItems,
-        read_again,
-        read_job,
-    )
-    from meshforge.batch.report.outcomes import choose_outcomes, compare_outcomes
-    from meshforge.batch.report.page import MOST_PICTURED, REPORT_DEFAULTS, ReportHeader, ReportOptions, write_report
-    from meshforge.batch.workers import (
-        EXECUTION_DEFAULTS,
-        IN_PROCESS,
-        TIMEOUT,
-        ExecutionOptions,
-        WorkerFailure,
-        count_processors,
-        raise_if_stopped,
-        run_isolated,
-    )
-else:
-    __getattr__ = export_lazily(__name__)
-
-__all__ = [
-    "ADDED",
-    "APPLY_DEFAULTS",
-    "ENGINES_TO_ASK",
-    "EXECUTION_DEFAULTS",
-    "IN_PROCESS",
-    "MOST_PICTURED",
-    "MOST_SHOWN",
-    "OWN_FOLDERS",
-    "RECORD_FILE",
-    "REPORT_DEFAULTS",
-    "SETTINGS",
-    "STATE",
-    "TIMEOUT",
-    "ApplyOptions",
-    "ApplyTask",
-    "AssetJob",
-    "AssetOutcome",
-    "AssetSet",
-    "AssetStanding",
-    "CheckJournal",
-    "CheckOutcome",
-    "CheckTask",
-    "Concave",
-    "Correction",
-    "DecompositionResult",
-    "EarlierExamination",
-    "ExecutionOptions",
-    "Failed",
-    "Held",
-    "HullDivision",
-    "LabelStatus",
-    "MeshReader",
-    "OutputInputs",
-    "Preparation",
-    "Replacement",
-    "ReportAsset",
-    "ReportHeader",
-    "ReportOptions",
-    "ReportStatus",
-    "RuleEffect",
-    "RuleSelection",
-    "RunFigures",
-    "RunSummary",
-    "Skipped",
-    "Stamp",
-    "StandingWord",
-    "TopItems",
-    "WorkerFailure",
-    "action_text",
-    "action_text_without_each",
-    "apply",
-    "apply_preparation",
-    "asset_digests",
-    "asset_id",
-    "check_asset",
-    "check_assets",
-    "choose_outcomes",
-    "compare_outcomes",
-    "content_digest",
-    "count_processors",
-    "cut_hull",
-    "decompose_asset",
-    "describe_alarms",
-    "divide_hulls",
-    "examine_file",
-    "execute",
-    "expand",
-    "find_assets_in",
-    "find_sources",
-    "find_surfaces",
-    "has_same_files",
-    "hold_lock",
-    "inputs_of",
-    "load_named_templates",
-    "load_templates",
-    "make_jobs",
-    "open_journal",
-    "plan_run",
-    "program_digest",
-    "raise_if_stopped",
-    "read_again",
-    "read_job",
-    "read_preparation",
-    "read_prepared",
-    "read_stamp",
-    "read_steps",
-    "read_template",
-    "record_digest",
-    "remove_preparation",
-    "replace_concave",
-    "replay_corrections",
-    "replay_preparation",
-    "run_isolated",
-    "selections_of",
-    "software_version",
-    "source_files",
-    "split_hull",
-    "stamp_path",
-    "status_of",
-    "template_digests",
-    "template_folders",
-    "text_digest",
-    "to_json_line",
-    "value_digest",
-    "write_archive",
-    "write_preparation",
-    "write_report",
-]
+__getattr__, __all__ = export_lazily(
+    __name__,
+    {
+        "archive": "write_archive",
+        "check": "CheckJournal CheckOutcome CheckTask check_asset check_assets open_journal",
+        "corrections": "Correction RuleSelection action_text action_text_without_each replay_corrections selections_of",
+        "discovery": "ADDED OWN_FOLDERS SETTINGS STATE AssetSet asset_id expand find_assets_in",
+        "edit": "apply",
+        "engine_trial": "ENGINES_TO_ASK examine_file",
+        "execution": "execute",
+        "inputs": "inputs_of",
+        "jobs": (
+            "APPLY_DEFAULTS ApplyOptions ApplyTask AssetJob load_named_templates load_templates make_jobs "
+            "plan_run read_template template_folders"
+        ),
+        "lock": "hold_lock",
+        "outcome": (
+            "MOST_SHOWN AssetOutcome Failed Held RuleEffect RunSummary Skipped describe_alarms status_of to_json_line"
+        ),
+        "preparation.decompose": "Concave DecompositionResult decompose_asset replace_concave",
+        "preparation.record": "Preparation Replacement apply_preparation find_sources find_surfaces replay_preparation",
+        "preparation.split": "HullDivision cut_hull divide_hulls split_hull",
+        "preparation.storage": (
+            "RECORD_FILE read_preparation read_prepared read_steps record_digest remove_preparation write_preparation"
+        ),
+        "provenance": (
+            "OutputInputs Stamp asset_digests content_digest has_same_files program_digest read_stamp "
+            "software_version source_files stamp_path template_digests text_digest value_digest"
+        ),
+        "report.contents": (
+            "AssetStanding EarlierExamination LabelStatus MeshReader ReportAsset ReportStatus RunFigures "
+            "StandingWord TopItems read_again read_job"
+        ),
+        "report.outcomes": "choose_outcomes compare_outcomes",
+        "report.page": "MOST_PICTURED REPORT_DEFAULTS ReportHeader ReportOptions write_report",
+        "workers": (
+            "EXECUTION_DEFAULTS IN_PROCESS TIMEOUT ExecutionOptions WorkerFailure count_processors "
+            "raise_if_stopped run_isolated"
+        ),
+    },
+)

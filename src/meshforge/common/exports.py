@@ -2,37 +2,27 @@
 
 from __future__ import annotations
 
-import re
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from importlib import import_module
 from typing import Any
 
-_IMPORT = re.compile(r"^    from ([\w.]+) import (\([^)]*\)|.+)", re.MULTILINE)
 
+def export_lazily(package: str, offers: Mapping[str, str]) -> tuple[Callable[[str], Any], list[str]]:
+    """The `__getattr__` and `__all__` of a package. offers: the names that each of its modules has for others, in one
+    string; a module of another package goes by its whole name.
 
-def export_lazily(package: str) -> Callable[[str], Any]:
-    """The `__getattr__` of a package: its block `if TYPE_CHECKING:` says which names come from which modules.
-
-    A name must not be that of a module of the package, too, which importing the module would put in its place.
+    A name must not be that of a module of the package, too, which importing the module would put in its place. Type
+    checkers read the `__init__.pyi` beside, which `python -m script.stubs` makes of this.
     """
-    homes: dict[str, str] = {}
+    homes = {name: home for home, names in offers.items() for name in names.split()}
 
     def get_attribute(name: str) -> Any:
-        if not homes:
-            homes.update(find_homes(package))
         if name not in homes:
             raise AttributeError(f"module {package!r} has no attribute {name!r}")
-        value = getattr(import_module(homes[name]), name)
+        home = homes[name]
+        value = getattr(import_module(home if home.startswith("meshforge.") else f"{package}.{home}"), name)
         setattr(sys.modules[package], name, value)
         return value
 
-    return get_attribute
-
-
-def find_homes(package: str) -> dict[str, str]:
-    """The module of each name that the `__init__.py` of an imported package imports for type checkers only."""
-    module: Any = sys.modules[package]
-    source = module.__loader__.get_data(module.__file__).decode("utf-8")  # from a folder as from a zip file
-    block = source.replace("\r\n", "\n").partition("\nif TYPE_CHECKING:\n")[2].partition("\nelse:\n")[0]
-    return {name: home for home, names in _IMPORT.findall(block) for name in re.findall(r"\w+", names)}
+    return get_attribute, sorted(homes)

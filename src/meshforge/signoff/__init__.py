@@ -2,59 +2,20 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from meshforge.common.exports import export_lazily
 
-if TYPE_CHECKING:
-    from meshforge.signoff.alarms import describe_odd_results
-    from meshforge.signoff.assessment import BAR, Assessment, AssetConfidence, Doubt, DoubtKind
-    from meshforge.signoff.measures import EditMeasures, measure_edit
-    from meshforge.signoff.question import (
-        DemonstrationQuestion,
-        ExclusionReason,
-        GroupQuestion,
-        HullPlace,
-        OrientationQuestion,
-        ReadingQuestion,
-        RepairQuestion,
-        ResultQuestion,
-        ReviewChoice,
-        ReviewQuestion,
-        ReviewReply,
-        SlipQuestion,
-        SpanQuestion,
-        question_of,
-    )
-    from meshforge.signoff.review import assess_asset, review_family
-    from meshforge.signoff.state import ReviewState
-else:
-    __getattr__ = export_lazily(__name__)
-
-__all__ = [
-    "BAR",
-    "Assessment",
-    "AssetConfidence",
-    "DemonstrationQuestion",
-    "Doubt",
-    "DoubtKind",
-    "EditMeasures",
-    "ExclusionReason",
-    "GroupQuestion",
-    "HullPlace",
-    "OrientationQuestion",
-    "ReadingQuestion",
-    "RepairQuestion",
-    "ResultQuestion",
-    "ReviewChoice",
-    "ReviewQuestion",
-    "ReviewReply",
-    "ReviewState",
-    "SlipQuestion",
-    "SpanQuestion",
-    "assess_asset",
-    "describe_odd_results",
-    "measure_edit",
-    "question_of",
-    "review_family",
-]
+__getattr__, __all__ = export_lazily(
+    __name__,
+    {
+        "alarms": "describe_odd_results",
+        "assessment": "BAR Assessment AssetConfidence Doubt DoubtKind",
+        "measures": "EditMeasures measure_edit",
+        "question": (
+            "DemonstrationQuestion ExclusionReason GroupQuestion HullPlace OrientationQuestion ReadingQuestion "
+            "RepairQuestion ResultQuestion ReviewChoice ReviewQuestion ReviewReply SlipQuestion SpanQuestion "
+            "question_of"
+        ),
+        "review": "assess_asset review_family",
+        "state": "ReviewState",
+    },
+)

@@ -226,10 +226,7 @@ def test_a_program_that_cannot_run_on_an_asset_is_said_so() -> None:
     meshes = {**tables(), "bare": table().with_labels(dict.fromkeys(table().index))}
     found = review(ReviewState(meshes, FRAME, demos=shown(meshes, "t0")))
     assert found.assets["bare"].probability < 0.05
-    assert (
-        found.assets["bare"].doubts[0].text
-        == "the program cannot run: no labels, though the program asks for some"
-    )
+    assert found.assets["bare"].doubts[0].text == "the program cannot run: no labels, though the program asks for some"
 
 
 @pytest.mark.parametrize(("text", "runs"), [("All => Replace(box)", True), ("Is(leg) => Delete", False)])
@@ -253,9 +250,7 @@ def test_nobody_is_asked_whether_a_result_is_right_that_cannot_be() -> None:
         state = snooze(state, question)
     bare = [one for one in asked if one.asset == "bare"]
     assert [choice.id for one in bare for choice in one.choices] == [WRONG, *EXCLUDE]
-    assert bare[0].text.startswith(
-        "The program cannot run on bare: no labels, though the program asks for some. "
-    )
+    assert bare[0].text.startswith("The program cannot run on bare: no labels, though the program asks for some. ")
     others = {choice.id for one in asked if one.asset != "bare" for choice in one.choices}
     assert others == {RIGHT, WRONG, *EXCLUDE}
 

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from meshforge.common.exports import export_lazily
 
-if TYPE_CHECKING:
-    from meshforge.labels.vlm.label_by_vlm import VlmForecast, VlmResult, forecast_vlm, label_with_vlm
-    from meshforge.labels.vlm.limits import Usage
-else:
-    __getattr__ = export_lazily(__name__)
-
-__all__ = ["Usage", "VlmForecast", "VlmResult", "forecast_vlm", "label_with_vlm"]
+__getattr__, __all__ = export_lazily(
+    __name__,
+    {
+        "label_by_vlm": "VlmForecast VlmResult forecast_vlm label_with_vlm",
+        "limits": "Usage",
+    },
+)

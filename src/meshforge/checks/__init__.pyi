@@ -1,0 +1,14 @@
+# Written by `python -m script.stubs`.
+from meshforge.checks.fix import FixResult as FixResult
+from meshforge.checks.fix import fix as fix
+from meshforge.checks.clearance import measure_kept_space as measure_kept_space
+from meshforge.checks.engine_trial import EngineTrial as EngineTrial
+from meshforge.checks.examination import CheckOptions as CheckOptions
+from meshforge.checks.examination import Examination as Examination
+from meshforge.checks.examination import check as check
+from meshforge.checks.examination import draw_examination as draw_examination
+from meshforge.checks.examination import examine_mesh as examine_mesh
+from meshforge.checks.registry import CHECKS as CHECKS
+from meshforge.checks.registry import Check as Check
+from meshforge.engines import Finding as Finding
+from meshforge.engines import Severity as Severity
