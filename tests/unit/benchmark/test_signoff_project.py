@@ -15,7 +15,7 @@ from benchmark.signoff.product_before import FROZEN, list_units, measure, read, 
 from benchmark.signoff.queue import DONE, ReviewCourse, sign_off
 from benchmark.signoff.reviewer import Reviewer
 from benchmark.signoff.sessions import Unit
-from benchmark.signoff.terminal import AnswersClient, TerminalClient
+from benchmark.signoff.terminal import AnswersClient, TerminalClient, WrongClient
 from benchmark.study import TRUE, Bench
 from benchmark.study.condition import PROPAGATED
 from benchmark.study.project import name_by_files, open_project
@@ -77,17 +77,18 @@ def test_commands_alone_come_to_the_same_as_methods(bench: Bench, condition: obj
 
 
 @pytest.mark.slow
-def test_who_gives_answers_alone_shows_no_correction(bench: Bench) -> None:
-    alone = sign_off(bench, PROPAGATED[0], 1, AnswersClient)
+def test_who_says_no_more_than_wrong_corrects_nothing(bench: Bench) -> None:
+    alone = sign_off(bench, PROPAGATED[0], 1, WrongClient)
     assert alone.ended == DONE
     assert "correction" not in alone.acts
 
 
 @pytest.mark.slow
-def test_who_says_wrong_says_which_hulls_are_right(bench: Bench) -> None:
+@pytest.mark.parametrize(("make", "says"), [(Client, True), (AnswersClient, True), (WrongClient, False)])
+def test_who_says_wrong_says_which_hulls_are_right(bench: Bench, make: type[Client], says: bool) -> None:
     reviewer = Reviewer(bench, 1, TRUE)
     with open_project(bench.truth) as project:
-        client = Client(project)
+        client = make(project)
         course = ReviewCourse(bench.truth, TRUE, 1, reviewer, client)
         first, second, *_ = bench.samples
         client.demonstrate(first, reviewer.shows(course.desk, first).steps)
@@ -101,8 +102,9 @@ def test_who_says_wrong_says_which_hulls_are_right(bench: Bench) -> None:
         odd = replace(output, edited=replace(output.edited, trace=tuple(trace)))
         course._correct(question, ReviewReply(question.id, "wrong"), odd)
         (verdict,) = project.feedback().verdicts[question.asset]
-        assert tuple(frozenset(one.select) for one in verdict.meant) == bench.truth.reference[question.asset]
-        assert reviewer.ledger.acts["correction"] == 1
+        meant = tuple(frozenset(one.select) for one in verdict.meant)
+        assert meant == (bench.truth.reference[question.asset] if says else ())
+        assert reviewer.ledger.acts["correction"] == says
         assert second in project.assets()
 
 
