@@ -53,11 +53,11 @@ class ReviewSession:
             remark(f"{one.question}: this question is not asked any more, so the reply is skipped")
             return False
         said = before.said
-        reply = one.to_reply(question_of(said.asked)) if said else None
-        if said is None or reply is None or reply.later or reply.to_json() == said.reply:
+        question = question_of(said.asked) if said else None
+        reply = one.to_reply(question) if question else None
+        if not (said and question and reply) or reply.later or reply.to_json() == said.reply:
             remark(f"{one.question}: it was replied to before")
             return True
-        question = question_of(said.asked)
         try:
             self._project.reply_again(question, reply)
         except MeshForgeError as error:

@@ -79,6 +79,19 @@ def look(project: Project) -> ProjectReview:
     return project.review(STRICT, execution=IN_PROCESS)
 
 
+def review_once(temporary: pytest.TempPathFactory) -> Callable[[str], Path]:
+    """Gives the folder of a family that was reviewed once, made where it is first asked for."""
+    folders = dict[str, Path]()
+
+    def make(name: str) -> Path:
+        if name not in folders:
+            folders[name] = temporary.mktemp(name)
+            look(MAKERS[name](folders[name]))
+        return folders[name]
+
+    return make
+
+
 def write(project: Project, *assets: str) -> None:
     list(project.apply(assets or None, execution=IN_PROCESS))
 

@@ -15,13 +15,13 @@ from tests.unit.cli.in_process import Run, runner
 from tests.unit.project.replying import (
     ASKED,
     CASES,
-    MAKERS,
     STRICT,
     Case,
     copy,
     find_question,
     look,
     probabilities,
+    review_once,
     write,
 )
 
@@ -41,15 +41,7 @@ class Place(NamedTuple):
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
-    folders = dict[str, Path]()
-
-    def make(name: str) -> Path:
-        if name not in folders:
-            folders[name] = tmp_path_factory.mktemp(name)
-            look(MAKERS[name](folders[name]))
-        return folders[name]
-
-    return make
+    return review_once(tmp_path_factory)
 
 
 @pytest.fixture

@@ -12,7 +12,6 @@ from tests.unit.cli.in_process import runner
 from tests.unit.project.racks import BLOCK
 from tests.unit.project.replying import (
     CASES,
-    MAKERS,
     STRICT,
     Direction,
     copy,
@@ -20,21 +19,13 @@ from tests.unit.project.replying import (
     look,
     probabilities,
     reply_by_method,
+    review_once,
 )
 
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
-    """The folder of a family that was reviewed once, made where it is asked for."""
-    folders = dict[str, Path]()
-
-    def make(name: str) -> Path:
-        if name not in folders:
-            folders[name] = tmp_path_factory.mktemp(name)
-            look(MAKERS[name](folders[name]))
-        return folders[name]
-
-    return make
+    return review_once(tmp_path_factory)
 
 
 @pytest.mark.parametrize("road", ["Project.reply", "review --answers"])
