@@ -24,13 +24,7 @@ from meshforge.language.actions.edit import Template as Template
 from meshforge.language.actions.registry import ACTIONS as ACTIONS
 from meshforge.language.actions.registry import make_action as make_action
 from meshforge.language.actions.registry import plugin_of as plugin_of
-from meshforge.language.apply import ActionResult as ActionResult
-from meshforge.language.apply import RuleTrace as RuleTrace
 from meshforge.language.apply import apply_action as apply_action
-from meshforge.language.apply import apply_rule as apply_rule
-from meshforge.language.apply import apply_to_selection as apply_to_selection
-from meshforge.language.apply import from_canonical_frame as from_canonical_frame
-from meshforge.language.apply import to_canonical_frame as to_canonical_frame
 from meshforge.language.labels import check_declared as check_declared
 from meshforge.language.labels import show_label as show_label
 from meshforge.language.orient import find_rotation as find_rotation
@@ -44,6 +38,11 @@ from meshforge.language.program import HeaderComments as HeaderComments
 from meshforge.language.program import Program as Program
 from meshforge.language.program import RunResult as RunResult
 from meshforge.language.program import rename_in_program as rename_in_program
+from meshforge.language.replay import Replay as Replay
+from meshforge.language.replay import RuleTrace as RuleTrace
+from meshforge.language.replay import from_canonical_frame as from_canonical_frame
+from meshforge.language.replay import make_anew as make_anew
+from meshforge.language.replay import to_canonical_frame as to_canonical_frame
 from meshforge.language.syntax import EXTREMITY as EXTREMITY
 from meshforge.language.syntax import SLACK as SLACK
 from meshforge.language.syntax import All as All
