@@ -19,7 +19,11 @@ from script.sign_off_picture import draw_sign_off
 from script.span_picture import draw_spans
 
 SHOWN = ("table_03", "table_08", "table_09", "table_11")
-CHOICES = ("Geo(Is(handle), -Z)", "Attach(Is(handle), Is(drawer))", "Geo(Is(handle), -Y)")
+CHOICES = (
+    "Attach(Is(handle), Is(drawer))",
+    "Geo(Is(handle), -Z)",
+    "Diff(Geo(Is(handle), -Z), Attach(Is(handle), Is(panel)))",
+)
 """Three readings of a rule of docs/learning.md, on the table that it is asked about."""
 BY_HAND = ("table_10", "table_08")
 """The tables that somebody labels who follows the advice."""
@@ -52,7 +56,7 @@ def _tables(path: Path) -> None:
 
 
 def _question(path: Path) -> None:
-    mesh, _ = to_canonical_frame(load(TABLES / "table_03.obj"), Program.read(TABLES / "tables.mf").orient)
+    mesh, _ = to_canonical_frame(load(TABLES / "table_02.obj"), Program.read(TABLES / "tables.mf").orient)
     drawn = []
     for text in CHOICES:
         (rule,) = Program.parse(f"{text} => Delete").rules

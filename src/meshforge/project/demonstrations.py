@@ -234,7 +234,7 @@ def take_back(store: Store, said: str) -> str | None:
     with store.lock():
         kept = store.feedback().answers_and_fixes
         if said not in kept:
-            listing = f"See what was said: meshforge synthesize {store.folder} --list-answers"
+            listing = f"See what was said: meshforge review {store.folder} --list-answers"
             remedy = suggest_name(said, kept, listing)
             raise ProjectError(f"there is no answer or repair {said!r}", where=str(store.folder), remedy=remedy)
         event = kept[said]
