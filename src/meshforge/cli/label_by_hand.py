@@ -13,6 +13,7 @@ from meshforge.cli.terminal import print_json
 from meshforge.common import UsageError, escape_name, pluralize, quote_path, suggest_among
 from meshforge.labels import label_command
 from meshforge.project import Project
+from meshforge.store import History
 from meshforge.symbolic import Label, SymbolicMesh
 
 _OWN = ("project", "asset", "hulls", "vocabulary", "json")
@@ -35,7 +36,7 @@ def label_by_hand(
     anything of it is wrong.
     """
     from meshforge.studio.edits.assets import LabelByName  # lazy: 140 classes that labels from elsewhere do not need
-    from meshforge.studio.history import History  # lazy: as LabelByName
+    from meshforge.studio.edits.base import make_edit  # lazy: as LabelByName
 
     if not texts and "=" in asset:
         remedy = f"meshforge label {quote_path(project.folder)} ASSET '{asset}'"
@@ -48,7 +49,7 @@ def label_by_hand(
     see = f"meshforge info {quote_path(Path(asset))} --project {quote_path(project.folder)}"
     labels = _parse_labels(texts, mesh, words, see)
     edit = LabelByName(asset=asset, labels=labels, vocabulary=None if vocabulary is None else tuple(vocabulary))
-    entry = History(project).do(project, edit)
+    entry = make_edit(History(project.folder), project, edit)
     before = {name: mesh.hull_of(name).annotation for name in mesh.index}
     after = before | {name: Label(label, 1.0, "user") if label else None for name, label in labels.items()}
     changed = {name: labels[name] for name in labels if after[name] != before[name]}

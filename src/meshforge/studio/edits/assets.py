@@ -8,12 +8,11 @@ from typing import Literal
 
 from pydantic import Field
 
-from meshforge.batch import SETTINGS
 from meshforge.common import join_names, pluralize
 from meshforge.project import Project
 from meshforge.signoff import ExclusionReason
-from meshforge.store import ExclusionEvent, parse_action_text
-from meshforge.studio.edits.base import EVENTS_FILE, LABELS, PREPARED_FILES, PROGRAM_FILES, Edit, JobEdit, LabelsByAsset
+from meshforge.store import ExclusionEvent, Layout, list_files, parse_action_text
+from meshforge.studio.edits.base import Edit, JobEdit, LabelsByAsset
 from meshforge.studio.wire.requests import HullOfAsset
 
 
@@ -21,7 +20,7 @@ class LabelHulls(Edit):
     """Label some hulls of an asset; null takes their labels away."""
 
     kind: Literal["label"] = "label"
-    touches = ("labels/{asset}.json",)
+    touches = (Layout.labels,)
     asset: str
     hulls: tuple[str, ...]
     label: str | None
@@ -43,7 +42,7 @@ class LabelByName(Edit):
     vocabulary: set before, None for that of the project.
     """
 
-    touches = ("labels/{asset}.json",)
+    touches = (Layout.labels,)
     asset: str
     labels: dict[str, str | None]
     vocabulary: tuple[str, ...] | None = None
@@ -67,7 +66,6 @@ class LabelGroup(Edit):
     """Give hulls of several assets one label; null takes their labels away."""
 
     kind: Literal["label-group"] = "label-group"
-    touches = ()
     hulls: tuple[HullOfAsset, ...]
     label: str | None
 
@@ -98,7 +96,7 @@ class LabelFromFiles(Edit):
     """Take over the labels files beside the assets."""
 
     kind: Literal["label-files"] = "label-files"
-    touches = (SETTINGS, *LABELS)
+    touches = (Layout.settings, Layout.labels, Layout.label_sources)
 
     def apply(self, project: Project) -> None:
         project.label_from_files()
@@ -111,7 +109,7 @@ class LabelFromNames(Edit):
     """Label hulls without a label by the words in their names and in the names of their bodies."""
 
     kind: Literal["label-names"] = "label-names"
-    touches = LABELS
+    touches = (Layout.labels, Layout.label_sources)
 
     def apply(self, project: Project) -> None:
         project.label_from_names()
@@ -124,7 +122,7 @@ class SetVocabulary(Edit):
     """Set the labels that hulls can have, in the order of their colours."""
 
     kind: Literal["vocabulary"] = "vocabulary"
-    touches = (SETTINGS,)
+    touches = (Layout.settings,)
     labels: tuple[str, ...]
 
     def apply(self, project: Project) -> None:
@@ -138,7 +136,7 @@ class RenameLabel(Edit):
     """Give a label of the vocabulary another name, wherever it is used."""
 
     kind: Literal["rename-label"] = "rename-label"
-    touches = (SETTINGS, *LABELS, "demonstrations", "corrections", EVENTS_FILE, *PROGRAM_FILES)
+    touches = tuple(file for file in list_files() if file.words)
     old: str
     new: str
 
@@ -154,7 +152,7 @@ class Propagate(JobEdit):
     many entries the history had when labels were read."""
 
     kind: Literal["propagate"] = "propagate"
-    touches = ("labels",)
+    touches = (Layout.labels,)
     used: int
     next: str | None
 
@@ -166,7 +164,7 @@ class LabelFromModel(JobEdit):
     """A job asked a model for labels."""
 
     kind: Literal["label-vlm"] = "label-vlm"
-    touches = ("labels",)
+    touches = (Layout.labels,)
     model: str
 
     def describe(self, project: Project) -> str:
@@ -177,7 +175,7 @@ Vector = tuple[float, float, float]
 
 
 class _PreparationEdit(Edit):
-    touches = PREPARED_FILES
+    touches = tuple(file for file in list_files() if file.hulls)
     asset: str
 
 
@@ -216,7 +214,7 @@ class ReviewAssets(Edit):
     """
 
     kind: Literal["review"] = "review"
-    touches = (EVENTS_FILE,)
+    touches = (Layout.events,)
     ids: tuple[str, ...]
     verdict: Literal["accepted", "wrong"] | None
     note: str | None = None
@@ -238,7 +236,7 @@ class ExcludeAssets(Edit):
     """Give some assets up, with the reason; null includes them again."""
 
     kind: Literal["exclude"] = "exclude"
-    touches = (EVENTS_FILE,)
+    touches = (Layout.events,)
     ids: tuple[str, ...]
     reason: ExclusionReason | None
 
@@ -252,7 +250,7 @@ class ExcludeAssets(Edit):
 
 
 class _CorrectionEdit(Edit):
-    touches = ("corrections/{asset}.json", EVENTS_FILE)
+    touches = (Layout.corrections, Layout.events)
     asset: str
 
 
@@ -300,12 +298,14 @@ class PrepareNew(_PreparationEdit, JobEdit):
 class AddTemplate(Edit):
     """Keep an uploaded file as a template. file: where it lies."""
 
-    touches = ("templates/{name}",)
     name: str
     file: str
 
     def apply(self, project: Project) -> None:
         project.add_template(self.name, Path(self.file).read_bytes())
+
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
+        return (project.layout.own_templates / self.name,)
 
     def describe(self, project: Project) -> str:
         return f"template {self.name} added"
@@ -315,7 +315,7 @@ class LeaveOut(Edit):
     """Leave assets out of the family, or put them back; what is kept for them stays."""
 
     kind: Literal["leave-out"] = "leave-out"
-    touches = (SETTINGS,)
+    touches = (Layout.settings,)
     ids: tuple[str, ...]
     out: bool = True
 
@@ -333,16 +333,15 @@ class RemoveAssets(Edit):
     """Remove assets from the project, with their labels, demonstrations and corrections; their own files stay."""
 
     kind: Literal["remove-assets"] = "remove-assets"
-    touches = (SETTINGS, EVENTS_FILE)
+    touches = (Layout.settings, Layout.events)
     ids: tuple[str, ...]
 
     def apply(self, project: Project) -> None:
         project.remove_assets(self.ids)
 
     def list_paths(self, project: Project) -> tuple[Path, ...]:
-        layout = project.layout
-        kinds = (layout.labels, layout.demonstration, layout.corrections, layout.preparation)
-        return (*super().list_paths(project), *(kind(asset) for asset in self.ids for kind in kinds))
+        kept = (path for asset in self.ids for path in project.layout.list_kept(asset))
+        return (*super().list_paths(project), *kept)
 
     def describe(self, project: Project) -> str:
         return f"{_count_or_name(self.ids)} removed from the project"

@@ -13,9 +13,8 @@ from meshforge.formats import DecomposeBy
 from meshforge.geometry import CoacdSettings, DecomposeSettings, VhacdSettings
 from meshforge.labels import LabelOutcome, PropagationResult, VlmForecast, VlmResult, check_vlm_settings
 from meshforge.project import LIKELY, PreparationResult, Project, read_preparation_plan
-from meshforge.store import SpanLine, VlmSettings
+from meshforge.store import ConflictError, SpanLine, VlmSettings
 from meshforge.studio.edits.assets import Decompose, LabelFromModel, Propagate
-from meshforge.studio.errors import ConflictError
 from meshforge.studio.session.job_runner import JobProgress
 from meshforge.studio.session.session import Session
 from meshforge.studio.wire.jobs import AskJob, DecomposeJob, ForecastJob, Job, JobLine
@@ -115,7 +114,7 @@ def start_propagate(session: Session) -> Job:
     """Start to propagate labels. Raises ProjectError: no vocabulary, or no label that a person or a file gave."""
     project = session.project
     _check_labels(project)
-    began, used = _preparation_digests(project), session.history.view.undoable
+    began, used = _preparation_digests(project), session.history.state.undoable
 
     @contextmanager
     def record(best: str | None) -> Iterator[None]:
