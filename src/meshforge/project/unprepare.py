@@ -32,7 +32,8 @@ def unprepare(store: Store, asset: str, *, everything: bool = False) -> Preparat
     with store.lock():
         history = History(store.folder)
         half = history.recover()
-        if half and half.edit == edit_of("prepare", asset) and not (everything and batch.record_digest(folder)):
+        is_finished = half and half.entry.edit == edit_of("unprepare" if half.is_done else "prepare", asset)
+        if is_finished and not (everything and batch.record_digest(folder)):
             return PreparationResult(asset, undone=(_FINISHED,))
         if batch.record_digest(folder) is None:
             raise ProjectError("nothing was done to it that could be taken back", where=asset)

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 from threading import RLock
-from typing import Any, Literal, assert_never
+from typing import Any, Literal, NamedTuple, assert_never
 
 from meshforge.batch import hold_lock
 from meshforge.common import MeshForgeError, ProjectError, relative_name
@@ -47,6 +47,13 @@ class FileConflict:
 
     def __str__(self) -> str:
         return f"{self.name} was changed since, by {f'“{self.by}”' if self.by else 'something else'}"
+
+
+class Recovery(NamedTuple):
+    """A change that a kill had cut short; is_done: whether it is made now, or was taken back."""
+
+    entry: HistoryEntry
+    is_done: bool
 
 
 class History:
@@ -230,20 +237,22 @@ class History:
         self._files.set_position(pending.number - 1 if undo else pending.number)
         self._files.end()
 
-    def recover(self) -> HistoryEntry | None:
-        """Bring to an end what a kill left under way, under the lock that the caller holds; what was taken back."""
+    def recover(self) -> Recovery | None:
+        """Bring to an end what a kill left under way, under the lock that the caller holds; None where nothing was."""
         if self._folder in _RECORDED.get():
             return None
         self._files.refresh()
         pending = self._files.read_pending()
         if pending is None:
             return None
+        is_done = pending.what != "write" or self._files.position >= pending.number
         match pending.what:
             case "do":
                 self._finish(pending)
+            case "write" if is_done:
+                self._files.end()
             case "write":
                 self._take_back(pending)
-                return pending.entry
             case "undo" | "redo":
                 try:
                     self._shift(pending)
@@ -251,7 +260,7 @@ class History:
                     self._files.end()
             case other:
                 assert_never(other)
-        return None
+        return Recovery(pending.entry, is_done)
 
     def _take_back(self, pending: PendingEntry) -> None:
         """Restore the files that are as the change wrote them; those that something else changed meanwhile stay."""

@@ -59,6 +59,20 @@ def test_selections_of_a_split_hull_name_its_parts_and_come_back_bit_for_bit(tmp
     assert kept(project) == before
 
 
+def test_a_split_is_an_edit_that_the_studio_undoes_and_does_again(tmp_path: Path) -> None:
+    project = said(tmp_path)
+    before = kept(project)
+    project.cut(FIRST, "crumb", *PLANE)
+    after, history = kept(project), History.open(project.folder)
+    assert history.state.undo == f"{FIRST}: crumb cut into 2 hulls"
+    history.undo()
+    assert kept(project) == before
+    history.redo()
+    assert kept(project) == after
+    project.unprepare(FIRST)
+    assert (kept(project), History.open(project.folder).state.undoable) == (before, 2)
+
+
 def test_an_edit_by_hand_of_a_split_hull_is_one_of_its_parts(tmp_path: Path) -> None:
     project = applied(tmp_path)
     project.correct(FIRST, ["top"], Merge())

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from meshforge.common import ProjectError
 from meshforge.store import ConflictError, History
-from meshforge.studio.edits.base import make_edit, record_edit
+from meshforge.studio.edits.base import make_edit
 from tests.examples import examples
 from tests.unit.studio_server.writing import Write, bare, data
 
@@ -114,7 +114,7 @@ def test_entries_of_one_group_are_undone_together(tmp_path: Path) -> None:
     make_edit(history, project, Write(files={"a": "1"}))
     for name in ("b", "c"):
         edit = Write(files={name: "1"})
-        with record_edit(history, project, edit, group="job"):
+        with history.record(f"wrote {name}", {}, [project.folder / "data"], group="job"):
             edit.apply(project)
     assert [entry.title for entry in history.undo()] == ["wrote c", "wrote b"]
     assert data(project) == {"a": b"1"}

@@ -47,6 +47,32 @@ def test_a_killed_undo_is_brought_to_its_end(tmp_path: Path) -> None:
 
 
 @needs_fork
+def test_a_killed_change_of_known_contents_is_taken_back_whole_but_for_what_others_wrote_since(tmp_path: Path) -> None:
+    project = bare(tmp_path)
+    make_edit(History.open(project.folder), project, Write(files=BEFORE))
+    before, folder = data(project), project.folder / "data"
+    writes = [(folder / "a", b"between"), (folder / "b", None), (folder / "c/d", b"2"), (folder / "a", b"2")]
+    died = 0
+    for _ in deaths(lambda: History(project.folder).write("change", {}, writes), removals=True):
+        died += 1
+        taken_back = History(project.folder).recover()
+        assert taken_back is None or taken_back.entry.title == "change"
+        if History(project.folder).state.undoable == 2:
+            assert data(project) == {"a": b"2", "c/d": b"2"}
+            History(project.folder).undo()
+        assert data(project) == before
+    assert died > 4 and data(project) == {"a": b"2", "c/d": b"2"}
+    History(project.folder).undo()
+    for _ in deaths(lambda: History(project.folder).write("change", {}, writes)):
+        if data(project) != before:
+            (folder / "c").mkdir(exist_ok=True)
+            (folder / "c/d").write_text("of an editor")
+            History(project.folder).recover()
+            assert data(project)["c/d"] == b"of an editor"
+            break
+
+
+@needs_fork
 def test_an_edit_after_some_were_undone_may_be_killed_as_well(tmp_path: Path) -> None:
     project = bare(tmp_path)
     history = History.open(project.folder)

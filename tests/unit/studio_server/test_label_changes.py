@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 
 import pytest
@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 
 from meshforge.project import Project
 from meshforge.store import History
-from meshforge.studio.edits.assets import LabelFromNames, LabelHulls, Propagate, RenameLabel
-from meshforge.studio.edits.base import Edit, make_edit, record_edit
+from meshforge.studio.edits.assets import LabelFromNames, LabelHulls, RenameLabel
+from meshforge.studio.edits.base import Edit, make_edit
 from meshforge.studio.label_changes import LabelChanges
 from meshforge.studio.wire.family import Card
 from meshforge.studio.wire.jobs import PropagationState
@@ -40,8 +40,13 @@ def labelled(folder: Path) -> tuple[Project, History]:
 
 def carry(project: Project, history: History, best: str | None = "t1.obj") -> None:
     """Propagate labels, as the job does."""
-    with record_edit(history, project, Propagate(used=history.state.undoable, next=best)):
+    with recorded(project, history, history.state.undoable, best):
         project.propagate_labels()
+
+
+def recorded(project: Project, history: History, used: int, best: str | None) -> AbstractContextManager[int]:
+    edit = {"kind": "propagate", "used": used, "next": best}
+    return history.record("labels propagated", edit, [project.folder / "labels"])
 
 
 def labels(project: Project) -> dict[str, bytes]:
@@ -177,7 +182,7 @@ def test_what_is_said_while_labels_are_carried_over_is_kept_and_is_news(tmp_path
     @contextmanager
     def keeping(best: str | None) -> Iterator[None]:
         make_edit(history, project, label("t1.obj", "crumb", "leg"))
-        with record_edit(history, project, Propagate(used=0, next=best)):
+        with recorded(project, history, 0, best):
             yield
 
     project.propagate_labels(write_block=keeping)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from pathlib import Path
 from typing import Literal
 
@@ -12,7 +11,7 @@ from meshforge.common import join_names, pluralize
 from meshforge.project import Project
 from meshforge.signoff import ExclusionReason
 from meshforge.store import ExclusionEvent, Layout, list_files, parse_action_text
-from meshforge.studio.edits.base import Edit, JobEdit, LabelsByAsset
+from meshforge.studio.edits.base import Edit, LabelsByAsset
 from meshforge.studio.wire.requests import HullOfAsset
 
 
@@ -34,32 +33,6 @@ class LabelHulls(Edit):
     def describe(self, project: Project) -> str:
         hulls = f"{pluralize(len(self.hulls), 'hull')} of {self.asset}"
         return f"{hulls} labelled {self.label}" if self.label else f"label of {hulls} taken away"
-
-
-class LabelByName(Edit):
-    """Label hulls of an asset, each with its own label, as `meshforge label` does; null takes a label away.
-
-    vocabulary: set before, None for that of the project.
-    """
-
-    touches = (Layout.labels,)
-    asset: str
-    labels: dict[str, str | None]
-    vocabulary: tuple[str, ...] | None = None
-
-    def apply(self, project: Project) -> None:
-        if self.vocabulary is not None:
-            project.set_vocabulary(self.vocabulary)
-        project.set_labels(self.asset, self.labels)
-
-    def list_paths(self, project: Project) -> tuple[Path, ...]:
-        return (*super().list_paths(project), *([] if self.vocabulary is None else [project.layout.settings]))
-
-    def describe(self, project: Project) -> str:
-        counts = Counter(self.labels.values())
-        parts = [f"{pluralize(n, 'hull')} labelled {label}" for label, n in counts.items() if label is not None]
-        parts += [f"label of {pluralize(counts[None], 'hull')} taken away"] if counts[None] else []
-        return f"{self.asset}: {', '.join(parts)}"
 
 
 class LabelGroup(Edit):
@@ -145,30 +118,6 @@ class RenameLabel(Edit):
 
     def describe(self, project: Project) -> str:
         return f"{self.old} renamed {self.new}"
-
-
-class Propagate(JobEdit):
-    """A job propagated labels to all other hulls. next: the asset that would help most if it were labelled; used: how
-    many entries the history had when labels were read."""
-
-    kind: Literal["propagate"] = "propagate"
-    touches = (Layout.labels,)
-    used: int
-    next: str | None
-
-    def describe(self, project: Project) -> str:
-        return "labels propagated"
-
-
-class LabelFromModel(JobEdit):
-    """A job asked a model for labels."""
-
-    kind: Literal["label-vlm"] = "label-vlm"
-    touches = (Layout.labels,)
-    model: str
-
-    def describe(self, project: Project) -> str:
-        return f"labels from {self.model}"
 
 
 Vector = tuple[float, float, float]
@@ -278,21 +227,6 @@ class DropCorrections(_CorrectionEdit):
 
     def describe(self, project: Project) -> str:
         return f"edits by hand of {self.asset} taken away"
-
-
-class Decompose(_PreparationEdit, JobEdit):
-    """A job made hulls of the pieces of an asset that had none."""
-
-    def describe(self, project: Project) -> str:
-        return f"{self.asset} decomposed"
-
-
-class PrepareNew(_PreparationEdit, JobEdit):
-    """A job prepared an asset that came later as the others. That it was is kept when this is undone, so that it is not
-    done again."""
-
-    def describe(self, project: Project) -> str:
-        return f"{self.asset} prepared as the others"
 
 
 class AddTemplate(Edit):

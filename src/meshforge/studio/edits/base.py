@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
 from pathlib import Path
 from typing import ClassVar
 
@@ -44,27 +43,11 @@ class Edit(Wire):
         return {}
 
 
-class JobEdit(Edit):
-    """An edit that a job makes: the job itself changes the files, and the history records it."""
-
-    def apply(self, project: Project) -> None:
-        raise AssertionError("a job makes this change")
-
-
-@contextmanager
-def record_edit(
-    history: History, project: Project, edit: Edit, by: str | None = None, group: str | None = None
-) -> Iterator[int]:
-    """Record an edit whose change is made within the block. Gives how many entries were done before."""
-    paths, title = edit.list_paths(project), edit.describe(project)
-    with history.record(title, edit.model_dump(mode="json"), paths, by=by, group=group) as before:
-        yield before
-
-
 def make_edit(history: History, project: Project, edit: Edit, by: str | None = None) -> HistoryEntry | None:
     """Make an edit; it is on disk with its entry when this returns. None where it changed nothing."""
     with project.lock():
-        with record_edit(history, project, edit, by) as at:
+        title, data, paths = edit.describe(project), edit.model_dump(mode="json"), edit.list_paths(project)
+        with history.record(title, data, paths, by=by) as at:
             edit.apply(project)
         entries = history.entries
     return entries[-1] if len(entries) > at else None

@@ -109,11 +109,7 @@ class FileSync:
             for asset in before.verdicts.keys() | now.verdicts.keys()
             if before.verdict_on(asset) != now.verdict_on(asset)
         }
-        about |= {
-            one
-            for one in before.exclusions.keys() | now.exclusions.keys()
-            if (one in before.exclusions) != (one in now.exclusions)
-        }
+        about |= before.exclusions.keys() ^ now.exclusions.keys()
         learns = bool(about) or before.answers_and_fixes != now.answers_and_fixes
         assets = changes.assets | (about & self.project.found.ids.keys())
         changes = replace(changes, assets=assets)

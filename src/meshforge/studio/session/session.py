@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from dataclasses import asdict, dataclass
 from importlib.metadata import version
 from pathlib import Path
 from threading import RLock
-from typing import Literal
+from typing import Any, Literal
 
 from meshforge.batch import read_prepared, stamp_path
 from meshforge.common import UsageError, relative_name
@@ -16,7 +16,7 @@ from meshforge.labels import OfferCache
 from meshforge.project import Project, can_ask_about_spans
 from meshforge.store import History, HistoryEntry, Layout, MeshCache, list_files
 from meshforge.studio.downloads import Downloads
-from meshforge.studio.edits.base import Edit, make_edit, record_edit
+from meshforge.studio.edits.base import Edit, make_edit
 from meshforge.studio.edits.program import TakeLearned
 from meshforge.studio.errors import NotHereError
 from meshforge.studio.label_changes import LabelChanges
@@ -179,14 +179,19 @@ class Session:
             self.pages.set_history(HistoryChanged(history=self._history_view, did=did, said=entries[0].title, by=by))
 
     @contextmanager
-    def record_edit(self, edit: Edit, group: str) -> Iterator[None]:
-        """Record an edit whose change a job makes within the block."""
+    def record(self, title: str, edit: dict[str, Any], paths: Iterable[Path], group: str) -> Iterator[None]:
+        """Record a change of files that a job makes within the block. edit: what it is, as JSON."""
         with self._mutex:
-            with record_edit(self.history, self.project, edit, group=group) as before:
+            with self.history.record(title, edit, paths, group=group) as before:
                 yield
             entries = self.history.entries
             if len(entries) > before:
                 self.announce(entries[-1:], "edit")
+
+    def record_preparation(self, title: str, asset: str, group: str) -> AbstractContextManager[None]:
+        """Record what a job does to an asset before the program, within a block."""
+        paths = (file.path(self.project.folder, asset) for file in list_files() if file.hulls)
+        return self.record(title, {"asset": asset}, paths, group)
 
     def note_output(self, asset: str) -> None:
         """The output of an asset was written."""
