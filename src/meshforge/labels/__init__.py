@@ -16,7 +16,7 @@ __getattr__, __all__ = export_lazily(
         "label_by_plugin": "LABELERS AssetLabeler check_labeler",
         "label_by_propagation": "PropagationResult",
         "label_store": "LabelStore",
-        "merge": "LabelOutcome label_new_hulls",
+        "merge": "LabelOutcome NewHullLabels label_new_hulls",
         "offers": "LabelOffers OfferCache",
         "reference_family": "NEW ReferenceFamily pick_evenly read_reference_family",
         "spans": "HullSpan LabelledPart SpanReport find_spans",

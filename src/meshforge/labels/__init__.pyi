@@ -11,6 +11,7 @@ from meshforge.labels.label_by_plugin import check_labeler as check_labeler
 from meshforge.labels.label_by_propagation import PropagationResult as PropagationResult
 from meshforge.labels.label_store import LabelStore as LabelStore
 from meshforge.labels.merge import LabelOutcome as LabelOutcome
+from meshforge.labels.merge import NewHullLabels as NewHullLabels
 from meshforge.labels.merge import label_new_hulls as label_new_hulls
 from meshforge.labels.offers import LabelOffers as LabelOffers
 from meshforge.labels.offers import OfferCache as OfferCache

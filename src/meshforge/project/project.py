@@ -21,6 +21,7 @@ from meshforge.project import (
     sign_offs,
     span_splits,
     spans,
+    unprepare,
 )
 from meshforge.project.replies import reply_again, reply_to
 from meshforge.project.review import review_project
@@ -71,7 +72,7 @@ class Project(LabelStore):
     decompose = prepare.decompose
     cut = prepare.cut
     split = prepare.split
-    unprepare = prepare.unprepare
+    unprepare = unprepare.unprepare
     split_spanning = spans.split_spanning
     list_spans = spans.list_spans
     prepare_new = new_assets.prepare_new

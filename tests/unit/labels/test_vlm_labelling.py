@@ -385,7 +385,7 @@ def test_a_wrong_key_is_one_error_and_changes_nothing(tmp_path: Path, monkeypatc
         with pytest.raises(MeshForgeError, match="does not accept the key"):
             project.label_with_vlm(settings(server))
         assert len(server.asked) == 1
-    assert not project.layout.ids_with("labels")
+    assert not project.layout.labels.ids
 
 
 def test_a_model_that_takes_red_for_blue_is_told_to_be_blind(tmp_path: Path) -> None:

@@ -13,9 +13,7 @@ from meshforge.formats import DecomposeBy
 from meshforge.geometry import CoacdSettings, DecomposeSettings, VhacdSettings
 from meshforge.labels import LabelOutcome, PropagationResult, VlmForecast, VlmResult, check_vlm_settings
 from meshforge.project import LIKELY, PreparationResult, Project, read_preparation_plan
-from meshforge.store import SpanLine, VlmSettings
-from meshforge.studio.edits.assets import Decompose, LabelFromModel, Propagate
-from meshforge.studio.errors import ConflictError
+from meshforge.store import ConflictError, Layout, SpanLine, VlmSettings
 from meshforge.studio.session.job_runner import JobProgress
 from meshforge.studio.session.session import Session
 from meshforge.studio.wire.jobs import AskJob, DecomposeJob, ForecastJob, Job, JobLine
@@ -43,7 +41,7 @@ def start_decompose(session: Session, request: DecomposeJob) -> Job:
             settings,
             **options,
             execution=ExecutionOptions(stop=progress.is_stopped, progress=progress.advance),
-            write_block=lambda asset: session.record_edit(Decompose(asset=asset), group),
+            write_block=lambda asset: session.record_preparation(f"{asset} decomposed", asset, group),
         )
         for result in results:
             made += len(result.hulls)
@@ -115,11 +113,12 @@ def start_propagate(session: Session) -> Job:
     """Start to propagate labels. Raises ProjectError: no vocabulary, or no label that a person or a file gave."""
     project = session.project
     _check_labels(project)
-    began, used = _preparation_digests(project), session.history.view.undoable
+    began, used = _preparation_digests(project), session.history.state.undoable
 
     @contextmanager
     def record(best: str | None) -> Iterator[None]:
-        with session.record_edit(Propagate(used=used, next=best), uuid4().hex):
+        edit = {"kind": "propagate", "used": used, "next": best}
+        with session.record("labels propagated", edit, [Layout.labels.path(project.folder)], uuid4().hex):
             if _preparation_digests(session.project) != began:
                 raise ConflictError("assets or their hulls were changed meanwhile", remedy="Propagate labels again.")
             yield
@@ -183,12 +182,14 @@ def start_ask(session: Session, request: AskJob) -> Job:
     if request.max_cost is not None:
         settings = settings.model_copy(update={"max_cost": request.max_cost})
 
+    title, edit = f"labels from {settings.model}", {"kind": "label-vlm", "model": settings.model}
+
     def work(progress: JobProgress) -> str:
         found = project.label_with_vlm(
             settings,
             progress=lambda usage: progress.advance(),
             stop=progress.is_stopped,
-            write_block=lambda: session.record_edit(LabelFromModel(model=settings.model), uuid4().hex),
+            write_block=lambda: session.record(title, edit, [Layout.labels.path(project.folder)], uuid4().hex),
         )
         for report in found.reports:
             bare = list(found.open.get(report.asset, {}))
