@@ -14,10 +14,10 @@ from meshforge import geometry
 from meshforge.common import Plugin, blame, join_names
 from meshforge.language.actions.base import Action
 from meshforge.language.actions.edit import GroupEdit, HullGroup, NewShape, Template, check_templates
-from meshforge.language.actions.registry import plugin_of
-from meshforge.language.orient import orient_mesh
+from meshforge.language.extractors.base import select_mask
+from meshforge.language.hull_table import EXTREMITY, reference_length
+from meshforge.language.orient import Orient, orient_mesh
 from meshforge.language.print import Rule
-from meshforge.language.syntax import EXTREMITY, Orient, reference_length, select_mask
 from meshforge.symbolic import Hull, Label, SymbolicMesh, bits_of
 
 _NEW_SUFFIX = re.compile(r"~\d+$")
@@ -71,7 +71,7 @@ def apply_action(
     check_templates(action.templates, templates)
     if not selected_mask:
         return ActionResult(mesh, note="nothing selected", used=used)
-    plugin = plugin_of(action)
+    plugin = action.plugin
     with blame(plugin):
         groups = [
             HullGroup(tuple(mesh.hulls[index] for index in sorted(bits_of(part))), reference_length(mesh), templates)
