@@ -11,9 +11,7 @@ __getattr__, __all__ = export_lazily(
         "actions.basic": "Add Delete Each Merge Scale Shrink",
         "actions.edit": "GroupEdit HullGroup NewShape Template",
         "actions.replace": "Replace",
-        "apply": (
-            "ActionResult RuleTrace apply_action apply_rule apply_to_selection from_canonical_frame to_canonical_frame"
-        ),
+        "apply": "apply_action",
         "arguments": (
             "PRIMITIVES ArgumentType DirectionArgument FactorArgument FileArgument FlagArgument LabelArgument "
             "LengthArgument Operation OptionArgument PrimitiveOrFileArgument ShareArgument TextArgument WordArgument"
@@ -30,6 +28,7 @@ __getattr__, __all__ = export_lazily(
         "parse": "parse_extractor",
         "print": "Comments Rule explain show",
         "program": "HeaderComments Program RunResult rename_in_program",
+        "replay": "Replay RuleTrace from_canonical_frame make_anew to_canonical_frame",
         "registry": "ACTIONS EXTRACTORS make_operation",
         "text": "list_operators",
         "words": "DIRECTIONS OPERATORS Direction check_declared show_label",

@@ -12,13 +12,7 @@ from meshforge.language.actions.edit import HullGroup as HullGroup
 from meshforge.language.actions.edit import NewShape as NewShape
 from meshforge.language.actions.edit import Template as Template
 from meshforge.language.actions.replace import Replace as Replace
-from meshforge.language.apply import ActionResult as ActionResult
-from meshforge.language.apply import RuleTrace as RuleTrace
 from meshforge.language.apply import apply_action as apply_action
-from meshforge.language.apply import apply_rule as apply_rule
-from meshforge.language.apply import apply_to_selection as apply_to_selection
-from meshforge.language.apply import from_canonical_frame as from_canonical_frame
-from meshforge.language.apply import to_canonical_frame as to_canonical_frame
 from meshforge.language.arguments import PRIMITIVES as PRIMITIVES
 from meshforge.language.arguments import ArgumentType as ArgumentType
 from meshforge.language.arguments import DirectionArgument as DirectionArgument
@@ -73,6 +67,11 @@ from meshforge.language.program import HeaderComments as HeaderComments
 from meshforge.language.program import Program as Program
 from meshforge.language.program import RunResult as RunResult
 from meshforge.language.program import rename_in_program as rename_in_program
+from meshforge.language.replay import Replay as Replay
+from meshforge.language.replay import RuleTrace as RuleTrace
+from meshforge.language.replay import from_canonical_frame as from_canonical_frame
+from meshforge.language.replay import make_anew as make_anew
+from meshforge.language.replay import to_canonical_frame as to_canonical_frame
 from meshforge.language.registry import ACTIONS as ACTIONS
 from meshforge.language.registry import EXTRACTORS as EXTRACTORS
 from meshforge.language.registry import make_operation as make_operation

@@ -78,7 +78,7 @@ class HullTable:
             places.setdefault(label, []).append(place)
         return places
 
-    def labeled(self, label: str) -> Bools:
+    def with_label(self, label: str) -> Bools:
         """The hulls with a label."""
         found = np.zeros(len(self), dtype=np.bool_)
         found[self._places.get(label, [])] = True

@@ -11,22 +11,14 @@ from types import MappingProxyType
 from meshforge.common import MeshForgeError, ProgramError
 from meshforge.language import parse
 from meshforge.language.actions.edit import Template, check_templates
-from meshforge.language.apply import (
-    Memo,
-    RuleTrace,
-    apply_rule,
-    apply_to_selection,
-    from_canonical_frame,
-    make_anew,
-    to_canonical_frame,
-)
 from meshforge.language.arguments import show_number
 from meshforge.language.extractors.base import Extractor, labels_of, rename_in_extractor
 from meshforge.language.orient import Orient, rename_in_orient
 from meshforge.language.print import CommentLines, Comments, Rule, show, show_rule
+from meshforge.language.replay import Memo, Replay, RuleTrace, make_anew
 from meshforge.language.text import Node, ProgramText, TreeReader, subtrees_of
 from meshforge.language.words import check_declared, check_label, check_threshold, show_label
-from meshforge.symbolic import SymbolicMesh, mask_of
+from meshforge.symbolic import SymbolicMesh
 
 _MOST_ALIGNED = 60  # a longer extractor does not push the arrows of the other rules to the right
 
@@ -129,16 +121,36 @@ class Program:
         selections: names of hulls that rules select on this mesh whatever their extractors do, by their numbers; memo:
         where many programs are run on the same mesh, keeps what each step made, for those that begin alike.
         Hulls that no rule touches come back as the same objects. Raises ProgramError, about the mesh's file where it
-        has one: a missing template, no labels, a landmark that gives no direction, no hull of a name in `selections`;
-        GeometryError for a hull that cannot be made.
+        has one: a missing template, no labels, a landmark that gives no direction; DemonstrationError for no hull of a
+        name in `selections`; GeometryError for a hull that cannot be made.
         """
         templates = templates or {}
         try:
             check_templates(self.templates, templates)
             self.check_has_labels(mesh)
-            return self._run_rules(mesh, templates, selections, memo)
+            *_, last = self.replay(mesh, templates, selections=selections, memo=memo)
+            return RunResult(last.edited, last.trace)
         except MeshForgeError as error:
             raise error.at(str(mesh.asset.path)) if mesh.asset else error from None
+
+    def replay(
+        self,
+        mesh: SymbolicMesh,
+        templates: Mapping[str, Template],
+        *,
+        name: str = "",
+        selections: Mapping[int, Collection[str]] = MappingProxyType({}),
+        memo: Memo = make_anew,
+    ) -> Iterator[Replay]:
+        """A mesh as each rule meets it, and after the last one; see `run` for the arguments and errors.
+
+        name: how errors call the mesh.
+        """
+        current = Replay.begin(mesh, self.orient, self.contact, name=name, selections=selections, memo=memo)
+        yield current
+        for rule in self.rules:
+            current = current.advance(rule, templates, self.extremity)
+            yield current
 
     def check_has_labels(self, mesh: SymbolicMesh) -> None:
         """Raise ProgramError where it asks for labels and no hull has one."""
@@ -146,36 +158,8 @@ class Program:
             remedy = "Label the asset first (meshforge label), or give its labels with --labels FILE."
             raise ProgramError("no labels, though the program asks for some", remedy=remedy)
 
-    def _run_rules(
-        self,
-        mesh: SymbolicMesh,
-        templates: Mapping[str, Template],
-        selections: Mapping[int, Collection[str]],
-        memo: Memo,
-    ) -> RunResult:
-        current, pose = to_canonical_frame(mesh, self.orient, self.contact, memo)
-        trace, used = [], frozenset[str]()
-        for number, rule in enumerate(self.rules, 1):
-            if number in selections:
-                mask = _find_hulls(current, number, selections[number])
-                selected, result = (
-                    current.names_of(mask),
-                    apply_to_selection(current, mask, rule, templates, used, memo),
-                )
-            else:
-                selected, result = apply_rule(current, rule, templates, self.extremity, used, memo)
-            current, used = result.mesh, result.used
-            trace.append(RuleTrace(number, selected, result.made, result.note, result.sources))
-        return RunResult(from_canonical_frame(mesh, current, pose), tuple(trace))
-
     def __str__(self) -> str:
         return "".join(f"{line}\n" for line in _program_lines(self))
-
-
-def _find_hulls(mesh: SymbolicMesh, rule: int, names: Collection[str]) -> int:
-    if gone := sorted(set(names) - mesh.index.keys()):
-        raise ProgramError(f"rule {rule} is to select {gone[0]} here, and there is no such hull")
-    return mask_of(mesh.index[name] for name in names)
 
 
 def rename_in_program(program: Program, old: str, new: str) -> Program:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import islice
 from types import MappingProxyType
 
 from meshforge import batch
@@ -21,7 +22,7 @@ from meshforge.signoff import ReviewReply
 from meshforge.signoff.question import WRONG
 from meshforge.store import NO_ORIGIN, ExclusionEvent, Feedback, Origin, Store, Verdict, VerdictEvent
 from meshforge.symbolic import SymbolicMesh
-from meshforge.synthesis import Demonstration, advance, begin_replay, memoize
+from meshforge.synthesis import Demonstration, memoize
 
 
 def build_jobs(store: Store, only: Collection[str] | None = None) -> tuple[batch.AssetJob, ...]:
@@ -84,11 +85,10 @@ def mesh_before_rule(
     Raises MeshForgeError where the asset cannot be turned, or an action fails.
     """
     mesh = (meshes or {}).get(asset) or store.mesh(asset)
-    replay = begin_replay(asset, Demonstration(mesh, store.steps(asset), asset), program.orient, program.contact)
-    templates = store.templates(program.templates)
-    for number, line in enumerate(program.rules[: rule - 1], 1):
-        replay = advance(replay, number, line, templates, program.extremity)
-    return replay.mesh
+    shown, templates = Demonstration(mesh, store.steps(asset)).selections, store.templates(program.templates)
+    replays = program.replay(mesh, templates, name=asset, selections=shown, memo=memoize)
+    *_, met = islice(replays, rule)
+    return met.mesh
 
 
 def correct(store: Store, asset: str, select: Iterable[str], action: Action, label: str | None = None) -> None:

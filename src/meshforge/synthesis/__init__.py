@@ -16,6 +16,6 @@ __getattr__, __all__ = export_lazily(
         "questions": "Answer Choice Hint LabelCorrection Question Repair",
         "readings.rank": "BELIEVABLE",
         "slips": "Slip find_slip",
-        "task": "advance begin_replay memoize",
+        "task": "begin_replay memoize",
     },
 )

@@ -27,6 +27,5 @@ from meshforge.synthesis.questions import Repair as Repair
 from meshforge.synthesis.readings.rank import BELIEVABLE as BELIEVABLE
 from meshforge.synthesis.slips import Slip as Slip
 from meshforge.synthesis.slips import find_slip as find_slip
-from meshforge.synthesis.task import advance as advance
 from meshforge.synthesis.task import begin_replay as begin_replay
 from meshforge.synthesis.task import memoize as memoize

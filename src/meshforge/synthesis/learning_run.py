@@ -164,7 +164,7 @@ class LearningRun:
         if not self._question:
             declined = {a.asset for a in self._task.answers if a.rule == spec.number and a.select is None}
             self._question = choose_question(spec.number, ranked, names, self._repairs.trust, declined)
-        self._replays.advance(spec.number, rule, last=spec.number == len(self._task.rules))
+        self._replays.advance(rule, last=spec.number == len(self._task.rules))
 
     def _finish(self) -> outcome.LearningOutcome:
         task, program = self._task, self._program()

@@ -176,11 +176,11 @@ def test_a_course_runs_the_last_rule_on_demonstrated_meshes_only() -> None:
     examples, rest = course.examples(rule)
     assert [example.name for example in examples] == ["c0"]
     assert [replay.name for replay in rest] == [f"c{k}" for k in range(1, 8)]
-    course.advance(1, program.rules[0], last=True)
+    course.advance(program.rules[0], last=True)
     assert "pull" not in course.shown[0].mesh.index
     assert all("pull" in replay.mesh.index for replay in course.others)
     before_another = ReplaySet(DEMOS, name_batch(MESHES, DEMOS), program, dict[str, Template](), ())
-    before_another.advance(1, program.rules[0], last=False)
+    before_another.advance(program.rules[0], last=False)
     assert len(before_another.others) == 7
     assert not any("pull" in replay.mesh.index for replay in before_another.others)
 

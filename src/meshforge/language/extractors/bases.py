@@ -46,7 +46,7 @@ class Is(BaseExtractor):
     label: str = field(metadata={"argument": LabelArgument()})
 
     def mask(self, hulls: HullTable, *bases: Bools) -> Bools:
-        return hulls.labeled(self.label)
+        return hulls.with_label(self.label)
 
     @property
     def phrase(self) -> str:
