@@ -11,7 +11,17 @@ import numpy as np
 
 from meshforge.common import MeshForgeError, pluralize
 from meshforge.label_model import LabelBeliefs
-from meshforge.language import EXTREMITY, Attach, Extractor, Geo, Is, Orient, select_mask, to_canonical_frame
+from meshforge.language import (
+    EXTREMITY,
+    Attach,
+    Extractor,
+    Geo,
+    HullTable,
+    Is,
+    Orient,
+    select_hulls,
+    to_canonical_frame,
+)
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis.questions import Hint, OpenRule
 from meshforge.synthesis.readings.rank import RankedReadings
@@ -183,7 +193,8 @@ def _stage_or_none(mesh: SymbolicMesh, orient: Orient | None, contact: float | N
 def _count_selections(mesh: SymbolicMesh, vocabulary: Sequence[str], delta: float) -> int:
     def count() -> int:
         used = [label for label in vocabulary if any(hull.label == label for hull in mesh.hulls)]
-        return len({0, *(select_mask(one, mesh, delta) for one in _small_extractors(used))})
+        hulls = HullTable([mesh], extremity=delta)
+        return len({bytes(len(hulls)), *(select_hulls(one, hulls).tobytes() for one in _small_extractors(used))})
 
     return memoize(mesh, ("told apart", tuple(vocabulary), delta), int, count)
 

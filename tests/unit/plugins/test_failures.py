@@ -200,7 +200,7 @@ def test_an_action_keeps_its_text_where_its_package_is_missing(
     kept = pickle.dumps(Each(parse_action("Spoil")))
     assert pickle.loads(kept) == Each(parse_action("Spoil"))
     monkeypatch.setattr("meshforge.common.plugins.import_module", _no_module)
-    monkeypatch.setattr("meshforge.language.actions.registry.ACTIONS._loaded", {})
+    monkeypatch.setattr("meshforge.language.registry.ACTIONS._loaded", {})
     found = pickle.loads(kept)
     assert str(Rule(All(), found)) == "All => Each(Spoil)"
     assert str(pickle.loads(pickle.dumps(found))) == "Each(Spoil)"

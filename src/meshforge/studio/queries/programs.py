@@ -120,7 +120,7 @@ def _has_fields(kind: type[language.Action]) -> bool:
 def _action_form(name: str, kind: type[language.Action]) -> wire.ActionForm:
     given = kind.arguments()
     required = list(given)[: kind.min_arguments()]
-    example = language.make_action(kind, {one: _example_value(given[one]) for one in required})
+    example = language.make_operation(kind, {one: _example_value(given[one]) for one in required})
     return wire.ActionForm(
         name=name,
         summary=kind.summary(),
