@@ -101,7 +101,7 @@ class LabelFromFiles(Edit):
     touches = (SETTINGS, *LABELS)
 
     def apply(self, project: Project) -> None:
-        project.label_from_files()
+        project.label("file")
 
     def describe(self, project: Project) -> str:
         return "labels taken over from files"
@@ -114,7 +114,7 @@ class LabelFromNames(Edit):
     touches = LABELS
 
     def apply(self, project: Project) -> None:
-        project.label_from_names()
+        project.label("names")
 
     def describe(self, project: Project) -> str:
         return "labels taken from names"
