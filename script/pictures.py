@@ -81,7 +81,7 @@ def _labels(path: Path) -> None:
         for name in BY_HAND:
             true = read_labels(TABLES / f"{name}.labels.json").labels
             project.set_labels(f"{name}.obj", {hull: label.name for hull, label in true.items()})
-        project.propagate_labels()
+        project.label("propagate")
         (drawn,) = project.draw_labels(Path(scratch), project.assets())
         shutil.copyfile(drawn, path)
 

@@ -104,5 +104,5 @@ def _family(folder: Path) -> Project:
     )
     for part in ("templates", "demonstrations"):
         shutil.copytree(TABLES / part, project.folder / part)
-    project.label_from_files()
+    project.label("file")
     return project

@@ -32,7 +32,7 @@ def tables(tmp_path_factory: pytest.TempPathFactory) -> Path:
     project = Project.create(
         folder / "tables", [folder / "assets"], vocabulary=TAUGHT.labels, orient="+Z: Is(leg) -> Is(panel)"
     )
-    project.label_from_files()
+    project.label("file")
     for asset in SHOWN:
         steps = enumerate(_meant(folder, asset), 1)
         project.demonstrate(asset, [Step(k, names, rule.action) for k, (names, rule) in steps])

@@ -175,7 +175,7 @@ def review_assets(
         away = store.feedback().exclusions
         more = [ExclusionEvent(asset=asset) for asset in names if asset in away]
         given = dict.fromkeys(names, labels) if labels else {}
-        store.add_events_before(lambda: set_labels_of(store, given, "user", 1.0), *events, *more)
+        store.add_events_before(lambda: set_labels_of(store, given), *events, *more)
 
 
 def revise_verdict(store: Store, before: VerdictEvent, reply: ReviewReply, said: Origin) -> None:
@@ -187,7 +187,7 @@ def revise_verdict(store: Store, before: VerdictEvent, reply: ReviewReply, said:
         meant = _replace_selections(store, before.asset, before.seen, reply.selections)
     event = before.model_copy(update={"verdict": verdict, "note": None, "meant": meant, **said._asdict()})
     given = {before.asset: reply.labels} if reply.labels else {}
-    store.add_events_before(lambda: set_labels_of(store, given, "user", 1.0), event)
+    store.add_events_before(lambda: set_labels_of(store, given), event)
 
 
 def _judge(

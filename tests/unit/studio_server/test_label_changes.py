@@ -41,7 +41,7 @@ def labelled(folder: Path) -> tuple[Project, History]:
 def carry(project: Project, history: History, best: str | None = "t1.obj") -> None:
     """Propagate labels, as the job does."""
     with recorded(project, history, history.state.undoable, best):
-        project.propagate_labels()
+        project.label("propagate")
 
 
 def recorded(project: Project, history: History, used: int, best: str | None) -> AbstractContextManager[int]:
@@ -185,7 +185,7 @@ def test_what_is_said_while_labels_are_carried_over_is_kept_and_is_news(tmp_path
         with recorded(project, history, 0, best):
             yield
 
-    project.propagate_labels(write_block=keeping)
+    project.label("propagate", write_block=keeping)
     assert project.labels("t1.obj").labels["crumb"] == Label("leg")
     now = carried(project, history)
     assert now and now.unused == 1

@@ -72,7 +72,7 @@ class LabelFromFiles(Edit):
     touches = (Layout.settings, Layout.labels, Layout.label_sources)
 
     def apply(self, project: Project) -> None:
-        project.label_from_files()
+        project.label("file")
 
     def describe(self, project: Project) -> str:
         return "labels taken over from files"
@@ -85,7 +85,7 @@ class LabelFromNames(Edit):
     touches = (Layout.labels, Layout.label_sources)
 
     def apply(self, project: Project) -> None:
-        project.label_from_names()
+        project.label("names")
 
     def describe(self, project: Project) -> str:
         return "labels taken from names"
