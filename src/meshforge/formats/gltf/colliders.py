@@ -80,7 +80,7 @@ class CollisionReader:
         return NodeCollision(placement.index, one.name, [CollisionPiece(None, reason, surface)])
 
     def _read_physics(self, placement: Placement) -> NodeCollision | None:
-        if not has_collider(placement.node, self.convention, self.scene.tree):
+        if not has_collider(placement.node, self.convention):
             return None
         name = collision_name_of(self.scene, placement, self.convention)
         collider = collider_of(placement, self.convention, self.scene)

@@ -15,19 +15,14 @@ from meshforge.formats.collision_pieces import names_to_keep, new_hulls, refuse_
 from meshforge.formats.gltf.colliders import collision_name_of
 from meshforge.formats.gltf.document import BODY, Convention, GltfDocument
 from meshforge.formats.gltf.draft import SceneDraft
-from meshforge.formats.gltf.edit_physics import PhysicsStyle
-from meshforge.formats.gltf.edit_styles import EditStyle, GodotStyle, PlainStyle, UnityStyle, UnrealStyle
 from meshforge.formats.gltf.output import pack_scene, prepare_base
 from meshforge.formats.gltf.physics import body_nodes
+from meshforge.formats.gltf.physics_style import PhysicsStyle
+from meshforge.formats.gltf.styles import EngineStyle, GodotStyle, NewPiece, PlainStyle, Style, UnityStyle, UnrealStyle
 from meshforge.formats.meshfile import gltf_document, gltf_scene
 from meshforge.symbolic import Asset, Geom
 
-_STYLES: dict[Convention, type[EditStyle]] = {
-    "plain": PlainStyle,
-    "unreal": UnrealStyle,
-    "godot": GodotStyle,
-    "unity": UnityStyle,
-}
+_ENGINES: dict[Convention, type[EngineStyle]] = {"unreal": UnrealStyle, "godot": GodotStyle, "unity": UnityStyle}
 
 
 def write_gltf(asset: Asset, document: GltfDocument, name: str) -> Output:
@@ -46,13 +41,14 @@ def write_gltf(asset: Asset, document: GltfDocument, name: str) -> Output:
         if known <= kept and not made:
             return pack_scene(base, scene, None, name)
         draft = SceneDraft(scene, copy.deepcopy(base.tree), base.before)
-        names = _edit_draft(draft, document, kept, made, asset.path)
+        style = style_of(document.convention, draft, Path(name).stem)
+        names = _edit_draft(style, document, kept, made, asset.path)
         output = pack_scene(base, scene, draft.geometry, name)
-    notes = note_lacking_shapes(style_of(document.convention, draft), made)
+    notes = note_lacking_shapes(style, made)
     return replace(output, notes=(*notes, *note_renames(names)), names=names)
 
 
-def note_lacking_shapes(style: EditStyle, made: Iterable[Geom]) -> list[str]:
+def note_lacking_shapes(style: Style, made: Iterable[Geom]) -> list[str]:
     """Notes on hulls of shapes that a convention does not have."""
     lacking = Counter(geom.shape.kind for geom in made if geom.shape.kind not in style.holds)
     counts = [(kind, pluralize(count, kind)) for kind, count in sorted(lacking.items())]
@@ -60,10 +56,10 @@ def note_lacking_shapes(style: EditStyle, made: Iterable[Geom]) -> list[str]:
 
 
 def _edit_draft(
-    draft: SceneDraft, document: GltfDocument, kept: set[str], made: Sequence[Geom], path: Path
+    style: Style, document: GltfDocument, kept: set[str], made: Sequence[Geom], path: Path
 ) -> dict[str, str]:
     """Edit a draft; kept: the pieces that stay; made: the hulls that come. The names that read back otherwise."""
-    style = style_of(document.convention, draft)
+    draft = style.draft
     for element in document.authored:
         staying = [k for k, piece in enumerate(element.names) if piece in kept]
         if len(staying) == len(element.names):
@@ -83,20 +79,22 @@ def _edit_draft(
     return assign_names(draft, document, renames=style.renames)
 
 
-def style_of(convention: Convention, draft: SceneDraft) -> EditStyle:
-    """What writes edits in a convention."""
-    made = _STYLES.get(convention)
-    return made(draft) if made else PhysicsStyle(draft, convention)
+def style_of(convention: Convention, draft: SceneDraft, stem: str) -> Style:
+    """What writes hulls in a convention; stem: of the file."""
+    if convention in _ENGINES:
+        return _ENGINES[convention](draft, stem)
+    return PlainStyle(draft) if convention == "plain" else PhysicsStyle(draft, convention)
 
 
-def _place_hull(style: EditStyle, geom: Geom, document: GltfDocument, path: Path) -> None:
+def _place_hull(style: Style, geom: Geom, document: GltfDocument, path: Path) -> None:
     nodes = {name: node for node, name in document.bodies}
     bodies = {element.body for element in document.authored} | {"body"}
     if geom.body not in nodes and geom.body not in bodies:
         raise AssetError(f"hull {geom.name!r} is on {geom.body!r}, which is no body of the file", where=str(path))
     parent = next((e for e in document.authored if geom.parent in e.names and e.body == geom.body), None)
     own = geom.name.removeprefix(f"{geom.body}/") if document.bodies else geom.name
-    style.add_hull(geom, own, nodes.get(geom.body), parent)
+    holder = style.draft.holder_of(nodes.get(geom.body), parent.node if parent else None)
+    style.add(NewPiece(geom, own, holder, parent))
 
 
 def assign_names(draft: SceneDraft, document: GltfDocument, *, renames: bool) -> dict[str, str]:
