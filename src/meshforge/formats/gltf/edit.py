@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import copy
-from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from meshforge.common import AssetError, pluralize
+from meshforge.common import AssetError
 from meshforge.formats import references, slots
-from meshforge.formats.base import Output, note_renames
+from meshforge.formats.base import Output, note_renames, note_shapes_as_hulls
 from meshforge.formats.collision_pieces import names_to_keep, new_hulls, refuse_changed_files
 from meshforge.formats.gltf.colliders import collision_name_of
 from meshforge.formats.gltf.document import BODY, Convention, GltfDocument
@@ -50,9 +49,8 @@ def write_gltf(asset: Asset, document: GltfDocument, name: str) -> Output:
 
 def note_lacking_shapes(style: Style, made: Iterable[Geom]) -> list[str]:
     """Notes on hulls of shapes that a convention does not have."""
-    lacking = Counter(geom.shape.kind for geom in made if geom.shape.kind not in style.holds)
-    counts = [(kind, pluralize(count, kind)) for kind, count in sorted(lacking.items())]
-    return [f"{many} written as hull meshes: {style.lacks} {kind}" for kind, many in counts]
+    lacking = (geom.shape.kind for geom in made if geom.shape.kind not in style.holds)
+    return note_shapes_as_hulls(lacking, f"{style.lacks} {{}}")
 
 
 def _edit_draft(

@@ -3,21 +3,23 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
 from meshforge.common import AssetError, pluralize
+from meshforge.formats.base import note_shapes_as_hulls
 from meshforge.formats.collision_pieces import CollisionPiece, names_to_keep, new_hulls
 from meshforge.formats.libraries import pxr
 from meshforge.formats.usd import colliders
-from meshforge.formats.usd.prims import PrimSpace, add_collision, add_mesh, add_native, free_prim_name, mark_collider
+from meshforge.formats.usd.prims import PrimSpace, add_collision, add_mesh, add_shape, free_prim_name, mark_collider
 from meshforge.formats.usd.read import PrimCollision
 from meshforge.formats.usd.stage import BODY, PrimRecord, UsdDocument, UsdStage
 from meshforge.symbolic import Asset, Geom
 
+NO_SHAPE = "USD has no such shape here"
 _GROUP_PREFIX = "collection:colliders:"
 _GROUP_MEMBERS = f"{_GROUP_PREFIX}includes"
 _OWN = ("physics:collisionEnabled", "physics:simulationOwner", "physics:approximation")
@@ -37,7 +39,7 @@ class UsdEdit:
     names: dict[str, str] = field(default_factory=dict)
     changed: set[str] = field(default_factory=set)
     _how: Counter[str] = field(default_factory=Counter)
-    _hulled: Counter[str] = field(default_factory=Counter)
+    _hulled: list[str] = field(default_factory=list)
 
     def run(self, asset: Asset, sources: Sequence[PrimCollision]) -> None:
         """Bring the layer to hold just the geoms and non-convex pieces of an asset. Raises AssetError."""
@@ -56,7 +58,7 @@ class UsdEdit:
     @property
     def notes(self) -> list[str]:
         """How the edit is written where that is not obvious."""
-        found = note_hulls(self._hulled)
+        found = note_shapes_as_hulls(self._hulled, NO_SHAPE)
         if number := self._how["deactivated"]:
             verb = "is" if number == 1 else "are"
             prims = f"{pluralize(number, 'prim')} of other layers"
@@ -86,13 +88,9 @@ class UsdEdit:
         if parent is not None and parent.fixed:
             raise AssetError(f"hull {geom.name!r} takes after {parent.path}, which {parent.fixed}", where=self._where)
         holder, space = self._find_holder(parent, geom.body)
-        wanted = self._free_name(holder, geom.name)
-        spec, approximation = add_native(holder, wanted, geom.shape, space), None
-        if spec is None:
-            if geom.shape.is_primitive:
-                self._hulled[geom.shape.kind] += 1
-            spec = add_mesh(holder, wanted, np.asarray(geom.shape.vertices), geom.shape.faces, space)
-            approximation = "convexHull"
+        spec, approximation = add_shape(holder, self._free_name(holder, geom.name), geom.shape, space)
+        if approximation and geom.shape.is_primitive:
+            self._hulled.append(geom.shape.kind)
         self._finish(spec, geom.name, geom.body, parent, approximation)
         self.changed.add(geom.body)
 
@@ -161,14 +159,6 @@ class UsdEdit:
     @property
     def _where(self) -> str:
         return str(self.scene.path)
-
-
-def note_hulls(hulled: Mapping[str, int]) -> list[str]:
-    """Notes on shapes that are written as hulls; hulled: how many of each kind."""
-    return [
-        f"{pluralize(number, kind)} written as hull meshes: USD has no such shape here"
-        for kind, number in sorted(hulled.items())
-    ]
 
 
 def holds_volume(scene: UsdStage, prim: Any) -> bool:
