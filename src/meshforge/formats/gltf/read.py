@@ -36,7 +36,7 @@ _HOW: dict[Convention, str] = {
     "unity": "its collision is what lies below nodes called _colliders, as files for Unity have it",
 }
 _HARMLESS = ("KHR_materials_", "KHR_texture_", "EXT_texture_", "KHR_lights_", "MSFT_texture_")
-_KNOWN = ("KHR_draco_mesh_compression", "KHR_mesh_quantization", "EXT_mesh_gpu_instancing")
+_KNOWN = ("KHR_draco_mesh_compression", "KHR_mesh_quantization")
 _PHYSICS = ("KHR_physics_rigid_bodies", "KHR_implicit_shapes", "OMI_physics_body", "OMI_physics_shape")
 _DRAFTS = {"OMI_collider": "OMI_physics_shape", "KHR_collision_shapes": "KHR_implicit_shapes"}
 """What physics extensions were called in drafts of them."""

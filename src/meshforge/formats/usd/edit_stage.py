@@ -69,8 +69,6 @@ class UsdEdit:
         return found
 
     def _remove(self, element: PrimRecord, source: PrimCollision, staying: Sequence[int]) -> None:
-        if element.fixed:
-            raise AssetError(f"hull {element.names[0]!r} cannot be changed: it {element.fixed}", where=self._where)
         self._how[remove_collision(self.scene, self.layer, source.prim, self.document.physics)] += 1
         self.changed.add(element.body)
         for k in staying:
@@ -85,8 +83,6 @@ class UsdEdit:
         self._finish(spec, name, body, source, "convexHull" if part.shape else "none")
 
     def _add_hull(self, geom: Geom, parent: PrimCollision | None) -> None:
-        if parent is not None and parent.fixed:
-            raise AssetError(f"hull {geom.name!r} takes after {parent.path}, which {parent.fixed}", where=self._where)
         holder, space = self._find_holder(parent, geom.body)
         spec, approximation = add_shape(holder, self._free_name(holder, geom.name), geom.shape, space)
         if approximation and geom.shape.is_primitive:
@@ -109,11 +105,10 @@ class UsdEdit:
     def _mark(self, source: PrimCollision) -> None:
         """Say of a prim that was taken for collision that it collides, as the pieces that it has; it is still seen."""
         whole = len(source.parts) == 1 and source.parts[0].shape is not None
-        for prim in _list_prototypes(source.prim):
-            make_instances_editable(self.layer, prim)
-            spec = pxr.Sdf.CreatePrimInLayer(self.layer, prim.GetPath())
-            is_mesh = prim.GetTypeName() == "Mesh"
-            add_collision(spec, ("convexHull" if whole else "none") if is_mesh else None)
+        make_instances_editable(self.layer, source.prim)
+        spec = pxr.Sdf.CreatePrimInLayer(self.layer, source.prim.GetPath())
+        is_mesh = source.prim.GetTypeName() == "Mesh"
+        add_collision(spec, ("convexHull" if whole else "none") if is_mesh else None)
 
     def _find_holder(self, parent: PrimCollision | None, body: str) -> tuple[Any, PrimSpace]:
         """The spec below which a new prim goes, and the space that it is put in."""
@@ -168,18 +163,6 @@ def holds_volume(scene: UsdStage, prim: Any) -> bool:
         return False
     stretch = np.linalg.svd(linear, compute_uv=False)
     return bool(stretch[-1] > 1e-9 * stretch[0])
-
-
-def _list_prototypes(prim: Any) -> list[Any]:
-    """The prims that a point instancer shows many times, else the prim itself."""
-    if not prim.IsA(pxr.UsdGeom.PointInstancer):
-        return [prim]
-    roots = [
-        prim.GetStage().GetPrimAtPath(path)
-        for path in pxr.UsdGeom.PointInstancer(prim).GetPrototypesRel().GetForwardedTargets()
-    ]
-    predicate = pxr.Usd.TraverseInstanceProxies(pxr.Usd.PrimDefaultPredicate)
-    return [own for root in roots if root for own in pxr.Usd.PrimRange(root, predicate) if own.IsA(pxr.UsdGeom.Gprim)]
 
 
 def remove_collision(scene: UsdStage, layer: Any, prim: Any, physics: bool) -> str:
