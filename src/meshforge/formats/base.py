@@ -192,7 +192,7 @@ class SceneFormat(Format):
         """What an unmarked scene shows, as it was read."""
 
     @abstractmethod
-    def write_beside(self, asset: Asset, name: str) -> Output:
+    def add_colliders(self, asset: Asset, name: str) -> Output:
         """The files of an unmarked scene, all of it as it is, with the hulls of the asset beside it, marked.
 
         They read back as the hulls of the asset, and what was taken for them is only seen. Raises AssetError where a

@@ -156,7 +156,6 @@ def _split_mesh(mesh: GltfMesh, name: str) -> list[Piece]:
 
 
 def _is_degenerate(linear: Floats) -> bool:
-    """Whether a map (3, 3) leaves no volume."""
     stretch = np.linalg.svd(linear, compute_uv=False)
     return bool(stretch[-1] <= _LEAST * stretch[0])
 

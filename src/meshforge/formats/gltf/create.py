@@ -183,7 +183,6 @@ def _add_picture(draft: SceneDraft, picture: bytes) -> int:
 
 
 def _number_of(tree: Json, key: str, wanted: Json) -> int:
-    """The number of a thing in a list of the tree, which is added where it is not there yet."""
     found: list[Json] = tree.setdefault(key, [])
     if wanted not in found:
         found.append(wanted)

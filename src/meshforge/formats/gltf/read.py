@@ -136,7 +136,6 @@ def _nodes_of(bodies: Mapping[int, tuple[int, str]]) -> tuple[tuple[int, str], .
 
 
 def _find_files(scene: GltfScene, path: Path) -> tuple[tuple[Path, ...], tuple[str, ...]]:
-    """The files beside it that are there, and the references that lead nowhere."""
     found = references.find_companions(path)
     uris = [e.get("uri") for key in ("buffers", "images") for e in entries(scene.tree, key) if isinstance(e, dict)]
     named = [uri for uri in uris if isinstance(uri, str) and not uri.startswith("data:")]
@@ -254,7 +253,6 @@ def _materials_of_pieces(
 
 
 def _materials(tree: Json, mesh: Json) -> Iterator[Json]:
-    """The material of each primitive of a mesh; one without any is empty."""
     for part in entries(mesh, "primitives"):
         yield entry(tree, "materials", part["material"]) if "material" in part else {}
 

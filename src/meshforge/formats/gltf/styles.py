@@ -264,7 +264,6 @@ class UnrealStyle(EngineStyle):
         return name
 
     def _mesh_seen(self, piece: NewPiece) -> str:
-        """The name of the mesh that a hull stands for."""
         if piece.source is None:
             holder = {} if piece.holder is None else self.draft.node(piece.holder)
             others = self.names.body(self.stem), *self.rendered[:1]

@@ -233,7 +233,6 @@ def _count_own_specs(prim: Any, layer: Any) -> int:
 
 
 def _refuse_referenced(scene: UsdStage, prim: Any) -> None:
-    """Raise AssetError where a relationship, but for a membership in a group, leads to a prim that is to go."""
     path = prim.GetPath()
     for other in scene.stage.Traverse():
         for relationship in other.GetAuthoredRelationships():

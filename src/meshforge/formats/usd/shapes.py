@@ -134,7 +134,6 @@ def _build_round(kind: str, pose: Pose, radii: Floats, half: float) -> Collision
 
 
 def _axis_rotation(scene: UsdStage, prim: Any) -> Floats:
-    """The rotation (3, 3) that takes Z to the axis that a prim says."""
     return _TO_Z.get(str(scene.get(prim.GetAttribute("axis")) or "Z"), _TO_Z["Z"])
 
 
@@ -146,7 +145,6 @@ def _proper_rotation(turn: Floats) -> Floats:
 
 
 def _is_regular(linear: Floats, offset: Floats) -> bool:
-    """Whether a map leaves volume, and is made of numbers within bounds."""
     if not (np.isfinite(linear).all() and np.isfinite(offset).all()):
         return False
     stretch = np.linalg.svd(linear, compute_uv=False)

@@ -19,14 +19,14 @@ from meshforge.symbolic import Asset, Geom, Opaque
 _SCOPE = "collision"
 
 
-def write_usd_beside(asset: Asset, document: UsdDocument, name: str) -> Output:
+def add_usd_colliders(asset: Asset, document: UsdDocument, name: str) -> Output:
     """The files of a stage with the hulls of an asset beside it, hidden and marked by UsdPhysics.
 
     Raises AssetError: a file changed since the asset was read, or there is no hull to write.
     """
 
     def author(scene: UsdStage, layer: Any) -> tuple[list[str], dict[str, str]]:
-        writer = _BesideWriter(scene, layer, document, asset)
+        writer = _ColliderWriter(scene, layer, document, asset)
         pieces: list[Geom | Opaque] = [*asset.geoms, *asset.opaque]
         for piece in pieces:
             writer.add(piece)
@@ -37,7 +37,7 @@ def write_usd_beside(asset: Asset, document: UsdDocument, name: str) -> Output:
     return edit_root_layer(asset, document, PurePosixPath(name), author)
 
 
-class _BesideWriter:
+class _ColliderWriter:
     """Adds pieces to a copy of a root layer; hulled: the kinds of shapes that are hulls as USD lacks them."""
 
     def __init__(self, scene: UsdStage, layer: Any, document: UsdDocument, asset: Asset) -> None:
