@@ -9,6 +9,7 @@ import pytest
 
 from meshforge.common import ProjectError
 from meshforge.project import Project
+from meshforge.project.preparation_plan import keep_decomposed
 from meshforge.store import History
 from meshforge.studio.edits.assets import AddAssets, LeaveOut, RemoveAssets
 from meshforge.studio.edits.base import make_edit
@@ -43,6 +44,7 @@ def test_an_asset_that_is_left_out_keeps_what_is_known_of_it(tmp_path: Path) -> 
 
 def test_an_asset_that_is_removed_goes_with_all_that_is_kept_for_it_and_its_own_file_stays(tmp_path: Path) -> None:
     project = demonstrated(tmp_path)
+    keep_decomposed(project, project.assets())
     before, sources, history = _kept(project), tree(tmp_path / "assets"), History.open(project.folder)
     make_edit(history, project, RemoveAssets(ids=(FIRST,)))
     found = Project.open(project.folder)

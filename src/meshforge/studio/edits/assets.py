@@ -267,7 +267,7 @@ class RemoveAssets(Edit):
     """Remove assets from the project, with their labels, demonstrations and corrections; their own files stay."""
 
     kind: Literal["remove-assets"] = "remove-assets"
-    touches = (Layout.settings, Layout.events)
+    touches = (Layout.settings, Layout.events, Layout.preparation_plan)
     ids: tuple[str, ...]
 
     def apply(self, project: Project) -> None:
