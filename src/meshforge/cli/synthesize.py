@@ -52,6 +52,10 @@ class SynthesizeArguments:
         Literal["S", "S+T", "S+G", "S+T+G"],
         typer.Option("--layers", help="What rules may ask for: labels (S), touching (T), directions (G)."),
     ] = "S+T+G"
+    extractors: Annotated[
+        list[str] | None,
+        typer.Option("--with", help="A plug-in's extractor that rules may use from now on.", metavar="NAME"),
+    ] = None
     follow: Annotated[
         Path | None,
         typer.Option("--follow", help="A program you had in mind: say of each rule why it was learned or not."),
@@ -80,7 +84,13 @@ def synthesize(given: SynthesizeArguments) -> None:
     if given.list_answers:
         _print_answers(project, given.project, given.json)
         return
+    asked = tuple(given.extractors or ())
+    if asked and given.strategy == "paper":
+        raise UsageError("--with does not go with --strategy paper, which knows the extractors of the paper only")
+    if asked and not given.dry_run:
+        project.add_extractors(asked)
     options = Options(
+        extractors=asked if given.dry_run else (),
         strategy=given.strategy,
         layers=given.layers,
         repair=not given.no_repair,
