@@ -183,13 +183,26 @@ export interface ActionForm {
   arguments: Argument[];
 }
 /**
- * One argument of an action. kind: one of some `words`, a `flag` that is there or not, the `file` of a template, a
- * `shape` (a primitive or a template), a `factor` above 0, a `length` above 0 [m], or an `option` with a length [m],
- * which is written `name = value`.
+ * One argument of an action or an extractor. kind: one of some `words`, a `flag` that is there or not, the `file`
+ * of a template, a `shape` (a primitive or a template), a `factor` above 0, a `length` above 0 [m], an `option` with a
+ * length [m], which is written `name = value`, a `text`, a `share` above 0 and at most 1, a `label`, a `base`
+ * extractor, or any `extractor`.
  */
 export interface Argument {
   name: string;
-  kind: "words" | "flag" | "file" | "shape" | "factor" | "length" | "option";
+  kind:
+    | "words"
+    | "flag"
+    | "file"
+    | "shape"
+    | "factor"
+    | "length"
+    | "option"
+    | "text"
+    | "share"
+    | "label"
+    | "base"
+    | "extractor";
   wants: string;
   choices: string[];
   required: boolean;
@@ -1314,12 +1327,14 @@ export interface LanguageView {
   directions: string[];
 }
 /**
- * An extractor's operator and its operands, for completion.
+ * An extractor's operator and its operands, for completion; base: whether it is a base extractor.
  */
 export interface Operator {
   name: string;
   usage: string;
   summary: string;
+  base: boolean;
+  arguments: Argument[];
 }
 /**
  * An error at a place in a text; line, column: from 1.

@@ -8,18 +8,21 @@ from itertools import chain
 from typing import TYPE_CHECKING
 
 from meshforge.common import UsageError, join_names, suggest_among
-from meshforge.language import EXTREMITY, Extractor, labels_of, parse_extractor, show
+from meshforge.language import EXTRACTORS, EXTREMITY, Extractor, labels_of, list_operators, parse_extractor, show
 from meshforge.symbolic import SymbolicMesh
 
 if TYPE_CHECKING:
     from meshforge.project import Project
 
-_EXTRACTOR = re.compile(r"\s*(All\s*$|(Is|Attach|Geo|Union|Intersect|Diff)\s*\()", re.IGNORECASE)
-
 
 def is_extractor(text: str, hulls: Collection[str]) -> bool:
     """Whether a text begins as an extractor does, right or wrong, in whatever case; none of its parts names a hull."""
-    return _EXTRACTOR.match(text) is not None and not any(part.strip() in hulls for part in text.split(","))
+    found = re.match(r"\s*(\w+)\s*(\(|$)", text)
+    if found is None or any(part.strip() in hulls for part in text.split(",")):
+        return False
+    if found[2]:
+        return found[1].lower() in map(str.lower, list_operators())
+    return found[1].lower() == "all" or found[1] in EXTRACTORS.plugin_names
 
 
 def select_hulls(

@@ -12,6 +12,7 @@ from meshforge.cli import synthesize_text
 from meshforge.cli.console import progress
 from meshforge.cli.options import Json, takes
 from meshforge.cli.terminal import catch_interrupt, print_json, remark
+from meshforge.common import UsageError
 from meshforge.language import Program
 from meshforge.project import Project, select_assets
 from meshforge.synthesis import LearningOutcome, Options, outcome_to_json
@@ -29,6 +30,10 @@ class SynthesizeArguments:
         Literal["S", "S+T", "S+G", "S+T+G"],
         typer.Option("--layers", help="What rules may ask for: labels (S), touching (T), directions (G)."),
     ] = "S+T+G"
+    extractors: Annotated[
+        list[str] | None,
+        typer.Option("--with", help="A plug-in's extractor that rules may use from now on.", metavar="NAME"),
+    ] = None
     follow: Annotated[
         Path | None,
         typer.Option("--follow", help="A program you had in mind: say of each rule why it was learned or not."),
@@ -47,7 +52,13 @@ def synthesize(given: SynthesizeArguments) -> None:
     What the demonstrations leave open, and labels that are probably wrong, `meshforge review` asks about.
     """
     project = Project.open(given.project).with_cache()
+    asked = tuple(given.extractors or ())
+    if asked and given.strategy == "paper":
+        raise UsageError("--with does not go with --strategy paper, which knows the extractors of the paper only")
+    if asked and not given.dry_run:
+        project.add_extractors(asked)
     options = Options(
+        extractors=asked if given.dry_run else (),
         strategy=given.strategy,
         layers=given.layers,
         repair=not given.no_repair,

@@ -11,7 +11,7 @@ from dataclasses import fields, is_dataclass
 from inspect import isabstract
 from typing import Any, TypeVar
 
-from meshforge.common import Plugin, PluginError, PluginKind, Registry, blame
+from meshforge.common import Plugin, PluginError, PluginKind, Registry, UsageError, blame, suggest_among
 from meshforge.language.actions.base import Action, MissingAction
 from meshforge.language.actions.basic import Add, Delete, Each, Merge, Scale, Shrink
 from meshforge.language.actions.replace import Replace
@@ -44,6 +44,13 @@ class OperationRegistry(Registry[type[T]]):
     ) -> None:
         super().__init__(kind, {one.__name__: one for one in built_in}, self._adopt_kind, RESERVED)
         self._base, self._missing, self._rebuild = base, missing, rebuild
+
+    def require(self, name: str) -> type[T]:
+        """The class of a name. Raises UsageError where there is none, PluginError where it cannot be loaded."""
+        if name not in self:
+            remedy = suggest_among(name, self, f"Known {self.kind}:")
+            raise UsageError(f"there is no {self.kind.removesuffix('s')} {name!r}", remedy=remedy)
+        return self[name]
 
     def _adopt_kind(self, plugin: Plugin, kind: Any) -> type[T]:
         """The class of a plug-in's operation. Raises PluginError where it does not fit."""

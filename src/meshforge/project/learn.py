@@ -150,7 +150,8 @@ def digest_learning_inputs(store: Store, settings: Settings | None = None) -> st
 
 def digest_settings(settings: Settings) -> str:
     """The digest of the settings that decide labels and program."""
-    return value_digest([settings.orient, settings.vocabulary, settings.thresholds.model_dump()])
+    words = [settings.orient, settings.vocabulary, settings.thresholds.model_dump(), *settings.extractors]
+    return value_digest(words)
 
 
 def digest_demonstrations(store: Store) -> str:
@@ -190,8 +191,11 @@ def learn_program(
     names = dict.fromkeys(name for demo in demos.values() for step in demo.steps for name in step.action.templates)
     ask = _ask_once(asker or confirm) if confirm else None
     templates = store.templates(names)
+    options = options or synthesis.Options()
+    wanted = () if options.strategy == "paper" else (*settings.extractors, *options.extractors)
     options = replace(
-        options or synthesis.Options(),
+        options,
+        extractors=wanted,
         contact=settings.thresholds.contact,
         extremity=settings.thresholds.extremity,
         rejected=tuple(list_rejections(said)),

@@ -74,7 +74,8 @@ class Settings(BaseModel):
     orient: the directive as a program has it, without the word `orient`; empty for none.
     names: the label that names mean, by patterns of names, in their order; empty for none.
     left_out: ids of assets that are kept, but not as part of the family; removed: ids of assets that `assets` means and
-    that do not belong to the project; urdf_capsules: whether written URDFs get `<capsule>`.
+    that do not belong to the project; urdf_capsules: whether written URDFs get `<capsule>`; extractors: names of
+    leaf extractors of plug-ins that rules may use.
     """
 
     model_config = ConfigDict(extra="allow", frozen=True)
@@ -90,6 +91,7 @@ class Settings(BaseModel):
     left_out: tuple[str, ...] = ()
     removed: tuple[str, ...] = ()
     urdf_capsules: bool = False
+    extractors: tuple[str, ...] = ()
 
 
 def read_settings(folder: Path) -> Settings:

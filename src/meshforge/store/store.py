@@ -18,7 +18,7 @@ from meshforge.batch import (
     write_preparation,
 )
 from meshforge.common import MeshForgeError, ProjectError, nearest_name, write_all_atomically, write_atomically
-from meshforge.language import Orient, Program, Template
+from meshforge.language import EXTRACTORS, Orient, Program, Template
 from meshforge.signoff import EditMeasures
 from meshforge.store import membership
 from meshforge.store import program as program_files
@@ -85,6 +85,15 @@ class Store:
         directive = settings_file.parse_orientation(orient) if isinstance(orient, str) else orient
         with self.lock():
             settings_file.change_setting(self.folder, "orient", settings_file.orientation_text(directive))
+
+    def add_extractors(self, names: Sequence[str]) -> None:
+        """Let rules use leaf extractors of plug-ins, from now on. Raises UsageError where there is none of a name,
+        PluginError where one cannot be loaded."""
+        for name in names:
+            EXTRACTORS.require(name)
+        with self.lock():
+            wanted = dict.fromkeys((*self.settings.extractors, *names))
+            settings_file.change_setting(self.folder, "extractors", tuple(wanted))
 
     # Assets
 

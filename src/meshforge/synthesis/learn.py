@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import replace
 
 from meshforge.common import DemonstrationError, suggest_among
 from meshforge.language import Orient, Program, Template
@@ -12,6 +13,7 @@ from meshforge.synthesis.learning_run import LearningRun
 from meshforge.synthesis.options import Options, TimeBudget
 from meshforge.synthesis.outcome import LearningOutcome, NeedsRepair
 from meshforge.synthesis.questions import Answer, LabelCorrection, Repair
+from meshforge.synthesis.search.terms import enumerate_more_leaves
 from meshforge.synthesis.task import Batch, LearningTask, apply_corrections, name_batch
 
 DEFAULTS = Options()
@@ -34,11 +36,13 @@ def synthesize(
     confirm: is asked about each label that is probably wrong; without it the outcome proposes the repairs.
     answers: what a person said to earlier questions.
     Raises DemonstrationError for demonstrations that contradict each other or name what is not there, ProgramError
-    where the orientation fails on one of them.
+    where the orientation fails on one of them, PluginError for a leaf extractor of a plug-in that fails.
     """
     meshes = name_batch(batch, demos)
     rules = collect_rule_specs(demos)
     labels = choose_vocabulary(demos, meshes.values(), orient, vocabulary)
+    family = [*(demo.mesh for demo in demos), *meshes.values()]
+    options = replace(options, leaves=enumerate_more_leaves(options.extractors, labels, options.layers, family))
     frame = Program(labels, orient, (), options.contact, options.extremity)
     budget = TimeBudget(options.budget, options.clock, options.stop)
     confirmer = _RepairConfirmer(confirm, options.rejected, budget)

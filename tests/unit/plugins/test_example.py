@@ -12,17 +12,18 @@ import pytest
 
 from tests.loop.command import Done, meshforge
 from tests.plugin_packages import build_example, page_commands, page_files, unpack
-from tests.unit.batch.families import write_table
+from tests.unit.batch.families import obj, table_boxes, write_table
 
 
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A folder with `table.obj`, its labels and `contract.mf`; the example is on the path of what is started in it."""
+    """A folder with `table.obj`, its labels, and the programs of the page; what is started in it finds the example."""
     site = unpack(build_example(tmp_path / "wheels"), tmp_path / "site")
     put_on_path(site, monkeypatch)
     work = tmp_path / "work"
     write_table(work / "table.obj")
     (work / "contract.mf").write_text(page_files()["contract.mf"].replace("top, leg", "top, leg, misc"))
+    (work / "smaller.mf").write_text(page_files()["smaller.mf"])
     return work
 
 
@@ -45,6 +46,7 @@ def test_every_command_of_the_page_runs(folder: Path) -> None:
         *(f"{side}_{part}" for side in ("left", "right") for part in ("low", "high")),
     }
     assert edited["top"] == before["top"]
+    assert "crumb" not in (folder / "tidy" / "table.obj").read_text()
     labelled = json.loads((folder / "tables" / "labels" / "table.obj.json").read_text())["hulls"]
     assert (labelled["top"]["label"], labelled["top"]["source"], labelled["top"]["confidence"]) == (
         "top",
@@ -76,6 +78,32 @@ def test_a_plug_ins_action_is_demonstrated_learned_and_run_in_workers(folder: Pa
 
 
 @pytest.mark.slow
+def test_a_plug_ins_extractor_is_learned_where_asked_for_reviewed_and_run_in_workers(folder: Path) -> None:
+    boxes = table_boxes()
+    for name, place in (("table", 5.0), ("two", -5.0)):
+        moved = {**boxes, "crumb": ((place,) * 3, (place + 0.1,) * 3)}
+        (folder / f"{name}.obj").write_text(obj(moved))
+        labels = {hull: "top" if hull == "top" else "leg" for hull in boxes}
+        (folder / f"{name}.labels.json").write_text(json.dumps({"hulls": labels}))
+    meshforge("new", "home", "table.obj", "two.obj", cwd=folder)
+    meshforge("label", "home", "--vocabulary", "top,leg", cwd=folder)
+    for name in ("table", "two"):
+        meshforge("demonstrate", "home", f"{name}.obj", "crumb => Delete", cwd=folder)
+    program = folder / "home" / "program.mf"
+    meshforge("synthesize", "home", cwd=folder)
+    assert "Smaller" not in program.read_text()
+    tried = meshforge("synthesize", "home", "--with", "Smaller", "--dry-run", cwd=folder)
+    assert "Smaller(Is(leg), 0.01) => Delete" in tried.out
+    assert "Smaller" not in program.read_text()
+    meshforge("synthesize", "home", "--with", "Smaller", cwd=folder)
+    assert "Smaller(Is(leg), 0.01) => Delete" in program.read_text()
+    meshforge("review", "home", "--json", cwd=folder)
+    assert "Smaller(Is(leg), 0.01) => Delete" in program.read_text()
+    rows = meshforge("apply", "home", "--workers", "2", "--json", cwd=folder).lines
+    assert [(row["status"], row["rules"][0]["selected"]) for row in rows] == [("edited", ["crumb"])] * 2
+
+
+@pytest.mark.slow
 def test_pip_installs_the_package_and_the_list_names_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     wheel, site = build_example(tmp_path / "wheels"), tmp_path / "site"
     words = ["install", "--quiet", "--no-deps", "--no-index", "--disable-pip-version-check", "--target", site, wheel]
@@ -84,6 +112,7 @@ def test_pip_installs_the_package_and_the_list_names_it(tmp_path: Path, monkeypa
     rows = meshforge("plugins", "--json", cwd=tmp_path).json
     assert [(row["kind"], row["name"]) for row in rows] == [
         ("formats", "hulls"),
+        ("extractors", "Smaller"),
         ("actions", "Contract"),
         ("labelers", "flat"),
         ("checks", "few-hulls"),

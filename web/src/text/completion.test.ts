@@ -1,5 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { labelText } from "../store/actions";
+import type { Argument } from "../wire";
 import { wordBefore, type Context, openCall, suggestions } from "./completion";
 
 const argument = (name: string, kind: "shape" | "words" | "factor" | "option", choices: string[], required = true) => ({
@@ -8,6 +9,14 @@ const argument = (name: string, kind: "shape" | "words" | "factor" | "option", c
   wants: "",
   choices,
   required,
+});
+const operand = (name: string, kind: Argument["kind"], choices: string[] = []) => ({ name, kind, wants: "", choices, required: true });
+const operator = (name: string, base: boolean, ...given: Argument[]) => ({
+  name,
+  usage: given.length > 0 ? `${name}(${given.map((one) => one.name).join(", ")})` : name,
+  summary: "",
+  base,
+  arguments: given,
 });
 const context: Context = {
   language: {
@@ -21,11 +30,14 @@ const context: Context = {
         arguments: [argument("geometry", "shape", ["box", "sphere"]), argument("fit", "words", ["tight"], false), argument("radius", "option", ["radius"], false)],
       },
     ],
-    operators: ["All", "Is(label)", "Attach(left, right)", "Geo(base, direction)"].map((usage) => ({
-      name: /^\w+/.exec(usage)?.[0] ?? "",
-      usage,
-      summary: "",
-    })),
+    operators: [
+      operator("All", true),
+      operator("Is", true, operand("label", "label")),
+      operator("Attach", false, operand("selected", "base"), operand("anchor", "base")),
+      operator("Geo", false, operand("base", "base"), operand("direction", "words", ["+X", "-X"])),
+      operator("Smaller", false, operand("base", "base"), operand("share", "share")),
+      operator("Union", false, operand("left", "extractor"), operand("right", "extractor")),
+    ],
     directions: ["+X", "-X"],
   },
   labels: ["leg", "table top"],
@@ -36,7 +48,10 @@ const after = (line: string, bare = false) => suggestions(line, context, bare).m
 
 describe("what may follow in a program", () => {
   it.each([
-    ["", ["All", "Is", "Attach", "Geo"]],
+    ["", ["All", "Is", "Attach", "Geo", "Smaller", "Union"]],
+    ["Smaller(", ["All", "Is"]],
+    ["Smaller(All, ", []],
+    ["Union(All, ", ["All", "Is", "Attach", "Geo", "Smaller", "Union"]],
     ["Is(", ["leg", '"table top"']],
     ["Is(le", ["leg", '"table top"']],
     ["Attach(Is(leg), ", ["All", "Is"]],
@@ -52,7 +67,7 @@ describe("what may follow in a program", () => {
   ])("after %j is %j", (line, expected) => expect(after(line)).toEqual(expected));
 
   it("is an extractor only, where only an extractor is typed", () => {
-    expect(after("Is(leg) => ", true)).toEqual(["All", "Is", "Attach", "Geo"]);
+    expect(after("Is(leg) => ", true)).toEqual(["All", "Is", "Attach", "Geo", "Smaller", "Union"]);
   });
 
   it("takes the place of the word that was begun", () => {

@@ -1,5 +1,5 @@
 // What may stand at a place of a program: operators, labels, directions, actions and their words.
-import type { LanguageView } from "../wire";
+import type { Argument, LanguageView } from "../wire";
 
 export interface Suggestion {
   readonly label: string;
@@ -28,12 +28,17 @@ export function suggestions(line: string, context: Context, bare: boolean): Sugg
   const action = bare ? -1 : before.lastIndexOf("=>");
   if (action >= 0) return forAction(before.slice(action + 2), context);
   if (/^\s*(?:labels|contact|extremity)\b/.test(before)) return [];
-  if (/^\s*orient\b/.test(before)) return [...directions(context), ...operators(context, ["All", "Is"])];
-  if (/\bIs\(\s*$/.test(before)) return labels(context);
   const call = openCall(before);
-  if (call?.name === "Geo" && call.commas > 0) return directions(context);
-  const base = call?.name === "Geo" || call?.name === "Attach";
-  return operators(context, base ? ["All", "Is"] : null);
+  const operator = context.language.operators.find(({ name }) => name === call?.name);
+  if (operator && call) return forOperand(operator.arguments[call.commas], context);
+  if (/^\s*orient\b/.test(before)) return [...directions(context), ...operators(context, true)];
+  return operators(context, false);
+}
+
+function forOperand(argument: Argument | undefined, context: Context): Suggestion[] {
+  if (argument?.kind === "label") return labels(context);
+  if (argument?.kind === "base" || argument?.kind === "extractor") return operators(context, argument.kind === "base");
+  return (argument?.choices ?? []).map((label) => ({ label, detail: argument?.name ?? "" }));
 }
 
 /** The call that the end of a text stands in, and how many of its arguments are complete. */
@@ -78,9 +83,9 @@ function actions({ language }: Context): Suggestion[] {
   }));
 }
 
-function operators({ language }: Context, only: readonly string[] | null): Suggestion[] {
+function operators({ language }: Context, onlyBases: boolean): Suggestion[] {
   return language.operators
-    .filter(({ name }) => only === null || only.includes(name))
+    .filter(({ base }) => base || !onlyBases)
     .map(({ name, usage, summary }) => ({
       label: name,
       call: usage.includes("("),

@@ -17,8 +17,14 @@ const language = {
     },
   ],
   operators: [
-    { name: "All", usage: "All", summary: "" },
-    { name: "Is", usage: "Is(label)", summary: "" },
+    { name: "All", usage: "All", summary: "", base: true, arguments: [] },
+    {
+      name: "Is",
+      usage: "Is(label)",
+      summary: "",
+      base: true,
+      arguments: [{ name: "label", kind: "label", wants: "a label", choices: [], required: true }],
+    },
   ],
   directions: ["+X", "-Z"],
 };

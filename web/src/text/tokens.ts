@@ -8,7 +8,6 @@ interface Token {
 }
 
 const WORDS = /"(?:[^"\\\n]|\\.)*"|=>|->|[+-][XYZxyz]\b|[+-]?\d+(?:\.\d+)?|[^\W\d]\w*|\s+|./gu;
-const OPERATORS = new Set(["All", "Is", "Attach", "Geo", "Union", "Intersect", "Diff"]);
 
 /** The text of a rule or an extractor in pieces that, joined, are the text again. */
 export function tokenize(text: string): Token[] {
@@ -16,8 +15,8 @@ export function tokenize(text: string): Token[] {
   let afterArrow = false;
   let before = "";
   let call = "";
-  return words.map((word) => {
-    const token = { text: word, ...classify(word, before, call, afterArrow) };
+  return words.map((word, k) => {
+    const token = { text: word, ...classify(word, before, call, afterArrow, words[k + 1] === "(") };
     if (word === "=>") afterArrow = true;
     if (word === "(") call = before;
     if (word.trim()) before = word;
@@ -25,12 +24,18 @@ export function tokenize(text: string): Token[] {
   });
 }
 
-function classify(word: string, before: string, call: string, afterArrow: boolean): Omit<Token, "text"> {
+function classify(
+  word: string,
+  before: string,
+  call: string,
+  afterArrow: boolean,
+  isCall: boolean,
+): Omit<Token, "text"> {
   const plain = (kind: Token["kind"]) => ({ kind, label: null });
   if (word === "=>" || word === "->") return plain("arrow");
   if (!afterArrow && before === "(" && call === "Is") return { kind: "label", label: unquoted(word) };
   if (afterArrow && before === "as" && word.trim()) return { kind: "label", label: unquoted(word) };
-  if (!afterArrow && OPERATORS.has(word)) return plain("operator");
+  if (!afterArrow && (isCall || word === "All")) return plain("operator");
   if (/^[+-][XYZ]$/i.test(word)) return plain("direction");
   if (word.startsWith('"')) return plain("file");
   if (/^[+-]?\d/.test(word)) return plain("number");

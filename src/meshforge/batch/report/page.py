@@ -16,7 +16,7 @@ from meshforge.batch.report import contents
 from meshforge.batch.workers import IN_PROCESS, ExecutionOptions, WorkerFailure
 from meshforge.checks import Finding
 from meshforge.common import join_names, pluralize, write_atomically
-from meshforge.language import ACTIONS, OPERATORS, Program, Rule, explain, show, show_label
+from meshforge.language import ACTIONS, Program, Rule, explain, list_operators, show, show_label
 from meshforge.rendering import DIFFERENCE_COLORS, SELECTED, UNLABELLED, UNSURE, find_replaced, label_colors
 
 MOST_PICTURED = 120
@@ -271,7 +271,7 @@ def _tokenize(text: str, colors: Mapping[str, str]) -> Iterator[tuple[str, str |
 
 
 def _token_kind(match: re.Match[str], token: str) -> str:
-    if token in OPERATORS:
+    if token in list_operators():
         return "operator"
     if token in ACTIONS:
         return "action"

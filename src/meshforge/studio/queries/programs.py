@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
-from dataclasses import fields
-from typing import Any, Literal
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import Any
 
 from meshforge import language
 from meshforge.batch import action_text
@@ -21,16 +20,19 @@ from meshforge.synthesis import Demonstration, begin_replay
 
 _POSITION = re.compile(r".*:(\d+):(\d+)")
 
-ArgumentKind = Literal["words", "flag", "file", "shape", "factor", "length", "option"]
-
-_KINDS: Mapping[type[language.ArgumentType], tuple[ArgumentKind, Any]] = {
+_KINDS: Mapping[type[language.ArgumentType], tuple[wire.ArgumentKind, Any]] = {
     language.WordArgument: ("words", None),
+    language.DirectionArgument: ("words", None),
     language.FlagArgument: ("flag", False),
     language.FileArgument: ("file", "part.obj"),
     language.PrimitiveOrFileArgument: ("shape", "box"),
     language.FactorArgument: ("factor", 1.0),
     language.LengthArgument: ("length", 0.001),
     language.OptionArgument: ("option", None),
+    language.TextArgument: ("text", None),
+    language.ShareArgument: ("share", None),
+    language.LabelArgument: ("label", None),
+    language.BaseArgument: ("base", None),
 }
 """What the page calls each kind of argument, and a value of it; of words, the first is one."""
 
@@ -98,7 +100,7 @@ def build_language_view() -> wire.LanguageView:
     forms = (_try_action_form(name, kind) for name, kind in language.ACTIONS.loadable().items())
     return wire.LanguageView(
         actions=tuple(form for form in forms if form),
-        operators=tuple(map(_operator_view, language.OPERATORS)),
+        operators=(*_list_leaf_views(), *map(_set_operator_view, language.SET_OPERATORS)),
         directions=language.DIRECTIONS,
     )
 
@@ -113,7 +115,7 @@ def _try_action_form(name: str, kind: type[language.Action]) -> wire.ActionForm 
         return None
 
 
-def _has_fields(kind: type[language.Action]) -> bool:
+def _has_fields(kind: type[language.Operation]) -> bool:
     return all(type(argument) in _KINDS for argument in kind.arguments().values())
 
 
@@ -139,11 +141,28 @@ def _example_value(argument: language.ArgumentType) -> Any:
     return argument.choices[0] if isinstance(argument, language.WordArgument) else _KINDS[type(argument)][1]
 
 
-def _operator_view(name: str) -> wire.Operator:
-    kind = getattr(language, name)
-    operands = ", ".join(field.name for field in fields(kind))
-    summary = (kind.__doc__ or "").strip().splitlines()[0]
-    return wire.Operator(name=name, usage=f"{name}({operands})" if operands else name, summary=summary)
+def _list_leaf_views() -> Iterator[wire.Operator]:
+    """The leaves; of plug-ins those whose arguments the page knows."""
+    for name, kind in language.EXTRACTORS.loadable().items():
+        if _has_fields(kind):
+            needed = kind.min_arguments()
+            fields = [
+                _argument_field(one, argument, place < needed)
+                for place, (one, argument) in enumerate(kind.arguments().items())
+            ]
+            is_base = issubclass(kind, language.BaseExtractor)
+            yield _operator_view(name, kind.summary(), fields, is_base)
+
+
+def _set_operator_view(kind: type[language.Union | language.Intersect | language.Diff]) -> wire.Operator:
+    sides = [wire.Argument(name=name, kind="extractor", wants="an extractor") for name in ("left", "right")]
+    return _operator_view(kind.__name__, (kind.__doc__ or "").splitlines()[0], sides)
+
+
+def _operator_view(name: str, summary: str, arguments: Sequence[wire.Argument], base: bool = False) -> wire.Operator:
+    operands = ", ".join(one.name for one in arguments)
+    usage = f"{name}({operands})" if operands else name
+    return wire.Operator(name=name, usage=usage, summary=summary, base=base, arguments=tuple(arguments))
 
 
 def select_hulls(

@@ -150,13 +150,19 @@ class Guesses(Wire):
     guesses: tuple[Guess, ...]
 
 
+ArgumentKind = Literal[
+    "words", "flag", "file", "shape", "factor", "length", "option", "text", "share", "label", "base", "extractor"
+]
+
+
 class Argument(Wire):
-    """One argument of an action. kind: one of some `words`, a `flag` that is there or not, the `file` of a template, a
-    `shape` (a primitive or a template), a `factor` above 0, a `length` above 0 [m], or an `option` with a length [m],
-    which is written `name = value`."""
+    """One argument of an action or an extractor. kind: one of some `words`, a `flag` that is there or not, the `file`
+    of a template, a `shape` (a primitive or a template), a `factor` above 0, a `length` above 0 [m], an `option` with a
+    length [m], which is written `name = value`, a `text`, a `share` above 0 and at most 1, a `label`, a `base`
+    extractor, or any `extractor`."""
 
     name: str
-    kind: Literal["words", "flag", "file", "shape", "factor", "length", "option"]
+    kind: ArgumentKind
     wants: str
     choices: tuple[str, ...] = ()
     required: bool = True
@@ -173,11 +179,13 @@ class ActionForm(Wire):
 
 
 class Operator(Wire):
-    """An extractor's operator and its operands, for completion."""
+    """An extractor's operator and its operands, for completion; base: whether it is a base extractor."""
 
     name: str
     usage: str
     summary: str
+    base: bool
+    arguments: tuple[Argument, ...]
 
 
 class LanguageView(Wire):

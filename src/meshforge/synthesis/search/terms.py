@@ -15,7 +15,7 @@ from functools import lru_cache
 from typing import Any, TypeVar, assert_never
 
 from meshforge import language
-from meshforge.common import UsageError, blame, suggest_among
+from meshforge.common import blame
 from meshforge.language import BaseExtractor, Diff, Leaf, Union
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis.options import Layers
@@ -51,12 +51,8 @@ def enumerate_more_leaves(
     """
     if not names:
         return ()
-    for name in names:
-        if name not in language.EXTRACTORS:
-            remedy = suggest_among(name, language.EXTRACTORS.plugin_names, "Extractors of plug-ins:")
-            raise UsageError(f"there is no extractor {name!r}", remedy=remedy)
-    known = dict.fromkeys(enumerate_leaves(tuple(vocabulary), layers))
-    kinds = dict.fromkeys([*language.EXTRACTORS.built_in.values(), *map(language.EXTRACTORS.__getitem__, names)])
+    known = enumerate_leaves(tuple(vocabulary), layers)
+    kinds = dict.fromkeys([*language.EXTRACTORS.built_in.values(), *map(language.EXTRACTORS.require, names)])
     every = _enumerate(kinds, tuple(vocabulary), layers, tuple(meshes))
     return tuple(leaf for leaf in dict.fromkeys(every) if leaf not in known)
 
