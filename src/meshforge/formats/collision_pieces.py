@@ -22,6 +22,7 @@ from meshforge.geometry import FLATNESS, Floats, Ints, Piece, Pose, Shape, Spher
 from meshforge.symbolic import Asset, Geom, Mentions, Opaque, Surface, unique_names
 
 _LEAST_SCALE = 1e-12  # a factor that is taken for zero
+_NO_LENGTH = 1e-9  # of the radius, for a capsule
 _RING = 32  # corners of each end of a tapered cylinder
 
 
@@ -132,26 +133,47 @@ def build_primitive(kind: str, sizes: Floats, pose: Pose) -> CollisionPiece:
         case "sphere":
             shape = Sphere(pose, radius)
         case "cone":  # its tip up, centred at half its height
-            ends = [end_points(r, at, ball=False, axis=2) for r, at in ((radius, -half), (0.0, half))]
-            try:
-                shape = geometry.convex_hull(pose.apply(np.concatenate(ends)))
-            except GeometryError:
+            made = build_round(kind, pose, radius, 0.0, half).shape
+            if made is None:
                 return without
+            shape = made
         case _:
             shape = (geometry.Capsule if kind == "capsule" else geometry.Cylinder)(pose, radius, half)
     return CollisionPiece(shape) if shape.volume > 0 else without
 
 
-def end_points(radius: float, height: float, *, ball: bool, axis: int) -> Floats:
-    """Points (n, 3) of the disk or ball at a height along an axis: the end of a tapered cylinder or capsule."""
-    centre: Floats = height * np.eye(3)[axis]
+def build_round(kind: str, pose: Pose, bottom: float, top: float, half: float) -> CollisionPiece:
+    """A cylinder, a cone or a capsule about Z of a pose; bottom, top: its radii; half: of its straight height [m].
+
+    A tapered one, which no engine has natively, is a hull; a capsule without a straight part a sphere.
+    """
+    is_capsule, sizes = kind.lower().startswith("capsule"), [max(bottom, top), 2 * half]
+    if is_capsule and bottom == top and abs(half) <= _NO_LENGTH * bottom:
+        return build_solid("sphere", sizes[:1], lambda: Sphere(pose, top))
+    if bottom == top:
+        make = geometry.Capsule if is_capsule else geometry.Cylinder
+        return build_solid(kind, sizes, lambda: make(pose, top, half))
+    if min(bottom, top) < 0:
+        return CollisionPiece(None, f"a {kind} of negative radius")
+    ends = [_end_points(radius, height, is_capsule) for radius, height in ((bottom, -half), (top, half))]
+    return build_solid(kind, sizes, lambda: geometry.convex_hull(pose.apply(np.concatenate(ends))))
+
+
+def _end_points(radius: float, height: float, is_ball: bool) -> Floats:
+    """Points (n, 3) of the disk or ball at a height along Z: the end of a tapered cylinder or capsule."""
+    centre = np.array([0.0, 0.0, height])
     if radius == 0:
         return centre.reshape(1, 3)
-    if ball:
+    if is_ball:
         return Sphere(Pose.of_translation(centre), radius).vertices
     angles = np.arange(_RING) * (2 * np.pi / _RING)
-    ring = np.column_stack([radius * np.cos(angles), radius * np.sin(angles)])
-    return np.insert(ring, axis, height, axis=1)
+    return np.column_stack([radius * np.cos(angles), radius * np.sin(angles), np.full(_RING, height)])
+
+
+def leaves_volume(linear: Floats, least: float = 1e-12) -> bool:
+    """Whether a map (3, 3) leaves volume: no stretch is less than a share of the largest one."""
+    stretch = np.linalg.svd(linear, compute_uv=False)
+    return bool(stretch[-1] > least * stretch[0])
 
 
 def name_pieces(bases: Iterable[tuple[str, int]]) -> list[tuple[str, ...]]:

@@ -205,12 +205,7 @@ class _ChainBuilder:
         if joint.kind in self.rules.kinds or joint.kind not in ("ball", "planar"):
             return [joint]
         if joint.kind == "planar":
-            across = perpendicular_to(joint.axis)
-            parts: list[tuple[str, JointKind, Floats]] = [
-                ("x", "prismatic", across),
-                ("y", "prismatic", np.cross(joint.axis, across)),
-                ("turn", "revolute", joint.axis),
-            ]
+            parts = split_planar(joint)
         else:
             axes = self.poses[joint.child].rotation.T
             parts = [(letter, "revolute", axes[k]) for k, letter in enumerate("xyz")]
@@ -232,11 +227,12 @@ def _link_origin_of(joint: Joint, pose: Pose) -> Floats:
     return pose.translation + away if np.linalg.norm(away) > _NEAR else pose.translation
 
 
-def perpendicular_to(axis: Floats) -> Floats:
-    """A unit vector (3,) across an axis."""
-    side = np.cross(axis, np.eye(3)[int(np.argmin(np.abs(axis)))])
-    unit: Floats = side / np.linalg.norm(side)
-    return unit
+def split_planar(joint: Joint) -> list[tuple[str, JointKind, Floats]]:
+    """The name, kind and axis (3,) of each of the joints that move together as a planar one."""
+    side = np.cross(joint.axis, np.eye(3)[int(np.argmin(np.abs(joint.axis)))])
+    across: Floats = side / np.linalg.norm(side)
+    slides: list[tuple[str, JointKind, Floats]] = [("x", "prismatic", across)]
+    return [*slides, ("y", "prismatic", np.cross(joint.axis, across)), ("turn", "revolute", joint.axis)]
 
 
 def place_inertial(inertial: Inertial, root_t_link: Pose) -> tuple[Floats, Floats]:

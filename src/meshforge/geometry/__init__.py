@@ -33,7 +33,7 @@ __getattr__, __all__ = export_lazily(
         "round_shapes": "Capsule Cylinder Ellipsoid Sphere",
         "shape": "Box Polytope Shape digest is_same_shape",
         "simplify": "Enclosure HullBudget enclose",
-        "solids": "cut inertia overlap_volume partition principal_axes volume_of_union",
+        "solids": "combine_inertias cut inertia overlap_volume partition principal_axes volume_of_union",
         "surface": (
             "LEVEL heights_above is_closed is_convex is_convex_hull is_outward neighbour_faces normals_of "
             "planes_of polygon_sizes rises_above sample_surface"

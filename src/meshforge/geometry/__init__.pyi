@@ -80,6 +80,7 @@ from meshforge.geometry.shape import is_same_shape as is_same_shape
 from meshforge.geometry.simplify import Enclosure as Enclosure
 from meshforge.geometry.simplify import HullBudget as HullBudget
 from meshforge.geometry.simplify import enclose as enclose
+from meshforge.geometry.solids import combine_inertias as combine_inertias
 from meshforge.geometry.solids import cut as cut
 from meshforge.geometry.solids import inertia as inertia
 from meshforge.geometry.solids import overlap_volume as overlap_volume

@@ -105,6 +105,20 @@ def inertia(shapes: Sequence[Shape], mass: float, centre: Floats | None = None) 
     return about, mass * (np.trace(spread) * np.eye(3) - spread)
 
 
+def combine_inertias(
+    parts: Sequence[tuple[float, Floats, Floats]], about: Floats | None = None
+) -> tuple[float, Floats, Floats]:
+    """The mass [kg] of parts together, a centre (3,), and the inertia (3, 3) about it.
+
+    parts: of each its mass, its centre and its inertia about that; about: the centre, None for the common one.
+    """
+    mass = sum(own for own, _, _ in parts)
+    centre: Floats = np.sum([own * at for own, at, _ in parts], axis=0) / mass if about is None else about
+    arms = [(own, at - centre, tensor) for own, at, tensor in parts]
+    moved = [tensor + own * (arm @ arm * np.eye(3) - np.outer(arm, arm)) for own, arm, tensor in arms]
+    return mass, centre, np.sum(moved, axis=0)
+
+
 def principal_axes(inertia: Floats) -> tuple[Floats, Floats]:
     """The principal moments (3,) and axes, a rotation (3, 3), of an inertia (3, 3); of a diagonal one its own."""
     if not (inertia - np.diag(np.diag(inertia))).any():

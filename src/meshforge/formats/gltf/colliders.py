@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from meshforge.common import GeometryError
-from meshforge.formats.collision_pieces import CollisionPiece, place_pieces, place_surface
+from meshforge.formats.collision_pieces import CollisionPiece, leaves_volume, place_pieces, place_surface
 from meshforge.formats.engine_names.conventions import godot_kind, holds_colliders, interpret_unreal_shape, unreal_kind
 from meshforge.formats.gltf.document import Convention
 from meshforge.formats.gltf.physics import collider_of, has_collider, physics_extension_of, rigid_pose_of
@@ -17,8 +17,6 @@ from meshforge.formats.meshfile.gltf_document import entry
 from meshforge.formats.meshfile.gltf_meshes import GltfMesh
 from meshforge.formats.meshfile.gltf_scene import GltfScene, Placement
 from meshforge.geometry import Ellipsoid, Floats, Ints, Piece, Polytope, Pose, Sphere, hull_mesh, split_pieces
-
-_LEAST = 1e-12  # of the largest stretch of a map; below, it is a projection
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -77,7 +75,7 @@ class CollisionReader:
             return NodeCollision(placement.index, name, [replace(found, plane=plane)])
         if isinstance(found.shape, Polytope):
             self.notes.append(f"the collider of {name or f'node {placement.index}'!r} is tapered: it is read as a hull")
-        if _is_degenerate(placement.linear):
+        if not leaves_volume(placement.linear):
             return NodeCollision(placement.index, name, [CollisionPiece(None, "it is scaled to nothing")])
         shape = found.shape.transform(placement.linear, placement.offset)
         if isinstance(found.shape, Sphere) and not isinstance(shape, Sphere):
@@ -120,7 +118,7 @@ class CollisionReader:
     ) -> NodeCollision:
         if not len(mesh.faces):
             return NodeCollision(node, name, [])
-        if _is_degenerate(linear):
+        if not leaves_volume(linear):
             return NodeCollision(node, name, [_opaque_part(mesh, linear, offset, "it is scaled to nothing")])
         found = self._pieces_of(index, mesh, name or f"node {node}")
         owner = np.zeros(len(mesh.faces), dtype=np.int64)
@@ -139,7 +137,7 @@ class CollisionReader:
     def _hull_part(self, mesh: GltfMesh, linear: Floats, offset: Floats) -> CollisionPiece:
         if not len(mesh.faces):
             return CollisionPiece(None, "the mesh holds no triangles")
-        if _is_degenerate(linear):
+        if not leaves_volume(linear):
             return _opaque_part(mesh, linear, offset, "it is scaled to nothing")
         try:
             hull, fill = hull_mesh(mesh.vertices, mesh.faces)
@@ -153,11 +151,6 @@ def _split_mesh(mesh: GltfMesh, name: str) -> list[Piece]:
         return split_pieces(mesh.vertices, mesh.faces, name=name)
     except GeometryError as error:
         raise ValueError(f"{error.problem}, in {name!r}") from error
-
-
-def _is_degenerate(linear: Floats) -> bool:
-    stretch = np.linalg.svd(linear, compute_uv=False)
-    return bool(stretch[-1] <= _LEAST * stretch[0])
 
 
 def _opaque_part(mesh: GltfMesh, linear: Floats, offset: Floats, reason: str) -> CollisionPiece:

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from meshforge.common import AssetError
+from meshforge.formats.collision_pieces import leaves_volume
 from meshforge.formats.gltf import output, physics
 from meshforge.formats.meshfile.gltf_document import Json, entries, entry, extension
 from meshforge.formats.meshfile.gltf_scene import GltfScene
@@ -166,8 +167,7 @@ class SceneDraft:
 
     def keeps_volume(self, index: int) -> bool:
         """Whether a node leaves a volume to what is below it."""
-        stretch = np.linalg.svd(self.scene.placements[index].linear, compute_uv=False)
-        return bool(stretch[-1] > 1e-9 * stretch[0])
+        return leaves_volume(self.scene.placements[index].linear, 1e-9)
 
     def shape_in(self, shape: Shape, holder: int | None) -> Shape:
         """A shape of the root frame in the space of a node."""

@@ -8,13 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from meshforge.formats.collision_pieces import CollisionPiece, build_solid, end_points
+from meshforge.formats.collision_pieces import CollisionPiece, build_round, build_solid
 from meshforge.formats.gltf.document import Convention
 from meshforge.formats.kinematic_tree import BodyTree, drop_rounding
 from meshforge.formats.meshfile.gltf_document import Json, entry, extension, number, numbers
 from meshforge.formats.meshfile.gltf_meshes import rotations_of
 from meshforge.formats.meshfile.gltf_scene import GltfScene, Placement
-from meshforge.geometry import Box, Capsule, Cylinder, Floats, Pose, Shape, Sphere, convex_hull, inertia
+from meshforge.geometry import Box, Floats, Pose, Shape, Sphere, inertia, principal_axes
 from meshforge.symbolic import Asset, Body, Inertial
 
 KHR, SHAPES = "KHR_physics_rigid_bodies", "KHR_implicit_shapes"
@@ -119,17 +119,7 @@ def _build_round(kind: str, own: Json, default: tuple[float, float, float]) -> C
     else:
         top, bottom = number(own, "radiusTop", radius), number(own, "radiusBottom", radius)
         height = number(own, "height", of_cylinder if kind == "cylinder" else of_capsule)
-    sizes = [max(top, bottom), height]
-    if kind == "capsule" and abs(height) <= 1e-9 * sizes[0]:
-        return build_solid("sphere", sizes[:1], lambda: Sphere(Pose.identity(), top))
-    if top == bottom:
-        make = Cylinder if kind == "cylinder" else Capsule
-        return build_solid(kind, sizes, lambda: make(Z_TO_Y, top, height / 2))
-    if min(top, bottom) < 0:
-        return CollisionPiece(None, f"a {kind} of negative radius")
-    ball = kind == "capsule"
-    ends = [end_points(top, height / 2, ball=ball, axis=1), end_points(bottom, -height / 2, ball=ball, axis=1)]
-    return build_solid(kind, sizes, lambda: convex_hull(np.concatenate(ends)))
+    return build_round(kind, Z_TO_Y, bottom, top, height / 2)
 
 
 _SIZES = {"inertiaDiagonal": 3, "inertiaTensor": 9}
@@ -149,10 +139,7 @@ def mass_keys(asset: Asset, body: Body) -> Json:
     keys: Json = {"mass": inertial.mass}
     keys["centerOfMass"] = body.pose.inverse().apply(inertial.centre[None])[0].tolist()
     tensor = drop_rounding(body.pose.rotation.T @ inertial.inertia @ body.pose.rotation)
-    diagonal, axes = np.diag(tensor), np.eye(3)
-    if not np.array_equal(tensor, np.diag(diagonal)):
-        diagonal, axes = np.linalg.eigh(tensor)
-        axes = axes * np.sign(np.linalg.det(axes))
+    diagonal, axes = principal_axes(tensor)
     if diagonal.min() > 0:
         w, x, y, z = Pose(axes, np.zeros(3)).to_quaternion().tolist()
         keys |= {"inertiaDiagonal": diagonal.tolist(), "inertiaOrientation": [x, y, z, w]}

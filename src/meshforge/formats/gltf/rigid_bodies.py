@@ -7,8 +7,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import PurePosixPath
 
-import numpy as np
-
 from meshforge.common import join_names
 from meshforge.formats.base import Loss, Output
 from meshforge.formats.engine_names.bodies import EngineBodies, EngineBody, name_bodies
@@ -22,6 +20,7 @@ from meshforge.formats.gltf.styles import NewPiece
 from meshforge.formats.kinematic_tree import BodyTree
 from meshforge.formats.meshfile.gltf_document import Json
 from meshforge.formats.visuals import VisualSurfaces
+from meshforge.geometry import combine_inertias
 from meshforge.symbolic import Asset, FeatureKind, Inertial, Opaque, Surface
 
 _STILL = "in Godot, what stands still has none"
@@ -114,14 +113,7 @@ def _weld_bodies(asset: Asset, carriers: Mapping[str, str]) -> Asset:
 def _add_inertials(body: str, parts: Sequence[Inertial]) -> Inertial:
     if len(parts) == 1:
         return replace(parts[0], body=body)
-    mass = sum(part.mass for part in parts)
-    centre = np.sum([part.mass * part.centre for part in parts], axis=0) / mass
-    arms = [part.centre - centre for part in parts]
-    shifted = [
-        part.inertia + part.mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
-        for part, arm in zip(parts, arms, strict=True)
-    ]
-    return Inertial(body, mass, centre, np.sum(shifted, axis=0))
+    return Inertial(body, *combine_inertias([(part.mass, part.centre, part.inertia) for part in parts]))
 
 
 def _add_bodies(draft: SceneDraft, asset: Asset, found: EngineBodies, moving: set[str]) -> tuple[list[str], list[str]]:

@@ -10,13 +10,13 @@ from typing import assert_never
 import numpy as np
 
 from meshforge.common import AssetError
-from meshforge.formats.kinematic_tree import claim_name, drop_rounding, perpendicular_to, place_inertial
+from meshforge.formats.kinematic_tree import claim_name, drop_rounding, place_inertial, split_planar
 from meshforge.formats.mesh_output import HullFiles
 from meshforge.formats.mjcf.document import MjcfNode, MjcfTree
 from meshforge.formats.mjcf.model import MjcfModel
 from meshforge.formats.xml import Splice, escape, format_numbers, line_gap, remove_element, set_attribute
 from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Floats, Ints, Polytope, Pose, Sphere, principal_axes
-from meshforge.symbolic import Inertial, Joint, JointKind
+from meshforge.symbolic import Inertial, Joint
 
 MjcfShape = Box | Capsule | Cylinder | Ellipsoid | Sphere
 """The shapes that MuJoCo has of its own."""
@@ -128,9 +128,7 @@ def split_joint(joint: Joint, top: bool, taken: set[str]) -> Sequence[Joint]:
         case "fixed":
             return []
         case "planar":
-            across = perpendicular_to(joint.axis)
-            parts: list[tuple[str, JointKind, Floats]] = [("x", "prismatic", across)]
-            parts += [("y", "prismatic", np.cross(joint.axis, across)), ("turn", "revolute", joint.axis)]
+            parts = split_planar(joint)
         case "floating" if not top:
             axes = np.eye(3)
             parts = [(name, "prismatic", axes[k]) for k, name in enumerate("xyz")]

@@ -13,7 +13,7 @@ from meshforge.formats.sdf.document import AXIS_IN_JOINT
 from meshforge.formats.sdf.frames import MODEL, WORLD, is_true, pose_of, read_values, text_of
 from meshforge.formats.sdf.models import ModelScope, ModelTree
 from meshforge.formats.xml import Element, parse_numbers
-from meshforge.geometry import Floats, Pose, inertia
+from meshforge.geometry import Floats, Pose, combine_inertias, inertia
 from meshforge.symbolic import Body, Coupling, Geom, Inertial, Joint, JointKind, Opaque, unit_vector
 
 _KINDS: dict[str, tuple[JointKind, ...]] = {
@@ -200,23 +200,14 @@ def compute_masses(
         inertial = link.element.first("inertial")
         common = _number_or(inertial, "density", _DENSITY)
         densities = [_number_or(elements[geom.name], "density", common) for geom in own]
-        found = _sum_inertias([(geom, density) for geom, density in zip(own, densities, strict=True) if density > 0])
-        if found is None:
+        heavy = [(geom.shape, density) for geom, density in zip(own, densities, strict=True) if density > 0]
+        if not heavy:
             continue
-        mass, centre, tensor = found
+        masses = [(shape, density * shape.volume) for shape, density in heavy]
+        mass, centre, tensor = combine_inertias([(own_mass, *inertia([shape], own_mass)) for shape, own_mass in masses])
         whole = _number_or(inertial, "mass", 0.0)  # from 1.12 on, what the link is to weigh in all
         share = whole / mass if whole > 0 and link.scope.source.version >= (1, 12) else 1.0
         yield Inertial(body, mass * share, centre, tensor * share)
-
-
-def _sum_inertias(parts: Sequence[tuple[Geom, float]]) -> tuple[float, np.ndarray, np.ndarray] | None:
-    if not parts:
-        return None
-    masses = np.array([density * geom.shape.volume for geom, density in parts])
-    total = float(masses.sum())
-    centre = masses / total @ np.array([geom.shape.centroid for geom, _ in parts])
-    tensors = [inertia([geom.shape], mass, centre)[1] for (geom, _), mass in zip(parts, masses, strict=True)]
-    return total, centre, np.sum(tensors, axis=0)
 
 
 def _number_or(parent: Element | None, tag: str, default: float) -> float:

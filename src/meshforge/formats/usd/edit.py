@@ -9,8 +9,6 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path, PurePosixPath
 from typing import Any
 
-import numpy as np
-
 from meshforge.common import AssetError
 from meshforge.formats import collision_pieces
 from meshforge.formats.base import Mass, Output, note_renames
@@ -18,7 +16,7 @@ from meshforge.formats.libraries import pxr
 from meshforge.formats.usd import colliders, edit_stage, prims, stage
 from meshforge.formats.usd.mechanism import centre_of, moments_of, read_number
 from meshforge.formats.usd.read import PrimCollision, read_collisions
-from meshforge.geometry import Floats, Polytope, Shape, inertia, is_closed
+from meshforge.geometry import Polytope, Shape, combine_inertias, inertia, is_closed
 from meshforge.symbolic import Asset, Inertial
 
 PACKAGE_SUFFIX = ".usdz"
@@ -174,21 +172,12 @@ def weigh(scene: stage.UsdStage, prim: Any, body: str, sources: Sequence[PrimCol
     solids = [(source, shapes) for source, shapes in pieces if shapes]
     if not solids or any(shapes is None for _, shapes in pieces):
         return None
-    masses = [_mass_of(scene, prim, source, shapes) for source, shapes in solids]
-    weights = [(*inertia(shapes, mass), mass) for (_, shapes), mass in zip(solids, masses, strict=True)]
-    total = sum(mass for _, _, mass in weights)
-    said = read_number(scene, prim, "physics:mass")
+    masses = [(shapes, _mass_of(scene, prim, source, shapes)) for source, shapes in solids]
+    weights = [(mass, *inertia(shapes, mass)) for shapes, mass in masses]
+    total, centre, summed = combine_inertias(weights, centre_of(scene, prim))
+    said, moments = read_number(scene, prim, "physics:mass"), moments_of(scene, prim)
     mass = said * scene.kilograms if said is not None and said > 0 else total
-    factor = mass / total
-    middle: Floats = np.sum([centre * mass for centre, _, mass in weights], axis=0) / total
-    centre, moments = centre_of(scene, prim), moments_of(scene, prim)
-    if centre is None:
-        centre = middle
-    if moments is None:
-        ways = [(own, mass, at - centre) for at, own, mass in weights]
-        moved = [own + mass * (by @ by * np.eye(3) - np.outer(by, by)) for own, mass, by in ways]
-        moments = factor * sum(moved, np.zeros((3, 3)))
-    return Inertial(body, mass, centre, moments)
+    return Inertial(body, mass, centre, mass / total * summed if moments is None else moments)
 
 
 def _solids_of(parts: Sequence[collision_pieces.CollisionPiece]) -> list[Shape] | None:

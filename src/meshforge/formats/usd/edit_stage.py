@@ -11,7 +11,7 @@ import numpy as np
 
 from meshforge.common import AssetError, pluralize
 from meshforge.formats.base import note_shapes_as_hulls
-from meshforge.formats.collision_pieces import CollisionPiece, names_to_keep, new_hulls
+from meshforge.formats.collision_pieces import CollisionPiece, leaves_volume, names_to_keep, new_hulls
 from meshforge.formats.libraries import pxr
 from meshforge.formats.usd import colliders
 from meshforge.formats.usd.prims import PrimSpace, add_collision, add_mesh, add_shape, free_prim_name, mark_collider
@@ -159,10 +159,7 @@ class UsdEdit:
 def holds_volume(scene: UsdStage, prim: Any) -> bool:
     """Whether what is put below a prim keeps its volume."""
     linear, offset = scene.placement(prim)
-    if not (np.isfinite(linear).all() and np.isfinite(offset).all()):
-        return False
-    stretch = np.linalg.svd(linear, compute_uv=False)
-    return bool(stretch[-1] > 1e-9 * stretch[0])
+    return bool(np.isfinite(linear).all() and np.isfinite(offset).all()) and leaves_volume(linear, 1e-9)
 
 
 def remove_collision(scene: UsdStage, layer: Any, prim: Any, physics: bool) -> str:

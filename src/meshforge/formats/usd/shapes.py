@@ -2,16 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
 from meshforge.common import GeometryError
-from meshforge.formats.collision_pieces import CollisionPiece, build_solid, end_points, place_pieces, place_surface
+from meshforge.formats.collision_pieces import (
+    CollisionPiece,
+    build_round,
+    build_solid,
+    place_pieces,
+    place_surface,
+)
 from meshforge.formats.libraries import pxr
 from meshforge.formats.meshfile.surface import FARTHEST, RawSurface
 from meshforge.formats.usd.stage import UsdStage, rotation_of
-from meshforge.geometry import Box, Capsule, Cylinder, Floats, Ints, Pose, Sphere, convex_hull, hull_mesh, split_pieces
+from meshforge.geometry import Box, Floats, Ints, Pose, Sphere, hull_mesh, split_pieces
 
 _FLAT = 1e-12  # of the largest stretch of a map; below, it is a projection
 _LEAST = 1e-100  # of any stretch; below, its square is zero
@@ -107,30 +114,16 @@ def _build_primitive(
             radius = size("radius") * float(scales.max())
             return build_solid(kind, [radius], lambda: Sphere(pose, radius))
         case "Capsule" | "Cylinder" | "Cone" | "Capsule_1" | "Cylinder_1":
-            return _build_round(kind, pose, _radii(kind, size) * float(wide.max()), size("height") * long / 2)
+            bottom, top = (radius * float(wide.max()) for radius in _radii(kind, size))
+            return build_round(kind, pose, bottom, top, size("height") * long / 2)
     return CollisionPiece(None, f"a collider of type {kind or 'none'} is not known")
 
 
-def _radii(kind: str, size: Any) -> Floats:
-    """The radii (2,) of the bottom and the top of a round shape."""
+def _radii(kind: str, size: Callable[[str], float]) -> tuple[float, float]:
+    """The radii of the bottom and the top of a round shape."""
     if kind.endswith("_1"):
-        return np.array([size("radiusBottom"), size("radiusTop")])
-    return np.array([size("radius"), 0.0 if kind == "Cone" else size("radius")])
-
-
-def _build_round(kind: str, pose: Pose, radii: Floats, half: float) -> CollisionPiece:
-    """A cylinder, capsule or cone about Z of a pose; half: of its height [m]."""
-    capsule, (bottom, top) = kind.startswith("Capsule"), radii
-    sizes = [float(radii.max()), 2 * half]
-    if capsule and bottom == top and half <= 1e-9 * bottom:
-        return build_solid("sphere", sizes[:1], lambda: Sphere(pose, float(bottom)))
-    if bottom == top:
-        make = Capsule if capsule else Cylinder
-        return build_solid(kind, sizes, lambda: make(pose, float(bottom), half))
-    if radii.min() < 0:
-        return CollisionPiece(None, f"a {kind} of negative radius")
-    ends = [end_points(r, at, ball=capsule, axis=2) for r, at in ((bottom, -half), (top, half))]
-    return build_solid(kind, sizes, lambda: convex_hull(pose.apply(np.concatenate(ends))))
+        return size("radiusBottom"), size("radiusTop")
+    return size("radius"), 0.0 if kind == "Cone" else size("radius")
 
 
 def _axis_rotation(scene: UsdStage, prim: Any) -> Floats:
