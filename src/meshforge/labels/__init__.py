@@ -14,7 +14,7 @@ __getattr__, __all__ = export_lazily(
         "from_files.read": "LabelFileOptions label_file_beside",
         "from_files.label_by_files": "FileLabeler",
         "label_by_plugin": "AssetLabeler",
-        "label_project": "LabelChange LabelResult label_project",
+        "label_family": "LabelChange LabelResult label_project",
         "labeler": "AssetLabels Labeler LabelFamily LabelProposal",
         "merge": "LabelOutcome NewHullLabels label_new_hulls set_labels set_labels_of",
         "names.label_by_names": "NameLabeler",

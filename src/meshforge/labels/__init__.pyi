@@ -6,9 +6,9 @@ from meshforge.labels.from_files.read import LabelFileOptions as LabelFileOption
 from meshforge.labels.from_files.read import label_file_beside as label_file_beside
 from meshforge.labels.from_files.label_by_files import FileLabeler as FileLabeler
 from meshforge.labels.label_by_plugin import AssetLabeler as AssetLabeler
-from meshforge.labels.label_project import LabelChange as LabelChange
-from meshforge.labels.label_project import LabelResult as LabelResult
-from meshforge.labels.label_project import label_project as label_project
+from meshforge.labels.label_family import LabelChange as LabelChange
+from meshforge.labels.label_family import LabelResult as LabelResult
+from meshforge.labels.label_family import label_project as label_project
 from meshforge.labels.labeler import AssetLabels as AssetLabels
 from meshforge.labels.labeler import Labeler as Labeler
 from meshforge.labels.labeler import LabelFamily as LabelFamily
