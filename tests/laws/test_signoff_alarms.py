@@ -8,8 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from meshforge.geometry import Pose, rotation_about
-from meshforge.signoff.alarms import find_alarms
-from meshforge.signoff.measures import EditMeasures, measure_edit
+from meshforge.signoff.outliers import EditMeasures, find_alarms, measure_edit
 from meshforge.symbolic import Hull, SymbolicMesh
 from tests.strategies import seeds, shapes
 

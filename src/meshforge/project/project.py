@@ -68,7 +68,7 @@ class Project(Store):
 
     set_labels = labels.set_labels
     set_labels_of = labels.set_labels_of
-    label = labels.label_family
+    label = labels.label_project
     forecast_vlm = labels.forecast_vlm
     plan_labels = labels.describe_label_plan
     tally_labels = labels.tally_labels

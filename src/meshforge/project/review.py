@@ -20,9 +20,8 @@ from meshforge.project.family_state import FamilyStateReader
 from meshforge.project.sign_offs import AssessmentBasis, Clock, keep_assessment, now_utc, renew_sign_offs
 from meshforge.project.span_questions import add_demonstration_doubts, add_span_doubts, ask_about_spans
 from meshforge.signoff import BAR, Assessment, AssetConfidence, Doubt, EditMeasures, ResultQuestion, ReviewState
-from meshforge.signoff.alarms import describe_odd_results
-from meshforge.signoff.prices import YES_OR_NO
-from meshforge.signoff.question import NOT_OF_FAMILY, identify
+from meshforge.signoff.outliers import describe_odd_results
+from meshforge.signoff.question import NOT_OF_FAMILY, YES_OR_NO, identify
 from meshforge.signoff.review import EXCLUDE_CHOICES, review_family
 from meshforge.store import Store
 from meshforge.symbolic import SymbolicMesh

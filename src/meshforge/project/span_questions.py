@@ -9,8 +9,7 @@ from meshforge.common import ProjectError
 from meshforge.project.hull_mapping import describe_replaced
 from meshforge.project.span_splits import mark_as_one_part, split_as_found
 from meshforge.signoff import Assessment, Doubt, HullPlace, ReviewChoice, SpanQuestion
-from meshforge.signoff.prices import YES_OR_NO
-from meshforge.signoff.question import NO, YES, identify
+from meshforge.signoff.question import NO, YES, YES_OR_NO, identify
 from meshforge.store import SpanLine, Store, hull_digests
 from meshforge.symbolic import SymbolicMesh
 

@@ -7,15 +7,13 @@ from meshforge.common.exports import export_lazily
 __getattr__, __all__ = export_lazily(
     __name__,
     {
-        "alarms": "describe_odd_results",
-        "assessment": "BAR Assessment AssetConfidence Doubt DoubtKind",
-        "measures": "EditMeasures measure_edit",
+        "assessment": "BAR Assessment AssetConfidence Doubt DoubtKind ReviewState",
+        "outliers": "EditMeasures describe_odd_results measure_edit",
         "question": (
             "DemonstrationQuestion ExclusionReason GroupQuestion HullPlace OrientationQuestion ReadingQuestion "
             "RepairQuestion ResultQuestion ReviewChoice ReviewQuestion ReviewReply SlipQuestion SpanQuestion "
             "question_of"
         ),
         "review": "assess_asset review_family",
-        "state": "ReviewState",
     },
 )

@@ -1,12 +1,13 @@
 # Written by `python -m script.stubs`.
-from meshforge.signoff.alarms import describe_odd_results as describe_odd_results
 from meshforge.signoff.assessment import BAR as BAR
 from meshforge.signoff.assessment import Assessment as Assessment
 from meshforge.signoff.assessment import AssetConfidence as AssetConfidence
 from meshforge.signoff.assessment import Doubt as Doubt
 from meshforge.signoff.assessment import DoubtKind as DoubtKind
-from meshforge.signoff.measures import EditMeasures as EditMeasures
-from meshforge.signoff.measures import measure_edit as measure_edit
+from meshforge.signoff.assessment import ReviewState as ReviewState
+from meshforge.signoff.outliers import EditMeasures as EditMeasures
+from meshforge.signoff.outliers import describe_odd_results as describe_odd_results
+from meshforge.signoff.outliers import measure_edit as measure_edit
 from meshforge.signoff.question import DemonstrationQuestion as DemonstrationQuestion
 from meshforge.signoff.question import ExclusionReason as ExclusionReason
 from meshforge.signoff.question import GroupQuestion as GroupQuestion
@@ -23,4 +24,3 @@ from meshforge.signoff.question import SpanQuestion as SpanQuestion
 from meshforge.signoff.question import question_of as question_of
 from meshforge.signoff.review import assess_asset as assess_asset
 from meshforge.signoff.review import review_family as review_family
-from meshforge.signoff.state import ReviewState as ReviewState

@@ -22,13 +22,12 @@ from meshforge.signoff.assessment import (
     AssetConfidence,
     Doubt,
     DoubtKind,
+    ReviewState,
 )
 from meshforge.signoff.confidence import NO_EDIT, AssetEvidence, read_calibration
 from meshforge.signoff.readings import RuleReadings, compare_readings
-from meshforge.signoff.result_labels import weigh_labels
 from meshforge.signoff.slips import RuleSlip, find_slips
-from meshforge.signoff.state import ReviewState
-from meshforge.signoff.trial import RULE_OF_FRAME, Flip, Trial, find_flips, select_by, try_program
+from meshforge.signoff.trial import RULE_OF_FRAME, Flip, Trial, find_flips, select_by, try_program, weigh_labels
 from meshforge.synthesis import Reading
 
 SURE_OF_DEMONSTRATED = 0.999

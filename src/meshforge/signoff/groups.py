@@ -10,8 +10,7 @@ import numpy as np
 
 from meshforge.signoff.confidence import LEAST
 from meshforge.signoff.family import ALIKE, FamilyTrial, flip_shares
-from meshforge.signoff.prices import price_group
-from meshforge.signoff.question import HullPlace
+from meshforge.signoff.question import HullPlace, price_group
 
 MOST_HULLS = 24
 """Hulls of a group."""

@@ -13,14 +13,25 @@ from meshforge.geometry import Floats
 from meshforge.label_model import FamilyModel, FamilyPosterior
 from meshforge.language import show
 from meshforge.signoff import question as kinds
-from meshforge.signoff.assessment import BAR, Assessment, AssetConfidence, Doubt
+from meshforge.signoff.assessment import BAR, Assessment, AssetConfidence, Doubt, ReviewState
 from meshforge.signoff.family import FamilyTrial
 from meshforge.signoff.groups import LookalikeGroup, find_groups, find_other_label, labels_of_group
-from meshforge.signoff.prices import READING, YES_OR_NO, price_demonstration
-from meshforge.signoff.question import EXCLUDE, NO, RIGHT, WRONG, YES, HullPlace, ReviewChoice, ReviewQuestion, identify
+from meshforge.signoff.question import (
+    EXCLUDE,
+    NO,
+    READING,
+    RIGHT,
+    WRONG,
+    YES,
+    YES_OR_NO,
+    HullPlace,
+    ReviewChoice,
+    ReviewQuestion,
+    identify,
+    price_demonstration,
+)
 from meshforge.signoff.readings import ReadingSplit, split_readings
 from meshforge.signoff.slips import ask_about_kept_label, ask_about_nearest, ask_about_slip, offer_label
-from meshforge.signoff.state import ReviewState
 from meshforge.signoff.trial import Trial
 from meshforge.signoff.turns import find_turned_asset
 from meshforge.synthesis import (

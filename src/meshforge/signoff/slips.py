@@ -12,9 +12,8 @@ from meshforge.common import join_names
 from meshforge.geometry import Floats
 from meshforge.label_model import FamilyPosterior
 from meshforge.language import Program, show
-from meshforge.signoff.prices import YES_OR_NO
-from meshforge.signoff.question import NO, YES, HullPlace, ReviewChoice, SlipQuestion, identify
-from meshforge.signoff.state import ReviewState
+from meshforge.signoff.assessment import ReviewState
+from meshforge.signoff.question import NO, YES, YES_OR_NO, HullPlace, ReviewChoice, SlipQuestion, identify
 from meshforge.signoff.trial import Trial, select_by
 from meshforge.symbolic import HUMAN_SOURCES, mask_of
 from meshforge.synthesis import Example, Nearest, Options, Repair, Slip, find_slip

@@ -8,7 +8,7 @@ from meshforge.common import MeshForgeError
 from meshforge.geometry import Floats
 from meshforge.label_model.describe import find_up, rotation_to_z, up_in_file
 from meshforge.language import Orient, find_rotation
-from meshforge.signoff.state import ReviewState
+from meshforge.signoff.assessment import ReviewState
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import OrientationSuggestion
 

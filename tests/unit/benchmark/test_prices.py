@@ -6,7 +6,7 @@ import pytest
 
 from benchmark.study import keystrokes
 from meshforge.language import Delete
-from meshforge.signoff import prices
+from meshforge.signoff import question as prices
 from meshforge.synthesis import Demonstration, Step
 from tests.synthesis_boxes import table
 

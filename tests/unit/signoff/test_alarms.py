@@ -8,8 +8,7 @@ import pytest
 from meshforge.formats import load
 from meshforge.language import Program
 from meshforge.samples import TABLES
-from meshforge.signoff.alarms import Alarm, find_alarms
-from meshforge.signoff.measures import EditMeasures, measure_edit
+from meshforge.signoff.outliers import Alarm, EditMeasures, find_alarms, measure_edit
 from meshforge.symbolic import SymbolicMesh
 
 USUAL = EditMeasures(30, 20, 0.5, 0.1, 0.1, (1.0, 1.0, 1.0), (1.0, 1.0, 1.0), 0.9, 0.01, 0.02)

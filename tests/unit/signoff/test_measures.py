@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from meshforge.geometry import Aabb, Box, Polytope, Shape
-from meshforge.signoff.measures import EditMeasures, measure_edit
+from meshforge.signoff.outliers import EditMeasures, measure_edit
 from meshforge.symbolic import Hull, SymbolicMesh
 
 FLAT = Polytope(np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]]), np.array([[0, 1, 2], [0, 2, 1]]))
