@@ -1,4 +1,4 @@
-"""What is done to assets before the program: hulls decomposed, cut and split, with labels and selections that follow
+"""What is done to assets before the program: hulls decomposed, cut and rebuilt, with labels and selections that follow
 them. Each change is an entry of the project's history."""
 
 from __future__ import annotations
@@ -66,21 +66,6 @@ def cut(store: Store, asset: str, hull: str, at: Sequence[float], across: Sequen
     Raises GeometryError: no such hull, or a plane that misses it.
     """
     return change_preparation(store, asset, lambda source, before: batch.cut_hull(source, before, hull, at, across))
-
-
-def split(
-    store: Store, asset: str, hull: str, settings: DecomposeSettings | None = None, *, hollow: bool = False
-) -> PreparationResult:
-    """Split a hull by a decomposition of what its body shows, or of the opaque piece that it was made of.
-
-    Raises GeometryError: no such hull, nothing to decompose, or nothing that divides it.
-    """
-
-    def make(source: Asset, before: batch.Preparation) -> batch.Preparation:
-        engine = settings or CoacdSettings()
-        return batch.split_hull(source, before, hull, engine, hollow=hollow, cache=cache_folder())
-
-    return change_preparation(store, asset, make)
 
 
 def exchange_preparation(

@@ -18,9 +18,7 @@ ATTRIBUTES = "events.jsonl merge=union\n"
 """What the .gitattributes of a project says."""
 Model = TypeVar("Model", bound=BaseModel)
 
-Effect = Literal[
-    "card", "hulls", "settings", "program", "questions", "learning", "feedback", "spanning hulls", "project view"
-]
+Effect = Literal["card", "hulls", "settings", "program", "questions", "learning", "feedback", "project view"]
 """What a studio refreshes when a file changes."""
 
 
@@ -127,7 +125,6 @@ class Layout:
     corrections = AssetFile("corrections/{asset}.json", _effects("card"), hulls=True, words=True)
     preparation = AssetFile("prepared/{asset}/", _effects("card", "hulls", "learning"), hulls=True)
     preparation_plan = OneFile("preparation.json", _effects("project view"))
-    single_parts = OneFile("single_parts.json", _effects("questions", "spanning hulls"))
     own_templates = OneFile("templates/", _effects("learning"))
     program = OneFile("program.mf", _effects("program", "learning"), words=True, learned=True)
     previous_program = OneFile("program.previous.mf", words=True, learned=True)
@@ -139,8 +136,6 @@ class Layout:
     # What can be made again
 
     stamps = AssetFile(f"edited/{STATE}/stamps/{{asset}}.json", _effects("card"))
-    spans = OneFile(f"{STATE}/spans.json", _effects("questions", "spanning hulls"))
-    span_parts = AssetFile(f"{STATE}/spans/{{asset}}.npz")
     assessment = OneFile(f"{STATE}/assessment.json")
     review_pictures = OneFile(f"{STATE}/review/")
     survey = OneFile(f"{STATE}/survey.json")

@@ -23,7 +23,6 @@ LEARNING: frozenset[Effect] = frozenset({"learning"})
         (f"../assets/{FIRST}", FileChanges(ONE, ONE, LEARNING)),
         ("program.mf", FileChanges(effects=LEARNING | {"program"})),
         ("learned.json", FileChanges(effects=frozenset({"program"}))),
-        ("single_parts.json", FileChanges(effects=frozenset({"questions", "spanning hulls"}))),
         ("signoffs.jsonl", FileChanges()),
         ("labels/gone.obj.json", FileChanges(effects=LEARNING)),
         ("notes.txt", FileChanges()),

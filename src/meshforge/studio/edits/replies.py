@@ -72,9 +72,6 @@ class ReplyToQuestion(Edit):
                 return f"result of {asset}: {choice.text if choice else 'none'}"
             case signoff.OrientationQuestion():
                 return "assets are turned first"
-            case signoff.SpanQuestion():
-                how = "is one part" if self.choice == NO else "split into its parts"
-                return f"{question.hulls[0].hull} of {asset} {how}"
             case signoff.DemonstrationQuestion():
                 return "question put off"
             case _:
@@ -82,7 +79,9 @@ class ReplyToQuestion(Edit):
 
     @cached_property
     def _asked(self) -> ReviewQuestion:
-        return question_of(self.question.model_dump())
+        asked = question_of(self.question.model_dump())
+        assert asked, "the page sends what it was asked"
+        return asked
 
     @property
     def _reply(self) -> ReviewReply:
@@ -129,8 +128,6 @@ class ReplyToQuestion(Edit):
                 yield from [Layout.labels.path(project.folder)] if everywhere else map(layout.labels, assets)
             case signoff.OrientationQuestion():
                 yield layout.settings
-            case signoff.SpanQuestion():
-                yield from (layout.single_parts, *layout.list_kept(self._asked.asset))
             case signoff.ReadingQuestion() | signoff.DemonstrationQuestion():
                 return
             case other:

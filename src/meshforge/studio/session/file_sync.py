@@ -13,7 +13,7 @@ from time import monotonic
 from meshforge.batch import source_files
 from meshforge.common import MeshForgeError, relative_name
 from meshforge.project import Project
-from meshforge.store import Effect, Feedback, Layout, SpanLine, identify_file, list_files
+from meshforge.store import Effect, Feedback, Layout, identify_file, list_files
 from meshforge.studio.learning.scheduler import LearningScheduler
 from meshforge.studio.pages import PageState
 from meshforge.studio.queries.programs import read_program_view
@@ -41,7 +41,7 @@ class FileSync:
         self.project = project
         self._pages, self._learning, self._queue = pages, learning, queue
         self._stamps = read_stamps(project)
-        self._said, self._spans = _read_feedback(project), _read_spans(project)
+        self._said = _read_feedback(project)
 
     def update(self, names: Iterable[str]) -> None:
         """Refresh what depends on files that changed; names: paths from the project's folder."""
@@ -58,8 +58,6 @@ class FileSync:
             self._learning.restart()
         self._pages.announce_assets(sorted(changes.assets), bool(changes.shapes))
         self._queue.add(changes.assets, later="settings" in effects)
-        if "spanning hulls" in effects:
-            self._queue.add(self._update_spans())
         if is_other and "learning" not in effects:
             self._learning.measure_reach()
         if "questions" in effects and "learning" not in effects:
@@ -115,24 +113,12 @@ class FileSync:
         changes = replace(changes, assets=assets)
         return changes.with_effects("questions", "learning") if learns else changes.with_effects("questions")
 
-    def _update_spans(self) -> list[str]:
-        """The assets of which other hulls likely span parts than before."""
-        before, self._spans = self._spans, _read_spans(self.project)
-        return [asset for asset in before | self._spans if before.get(asset) != self._spans.get(asset)]
-
 
 def _read_feedback(project: Project) -> Feedback:
     try:
         return project.feedback()
     except MeshForgeError:  # the assessment says so
         return Feedback()
-
-
-def _read_spans(project: Project) -> dict[str, dict[str, SpanLine]]:
-    try:
-        return project.spans().assets
-    except MeshForgeError:  # the cards say so
-        return {}
 
 
 def _view_program(project: Project, before: ProgramView) -> ProgramView:

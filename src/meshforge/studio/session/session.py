@@ -13,7 +13,7 @@ from typing import Any, Literal
 from meshforge.batch import read_prepared, stamp_path
 from meshforge.common import UsageError, relative_name
 from meshforge.labels import OfferCache
-from meshforge.project import Project, can_ask_about_spans
+from meshforge.project import Project
 from meshforge.store import History, HistoryEntry, Layout, MeshCache, list_files
 from meshforge.studio.downloads import Downloads
 from meshforge.studio.edits.base import Edit, make_edit
@@ -86,7 +86,6 @@ class Session:
             Learner(project.folder),
             self.pages,
             self._has_demonstrations,
-            lambda: can_ask_about_spans(self.project),
             self._end_learning,
             self.refresh_queue.add,
         )
