@@ -371,7 +371,6 @@ def test_the_status_is_plain_data_for_scripts(tmp_path: Path) -> None:
         "hulls": 6,
         "sources": 0,
         "prepared": [],
-        "spans": [],
         "labelled": 6,
         "doubtful": [],
         "demonstrated": True,
