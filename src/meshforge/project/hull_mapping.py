@@ -3,10 +3,10 @@ each line with what it named before until a person has confirmed it."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from meshforge import store as files
 from meshforge.batch import Preparation
@@ -46,21 +46,15 @@ class HullMapping:
     def list_writes(self, store: Store, asset: str) -> list[tuple[Path, bytes]]:
         """What to write to the files of which lines name other hulls. Raises ProjectError where one cannot be read."""
         layout, events = store.layout, files.load_events(store.layout)
-        steps = files.read_json(layout.demonstration(asset), DemonstrationFile)
-        edits = files.read_json(layout.corrections(asset), CorrectionsFile)
-        feedback = store.feedback()
-        known = [one for one in feedback.answers_and_fixes.values() if one.asset == asset]
-        changes = (
-            (layout.demonstration(asset), steps, {"steps": tuple(map(self._map_step, steps.steps if steps else ()))}),
-            (layout.corrections(asset), edits, {"steps": tuple(map(self._map_edit, edits.steps if edits else ()))}),
-        )
-        texts = {path: files.json_text(file.model_copy(update=new)) for path, file, new in changes if file}
-        same = {path: files.json_text(file) for path, file, _ in changes if file}
-        now = tuple(one for event in events for one in (self._map_event(event) if event in known else (event,)))
-        if now != events:
+        known = [one for one in store.feedback().answers_and_fixes.values() if one.asset == asset]
+        after = tuple(one for event in events for one in (self._map_event(event) if event in known else (event,)))
+        if after != events:
             store.migrate()
-            texts[layout.events] = files.format_lines(now)
-        return [(path, text.encode()) for path, text in texts.items() if text != same.get(path)]
+        return [
+            *_map_steps(layout.demonstration(asset), DemonstrationFile, self._map_step),
+            *_map_steps(layout.corrections(asset), CorrectionsFile, self._map_edit),
+            *([(layout.events, files.format_lines(after).encode())] if after != events else []),
+        ]
 
     def _map_step(self, line: StepLine) -> StepLine:
         return self._map_line(line, line.select or (), {"select": line.select and self.map_names(line.select)})
@@ -94,6 +88,15 @@ class HullMapping:
         inner = {part for parts in line.replaced.values() for part in parts}
         replaced = before | {name: parts for name, parts in gone.items() if name not in inner}
         return line.model_copy(update={**update, "replaced": replaced})
+
+
+def _map_steps(
+    path: Path, kind: type[DemonstrationFile | CorrectionsFile], change: Callable[[Any], Any]
+) -> Iterator[tuple[Path, bytes]]:
+    file = files.read_json(path, kind)
+    steps = tuple(map(change, file.steps)) if file else ()
+    if file and steps != file.steps:
+        yield path, files.json_text(file.model_copy(update={"steps": steps})).encode()
 
 
 def describe_replaced(store: Store, asset: str) -> Iterator[str]:

@@ -143,12 +143,12 @@ class HullChange:
         has a label for each hull.
         """
         labels, folder = self.store.layout.labels(self.asset), self.store.layout.preparation(self.asset)
-        texts = (follow.format(keep_old=True), follow.format(keep_old=False)) if follow else ()
-        between, *final = [(labels, None if text is None else text.encode()) for text in texts] or [(labels, None)]
-        own = batch.list_preparation_writes(folder, self.after)
-        rest = [*final, *others] if labels not in dict(others) else others
-        writes = [*([between] if final else []), *own, *(one for one in rest if one not in own[-1:])]
-        History(self.store.folder).write(title, edit_of(kind, self.asset), writes)
+        writes = batch.list_preparation_writes(folder, self.after)
+        if follow:
+            between, final = follow.format(keep_old=True), follow.format(keep_old=False)
+            writes = [(labels, between.encode() if between else None), *writes]
+            writes += [(labels, final.encode() if final else None)]
+        History(self.store.folder).write(title, edit_of(kind, self.asset), [*writes, *others])
 
     def describe_gone(self) -> list[str]:
         """A note on hulls that the demonstration names and that are no more."""
