@@ -9,22 +9,11 @@ from itertools import islice, permutations
 
 import numpy as np
 
+from meshforge import language
 from meshforge.common import MeshForgeError, pluralize
 from meshforge.label_model import LabelBeliefs
-from meshforge.language import (
-    EXTREMITY,
-    Attach,
-    Extractor,
-    Geo,
-    HullTable,
-    Is,
-    Orient,
-    select_hulls,
-    to_canonical_frame,
-)
 from meshforge.symbolic import SymbolicMesh
-from meshforge.synthesis.outcome import reading_id
-from meshforge.synthesis.questions import Choice, Hint, Question
+from meshforge.synthesis.questions import Hint, OpenRule
 from meshforge.synthesis.readings.rank import RankedReadings
 from meshforge.synthesis.task import memoize
 
@@ -46,24 +35,21 @@ wrong, in selections. Measured on the calibration set (`script/bench tuning`): w
 right as without, with noisy ones a third of the corrections are spared."""
 
 
-def choose_question(
+def find_open_rule(
     rule: int, ranked: RankedReadings, names: Sequence[str], trust: Mapping[str, float], declined: Collection[str]
-) -> Question | None:
-    """The question about one rule that is worth a person's time, None where there is none.
+) -> OpenRule | None:
+    """The asset on which an answer about a rule is worth a person's time, None where there is none.
 
     names: of the meshes of the field; trust: how much an answer about each is worth; declined: those for which a person
     said that neither choice is right.
     """
-    doubt = ranked.question_value
     if len(declined) >= MAX_NEITHER_ANSWERS:
         return None
     split = ranked.best_question({k: trust[name] for k, name in enumerate(names) if name not in declined})
     if not split or not split.is_worth_asking:
         return None
-    choices = tuple(
-        Choice(reading_id(rule, reading), _hull_names(ranked, reading, split.asset)) for reading in split.choices
-    )
-    return Question(rule, names[split.asset], choices, doubt.harm, split.left)
+    selections = (_hull_names(ranked, reading, split.asset) for reading in split.choices)
+    return OpenRule(rule, names[split.asset], tuple(map(frozenset, selections)))
 
 
 def suggest_demonstration(learned: Sequence[tuple[RankedReadings, Sequence[str]]]) -> Hint | None:
@@ -164,7 +150,7 @@ def _rank_by_novelty(
 def choose_first_demonstration(
     meshes: Mapping[str, SymbolicMesh],
     vocabulary: Sequence[str],
-    orient: Orient | None = None,
+    orient: language.Orient | None = None,
     contact: float | None = None,
     extremity: float | None = None,
     among: Collection[str] | None = None,
@@ -175,7 +161,7 @@ def choose_first_demonstration(
     Of equals the first. None where no mesh can be turned as `orient` says, or none has a label. orient, contact,
     extremity: of the program; among: the ids of those in question, by default all: labels are judged by all.
     """
-    delta = EXTREMITY if extremity is None else extremity
+    delta = language.EXTREMITY if extremity is None else extremity
     staged = {name: one for name, mesh in meshes.items() if (one := _stage_or_none(mesh, orient, contact))}
     errors = LabelBeliefs({}, staged, vocabulary).errors
     worth: dict[str, float] = {}
@@ -186,10 +172,10 @@ def choose_first_demonstration(
     return max(worth, key=worth.__getitem__, default=None)
 
 
-def _stage_or_none(mesh: SymbolicMesh, orient: Orient | None, contact: float | None) -> SymbolicMesh | None:
+def _stage_or_none(mesh: SymbolicMesh, orient: language.Orient | None, contact: float | None) -> SymbolicMesh | None:
     """The mesh as the first rule meets it, None where it cannot be turned so."""
     try:
-        return to_canonical_frame(mesh, orient, contact, memoize)[0]
+        return language.to_canonical_frame(mesh, orient, contact, memoize)[0]
     except MeshForgeError:
         return None
 
@@ -197,14 +183,16 @@ def _stage_or_none(mesh: SymbolicMesh, orient: Orient | None, contact: float | N
 def _count_selections(mesh: SymbolicMesh, vocabulary: Sequence[str], delta: float) -> int:
     def count() -> int:
         used = [label for label in vocabulary if any(hull.label == label for hull in mesh.hulls)]
-        hulls = HullTable([mesh], extremity=delta)
-        return len({bytes(len(hulls)), *(select_hulls(one, hulls).tobytes() for one in _small_extractors(used))})
+        hulls = language.HullTable([mesh], extremity=delta)
+        return len(
+            {bytes(len(hulls)), *(language.select_hulls(one, hulls).tobytes() for one in _small_extractors(used))}
+        )
 
     return memoize(mesh, ("told apart", tuple(vocabulary), delta), int, count)
 
 
-def _small_extractors(labels: Sequence[str]) -> Iterator[Extractor]:
+def _small_extractors(labels: Sequence[str]) -> Iterator[language.Extractor]:
     """A label alone, those of its hulls that touch another label, and its highest and lowest ones."""
-    yield from map(Is, labels)
-    yield from (Attach(Is(one), Is(other)) for one, other in permutations(labels, 2))
-    yield from (Geo(Is(one), up) for one in labels for up in ("+Z", "-Z"))
+    yield from map(language.Is, labels)
+    yield from (language.Attach(language.Is(one), language.Is(other)) for one, other in permutations(labels, 2))
+    yield from (language.Geo(language.Is(one), up) for one in labels for up in ("+Z", "-Z"))
