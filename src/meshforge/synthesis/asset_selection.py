@@ -9,19 +9,9 @@ from itertools import islice, permutations
 
 import numpy as np
 
+from meshforge import language
 from meshforge.common import MeshForgeError, pluralize
 from meshforge.label_model import LabelBeliefs
-from meshforge.language import (
-    EXTREMITY,
-    Attach,
-    Extractor,
-    Geo,
-    HullTable,
-    Is,
-    Orient,
-    select_hulls,
-    to_canonical_frame,
-)
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis.questions import Hint, OpenRule
 from meshforge.synthesis.readings.rank import RankedReadings
@@ -160,7 +150,7 @@ def _rank_by_novelty(
 def choose_first_demonstration(
     meshes: Mapping[str, SymbolicMesh],
     vocabulary: Sequence[str],
-    orient: Orient | None = None,
+    orient: language.Orient | None = None,
     contact: float | None = None,
     extremity: float | None = None,
     among: Collection[str] | None = None,
@@ -171,7 +161,7 @@ def choose_first_demonstration(
     Of equals the first. None where no mesh can be turned as `orient` says, or none has a label. orient, contact,
     extremity: of the program; among: the ids of those in question, by default all: labels are judged by all.
     """
-    delta = EXTREMITY if extremity is None else extremity
+    delta = language.EXTREMITY if extremity is None else extremity
     staged = {name: one for name, mesh in meshes.items() if (one := _stage_or_none(mesh, orient, contact))}
     errors = LabelBeliefs({}, staged, vocabulary).errors
     worth: dict[str, float] = {}
@@ -182,10 +172,10 @@ def choose_first_demonstration(
     return max(worth, key=worth.__getitem__, default=None)
 
 
-def _stage_or_none(mesh: SymbolicMesh, orient: Orient | None, contact: float | None) -> SymbolicMesh | None:
+def _stage_or_none(mesh: SymbolicMesh, orient: language.Orient | None, contact: float | None) -> SymbolicMesh | None:
     """The mesh as the first rule meets it, None where it cannot be turned so."""
     try:
-        return to_canonical_frame(mesh, orient, contact, memoize)[0]
+        return language.to_canonical_frame(mesh, orient, contact, memoize)[0]
     except MeshForgeError:
         return None
 
@@ -193,14 +183,16 @@ def _stage_or_none(mesh: SymbolicMesh, orient: Orient | None, contact: float | N
 def _count_selections(mesh: SymbolicMesh, vocabulary: Sequence[str], delta: float) -> int:
     def count() -> int:
         used = [label for label in vocabulary if any(hull.label == label for hull in mesh.hulls)]
-        hulls = HullTable([mesh], extremity=delta)
-        return len({bytes(len(hulls)), *(select_hulls(one, hulls).tobytes() for one in _small_extractors(used))})
+        hulls = language.HullTable([mesh], extremity=delta)
+        return len(
+            {bytes(len(hulls)), *(language.select_hulls(one, hulls).tobytes() for one in _small_extractors(used))}
+        )
 
     return memoize(mesh, ("told apart", tuple(vocabulary), delta), int, count)
 
 
-def _small_extractors(labels: Sequence[str]) -> Iterator[Extractor]:
+def _small_extractors(labels: Sequence[str]) -> Iterator[language.Extractor]:
     """A label alone, those of its hulls that touch another label, and its highest and lowest ones."""
-    yield from map(Is, labels)
-    yield from (Attach(Is(one), Is(other)) for one, other in permutations(labels, 2))
-    yield from (Geo(Is(one), up) for one in labels for up in ("+Z", "-Z"))
+    yield from map(language.Is, labels)
+    yield from (language.Attach(language.Is(one), language.Is(other)) for one, other in permutations(labels, 2))
+    yield from (language.Geo(language.Is(one), up) for one in labels for up in ("+Z", "-Z"))

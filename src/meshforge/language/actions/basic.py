@@ -10,16 +10,9 @@ import numpy as np
 from meshforge import geometry
 from meshforge.common import Plugin
 from meshforge.geometry import Aabb, Floats, convex_hull
+from meshforge.language import arguments
 from meshforge.language.actions.base import AXES, Action, ActionArgument, Axis
 from meshforge.language.actions.edit import GroupEdit, HullGroup, NewShape
-from meshforge.language.arguments import (
-    FactorArgument,
-    FileArgument,
-    FlagArgument,
-    LengthArgument,
-    WordArgument,
-    show_number,
-)
 from meshforge.language.words import DIRECTIONS, Direction
 from meshforge.symbolic import SymbolicMesh, split_by_contact
 
@@ -29,9 +22,9 @@ class Add(Action):
     """Puts a template against the side of the selected hulls' bounding box, as large as fits it or at its own size."""
 
     by_body: ClassVar[bool] = True
-    direction: Direction = field(metadata={"argument": WordArgument(DIRECTIONS, "direction")})
-    template: str = field(metadata={"argument": FileArgument()})
-    keep: bool = field(default=False, metadata={"argument": FlagArgument("keep")})
+    direction: Direction = field(metadata={"argument": arguments.WordArgument(DIRECTIONS, "direction")})
+    template: str = field(metadata={"argument": arguments.FileArgument()})
+    keep: bool = field(default=False, metadata={"argument": arguments.FlagArgument("keep")})
 
     @property
     def templates(self) -> tuple[str, ...]:
@@ -104,8 +97,8 @@ class Scale(Action):
     """Scales the selected hulls as one group about the centre of their bounding box, along one axis or all."""
 
     planned: ClassVar[tuple[str, ...]] = ("to",)
-    axis: Axis = field(metadata={"argument": WordArgument(AXES)})
-    factor: float = field(metadata={"argument": FactorArgument()})
+    axis: Axis = field(metadata={"argument": arguments.WordArgument(AXES)})
+    factor: float = field(metadata={"argument": arguments.FactorArgument()})
 
     def note_on(self, mesh: SymbolicMesh, mask: int) -> str | None:
         parts = len(split_by_contact(mesh, mask))
@@ -130,14 +123,14 @@ class Scale(Action):
 
     def phrase(self, whose: str) -> str:
         where = "in every direction" if self.axis == "all" else f"along {self.axis}"
-        return f"scaled by {show_number(self.factor)} {where}, about {whose} common centre"
+        return f"scaled by {arguments.show_number(self.factor)} {where}, about {whose} common centre"
 
 
 @dataclass(frozen=True, slots=True)
 class Shrink(Action):
     """Moves the surface of each selected hull inwards by a distance."""
 
-    distance: float = field(metadata={"argument": LengthArgument()})
+    distance: float = field(metadata={"argument": arguments.LengthArgument()})
 
     def edit(self, group: HullGroup) -> GroupEdit:
         return GroupEdit(
@@ -147,7 +140,7 @@ class Shrink(Action):
         )
 
     def phrase(self, whose: str) -> str:
-        return f"made smaller all round by {show_number(self.distance)} m"
+        return f"made smaller all round by {arguments.show_number(self.distance)} m"
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,17 +10,9 @@ import numpy as np
 
 from meshforge import geometry
 from meshforge.geometry import Aabb, Floats, Shape, convex_hull
+from meshforge.language import arguments
 from meshforge.language.actions.base import Action
 from meshforge.language.actions.edit import GroupEdit, HullGroup
-from meshforge.language.arguments import (
-    PRIMITIVES,
-    LengthArgument,
-    OptionArgument,
-    PrimitiveOrFileArgument,
-    WordArgument,
-    join_alternatives,
-    show_number,
-)
 
 Fit = Literal["native", "tight", "inscribed", "volume", "longest"]
 Side = Literal["X", "Y", "Z"]
@@ -40,16 +32,18 @@ class Replace(Action):
 
     by_body: ClassVar[bool] = True
     planned: ClassVar[tuple[str, ...]] = ("within", "clear", "to")
-    geometry: str = field(metadata={"argument": PrimitiveOrFileArgument()})
-    fit: Fit | None = field(default=None, metadata={"argument": WordArgument(get_args(Fit))})
-    axis: Side | None = field(default=None, metadata={"argument": WordArgument(get_args(Side))})
-    radius: float | None = field(default=None, metadata={"argument": OptionArgument("radius", LengthArgument())})
+    geometry: str = field(metadata={"argument": arguments.PrimitiveOrFileArgument()})
+    fit: Fit | None = field(default=None, metadata={"argument": arguments.WordArgument(get_args(Fit))})
+    axis: Side | None = field(default=None, metadata={"argument": arguments.WordArgument(get_args(Side))})
+    radius: float | None = field(
+        default=None, metadata={"argument": arguments.OptionArgument("radius", arguments.LengthArgument())}
+    )
 
     def conflict(self) -> str | None:
         takes = ("longest",) if self.templates else _OPTIONS[self.geometry]
         given = [word for word in (self.fit, self.axis, "radius" if self.radius else None) if word]
         if wrong := next((word for word in given if word not in takes), None):
-            return f"Replace({self._shown_geometry}) takes {join_alternatives(takes)}, not {wrong}"
+            return f"Replace({self._shown_geometry}) takes {arguments.join_alternatives(takes)}, not {wrong}"
         if self.axis and self.fit == "tight":
             return f"{self.axis} does not go with tight, which finds its own direction"
         return f"radius does not go with {self.fit}, which finds its own" if self.radius and self.fit else None
@@ -60,7 +54,7 @@ class Replace(Action):
 
     @property
     def templates(self) -> tuple[str, ...]:
-        return () if self.geometry in PRIMITIVES else (self.geometry,)
+        return () if self.geometry in arguments.PRIMITIVES else (self.geometry,)
 
     @property
     def depends_on_frame(self) -> bool:
@@ -138,7 +132,7 @@ def _note_on_fit(group: HullGroup, action: Replace, made: Shape) -> str | None:
         return "round primitives were fitted by their tessellated points"
     if made.is_primitive:
         return None
-    others = join_alternatives(f"Replace({action.geometry}, {word})" for word in ("native", "tight"))
+    others = arguments.join_alternatives(f"Replace({action.geometry}, {word})" for word in ("native", "tight"))
     return (
         f"sides of the {action.geometry} differ by more than 1%, so it is a hull mesh "
         f"({others} makes a native {action.geometry})"
@@ -171,13 +165,13 @@ _SOLID_WORDS = {"box": "box", "cylinder": "cylinder", "capsule": "capsule", "sph
 
 
 def _describe_substitute(action: Replace, whose: str) -> str:
-    if action.geometry not in PRIMITIVES:
+    if action.geometry not in arguments.PRIMITIVES:
         turned = " turned lengthwise and" if action.fit == "longest" else ""
         return f"“{action.geometry}”,{turned} stretched to fill {whose} bounding box"
     solid, around = _SOLID_WORDS[action.geometry], f"around {'it' if whose == 'its' else 'them'}"
     along = f", along {action.axis}" if action.axis else ""
     if action.radius:
-        size = f"radius {show_number(action.radius)} m"
+        size = f"radius {arguments.show_number(action.radius)} m"
         return f"a {action.geometry} of {size} at the middle of {whose} bounding box{along}"
     match action.fit:
         case "tight":

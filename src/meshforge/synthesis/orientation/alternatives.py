@@ -10,20 +10,8 @@ from collections.abc import Collection, Mapping, Sequence
 
 import numpy as np
 
+from meshforge import language
 from meshforge.common import MeshForgeError
-from meshforge.language import (
-    UPRIGHT,
-    BaseExtractor,
-    DirectionArgument,
-    Extractor,
-    Leaf,
-    Orient,
-    Program,
-    Template,
-    leaves_of,
-    orient_mesh,
-    size_of,
-)
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis.demonstration import Demonstration, RuleSpec
 from meshforge.synthesis.options import Options, TimeBudget
@@ -49,13 +37,13 @@ MAX_MESHES, MAX_TURNED = 100, 24
 def find_more_believable(
     demos: Sequence[Demonstration],
     rules: Sequence[RuleSpec],
-    frame: Program,
-    templates: Mapping[str, Template],
+    frame: language.Program,
+    templates: Mapping[str, language.Template],
     options: Options,
     budget: TimeBudget,
-    extractors: Sequence[Extractor],
+    extractors: Sequence[language.Extractor],
     batch: Sequence[SymbolicMesh],
-) -> Orient | None:
+) -> language.Orient | None:
     """The directive of one pair in whose frame the rules are most believable, if they are clearly more so than now.
 
     frame: the program without its rules, and without an orientation; extractors: of the rules, as they were learned.
@@ -78,13 +66,15 @@ def find_more_believable(
     return _find_first(search, orients, most, doubts.least)
 
 
-def _find_first(search: OrientationSearch, orients: Sequence[Orient], most: float, least: float) -> Orient | None:
+def _find_first(
+    search: OrientationSearch, orients: Sequence[language.Orient], most: float, least: float
+) -> language.Orient | None:
     """The first directive whose extractors cost no more than `most`, unless those of a later one cost clearly less.
 
     least: what extractors cost in any frame [nats].
     """
-    best: Orient | None = None
-    sizes = [size_of(one) for one in search.known]
+    best: language.Orient | None = None
+    sizes = [language.size_of(one) for one in search.known]
     for orient in orients:
         attempt = search.attempt(orient)
         if attempt and attempt.learn(sum(sizes) + SLACK, max(sizes) + SLACK):
@@ -104,12 +94,12 @@ class FrameDoubts:
     mean nothing [nats].
     """
 
-    def __init__(self, rules: Sequence[RuleSpec], extractors: Sequence[Extractor]) -> None:
+    def __init__(self, rules: Sequence[RuleSpec], extractors: Sequence[language.Extractor]) -> None:
         self._extractors = tuple(extractors)
-        self.least = sum(min(cost_extractor(one, "XYZ"), NODE * 2 + UPRIGHT) for one in extractors)
+        self.least = sum(min(cost_extractor(one, "XYZ"), NODE * 2 + language.UPRIGHT) for one in extractors)
         reach = [place for place, one in enumerate(extractors) if _asks_for_places(one)]
         acted = [place for place, rule in enumerate(rules) if rule.action.depends_on_frame]
-        self.askew = UNSUPPORTED - UPRIGHT if acted and reach and acted[0] < reach[-1] else 0.0
+        self.askew = UNSUPPORTED - language.UPRIGHT if acted and reach and acted[0] < reach[-1] else 0.0
 
     @property
     def most(self) -> float:
@@ -121,48 +111,50 @@ class FrameDoubts:
         return sum(cost_extractor(one, supported) for one in self._extractors) + (self.askew if askew else 0.0)
 
 
-def _turns_many(meshes: Sequence[SymbolicMesh], orient: Orient) -> bool:
+def _turns_many(meshes: Sequence[SymbolicMesh], orient: language.Orient) -> bool:
     """Whether a directive turns more than a few of some meshes, so that they do not lie in its frame as they are."""
     return sum(_turns(mesh, orient) for mesh in meshes) > (1 - NEARLY_ALL) * len(meshes)
 
 
-def _turns(mesh: SymbolicMesh, orient: Orient) -> bool:
+def _turns(mesh: SymbolicMesh, orient: language.Orient) -> bool:
     try:
-        rotation = orient_mesh(mesh, orient)[1].rotation
+        rotation = language.orient_mesh(mesh, orient)[1].rotation
     except MeshForgeError:
         return False
     return float(np.trace(rotation)) < 1 + 2 * ALONG
 
 
-def _rank(directives: Directives, landmarks: Landmarks) -> list[Orient]:
+def _rank(directives: Directives, landmarks: Landmarks) -> list[language.Orient]:
     """Directives of one pair: first those that hold on most meshes, then those nearest to where most meshes stand."""
     plain = [orient for orient in directives.with_one_pair() if not orient.snap]
 
-    def key(orient: Orient) -> tuple[int, float, float]:
+    def key(orient: language.Orient) -> tuple[int, float, float]:
         (pair,) = orient.pairs
         return -int(landmarks.holds(orient).sum()), round(landmarks.deviation(pair), 2), -landmarks.likeness(pair)
 
     return sorted(plain, key=key)
 
 
-def cost_extractor(extractor: Extractor, supported: Collection[str]) -> float:
+def cost_extractor(extractor: language.Extractor, supported: Collection[str]) -> float:
     """What it costs to believe in one [nats]."""
-    return NODE * size_of(extractor) + _doubt(extractor, supported)
+    return NODE * language.size_of(extractor) + _doubt(extractor, supported)
 
 
-def _doubt(extractor: Extractor, supported: Collection[str]) -> float:
-    return sum(_doubt_leaf(leaf, supported) for leaf in leaves_of(extractor))
+def _doubt(extractor: language.Extractor, supported: Collection[str]) -> float:
+    return sum(_doubt_leaf(leaf, supported) for leaf in language.leaves_of(extractor))
 
 
-def _doubt_leaf(leaf: Leaf, supported: Collection[str]) -> float:
+def _doubt_leaf(leaf: language.Leaf, supported: Collection[str]) -> float:
     """What is believed less of a leaf for its bases, and for directions that mean something or not."""
-    if isinstance(leaf, BaseExtractor):
+    if isinstance(leaf, language.BaseExtractor):
         return leaf.cost
-    given = (getattr(leaf, name) for name, kind in leaf.arguments().items() if isinstance(kind, DirectionArgument))
-    doubts = sum(UPRIGHT if direction[1] in supported else UNSUPPORTED for direction in given)
+    given = (
+        getattr(leaf, name) for name, kind in leaf.arguments().items() if isinstance(kind, language.DirectionArgument)
+    )
+    doubts = sum(language.UPRIGHT if direction[1] in supported else UNSUPPORTED for direction in given)
     return sum(base.cost for base in leaf.bases) + doubts
 
 
-def _asks_for_places(extractor: Extractor) -> bool:
+def _asks_for_places(extractor: language.Extractor) -> bool:
     """Whether it asks for more than labels, so that what earlier rules made counts."""
-    return any(leaf.bases for leaf in leaves_of(extractor))
+    return any(leaf.bases for leaf in language.leaves_of(extractor))

@@ -10,18 +10,8 @@ from itertools import combinations
 
 import numpy as np
 
+from meshforge import language
 from meshforge.common import pluralize
-from meshforge.language import (
-    All,
-    BaseExtractor,
-    Direction,
-    Extractor,
-    LandmarkPair,
-    Orient,
-    Program,
-    Template,
-    size_of,
-)
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis.demonstration import Demonstration, RuleSpec
 from meshforge.synthesis.options import Options, TimeBudget
@@ -29,7 +19,7 @@ from meshforge.synthesis.orientation.attempts import OrientationSearch
 from meshforge.synthesis.orientation.landmarks import Landmarks
 
 _LETTERS = "ZXY"  # up and down first
-_UPWARD: Mapping[str, Direction] = {"X": "+X", "Y": "+Y", "Z": "+Z"}
+_UPWARD: Mapping[str, language.Direction] = {"X": "+X", "Y": "+Y", "Z": "+Z"}
 
 
 class Directives:
@@ -42,22 +32,22 @@ class Directives:
         ends = combinations(self._landmarks.bases, 2)
         self._ends = [(a, b) for a, b in ends if self._landmarks.apart(a, b)[: self._shown].all()]
 
-    def with_one_pair(self) -> list[Orient]:
+    def with_one_pair(self) -> list[language.Orient]:
         """All with one pair, the preferred first."""
         pairs = [self._pair(a, b, _LETTERS) for a, b in self._ends]
-        return self._sort(Orient((pair,), snap) for pair in pairs for snap in (False, True))
+        return self._sort(language.Orient((pair,), snap) for pair in pairs for snap in (False, True))
 
-    def with_two_pairs(self, firsts: Iterable[LandmarkPair]) -> list[Orient]:
+    def with_two_pairs(self, firsts: Iterable[language.LandmarkPair]) -> list[language.Orient]:
         """All with one of the given pairs and a second one, the preferred first."""
         both = [(first, second) for first in firsts for second in self._second_pairs(first)]
-        return self._sort(Orient(pairs, snap) for pairs in both for snap in (False, True))
+        return self._sort(language.Orient(pairs, snap) for pairs in both for snap in (False, True))
 
-    def _second_pairs(self, first: LandmarkPair) -> list[LandmarkPair]:
+    def _second_pairs(self, first: language.LandmarkPair) -> list[language.LandmarkPair]:
         letters = _LETTERS.replace(first.axis[1], "")
         ends = [(a, b) for a, b in self._ends if {a, b} != {first.start, first.end}]
         return [self._pair(a, b, letters) for a, b in ends]
 
-    def _pair(self, a: BaseExtractor, b: BaseExtractor, letters: str) -> LandmarkPair:
+    def _pair(self, a: language.BaseExtractor, b: language.BaseExtractor, letters: str) -> language.LandmarkPair:
         """Two landmarks, with the axis of those letters that is nearest to their direction on most meshes.
 
         Both ways round give the same frame; the one with a positive axis is taken.
@@ -68,9 +58,9 @@ class Directives:
         votes = Counter(zip(nearest.tolist(), (unit[np.arange(len(unit)), nearest] >= 0).tolist(), strict=True))
         place, up = max(votes, key=lambda axis: (votes[axis], -axis[0], axis[1]))
         start, end = (a, b) if up else (b, a)
-        return LandmarkPair(_UPWARD[letters[place]], start, end)
+        return language.LandmarkPair(_UPWARD[letters[place]], start, end)
 
-    def _sort(self, orients: Iterable[Orient]) -> list[Orient]:
+    def _sort(self, orients: Iterable[language.Orient]) -> list[language.Orient]:
         """Those that hold on every demonstrated mesh: plain before snap, then what holds on most of the batch."""
         rows = [
             (orient.snap, -int(holds[self._shown :].sum()), self._places(orient), orient)
@@ -79,7 +69,7 @@ class Directives:
         ]
         return [orient for *_, orient in sorted(rows, key=lambda row: row[:3])]
 
-    def _places(self, orient: Orient) -> list[list[int]]:
+    def _places(self, orient: language.Orient) -> list[list[int]]:
         """The places of the landmarks in the vocabulary, whichever way round they are written."""
         place = self._landmarks.place
         return [sorted([place(pair.start), place(pair.end)]) for pair in orient.pairs]
@@ -91,7 +81,7 @@ MIN_SAVING = 3
 MAX_EXTENDED = 4
 """How many of the pairs that come farthest a second one is added to: the others are no nearer to a common frame."""
 
-OrientationFit = tuple[Orient, tuple[int, ...]]
+OrientationFit = tuple[language.Orient, tuple[int, ...]]
 """A directive, and the nodes of each rule's smallest extractor in its frame."""
 
 _STEPS = (5, 9)
@@ -107,7 +97,7 @@ class OrientationSuggestion:
     the user.
     """
 
-    orient: Orient
+    orient: language.Orient
     sizes: tuple[int, ...]
     why: str
     before: tuple[int, ...] = ()
@@ -117,11 +107,11 @@ class OrientationSuggestion:
 def suggest_orientation(
     demos: Sequence[Demonstration],
     rules: Sequence[RuleSpec],
-    frame: Program,
-    templates: Mapping[str, Template],
+    frame: language.Program,
+    templates: Mapping[str, language.Template],
     options: Options,
     budget: TimeBudget,
-    known: Sequence[Extractor] = (),
+    known: Sequence[language.Extractor] = (),
     batch: Sequence[SymbolicMesh] = (),
 ) -> OrientationSuggestion | None:
     """The directive under which the extractors of all rules have the fewest nodes, if it is clearly better than now.
@@ -129,7 +119,7 @@ def suggest_orientation(
     frame: the program without its rules; known: what learning found in the present frame, empty where some rule
     has no extractor. A pair that is given is kept where a second one, or `snap`, is enough. Raises OutOfTime.
     """
-    sizes = tuple(map(size_of, known))
+    sizes = tuple(map(language.size_of, known))
     limit = sum(sizes) - MIN_SAVING if sizes else len(rules) * options.max_size
     if "G" not in options.layers:
         return None
@@ -144,7 +134,7 @@ def suggest_orientation(
     return OrientationSuggestion(*best, explain_orientation(*best, sizes), sizes) if best else None
 
 
-def _vary(trials: Trials, directives: Directives, given: Orient, limit: int) -> OrientationFit | None:
+def _vary(trials: Trials, directives: Directives, given: language.Orient, limit: int) -> OrientationFit | None:
     toggled = replace(given, snap=not given.snap)
     return trials.best([toggled, *(directives.with_two_pairs(given.pairs) if len(given.pairs) == 1 else [])], limit)
 
@@ -158,7 +148,7 @@ def _search_all(trials: Trials, directives: Directives, limit: int) -> Orientati
     return trials.best([*ones, *directives.with_two_pairs(trials.farthest_pairs(ones, MAX_EXTENDED))], limit)
 
 
-def explain_orientation(orient: Orient, found: Sequence[int], before: Sequence[int], assets: int = 0) -> str:
+def explain_orientation(orient: language.Orient, found: Sequence[int], before: Sequence[int], assets: int = 0) -> str:
     """`in the frame where +Z points from the leg hulls to the panel hulls, every rule has an extractor, of ...`.
 
     found, before: nodes of each rule in that frame and now; assets: on which the rules select something else there.
@@ -171,12 +161,12 @@ def explain_orientation(orient: Orient, found: Sequence[int], before: Sequence[i
     return f"in the frame {nearly} {frame}, {rules} has an extractor, of {_describe_sizes(found)}{now}{differs}"
 
 
-def _describe_pair(pair: LandmarkPair) -> str:
+def _describe_pair(pair: language.LandmarkPair) -> str:
     return f"{pair.axis} points from {_describe_base(pair.start)} to {_describe_base(pair.end)}"
 
 
-def _describe_base(base: BaseExtractor) -> str:
-    return "the middle of all hulls" if isinstance(base, All) else base.phrase
+def _describe_base(base: language.BaseExtractor) -> str:
+    return "the middle of all hulls" if isinstance(base, language.All) else base.phrase
 
 
 def _describe_sizes(sizes: Sequence[int]) -> str:
@@ -192,15 +182,15 @@ class Trials:
         self._search = search
         self._steps = sorted({min(step, most) for step in (*_STEPS, most)})
 
-    def best(self, orients: Sequence[Orient], limit: int) -> OrientationFit | None:
+    def best(self, orients: Sequence[language.Orient], limit: int) -> OrientationFit | None:
         """The directive with the fewest nodes in all, at most `limit`; of equals the first. Raises OutOfTime."""
         return self._best(orients, limit, self._steps)
 
-    def best_of_small(self, orients: Sequence[Orient], limit: int) -> OrientationFit | None:
+    def best_of_small(self, orients: Sequence[language.Orient], limit: int) -> OrientationFit | None:
         """The directive with the fewest nodes, where every extractor is small. Raises OutOfTime."""
         return self._best(orients, limit, self._steps[:1])
 
-    def _best(self, orients: Sequence[Orient], limit: int, steps: Sequence[int]) -> OrientationFit | None:
+    def _best(self, orients: Sequence[language.Orient], limit: int, steps: Sequence[int]) -> OrientationFit | None:
         found: dict[tuple[int, int], OrientationFit] = {}
         for most in steps:
             for place, orient in enumerate(orients):
@@ -216,7 +206,7 @@ class Trials:
         """Whether no directive can need fewer nodes."""
         return sum(fit[1]) <= sum(self._search.floors)
 
-    def farthest_pairs(self, orients: Sequence[Orient], count: int) -> list[LandmarkPair]:
+    def farthest_pairs(self, orients: Sequence[language.Orient], count: int) -> list[language.LandmarkPair]:
         """The pairs of the directives that came farthest, of equals the first."""
         tried = [(orient, attempt) for orient in orients if (attempt := self._search.attempt(orient))]
         tried.sort(key=lambda row: (-len(row[1].sizes), row[1].strays))
