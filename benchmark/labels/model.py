@@ -14,8 +14,8 @@ from benchmark.labels.methods import LabellerOutput, Labels, Method
 from meshforge.labels.vlm.answer import VlmAnswers
 from meshforge.labels.vlm.client import Client
 from meshforge.labels.vlm.endpoint import Endpoint, endpoint_of
-from meshforge.labels.vlm.labeller import Labeller
-from meshforge.labels.vlm.prompt import prompt_config_of
+from meshforge.labels.vlm.mesh_asker import MeshAsker
+from meshforge.labels.vlm.prompt import build_questions, prompt_config_of
 from meshforge.labels.vlm.request import VlmQuestion
 from meshforge.labels.vlm.transport import Reply
 from meshforge.store.settings import VlmSettings
@@ -55,8 +55,9 @@ class ModelLabeller:
         manner = prompt_config_of(self.settings.model_copy(update={"about": "", "descriptions": {}}), family.vocabulary)
         started = perf_counter()
         client = CostClient(endpoint, JOURNALS / "vlm" / f"labels-{repeat}", left)
-        with closing(client), closing(Labeller(client, manner)) as labeller:
-            pending = [labeller.begin(family.bare[place]) for place in family.drawn]
+        with closing(client), closing(MeshAsker(client, manner)) as asker:
+            drawn = [family.bare[place] for place in family.drawn]
+            pending = [asker.ask([*mesh.index], build_questions(mesh, [*mesh.index], manner)) for mesh in drawn]
             said = [one.result() for one in pending]
         self.spent += client.usage.cost or 0.0
         labels = tuple(_labels(family.bare[place], one) for place, one in zip(family.drawn, said, strict=True))

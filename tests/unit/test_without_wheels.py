@@ -33,5 +33,5 @@ def test_without_mujoco_mjcf_and_physics_are_errors_that_name_it(
         read(path)
     mesh = load(write_table(tmp_path / "table.obj"))
     with pytest.raises(MeshForgeError, match="the check of physics needs MuJoCo, which is not installed"):
-        examine_mesh(mesh, CheckOptions(physics=True))
-    assert examine_mesh(mesh, CheckOptions("mujoco")).findings
+        examine_mesh(mesh, CheckOptions(("physics",)))
+    assert examine_mesh(mesh, CheckOptions(("mujoco",))).findings

@@ -196,7 +196,7 @@ def check_assets(
 
 
 def _describe_task(task: CheckTask, path: Path) -> str:
-    plugins = [plugin_of_suffix(path.suffix), *map(CHECKS.plugin, task.measures.plugins)]
+    plugins = [plugin_of_suffix(path.suffix), *map(CHECKS.plugin, task.measures.names)]
     return f"{task} {software_version(plugins)}{engine_version(task.measures.engine)}"
 
 

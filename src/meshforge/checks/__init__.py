@@ -8,10 +8,13 @@ from meshforge.common.exports import export_lazily
 __getattr__, __all__ = export_lazily(
     __name__,
     {
-        "clearance": "measure_kept_space",
+        "base": "Check CheckFindings CheckSubject Measure",
+        "clearance": "OF_EDIT Clearance measure_kept_space",
         "engine_trial": "EngineTrial",
         "examination": "CheckOptions Examination check draw_examination examine_mesh",
-        "registry": "CHECKS Check",
+        "fit": "MeshFit",
+        "physics.simulation": "BEFORE Physics",
+        "registry": "CHECKS MEASURES",
         "meshforge.engines": "Finding Severity",
     },
 )

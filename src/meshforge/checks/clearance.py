@@ -2,21 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
 from meshforge.checks import grid as voxels
+from meshforge.checks.base import NO_VISUAL_MESH, CheckFindings, CheckSubject, Measure, MeasureCheck
 from meshforge.checks.grid import Grid, Mask, flood_from_outside, grid_around, voxelize_hulls, voxelize_surface
 from meshforge.common import join_names
 from meshforge.engines import Finding
 from meshforge.geometry import Aabb, Floats, Shape, convex_hull, is_sheet
+from meshforge.rendering import LengthUnit, draw_volumes
 from meshforge.symbolic import Hull, Surface, SymbolicMesh
 
+if TYPE_CHECKING:
+    from PIL.Image import Image
+
+OF_EDIT = "clearance_of_edit"
+"""The key of what was closed and opened of the space between the hulls before an edit."""
 LEAST_REGION_SHARE = 0.005
 """Regions of a smaller share of the bounding box are reported, but are no findings."""
+COLORS = {"closed": "#D64545", "opened": "#3B7DD8"}
 _REGIONS = 12  # that are reported one by one; the rest is summed up
 
 RegionKind = Literal["closed", "opened"]
@@ -37,7 +45,7 @@ class ClearanceRegion:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Clearance:
+class Clearance(Measure):
     """What hulls did to free space; reference: what they are compared with; cell: the side of the cells [m].
 
     closed, opened: volumes of all regions [l]; layers: volumes of what is thinner than three cells, which may be
@@ -62,15 +70,21 @@ class Clearance:
 
     @property
     def description(self) -> str:
-        """The clearance in a sentence."""
         space = f"the space about the {self.reference}"
         rough = f"with cells twice as long {self.doubled[0]:.3g} l and {self.doubled[1]:.3g} l"
         return (
             f"{self.closed:.3g} l of {space} closed, {self.opened:.3g} l opened (cells of {self.cell:.3g} m; {rough})"
         )
 
+    def draw(
+        self, mesh: SymbolicMesh, name: str, size: tuple[int, int], unit: LengthUnit
+    ) -> Iterator[tuple[str, str, Image]]:
+        if self.regions:
+            text = f"{self.reference}: {self.closed:.3g} l closed, {self.opened:.3g} l opened"
+            marked = [(region.kind, COLORS[region.kind], region.surface) for region in self.regions]
+            yield name, text, draw_volumes(mesh, marked, size=size, title=f"space about the {self.reference}")
+
     def to_json(self) -> dict[str, Any]:
-        """The clearance as JSON-able data; volumes in litres, lengths in metres."""
         return {
             "reference": self.reference,
             "cell": self.cell,
@@ -89,6 +103,21 @@ class Clearance:
                 for region in self.regions
             ],
         }
+
+
+class ClearanceCheck(MeasureCheck):
+    """What hulls close and open of the space that can be reached, against the visual mesh and the hulls before."""
+
+    name = "clearance"
+    has_cells = True
+
+    def measure(self, subject: CheckSubject) -> CheckFindings:
+        mesh, was = subject.sound, subject.sound_before
+        space = measure_clearance(mesh, cell=subject.cell)
+        edit = measure_clearance(mesh, was, cell=subject.cell) if was and was.hulls else None
+        found = {key: one for key, one in ((self.name, space), (OF_EDIT, edit)) if one}
+        findings = tuple(finding for one in found.values() for finding in one.findings)
+        return CheckFindings(findings, found, () if space else (NO_VISUAL_MESH,))
 
 
 def measure_clearance(

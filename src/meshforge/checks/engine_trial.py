@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from itertools import chain
 from typing import Any, Literal
 
+from meshforge.checks.base import Measure
 from meshforge.common import join_names, pluralize
 from meshforge.engines import Finding, find_engine
 
@@ -15,7 +16,7 @@ Given = Literal["file", "conversion"]
 
 
 @dataclass(frozen=True, slots=True)
-class EngineTrial:
+class EngineTrial(Measure):
     """What an engine says of an asset, besides our table of its limits.
 
     engine, file: names; asked: the program and version that was run, None where none was; given: what it was given;
@@ -35,11 +36,11 @@ class EngineTrial:
     remedy: str = ""
 
     @property
-    def description(self) -> str | None:
-        """What was asked, in a sentence; None where findings say all."""
+    def description(self) -> str:
+        """What was asked, in a sentence; empty where findings say all."""
         title = find_engine(self.engine).title
         if self.refusal or self.untried:
-            return None
+            return ""
         return (
             f"{self.asked} takes {self._subject}"
             if self.asked

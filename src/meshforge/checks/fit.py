@@ -2,18 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from meshforge.checks.base import NO_VISUAL_MESH, CheckFindings, CheckSubject, Measure, MeasureCheck
 from meshforge.checks.grid import Grid, Mask, flood_from_outside, grid_around, voxelize_surface
+from meshforge.checks.legality import find_oddities
 from meshforge.checks.surface_samples import SurfaceIndex
 from meshforge.common import join_names
 from meshforge.engines import Finding
 from meshforge.geometry import Aabb, Floats, Ints, planes_of
+from meshforge.rendering import LengthUnit, draw_heat_map
 from meshforge.symbolic import Hull, Surface, SymbolicMesh
+
+if TYPE_CHECKING:
+    from PIL.Image import Image
 
 LEAST_GAP_SHARE = 0.02
 """Hulls that stick out, or surfaces that lie bare, by more than this share of the diagonal are findings."""
@@ -69,7 +75,7 @@ class FitGroup:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class MeshFit:
+class MeshFit(Measure):
     """How the hulls of a mesh fit; cell: what is smaller than this is not seen [m].
 
     silent: bodies with hulls that show nothing, so that theirs were not measured; seen_area: of the visual mesh [m^2].
@@ -99,9 +105,8 @@ class MeshFit:
 
     @property
     def description(self) -> str:
-        """The fit in a sentence."""
         if not self.hulls:
-            return "nothing is shown that hulls could be held against"
+            return ""
         bare = f"{100 * self.bare_share:.3g}% of the visual surface bare, {self.bare:.3g} m off at most"
         return f"hulls stick out by {self.out:.3g} m at most, {bare} (cells of {self.cell:.3g} m)"
 
@@ -122,8 +127,14 @@ class MeshFit:
             found.append(Finding("fit-bare", "warning", tuple(h.hull for h in bare), message, "Add a hull there."))
         return tuple(found)
 
+    def draw(
+        self, mesh: SymbolicMesh, name: str, size: tuple[int, int], unit: LengthUnit
+    ) -> Iterator[tuple[str, str, Image]]:
+        if maps := draw_fit(mesh, self, size, unit):
+            yield f"{name}-out", f"hulls stick out by {self.out:.3g} m at most", maps[0]
+            yield f"{name}-bare", f"visual mesh, {self.bare:.3g} m off all hulls at most", maps[1]
+
     def to_json(self) -> dict[str, Any]:
-        """The fit as JSON-able data; lengths in metres, areas in square metres."""
         return {
             "cell": self.cell,
             "out": self.out,
@@ -132,6 +143,20 @@ class MeshFit:
             "hulls": [asdict(hull) for hull in self.hulls],
             "silent": list(self.silent),
         }
+
+
+class FitCheck(MeasureCheck):
+    """How far hulls stick out of the visual mesh, and what of that lies bare; and hulls of odd shapes."""
+
+    name = "fit"
+    has_cells = True
+    compares = False
+
+    def measure(self, subject: CheckSubject) -> CheckFindings:
+        found = measure_fit(subject.sound, cell=subject.cell)
+        silent = f"bodies that show nothing, so their fit was not measured: {', '.join(found.silent)}"
+        notes = [] if found.hulls and not found.silent else [silent if found.hulls else NO_VISUAL_MESH]
+        return CheckFindings((*find_oddities(subject.sound), *found.findings), {self.name: found}, tuple(notes))
 
 
 def measure_fit(mesh: SymbolicMesh, *, cell: float | None = None) -> MeshFit:
@@ -216,3 +241,42 @@ def _is_inside(points: Floats, hulls: Sequence[Hull]) -> Mask:
         for part in np.array_split(near, len(near) * len(planes.offsets) // 4_000_000 + 1):
             inside[part] = ((points[part] - planes.middle) @ planes.normals.T <= planes.offsets).all(axis=1)
     return inside
+
+
+def draw_fit(
+    mesh: SymbolicMesh, found: MeshFit, size: tuple[int, int] = (640, 480), unit: LengthUnit = "m"
+) -> tuple[Image, Image] | None:
+    """Two pictures: the hulls by how far they stick out, and the visual mesh by how far it lies off all hulls.
+
+    None where nothing is shown. The strongest colour is for twice the length that matters; what is below a cell has
+    none.
+    """
+    if not found.groups:
+        return None
+    most = max(2 * LEAST_GAP_SHARE * found.diagonal, 4 * found.cell)
+    hulls = [hull.shape.tessellate() for group in found.groups for hull in group.hulls]
+    corners = [group.visual_surface.corners for group in found.groups]
+    seen = [Surface(c.reshape(-1, 3), np.arange(3 * len(c)).reshape(-1, 3)) for c in corners]
+    group_of = np.array([k for k, group in enumerate(found.groups) for _ in group.hulls])
+
+    def out(points: Floats, items: Ints) -> Floats:
+        return _measure_by_group(found.groups, points, group_of[items], FitGroup.measure_out)
+
+    def bare(points: Floats, items: Ints) -> Floats:
+        return _measure_by_group(found.groups, points, items, lambda group, some: group.measure_bare(some)[0])
+
+    titles = "hulls: how far they stick out", "visual mesh: how far off all hulls"
+    return (
+        draw_heat_map(mesh, hulls, out, most, size=size, title=titles[0], unit=unit),
+        draw_heat_map(mesh, seen, bare, most, size=size, title=titles[1], unit=unit),
+    )
+
+
+def _measure_by_group(
+    groups: Sequence[FitGroup], points: Floats, which: Ints, measure: Callable[[FitGroup, Floats], Floats]
+) -> Floats:
+    """What `measure` gives for each point (n, 3) by the group (n,) that it belongs to."""
+    values = np.zeros(len(points))
+    for k in np.unique(which):
+        values[which == k] = measure(groups[k], points[which == k])
+    return values

@@ -1,55 +1,65 @@
-"""The checks that are asked for by name: engines and measurements that are built in, and checks of plug-ins."""
+"""The checks by the names that `check --check` takes: those that are built in, one line each, engines, and plug-ins."""
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 from inspect import isabstract
 from typing import Any
 
+from meshforge.checks.base import Check, CheckFindings, CheckSubject, MeasureCheck
+from meshforge.checks.clearance import ClearanceCheck
+from meshforge.checks.fit import FitCheck
+from meshforge.checks.physics.simulation import PhysicsCheck
 from meshforge.common import Plugin, PluginError, Registry, blame
-from meshforge.engines import ENGINES, Finding
-from meshforge.symbolic import SymbolicMesh
+from meshforge.engines import ENGINES, Finding, check_limits, find_engine
 
-MEASURES = ("fit", "clearance", "physics")
-"""What can be measured, by the names that the command line takes."""
-
-
-class Check(ABC):
-    """A check that a plug-in adds; it is made anew for each asset, without arguments."""
-
-    @abstractmethod
-    def examine(self, mesh: SymbolicMesh, before: SymbolicMesh | None) -> Iterable[Finding]:
-        """What is wrong with a mesh, nothing where all is well; before: the mesh that it was edited from, if known."""
+MEASURES: tuple[type[Check], ...] = (FitCheck, ClearanceCheck, PhysicsCheck)
+"""The checks of what can be measured, besides engines."""
 
 
-def _adopt(plugin: Plugin, kind: Any) -> type[Check]:
+class EngineCheck(MeasureCheck):
+    """The limits of an engine."""
+
+    compares = False
+
+    def __init__(self, engine: str) -> None:
+        self.name = engine
+
+    def measure(self, subject: CheckSubject) -> CheckFindings:
+        return CheckFindings(tuple(check_limits(find_engine(self.name), subject.mesh, subject.legality[0])))
+
+
+def _adopt(plugin: Plugin, kind: Any) -> Callable[[], Check]:
     """The class of a plug-in's check. Raises PluginError where it does not fit."""
     if not (isinstance(kind, type) and issubclass(kind, Check)):
         raise plugin.error("does not fit: it is no subclass of meshforge.checks.Check")
     if isabstract(kind):
-        raise plugin.error("does not fit: it has no method examine")
+        raise plugin.error(f"does not fit: it has no method {min(kind.__abstractmethods__)}")
     return kind
 
 
-CHECKS: Registry[type[Check]] = Registry("checks", {}, _adopt, reserved=(*MEASURES, *ENGINES))
-"""The checks of plug-ins; the names of engines and measurements are not theirs to take."""
+CHECKS: Registry[Callable[[], Check]] = Registry(
+    "checks",
+    {kind.name: kind for kind in MEASURES} | {name: partial(EngineCheck, name) for name in ENGINES},
+    _adopt,
+)
 
 
-def run_checks(names: Sequence[str], mesh: SymbolicMesh, before: SymbolicMesh | None = None) -> Iterator[Finding]:
-    """What checks of plug-ins find; of one that fails, or is missing here, an error that says so."""
+def run_checks(names: Sequence[str], subject: CheckSubject) -> Iterator[CheckFindings]:
+    """What checks find; of a plug-in's that fails, or is missing here, an error that says so."""
     for name in names:
         try:
-            yield from _run_check(name, mesh, before)
+            yield _run_check(name, subject)
         except PluginError as error:
-            yield Finding(name, "error", (), error.problem, error.remedy or "")
+            yield CheckFindings((Finding(name, "error", (), error.problem, error.remedy or ""),))
 
 
-def _run_check(name: str, mesh: SymbolicMesh, before: SymbolicMesh | None) -> tuple[Finding, ...]:
+def _run_check(name: str, subject: CheckSubject) -> CheckFindings:
     plugin, kind = CHECKS.plugin(name), CHECKS[name]
     with blame(plugin):
-        found = tuple(kind().examine(mesh, before))
-        odd = next((one for one in found if not isinstance(one, Finding)), None)
-        if plugin and odd is not None:
-            raise plugin.error(f"found a {type(odd).__name__}, not a Finding")
-        return found
+        result = kind().measure(subject)
+        wrong = next((one for one in result.findings if not isinstance(one, Finding)), None)
+        if plugin and wrong is not None:
+            raise plugin.error(f"found a {type(wrong).__name__}, not a Finding")
+        return result

@@ -35,7 +35,7 @@ def apply(given: ApplyArguments) -> None:
     or were held, or where results of a project stand out that are neither demonstrated, accepted nor signed off: they
     are named, and the others are done.
     """
-    measures = CheckOptions().with_checks(given.check) if given.check else None
+    measures = CheckOptions.of(given.check) if given.check else None
     if measures and not given.report:
         raise UsageError("--check says nothing without --report", remedy="Give it too, or: meshforge check OUT")
     if given.report and given.dry_run:

@@ -11,7 +11,7 @@ from typing import Annotated, Any
 import typer
 
 from meshforge import batch
-from meshforge.checks import CheckOptions
+from meshforge.checks import MEASURES, CheckOptions
 from meshforge.cli import options
 from meshforge.cli.console import progress
 from meshforge.cli.notes import NoteLog
@@ -97,8 +97,8 @@ def check(given: CheckArguments) -> None:
     --fit, --clearance and --physics measure more, in seconds an asset. Exit code 1 when a check does not hold or a
     file cannot be read.
     """
-    asked = CheckOptions(given.engine, given.fit, given.clearance, given.physics, given.cell)
-    measures = asked.with_checks(given.check or ())
+    chosen = [kind.name for kind in MEASURES if getattr(given, kind.name)]
+    measures = CheckOptions.of([*filter(None, [given.engine]), *chosen, *(given.check or ())], given.cell)
     _refuse_stray_options(given, measures)
     task = batch.CheckTask(
         measures, given.out, given.tolerance, given.max_vertices, given.overwrite, given.against, given.pictures
@@ -140,10 +140,8 @@ def _refuse_stray_options(given: CheckArguments, measures: CheckOptions) -> None
     if given.fix and not ((measures.engine or given.max_vertices) and given.out):
         remedy = "meshforge check ASSETS... --engine NAME --fix --out DIR"
         raise UsageError("--fix needs --engine or --max-vertices, and --out", remedy=remedy)
-    on_grid, compares = (
-        measures.fit or measures.clearance,
-        bool(measures.clearance or measures.physics or measures.plugins),
-    )
+    on_grid = any(check.has_cells for check in measures.checks)
+    compares = any(check.compares for check in measures.checks)
     for option, is_given, is_allowed, without in (
         ("--out", given.out is not None, given.fix, "--fix"),
         ("--tolerance", given.tolerance is not None, given.fix, "--fix"),

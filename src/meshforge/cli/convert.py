@@ -15,7 +15,7 @@ from meshforge.cli.console import progress
 from meshforge.cli.notes import fold_notes
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import UsageError, escape_name, pluralize
-from meshforge.formats import FORMATS, PLUGIN_FORMATS, Loss, SaveResult
+from meshforge.formats import FORMATS_BY_SUFFIX, Loss, SaveResult
 from meshforge.symbolic import Feature, SymbolicMesh
 
 
@@ -98,13 +98,11 @@ def convert(given: ConvertArguments) -> None:
 def _parse_suffix(to: str) -> str:
     """The suffix of a format that can be written. Raises UsageError; PluginError for one that cannot be loaded."""
     suffix = f".{to.lower().lstrip('.')}"
-    known = [own for found in FORMATS if found.writable for own in found.suffixes]
-    if suffix in known:
-        return suffix
-    plugin = PLUGIN_FORMATS.get(suffix.removeprefix("."))
-    if not (plugin and plugin.writable):
-        known += [f".{name}" for name in PLUGIN_FORMATS.plugin_names]
-        raise UsageError(f"nothing is written as {suffix}", remedy=f"Formats: {', '.join(known)}.")
+    known = FORMATS_BY_SUFFIX.get(suffix.removeprefix("."))
+    if known is None or not known.writable:
+        built_in = [name for name, one in FORMATS_BY_SUFFIX.built_in.items() if one.writable]
+        names = ", ".join(f".{name}" for name in (*built_in, *FORMATS_BY_SUFFIX.plugin_names))
+        raise UsageError(f"nothing is written as {suffix}", remedy=f"Formats: {names}.")
     return suffix
 
 

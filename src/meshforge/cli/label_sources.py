@@ -9,23 +9,12 @@ from typing import Any, Literal
 
 import typer
 
+from meshforge import labels
 from meshforge.batch import ExecutionOptions
 from meshforge.cli.console import print_table, progress
 from meshforge.cli.label_report import LabelPrinter
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import UsageError, join_names, pluralize
-from meshforge.labels import (
-    FileLabeler,
-    LabelChange,
-    Labeler,
-    LabelFileOptions,
-    LabelResult,
-    NameLabeler,
-    PointAlignment,
-    Proposal,
-    Proposals,
-    make_labeler,
-)
 from meshforge.project import Project
 
 _MAX_NAMES = 3  # names of a row that are shown
@@ -37,26 +26,26 @@ class SourceOptions:
     """Where labels come from, by the options of `--with file` and `names` as they are typed."""
 
     source: str
-    labels: Path | None
+    files: Path | None
     patterns: Sequence[str]
     classes: str
     align: Literal["check", "box", "off"] | None
     points_up: Literal["y", "z"] | None
 
-    def to_labeler(self) -> Labeler:
+    def to_labeler(self) -> labels.Labeler:
         """The labeler with its options. Raises UsageError for an option that it does not know, or a wrong one."""
-        labeler = make_labeler(self.source)
+        labeler = labels.make_labeler(self.source)
         self._refuse_strays()
-        if isinstance(labeler, NameLabeler):
-            return NameLabeler(self.meanings)
-        if isinstance(labeler, FileLabeler):
+        if isinstance(labeler, labels.NameLabeler):
+            return labels.NameLabeler(self.meanings)
+        if isinstance(labeler, labels.FileLabeler):
             classes = tuple(word.strip() for word in self.classes.split(",")) if self.classes else ()
-            placing = PointAlignment(self.align or "check", self.points_up)
-            return FileLabeler(self.labels, LabelFileOptions(self.meanings, classes, placing))
+            placing = labels.PointAlignment(self.align or "check", self.points_up)
+            return labels.FileLabeler(self.files, labels.LabelFileOptions(self.meanings, classes, placing))
         return labeler
 
     def _refuse_strays(self) -> None:
-        if self.labels and self.source != "file":
+        if self.files and self.source != "file":
             problem = f"--labels names labels files, which --with {self.source} does not read"
             raise UsageError(problem, remedy="Leave one out.")
         of_points = {"--classes": self.classes, "--align": self.align, "--points-up": self.points_up}
@@ -80,7 +69,12 @@ def _parse_meaning(text: str) -> tuple[str, str]:
 
 
 def preview(
-    project: Project, labeler: Labeler, vocabulary: Sequence[str] | None, execution: ExecutionOptions, *, json: bool
+    project: Project,
+    labeler: labels.Labeler,
+    vocabulary: Sequence[str] | None,
+    execution: ExecutionOptions,
+    *,
+    json: bool,
 ) -> None:
     """Show what would be taken, with nothing written; vocabulary: the one to be tried, if another."""
     found = project.label(labeler, vocabulary=vocabulary, dry_run=True, execution=execution, stage=progress).proposals
@@ -90,15 +84,15 @@ def preview(
         _print_preview(found)
 
 
-def _to_json(found: Proposals) -> dict[str, Any]:
+def _to_json(found: labels.Proposals) -> dict[str, Any]:
     return {"take": _rows(found.rows), "leave": _rows(found.left), "keep": found.labelled, "problems": found.problems}
 
 
-def _rows(rows: Iterable[Proposal]) -> list[dict[str, Any]]:
+def _rows(rows: Iterable[labels.Proposal]) -> list[dict[str, Any]]:
     return [asdict(row) | {"unsure": row.is_unsure} for row in rows]
 
 
-def _print_preview(found: Proposals) -> None:
+def _print_preview(found: labels.Proposals) -> None:
     columns = ("label", "from", "names", "hulls", "assets", "confidence")
     rows = [*map(_cells, found.rows), *map(_cells, found.left)]
     if rows:
@@ -113,14 +107,14 @@ def _print_preview(found: Proposals) -> None:
         typer.echo(f"    and {len(found.problems) - _MAX_LINES} more")
 
 
-def _cells(row: Proposal) -> tuple[str, str, str, str, str, str]:
+def _cells(row: labels.Proposal) -> tuple[str, str, str, str, str, str]:
     sure = f"{row.low:.2f}" if f"{row.low:.2f}" == f"{row.high:.2f}" else f"{row.low:.2f} to {row.high:.2f}"
     confidence = "" if row.label is None else f"{sure}{', unsure' if row.is_unsure else ''}"
     names = join_names([name for name in row.names if name], _MAX_NAMES)
     return row.label or "(none)", row.kind, names, f"{row.hulls:,}", f"{row.assets:,}", confidence
 
 
-def label_by(project: Project, labeler: Labeler, execution: ExecutionOptions, printer: LabelPrinter) -> None:
+def label_by(project: Project, labeler: labels.Labeler, execution: ExecutionOptions, printer: LabelPrinter) -> None:
     """Label a project, and print what came of it."""
     if len(project.assets()) > 1:
         remark(project.plan_labels())
@@ -141,7 +135,7 @@ def label_by(project: Project, labeler: Labeler, execution: ExecutionOptions, pr
         typer.echo(f"{pluralize(bare, 'asset')} without a labels file")
 
 
-def _print_changes(result: LabelResult) -> None:
+def _print_changes(result: labels.LabelResult) -> None:
     new = sum(one.hulls for one in result.changes if one.was is None)
     gone = sum(one.hulls for one in result.changes if one.label is None)
     replaced = [one for one in result.changes if one.was is not None and one.label is not None]
@@ -161,7 +155,7 @@ def _print_changes(result: LabelResult) -> None:
         typer.echo(f"    and {len(replaced) - _MAX_LINES} more pairs of labels")
 
 
-def _describe_change(one: LabelChange) -> str:
+def _describe_change(one: labels.LabelChange) -> str:
     return f"    {one.was} -> {one.label}: {pluralize(one.hulls, 'hull')} in {pluralize(one.assets, 'asset')}"
 
 

@@ -12,12 +12,12 @@ from meshforge.cli import options
 from meshforge.cli.console import print_table
 from meshforge.cli.terminal import print_json
 from meshforge.common import PLUGIN_KINDS, Plugin, PluginKind, Registry, find_plugins
-from meshforge.formats import PLUGIN_FORMATS
+from meshforge.formats import FORMATS_BY_SUFFIX
 from meshforge.labels import LABELERS
 from meshforge.language import ACTIONS, EXTRACTORS
 
 _REGISTRIES: dict[PluginKind, Registry[Any]] = {
-    "formats": PLUGIN_FORMATS,
+    "formats": FORMATS_BY_SUFFIX,
     "extractors": EXTRACTORS,
     "actions": ACTIONS,
     "labelers": LABELERS,

@@ -134,8 +134,6 @@ def _to_report_assets(lines: Sequence[_ReportLine]) -> list[batch.ReportAsset]:
 
 
 def _describe_measures(measures: CheckOptions) -> str:
-    parts = ["legality"]
-    parts += [f"limits of {measures.engine}"] if measures.engine else []
-    parts += [name for name in ("fit", "clearance", "physics") if getattr(measures, name)]
-    parts += measures.plugins
+    limits = [f"limits of {measures.engine}"] if measures.engine else []
+    parts = ["legality", *limits, *(name for name in measures.names if name != measures.engine)]
     return f"Checked: {', '.join(parts)}."

@@ -18,7 +18,7 @@ __getattr__, __all__ = export_lazily(
         "plain.obj_text": "format_obj",
         "plain.parts": "MeshPart",
         "registry": (
-            "FORMATS MARKED_FORMATS MESH_SUFFIXES NO_GEOMETRY PLUGIN_FORMATS SUFFIXES Source all_suffixes "
+            "FORMATS FORMATS_BY_SUFFIX MARKED_FORMATS MESH_SUFFIXES NO_GEOMETRY SUFFIXES Source all_suffixes "
             "format_for format_of format_with_names is_asset is_description labels_beside load load_many "
             "notes_after path_of plugin_of_suffix read resolve_asset_path to_mesh"
         ),

@@ -24,10 +24,10 @@ from meshforge.formats.output_tree import save as save
 from meshforge.formats.plain.obj_text import format_obj as format_obj
 from meshforge.formats.plain.parts import MeshPart as MeshPart
 from meshforge.formats.registry import FORMATS as FORMATS
+from meshforge.formats.registry import FORMATS_BY_SUFFIX as FORMATS_BY_SUFFIX
 from meshforge.formats.registry import MARKED_FORMATS as MARKED_FORMATS
 from meshforge.formats.registry import MESH_SUFFIXES as MESH_SUFFIXES
 from meshforge.formats.registry import NO_GEOMETRY as NO_GEOMETRY
-from meshforge.formats.registry import PLUGIN_FORMATS as PLUGIN_FORMATS
 from meshforge.formats.registry import SUFFIXES as SUFFIXES
 from meshforge.formats.registry import Source as Source
 from meshforge.formats.registry import all_suffixes as all_suffixes

@@ -59,46 +59,42 @@ _MARKS: Mapping[MarkName, str] = {
     "khr": "marked by KHR_physics_rigid_bodies",
     "usd": "marked by UsdPhysics",
 }
-SUFFIXES: tuple[str, ...] = tuple(dict.fromkeys(s for f in FORMATS for s in f.suffixes))
+SUFFIXES: tuple[str, ...] = tuple(suffix for known in FORMATS for suffix in known.suffixes)
 """The suffixes of all files that can be read without plug-ins, lower case, with the dot; folders have none."""
-PLUGIN_FORMATS: Registry[Format] = Registry(
+FORMATS_BY_SUFFIX: Registry[Format] = Registry(
     "formats",
-    {},
+    {suffix.removeprefix("."): known for known in FORMATS for suffix in known.suffixes},
     lambda plugin, kind: guard_format(plugin, kind, [known.name for known in FORMATS]),
-    reserved=[suffix.removeprefix(".") for suffix in SUFFIXES],
 )
-"""The formats of plug-ins by suffix, without the dot: files of a plug-in that cannot be loaded are assets as well."""
+"""The formats of files by suffix, without the dot: files of a plug-in that cannot be loaded are assets as well."""
 MESH_SUFFIXES: tuple[str, ...] = tuple(s for f in FOLDER.members for s in f.suffixes)
 """The suffixes of plain mesh files, which may be pieces of a folder."""
-DESCRIPTION_SUFFIXES: tuple[str, ...] = tuple(s for f in FORMATS if f.is_description for s in f.suffixes)
-"""The suffixes of files that name mesh files as their parts, but for those of plug-ins."""
 
 
 def all_suffixes() -> tuple[str, ...]:
     """The suffixes of all files that can be read, those of plug-ins last; no plug-in is loaded for that."""
-    return (*SUFFIXES, *(f".{name}" for name in PLUGIN_FORMATS.plugin_names))
+    return tuple(f".{name}" for name in FORMATS_BY_SUFFIX)
 
 
 def is_description(path: Path) -> bool:
     """Whether a file is of a format whose files name mesh files as their parts."""
-    if path.suffix.lower() in DESCRIPTION_SUFFIXES:
-        return True
     try:
-        return any(known.is_description for known in _formats_of_suffix(path))
+        known = _format_of_suffix(path)
     except PluginError:
         return False
+    return known is not None and known.is_description
 
 
 def format_named(name: str) -> Format | None:
     """The format of a name, those of plug-ins last; None where there is none."""
     built_in = next((known for known in FORMATS if known.name == name), None)
-    return built_in or next((known for known in PLUGIN_FORMATS.loadable().values() if known.name == name), None)
+    return built_in or next((known for known in FORMATS_BY_SUFFIX.loadable().values() if known.name == name), None)
 
 
 def plugin_of_suffix(suffix: str) -> Plugin | None:
     """The plug-in that reads files of a suffix, None where it is built in, unknown, or several plug-ins have it."""
     try:
-        return PLUGIN_FORMATS.plugin(suffix.lower().removeprefix("."))
+        return FORMATS_BY_SUFFIX.plugin(suffix.lower().removeprefix("."))
     except PluginError:
         return None
 
@@ -124,10 +120,10 @@ def format_of(path: Path) -> Format:
         raise AssetError("there is no such file", where=str(path))
     if not path.is_file():  # reading a pipe would wait, a device may never end
         raise AssetError("cannot be read: it is a pipe or a device", where=str(path))
-    found = _formats_of_suffix(path)
+    found = _format_of_suffix(path)
     if not found:
         raise _unknown_format_error(path)
-    return found[0]
+    return found
 
 
 def is_asset(path: Path) -> bool:
@@ -139,10 +135,10 @@ def is_asset(path: Path) -> bool:
     if not path.is_file() or is_segmentation(path):
         return False
     try:
-        formats = _formats_of_suffix(path)
+        known = _format_of_suffix(path)
     except PluginError:  # its reading says why
         return True
-    return any(known.matches_head(_read_head(path)) and known.is_main(path) for known in formats)
+    return known is not None and known.matches_head(_read_head(path)) and known.is_main(path)
 
 
 URDF_WITH_CAPSULES = UrdfWithCapsules()
@@ -150,13 +146,12 @@ URDF_WITH_CAPSULES = UrdfWithCapsules()
 
 
 def format_for(path: Path, own: str) -> Format:
-    """The format of a file that is to be written: the one named `own` where the suffix fits it, else by suffix.
+    """The format of a file that is to be written, by its suffix; own: the name of the format that the asset has now.
 
     A path without a suffix is a folder. Raises AssetError: a suffix of no known format.
     """
-    found = _formats_of_suffix(path)
-    if found:
-        return next((known for known in found if known.name == own), found[0])
+    if found := _format_of_suffix(path):
+        return found
     if own == FOLDER.name or path.is_dir() or not path.suffix:
         return FOLDER
     raise _unknown_format_error(path)
@@ -172,15 +167,12 @@ def format_with_names(known: Format, names: MarkName) -> Format:
     raise UsageError(f"{files} cannot be {_MARKS[names]}", remedy=f"Formats that can: {can}.")
 
 
-def _formats_of_suffix(path: Path) -> list[Format]:
-    """The formats of a suffix. Raises PluginError about the path where a plug-in has it that cannot be loaded."""
-    suffix = path.suffix.lower()
-    found = [known for known in FORMATS if suffix in known.suffixes]
+def _format_of_suffix(path: Path) -> Format | None:
+    """The format of a suffix. Raises PluginError about the path where a plug-in has it that cannot be loaded."""
     try:
-        more = None if found else PLUGIN_FORMATS.get(suffix.removeprefix("."))
+        return FORMATS_BY_SUFFIX.get(path.suffix.lower().removeprefix("."))
     except PluginError as error:
         raise error.at(str(path)) from error.__cause__
-    return [more] if more else found
 
 
 def _read_head(path: Path) -> bytes:
@@ -311,7 +303,7 @@ def load_many(patterns: str | Path | Iterable[str | Path]) -> Iterator[SymbolicM
 def labels_beside(path: Path) -> Path:
     """Where the labels of an asset lie: beside it, `table.labels.json` for table.urdf and for a folder `table`."""
     suffix = path.suffix.lower()
-    is_file = not path.is_dir() and (suffix in SUFFIXES or suffix.removeprefix(".") in PLUGIN_FORMATS)
+    is_file = not path.is_dir() and suffix.removeprefix(".") in FORMATS_BY_SUFFIX
     stem = path.stem if is_file else path.name
     return path.with_name(f"{stem}.labels.json")
 

@@ -11,13 +11,13 @@ from typing import get_args
 from pydantic import TypeAdapter, ValidationError
 
 from meshforge.batch import ExecutionOptions, WorkerFailure, count_processors, read_stamp, run_isolated
-from meshforge.checks import draw_examination, examine_mesh
+from meshforge.checks import CheckOptions, draw_examination, examine_mesh
 from meshforge.common import MeshForgeError, ProjectError, describe_error, write_atomically
 from meshforge.common.processes import memory_share
 from meshforge.project import Project
 from meshforge.rendering import LengthUnit, encode_png
 from meshforge.studio.errors import NotHereError
-from meshforge.studio.output_measures import MEASURES, MeasureTask, check_key, measure, read_pair
+from meshforge.studio.output_measures import MeasureTask, check_key, measure, read_pair
 from meshforge.studio.wire.asset import CheckPart, CheckPicture, CheckResult, Fault
 from meshforge.studio.workers import WORK_TIMEOUT, Workers, future_of, project_of_one
 
@@ -126,7 +126,7 @@ def _measure_all(work: tuple[MeasureTask, ResultCache]) -> str | None:
 
 def _draw(task: MeasureTask, part: CheckPart, unit: LengthUnit, cache: ResultCache) -> tuple[CheckPicture, ...]:
     pair = read_pair(task)
-    found = examine_mesh(pair.after, MEASURES[part], pair.before) if part in MEASURES else None
+    found = None if part == "engines" else examine_mesh(pair.after, CheckOptions((part,)), pair.before)
     rows = draw_examination(pair.after, found, PICTURE_SIZE, unit) if found else ()
     drawn = [(CheckPicture(name=f"{name}-{unit}", text=text), encode_png(image)) for name, text, image in rows]
     cache.write_pictures(task.key, part, unit, drawn)

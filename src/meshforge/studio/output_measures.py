@@ -6,8 +6,8 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import TypeVar
 
+from meshforge import checks
 from meshforge.batch import Stamp, has_same_files, read_stamp, record_digest, software_version, text_digest
-from meshforge.checks import CheckOptions, Examination, Finding, check, examine_mesh
 from meshforge.common import ProjectError
 from meshforge.engines import ENGINES
 from meshforge.formats import load
@@ -17,13 +17,6 @@ from meshforge.studio.wire.asset import CheckFinding, CheckPart, CheckResult, Fi
 from meshforge.symbolic import SymbolicMesh
 
 _RULE_PREFIXES = {"fit": ("fit-", "shape-"), "clearance": ("clearance-",), "physics": ("physics-",)}
-MEASURES = {
-    "fit": CheckOptions(fit=True),
-    "clearance": CheckOptions(clearance=True),
-    "physics": CheckOptions(physics=True),
-}
-"""What the costly parts measure: what `meshforge check` does with the option of that name."""
-
 Value = TypeVar("Value")
 
 _REMEDY = "Apply the program to it again."
@@ -36,27 +29,32 @@ def measure(pair: OutputPair, part: CheckPart) -> CheckResult:
     """One part of what `meshforge check OUTPUT --against ASSET` reports."""
     if part == "engines":
         return _check_engines(pair)
-    now = examine_mesh(pair.after, MEASURES[part], pair.before)
+    now = checks.examine_mesh(pair.after, checks.CheckOptions((part,)), pair.before)
     if part == "physics":
-        earlier = now.earlier.findings if now.earlier else ()
-        return _to_checked(part, earlier, now, physics_figures(now), None)
-    was = examine_mesh(pair.before, MEASURES[part])
+        earlier = now.get(checks.BEFORE, checks.Physics)
+        return _to_checked(part, earlier.findings if earlier else (), now, physics_figures(now), None)
+    was = checks.examine_mesh(pair.before, checks.CheckOptions((part,)))
     if part == "fit":
-        cell = now.fit.cell if now.fit and now.fit.hulls else None
-        return _to_checked(part, was.findings, now, fit_figures(was, now), cell)
-    space = now.clearance or now.changed
+        fit = _fit_of(now)
+        return _to_checked(part, was.findings, now, fit_figures(was, now), fit.cell if fit else None)
+    space = now.get("clearance", checks.Clearance) or now.get(checks.OF_EDIT, checks.Clearance)
     return _to_checked(part, was.findings, now, clearance_figures(was, now), space.cell if space else None)
 
 
 def _to_checked(
-    part: CheckPart, before: Iterable[Finding], now: Examination, rows: Iterable[Figure], cell: float | None
+    part: CheckPart,
+    before: Iterable[checks.Finding],
+    now: checks.Examination,
+    rows: Iterable[Figure],
+    cell: float | None,
 ) -> CheckResult:
     figures = tuple(rows)
     found = [f for f in now.findings if f.rule.startswith(_RULE_PREFIXES[part])]
     old = [f for f in before if f.rule.startswith(_RULE_PREFIXES[part])]
-    by_edit = now.changed.findings if now.changed else ()
+    edit = now.get(checks.OF_EDIT, checks.Clearance)
+    by_edit = edit.findings if edit else ()
     gone = {finding.rule for finding in old} - {finding.rule for finding in found}
-    physics = (("", now.physics), ("before the edit ", now.earlier))
+    physics = (("", now.get("physics", checks.Physics)), ("before the edit ", now.get(checks.BEFORE, checks.Physics)))
     no_rest = (f"{when}{p.description}" for when, p in physics if p and p.rest is None)
     return CheckResult(
         part=part,
@@ -77,12 +75,12 @@ def _check_engines(pair: OutputPair) -> CheckResult:
     return CheckResult(part="engines", findings=tuple(rows))
 
 
-def _findings_of(mesh: SymbolicMesh, engine: str | None) -> list[Finding]:
+def _findings_of(mesh: SymbolicMesh, engine: str | None) -> list[checks.Finding]:
     """The limits of an engine that are exceeded; without an engine, what is not legal."""
-    return [found for found in check(mesh, engine) if engine is None or found.rule.startswith(f"{engine}-")]
+    return [found for found in checks.check(mesh, engine) if engine is None or found.rule.startswith(f"{engine}-")]
 
 
-def _to_row(found: Finding, engine: str | None, new: bool) -> CheckFinding:
+def _to_row(found: checks.Finding, engine: str | None, new: bool) -> CheckFinding:
     return CheckFinding(
         rule=found.rule,
         severity=found.severity,
@@ -94,13 +92,18 @@ def _to_row(found: Finding, engine: str | None, new: bool) -> CheckFinding:
     )
 
 
-def _was_there(found: Finding, before: Iterable[Finding]) -> bool:
+def _was_there(found: checks.Finding, before: Iterable[checks.Finding]) -> bool:
     return any(old.rule == found.rule and set(found.hulls) <= set(old.hulls) for old in before)
 
 
-def fit_figures(was: Examination, now: Examination) -> Iterator[Figure]:
+def _fit_of(found: checks.Examination) -> checks.MeshFit | None:
+    fit = found.get("fit", checks.MeshFit)
+    return fit if fit and fit.hulls else None
+
+
+def fit_figures(was: checks.Examination, now: checks.Examination) -> Iterator[Figure]:
     """How far hulls stick out, and what they leave uncovered."""
-    before, after = (found.fit if found.fit and found.fit.hulls else None for found in (was, now))
+    before, after = _fit_of(was), _fit_of(now)
     if after is None:
         return
     yield _make_figure("Hulls stick out, at most", "m", before, after, lambda fit: fit.out)
@@ -108,19 +111,18 @@ def fit_figures(was: Examination, now: Examination) -> Iterator[Figure]:
     yield _make_figure("It lies off hulls, at most", "m", before, after, lambda fit: fit.bare)
 
 
-def clearance_figures(was: Examination, now: Examination) -> Iterator[Figure]:
+def clearance_figures(was: checks.Examination, now: checks.Examination) -> Iterator[Figure]:
     """How much of the space about the visual mesh hulls close and open; then what the edit closed and opened."""
-    if now.clearance:
-        yield _make_figure("Closed, against the visual", "l", was.clearance, now.clearance, lambda c: c.closed)
-        yield _make_figure("Opened, against the visual", "l", was.clearance, now.clearance, lambda c: c.opened)
-    if now.changed:
-        yield _make_figure("Closed by the edit", "l", None, now.changed, lambda c: c.closed)
-        yield _make_figure("Opened by the edit", "l", None, now.changed, lambda c: c.opened)
+    for key, what in (("clearance", ", against the visual"), (checks.OF_EDIT, " by the edit")):
+        before, after = was.get(key, checks.Clearance), now.get(key, checks.Clearance)
+        if after:
+            yield _make_figure(f"Closed{what}", "l", before, after, lambda c: c.closed)
+            yield _make_figure(f"Opened{what}", "l", before, after, lambda c: c.opened)
 
 
-def physics_figures(now: Examination) -> Iterator[Figure]:
+def physics_figures(now: checks.Examination) -> Iterator[Figure]:
     """How the asset rests, and which bodies overlap."""
-    physics, earlier = now.physics, now.earlier
+    physics, earlier = now.get("physics", checks.Physics), now.get(checks.BEFORE, checks.Physics)
     was, rest = earlier.rest if earlier else None, physics.rest if physics else None
     if rest is not None:
         yield _make_figure("Shakes at rest", "m/s", was, rest, lambda r: r.jitter)

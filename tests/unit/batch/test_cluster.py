@@ -84,7 +84,7 @@ def test_a_node_that_dies_in_the_midst_costs_nothing(cluster: Any, tmp_path: Pat
 def test_checks_and_labels_are_the_same_there(cluster: Any, tmp_path: Path) -> None:
     write_tables(tmp_path / "assets", 6)
     (tmp_path / "assets/table3/model.obj").write_text("v 1 2\n")
-    work, wanted = make_jobs(expand([tmp_path / "assets"])), CheckTask(CheckOptions("unreal", fit=True))
+    work, wanted = make_jobs(expand([tmp_path / "assets"])), CheckTask(CheckOptions(("unreal", "fit")))
     found, labels = [], []
     for spread in (ExecutionOptions(workers=2), ExecutionOptions(backend="ray")):
         found.append([examined.to_json() for examined in check_assets(work, wanted, spread) if examined])

@@ -85,7 +85,7 @@ def test_a_file_that_mujoco_refuses_is_an_error_in_its_own_words(name: str, tmp_
 def test_a_file_that_cannot_be_read_either_is_an_error(name: str, tmp_path: Path) -> None:
     path = put(tmp_path, {"cup.xml": ALSO_UNREADABLE[name]}, "cup.xml")
     assert refusal(path)
-    outcome = check_asset(path, tmp_path, None, CheckTask(CheckOptions("mujoco")))
+    outcome = check_asset(path, tmp_path, None, CheckTask(CheckOptions(("mujoco",))))
     assert outcome.has_failed and outcome.error
 
 
@@ -155,7 +155,8 @@ sys.modules[sys.argv[1]] = None
 from pathlib import Path
 from meshforge.batch import CheckTask, check_asset
 from meshforge.checks import CheckOptions
-for finding in check_asset(Path("box.urdf"), Path(), None, CheckTask(CheckOptions(sys.argv[2]))).examination.findings:
+task = CheckTask(CheckOptions((sys.argv[2],)))
+for finding in check_asset(Path("box.urdf"), Path(), None, task).examination.findings:
     print(finding.rule, finding.message, finding.remedy, sep=": ")
 """
 
@@ -196,7 +197,7 @@ def test_of_all_broken_files_none_that_mujoco_refuses_is_legal(
     monkeypatch.chdir(tmp_path)  # where MuJoCo writes its log
     paths = sorted(ROOT.glob(f"{'mjcf' if suffix == 'xml' else suffix}/*.{suffix}"))
     assert len(paths) > 50
-    outcomes = [check_asset(path, ROOT, None, CheckTask(CheckOptions("mujoco"))) for path in paths]
+    outcomes = [check_asset(path, ROOT, None, CheckTask(CheckOptions(("mujoco",)))) for path in paths]
     read = [outcome for outcome in outcomes if outcome.error is None]
     refused = [outcome for outcome in read if refusal(outcome.path)]
     assert refused and all(outcome.has_failed for outcome in refused)

@@ -10,6 +10,7 @@ import pytest
 from PIL import Image
 
 import meshforge as mf
+from meshforge.checks import OF_EDIT, Clearance
 from tests.unit.batch.families import write_urdf_table
 from tests.unit.rendering.scenes import box, edited, hull, table
 
@@ -60,7 +61,8 @@ def test_check_against_the_asset_before_measures_what_the_edit_closed(path: Path
     mesh = mf.load(path)
     program = mf.Program.parse("Is(leg) => Merge")
     found = mf.check(program.run(mesh, {}).mesh, clearance=True, against=path, cell=0.1)
-    assert found.changed is not None and found.changed.closed > 100  # the space between the legs, in litres
+    changed = found.get(OF_EDIT, Clearance)
+    assert changed is not None and changed.closed > 100  # the space between the legs, in litres
     assert "clearance" in str(found)
 
 

@@ -58,6 +58,15 @@ class Namer(AssetLabeler):
     def label(self, mesh, vocabulary):
         {body}
 """
+FAMILY_LABELER = """
+from meshforge.labels import AssetLabels, Labeler, LabelProposal
+class Namer(Labeler):
+    def propose(self, family):
+        top = Label(family.require_vocabulary()[0], 0.7, "plugin")
+        facts = family.iterate_facts()
+        return LabelProposal(AssetLabels(a, one.hulls, dict.fromkeys(one.hulls, top)) for a, one in facts)
+"""
+"""A labeller that sees the whole family, right in all."""
 CHECK = """
 class Look(Check):
     def examine(self, mesh, before):

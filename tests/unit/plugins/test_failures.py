@@ -223,7 +223,7 @@ def test_names_of_meshforge_stay_its_own(run: Run, install: Install) -> None:
     Path("p.mf").write_text("Is(leg) => Merge\n")
     (edited,) = apply(Program.read("p.mf"), make_jobs(expand(["table.obj"])), Path("out"), execution=IN_PROCESS)
     assert not isinstance(edited, Failed)
-    assert CheckOptions().with_checks(["fit"]) == CheckOptions(fit=True)
+    assert CheckOptions.of(["fit"]) == CheckOptions(("fit",))
     rows = run("plugins", "--json").json
     assert len(rows) == 1  # one package of this name counts, the last that was installed
     assert packages[-1] in rows[0]["reason"] and "MeshForge itself has this name" in rows[0]["reason"]
@@ -348,10 +348,19 @@ def test_a_labeller_that_fails_on_one_asset_labels_the_others(run: Run, install:
     assert project.mesh("table.obj").hull_of("top").source == "plugin"
 
 
+def test_a_labeller_that_sees_the_family_takes_the_road_of_those_built_in(run: Run, install: Install) -> None:
+    install("labelers", "tops", "from meshforge.symbolic import Label\n" + broken.FAMILY_LABELER)
+    project = Project.create("home", ["table.obj"], vocabulary=["top", "leg"])
+    (row,) = project.label("tops", dry_run=True).proposals.rows
+    assert (row.label, row.hulls) == ("top", 6) and not project.labels("table.obj").labels
+    (outcome,) = project.label("tops").outcomes
+    assert (outcome.taken, project.mesh("table.obj").hull_of("top").source) == (6, "plugin")
+
+
 @pytest.mark.parametrize("body", [*RAISES, "return ['odd']"])
 def test_a_check_that_fails_is_an_error_among_the_findings(run: Run, install: Install, body: str) -> None:
     package = install("checks", "odd", broken.HEAD + broken.CHECK.format(body=body))
-    (finding,) = examine_mesh(load("table.obj"), CheckOptions().with_checks(["odd"])).findings
+    (finding,) = examine_mesh(load("table.obj"), CheckOptions.of(["odd"])).findings
     assert (finding.rule, finding.severity) == ("odd", "error")
     assert finding.message.startswith(f"the check odd of the package {package} ")
 
@@ -365,7 +374,7 @@ def test_a_name_that_no_plug_in_has_is_an_error_that_lists_those_there_are(insta
     with pytest.raises(ProgramError, match="Did you mean Spoil"):
         parse_action("Spoill")
     with pytest.raises(UsageError, match="Did you mean 'odd'"):
-        CheckOptions().with_checks(["oddd"])
+        CheckOptions.of(["oddd"])
 
 
 def test_a_label_is_written_alike_whatever_plug_ins_there_are(install: Install) -> None:

@@ -57,7 +57,7 @@ def told(project: Project, of: Literal["asset", "output"], measures: CheckOption
 
 @pytest.mark.slow
 def test_the_figures_are_those_of_the_command_line(project: Project, checks: OutputChecks) -> None:
-    everything = CheckOptions(fit=True, clearance=True, physics=True)
+    everything = CheckOptions(("fit", "clearance", "physics"))
     was, now = told(project, "asset", everything), told(project, "output", everything)
     fit = figures(checks.check_part(project, CUP, "fit").result(60))
     assert fit["Hulls stick out, at most"] == (was["fit"]["out"], now["fit"]["out"])
@@ -78,7 +78,7 @@ def test_limits_of_every_engine_are_told_with_its_name(project: Project, checks:
     limits = checks.check_part(project, CUP, "engines").result(60)
     assert {f.engine for f in limits.findings} <= {None, *ENGINES}
     for engine in ENGINES:
-        wanted = {f["message"] for f in told(project, "output", CheckOptions(engine))["findings"]}
+        wanted = {f["message"] for f in told(project, "output", CheckOptions((engine,)))["findings"]}
         assert {f.text for f in limits.findings if f.engine in (None, engine)} == wanted
 
 

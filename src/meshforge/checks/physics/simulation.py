@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from meshforge.checks.base import CheckFindings, CheckSubject, Measure, MeasureCheck
 from meshforge.checks.legality import check_legality
 from meshforge.checks.physics.mechanism import ContactRules, JointTree, check_masses
 from meshforge.checks.physics.model import FLOOR, STEP, compile_model
@@ -16,6 +17,8 @@ from meshforge.engines import Finding
 from meshforge.geometry import Floats
 from meshforge.symbolic import SymbolicMesh
 
+BEFORE = "physics_before"
+"""The key of the physics of the hulls before an edit."""
 SETTLE_SECONDS, WATCH_SECONDS = 6.0, 0.5
 """Seconds that an asset has at most to come to rest, and then is watched."""
 JITTER = 0.005
@@ -51,7 +54,7 @@ class Rest:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Physics:
+class Physics(Measure):
     """What MuJoCo says of an asset; rest: None where it could not be simulated, for the reason `refused`."""
 
     scale: float
@@ -62,7 +65,6 @@ class Physics:
 
     @property
     def description(self) -> str:
-        """The behaviour in a sentence."""
         if self.rest is None:
             return f"not simulated: {self.refused}"
         rest = self.rest
@@ -84,6 +86,17 @@ class Physics:
             "refused": self.refused,
             "overlaps": [asdict(overlap) for overlap in self.overlaps],
         }
+
+
+class PhysicsCheck(MeasureCheck):
+    """How an asset comes to rest on a plane in MuJoCo, and overlaps of its bodies; of the mesh before an edit, too."""
+
+    name = "physics"
+
+    def measure(self, subject: CheckSubject) -> CheckFindings:
+        now = simulate(subject.mesh)
+        before = {BEFORE: simulate(subject.before)} if subject.before else {}
+        return CheckFindings(now.findings, {self.name: now} | before)
 
 
 def simulate(mesh: SymbolicMesh) -> Physics:

@@ -7,14 +7,15 @@ import json
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from itertools import accumulate
+from math import prod
 
 from meshforge.common import join_names
 from meshforge.labels.vlm.transport import Reply, Token
 from meshforge.symbolic import Label
 
-_BRACKET = re.compile(r"[{\[]")
-_NUMBER = re.compile(r"#?\s*(\d{1,9})")
+_OBJECT = re.compile(r"\{[^{}]*\}")
+_NUMBER = re.compile(r"#?\s*(\d{1,9})(?:\.0)?")
 _MOST_SHOWN = 60  # characters of a word that is no label
 
 Chances = Mapping[str | None, float]
@@ -80,106 +81,46 @@ def _normalize(word: str) -> str:
     return " ".join(re.sub(r"[\s_\-]+", " ", word.strip().strip("\"'`*.")).casefold().split())
 
 
-def _entries(text: str) -> list[tuple[int, str]]:
-    """Numbers with the words said of them, in the last form that is filled in: before it a model may think aloud.
-
-    Entries without a form around them belong together: they are of an answer that was cut off.
-    """
-    found: list[tuple[int, str]] = []
-    loose = False
-    for value in _documents(text):
-        rows, single = list(_rows(value)), isinstance(value, dict) and "number" in value
-        if rows:
-            found = [*found, *rows] if single and loose else rows
-            loose = single
-    return found
-
-
-def _documents(text: str) -> Iterator[Any]:
-    decoder, place = json.JSONDecoder(), 0
-    while match := _BRACKET.search(text, place):
+def _entries(text: str) -> Iterator[tuple[int, str]]:
+    """The numbers with their words in the last list of hulls, since a model may think aloud before it; an entry that
+    is cut off is left out."""
+    _, _, last = text.rpartition('"hulls"')
+    for part in _OBJECT.findall(last):
         try:
-            value, place = decoder.raw_decode(text, match.start())
+            found = json.loads(part)
         except ValueError:
-            place = match.start() + 1
-        except RecursionError:  # nobody means that
-            return
-        else:
-            yield value
-
-
-def _rows(value: Any) -> Iterator[tuple[int, str]]:
-    """The entries in a document of the form asked for, or of those that models like to take instead."""
-    match value:
-        case {"hulls": list() | dict() as inner}:
-            yield from _rows(inner)
-        case {"number": number, "label": str(word)}:
-            yield from _row(number, word)
-        case list():
-            for entry in value:
-                if isinstance(entry, dict):
-                    yield from _rows(entry)
-        case dict():
-            for key, word in value.items():
-                if isinstance(word, str):
-                    yield from _row(key, word)
-
-
-def _row(number: Any, word: str) -> Iterator[tuple[int, str]]:
-    if isinstance(number, int) and not isinstance(number, bool):
-        yield number, word
-    elif isinstance(number, float) and number.is_integer():
-        yield int(number), word
-    elif isinstance(number, str) and (match := _NUMBER.fullmatch(number.strip())):
-        yield int(match[1]), word
+            continue
+        rows = [(found["number"], found.get("label"))] if "number" in found else found.items()
+        for number, word in rows:
+            if isinstance(word, str) and (match := _NUMBER.fullmatch(str(number).strip())):
+                yield int(match[1]), word
 
 
 def label_chances(reply: Reply, answer: HullAnswer, vocabulary: Sequence[str], unknown: str) -> dict[int, Chances]:
-    """The chances of all labels for each number that has one, as far as the server told them."""
-    if not reply.tokens:
-        return {}
-    text, whole = reply.text.encode(), b"".join(token.text for token in reply.tokens)
+    """The chances of all labels for each number that has one, as far as the server gave them.
+
+    That of the label itself is the product over its tokens; the others share what is left.
+    """
+    text, whole = reply.text.encode(), b"".join(token.text for token in reply.tokens or ())
     start = whole.rfind(text)
-    if start < 0:
+    if not reply.tokens or start < 0:
         return {}
     words: dict[bytes, str | None] = {word.encode(): word for word in vocabulary} | {unknown.encode(): None}
-    found = {}
+    found = dict[int, Chances]()
     for number, label in answer.said.items():
         places = list(re.finditer(rb'"number"\s*:\s*%d\s*,\s*"label"\s*:\s*"([^"\\]*)"' % number, text))
-        word = places[-1][1] if places else b""
-        if words.get(word, "") == label and word in words:
-            found[number] = _spread_chances(reply.tokens, start + places[-1].start(1), word, words)
+        if places and words.get(places[-1][1], "") == label:
+            own = _chance_of(reply.tokens, start + places[-1].start(1), start + places[-1].end(1))
+            others = (1 - own) / (len(words) - 1)
+            found[number] = {word: own if word == label else others for word in words.values()}
     return found
 
 
-def _spread_chances(tokens: Sequence[Token], start: int, word: bytes, words: Mapping[bytes, str | None]) -> Chances:
-    """The chances of all words in the place of one that begins at `start`.
-
-    That of the word itself is the product over its tokens. The others share what is left: as the tokens say that were
-    likely instead of the first, then evenly.
-    """
-    own, first, place, before = 1.0, None, 0, 0
-    for token in tokens:
-        end = place + len(token.text)
-        if place < start + len(word) and end > start:
-            own *= token.chance
-            if first is None:
-                first, before = token, max(0, start - place)
-        place = end
-    if first is None:
-        return {words[word]: 1.0}
-    share = dict.fromkeys(words, 0.0)
-    for text, chance in first.others.items():
-        head, rest = text[:before], text[before:]
-        like = [one for one in words if one != word and rest and (one.startswith(rest) or rest.startswith(one))]
-        if head == first.text[:before] and text != first.text and like:
-            for one in like:
-                share[one] += chance / len(like)
-    share[word] = own
-    left, others = max(0.0, 1 - sum(share.values())), len(words) - 1
-    spread = {one: chance + (left / others if one != word else 0.0) for one, chance in share.items()}
-    total = sum(spread.values()) or 1.0
-    return {words[one]: chance / total for one, chance in spread.items()}
+def _chance_of(tokens: Sequence[Token], start: int, end: int) -> float:
+    """The product of the chances of the tokens between two places of their text."""
+    ends = list(accumulate(len(token.text) for token in tokens))
+    rows = zip(tokens, [0, *ends], ends, strict=False)
+    return prod(token.chance for token, first, last in rows if first < end and last > start)
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from html import escape
 from pathlib import Path
 from typing import Any
-
-from pydantic import BaseModel, ConfigDict, ValidationError
 
 from meshforge.common import relative_name, write_atomically
 from meshforge.labels.vlm.answer import VlmAnswers
@@ -29,20 +27,6 @@ td, th { text-align: left; padding: 2px 16px 2px 0; border-bottom: 1px solid #dd
 """
 
 
-class _AnswerRecord(BaseModel):
-    """What came back, as it is kept; tokens: the text, the chance and the chances of others of each."""
-
-    model_config = ConfigDict(frozen=True)
-
-    text: str
-    finish: str
-    input_tokens: int
-    output_tokens: int
-    estimated: bool = False
-    cost: float
-    tokens: tuple[tuple[str, float, dict[str, float]], ...] | None = None
-
-
 class AnswerCache:
     """A folder of answers: `answers/DIGEST.json` holds what was sent and what came back, `pictures/` the pictures."""
 
@@ -53,10 +37,9 @@ class AnswerCache:
         """The answer to a question, None where there is none, or none that can be read."""
         try:
             data = json.loads(self.path(question, endpoint).read_bytes())
-            answer = _AnswerRecord.model_validate(data["answered"] | {"tokens": data["tokens"]})
             asked = json.loads(json.dumps(question.document(endpoint)))
-            return _to_reply(answer) if data["asked"] == asked else None
-        except (OSError, ValueError, KeyError, TypeError, ValidationError):
+            return _to_reply(data["answered"], data["tokens"]) if data["asked"] == asked else None
+        except (OSError, ValueError, KeyError, TypeError, AttributeError, IndexError):
             return None
 
     def write(self, question: VlmQuestion, endpoint: Endpoint, reply: Reply) -> None:
@@ -65,10 +48,11 @@ class AnswerCache:
             path = self.folder / "pictures" / f"{digest}.png"
             if not path.exists():
                 write_atomically(path, picture)
-        answer = _to_cached(reply).model_dump(exclude_defaults=True)
-        tokens = json.dumps(answer.pop("tokens", None))  # hundreds of them, in one line
+        rows = [(token.text.decode(_ANY_BYTES), token.chance) for token in reply.tokens or ()]
+        tokens = json.dumps(rows if reply.tokens else None)  # hundreds of them, in one line
         asked, answered = (
-            json.dumps(value, ensure_ascii=False, indent=1) for value in (question.document(endpoint), answer)
+            json.dumps(value, ensure_ascii=False, indent=1)
+            for value in (question.document(endpoint), _to_record(reply))
         )
         text = f'{{\n"asked": {asked},\n"answered": {answered},\n"tokens": {tokens}\n}}\n'
         write_atomically(self.path(question, endpoint), text)
@@ -78,25 +62,21 @@ class AnswerCache:
         return self.folder / "answers" / f"{question.digest(endpoint)}.json"
 
 
-def _to_cached(reply: Reply) -> _AnswerRecord:
-    usage, tokens = reply.usage or TokenCount(), None
-    if reply.tokens is not None:
-        tokens = tuple(
-            (token.text.decode(_ANY_BYTES), token.chance, {t.decode(_ANY_BYTES): c for t, c in token.others.items()})
-            for token in reply.tokens
-        )
-    counts: dict[str, Any] = {"input_tokens": usage.input, "output_tokens": usage.output, "estimated": usage.estimated}
-    return _AnswerRecord(text=reply.text, finish=reply.finish, **counts, cost=reply.cost, tokens=tokens)
+def _to_record(reply: Reply) -> dict[str, Any]:
+    usage = reply.usage or TokenCount()
+    counts = {"input_tokens": usage.input, "output_tokens": usage.output} | (
+        {"estimated": True} if usage.estimated else {}
+    )
+    return {"text": reply.text, "finish": reply.finish, **counts, "cost": reply.cost}
 
 
-def _to_reply(answer: _AnswerRecord) -> Reply:
-    usage, tokens = TokenCount(answer.input_tokens, answer.output_tokens, answer.estimated), None
-    if answer.tokens is not None:
-        tokens = tuple(
-            Token(text.encode(_ANY_BYTES), chance, {other.encode(_ANY_BYTES): c for other, c in others.items()})
-            for text, chance, others in answer.tokens
-        )
-    return Reply(answer.text, answer.finish, usage, tokens, answer.cost, cached=True)
+def _to_reply(record: Mapping[str, Any], rows: Sequence[Sequence[Any]] | None) -> Reply:
+    """The answer of a record, whose rows of tokens may have more than their text and chance. Raises ValueError."""
+    usage = TokenCount(int(record["input_tokens"]), int(record["output_tokens"]), bool(record.get("estimated")))
+    tokens = tuple(Token(row[0].encode(_ANY_BYTES), float(row[1])) for row in rows) if rows else None
+    if not (isinstance(record["text"], str) and isinstance(record["finish"], str)):
+        raise ValueError("this is no answer")
+    return Reply(record["text"], record["finish"], usage, tokens, float(record["cost"]), cached=True)
 
 
 def write_page(folder: Path, name: str, answers: VlmAnswers) -> Path:

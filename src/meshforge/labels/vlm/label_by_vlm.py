@@ -15,8 +15,8 @@ from meshforge.labels.vlm.approval import check_approved
 from meshforge.labels.vlm.cache import write_page
 from meshforge.labels.vlm.client import Client
 from meshforge.labels.vlm.endpoint import TokenCount, endpoint_of
-from meshforge.labels.vlm.labeller import Labeller, OpenAnswers
 from meshforge.labels.vlm.limits import Usage, estimate_tokens
+from meshforge.labels.vlm.mesh_asker import MeshAsker, OpenAnswers
 from meshforge.labels.vlm.prompt import HullQuestion, PromptConfig, build_questions, prompt_config_of
 from meshforge.store import AssetFiles, Store, VlmSettings, hull_digests
 from meshforge.symbolic import GIVEN_SOURCES, SymbolicMesh
@@ -106,7 +106,7 @@ class VlmLabeler(Labeler):
         reached, left = set[str](), dict[str, Mapping[str, str]]()
         with (
             closing(client),
-            closing(Labeller(client, config, examples_of(store, settings))) as labeller,
+            closing(MeshAsker(client, config, examples_of(store, settings))) as asker,
             closing(draw_assets(store, config, replace(family.execution, stop=None))) as drawn,
         ):
 
@@ -122,7 +122,7 @@ class VlmLabeler(Labeler):
                     reached.add(asset)
                     yield AssetLabels(asset, error=found.error)
                 else:
-                    pending[asset] = found.hulls, labeller.ask(found.wanted, found.questions)
+                    pending[asset] = found.hulls, asker.ask(found.wanted, found.questions)
                     yield from finish([name for name, (_, answers) in pending.items() if answers.is_done()])
             yield from finish(list(pending))
         if client.end and not client.usage.answered + client.usage.cached:
@@ -219,7 +219,7 @@ def forecast_vlm(
     usage, unreadable = TokenCount(), list[str]()
     with (
         closing(client),
-        closing(Labeller(client, config, examples_of(store, settings))) as labeller,
+        closing(MeshAsker(client, config, examples_of(store, settings))) as asker,
         closing(draw_assets(store, config, execution)) as drawn_assets,
     ):
         while not (stop and stop()) and (next_one := next(drawn_assets, None)):
@@ -228,7 +228,7 @@ def forecast_vlm(
                 unreadable.append(asset)
                 continue
             assets, hulls = assets + bool(found.wanted), hulls + len(found.wanted)
-            for asked in map(labeller.add_examples, found.questions):
+            for asked in map(asker.add_examples, found.questions):
                 questions += 1
                 if client.find_answer(asked.question):
                     known += 1

@@ -20,7 +20,6 @@ from meshforge.rendering import encode_png
 Part = str | bytes
 """A text, or a picture as a PNG file."""
 
-_LIKELIEST = 5  # tokens whose chances are asked for in each place
 _COLOURS = ("red", "green", "blue")
 _SIDE = 512  # pixels: one tile for those models that cut pictures up, so that it tells how they count them
 
@@ -128,7 +127,7 @@ class ServerFeatures:
             form = {"name": "answer", "strict": True, "schema": question.schema}
             body["response_format"] = {"type": "json_schema", "json_schema": form}
         if self.logprobs:
-            body |= {"logprobs": True, "top_logprobs": _LIKELIEST}
+            body["logprobs"] = True
         return body | dict(endpoint.extra)
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 import threading
 import time
@@ -26,11 +25,10 @@ _NO_KEY = "none"  # the SDK wants one even where the server does not
 
 @dataclass(frozen=True, slots=True)
 class Token:
-    """A token of an answer with its chance, and the chances of those that were likeliest in its place."""
+    """A token of an answer with its chance."""
 
     text: bytes
     chance: float
-    others: Mapping[bytes, float]
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,65 +60,45 @@ class NoReplyError(ValueError):
         self.usage = usage
 
 
-def read_reply(data: Any) -> Reply:
-    """The answer in a response of `chat/completions`. Raises NoReplyError."""
-    usage = _parse_usage(data.get("usage")) if isinstance(data, Mapping) else None
-    match data:
-        case {"choices": [{"message": {**message}, **choice}, *_]}:
-            finish = choice.get("finish_reason")
-            tokens = _parse_tokens(choice.get("logprobs"))
-            # half a surrogate pair cannot be written to a file
-            text = _message_text(message).encode(errors="replace").decode()
-            return Reply(text, finish if isinstance(finish, str) else "stop", usage, tokens)
-    raise NoReplyError("the server sent something that is no answer", usage)
+def read_reply(data: object) -> Reply:
+    """The answer in what the SDK made of a response, which it does not verify. Raises NoReplyError."""
+    found: Any = data
+    usage = _read_usage(getattr(found, "usage", None))
+    try:
+        choice = found.choices[0]
+        text = _read_text(choice.message)
+    except (AttributeError, IndexError, KeyError, TypeError) as error:
+        what = "no JSON" if isinstance(data, str) else "no answer"
+        raise NoReplyError(f"the server sent something that is {what}", usage) from error
+    finish = choice.finish_reason if isinstance(choice.finish_reason, str) else "stop"
+    return Reply(text.encode(errors="replace").decode(), finish, usage, _read_tokens(choice))
 
 
-def _message_text(message: Mapping[Any, Any]) -> str:
+def _read_text(message: Any) -> str:
     """The text of a message; some servers send it in parts, and a refusal in a field of its own."""
-    match message.get("content"):
-        case str(text) if text:
-            return text
-        case [*parts]:
-            return "".join(
-                part["text"] for part in parts if isinstance(part, dict) and isinstance(part.get("text"), str)
-            )
-    refusal = message.get("refusal")
-    return refusal if isinstance(refusal, str) else ""
+    content = message.content or message.refusal or ""
+    return content if isinstance(content, str) else "".join(part["text"] for part in content if "text" in part)
 
 
-def _parse_usage(data: Any) -> TokenCount | None:
-    match data:
-        case {"prompt_tokens": int(given), "completion_tokens": int(made)} if given >= 0 and made >= 0:
-            return TokenCount(given, made)
-        case {"prompt_tokens": int(given), "total_tokens": int(total)} if 0 <= given <= total:
-            return TokenCount(given, total - given)
-    return None
+def _read_usage(usage: Any) -> TokenCount | None:
+    try:
+        given, made = usage.prompt_tokens, usage.completion_tokens
+        made = usage.total_tokens - given if made is None else made
+        return TokenCount(given, made) if min(given, made) >= 0 else None
+    except (AttributeError, TypeError):
+        return None
 
 
-def _parse_tokens(data: Any) -> tuple[Token, ...] | None:
+def _read_tokens(choice: Any) -> tuple[Token, ...] | None:
     """The tokens with their chances, None where there are none or one is not of the usual form."""
-    match data:
-        case {"content": [_, *_] as rows}:
-            tokens = tuple(token for row in rows if (token := _parse_token(row)))
-            return tokens if len(tokens) == len(rows) else None
-    return None
-
-
-def _parse_token(row: Any) -> Token | None:
-    match row:
-        case {"token": str(), "logprob": float() | int() as logprob}:
-            top = row.get("top_logprobs")
-            others = [_parse_token({**other, "top_logprobs": None}) for other in top or () if isinstance(other, dict)]
-            chance = 0.0 if math.isnan(logprob) else math.exp(min(logprob, 0.0))
-            return Token(_token_bytes(row), chance, {other.text: other.chance for other in others if other})
-    return None
-
-
-def _token_bytes(row: Mapping[Any, Any]) -> bytes:
-    raw = row.get("bytes")
-    if isinstance(raw, list) and raw and all(isinstance(b, int) and 0 <= b < 256 for b in raw):
-        return bytes(raw)
-    return str(row["token"]).encode("utf-8", "surrogatepass")
+    try:
+        tokens = tuple(
+            Token(bytes(row.bytes or row.token.encode(errors="surrogatepass")), math.exp(min(row.logprob, 0.0)))
+            for row in choice.logprobs.content
+        )
+    except (AttributeError, TypeError, ValueError):
+        return None
+    return tokens or None
 
 
 class Transport:
@@ -136,20 +114,19 @@ class Transport:
         """Ask once. Raises TransientError, RefusalError or EndError; NoReplyError where something else came back."""
         client = self._client()
         import openai  # lazy: 0.5 s, and an extra: only asking a model needs it
+        from openai.types.chat import ChatCompletion  # lazy: as openai
 
         try:
-            text = client.post("/chat/completions", cast_to=str, body=dict(body))
+            found: Any = client.post("/chat/completions", cast_to=ChatCompletion, body=dict(body))
         except openai.APITimeoutError as error:
             raise TransientError(f"no answer within {self._endpoint.timeout:g} seconds", charged=True) from error
         except openai.APIConnectionError as error:
             raise self._to_transient_error(error) from error
         except openai.APIStatusError as error:
             raise self._to_error(error) from error
-        try:
-            data = json.loads(text)
         except ValueError as error:
             raise NoReplyError("the server sent something that is no JSON") from error
-        return read_reply(data)
+        return read_reply(found)
 
     def close(self) -> None:
         """Close the connections; the transport can be used on."""
@@ -228,13 +205,9 @@ def _error_message(body: object) -> str | None:
 
 def _retry_after(error: APIStatusError) -> float | None:
     """How long the server wants to be left alone [s], None where it does not say."""
-    headers = error.response.headers
-    for name, unit in (("retry-after-ms", 0.001), ("retry-after", 1.0)):
-        try:
-            return max(0.0, float(headers[name]) * unit)
-        except (KeyError, ValueError):
-            continue
+    text = error.response.headers.get("retry-after", "")
     try:
-        return max(0.0, parsedate_to_datetime(headers.get("retry-after", "")).timestamp() - time.time())
+        wait = float(text) if text.strip()[:1].isdigit() else parsedate_to_datetime(text).timestamp() - time.time()
     except (TypeError, ValueError):
         return None
+    return max(0.0, wait)

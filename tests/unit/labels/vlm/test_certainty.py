@@ -12,8 +12,8 @@ from meshforge.labels.vlm.transport import Reply, Token
 WORDS = ("leg", "ledge", "panel", "Füße")
 
 
-def tokens(*rows: tuple[str, float, dict[str, float]]) -> tuple[Token, ...]:
-    return tuple(Token(text.encode(), c, {t.encode(): d for t, d in others.items()}) for text, c, others in rows)
+def tokens(*rows: tuple[str, float]) -> tuple[Token, ...]:
+    return tuple(Token(text.encode(), chance) for text, chance in rows)
 
 
 def told(rows: tuple[Token, ...], text: str | None = None) -> dict[int, Chances]:
@@ -22,17 +22,11 @@ def told(rows: tuple[Token, ...], text: str | None = None) -> dict[int, Chances]
     return label_chances(Reply(text, tokens=rows), answer, WORDS, "unknown")
 
 
-def test_a_label_has_the_product_of_its_tokens_and_others_what_was_likely_instead() -> None:
-    rows = tokens(
-        ('{"hulls": [{"number": 3, "label":', 1.0, {}),
-        (' "le', 0.8, {' "le': 0.8, ' "pan': 0.15, " '": 0.01}),
-        ("g", 0.5, {"g": 0.5, "dge": 0.4}),
-        ('"}]}', 1.0, {}),
-    )
+def test_a_label_has_the_product_of_its_tokens_and_others_share_the_rest() -> None:
+    rows = tokens(('{"hulls": [{"number": 3, "label":', 1.0), (' "le', 0.8), ("g", 0.5), ('"}]}', 1.0))
     found = told(rows)[3]
     assert found["leg"] == pytest.approx(0.4)
-    assert found["panel"] == pytest.approx(0.15 + 0.45 / 4)
-    assert found["ledge"] == pytest.approx(0.45 / 4)
+    assert found["panel"] == found["ledge"] == pytest.approx(0.6 / 4)
     assert sum(found.values()) == pytest.approx(1)
     assert set(found) == {*WORDS, None}
 
@@ -40,17 +34,17 @@ def test_a_label_has_the_product_of_its_tokens_and_others_what_was_likely_instea
 def test_thoughts_before_the_answer_do_not_disturb() -> None:
     answer = '{"hulls": [{"number": 3, "label": "leg"}]}'
     rows = tokens(
-        ("<think>3 is a leg</think>", 0.1, {}),
-        (answer.partition("leg")[0], 1.0, {}),
-        ("leg", 0.9, {}),
-        ('"}]}', 1.0, {}),
+        ("<think>3 is a leg</think>", 0.1),
+        (answer.partition("leg")[0], 1.0),
+        ("leg", 0.9),
+        ('"}]}', 1.0),
     )
     assert told(rows, answer)[3]["leg"] == pytest.approx(0.9)
 
 
 def test_labels_that_are_not_ascii_are_found_though_tokens_cut_their_characters() -> None:
     raw = '{"hulls": [{"number": 3, "label": "Füße"}]}'.encode()
-    rows = tuple(Token(raw[k : k + 1], 0.99, {}) for k in range(len(raw)))
+    rows = tuple(Token(raw[k : k + 1], 0.99) for k in range(len(raw)))
     found = label_chances(
         Reply(raw.decode(), tokens=rows), read_answer(raw.decode(), (3,), WORDS, "unknown"), WORDS, "unknown"
     )
@@ -61,9 +55,9 @@ def test_labels_that_are_not_ascii_are_found_though_tokens_cut_their_characters(
     ("text", "rows"),
     [
         ("{}", None),
-        ('{"hulls": [{"number": 3, "label": "leg"}]}', tokens(("something else", 1.0, {}))),
-        ('{"3": "leg"}', tokens(('{"3": "leg"}', 1.0, {}))),
-        ('{"hulls": [{"number": 3, "label": "LEG"}]}', tokens(('{"hulls": [{"number": 3, "label": "LEG"}]}', 1.0, {}))),
+        ('{"hulls": [{"number": 3, "label": "leg"}]}', tokens(("something else", 1.0))),
+        ('{"3": "leg"}', tokens(('{"3": "leg"}', 1.0))),
+        ('{"hulls": [{"number": 3, "label": "LEG"}]}', tokens(('{"hulls": [{"number": 3, "label": "LEG"}]}', 1.0))),
     ],
 )
 def test_where_the_chances_cannot_be_matched_none_are_told(text: str, rows: tuple[Token, ...] | None) -> None:
@@ -75,15 +69,12 @@ def test_where_the_chances_cannot_be_matched_none_are_told(text: str, rows: tupl
     label=st.sampled_from([*WORDS, "unknown"]),
     cuts=st.sets(st.integers(1, 60)),
     chance=st.floats(0, 1),
-    others=st.dictionaries(st.sampled_from(["l", "le", "p", "F", "unk", "x", ' "l', ""]), st.floats(0, 1), max_size=5),
 )
-def test_chances_sum_up_to_one_however_the_tokens_are_cut(
-    label: str, cuts: set[int], chance: float, others: dict[str, float]
-) -> None:
+def test_chances_sum_up_to_one_however_the_tokens_are_cut(label: str, cuts: set[int], chance: float) -> None:
     raw = f'{{"hulls": [{{"number": 3, "label": "{label}"}}]}}'.encode()
     places = [0, *sorted(cut for cut in cuts if cut < len(raw)), len(raw)]
     pieces = [raw[a:b] for a, b in itertools.pairwise(places)]
-    rows = tuple(Token(piece, chance, {t.encode(): c for t, c in others.items()}) for piece in pieces)
+    rows = tuple(Token(piece, chance) for piece in pieces)
     found = label_chances(
         Reply(raw.decode(), tokens=rows), read_answer(raw.decode(), (3,), WORDS, "unknown"), WORDS, "unknown"
     )

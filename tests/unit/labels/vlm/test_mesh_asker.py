@@ -10,11 +10,11 @@ import pytest
 
 from meshforge.geometry import Box, Pose, Shape
 from meshforge.labels.vlm.answer import VlmAnswers
-from meshforge.labels.vlm.labeller import Labeller
-from meshforge.labels.vlm.prompt import MODES, ModeName, PromptConfig
+from meshforge.labels.vlm.mesh_asker import MeshAsker
+from meshforge.labels.vlm.prompt import MODES, ModeName, PromptConfig, build_questions
 from meshforge.symbolic import Hull, Label, SymbolicMesh
 from tests.loopback import CUT, Asked, Server, labels_as_json, serving, status
-from tests.unit.labels.vlm.asking import client, key
+from tests.unit.labels.vlm.asking import begin, client, key
 
 __all__ = ["key"]
 pytestmark = pytest.mark.usefixtures("key")
@@ -49,14 +49,14 @@ def right(shown: SymbolicMesh) -> Callable[[Asked], str]:
 @contextmanager
 def labelling(
     answer: Callable[[Asked], str], mode: ModeName = "cheap", folder: Path | None = None, **how: Any
-) -> Iterator[tuple[Labeller, Server]]:
+) -> Iterator[tuple[MeshAsker, Server]]:
     """A labeller with small pictures; how: fields of `PromptConfig`, `Server` and `Endpoint`, as they are called."""
     told = {name: how.pop(name) for name in ("fault", "schema", "logprobs", "chance", "delay") if name in how}
     asking = {name: how.pop(name) for name in ("concurrency", "retries") if name in how}
     examples = how.pop("examples", ())
     with serving(answer, **told) as server:
         one = client(server, folder, **asking)
-        labeller = Labeller(one, PromptConfig(WORDS, mode=mode, size=SMALL, **how), examples)
+        labeller = MeshAsker(one, PromptConfig(WORDS, mode=mode, size=SMALL, **how), examples)
         yield labeller, server
         labeller.close()
         one.close()
@@ -75,7 +75,7 @@ def true_names(shown: SymbolicMesh) -> dict[str, str]:
 def test_a_right_model_labels_all_and_surer_with_more_looks(mode: ModeName, logprobs: str) -> None:
     shown = table()
     with labelling(right(shown), mode, logprobs=logprobs) as (labeller, server):
-        said = labeller.begin(shown).result()
+        said = begin(labeller, shown).result()
         assert names(said) == true_names(shown)
         assert (said.open, said.failed) == ({}, ())
         assert {label.source for label in said.labels.values()} == {"vlm"}
@@ -90,7 +90,7 @@ def test_more_looks_make_surer_and_so_do_repeats() -> None:
     sure: dict[str, float] = {}
     for mode, repeats in (("cheap", 1), ("balanced", 1), ("exact", 1), ("cheap", 5)):
         with labelling(right(shown), mode, repeats=repeats) as (labeller, _):  # type: ignore[arg-type]
-            said = labeller.begin(shown).result()
+            said = begin(labeller, shown).result()
             sure[f"{mode} {repeats}"] = min(label.confidence for label in said.labels.values())
     assert sure["cheap 1"] < sure["balanced 1"] <= sure["exact 1"]
     assert sure["cheap 1"] < sure["cheap 5"]
@@ -99,7 +99,7 @@ def test_more_looks_make_surer_and_so_do_repeats() -> None:
 def test_repeats_that_disagree_make_less_sure() -> None:
     shown = table()
     with labelling(right(shown), repeats=3) as (labeller, _):
-        agreed = labeller.begin(shown).result()
+        agreed = begin(labeller, shown).result()
 
     def torn(asked: Asked) -> str:
         known = truth(shown)
@@ -107,7 +107,7 @@ def test_repeats_that_disagree_make_less_sure() -> None:
         return labels_as_json(others)
 
     with labelling(torn, repeats=3) as (labeller, server):
-        said = labeller.begin(shown).result()
+        said = begin(labeller, shown).result()
         assert len({asked.raw for asked in server.answered}) == 3  # the order of the labels turns
     assert said.labels["top"].confidence < agreed.labels["top"].confidence
     assert said.labels["leg0"] == agreed.labels["leg0"]
@@ -124,7 +124,7 @@ def test_what_is_out_of_the_vocabulary_or_missing_is_asked_once_more() -> None:
         return labels_as_json({0: "wheel", 1: "leg", 3: "leg", 4: "leg", 99: "leg", 5: "wheel"})
 
     with labelling(lying) as (labeller, server):
-        said = labeller.begin(shown).result()
+        said = begin(labeller, shown).result()
         assert names(said) == {"top": "top", "leg0": "leg", "leg1": "leg", "leg2": "leg", "leg3": "leg"}
         assert said.open == {"crumb": "the model said hub, which is no label"}
         assert len(server.answered) == len(said.asked) == 2
@@ -146,7 +146,7 @@ def test_what_is_out_of_the_vocabulary_or_missing_is_asked_once_more() -> None:
 def test_a_model_that_says_nothing_usable_is_asked_twice_and_leaves_all_open(nonsense: str, why: str) -> None:
     shown = table()
     with labelling(lambda asked: nonsense) as (labeller, server):
-        said = labeller.begin(shown).result()
+        said = begin(labeller, shown).result()
         assert said.labels == {}
         assert said.open == dict.fromkeys(shown.index, why)
         assert len(server.answered) == 2
@@ -158,13 +158,13 @@ def test_an_answer_that_is_cut_off_is_used_as_far_as_it_goes_and_has_more_room_t
         labeller,
         server,
     ):
-        said = labeller.begin(shown).result()
+        said = begin(labeller, shown).result()
         assert names(said) == true_names(shown)
         first, second = server.answered
         assert second.body["max_tokens"] == 2 * first.body["max_tokens"]
         assert 0 < len(second.numbers) < len(first.numbers)
     with labelling(right(shown), fault=lambda asked: None if asked.is_probe else CUT) as (labeller, server):
-        said = labeller.begin(shown).result()
+        said = begin(labeller, shown).result()
         assert set(said.open.values()) == {"the answer was cut off"}
         assert said.labels.keys() | said.open.keys() == shown.index.keys()
 
@@ -176,7 +176,7 @@ def test_unknown_is_taken_for_an_answer() -> None:
         return labels_as_json({n: "unknown" if n == 5 else truth(shown)[n] for n in asked.numbers})
 
     with labelling(unsure) as (labeller, server):
-        said = labeller.begin(shown).result()
+        said = begin(labeller, shown).result()
         assert said.open == {"crumb": "the model does not know"}
         assert len(server.answered) == 1
 
@@ -185,8 +185,8 @@ def test_a_vocabulary_with_the_word_unknown_has_another_word_for_not_knowing() -
     shown = table()
     words = ("unknown", "leg")
     with serving(lambda asked: labels_as_json({n: ("unknown", "cannot tell")[n % 2] for n in asked.numbers})) as server:
-        labeller = Labeller(client(server), PromptConfig(words, mode="cheap", size=SMALL))
-        said = labeller.begin(shown).result()
+        labeller = MeshAsker(client(server), PromptConfig(words, mode="cheap", size=SMALL))
+        said = begin(labeller, shown).result()
         labeller.close()
     assert set(names(said).values()) == {"unknown"}
     assert set(said.open.values()) == {"the model does not know"}
@@ -195,7 +195,7 @@ def test_a_vocabulary_with_the_word_unknown_has_another_word_for_not_knowing() -
 def test_dense_meshes_are_asked_about_in_groups_of_few_marks() -> None:
     shown = table(legs=30)
     with labelling(right(shown), "balanced") as (labeller, server):
-        said = labeller.begin(shown).result()
+        said = begin(labeller, shown).result()
         assert names(said) == true_names(shown)
         assert max(len(asked.numbers) for asked in server.answered) <= MODES["balanced"].hulls
         assert {n for asked in server.answered for n in asked.numbers} == set(range(32))
@@ -206,22 +206,22 @@ def test_dense_meshes_are_asked_about_in_groups_of_few_marks() -> None:
 def test_the_groups_do_not_change_when_some_hulls_have_a_label_by_then() -> None:
     shown = table(legs=30)
     with labelling(right(shown), "balanced") as (labeller, _):
-        all_of_it = {look.question.digests: look for look in labeller.build_questions(shown)}
-        some = list(labeller.build_questions(shown, ["top", "leg29"]))
+        all_of_it = {look.question.digests: look for look in build_questions(shown, [*shown.index], labeller.config)}
+        some = list(build_questions(shown, ["top", "leg29"], labeller.config))
         assert 0 < len(some) < len(all_of_it)
         assert all(look == all_of_it[look.question.digests] for look in some)
-        assert not list(labeller.build_questions(shown, []))
+        assert not list(build_questions(shown, [], labeller.config))
 
 
 def test_a_hull_within_another_is_asked_about_all_the_same() -> None:
     shown = mesh(outer=box(0, 0, 0, 1, 1, 1), leg0=box(0, 0, 0, 0.2, 0.2, 0.2))
     with labelling(lambda asked: labels_as_json(dict.fromkeys(asked.numbers, "leg")), "exact") as (labeller, _):
-        assert names(labeller.begin(shown).result()) == {"outer": "leg", "leg0": "leg"}
+        assert names(begin(labeller, shown).result()) == {"outer": "leg", "leg0": "leg"}
 
 
 def test_a_mesh_without_hulls_asks_nothing() -> None:
     with labelling(lambda asked: "") as (labeller, server):
-        assert labeller.begin(SymbolicMesh(())).result() == VlmAnswers()
+        assert begin(labeller, SymbolicMesh(())).result() == VlmAnswers()
         assert not server.asked
 
 
@@ -235,7 +235,7 @@ def test_the_answers_come_out_the_same_however_many_are_under_way(tmp_path: Path
     outcomes = []
     for concurrency in (1, 8):
         with labelling(by_numbers, "exact", concurrency=concurrency, delay=0.005) as (labeller, _):
-            pending = [labeller.begin(one) for one in shown]
+            pending = [begin(labeller, one) for one in shown]
             outcomes.append([one.result().labels for one in reversed(pending)])
     assert outcomes[0] == outcomes[1]
 
@@ -248,7 +248,7 @@ def test_a_question_without_answer_leaves_its_hulls_open_and_the_others_are_labe
         return status(500, "out of order") if 1 in asked.numbers and not asked.is_probe else None
 
     with labelling(right(shown), retries=1, fault=fault) as (labeller, _):
-        said = labeller.begin(shown).result()
+        said = begin(labeller, shown).result()
         assert said.labels.keys() | said.open.keys() == shown.index.keys()
         assert set(said.open.values()) == {"the question got no answer"}
         assert 0 < len(said.labels) < 62
@@ -261,7 +261,7 @@ def test_examples_are_shown_with_their_answers() -> None:
     known: Mapping[str, Label] = {name: Label(label) for name, label in true_names(shown).items() if name != "leg0"}
     example = shown.with_labels(known)
     with labelling(right(table(legs=5)), examples=[example]) as (labeller, server):
-        labeller.begin(table(legs=5)).result()
+        begin(labeller, table(legs=5)).result()
         messages = server.answered[0].body["messages"]
         assert [message["role"] for message in messages] == ["system", "user", "assistant", "user"]
         assert messages[2]["content"] == labels_as_json({0: "top", 2: "leg", 3: "leg", 4: "leg", 5: "crumb"})
@@ -273,7 +273,7 @@ def test_names_are_told_only_when_that_is_wanted() -> None:
     shown = table()
     for told in (False, True):
         with labelling(right(shown), names=told) as (labeller, server):
-            labeller.begin(shown, name="tables/oak.obj").result()
+            begin(labeller, shown, name="tables/oak.obj").result()
             (asked,) = server.answered
             assert ("oak" in asked.text) == told
             assert ("leg3" in asked.text) == told
@@ -283,7 +283,7 @@ def test_the_words_of_a_question_are_as_agreed() -> None:
     manner: dict[str, Any] = {"about": "tables of a café.", "descriptions": {"crumb": "lies  about\nuselessly."}}
     shown = table()
     with labelling(right(shown), **manner) as (labeller, server):
-        labeller.begin(shown).result()
+        begin(labeller, shown).result()
         text = server.answered[0].text
         form = server.answered[0].schema
     assert text + "\n" == (Path(__file__).parent / "question.txt").read_text(encoding="utf-8")

@@ -1,16 +1,11 @@
-"""Labels of the hulls of a mesh from a model: asked in threads, asked once more where something is open, and added
-up."""
+"""The hulls of a mesh asked about in threads, once more where something is open, and the answers added up."""
 
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
-from concurrent.futures import Future
-from contextlib import suppress
+from collections.abc import Iterable, Mapping, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
-from functools import partial
-from queue import Empty, Queue
-from typing import TypeVar
 
 from meshforge.labels.vlm import prompt
 from meshforge.labels.vlm.answer import LabelVote, VlmAnswers, decide_label, label_chances, read_answer
@@ -21,46 +16,9 @@ from meshforge.labels.vlm.request import Message, VlmQuestion
 from meshforge.rendering import draw_labeling_pictures
 from meshforge.symbolic import Label, SymbolicMesh
 
-Result = TypeVar("Result")
-_WAITING = 3  # tasks for each thread that wait in the queue; submitting more blocks until there is room
-
+_WAITING = 4  # questions for each thread that are under way or wait; asking more blocks until there is room
 _QUOTED = 4000  # characters of an answer that are put before the model when it is asked again
 _UNSEEN, _UNASKED = "no picture shows it", "it was not asked about"
-
-
-class RequestThreads:
-    """A number of threads that work on tasks in the order in which they are submitted."""
-
-    def __init__(self, count: int) -> None:
-        self._line: Queue[Callable[[], None] | None] = Queue(_WAITING * count)
-        self._threads = [threading.Thread(target=self._work, name=f"asking-{k}", daemon=True) for k in range(count)]
-        for thread in self._threads:
-            thread.start()
-
-    def submit(self, task: Callable[[], Result]) -> Future[Result]:
-        """Submit a task, as soon as there is room in the queue."""
-        future: Future[Result] = Future()
-
-        def run() -> None:
-            try:
-                future.set_result(task())
-            except BaseException as error:  # it is raised where the result is asked for
-                future.set_exception(error)
-
-        self._line.put(run)
-        return future
-
-    def close(self) -> None:
-        """End each thread after the task that it works on; tasks that wait are dropped."""
-        with suppress(Empty):
-            while True:
-                self._line.get_nowait()
-        for _ in self._threads:
-            self._line.put(None)
-
-    def _work(self) -> None:
-        while (task := self._line.get()) is not None:
-            task()
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,43 +56,32 @@ class OpenAnswers:
         return VlmAnswers(labels, left, failed, tuple(digest for response in responses for digest in response.asked))
 
 
-class Labeller:
-    """Labels meshes through a client; the answers come out the same however many questions are under way at once.
+class MeshAsker:
+    """Asks about meshes through a client; the answers come out the same however many questions are under way at once.
 
     examples: labelled meshes to be shown as examples.
     """
 
     def __init__(self, client: Client, config: PromptConfig, examples: Iterable[SymbolicMesh] = ()) -> None:
-        self._client, self._config = client, config
+        self.config, self._client = config, client
         self._examples = tuple(m for mesh in examples for m in example_messages(mesh, config))
-        self._workers = RequestThreads(client.endpoint.concurrency)
+        self._threads = ThreadPoolExecutor(client.endpoint.concurrency, "asking")
+        self._room = threading.BoundedSemaphore(_WAITING * client.endpoint.concurrency)
 
     def close(self) -> None:
         """Ask no more; what is under way is kept when its answer comes, yet not waited for."""
-        self._workers.close()
-
-    def build_questions(
-        self, mesh: SymbolicMesh, wanted: Collection[str] | None = None, name: str = ""
-    ) -> Iterator[HullQuestion]:
-        """The questions that `begin` asks at first; nothing is sent."""
-        return prompt.build_questions(mesh, mesh.index.keys() if wanted is None else wanted, self._config, name)
-
-    def begin(self, mesh: SymbolicMesh, wanted: Collection[str] | None = None, name: str = "") -> OpenAnswers:
-        """Draw a mesh and ask about some hulls, by default all. Questions that get no answer leave their hulls open.
-
-        name: that of the asset, which the model is given where the config says so.
-        """
-        names = [hull for hull in mesh.index if wanted is None or hull in wanted]
-        return self.ask(names, self.build_questions(mesh, names, name))
+        self._threads.shutdown(wait=False, cancel_futures=True)
 
     def ask(self, names: Sequence[str], questions: Iterable[HullQuestion]) -> OpenAnswers:
         """Ask about some hulls of a mesh, as they come. Waits where many questions are under way already."""
         answers = []
         for hull_question in questions:
-            answers.append(self._workers.submit(partial(self._ask_about, self.add_examples(hull_question))))
+            self._room.acquire()
+            answers.append(self._threads.submit(self._ask_about, self.add_examples(hull_question)))
+            answers[-1].add_done_callback(lambda _: self._room.release())
             if self._client.end:  # what is drawn from here on would not be asked
                 break
-        return OpenAnswers(names, self._config.vocabulary, answers)
+        return OpenAnswers(names, self.config.vocabulary, answers)
 
     def add_examples(self, hull_question: HullQuestion) -> HullQuestion:
         """A question as it is sent, behind the examples."""
@@ -164,7 +111,7 @@ class Labeller:
     ) -> tuple[dict[str, LabelVote], dict[int, str], VlmQuestion | None]:
         """The votes of an answer by hull, why numbers are left open, and the question that asks for these again."""
         reply = self._client.ask(question)
-        vocabulary, unknown = self._config.vocabulary, self._config.unknown
+        vocabulary, unknown = self.config.vocabulary, self.config.unknown
         answer = read_answer(reply.text, hull_question.hulls.keys(), vocabulary, unknown)
         sure = label_chances(reply, answer, vocabulary, unknown)
         votes = {
