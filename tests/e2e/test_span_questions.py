@@ -71,7 +71,7 @@ def test_an_asset_on_which_the_program_cannot_run_is_corrected_or_excluded(proje
     with opened(tmp_path, project.folder, "--page", str(PAGE)) as studio, chromium() as browser:
         studio.settled()
         legs = [hull.name for hull in project.mesh("a.urdf").hulls if hull.label == "leg"]
-        studio.edit("steps", **studio.steps("a.urdf") | {"steps": [{"select": legs, "action": "Delete"}]})
+        studio.edit("steps", **studio.steps("a.urdf") | {"steps": [{"select": legs, "action": {"name": "Delete"}}]})
         person = hand(browser)
         person.open(address(studio))
         person.press("Alt+3")

@@ -8,7 +8,7 @@ __getattr__, __all__ = export_lazily(
     __name__,
     {
         "actions.base": (
-            "AXES PRIMITIVES Action ArgumentType FactorArgument FileArgument FlagArgument LengthArgument "
+            "AXES PRIMITIVES Action ActionIcon ArgumentType FactorArgument FileArgument FlagArgument LengthArgument "
             "OptionArgument PrimitiveOrFileArgument WordArgument"
         ),
         "actions.basic": "Add Delete Each Merge Replace Scale Shrink",

@@ -2,6 +2,7 @@
 from meshforge.language.actions.base import AXES as AXES
 from meshforge.language.actions.base import PRIMITIVES as PRIMITIVES
 from meshforge.language.actions.base import Action as Action
+from meshforge.language.actions.base import ActionIcon as ActionIcon
 from meshforge.language.actions.base import ArgumentType as ArgumentType
 from meshforge.language.actions.base import FactorArgument as FactorArgument
 from meshforge.language.actions.base import FileArgument as FileArgument

@@ -22,6 +22,11 @@ __getattr__, __all__ = export_lazily(
         "span_questions": "can_ask_about_spans list_span_questions",
         "span_search": "MADE_ANEW",
         "span_splits": "LIKELY Split",
-        "status": "AssetStatus Status",
+        "next_step": "choose_next_step",
+        "overview": "find_offers",
+        "status": (
+            "AssetStatus FamilyState LastRun LearnStatus NextStep OpenQuestion OutputState PropagationState "
+            "SignOffState Status"
+        ),
     },
 )

@@ -37,5 +37,15 @@ from meshforge.project.span_questions import list_span_questions as list_span_qu
 from meshforge.project.span_search import MADE_ANEW as MADE_ANEW
 from meshforge.project.span_splits import LIKELY as LIKELY
 from meshforge.project.span_splits import Split as Split
+from meshforge.project.next_step import choose_next_step as choose_next_step
+from meshforge.project.overview import find_offers as find_offers
 from meshforge.project.status import AssetStatus as AssetStatus
+from meshforge.project.status import FamilyState as FamilyState
+from meshforge.project.status import LastRun as LastRun
+from meshforge.project.status import LearnStatus as LearnStatus
+from meshforge.project.status import NextStep as NextStep
+from meshforge.project.status import OpenQuestion as OpenQuestion
+from meshforge.project.status import OutputState as OutputState
+from meshforge.project.status import PropagationState as PropagationState
+from meshforge.project.status import SignOffState as SignOffState
 from meshforge.project.status import Status as Status

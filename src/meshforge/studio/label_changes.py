@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from typing import get_args
 
 from meshforge.common import MeshForgeError
-from meshforge.project import Project
+from meshforge.project import Project, PropagationState
 from meshforge.rendering import UNSURE
 from meshforge.studio.history import History
 from meshforge.studio.history_store import HistoryEntry
 from meshforge.studio.wire.family import Card
-from meshforge.studio.wire.jobs import AssetLabelUpdate, LabelEditKind, LabelUpdate, PropagationState
+from meshforge.studio.wire.jobs import AssetLabelUpdate, LabelEditKind, LabelUpdate
 from meshforge.symbolic import GIVEN_SOURCES, Label, read_labels
 
 _LABEL_EDIT_KINDS: tuple[str, ...] = get_args(LabelEditKind)

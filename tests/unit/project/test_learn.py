@@ -22,7 +22,7 @@ def test_a_question_stays_open_until_it_is_answered(tmp_path: Path) -> None:
     assert isinstance(outcome, Ambiguous)
     assert str(project.program()) == ALL
     assert outcome.question.id == project.status(workers=0).question
-    say = project.status(workers=0).next.say
+    say = project.status(workers=0).next.text
     assert say == "It is open what rule 1 does on rack2.obj: answer the question, or apply the program as it is."
     (choice,) = (k for k, c in enumerate(outcome.question.choices) if c.select == ("top",))
     project.add_answer(outcome.question.answer_with(choice))

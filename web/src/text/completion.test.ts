@@ -1,25 +1,16 @@
 import { describe, expect, it } from "vitest";
-import { labelText } from "../store/actions";
+import { sampleArgument as argument, sampleForm } from "../store/sample.test-help";
 import { wordBefore, type Context, openCall, suggestions } from "./completion";
 
-const argument = (name: string, kind: "shape" | "words" | "factor" | "option", choices: string[], required = true) => ({
-  name,
-  kind,
-  wants: "",
-  choices,
-  required,
-});
 const context: Context = {
   language: {
     actions: [
-      { name: "Delete", summary: "Removes.", usage: "Delete", makes: false, arguments: [] },
-      {
-        name: "Replace",
-        summary: "Replaces.",
-        usage: "Replace(box)",
-        makes: true,
-        arguments: [argument("geometry", "shape", ["box", "sphere"]), argument("fit", "words", ["tight"], false), argument("radius", "option", ["radius"], false)],
-      },
+      sampleForm("Delete"),
+      sampleForm("Replace", [
+        argument("geometry", "shape", ["box", "sphere"]),
+        argument("fit", "words", ["tight"], false),
+        argument("radius", "option", ["radius"], false),
+      ]),
     ],
     operators: ["All", "Is(label)", "Attach(left, right)", "Geo(base, direction)"].map((usage) => ({
       name: /^\w+/.exec(usage)?.[0] ?? "",
@@ -28,9 +19,8 @@ const context: Context = {
     })),
     directions: ["+X", "-X"],
   },
-  labels: ["leg", "table top"],
+  labels: ["leg", '"table top"'],
   templates: ["tray.obj"],
-  written: labelText,
 };
 const after = (line: string, bare = false) => suggestions(line, context, bare).map(({ label }) => label);
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 import json
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import MISSING, Field, dataclass, fields
 from typing import Any, ClassVar, Literal, cast, get_args
 
@@ -20,6 +20,7 @@ Primitive = Literal["box", "cylinder", "capsule", "sphere"]
 PRIMITIVES: tuple[Primitive, ...] = get_args(Primitive)
 Axis = Literal["all", "X", "Y", "Z"]
 AXES: tuple[Axis, ...] = get_args(Axis)
+ActionIcon = Literal["delete", "replace", "add", "merge", "scale", "shrink", "shapes"]
 
 
 class ArgumentType(ABC):
@@ -208,6 +209,10 @@ class Action(ABC):
     """Whether it acts on each body's hulls separately, since what it makes is one part."""
     planned: ClassVar[tuple[str, ...]] = ()
     """Options that the language has, and that this version does not run."""
+    key: ClassVar[str] = ""
+    """The key that begins it in the studio, as `M` or `Shift+A`; without one it is begun by its button alone."""
+    icon: ClassVar[ActionIcon] = "shapes"
+    """Its picture in the studio."""
 
     def __post_init__(self) -> None:
         for name, argument in self.arguments().items():
@@ -270,16 +275,29 @@ class Action(ABC):
         return f"{cls.__name__}({parts})" if parts else cls.__name__
 
     @classmethod
+    def field_texts(cls) -> dict[str, Mapping[str, Any]]:
+        """The metadata of each argument's field, by name: `title`, its name in a form; `omitted`, what happens where it
+        is left out; `words`, longer texts for some of its words."""
+        return {f.name: f.metadata for f in _fields_of(cls)}
+
+    @classmethod
+    def title(cls) -> str:
+        """What it does to a selection, as a command in the studio."""
+        return f"{cls.__name__} the selection"
+
+    @classmethod
     def summary(cls) -> str:
         """What it does, in one sentence."""
         return (cls.__doc__ or "").strip().splitlines()[0]
 
+    def values(self) -> dict[str, Any]:
+        """The arguments that differ from their defaults, by name."""
+        given = {name: getattr(self, name) for name in self.arguments()}
+        return {name: value for name, value in given.items() if value != _field_default(type(self), name)}
+
     def __str__(self) -> str:
-        shown = [
-            argument.show(getattr(self, name))
-            for name, argument in self.arguments().items()
-            if getattr(self, name) != _field_default(type(self), name)
-        ]
+        arguments = self.arguments()
+        shown = [arguments[name].show(value) for name, value in self.values().items()]
         return f"{type(self).__name__}({', '.join(shown)})" if shown else type(self).__name__
 
 

@@ -15,6 +15,7 @@ from meshforge.language.actions.base import (
     AXES,
     Action,
     ActionArgument,
+    ActionIcon,
     Axis,
     FactorArgument,
     WordArgument,
@@ -33,6 +34,13 @@ _OPTIONS: Mapping[str, tuple[str, ...]] = {
     "capsule": _LONG,
     "sphere": ("native", "inscribed", "volume", "longest", "radius"),
 }
+_FIT_TEXTS: Mapping[Fit, str] = {
+    "native": "native, around all of it",
+    "tight": "tight, in any direction",
+    "inscribed": "inside, the largest",
+    "volume": "of the same volume",
+    "longest": "longest side matched",
+}
 _TIGHT_FITS = {"box": geometry.tight_box, "cylinder": geometry.tight_cylinder, "capsule": geometry.tight_capsule}
 
 
@@ -42,11 +50,19 @@ class Replace(base.Action):
 
     by_body: ClassVar[bool] = True
     planned: ClassVar[tuple[str, ...]] = ("within", "clear", "to")
-    geometry: str = field(metadata={"argument": base.PrimitiveOrFileArgument()})
-    fit: Fit | None = field(default=None, metadata={"argument": WordArgument(get_args(Fit))})
-    axis: Side | None = field(default=None, metadata={"argument": WordArgument(get_args(Side))})
+    key: ClassVar[str] = "R"
+    icon: ClassVar[ActionIcon] = "replace"
+    geometry: str = field(metadata={"argument": base.PrimitiveOrFileArgument(), "title": "By"})
+    fit: Fit | None = field(
+        default=None,
+        metadata={"argument": WordArgument(get_args(Fit)), "omitted": "bounding box", "words": _FIT_TEXTS},
+    )
+    axis: Side | None = field(
+        default=None, metadata={"argument": WordArgument(get_args(Side)), "title": "Along", "omitted": "by itself"}
+    )
     radius: float | None = field(
-        default=None, metadata={"argument": base.OptionArgument("radius", base.LengthArgument())}
+        default=None,
+        metadata={"argument": base.OptionArgument("radius", base.LengthArgument()), "title": "Radius [m]"},
     )
 
     def conflict(self) -> str | None:
@@ -173,9 +189,17 @@ class Add(base.Action):
     """Puts a template against the side of the selected hulls' bounding box, as large as fits it or at its own size."""
 
     by_body: ClassVar[bool] = True
-    direction: Direction = field(metadata={"argument": base.DIRECTION})
+    key: ClassVar[str] = "Shift+A"
+    icon: ClassVar[ActionIcon] = "add"
+    direction: Direction = field(metadata={"argument": base.DIRECTION, "title": "At the side"})
     template: str = field(metadata={"argument": base.FileArgument()})
-    keep: bool = field(default=False, metadata={"argument": base.FlagArgument("keep")})
+    keep: bool = field(
+        default=False, metadata={"argument": base.FlagArgument("keep"), "title": "Keep the template's own size"}
+    )
+
+    @classmethod
+    def title(cls) -> str:
+        return "Add a template beside the selection"
 
     @property
     def templates(self) -> tuple[str, ...]:
@@ -211,6 +235,9 @@ def _flush_offset(part: Aabb, bounds: Aabb, axis: int, sign: float, factor: floa
 class Delete(Action):
     """Removes the selected hulls."""
 
+    key: ClassVar[str] = "X"
+    icon: ClassVar[ActionIcon] = "delete"
+
     @property
     def makes_hulls(self) -> bool:
         return False
@@ -224,6 +251,8 @@ class Merge(Action):
     """Replaces the selected hulls of each body by the convex hull of all their points; a single hull stays as it is."""
 
     by_body: ClassVar[bool] = True
+    key: ClassVar[str] = "M"
+    icon: ClassVar[ActionIcon] = "merge"
 
     def edit(self, group: HullGroup) -> GroupEdit:
         if len(group.hulls) == 1:
@@ -238,7 +267,9 @@ class Scale(Action):
     """Scales the selected hulls as one group about the centre of their bounding box, along one axis or all."""
 
     planned: ClassVar[tuple[str, ...]] = ("to",)
-    axis: Axis = field(metadata={"argument": WordArgument(AXES)})
+    key: ClassVar[str] = "S"
+    icon: ClassVar[ActionIcon] = "scale"
+    axis: Axis = field(metadata={"argument": WordArgument(AXES), "title": "Along", "words": {"all": "all axes"}})
     factor: float = field(metadata={"argument": FactorArgument()})
 
     def note_on(self, mesh: SymbolicMesh, mask: int) -> str | None:
@@ -267,7 +298,9 @@ class Scale(Action):
 class Shrink(Action):
     """Moves the surface of each selected hull inwards by a distance."""
 
-    distance: float = field(metadata={"argument": base.LengthArgument()})
+    key: ClassVar[str] = "Shift+S"
+    icon: ClassVar[ActionIcon] = "shrink"
+    distance: float = field(metadata={"argument": base.LengthArgument(), "title": "By [m]"})
 
     def edit(self, group: HullGroup) -> GroupEdit:
         return GroupEdit(

@@ -5,13 +5,12 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping
 from dataclasses import fields
-from typing import Any, Literal
 
 from meshforge import language
-from meshforge.batch import action_text
 from meshforge.common import MeshForgeError, ProgramError
 from meshforge.language import EXTREMITY, Extractor, Orient, Program, explain, parse_extractor, select_mask, show
 from meshforge.project import Project
+from meshforge.studio.actions import list_action_forms, view_action
 from meshforge.studio.edits.base import program_version
 from meshforge.studio.queries.replay import replay_steps
 from meshforge.studio.wire import program as wire
@@ -20,19 +19,6 @@ from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Demonstration, begin_replay
 
 _POSITION = re.compile(r".*:(\d+):(\d+)")
-
-ArgumentKind = Literal["words", "flag", "file", "shape", "factor", "length", "option"]
-
-_KINDS: Mapping[type[language.ArgumentType], tuple[ArgumentKind, Any]] = {
-    language.WordArgument: ("words", None),
-    language.FlagArgument: ("flag", False),
-    language.FileArgument: ("file", "part.obj"),
-    language.PrimitiveOrFileArgument: ("shape", "box"),
-    language.FactorArgument: ("factor", 1.0),
-    language.LengthArgument: ("length", 0.001),
-    language.OptionArgument: ("option", None),
-}
-"""What the page calls each kind of argument, and a value of it; of words, the first is one."""
 
 
 def read_program_view(project: Project) -> wire.ProgramView:
@@ -95,48 +81,11 @@ def mark_error(error: MeshForgeError, line: int = 0, column: int = 0) -> wire.Ma
 
 def build_language_view() -> wire.LanguageView:
     """Actions, operators and directions; `Each` is no form of its own."""
-    forms = (_try_action_form(name, kind) for name, kind in language.ACTIONS.loadable().items())
     return wire.LanguageView(
-        actions=tuple(form for form in forms if form),
+        actions=list_action_forms(),
         operators=tuple(map(_operator_view, language.OPERATORS)),
         directions=language.DIRECTIONS,
     )
-
-
-def _try_action_form(name: str, kind: type[language.Action]) -> wire.ActionForm | None:
-    """The form of an action; None for `Each`, and for one of a plug-in whose arguments the page has no fields for."""
-    if kind is language.Each or (name not in language.ACTIONS.built_in and not _has_fields(kind)):
-        return None
-    try:
-        return _action_form(name, kind)
-    except MeshForgeError:  # a plug-in's, whose arguments do not go together so
-        return None
-
-
-def _has_fields(kind: type[language.Action]) -> bool:
-    return all(type(argument) in _KINDS for argument in kind.arguments().values())
-
-
-def _action_form(name: str, kind: type[language.Action]) -> wire.ActionForm:
-    given = kind.arguments()
-    required = list(given)[: kind.min_arguments()]
-    example = language.make_action(kind, {one: _example_value(given[one]) for one in required})
-    return wire.ActionForm(
-        name=name,
-        summary=kind.summary(),
-        usage=kind.usage(),
-        makes=example.makes_hulls,
-        arguments=tuple(_argument_field(one, argument, one in required) for one, argument in given.items()),
-    )
-
-
-def _argument_field(name: str, argument: language.ArgumentType, required: bool) -> wire.Argument:
-    kind, _ = _KINDS[type(argument)]
-    return wire.Argument(name=name, kind=kind, wants=argument.wants, choices=argument.choices, required=required)
-
-
-def _example_value(argument: language.ArgumentType) -> Any:
-    return argument.choices[0] if isinstance(argument, language.WordArgument) else _KINDS[type(argument)][1]
 
 
 def _operator_view(name: str) -> wire.Operator:
@@ -206,6 +155,6 @@ def guess_selections(project: Project, asset: str, mesh: SymbolicMesh, program: 
         except MeshForgeError as problem:  # the next rules are guessed without this one
             error = problem.message
             replay = replay.skip(error)
-        action = action_text(rule.action, rule.label)
+        action = view_action(rule.action, rule.label)
         guesses.append(wire.Guess(rule=number, action=action, select=names, sentence=explain(rule), error=error))
     return wire.Guesses(asset=asset, guesses=tuple(guesses))
