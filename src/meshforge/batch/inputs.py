@@ -10,7 +10,7 @@ from meshforge.batch.jobs import ApplyTask, AssetJob
 from meshforge.batch.preparation.storage import record_digest
 from meshforge.common import Plugin
 from meshforge.formats import plugin_of_suffix
-from meshforge.language import plugin_of
+from meshforge.language import leaves_of
 
 
 def inputs_of(task: ApplyTask, job: AssetJob, files: dict[str, str]) -> provenance.OutputInputs:
@@ -36,4 +36,8 @@ def inputs_of(task: ApplyTask, job: AssetJob, files: dict[str, str]) -> provenan
 def _plugins_of(task: ApplyTask, job: AssetJob) -> Iterator[Plugin | None]:
     """The plug-ins that read, edit and write the asset; None for what is built in."""
     yield from map(plugin_of_suffix, {job.path.suffix, task.options.to or job.path.suffix})
-    yield from (plugin_of(rule.action) for rule in task.program.rules)
+    pairs = task.program.orient.pairs if task.program.orient else ()
+    yield from (base.plugin for pair in pairs for base in (pair.start, pair.end))
+    for rule in task.program.rules:
+        yield from (one.plugin for leaf in leaves_of(rule.extractor) for one in (leaf, *leaf.bases))
+        yield rule.action.plugin

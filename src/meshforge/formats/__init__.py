@@ -13,7 +13,7 @@ __getattr__, __all__ = export_lazily(
         "engine_names.conventions": "EngineName MarkName",
         "mesh_reader": "read_triangles split_into_pieces",
         "meshfile.surface": "RawSurface",
-        "mjcf.trial": "MujocoTrial try_in_mujoco",
+        "mjcf.engine": "MujocoTrial try_in_mujoco",
         "output_tree": "SaveResult output_path_of save",
         "plain.obj_text": "format_obj",
         "plain.parts": "MeshPart",
@@ -22,8 +22,7 @@ __getattr__, __all__ = export_lazily(
             "format_for format_of format_with_names is_asset is_description labels_beside load load_many "
             "notes_after path_of plugin_of_suffix read resolve_asset_path to_mesh"
         ),
-        "segmentation.alignment": "PointAlignment align_points",
-        "segmentation.parts": "SegmentationFile read_parts",
+        "segmentation.parts": "PointAlignment SegmentationFile align_points read_parts",
         "segmentation.reader": "POINTS_SUFFIXES points_beside read_segmentation",
         "surface_parts": "plain_part_name",
         "trimesh_meshes": "from_trimesh",

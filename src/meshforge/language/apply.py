@@ -12,8 +12,7 @@ from meshforge import geometry
 from meshforge.common import Plugin, blame, join_names
 from meshforge.language.actions.base import Action
 from meshforge.language.actions.edit import GroupEdit, HullGroup, NewShape, Template, check_templates
-from meshforge.language.actions.registry import plugin_of
-from meshforge.language.syntax import reference_length
+from meshforge.language.hull_table import reference_length
 from meshforge.symbolic import Hull, Label, SymbolicMesh, bits_of
 
 _NEW_SUFFIX = re.compile(r"~\d+$")
@@ -54,7 +53,7 @@ def apply_action(
     check_templates(action.templates, templates)
     if not selected_mask:
         return ActionResult(None, note="nothing selected", used=used)
-    plugin = plugin_of(action)
+    plugin = action.plugin
     with blame(plugin):
         groups = [
             HullGroup(tuple(mesh.hulls[index] for index in sorted(bits_of(part))), reference_length(mesh), templates)

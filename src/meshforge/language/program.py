@@ -9,13 +9,15 @@ from pathlib import Path
 from types import MappingProxyType
 
 from meshforge.common import MeshForgeError, ProgramError
-from meshforge.language import parse, syntax
-from meshforge.language.actions.base import show_number
+from meshforge.language import parse
 from meshforge.language.actions.edit import Template, check_templates
-from meshforge.language.labels import check_declared, check_label, show_label
+from meshforge.language.arguments import show_number
+from meshforge.language.extractors.base import Extractor, labels_of, rename_in_extractor
+from meshforge.language.orient import Orient, rename_in_orient
 from meshforge.language.print import CommentLines, Comments, Rule, show, show_rule
 from meshforge.language.replay import Memo, Replay, RuleTrace, make_anew
 from meshforge.language.text import Node, ProgramText, TreeReader, subtrees_of
+from meshforge.language.words import check_declared, check_label, check_threshold, show_label
 from meshforge.symbolic import SymbolicMesh
 
 _MOST_ALIGNED = 60  # a longer extractor does not push the arrows of the other rules to the right
@@ -49,7 +51,7 @@ class Program:
     """
 
     labels: tuple[str, ...] = ()
-    orient: syntax.Orient | None = None
+    orient: Orient | None = None
     rules: tuple[Rule, ...] = ()
     contact: float | None = None
     extremity: float | None = None
@@ -64,16 +66,16 @@ class Program:
                 raise ProgramError(f"the label {label!r} is declared twice")
         for label in self.labels_in_use:
             check_declared(label, self.labels)
-        syntax.check_threshold("contact", self.contact)
-        syntax.check_threshold("extremity", self.extremity)
+        check_threshold("contact", self.contact)
+        check_threshold("extremity", self.extremity)
 
     @property
     def labels_asked(self) -> tuple[str, ...]:
         """The labels that landmarks and extractors ask for, each once, in order of mention."""
         pairs = self.orient.pairs if self.orient else ()
-        asked: list[syntax.Extractor] = [end for pair in pairs for end in (pair.start, pair.end)]
+        asked: list[Extractor] = [end for pair in pairs for end in (pair.start, pair.end)]
         asked += [rule.extractor for rule in self.rules]
-        return tuple(dict.fromkeys(label for extractor in asked for label in syntax.labels_of(extractor)))
+        return tuple(dict.fromkeys(label for extractor in asked for label in labels_of(extractor)))
 
     @property
     def labels_in_use(self) -> tuple[str, ...]:
@@ -165,13 +167,13 @@ def rename_in_program(program: Program, old: str, new: str) -> Program:
     rules = (
         replace(
             rule,
-            extractor=syntax.rename_in_extractor(rule.extractor, old, new),
+            extractor=rename_in_extractor(rule.extractor, old, new),
             label=new if rule.label == old else rule.label,
         )
         for rule in program.rules
     )
     labels = dict.fromkeys(new if label == old else label for label in program.labels)
-    orient = syntax.rename_in_orient(program.orient, old, new) if program.orient else None
+    orient = rename_in_orient(program.orient, old, new) if program.orient else None
     return replace(program, labels=tuple(labels), orient=orient, rules=tuple(rules))
 
 

@@ -13,9 +13,10 @@ from meshforge.common import DemonstrationError, MeshForgeError, suggest_name
 from meshforge.language.actions.base import Action
 from meshforge.language.actions.edit import Template
 from meshforge.language.apply import ActionResult, apply_action
-from meshforge.language.orient import orient_mesh
+from meshforge.language.extractors.base import select_mask
+from meshforge.language.hull_table import EXTREMITY
+from meshforge.language.orient import Orient, orient_mesh
 from meshforge.language.print import Rule
-from meshforge.language.syntax import EXTREMITY, Orient, select_mask
 from meshforge.symbolic import Hull, SymbolicMesh, mask_of
 
 Value = TypeVar("Value")

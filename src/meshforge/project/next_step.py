@@ -11,6 +11,7 @@ from pathlib import Path
 from meshforge.common import pluralize, quote_path
 from meshforge.labels import label_command
 from meshforge.project.status import AssetStatus, FamilyState, NextStep, StepKind
+from meshforge.store import Layout
 
 
 def choose_next_step(state: FamilyState) -> NextStep:
@@ -139,9 +140,7 @@ def _explain_last_run(state: FamilyState) -> NextStep | None:
     if run is None:
         return None
     if run.repairs:
-        return _step(
-            state, "answer", f"{pluralize(run.repairs, 'label')} may be wrong: answer the question.", "synthesize"
-        )
+        return _step(state, "answer", f"{pluralize(run.repairs, 'label')} may be wrong: answer the question.", "review")
     rule, asset = run.nearest or (0, None)
     if run.status == "error":
         text = "Learning failed: see why, then learn again."
@@ -201,7 +200,7 @@ def _answer(state: FamilyState) -> NextStep | None:
         case "demonstrate":
             return _step(state, "answer", f"{need}: demonstrate one more asset, {asked.asset}.", "review", asked.asset)
         case "other":
-            return _step(state, "answer", f"{need}: answer the question{asked.about}.", "synthesize", asked.asset)
+            return _step(state, "answer", f"{need}: answer the question{asked.about}.", "review", asked.asset)
 
 
 def _apply(state: FamilyState) -> NextStep | None:
@@ -248,7 +247,7 @@ def _end(state: FamilyState) -> NextStep:
         what = "result is" if len(flagged) == 1 else "results are"
         text = f"{len(flagged)} {what} flagged: edit by hand, first {flagged[0]}."
         return _step(state, "correct", text, "studio", flagged[0])
-    edited = quote_path(state.folder / "edited")
+    edited = quote_path(Layout(state.folder).edited)
     count = pluralize(sum(not asset.excluded for asset in state.assets), "result")
     return NextStep("export", f"{count} signed off: check and export.", None, f"meshforge check {edited}")
 

@@ -44,7 +44,7 @@ def build_jobs(store: Store, only: Collection[str] | None = None) -> tuple[batch
 
 def build_task(store: Store, program: Program) -> batch.ApplyTask:
     """What `apply` does to each asset; the templates are those of the program and of all edits by hand."""
-    corrected = store.found.ids.keys() & set(store.layout.ids_with("corrections"))
+    corrected = store.found.ids.keys() & set(store.layout.corrections.ids)
     edits = (edit for asset in sorted(corrected) for edit in store.corrections(asset))
     by_hand = (name for edit in edits for name in edit.action.templates)
     templates = store.templates(dict.fromkeys([*program.templates, *by_hand]))
@@ -73,7 +73,7 @@ def build_work(
 
 def make_empty_program(store: Store) -> Program | None:
     """A program without rules, by which assets are written as they are prepared; None where nothing is."""
-    return Program() if store.found.ids.keys() & set(store.layout.ids_with_preparation()) else None
+    return Program() if store.found.ids.keys() & set(store.layout.preparation.ids) else None
 
 
 def mesh_before_rule(
@@ -175,7 +175,7 @@ def review_assets(
         away = store.feedback().exclusions
         more = [ExclusionEvent(asset=asset) for asset in names if asset in away]
         given = dict.fromkeys(names, labels) if labels else {}
-        store.add_events_before(lambda: set_labels_of(store, given, "user", 1.0), *events, *more)
+        store.add_events_before(lambda: set_labels_of(store, given), *events, *more)
 
 
 def revise_verdict(store: Store, before: VerdictEvent, reply: ReviewReply, said: Origin) -> None:
@@ -187,7 +187,7 @@ def revise_verdict(store: Store, before: VerdictEvent, reply: ReviewReply, said:
         meant = _replace_selections(store, before.asset, before.seen, reply.selections)
     event = before.model_copy(update={"verdict": verdict, "note": None, "meant": meant, **said._asdict()})
     given = {before.asset: reply.labels} if reply.labels else {}
-    store.add_events_before(lambda: set_labels_of(store, given, "user", 1.0), event)
+    store.add_events_before(lambda: set_labels_of(store, given), event)
 
 
 def _judge(

@@ -24,6 +24,7 @@ from meshforge.batch import (
 )
 from meshforge.language import Program
 from meshforge.project import run
+from meshforge.project.hull_mapping import describe_replaced
 from meshforge.project.learn import digest_demonstrations, digest_learning_inputs, digest_settings
 from meshforge.signoff import Assessment, EditMeasures
 from meshforge.signoff.question import NOT_OF_FAMILY
@@ -64,9 +65,9 @@ def _digest_edits(store: Store, task: ApplyTask, execution: ExecutionOptions) ->
 def digest_lesson(store: Store) -> str:
     """The digest of all that probabilities rest on beside the assets: what is learned from, what a person said, and
     which hulls were found to span parts."""
-    journals = map(store.layout.preparation_journal, store.demonstration_ids())  # whether a person saw what was carried
-    kept = (content_digest(file) if file.exists() else None for file in (store.layout.spans, *journals))
-    return value_digest([digest_learning_inputs(store), digest_feedback(store), *kept])
+    spans = content_digest(store.layout.spans) if store.layout.spans.exists() else None
+    unconfirmed = [text for asset in store.demonstration_ids() for text in describe_replaced(store, asset)]
+    return value_digest([digest_learning_inputs(store), digest_feedback(store), spans, unconfirmed])
 
 
 def digest_feedback(store: Store) -> str:

@@ -11,7 +11,7 @@ from pydantic import ConfigDict, Field, SerializerFunctionWrapHandler, TypeAdapt
 from meshforge.batch import RuleSelection
 from meshforge.common import ProjectError, first_validation_error
 from meshforge.signoff.question import ExclusionReason, QuestionBase, ReviewReply
-from meshforge.store.layout import JsonFile
+from meshforge.store.layout import JsonFile, ReplacedHulls
 from meshforge.symbolic import Label, LabelSource
 from meshforge.synthesis import Answer, LabelCorrection
 
@@ -90,6 +90,7 @@ class AnswerEvent(_Withdrawable):
     select: tuple[str, ...] | None = None
     action: str | None = None
     refused: tuple[tuple[str, ...], ...] = ()
+    replaced: ReplacedHulls = Field(default_factory=dict)
 
     @property
     def id(self) -> str:
@@ -145,6 +146,7 @@ class LabelFixEvent(_Withdrawable):
     to: str
     accepted: bool
     before: LabelBefore | None = None
+    replaced: ReplacedHulls = Field(default_factory=dict)
 
     @property
     def id(self) -> str:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import fields
 from itertools import combinations, product
-from typing import Any, assert_never
+from typing import Any, assert_never, cast
 
 from meshforge import language
 from meshforge.batch import action_text
@@ -85,7 +86,7 @@ def _show_arguments(name: str, given: Mapping[str, Value], where: str) -> list[s
 
 def _try_form(kind: type[Action]) -> ActionForm | None:
     """The form of an action; None for one of a plug-in that the page has no fields for, or that cannot be made."""
-    kinds, texts = kind.arguments(), kind.field_texts()
+    kinds, texts = kind.arguments(), {one.name: one.metadata for one in fields(cast(Any, kind))}
     if any(type(argument) not in _KINDS for argument in kinds.values()):
         return None
     required = list(kinds)[: kind.min_arguments()]
@@ -156,6 +157,6 @@ def _goes_together(kind: type[Action], pair: Mapping[str, Value], rest: Mapping[
 
 def _try_make(kind: type[Action], values: Mapping[str, Any]) -> Action | None:
     try:
-        return language.make_action(kind, values)
+        return language.make_operation(kind, values)
     except MeshForgeError:
         return None

@@ -119,7 +119,7 @@ STATES: dict[str, tuple[Callable[[Path], Project], str, tuple[int, ...]]] = {
     "names that say labels": (one_named, "label tables --with names", (0,)),
     "one asset labelled": (one_labelled, "label tables --with propagate", (0,)),
     "demonstrated": (demonstrated, "synthesize tables", (0,)),
-    "an open question": (ambiguous, "synthesize {0}", (0, 1)),
+    "an open question": (ambiguous, "review {0}", (0, 1)),
     "learned": (learned, "apply tables", (0,)),
     "demonstrated anew": (demonstrated_anew, "synthesize tables", (0, 1)),
     "applied": (applied, "review tables", (0, 1)),
@@ -227,6 +227,6 @@ def test_a_program_without_labels_asks_for_none(tmp_path: Path) -> None:
     write_tables(tmp_path / "assets", 2)
     (tmp_path / "assets/plain.obj").write_text(obj(table_boxes()))
     project = Project.create(tmp_path / "tables", [tmp_path / "assets"])
-    project.label_from_files()
+    project.label("file")
     project.accept(Program.parse("labels top\nAll => Merge\n"))
     assert of(project).next.command == f"meshforge apply {project.folder}"

@@ -17,7 +17,7 @@ from meshforge.language import (
     GroupEdit,
     HullGroup,
     WordArgument,
-    make_action,
+    make_operation,
 )
 from meshforge.store import parse_action_text
 from meshforge.studio.actions import list_action_forms, read_action, view_action
@@ -176,7 +176,7 @@ def test_clashes_are_what_the_language_refuses(geometry: str | None) -> None:
 
 def can_make(name: str, values: Mapping[str, object]) -> bool:
     try:
-        make_action(ACTIONS[name], values)
+        make_operation(ACTIONS[name], values)
     except MeshForgeError:
         return False
     return True

@@ -93,7 +93,7 @@ def test_the_order_of_a_mapping_does_not_matter() -> None:
     forth, back = (synthesize(DEMOS, dict(rows)) for rows in (RARE.items(), list(RARE.items())[::-1]))
     assert isinstance(forth, Ambiguous)
     assert shape(forth) == shape(back)
-    assert forth.question == back.question
+    assert forth.open_rule == back.open_rule
 
 
 def test_learning_twice_gives_the_same() -> None:
@@ -164,7 +164,7 @@ def test_the_strategy_of_the_paper_takes_a_batch_and_settles_nothing() -> None:
     options = Options(strategy="paper", repair=False)
     outcome = synthesize(DEMOS, MESHES, options=options)
     assert isinstance(outcome, Found)
-    assert (outcome.settled, outcome.question) == (False, None)
+    assert (outcome.settled, outcome.open_rule) == (False, None)
     assert [rule.extractor for rule in outcome.rules] == [Is("handle")]
     assert outcome.hint is not None
 

@@ -11,11 +11,11 @@ import numpy as np
 from meshforge import language
 from meshforge.common import MeshForgeError
 from meshforge.geometry import Pose
-from meshforge.language import Replay
+from meshforge.language import HullTable, Replay
 from meshforge.symbolic import NEAR_MISS, SymbolicMesh
 from meshforge.synthesis.demonstration import Demonstration, Example, RuleSpec, name_demonstrations
-from meshforge.synthesis.options import Layers, Options, TimeBudget
-from meshforge.synthesis.search.observation_table import HullTable
+from meshforge.synthesis.options import Options, TimeBudget
+from meshforge.synthesis.search.observation_table import select_all
 from meshforge.synthesis.search.smallest import Search
 from meshforge.synthesis.search.terms import enumerate_leaves
 from meshforge.synthesis.task import example_of, memoize
@@ -82,7 +82,7 @@ class OrientationSearch:
     def analyze(self, rule: RuleSpec, replays: Sequence[Replay]) -> RuleInFrame:
         """The next rule of some replays. Raises MeshForgeError where what was shown cannot be done."""
         examples = [shown for replay in replays if (shown := example_of(replay, self._demos[replay.name], rule))]
-        found = analyze_rule(examples, self._frame.labels, self._options.layers, self._options.geo_extremity)
+        found = analyze_rule(examples, self._frame.labels, self._options)
         if not found.base and self._closed:  # bases select the same in every frame, unless open steps differ
             self.floors[rule.number - 1] = 2
         return found
@@ -189,20 +189,18 @@ class RuleInFrame:
     leaves: tuple[language.Extractor, ...] = ()
 
 
-def analyze_rule(
-    examples: Sequence[Example], vocabulary: Sequence[str], layers: Layers, extremity: float
-) -> RuleInFrame:
+def analyze_rule(examples: Sequence[Example], vocabulary: Sequence[str], options: Options) -> RuleInFrame:
     """A rule as it is met on some examples."""
-    bases: list[language.BaseExtractor] = [*map(language.Is, vocabulary), language.All()]
-    for base in bases:
-        if all(language.select_mask(base, example.mesh) == example.selection for example in examples):
-            return RuleInFrame(tuple(examples), base)
-    chosen = enumerate_leaves(vocabulary, layers)
-    table = HullTable([example.mesh for example in examples]).table(chosen, extremity)
+    chosen = (*enumerate_leaves(tuple(vocabulary), options.layers), *options.leaves)
+    hulls = HullTable([example.mesh for example in examples], extremity=options.geo_extremity)
     shown = [bool(e.selection >> index & 1) for e in examples for index in range(len(e.mesh.hulls))]
-    fits = (table == np.array(shown)).all(axis=1)
+    for leaf in chosen:
+        if isinstance(leaf, language.BaseExtractor) and (language.select_hulls(leaf, hulls) == shown).all():
+            return RuleInFrame(tuple(examples), leaf)
+    table = select_all(chosen, hulls)
+    fits = (table == np.array(shown, dtype=np.bool_)).all(axis=1)
     leaves = tuple(chosen[row] for row in np.flatnonzero(fits))
-    least = 2 if any(isinstance(leaf, language.Geo) for leaf in leaves) else 3
+    least = min((leaf.size for leaf in leaves), default=3)
     seen = Counter(zip([column.tobytes() for column in np.packbits(table.T, axis=1)], shown, strict=True))
     strays = sum(min(count, seen[signature, False]) for (signature, selected), count in seen.items() if selected)
     return RuleInFrame(tuple(examples), None, frozenset(seen), strays, least, leaves)
