@@ -50,7 +50,8 @@ class Studio:
     def steps(self, asset: str) -> dict[str, Any]:
         """The fields of an edit of the steps of an asset, as they are now."""
         view = ok(self.get("/api/asset", asset=asset))
-        steps = [{"select": step["select"], "action": step["action"]} for step in view["steps"]]
+        fields = ("name", "arguments", "each", "label")
+        steps = [{"select": s["select"], "action": {key: s["action"][key] for key in fields}} for s in view["steps"]]
         return {"asset": asset, "version": view["version"], "steps": steps}
 
     @contextmanager

@@ -30,13 +30,14 @@ def studio(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Studio]:
 def test_hello_tells_everything(studio: Studio) -> None:
     hello = studio.settled()
     assert [card["asset"] for card in hello["cards"]] == [f"table_{k:02}.obj" for k in range(1, 15)]
-    assert hello["project"]["vocabulary"][0] == {"name": "panel", "color": "#E69F00", "used": 123}
-    assert hello["project"]["rules"][0]["action"] == "Delete"
+    assert hello["project"]["vocabulary"][0] == {"name": "panel", "text": "panel", "color": "#E69F00", "used": 123}
+    assert hello["project"]["rules"][0]["action"]["text"] == "Delete"
+    assert len(hello["language"]["actions"]) == 6
     assert hello["outcome"]["status"] == "found"
     assert hello["program"]["text"] == hello["outcome"]["program"]
     assert not hello["program"]["by_hand"]
     assert hello["history"] == {"undo": None, "redo": None, "undoable": 0, "redoable": 0}
-    assert hello["project"]["next"]["stage"] == "review"
+    assert hello["project"]["next"]["kind"] == "review"
 
 
 def test_hello_or_an_event_tells_the_reach_of_the_program(studio: Studio) -> None:
@@ -65,7 +66,7 @@ def test_packets_come_whole(studio: Studio, path: str, query: dict[str, str | in
 def test_a_preview_a_selection_and_a_generalisation(studio: Studio) -> None:
     chosen = ok(studio.post("/api/select", {"asset": FIRST, "extractor": "Is(leg)"}))["select"]
     assert chosen
-    request = {"asset": FIRST, "select": chosen, "action": "Delete"}
+    request = {"asset": FIRST, "select": chosen, "action": {"name": "Delete"}}
     header, _ = read_packet(studio.post("/api/preview", request).content)
     assert set(header["removed"]) == set(chosen)
     everywhere = ok(studio.post("/api/generalise", {"extractor": "Is(leg)"}))["assets"]
@@ -99,7 +100,6 @@ def test_texts_are_checked_with_the_place_of_the_error(studio: Studio) -> None:
     assert good["rules"][0]["sentence"]
     bad = ok(studio.post("/api/program/check", {"text": "labels leg\nIs(leg) = Delete\n"}))
     assert bad["mark"]["line"] == 2
-    assert len(ok(studio.get("/api/language"))["actions"]) == 6
     assert ok(studio.get("/api/labels/sources")) == {"files": 0, "names": 0, "model": None}
 
 

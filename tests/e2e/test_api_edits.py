@@ -52,7 +52,7 @@ def without_events(files: dict[str, bytes]) -> dict[str, bytes]:
 
 def _step(studio: Studio) -> dict[str, Any]:
     steps = studio.steps(THIRD)
-    return steps | {"steps": [{"select": ["convex_30"], "action": "Delete"}]}
+    return steps | {"steps": [{"select": ["convex_30"], "action": {"name": "Delete"}}]}
 
 
 def _program(studio: Studio) -> dict[str, Any]:
@@ -82,7 +82,7 @@ EDITS: dict[str, Fields] = {
     "program": _program,
     "cut": lambda _: {"asset": FIRST, "hull": "convex_00", "at": [0, 0, 0], "across": [1, 0, 0]},
     "review": lambda _: {"ids": [FIRST, THIRD], "verdict": "accepted", "note": "fine"},
-    "correct": lambda _: {"asset": THIRD, "select": ["convex_05"], "action": "Delete"},
+    "correct": lambda _: {"asset": THIRD, "select": ["convex_05"], "action": {"name": "Delete"}},
 }
 """One edit of each kind; those that need another before them have tests of their own."""
 
@@ -156,7 +156,7 @@ def test_a_wrong_edit_is_one_message_and_writes_nothing(
 
 def test_two_pages_are_told_the_same_in_the_same_order(studio: Studio) -> None:
     studio.settled()
-    studio.until(lambda hello: "held" in hello["project"]["next"]["say"])  # the last that becomes known by itself
+    studio.until(lambda hello: "review" in hello["project"]["next"]["text"])  # the last that becomes known by itself
     with studio.page() as one, studio.page() as two:
         assert one.hello == two.hello
         studio.edit("label", page="one", asset=FIRST, hulls=["convex_00"], label="leg")

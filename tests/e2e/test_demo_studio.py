@@ -22,12 +22,14 @@ def test_the_demo_begins_with_labelled_tables_and_a_tour_and_keeps_what_is_done(
         assert hello["history"]["undoable"] == 0
         fields = studio.steps(FIRST)
         assert fields["steps"] == []
-        studio.edit("steps", **fields | {"steps": [{"select": ["convex_00"], "action": "Delete"}]})
+        studio.edit("steps", **fields | {"steps": [{"select": ["convex_00"], "action": {"name": "Delete"}}]})
     with ending(started(*words)) as studio:
         hello = studio.settled()
         assert hello["tour"] and hello["history"]["undoable"] == 1
         assert [card["asset"] for card in hello["cards"] if card["demonstrated"]] == [FIRST]
-        assert studio.steps(FIRST)["steps"] == [{"select": ["convex_00"], "action": "Delete"}]
+        assert studio.steps(FIRST)["steps"] == [
+            {"select": ["convex_00"], "action": {"name": "Delete", "arguments": {}, "each": False, "label": None}}
+        ]
         ok(studio.post("/api/undo"))
         assert studio.steps(FIRST)["steps"] == []
 

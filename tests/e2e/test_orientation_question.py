@@ -28,5 +28,5 @@ def test_a_card_shows_an_asset_as_it_stands_and_turned_and_yes_turns_all(tmp_pat
         now, then = card.locator("button canvas").all()
         assert now.screenshot() != then.screenshot()
         person.press("y")
-        studio.until(lambda hello: "+Z points from the leg hulls" in hello["project"]["orient_sentence"])
+        studio.until(lambda hello: "+Z points from the leg hulls" in hello["project"]["orient"]["sentence"])
         assert project.orientation == parse_orient("orient +Z: Is(leg) -> Is(panel)")

@@ -11,6 +11,7 @@ export type AnyEdit =
   | MoveRule
   | DeleteRule
   | SetOrientation
+  | SetLandmarks
   | ReplyToQuestion
   | AnswerForRule
   | TakeBack
@@ -41,12 +42,15 @@ export type JobRequest =
 export type NewProject = ProjectOfFolder | ProjectOfUpload | ProjectOfFamily;
 
 export interface Everything {
+  ActionCall: ActionCall;
   ActionForm: ActionForm;
+  ActionView: ActionView;
   AnswerForRule: AnswerForRule;
   AnswerView: AnswerView;
   AnyEdit: AnyEdit;
   ApplyJob: ApplyJob;
   Argument: Argument;
+  ArgumentValue: ArgumentValue;
   AskJob: AskJob;
   AssessmentChanged: AssessmentChanged;
   AssessmentView: AssessmentView;
@@ -54,6 +58,7 @@ export interface Everything {
   AssetView: AssetView;
   AssetsChanged: AssetsChanged;
   AssetsFound: AssetsFound;
+  AxisLandmarks: AxisLandmarks;
   Card: Card;
   CardsChanged: CardsChanged;
   CheckFinding: CheckFinding;
@@ -120,10 +125,11 @@ export interface Everything {
   NearestView: NearestView;
   NewAssetsView: NewAssetsView;
   NewProject: NewProject;
-  Next: Next;
+  NextStep: NextStep;
   OpaqueView: OpaqueView;
   OpenReceipt: OpenReceipt;
   Operator: Operator;
+  OrientView: OrientView;
   OutcomeChanged: OutcomeChanged;
   OutcomeView: OutcomeView;
   PreviewRequest: PreviewRequest;
@@ -153,6 +159,7 @@ export interface Everything {
   RuleView: RuleView;
   SelectRequest: SelectRequest;
   SelectionView: SelectionView;
+  SetLandmarks: SetLandmarks;
   SetOrientation: SetOrientation;
   SetSteps: SetSteps;
   SetVocabulary: SetVocabulary;
@@ -162,7 +169,7 @@ export interface Everything {
   SimilarView: SimilarView;
   Start: Start;
   StartView: StartView;
-  StepText: StepText;
+  StepEdit: StepEdit;
   StepView: StepView;
   TakeBack: TakeBack;
   TraceLine: TraceLine;
@@ -172,20 +179,39 @@ export interface Everything {
   WriteProgram: WriteProgram;
 }
 /**
- * An action as a form; usage: its syntax; makes: whether `as LABEL` may follow.
+ * An action and its arguments by name, those that are left out missing. each: whether it is done to every connected
+ * part separately; label: what new hulls are labelled, null for the label of what they are made of.
+ */
+export interface ActionCall {
+  name: string;
+  arguments?: {
+    [k: string]: boolean | number | string;
+  };
+  each?: boolean;
+  label?: string | null;
+}
+/**
+ * An action as a form. title: what it does to a selection, as a command; key: that begins it, empty for none;
+ * usage: its syntax; makes: whether new hulls can get a label; clashes: pairs of values that do not go together.
  */
 export interface ActionForm {
   name: string;
+  title: string;
   summary: string;
+  key: string;
+  icon: "delete" | "replace" | "add" | "merge" | "scale" | "shrink" | "shapes";
   usage: string;
   makes: boolean;
   arguments: Argument[];
+  clashes: [ArgumentValue, ArgumentValue][];
 }
 /**
  * One argument of an action or an extractor. kind: one of some `words`, a `flag` that is there or not, the `file`
  * of a template, a `shape` (a primitive or a template), a `factor` above 0, a `length` above 0 [m], an `option` with a
- * length [m], which is written `name = value`, a `text`, a `share` above 0 and at most 1, a `label`, a `base`
- * extractor, or any `extractor`.
+ * length [m], a `text`, a `share` above 0 and at most 1, a `label`, a `base` extractor, or any `extractor`.
+ *
+ * title: its name in the form; wants: what it must be; words: longer texts for some choices; omitted: what happens
+ * without it; usual: what a form begins with.
  */
 export interface Argument {
   name: string;
@@ -202,9 +228,37 @@ export interface Argument {
     | "label"
     | "base"
     | "extractor";
+  title: string;
   wants: string;
   choices: string[];
+  words: {
+    [k: string]: string;
+  };
+  omitted: string;
   required: boolean;
+  usual: boolean | number | string | null;
+}
+/**
+ * A value of an argument; null for any that is none of its choices.
+ */
+export interface ArgumentValue {
+  name: string;
+  value: boolean | number | string | null;
+}
+/**
+ * An action as it is shown. text: as the language has it, with `as LABEL` where new hulls get a label; short: that
+ * without the label; icon: the name of its picture.
+ */
+export interface ActionView {
+  name: string;
+  arguments: {
+    [k: string]: boolean | number | string;
+  };
+  each: boolean;
+  label: string | null;
+  text: string;
+  short: string;
+  icon: "delete" | "replace" | "add" | "merge" | "scale" | "shrink" | "shapes";
 }
 /**
  * Say which hulls a rule selects on an asset, without being asked.
@@ -282,14 +336,14 @@ export interface SetSteps {
   kind: "steps";
   asset: string;
   version: string;
-  steps: StepText[];
+  steps: StepEdit[];
 }
 /**
- * One step. select: names of hulls, [] for nothing here, null for open; action: in the language's own text.
+ * One step. select: names of hulls, [] for nothing here, null for open.
  */
-export interface StepText {
+export interface StepEdit {
   select: string[] | null;
-  action: string;
+  action: ActionCall;
 }
 /**
  * Put a rule at another place, in all demonstrations; rules count from 1.
@@ -312,6 +366,22 @@ export interface DeleteRule {
 export interface SetOrientation {
   kind: "orient";
   text: string;
+}
+/**
+ * Set the orientation by landmarks; none takes it away. snap: whether it turns by quarter turns only.
+ */
+export interface SetLandmarks {
+  kind: "landmarks";
+  snap: boolean;
+  pairs: AxisLandmarks[];
+}
+/**
+ * A direction that goes from some hulls to others, each by their label; null for all hulls.
+ */
+export interface AxisLandmarks {
+  axis: "+X" | "-X" | "+Y" | "-Y" | "+Z" | "-Z";
+  start: string | null;
+  end: string | null;
 }
 /**
  * Reply to a question. question: as it was asked; choice: the id of one of its choices, null for none of them.
@@ -449,7 +519,7 @@ export interface CorrectByHand {
   asset: string;
   kind: "correct";
   select: string[];
-  action: string;
+  action: ActionCall;
 }
 /**
  * Take all edits by hand away from an asset, so that it is what the program makes of it.
@@ -610,13 +680,12 @@ export interface NearMiss {
 /**
  * One step of a demonstration. rule: its number; select: names of hulls, [] for none, null where it is left open.
  *
- * action: in the language, with `as LABEL` where new hulls get a label; error: why the step cannot be replayed; made,
- * removed: names of hulls, where it can.
+ * error: why the step cannot be replayed; made, removed: names of hulls, where it can.
  */
 export interface StepView {
   rule: number;
   select: string[] | null;
-  action: string;
+  action: ActionView;
   error: string | null;
   made: string[];
   removed: string[];
@@ -626,7 +695,7 @@ export interface StepView {
  */
 export interface CorrectionView {
   select: string[];
-  action: string;
+  action: ActionView;
 }
 /**
  * Assets that changed, for open pages to fetch anew; shapes: whether their hulls changed, too.
@@ -918,6 +987,7 @@ export interface Hello {
   history: HistoryView;
   relabelled: LabelUpdate | null;
   program: ProgramView;
+  language: LanguageView;
   outcome: OutcomeView | null;
   learning: boolean;
   reach: Reach[];
@@ -929,7 +999,7 @@ export interface Hello {
   leave: boolean;
 }
 /**
- * The project. orient: the text of the directive, empty for none; orient_sentence: that in words.
+ * The project.
  *
  * rules: what is demonstrated, by rule; templates: hull templates that actions can name; carried: the last propagation
  * of labels, null where there was none; new: assets that a run prepares first, null for none; problem: why the program
@@ -940,34 +1010,44 @@ export interface ProjectView {
   name: string;
   folder: string;
   vocabulary: VocabularyLabel[];
-  orient: string;
-  orient_sentence: string;
+  orient: OrientView;
   contact: number | null;
   extremity: number | null;
   rules: RuleLine[];
   said: AnswerView[];
   templates: string[];
   carried: PropagationState | null;
-  next: Next;
+  next: NextStep;
   new: NewAssetsView | null;
   problem: string | null;
   lost: string[];
   left_out: string[];
 }
 /**
- * A label of the vocabulary. color: `#rrggbb`, by its place; used: how many hulls of the family have it.
+ * A label of the vocabulary. text: as programs write it; color: `#rrggbb`, by its place; used: how many hulls have
+ * it.
  */
 export interface VocabularyLabel {
   name: string;
+  text: string;
   color: string;
   used: number;
+}
+/**
+ * The orientation. text: of the directive, empty for none; sentence: that in words.
+ */
+export interface OrientView {
+  text: string;
+  sentence: string;
+  snap: boolean;
+  pairs: AxisLandmarks[];
 }
 /**
  * A rule in the demonstrations. action: the first one; shown, nothing: assets where it selects hulls, or none.
  */
 export interface RuleLine {
   rule: number;
-  action: string;
+  action: ActionView;
   shown: string[];
   nothing: string[];
 }
@@ -980,12 +1060,30 @@ export interface PropagationState {
   next: string | null;
 }
 /**
- * The next sensible step. say: the step in words; asset: the one to open.
+ * What to do next, in words. asset: the one to open; command: what to type; note: what helps to type it.
  */
-export interface Next {
-  stage: "label" | "demonstrate" | "learn" | "review";
-  say: string;
+export interface NextStep {
+  kind:
+    | "wait"
+    | "decompose"
+    | "label-files"
+    | "label-names"
+    | "vocabulary"
+    | "label"
+    | "propagate"
+    | "check-labels"
+    | "demonstrate"
+    | "learn"
+    | "answer"
+    | "fix-program"
+    | "apply"
+    | "review"
+    | "correct"
+    | "export";
+  text: string;
   asset: string | null;
+  command: string | null;
+  note: string | null;
 }
 /**
  * The assets that came after the others were prepared, so that a run prepares them first. ids: of all of them;
@@ -1039,6 +1137,24 @@ export interface RuleView {
   text: string;
   sentence: string;
   readings: number;
+}
+/**
+ * The language: actions (without Each, a switch in the page), operators, directions.
+ */
+export interface LanguageView {
+  actions: ActionForm[];
+  operators: Operator[];
+  directions: string[];
+}
+/**
+ * An extractor's operator and its operands, for completion; base: whether it is a base extractor.
+ */
+export interface Operator {
+  name: string;
+  usage: string;
+  summary: string;
+  base: boolean;
+  arguments: Argument[];
 }
 /**
  * The outcome of a learning run. number: counts the runs; program: its text, null where there is none; looked_at:
@@ -1254,7 +1370,7 @@ export interface GeneraliseRequest {
  */
 export interface Guess {
   rule: number;
-  action: string;
+  action: ActionView;
   select: string[];
   sentence: string;
   error: string | null;
@@ -1314,24 +1430,6 @@ export interface Model {
   why?: string | null;
 }
 /**
- * The language: actions (without Each, a switch in the page), operators, directions.
- */
-export interface LanguageView {
-  actions: ActionForm[];
-  operators: Operator[];
-  directions: string[];
-}
-/**
- * An extractor's operator and its operands, for completion; base: whether it is a base extractor.
- */
-export interface Operator {
-  name: string;
-  usage: string;
-  summary: string;
-  base: boolean;
-  arguments: Argument[];
-}
-/**
  * An error at a place in a text; line, column: from 1.
  */
 export interface Mark {
@@ -1382,7 +1480,7 @@ export interface PreviewRequest {
   asset: string;
   steps?: number;
   select: string[];
-  action: string;
+  action: ActionCall;
   result?: boolean;
 }
 /**

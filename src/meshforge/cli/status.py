@@ -55,7 +55,8 @@ def _print_status(found: Status, folder: Path) -> None:
         typer.echo(f"kept for an asset that is not there: {escape_name(asset)}")
     if found.rules is not None:
         typer.echo(f"\n{format_status(found)}")
-    typer.echo(f"\nNext: {found.next.say}" + (f"\n  {found.next.command}" if found.next.command else ""))
+    lines = (found.next.command, *(found.next.note or "").splitlines())
+    typer.echo("\n  ".join([f"\nNext: {found.next.text}", *(line for line in lines if line)]))
 
 
 def _to_row(asset: AssetStatus) -> tuple[object, ...]:

@@ -7,7 +7,7 @@ from meshforge.common.exports import export_lazily
 __getattr__, __all__ = export_lazily(
     __name__,
     {
-        "actions.base": "AXES Action",
+        "actions.base": "AXES Action ActionIcon",
         "actions.basic": "Add Delete Each Merge Scale Shrink",
         "actions.edit": "GroupEdit HullGroup NewShape Template",
         "actions.replace": "Replace",

@@ -1,6 +1,7 @@
 # Written by `python -m script.stubs`.
 from meshforge.language.actions.base import AXES as AXES
 from meshforge.language.actions.base import Action as Action
+from meshforge.language.actions.base import ActionIcon as ActionIcon
 from meshforge.language.actions.basic import Add as Add
 from meshforge.language.actions.basic import Delete as Delete
 from meshforge.language.actions.basic import Each as Each

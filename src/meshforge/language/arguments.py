@@ -224,7 +224,8 @@ class OptionArgument(ArgumentType):
 
 class Operation:
     """An action or a leaf extractor. A subclass is a frozen dataclass; its fields, in order, are its arguments in a
-    program, each with metadata={"argument": its kind}."""
+    program, each with metadata={"argument": its kind}; for the studio's form also `title`, its name there, `omitted`,
+    what happens without it, and `words`, longer texts for some of its words."""
 
     __slots__ = ()
     owner: ClassVar[Plugin | None] = None
@@ -277,11 +278,13 @@ class Operation:
         """What it does, in one sentence."""
         return (cls.__doc__ or "").strip().splitlines()[0]
 
-    def __str__(self) -> str:
+    def values(self) -> dict[str, Any]:
+        """The arguments that differ from their defaults, by name."""
         given = {name: getattr(self, name) for name in self.arguments()}
-        shown = [
-            self.arguments()[name].show(value) for name, value in given.items() if not self._leaves_out(name, value)
-        ]
+        return {name: value for name, value in given.items() if not self._leaves_out(name, value)}
+
+    def __str__(self) -> str:
+        shown = [self.arguments()[name].show(value) for name, value in self.values().items()]
         return f"{type(self).__name__}({', '.join(shown)})" if shown else type(self).__name__
 
     def _leaves_out(self, name: str, value: Any) -> bool:

@@ -20,6 +20,11 @@ __getattr__, __all__ = export_lazily(
         "run_report": "add_standings build_run_report summarize_outputs",
         "sign_off_text": "format_review format_standing format_status",
         "sign_offs": "AssessmentBasis digest_lesson",
-        "status": "AssetStatus Status",
+        "next_step": "choose_next_step",
+        "overview": "find_offers",
+        "status": (
+            "AssetStatus FamilyState LastRun LearnStatus NextStep OpenQuestion OutputState PropagationState "
+            "SignOffState Status"
+        ),
     },
 )

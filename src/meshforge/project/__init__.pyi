@@ -34,5 +34,15 @@ from meshforge.project.sign_off_text import format_standing as format_standing
 from meshforge.project.sign_off_text import format_status as format_status
 from meshforge.project.sign_offs import AssessmentBasis as AssessmentBasis
 from meshforge.project.sign_offs import digest_lesson as digest_lesson
+from meshforge.project.next_step import choose_next_step as choose_next_step
+from meshforge.project.overview import find_offers as find_offers
 from meshforge.project.status import AssetStatus as AssetStatus
+from meshforge.project.status import FamilyState as FamilyState
+from meshforge.project.status import LastRun as LastRun
+from meshforge.project.status import LearnStatus as LearnStatus
+from meshforge.project.status import NextStep as NextStep
+from meshforge.project.status import OpenQuestion as OpenQuestion
+from meshforge.project.status import OutputState as OutputState
+from meshforge.project.status import PropagationState as PropagationState
+from meshforge.project.status import SignOffState as SignOffState
 from meshforge.project.status import Status as Status

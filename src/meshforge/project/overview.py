@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from functools import partial
 
 from meshforge.batch import ApplyTask, AssetJob, ExecutionOptions, OutputInputs, inputs_of
 from meshforge.common import MeshForgeError, relative_name
-from meshforge.labels import OfferCache
+from meshforge.labels import LabelOffers, OfferCache
 from meshforge.language import Program
-from meshforge.project.advice import Adviser
 from meshforge.project.demonstrations import find_unknown_hulls
 from meshforge.project.hull_mapping import describe_replaced
-from meshforge.project.learn import program_state_of, suggest_first_demonstration
+from meshforge.project.learn import ProgramState, program_state_of, suggest_first_demonstration
+from meshforge.project.next_step import choose_next_step
 from meshforge.project.run import build_jobs, build_task, make_empty_program, output_digest
 from meshforge.project.sign_offs import digest_lesson, find_bases
 from meshforge.project.standings import Standings
-from meshforge.project.status import AssetStatus, Status
+from meshforge.project.status import AssetStatus, FamilyState, OpenQuestion, Status
 from meshforge.signoff import BAR
 from meshforge.store import (
     AssetFacts,
@@ -73,10 +73,18 @@ def compute_status(
     rules = len(program.rules) if program else None
     known = {asset.id: asset for asset in (*others, *assets)}
     every = [known[asset] for asset in ids if asset in known]
-    first = partial(suggest_first_demonstration, store) if only is None else lambda assets: None
-    count_names = partial(_count_names, store) if only is None else lambda: 0
-    asks = bool(program and program.labels_asked)
-    adviser = Adviser(store.folder, ids, every, settings.vocabulary, rules, asks, state, problem, first, count_names)
+    family = FamilyState(
+        store.folder,
+        every,
+        settings.vocabulary,
+        has_program=program is not None,
+        asks_labels=bool(program and program.labels_asked),
+        outdated=state.outdated,
+        problem=problem,
+        question=_find_question(state, every),
+        suggest_first=partial(suggest_first_demonstration, store),
+        find_offers=partial(find_offers, store),
+    )
     return Status(
         settings.name,
         assets,
@@ -85,18 +93,27 @@ def compute_status(
         state.outdated,
         problem,
         _find_lost_ids(store),
-        adviser.advise(),
+        choose_next_step(family),
+        family,
         state.question,
         last.bar if last else BAR,
     )
 
 
-def _count_names(store: Store) -> int:
-    """How many hulls without a label have names that say one; 0 where the patterns of the settings make no sense."""
+def _find_question(state: ProgramState, assets: Sequence[AssetStatus]) -> OpenQuestion | None:
+    """The question that was open when the program was learned; none for who has applied the program as it is."""
+    if not state.question or all(asset.is_done or asset.excluded for asset in assets):
+        return None
+    rule, _, asset = state.question.partition(":")
+    return OpenQuestion("other", asset, f" about rule {rule} on {asset}, or apply the program as it is")
+
+
+def find_offers(store: Store, cache: OfferCache | None = None, only: Collection[str] | None = None) -> LabelOffers:
+    """Labels in files and names; none where the settings make no sense, which taking the labels reports."""
     try:
-        return OfferCache().of(store).named
-    except MeshForgeError:  # `label --with names` says why
-        return 0
+        return (cache or OfferCache()).of(store, only)
+    except MeshForgeError:
+        return LabelOffers()
 
 
 def _read_program(store: Store) -> tuple[Program | None, ApplyTask | None, str | None]:

@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
 from typing import Any, Literal
 
+from meshforge.labels import LabelOffers
+from meshforge.rendering import UNSURE
 from meshforge.signoff import BAR, Doubt, ExclusionReason
 from meshforge.signoff.question import NOT_OF_FAMILY
-from meshforge.symbolic import Label
+from meshforge.symbolic import GIVEN_SOURCES, Label
 
 SignOffState = Literal["signed off", "sure", "held", "void", "excluded", "unknown"]
 """Sure: sure enough to be signed off, once its output is up to date; void: signed off, but something changed since;
 unknown: not reviewed as it is now."""
 OutputState = Literal["none", "edited", "unchanged", "failed"]
+LearnStatus = Literal["found", "ambiguous", "repair", "none", "timeout", "error"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,6 +67,22 @@ class AssetStatus:
     doubts: tuple[Doubt, ...] = ()
 
     @property
+    def given(self) -> int:
+        """How many labels a person or a file gave."""
+        return sum(label is not None and label.source in GIVEN_SOURCES for label in self.labels)
+
+    @property
+    def unsure(self) -> tuple[int, ...]:
+        """Positions of hulls whose label is not sure, or was given to another geometry."""
+        rows = enumerate(zip(self.names, self.labels, strict=True))
+        return tuple(k for k, (name, label) in rows if label and (label.confidence < UNSURE or name in self.doubtful))
+
+    @property
+    def needs_review(self) -> bool:
+        """Whether it is to be looked at: neither sure enough nor excluded."""
+        return self.sign_off in ("held", "void", "unknown")
+
+    @property
     def is_done(self) -> bool:
         """Whether its output is there and up to date."""
         return self.output in ("edited", "unchanged") and not self.stale
@@ -73,6 +93,94 @@ class AssetStatus:
         return {"probability": share, "doubts": [doubt.to_json() for doubt in self.doubts]}
 
 
+StepKind = Literal[
+    "wait",
+    "decompose",
+    "label-files",
+    "label-names",
+    "vocabulary",
+    "label",
+    "propagate",
+    "check-labels",
+    "demonstrate",
+    "learn",
+    "answer",
+    "fix-program",
+    "apply",
+    "review",
+    "correct",
+    "export",
+]
+
+
+@dataclass(frozen=True, slots=True)
+class NextStep:
+    """What to do next, in words. asset: the one to open; command: what to type; note: what helps to type it."""
+
+    kind: StepKind
+    text: str
+    asset: str | None = None
+    command: str | None = None
+    note: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class PropagationState:
+    """The last propagation of labels. unused: how many labels people and files gave since; next: the asset that would
+    help most if it were labelled, null where it is labelled by now, or where all are."""
+
+    unused: int
+    next: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class LastRun:
+    """The last learning run of this session. repairs: how many labels are probably wrong; nearest: the rule that
+    nothing fits, and an asset that shows what comes nearest; sample: the assets that show best whether it is right."""
+
+    status: LearnStatus
+    repairs: int = 0
+    nearest: tuple[int, str] | None = None
+    sample: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class OpenQuestion:
+    """The question that is worth most; about: what it is about, in words."""
+
+    kind: Literal["result", "demonstrate", "other"]
+    asset: str
+    about: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class FamilyState:
+    """All that the next step of a project depends on.
+
+    has_program, asks_labels: whether there is one, and it selects by labels; outdated: whether it was learned from
+    other labels, demonstrations, replies or settings than there are now; problem: why it cannot be applied;
+    suggest_first: which of some assets, by id, is to be demonstrated first; find_offers: labels in files and names.
+    """
+
+    folder: Path
+    assets: Sequence[AssetStatus]
+    vocabulary: Sequence[str]
+    has_program: bool = False
+    asks_labels: bool = False
+    outdated: bool = False
+    problem: str | None = None
+    question: OpenQuestion | None = None
+    last_run: LastRun | None = None
+    propagation: PropagationState | None = None
+    suggest_first: Callable[[Sequence[str]], str | None] = field(default=lambda assets: None)
+    find_offers: Callable[[], LabelOffers] = LabelOffers
+
+    @property
+    def is_begun(self) -> bool:
+        """Whether there is a program, or something is demonstrated for one."""
+        return self.has_program or bool(self.problem) or any(asset.demonstrated for asset in self.assets)
+
+
 @dataclass(frozen=True, slots=True)
 class Status:
     """A project. assets: all, or those that were asked for. rules: of the program, None where there is none.
@@ -81,7 +189,7 @@ class Status:
     problem: why the program cannot be applied at all.
 
     lost: ids that have labels, demonstrations or corrections, but no asset.
-    question: the id of the one that was open when the program was learned.
+    family: all that the next step depends on; question: the id of the one that was open when the program was learned.
     """
 
     name: str
@@ -91,14 +199,15 @@ class Status:
     outdated: bool
     problem: str | None
     lost: tuple[str, ...]
-    next: Advice
+    next: NextStep
+    family: FamilyState = field(compare=False)
     question: str | None = None
     bar: float = BAR
 
     @property
     def open_assets(self) -> tuple[AssetStatus, ...]:
         """Those to be looked at: neither sure enough nor excluded, the least probable first."""
-        some = [asset for asset in self.assets if asset.sign_off in ("held", "void", "unknown")]
+        some = [asset for asset in self.assets if asset.needs_review]
         return tuple(
             sorted(some, key=lambda asset: (-1.0 if asset.probability is None else asset.probability, asset.id))
         )
@@ -131,7 +240,7 @@ class Status:
             "signed_off": self.count(lambda asset: asset.sign_off == "signed off"),
             "assets": [_asset_json(asset) for asset in self.assets],
             "lost": list(self.lost),
-            "next": {"say": self.next.say, "command": self.next.command},
+            "next": asdict(self.next),
         }
 
 
@@ -156,11 +265,3 @@ def _asset_json(asset: AssetStatus) -> dict[str, Any]:
         "found_since": list(asset.found_since),
         **asset.confidence_to_json(),
     }
-
-
-@dataclass(frozen=True, slots=True)
-class Advice:
-    """What to do next; command: what to type, None where there is nothing to type."""
-
-    say: str
-    command: str | None = None

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from typing import get_args
 
 from meshforge.common import MeshForgeError
-from meshforge.project import Project
+from meshforge.project import Project, PropagationState
 from meshforge.rendering import UNSURE
 from meshforge.store import History, HistoryEntry, Layout
 from meshforge.studio.wire.family import Card
-from meshforge.studio.wire.jobs import AssetLabelUpdate, LabelEditKind, LabelUpdate, PropagationState
+from meshforge.studio.wire.jobs import AssetLabelUpdate, LabelEditKind, LabelUpdate
 from meshforge.symbolic import GIVEN_SOURCES, Label, read_labels
 
 _LABEL_EDIT_KINDS: tuple[str, ...] = get_args(LabelEditKind)

@@ -9,6 +9,7 @@ from threading import Lock, RLock
 from typing import Any
 
 from meshforge.engines import ENGINES
+from meshforge.studio.queries.programs import build_language_view
 from meshforge.studio.wire import Wire, events
 from meshforge.studio.wire.asset import EngineView
 from meshforge.studio.wire.family import Card, HistoryView, ProjectView, VocabularyLabel
@@ -47,6 +48,7 @@ class PageState:
             program=ProgramView(),
             tour=tour,
             leave=leave,
+            language=build_language_view(),
             engines=tuple(EngineView(name=engine.name, title=engine.title) for engine in ENGINES.values()),
         )
 

@@ -119,7 +119,7 @@ STATES: dict[str, tuple[Callable[[Path], Project], str, tuple[int, ...]]] = {
     "names that say labels": (one_named, "label tables --with names", (0,)),
     "one asset labelled": (one_labelled, "label tables --with propagate", (0,)),
     "demonstrated": (demonstrated, "synthesize tables", (0,)),
-    "an open question": (ambiguous, "synthesize {0}", (0, 1)),
+    "an open question": (ambiguous, "review {0}", (0, 1)),
     "learned": (learned, "apply tables", (0,)),
     "demonstrated anew": (demonstrated_anew, "synthesize tables", (0, 1)),
     "applied": (applied, "review tables", (0, 1)),
@@ -142,7 +142,7 @@ def test_what_is_proposed_works_and_something_else_is_proposed_then(state: str, 
     advice = of(project).next
     assert advice.command == f"meshforge {command.format(project.folder.name)}", advice
     shown = run("status", project.folder.name).out
-    assert f"\nNext: {advice.say}\n  {advice.command}\n" in shown
+    assert f"\nNext: {advice.text}\n  {advice.command}" in shown
     done = run(*shlex.split(advice.command)[1:])
     assert done.code in codes, (done.out, done.err)
     if state not in ("an open question", "applied", "signed off"):  # which a person has to answer, or are the end
@@ -200,12 +200,12 @@ def test_assets_that_are_gone_or_cannot_be_read_are_to_be_mended_by_hand(tmp_pat
 def test_an_unreadable_asset_is_named_and_not_only_applied_to_again(tmp_path: Path) -> None:
     project = signed_off(tmp_path)
     (tmp_path / "assets" / THIRD).write_text("nothing of use")
-    say = of(project).next.say
+    say = of(project).next.text
     assert (
         say == "The program fails on 1 of 3 assets, first on table2/model.obj: fix what is named, then apply it again."
     )
     list(Project.open(project.folder).apply(execution=IN_PROCESS))
-    assert of(project).next.say == say
+    assert of(project).next.text == say
 
 
 def test_without_any_demonstration_left_one_is_to_be_shown(tmp_path: Path) -> None:
@@ -220,7 +220,7 @@ def test_a_wrong_result_is_reviewed_again(tmp_path: Path) -> None:
     project.set_verdict(SECOND, "wrong")
     advice = of(project).next
     assert advice.command == f"meshforge review {project.folder}"
-    assert advice.say == f"All assets are edited; {SECOND} is not signed off: review them."
+    assert advice.text == f"1 result wrong: correct them, first {SECOND}."
 
 
 def test_a_program_without_labels_asks_for_none(tmp_path: Path) -> None:

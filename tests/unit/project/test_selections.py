@@ -16,7 +16,8 @@ from meshforge.project import Project, demonstrations
 from meshforge.project.prepare import exchange_preparation
 from meshforge.store import ConflictError, History
 from meshforge.studio.edits.base import make_edit, steps_version
-from meshforge.studio.edits.program import SetSteps, StepText
+from meshforge.studio.edits.program import SetSteps, StepEdit
+from meshforge.studio.wire.actions import ActionCall
 from meshforge.symbolic import Label
 from meshforge.synthesis import Answer, LabelCorrection
 from tests.unit.batch.families import tree
@@ -120,7 +121,7 @@ def test_an_undo_names_what_was_changed_since_and_by_what_and_writes_nothing(tmp
 def test_an_undo_names_the_edit_that_changed_something_since(tmp_path: Path) -> None:
     project = said(tmp_path)
     project.cut(FIRST, "crumb", *PLANE)
-    steps = [StepText(select=("top",), action="Delete")]
+    steps = [StepEdit(select=("top",), action=ActionCall(name="Delete"))]
     version = steps_version(project, FIRST)
     make_edit(History(project.folder), project, SetSteps(asset=FIRST, version=version, steps=tuple(steps)))
     with pytest.raises(ConflictError, match=f"was changed since, by “.*{FIRST}.*”"):

@@ -43,7 +43,7 @@ def test_the_asset_that_tells_most_is_advised_and_one_that_cannot_be_read_passed
     first = suggest_first_demonstration(project, project.assets())
     advised = of(project).next
     assert first in project.assets()
-    assert f"best first on {first} (" in advised.say
+    assert f"best first on {first}." in advised.text
     assert first in (advised.command or "")
     project.path(first).write_text("no obj")
     assert suggest_first_demonstration(project, project.assets()) not in (first, None)
@@ -58,7 +58,7 @@ def test_labels_that_lie_nowhere_are_to_be_given_by_hand_or_read_from_names(tmp_
     assert of(project).next.command == f"meshforge label {project.folder} t.obj 'top=LABEL'"
     project.set_vocabulary(("top", "leg"))
     advice = of(project).next
-    assert advice.say == "No hull has a label yet: the names of 1 hull say what they are."
+    assert advice.text == "The names of 1 hull contain a label: take their labels."
     assert advice.command == f"meshforge label {project.folder} --with names"
     (tmp_path / "assets/t.obj").write_text("nothing of use")
     assert of(project).next.command is None
@@ -78,7 +78,7 @@ def test_where_some_assets_are_labelled_their_labels_are_to_be_carried_over(tmp_
     assert "propagate" not in str(of(project).next.command)
     project.set_labels("a.obj", {name: label_of(name) for name in table_boxes()})
     advice = of(project).next
-    assert advice.say == "2 assets, first b.obj, have no label: propagate those of the labelled assets."
+    assert advice.text == "2 assets have no label: propagate labels."
     assert advice.command == f"meshforge label {project.folder} --with propagate"
     project.label("propagate")
     assert "demonstrate" in str(of(project).next.command)
@@ -158,13 +158,13 @@ def test_a_failure_is_told_with_its_message(tmp_path: Path) -> None:
     list(project.apply(execution=IN_PROCESS))
     found = asset(project, THIRD)
     assert found.output == "failed" and found.error and "no labels" in found.error
-    assert of(project).next.say.startswith("table2/model.obj has no label")
+    assert of(project).next.kind == "label-files"
     project.accept(Program.parse('labels top\nIs(top) => Replace("bar.obj")\n'))
     write_table(project.folder / "templates/bar.obj")
     project.set_labels(THIRD, {"crumb": "misc"})
     (tmp_path / "assets" / THIRD).write_text("nothing of use")
     list(project.apply(execution=IN_PROCESS))
-    say = of(project).next.say
+    say = of(project).next.text
     assert (
         say == "The program fails on 1 of 3 assets, first on table2/model.obj: fix what is named, then apply it again."
     )
@@ -195,7 +195,7 @@ def test_a_learned_program_is_outdated_when_a_result_is_called_wrong_that_was_no
     project.set_verdict(SECOND, "wrong")
     assert not of(project).outdated
     project.set_verdict(THIRD, "wrong")
-    assert of(project).outdated and "replies" in of(project).next.say
+    assert of(project).outdated and "replies" in of(project).next.text
     project.set_verdict(THIRD, None)
     assert not of(project).outdated
 
@@ -213,7 +213,7 @@ def test_a_review_counts_until_the_output_changes(tmp_path: Path) -> None:
     assert [a.review for a in of(project).assets] == ["accepted", "wrong", None]
     assert not of(project).outdated, "nothing is learned from what was said of a demonstrated asset"
     project.set_verdict(THIRD, "accepted")
-    assert "table1/model.obj is not signed off" in of(project).next.say
+    assert of(project).next.text == "1 result wrong: correct them, first table1/model.obj."
     project.set_verdict(THIRD, None)
     kept = project.feedback().verdict_on(SECOND)
     assert kept is not None and (kept.verdict, kept.note) == ("wrong", "left leg")
@@ -415,7 +415,7 @@ def test_a_program_that_cannot_be_applied_is_told_first(tmp_path: Path) -> None:
     (project.folder / "program.mf").write_text('labels top\nIs(top) => Replace("slab.obj")\n')
     found = of(project)
     assert found.problem and '"slab.obj" is not there' in found.problem
-    assert found.rules == 1 and found.problem in found.next.say
+    assert found.rules == 1 and found.problem.splitlines()[0] in found.next.text
     (project.folder / "program.mf").write_text("nonsense")
     assert of(project).rules is None and "program.mf:1:1" in (of(project).problem or "")
 

@@ -89,7 +89,7 @@ def test_steps_tell_what_they_make_and_remove(project: Project) -> None:
     steps = build_asset_view(project, TABLE, project.mesh(TABLE)).steps
     assert [step.error for step in steps] == [None] * 5
     assert (steps[0].made, steps[0].removed) == ((), steps[0].select)
-    assert steps[2].action == "Each(Merge)"
+    assert steps[2].action.text == "Each(Merge)"
     assert len(steps[2].made) == 4
 
 

@@ -2,14 +2,15 @@ from __future__ import annotations
 
 import pytest
 
+from meshforge.project import NextStep
 from meshforge.studio.edits.assets import LabelGroup
 from meshforge.studio.pages import PageHub, PageState
 from meshforge.studio.session.early_labels import EarlyLabels
-from meshforge.studio.wire.family import Card, HistoryView, Next, ProjectView, VocabularyLabel
+from meshforge.studio.wire.family import Card, HistoryView, OrientView, ProjectView, VocabularyLabel
 from meshforge.studio.wire.requests import HullOfAsset
 
-WORDS = tuple(VocabularyLabel(name=name, color="#000000") for name in ("leg", "panel"))
-PROJECT = ProjectView(name="p", folder="/p", vocabulary=WORDS, next=Next(stage="label", say="Label."))
+WORDS = tuple(VocabularyLabel(name=name, text=name, color="#000000") for name in ("leg", "panel"))
+PROJECT = ProjectView(name="p", folder="/p", vocabulary=WORDS, next=NextStep("label", "Label."), orient=OrientView())
 NAMES = {"a": ("one", "two"), "b": ("one",)}
 CARDS = (
     Card(asset="a", hulls=2, labels=(0, 0), unsure=(0, 1)),

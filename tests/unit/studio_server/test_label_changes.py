@@ -10,13 +10,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from meshforge.project import Project
+from meshforge.project import Project, PropagationState
 from meshforge.store import History
 from meshforge.studio.edits.assets import LabelFromNames, LabelHulls, RenameLabel
 from meshforge.studio.edits.base import Edit, make_edit
 from meshforge.studio.label_changes import LabelChanges
 from meshforge.studio.wire.family import Card
-from meshforge.studio.wire.jobs import PropagationState
 from meshforge.symbolic import GIVEN_SOURCES, HUMAN_SOURCES, Label
 from tests.examples import examples
 from tests.unit.batch.families import label_of, table_boxes, tree

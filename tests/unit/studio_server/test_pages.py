@@ -3,10 +3,11 @@ from __future__ import annotations
 import asyncio
 import json
 
+from meshforge.project import NextStep
 from meshforge.studio.pages import PageConnection, PageHub, PageState
-from meshforge.studio.wire.family import Card, HistoryView, Next, ProjectView
+from meshforge.studio.wire.family import Card, HistoryView, OrientView, ProjectView
 
-PROJECT = ProjectView(name="p", folder="/p", vocabulary=(), next=Next(stage="label", say="Label."))
+PROJECT = ProjectView(name="p", folder="/p", vocabulary=(), next=NextStep("label", "Label."), orient=OrientView())
 
 
 def test_a_page_is_told_everything_first_and_then_only_what_changes() -> None:

@@ -6,19 +6,22 @@ import { emptyProject, useProject } from "../store/project";
 import { useScenes } from "../store/scenes";
 import * as steps from "../store/steps";
 import { initialWorkspace, select, useWorkspace } from "../store/workspace";
-import { ACTION_KEYS, demonstrateCommands, startCut, startLandmarks } from "./demonstrate";
-import { commandFor } from "./list";
+import { sampleAction, sampleForm } from "../store/sample.test-help";
+import { startCut, startLandmarks } from "./demonstrate";
+import { commandFor, listCommands } from "./list";
 
-const command = (key: string) => commandFor(key, demonstrateCommands);
+const command = (key: string) => commandFor(key, listCommands().filter(({ group }) => group === "Demonstrate"));
 const press = (key: string) => command(key)?.run();
-const inHand = { action: "Merge", arguments: {}, each: false, label: "", editing: null };
-const step = (hulls: string[] | null) => ({ select: hulls, action: "Delete", error: null, made: [], removed: [] });
+const inHand = { name: "Merge", arguments: {}, each: false, label: null, editing: null };
+const step = (hulls: string[] | null) => ({ select: hulls, action: sampleAction(), error: null, made: [], removed: [] });
+
+const actions = [sampleForm("Delete", [], { key: "X" }), sampleForm("Merge", [], { key: "M" }), sampleForm("Fold", [], { key: "Shift+K" }), sampleForm("Melt")];
 
 function show(shown: readonly (string[] | null)[], rules = shown.length): void {
   const hulls = ["x", "y"].map((name) => ({ name }));
   useScenes.setState({ scene: { asset: "a", hulls, view: { asset: "a", hulls, steps: shown.map(step) } } as never });
-  const lines = Array.from({ length: rules }, (_, k) => ({ rule: k + 1, action: "Delete", shown: [], nothing: [] }));
-  useProject.setState({ ...emptyProject, project: { ...emptyProject.project, rules: lines } }, true);
+  const lines = Array.from({ length: rules }, (_, k) => ({ rule: k + 1, action: sampleAction(), shown: [], nothing: [] }));
+  useProject.setState({ ...emptyProject, language: { actions, operators: [], directions: [] }, project: { ...emptyProject.project, rules: lines } }, true);
 }
 
 beforeEach(() => {
@@ -34,9 +37,15 @@ beforeEach(() => {
 });
 
 describe("a key of an action", () => {
-  it.each(Object.entries(ACTION_KEYS))("begins it: %s by %s", (action, key) => {
-    press(key);
-    expect(draft.startDraft).toHaveBeenCalledWith(action);
+  it("begins it", () => {
+    press("M");
+    expect(draft.startDraft).toHaveBeenCalledWith("Merge");
+    expect(command("M")?.title).toBe("Merge the selection");
+  });
+
+  it("of a plug-in is left to the command that has it; the action stays in the list of commands", () => {
+    const keys = Object.fromEntries(listCommands().map((one) => [one.id, one.keys]));
+    expect([keys["draft-fold"], keys["draft-melt"]]).toEqual([[], []]);
   });
 
   it("works on the result under review, too, and in no other stage", () => {
@@ -77,7 +86,7 @@ describe("the action in hand", () => {
 });
 
 describe("Enter with an empty hand", () => {
-  const guess = (rule: number, error: string | null = null) => ({ rule, action: "Delete", select: ["x"], sentence: "", error });
+  const guess = (rule: number, error: string | null = null) => ({ rule, action: sampleAction(), select: ["x"], sentence: "", error });
 
   it("takes the guess for the first rule that the asset says nothing about", async () => {
     show([["x"], null]);

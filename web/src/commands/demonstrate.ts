@@ -1,21 +1,12 @@
 // Commands that demonstrate: actions are begun, accepted and cancelled; steps are removed; hulls are cut.
 import { acceptDraft, dropDraft, selectedHulls, startDraft, toggleEach } from "../store/draft";
 import { acceptGuess, guessFor } from "../store/guesses";
+import { useProject } from "../store/project";
 import { useScenes } from "../store/scenes";
 import { openRules, removeStep } from "../store/steps";
 import { reportError } from "../store/toasts";
 import { setTool, show, useWorkspace } from "../store/workspace";
 import type { Command } from "./command";
-
-/** The key that begins each action. */
-export const ACTION_KEYS: Readonly<Record<string, string>> = {
-  Delete: "X",
-  Replace: "R",
-  Add: "Shift+A",
-  Merge: "M",
-  Scale: "S",
-  Shrink: "Shift+S",
-};
 
 const isHere = (): boolean => useWorkspace.getState().stage === "demonstrate" && useWorkspace.getState().asset !== null;
 
@@ -25,14 +16,17 @@ function canDraft(): boolean {
   return asset !== null && (stage === "demonstrate" || (stage === "review" && showing.kind === "result"));
 }
 
-const draftCommands: readonly Command[] = Object.entries(ACTION_KEYS).map(([action, key]) => ({
-  id: `draft-${action.toLowerCase()}`,
-  title: action === "Add" ? "Add a template beside the selection" : `${action} the selection`,
-  group: "Demonstrate",
-  keys: [key],
-  enabled: canDraft,
-  run: () => startDraft(action),
-}));
+/** Commands that begin the actions, each by its own key. */
+export function listActionCommands(): readonly Command[] {
+  return useProject.getState().language.actions.map(({ name, title, key }) => ({
+    id: `draft-${name.toLowerCase()}`,
+    title,
+    group: "Demonstrate",
+    keys: key ? [key] : [],
+    enabled: canDraft,
+    run: () => startDraft(name),
+  }));
+}
 
 /** The rule (from 1) whose guess Enter takes: the first that the asset says nothing about. */
 function offeredRule(): number | null {
@@ -63,7 +57,6 @@ async function removeShownStep(): Promise<void> {
 }
 
 export const demonstrateCommands: readonly Command[] = [
-  ...draftCommands,
   {
     id: "draft-each",
     title: "Each connected part separately",

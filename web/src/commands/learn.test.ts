@@ -2,6 +2,7 @@
 import { beforeEach, describe, expect, it, vi } from "vitest";
 import { api } from "../server/api";
 import { emptyProject, useProject } from "../store/project";
+import { sampleAction } from "../store/sample.test-help";
 import { initialWorkspace, useWorkspace } from "../store/workspace";
 import type { AnyEdit, OutcomeView, ReadingView } from "../wire";
 import { chooseReading, demonstrate, learnCommands, showNearest } from "./learn";
@@ -50,7 +51,7 @@ describe("the command to learn", () => {
 
   it("makes sense once something is shown and while nothing is learned", () => {
     expect(learn?.enabled?.()).toBe(false);
-    const rules = [{ rule: 1, action: "Delete", shown: ["x"], nothing: [] }];
+    const rules = [{ rule: 1, action: sampleAction(), shown: ["x"], nothing: [] }];
     useProject.setState({ project: { ...emptyProject.project, rules } });
     expect(learn?.enabled?.()).toBe(true);
     useProject.setState({ learning: true });

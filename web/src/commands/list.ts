@@ -2,7 +2,7 @@
 import { useProject } from "../store/project";
 import { openAsset } from "../store/workspace";
 import type { Command } from "./command";
-import { demonstrateCommands } from "./demonstrate";
+import { demonstrateCommands, listActionCommands } from "./demonstrate";
 import { goCommands } from "./navigate";
 import { labelCommands } from "./label";
 import { learnCommands } from "./learn";
@@ -14,9 +14,8 @@ import { selectCommands } from "./select";
 import { sheetCommands } from "./sheet";
 import { viewCommands } from "./view";
 
-export const allCommands: readonly Command[] = [
-  ...labelCommands,
-  ...sheetCommands,
+const begin: readonly Command[] = [...labelCommands, ...sheetCommands];
+const others: readonly Command[] = [
   ...demonstrateCommands,
   ...learnCommands,
   ...questionCommands,
@@ -28,8 +27,15 @@ export const allCommands: readonly Command[] = [
   ...selectCommands,
 ];
 
+/** All commands; an action of a plug-in has no key where a command has that. */
+export function listCommands(): readonly Command[] {
+  const taken = new Set([...begin, ...others].flatMap(({ keys }) => keys));
+  const actions = listActionCommands().map((one) => ({ ...one, keys: one.keys.filter((key) => !taken.has(key)) }));
+  return [...begin, ...actions, ...others];
+}
+
 /** The command that a key means now. */
-export function commandFor(key: string, commands: readonly Command[] = allCommands): Command | undefined {
+export function commandFor(key: string, commands: readonly Command[] = listCommands()): Command | undefined {
   return commands.find((command) => command.keys.includes(key) && (command.enabled?.() ?? true));
 }
 
@@ -87,7 +93,7 @@ export interface PaletteLine {
 
 /** What the list of commands offers: commands that make sense now, and assets. */
 export function paletteLines(): readonly PaletteLine[] {
-  const commands = allCommands
+  const lines = listCommands()
     .filter((command) => command.id !== "palette" && (command.enabled?.() ?? true))
     .map(({ id, title, group, keys, run }) => ({ id, title, aside: group, keys: keys[0], run }));
   const assets = useProject.getState().order.map((asset) => ({
@@ -97,5 +103,5 @@ export function paletteLines(): readonly PaletteLine[] {
     keys: undefined,
     run: () => openAsset(asset),
   }));
-  return [...commands, ...assets];
+  return [...lines, ...assets];
 }

@@ -5,7 +5,7 @@ import { useScenes } from "../store/scenes";
 import { initialSection, useSection } from "../store/section";
 import { initialWorkspace, select, useWorkspace } from "../store/workspace";
 import { box, boxScene } from "../viewport/stage/boxes.test-help";
-import { allCommands, commandFor } from "./list";
+import { commandFor, listCommands } from "./list";
 import { measureCommands } from "./measure";
 
 const scene = boxScene([box("a", [0, 0, 0]), box("b", [1.5, 0, 0]), box("c", [0.5, 0, 0])]);
@@ -20,7 +20,7 @@ beforeEach(() => {
 });
 
 it.each(measureCommands.flatMap(({ id, keys }) => keys.map((key) => [key, id] as const)))("%s is no key of another command: %s", (key, id) => {
-  expect(allCommands.filter((command) => command.keys.includes(key)).map((command) => command.id)).toEqual([id]);
+  expect(listCommands().filter((command) => command.keys.includes(key)).map((command) => command.id)).toEqual([id]);
 });
 
 it("Shift+K opens the section and closes it", () => {

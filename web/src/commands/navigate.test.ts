@@ -44,7 +44,7 @@ test("Alt and a digit go to a stage", () => {
 });
 
 test("what is next is one key away", () => {
-  useProject.setState((state) => ({ project: { ...state.project, next: { stage: "review", say: "Look.", asset: "c" } } }));
+  useProject.setState((state) => ({ project: { ...state.project, next: { kind: "review", text: "Look.", asset: "c", command: null, note: null } } }));
   run("Alt+Enter");
   expect([useWorkspace.getState().stage, asset()]).toEqual(["review", "c"]);
 });

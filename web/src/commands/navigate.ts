@@ -12,6 +12,7 @@ import {
   useLayout,
   useWorkspace,
   type WorkspaceState,
+  STAGE_OF,
 } from "../store/workspace";
 import type { Command } from "./command";
 
@@ -41,9 +42,9 @@ const stageCommands: readonly Command[] = STAGES.map((stage, k) => ({
 
 const hasOthers = () => useProject.getState().order.length > 1;
 
-function goToNext(): void {
+export function goToNext(): void {
   const { next } = useProject.getState().project;
-  openStage(next.stage);
+  openStage(STAGE_OF[next.kind]);
   if (next.asset !== null) openAsset(next.asset);
 }
 

@@ -3,7 +3,7 @@ import { X } from "lucide-react";
 import { Dialog } from "radix-ui";
 import { useState } from "react";
 import type { Command } from "../commands/command";
-import { allCommands, foldCommands } from "../commands/list";
+import { foldCommands, listCommands } from "../commands/list";
 import { startTour } from "../store/tour";
 import { useWorkspace } from "../store/workspace";
 import { Button, IconButton } from "../ui/Button";
@@ -39,7 +39,7 @@ function Content() {
   const word = search.trim().toLowerCase();
   const fits = (command: Command) =>
     !word || `${command.title} ${command.group} ${command.keys.join(" ")}`.toLowerCase().includes(word);
-  const groups = GROUPS.map((group) => ({ group, commands: allCommands.filter((one) => one.group === group && fits(one)) }));
+  const groups = GROUPS.map((group) => ({ group, commands: listCommands().filter((one) => one.group === group && fits(one)) }));
   const none = groups.every(({ commands }) => commands.length === 0);
   return (
     <>

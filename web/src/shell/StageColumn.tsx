@@ -7,7 +7,8 @@ import { LabelPanel } from "../panels/label/LabelPanel";
 import { LearnPanel } from "../panels/learn/LearnPanel";
 import { ReviewPanel } from "../panels/review/ReviewPanel";
 import { useProject } from "../store/project";
-import { openAsset, openStage, setLayout, type StageName, STAGES, useLayout, useWorkspace } from "../store/workspace";
+import { goToNext } from "../commands/navigate";
+import { openStage, setLayout, STAGE_OF, type StageName, STAGES, useLayout, useWorkspace } from "../store/workspace";
 import { Button } from "../ui/Button";
 import { HullList } from "../hulls/HullList";
 import { Divider } from "./Divider";
@@ -22,7 +23,7 @@ const TABS: Readonly<Record<StageName, { title: string; Panel: ComponentType }>>
 
 export function StageColumn() {
   const stage = useWorkspace((workspace) => workspace.stage);
-  const next = useProject((state) => state.project.next.stage);
+  const next = useProject((state) => STAGE_OF[state.project.next.kind]);
   return (
     <Tabs.Root className={css.side} value={stage} onValueChange={(value) => openStage(value as StageName)}>
       <Tabs.List className={css.tabs} aria-label="Stages" data-tour="stages">
@@ -86,12 +87,12 @@ function Panel({ stage }: { stage: StageName }) {
 /** What is sensible to do next, in a sentence, and the way there. */
 function NextLine() {
   const next = useProject((state) => state.project.next);
-  const there = useWorkspace((workspace) => workspace.stage === next.stage && (next.asset === null || workspace.asset === next.asset));
-  if (!next.say) return null;
+  const there = useWorkspace((workspace) => workspace.stage === STAGE_OF[next.kind] && (next.asset === null || workspace.asset === next.asset));
+  if (!next.text) return null;
   return (
     <div className={css.nextLine} role="status">
       <span className={css.next} aria-hidden />
-      <span className={css.say}>{next.say}</span>
+      <span className={css.say}>{next.text}</span>
       {!there && (
         <Button
           look="quiet"
@@ -99,10 +100,7 @@ function NextLine() {
           tip={next.asset === null ? "Go there" : `Go there: ${next.asset}`}
           keys="Alt+Enter"
           aria-label="Go to the next step"
-          onClick={() => {
-            openStage(next.stage);
-            if (next.asset !== null) openAsset(next.asset);
-          }}
+          onClick={goToNext}
         />
       )}
     </div>

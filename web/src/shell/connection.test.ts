@@ -36,14 +36,14 @@ async function load() {
 /** Answers the question whether the server is there; nothing else is to be had of it. */
 function answer(status: number): void {
   const gone = '{"message":"no such asset","where":null,"remedy":null,"conflict":false}';
-  const respond = (path: string) => (path === "api/language" ? new Response("{}", { status }) : new Response(gone, { status: 404 }));
+  const respond = (path: string) => (path === "api/token" ? new Response("{}", { status }) : new Response(gone, { status: 404 }));
   vi.stubGlobal("fetch", async (path: string) => respond(path));
 }
 
 const hello = (page: Awaited<ReturnType<typeof load>>, change: object = {}) => {
   const cards = ["a", "b"].map((asset) => page.sampleCard({ asset }));
   const { project, history, program } = page.emptyProject;
-  const event = { kind: "hello", version: "1", project, cards, history, relabelled: null, program, outcome: null, learning: false, reach: [], assessment: null, assessing: false, jobs: [], tour: false, engines: [], leave: true, ...change };
+  const event = { kind: "hello", version: "1", project, cards, history, relabelled: null, program, outcome: null, learning: false, reach: [], assessment: null, assessing: false, jobs: [], tour: false, engines: [], language: page.emptyProject.language, leave: true, ...change };
   socket.onmessage({ data: JSON.stringify(event) });
 };
 
@@ -129,13 +129,13 @@ describe("without a connection", () => {
   });
 });
 
-const draft = { action: "Merge", arguments: {}, each: true, label: "leg", editing: 1 };
+const draft = { name: "Merge", arguments: {}, each: true, label: "leg", editing: 1 };
 
 describe("the first word of the server", () => {
   it("opens what is next", async () => {
     const page = await load();
     page.connect();
-    hello(page, { project: { ...page.emptyProject.project, next: { stage: "learn", say: "", asset: "b" } } });
+    hello(page, { project: { ...page.emptyProject.project, next: { kind: "learn", text: "", asset: "b", command: null, note: null } } });
     expect([page.useWorkspace.getState().stage, page.useWorkspace.getState().asset]).toEqual(["learn", "b"]);
   });
 
@@ -161,13 +161,13 @@ describe("the first word of the server", () => {
     vi.stubGlobal("sessionStorage", new Storage());
     const page = await load();
     page.connect();
-    hello(page, { project: { ...page.emptyProject.project, next: { stage: "label", say: "", asset: "a" } } });
+    hello(page, { project: { ...page.emptyProject.project, next: { kind: "label", text: "", asset: "a", command: null, note: null } } });
     const { stage, asset, draft: inHand } = page.useWorkspace.getState();
     expect([stage, asset, inHand]).toEqual(["demonstrate", "b", null]);
     vi.stubGlobal("sessionStorage", new Storage());
     const other = await load();
     other.connect();
-    hello(other, { project: { ...page.emptyProject.project, folder: "/other", next: { stage: "learn", say: "", asset: "a" } } });
+    hello(other, { project: { ...page.emptyProject.project, folder: "/other", next: { kind: "learn", text: "", asset: "a", command: null, note: null } } });
     expect(other.useWorkspace.getState().stage).toBe("learn");
   });
 

@@ -11,6 +11,7 @@ import {
   openAsset,
   openStage,
   type Showing,
+  STAGE_OF,
   type StageName,
   STAGES,
   useWorkspace,
@@ -60,7 +61,7 @@ function setConnected(is: boolean): void {
 
 async function findReason(): Promise<"lost" | "refused"> {
   try {
-    await getJson("api/language");
+    await getJson("api/token"); // there is no such address, which only a page with the token of this server learns
     return "lost";
   } catch (error) {
     return error instanceof ServerProblem && (error.status === 401 || error.status === 403) ? "refused" : "lost";
@@ -73,7 +74,7 @@ function restorePlace(): void {
   const { cards, order, project } = useProject.getState();
   const own = storedPlace(sessionStorage, PLACE_KEY);
   const before = own.stage === null ? storedPlace(localStorage, lastPlaceKey()) : own;
-  openStage(before.stage ?? project.next.stage);
+  openStage(before.stage ?? STAGE_OF[project.next.kind]);
   const known = before.asset !== null && before.asset in cards ? before.asset : null;
   const readable = order.find((asset) => cards[asset]?.error === null && cards[asset].hulls !== 0);
   openAsset(known ?? project.next.asset ?? readable ?? order[0] ?? null);
@@ -128,7 +129,7 @@ function storedPlace(storage: Storage, key: string): Place {
 function isHand(value: unknown): value is NonNullable<Place["hand"]> {
   if (typeof value !== "object" || value === null) return false;
   const { draft, selection } = value as { draft?: Partial<Draft> | null; selection?: unknown };
-  const isDraft = typeof draft?.action === "string" && typeof draft.arguments === "object" && draft.editing !== undefined;
+  const isDraft = typeof draft?.name === "string" && typeof draft.arguments === "object" && draft.editing !== undefined;
   return isDraft && Array.isArray(selection) && selection.every((name) => typeof name === "string");
 }
 

@@ -92,7 +92,7 @@ describe("a key", () => {
 describe("a control that a key brought the focus to", () => {
   beforeEach(() => {
     press({ key: "ArrowDown", code: "ArrowDown", on: button });
-    useWorkspace.setState({ draft: { action: "Delete", arguments: {}, each: false, label: "", editing: null } });
+    useWorkspace.setState({ draft: { name: "Delete", arguments: {}, each: false, label: null, editing: null } });
   });
 
   it("has Enter for itself", () => {

@@ -1,6 +1,6 @@
 // Keys mean commands, unless a person types, or a control that was reached by key wants them itself.
 import { pressedKeys } from "../commands/command";
-import { allCommands, commandFor } from "../commands/list";
+import { commandFor, listCommands } from "../commands/list";
 import { isBusy, runKey } from "../commands/queue";
 import { useStart } from "../store/start";
 import { useWorkspace } from "../store/workspace";
@@ -58,7 +58,7 @@ function actionOf(key: string): (() => unknown) | undefined {
 }
 
 /** Whether a key may mean something once the commands that are on their way are done. */
-const isCommand = (key: string): boolean => allCommands.some((command) => command.keys.includes(key));
+const isCommand = (key: string): boolean => listCommands().some((command) => command.keys.includes(key));
 
 const FOCUSABLE = "button:not(:disabled), input:not([hidden]), [tabindex='0'], [role=tab][aria-selected=true]";
 

@@ -3,7 +3,6 @@ import { Ellipsis, TriangleAlert } from "lucide-react";
 import { type KeyboardEvent, useEffect } from "react";
 import { runInTurn } from "../commands/queue";
 import { draftStep } from "../store/draft";
-import { splitAction } from "../store/actions";
 import { clearStepHighlight, highlightStep } from "../store/highlight";
 import { useProject } from "../store/project";
 import { actionOf, amountText } from "../store/steps";
@@ -11,7 +10,7 @@ import { select, show, useWorkspace } from "../store/workspace";
 import { IconButton } from "../ui/Button";
 import { Menu } from "../ui/Menu";
 import type { AssetView, StepView } from "../wire";
-import { actionIcon } from "./actionIcon";
+import { ACTION_ICONS } from "./actionIcon";
 import { moveRule, stepMenu, removeStepHere } from "./stepMenu";
 import css from "./steps.module.css";
 
@@ -27,10 +26,9 @@ export function StepChip({ view, place, count, drag }: StepChipProps) {
   const family = useProject((state) => state.project.rules[place]?.action);
   const shown = useWorkspace(({ showing }) => showing.kind === "steps" && showing.steps === place + 1);
   const inHand = useWorkspace((workspace) => workspace.draft?.editing === place && workspace.stage === "demonstrate");
-  const text = step?.action ?? family ?? actionOf(place);
-  const { action, label } = splitAction(text);
+  const { text, short, label, icon } = step?.action ?? family ?? actionOf(place);
   useEffect(() => clearStepHighlight, []);
-  const Icon = actionIcon(text);
+  const Icon = ACTION_ICONS[icon];
   const isOpen = step?.select == null;
   return (
     <li
@@ -59,7 +57,7 @@ export function StepChip({ view, place, count, drag }: StepChipProps) {
         </span>
         {step?.error ? <TriangleAlert size={14} aria-hidden /> : <Icon size={14} aria-hidden />}
         <span className={css.action} aria-hidden>
-          {action}
+          {short}
         </span>
         <span className={css.amount} aria-hidden>
           {amountText(step)}

@@ -2,7 +2,6 @@
 // its edits by hand.
 import { Undo2 } from "lucide-react";
 import { type KeyboardEvent, useEffect, useRef } from "react";
-import { splitAction } from "../store/actions";
 import { perform } from "../store/edits";
 import { clearStepHighlight, highlightStep } from "../store/highlight";
 import { useProject } from "../store/project";
@@ -12,7 +11,7 @@ import { show, useWorkspace } from "../store/workspace";
 import { Button } from "../ui/Button";
 import { useReorder } from "../ui/useReorder";
 import type { AssetView, CorrectionView } from "../wire";
-import { actionIcon } from "./actionIcon";
+import { ACTION_ICONS } from "./actionIcon";
 import { StepChip } from "./StepChip";
 import { moveRule } from "./stepMenu";
 import css from "./steps.module.css";
@@ -106,14 +105,14 @@ function Corrections({ view }: { view: AssetView }) {
 }
 
 function Correction({ view, correction, place }: { view: AssetView; correction: CorrectionView; place: number }) {
-  const { action, label } = splitAction(correction.action);
-  const Icon = actionIcon(action);
+  const { short, label, icon } = correction.action;
+  const Icon = ACTION_ICONS[icon];
   return (
     <li className={css.chip} onPointerEnter={() => highlightStep(view, correction.select)} onPointerLeave={clearStepHighlight}>
       <span className={css.chipButton} title={correction.select.join(", ")}>
         <span className={css.number}>{place + 1}</span>
         <Icon size={14} aria-hidden />
-        <span className={css.action}>{action}</span>
+        <span className={css.action}>{short}</span>
         <span className={css.amount}>×{correction.select.length}</span>
         {label && <span className={css.made}>{label}</span>}
       </span>

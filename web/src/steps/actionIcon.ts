@@ -1,17 +1,13 @@
 // The picture of each action.
 import { Combine, type LucideIcon, Minimize2, PackagePlus, Replace, Scaling, Shapes, Trash2 } from "lucide-react";
+import type { ActionView } from "../wire";
 
-const ICONS: Readonly<Record<string, LucideIcon>> = {
-  Delete: Trash2,
-  Replace,
-  Add: PackagePlus,
-  Merge: Combine,
-  Scale: Scaling,
-  Shrink: Minimize2,
+export const ACTION_ICONS: Readonly<Record<ActionView["icon"], LucideIcon>> = {
+  delete: Trash2,
+  replace: Replace,
+  add: PackagePlus,
+  merge: Combine,
+  scale: Scaling,
+  shrink: Minimize2,
+  shapes: Shapes,
 };
-
-/** The icon of an action, by its name or by the text of a step. */
-export function actionIcon(text: string): LucideIcon {
-  const name = /^(?:Each\()?(\w+)/.exec(text)?.[1] ?? "";
-  return ICONS[name] ?? Shapes;
-}

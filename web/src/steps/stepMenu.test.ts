@@ -7,11 +7,10 @@ import { useToasts } from "../store/toasts";
 import { initialWorkspace, useWorkspace } from "../store/workspace";
 import type { MenuLine } from "../ui/Menu";
 import type { AssetView } from "../wire";
-import { actionIcon } from "./actionIcon";
 import { moveRule, removeStepHere, setStepHere, stepMenu } from "./stepMenu";
 
 const viewOf = (...selects: (string[] | null)[]) => ({ asset: "a", steps: selects.map((select) => ({ select, action: "Delete" })) }) as unknown as AssetView;
-const inHand = (editing: number | null) => ({ action: "Merge", arguments: {}, each: false, label: "", editing });
+const inHand = (editing: number | null) => ({ name: "Merge", arguments: {}, each: false, label: null, editing });
 
 function line(label: string, view: AssetView, place: number, rules = 3): MenuLine {
   const found = stepMenu(view, place, rules).find((one) => one !== "line" && one.label === label);
@@ -100,11 +99,4 @@ it("rules are moved and steps removed by one edit each", () => {
   expect(edits.perform).toHaveBeenCalledWith({ kind: "move-rule", rule: 3, to: 1 });
   removeStepHere("a", 1);
   expect(steps.removeStep).toHaveBeenCalledWith("a", 1);
-});
-
-it("an action has the same picture by its name and by its text, and another has another", () => {
-  expect(actionIcon("Each(Merge)")).toBe(actionIcon("Merge"));
-  expect(actionIcon("Replace(box)")).toBe(actionIcon("Replace"));
-  expect(actionIcon("Merge")).not.toBe(actionIcon("Delete"));
-  expect(actionIcon("Plugin(1)")).toBe(actionIcon("Other"));
 });

@@ -1,80 +1,38 @@
-
 import { describe, expect, it } from "vitest";
-import type { ActionForm, Argument, StepView } from "../wire";
-import { defaultArguments, draftText, goesWith, missingArgument, parseAction, withArgument } from "./actions";
+import type { ActionCall, ActionForm, StepView } from "../wire";
+import { defaultArguments, goesWith, isSameAction, missingArgument, withArgument } from "./actions";
+import { sampleAction, sampleArgument, sampleCall, sampleForm } from "./sample.test-help";
 import { openPlaces, placeFor, placeOf } from "./steps";
-import type { Draft } from "./workspace";
 
-const argument = (name: string, kind: Argument["kind"], choices: string[] = [], required = true): Argument => ({
-  name,
-  kind,
-  wants: name,
-  choices,
-  required,
-});
-const form = (name: string, ...args: Argument[]): ActionForm => ({
-  name,
-  summary: "",
-  usage: "",
-  makes: true,
-  arguments: args,
-});
-const replace = form(
+const replace = sampleForm(
   "Replace",
-  argument("geometry", "shape", ["box", "cylinder", "capsule", "sphere"]),
-  argument("fit", "words", ["native", "tight", "inscribed", "volume", "longest"], false),
-  argument("axis", "words", ["X", "Y", "Z"], false),
-  argument("radius", "option", ["radius"], false),
+  [
+    sampleArgument("geometry", "shape", ["box", "capsule", "sphere"]),
+    sampleArgument("fit", "words", ["native", "tight", "longest"], false),
+    sampleArgument("axis", "words", ["X", "Y", "Z"], false),
+    sampleArgument("radius", "option", ["radius"], false),
+  ],
+  { clashes: [
+    pair("geometry", "box", "fit", "native"),
+    pair("geometry", "sphere", "fit", "tight"),
+    pair("geometry", null, "fit", "native"),
+    pair("geometry", "box", "radius", null),
+    pair("fit", "tight", "axis", "X"),
+    pair("fit", "tight", "radius", null),
+  ] },
 );
-const add = form(
-  "Add",
-  argument("direction", "words", ["+X", "-X", "+Y", "-Y", "+Z", "-Z"]),
-  argument("template", "file"),
-  argument("keep", "flag", ["keep"], false),
-);
-const scale = form("Scale", argument("axis", "words", ["all", "X", "Y", "Z"]), argument("factor", "factor"));
-const shrink = form("Shrink", argument("distance", "length"));
-const forms = [form("Delete"), form("Merge"), replace, add, scale, shrink];
-const draft = (more: Partial<Draft>): Draft => ({
-  action: "Delete",
-  arguments: {},
-  each: false,
-  label: "",
-  editing: null,
-  ...more,
-});
+const add = sampleForm("Add", [
+  sampleArgument("direction", "words", ["+X", "-X"]),
+  sampleArgument("template", "file"),
+  sampleArgument("keep", "flag", ["keep"], false),
+]);
+const scale = sampleForm("Scale", [sampleArgument("axis", "words", ["all", "X", "Y", "Z"]), sampleArgument("factor", "factor")]);
 
-describe("the text of a step, read as a draft and written again", () => {
-  it.each([
-    "Delete",
-    "Merge as leg",
-    "Each(Merge)",
-    "Replace(box)",
-    "Replace(capsule, tight)",
-    "Each(Replace(sphere, native))",
-    'Each(Replace("tray, big.obj", longest)) as "table top"',
-    'Add(-Z, "a \\"b\\".obj", keep)',
-    'Add(+X, "knob.obj") as knob',
-    "Scale(Z, 0.5)",
-    "Replace(sphere, radius = 0.05)",
-    "Each(Replace(cylinder, native, Z))",
-    "Replace(capsule, X, radius = 0.01) as grip",
-    "Shrink(0.002)",
-  ])("is the same: %s", (text) => {
-    const parts = parseAction(text, forms);
-    const order = forms.find(({ name }) => name === parts?.action)?.arguments ?? [];
-    expect(parts && draftText(draft(parts), order)).toBe(text);
-  });
-
-  it("has its options in any order, and in that of the form when written again", () => {
-    const parts = parseAction("Replace(capsule, radius=0.01, X)", forms);
-    expect(parts && draftText(draft(parts), replace.arguments)).toBe("Replace(capsule, X, radius = 0.01)");
-  });
-
-  it.each(["Replace(sphere, radius)", "Replace(sphere, radius = 0)", "Replace(box, X, X)", "Shrink(0)", "", "Explode", "Replace(pyramid)", "Scale(Z, 0)", "Scale(0.5, Z)", "Each("])("is no draft: %j", (text) => {
-    expect(parseAction(text, forms)).toBeNull();
-  });
-});
+/** Two values that do not go together; null for any that is none of the choices. */
+function pair(name: string, value: string | null, other: string, otherValue: string | null): ActionForm["clashes"][number] {
+  return [{ name, value }, { name: other, value: otherValue }];
+}
+const given = (more: Required<ActionCall>["arguments"]) => ({ ...sampleCall(), arguments: more });
 
 describe("arguments", () => {
   it("begin with the first choice, and with a template where there is one", () => {
@@ -83,45 +41,52 @@ describe("arguments", () => {
   });
 
   it("are missing where they are required and empty, or no factor", () => {
-    expect(missingArgument(draft({ arguments: defaultArguments(add, []) }), add)?.name).toBe("template");
-    expect(missingArgument(draft({ arguments: { axis: "Z", factor: -1 } }), scale)?.name).toBe("factor");
-    expect(missingArgument(draft({ arguments: { axis: "Z", factor: 2 } }), scale)).toBeUndefined();
+    expect(missingArgument(given(defaultArguments(add, [])), add)?.name).toBe("template");
+    expect(missingArgument(given({ axis: "Z", factor: -1 }), scale)?.name).toBe("factor");
+    expect(missingArgument(given({ axis: "Z", factor: 2 }), scale)).toBeUndefined();
+    expect(missingArgument(given({ geometry: "sphere", radius: NaN }), replace)?.name).toBe("radius");
   });
 
-  it("that no longer go with a shape are left out", () => {
-    expect(withArgument({ geometry: "box", fit: "tight" }, "geometry", "sphere")).toEqual({ geometry: "sphere" });
-    expect(withArgument({ geometry: "box", fit: "tight" }, "geometry", "capsule")).toEqual({
-      geometry: "capsule",
-      fit: "tight",
-    });
-    expect(withArgument({ geometry: "capsule", fit: "native" }, "geometry", "box")).toEqual({ geometry: "box" });
-    expect(goesWith("native", { geometry: "sphere" })).toBe(true);
-    expect(goesWith("native", { geometry: "bar.obj" })).toBe(false);
-    expect(goesWith("longest", { geometry: "bar.obj" })).toBe(true);
-    expect(goesWith("radius", { geometry: "box" })).toBe(false);
-    expect(withArgument({ geometry: "capsule", fit: "tight" }, "radius", 0.1)).toEqual({ geometry: "capsule", radius: 0.1 });
-    expect(withArgument({ geometry: "capsule", axis: "X" }, "fit", "tight")).toEqual({ geometry: "capsule", fit: "tight" });
-    expect(withArgument({ geometry: "sphere", radius: 0.1 }, "geometry", "box")).toEqual({ geometry: "box" });
+  it("that clash with the one that is chosen are left out, and those that say nothing", () => {
+    expect(withArgument({ geometry: "box", fit: "tight" }, "geometry", "sphere", replace)).toEqual({ geometry: "sphere" });
+    expect(withArgument({ geometry: "box", fit: "tight" }, "geometry", "capsule", replace)).toEqual({ geometry: "capsule", fit: "tight" });
+    expect(withArgument({ geometry: "capsule", fit: "tight" }, "radius", 0.1, replace)).toEqual({ geometry: "capsule", radius: 0.1 });
+    expect(withArgument({ geometry: "capsule", axis: "X" }, "fit", "tight", replace)).toEqual({ geometry: "capsule", fit: "tight" });
+    expect(withArgument({ geometry: "sphere", radius: 0.1 }, "geometry", "box", replace)).toEqual({ geometry: "box" });
+    expect(withArgument({ geometry: "box", fit: "tight" }, "fit", "", replace)).toEqual({ geometry: "box" });
+  });
+
+  it("are offered where they go with the shape", () => {
+    expect(goesWith("fit", "native", { geometry: "sphere" }, replace)).toBe(true);
+    expect(goesWith("fit", "native", { geometry: "bar.obj" }, replace)).toBe(false);
+    expect(goesWith("fit", "longest", { geometry: "bar.obj" }, replace)).toBe(true);
+    expect(goesWith("radius", 1, { geometry: "box" }, replace)).toBe(false);
   });
 });
 
+it("actions are the same whatever the order of their arguments, and not with another label", () => {
+  const one = given({ axis: "Z", factor: 2 });
+  expect(isSameAction(one, given({ factor: 2, axis: "Z" }))).toBe(true);
+  expect(isSameAction(one, { ...one, label: "leg" })).toBe(false);
+});
+
 describe("the rule that a draft is for", () => {
-  const rule = (number: number, action: string) => ({ rule: number, action, shown: ["a"], nothing: [] });
-  const rules = [rule(1, "Delete"), rule(2, "Each(Merge)"), rule(3, "Delete")];
+  const rule = (number: number, action: string) => ({ rule: number, action: sampleAction(action), shown: ["a"], nothing: [] });
+  const rules = [rule(1, "Delete"), rule(2, "Merge"), rule(3, "Delete")];
   const step = (select: string[] | null): StepView => ({
     rule: 1,
     select,
-    action: "Delete",
+    action: sampleAction(),
     error: null,
     made: [],
     removed: [],
   });
 
   it("is the first open one with such an action", () => {
-    expect(placeFor("Delete", rules, { steps: [] }, forms)).toBe(0);
-    expect(placeFor("Delete", rules, { steps: [step(["x"])] }, forms)).toBe(2);
-    expect(placeFor("Merge", rules, { steps: [step([])] }, forms)).toBe(1);
-    expect(placeFor("Scale", rules, { steps: [] }, forms)).toBeNull();
+    expect(placeFor("Delete", rules, { steps: [] })).toBe(0);
+    expect(placeFor("Delete", rules, { steps: [step(["x"])] })).toBe(2);
+    expect(placeFor("Merge", rules, { steps: [step([])] })).toBe(1);
+    expect(placeFor("Scale", rules, { steps: [] })).toBeNull();
   });
 
   it("is open where nothing is said, not where nothing is selected", () => {

@@ -1,49 +1,44 @@
 
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { api } from "../server/api";
-import type { AnyEdit, AssetView, LanguageView, StepView } from "../wire";
+import type { ActionView, AnyEdit, AssetView, StepView } from "../wire";
 import { acceptDraft, changeDraft, draftStep, dropDraft, startDraft, toggleEach, useDraftStatus } from "./draft";
 import { acceptGuess, followGuesses, useGuesses } from "./guesses";
 import { followPreview, usePreview } from "./preview";
 import { emptyProject, receive, useProject } from "./project";
+import { sampleAction, sampleArgument, sampleCall, sampleForm } from "./sample.test-help";
 import { useScenes } from "./scenes";
 import { initialOffers, removeStep, useOffers } from "./steps";
 import { useToasts } from "./toasts";
 import { initialWorkspace, select, useWorkspace } from "./workspace";
 
-const argument = (name: string, kind: "shape" | "words", choices: string[], required: boolean) => ({
-  name,
-  kind,
-  wants: name,
-  choices,
-  required,
-});
 const actions = [
-  { name: "Delete", summary: "", usage: "", makes: false, arguments: [] },
-  { name: "Merge", summary: "", usage: "", makes: true, arguments: [] },
-  {
-    name: "Replace",
-    summary: "",
-    usage: "",
-    makes: true,
-    arguments: [argument("geometry", "shape", ["box", "capsule"], true), argument("fit", "words", ["tight"], false)],
-  },
+  sampleForm("Delete"),
+  sampleForm("Merge"),
+  sampleForm("Replace", [sampleArgument("geometry", "shape", ["box", "capsule"]), sampleArgument("fit", "words", ["tight"], false)]),
 ];
+const merge = sampleCall("Merge");
+const eachMerge = sampleAction("Merge", { each: true });
 const step = (select: string[] | null, action = "Delete"): StepView => ({
   rule: 1,
   select,
-  action,
+  action: sampleAction(action),
   error: null,
   made: [],
   removed: [],
 });
-const rule = (number: number, action: string) => ({ rule: number, action, shown: ["other"], nothing: [] });
+const rule = (number: number, action: string | ActionView) => ({
+  rule: number,
+  action: typeof action === "string" ? sampleAction(action) : action,
+  shown: ["other"],
+  nothing: [],
+});
 const packet = { header: { rows: [], hulls: [], made: [], removed: ["x"] }, rows: [], shapes: [] } as never;
 
 let sent: AnyEdit[] = [];
 let view: AssetView;
 
-function given(steps: StepView[], rules: string[]): void {
+function given(steps: StepView[], rules: (string | ActionView)[]): void {
   view = {
     asset: "a",
     steps,
@@ -53,6 +48,7 @@ function given(steps: StepView[], rules: string[]): void {
   } as unknown as AssetView;
   const state = {
     ...emptyProject,
+    language: { actions, operators: [], directions: [] },
     revisions: { a: ++revision },
     program: { ...emptyProject.program, text: "p", version: String(revision) },
   };
@@ -73,7 +69,6 @@ beforeEach(() => {
   vi.useFakeTimers();
   useDraftStatus.setState({ sending: false, problem: null, landing: null });
   useOffers.setState(initialOffers);
-  vi.spyOn(api, "language").mockResolvedValue({ actions, operators: [], directions: [] } satisfies LanguageView);
   vi.spyOn(api, "asset").mockImplementation(async () => view);
   vi.spyOn(api, "shapes").mockResolvedValue({ header: { rows: [] }, rows: [], shapes: [] });
   vi.spyOn(api, "edit").mockImplementation(async (edit) => {
@@ -91,20 +86,20 @@ afterEach(() => {
 describe("an action in hand", () => {
   it("leaves what was begun and selected while it was sent", async () => {
     given([], []);
-    useWorkspace.setState({ draft: { action: "Delete", arguments: {}, each: false, label: "", editing: null }, selection: new Set(["x"]) });
+    useWorkspace.setState({ draft: { name: "Delete", arguments: {}, each: false, label: null, editing: null }, selection: new Set(["x"]) });
     const accepted = acceptDraft();
     select(["y"]);
     expect(await accepted).toBe(true);
-    expect(sent[0]).toMatchObject({ steps: [{ select: ["x"], action: "Delete" }] });
+    expect(sent[0]).toMatchObject({ steps: [{ select: ["x"], action: sampleCall() }] });
     expect(useWorkspace.getState()).toMatchObject({ draft: null, selection: new Set(["y"]) });
   });
 
   it("begins as the first open rule of its kind does it elsewhere", async () => {
-    given([step(["x"])], ["Delete", "Each(Replace(capsule, tight)) as leg"]);
+    given([step(["x"])], ["Delete", sampleAction("Replace", { arguments: { geometry: "capsule", fit: "tight" }, each: true, label: "leg" })]);
     await startDraft("Replace");
     const { draft, showing } = useWorkspace.getState();
     expect(draft).toEqual({
-      action: "Replace",
+      name: "Replace",
       arguments: { geometry: "capsule", fit: "tight" },
       each: true,
       label: "leg",
@@ -114,7 +109,7 @@ describe("an action in hand", () => {
   });
 
   it("keeps each part separate where its rule does and the person says it once more", async () => {
-    given([step(["x"])], ["Delete", "Each(Merge)"]);
+    given([step(["x"])], ["Delete", eachMerge]);
     await startDraft("Merge");
     const isEach = () => useWorkspace.getState().draft?.each;
     expect(isEach()).toBe(true);
@@ -149,8 +144,8 @@ describe("an action in hand", () => {
         asset: "a",
         version: "v1",
         steps: [
-          { select: null, action: "Delete" },
-          { select: ["x", "y"], action: "Merge" },
+          { select: null, action: sampleCall() },
+          { select: ["x", "y"], action: merge },
         ],
       },
     ]);
@@ -167,14 +162,14 @@ describe("an action in hand", () => {
     });
     changeDraft({ each: true });
     await acceptDraft();
-    expect(sent[0]).toMatchObject({ steps: [{ select: ["x"] }, { select: ["y"], action: "Each(Merge)" }] });
+    expect(sent[0]).toMatchObject({ steps: [{ select: ["x"] }, { select: ["y"], action: { ...merge, each: true } }] });
   });
 
   it("stays the step that is changed with another action", async () => {
-    given([step(["x"]), step(["y"], "Merge")], ["Delete", "Merge", "Replace(capsule)"]);
+    given([step(["x"]), step(["y"], "Merge")], ["Delete", "Merge", sampleAction("Replace", { arguments: { geometry: "capsule" } })]);
     await draftStep(1);
     await startDraft("Replace");
-    expect(useWorkspace.getState().draft).toMatchObject({ action: "Replace", arguments: { geometry: "box" }, editing: 1 });
+    expect(useWorkspace.getState().draft).toMatchObject({ name: "Replace", arguments: { geometry: "box" }, editing: 1 });
     expect([...useWorkspace.getState().selection]).toEqual(["y"]);
   });
 
@@ -192,7 +187,7 @@ describe("an action in hand", () => {
     await startDraft("Delete");
     select(["z"]);
     await acceptDraft();
-    expect(sent).toEqual([{ kind: "correct", asset: "a", select: ["z"], action: "Delete" }]);
+    expect(sent).toEqual([{ kind: "correct", asset: "a", select: ["z"], action: sampleCall() }]);
   });
 
   it("stays in the hand where the server refuses it", async () => {
@@ -201,7 +196,7 @@ describe("an action in hand", () => {
     await startDraft("Delete");
     select(["x"]);
     expect(await acceptDraft()).toBe(false);
-    expect(useWorkspace.getState().draft?.action).toBe("Delete");
+    expect(useWorkspace.getState().draft?.name).toBe("Delete");
   });
 });
 
@@ -214,7 +209,7 @@ describe("the preview", () => {
     select(["x", "y"]);
     await vi.advanceTimersByTimeAsync(100);
     expect(vi.mocked(api.preview).mock.calls.map(([request]) => request)).toEqual([
-      { asset: "a", select: ["x", "y"], action: "Merge", steps: 1 },
+      { asset: "a", select: ["x", "y"], action: merge, steps: 1 },
     ]);
     expect(usePreview.getState().preview).toBe(packet);
     await dropDraft();
@@ -227,7 +222,7 @@ describe("the preview", () => {
 describe("guesses", () => {
   const guess = (number: number, select: string[], action = "Delete") => ({
     rule: number,
-    action,
+    action: sampleAction(action),
     select,
     sentence: "",
     error: null,
@@ -242,7 +237,7 @@ describe("guesses", () => {
     const stop = followGuesses();
     await vi.advanceTimersByTimeAsync(10);
     expect(useWorkspace.getState()).toMatchObject({
-      draft: { action: "Merge", editing: 1 },
+      draft: { name: "Merge", editing: 1 },
       selection: new Set(["y", "z"]),
     });
     await dropDraft();
@@ -276,6 +271,6 @@ describe("guesses", () => {
     given([], ["Delete"]);
     useGuesses.setState({ asset: "a", guesses: [guess(1, [])], loading: false, error: null });
     await acceptGuess(1);
-    expect(sent[0]).toMatchObject({ steps: [{ select: [], action: "Delete" }] });
+    expect(sent[0]).toMatchObject({ steps: [{ select: [], action: sampleCall() }] });
   });
 });

@@ -1,9 +1,8 @@
 // The action in hand: begun new or from a step, changed, accepted as a step or as an edit by hand, cancelled.
 import { create } from "zustand";
-import type { AssetView, Problem } from "../wire";
-import { defaultArguments, draftText, missingArgument, parseAction, withArgument } from "./actions";
+import type { ActionForm, AssetView, Problem } from "../wire";
+import { callOf, defaultArguments, formOf, missingArgument, withArgument } from "./actions";
 import { perform } from "./edits";
-import { formOf, getLanguage } from "./language";
 import { useProject } from "./project";
 import { getDetails, type Scene, useScenes } from "./scenes";
 import { actionOf, placeFor, placeOf, setStep, skipOffer } from "./steps";
@@ -43,7 +42,8 @@ export function toggleEach(): void {
 /** Changes an argument of the action in hand, if it still is that one. */
 export function changeArgument(action: string, name: string, value: string | number | boolean): void {
   const { draft } = useWorkspace.getState();
-  if (draft?.action === action) setDraft({ ...draft, arguments: withArgument(draft.arguments, name, value) });
+  const form = findForm(action);
+  if (draft?.name === action && form) setDraft({ ...draft, arguments: withArgument(draft.arguments, name, value, form) });
 }
 
 /** Puts the action down; the asset is shown with all its steps again. */
@@ -62,16 +62,16 @@ export async function acceptDraft(): Promise<boolean> {
   const { asset, draft, stage, selection } = useWorkspace.getState();
   const names = selectedHulls();
   if (asset === null || draft === null || useDraftStatus.getState().sending) return false;
-  const lacking = await findMissing(draft, names.length);
+  const lacking = findMissing(draft, names.length);
   if (lacking) {
     reportProblem({ message: lacking, where: null, remedy: null, conflict: false });
     return false;
   }
-  const text = await writeDraft(draft);
+  const call = callOf(draft);
   const done = await trackSending(async () => {
-    if (stage === "review") return perform({ kind: "correct", asset, select: names, action: text });
+    if (stage === "review") return perform({ kind: "correct", asset, select: names, action: call });
     const { view } = await getDetails(asset);
-    return setStep(asset, placeOf(draft, useProject.getState().project.rules.length, view.steps.length), names, text);
+    return setStep(asset, placeOf(draft, useProject.getState().project.rules.length, view.steps.length), names, call);
   });
   if (done && useWorkspace.getState().asset === asset) {
     useDraftStatus.setState({ landing: useScenes.getState().scene });
@@ -91,16 +91,15 @@ export function selectedHulls(): string[] {
   return scene?.hulls.map((hull) => hull.name).filter((name) => selection.has(name)) ?? [];
 }
 
-export async function writeDraft(draft: Draft): Promise<string> {
-  const form = formOf(draft.action, (await getLanguage()).actions);
-  return draftText(draft, form?.arguments ?? []);
+function findForm(name: string): ActionForm | undefined {
+  return formOf(name, useProject.getState().language.actions);
 }
 
-async function findMissing(draft: Draft, hulls: number): Promise<string | null> {
+function findMissing(draft: Draft, hulls: number): string | null {
   if (!hulls) return "Nothing is selected. Select the hulls for this step, or choose “Nothing here”.";
-  const form = formOf(draft.action, (await getLanguage()).actions);
+  const form = findForm(draft.name);
   const argument = form && missingArgument(draft, form);
-  return argument ? `${draft.action} needs ${argument.wants}.` : null;
+  return argument ? `${draft.name} needs ${argument.wants}.` : null;
 }
 
 async function trackSending(send: () => Promise<boolean>): Promise<boolean> {
@@ -121,14 +120,14 @@ export async function startDraft(action: string): Promise<void> {
   if (asset === null) return;
   if (stage === "label" || stage === "learn") openStage("demonstrate");
   try {
-    const [{ actions }, { view }] = await Promise.all([getLanguage(), getDetails(asset)]);
+    const { view } = await getDetails(asset);
     if (useWorkspace.getState().asset !== asset) return;
     const { rules, templates } = useProject.getState().project;
-    const place = stage === "review" ? null : (placeInHand(view) ?? placeFor(action, rules, view, actions));
-    const form = formOf(action, actions);
-    const parts = place === null ? null : parseAction(actionOf(place), actions);
-    const usual = { action, arguments: form ? defaultArguments(form, templates) : {}, each: false, label: "" };
-    const given = parts?.action === action ? parts : null;
+    const place = stage === "review" ? null : (placeInHand(view) ?? placeFor(action, rules, view));
+    const form = findForm(action);
+    const usual = { name: action, arguments: form ? defaultArguments(form, templates) : {}, each: false, label: null };
+    const shown = place === null ? null : callOf(actionOf(place));
+    const given = shown?.name === action ? shown : null;
     takeInHand({ ...usual, ...given, editing: place }, given?.each);
     if (stage !== "review") showBefore(place ?? view.steps.length, view);
   } catch (error) {
@@ -147,13 +146,13 @@ export async function draftStep(place: number, hulls?: readonly string[]): Promi
   const { asset } = useWorkspace.getState();
   if (asset === null) return;
   try {
-    const [{ actions }, { view }] = await Promise.all([getLanguage(), getDetails(asset)]);
+    const { view } = await getDetails(asset);
     if (useWorkspace.getState().asset !== asset) return;
     const step = view.steps[place];
-    const parts = parseAction(step?.action ?? actionOf(place), actions);
-    if (!parts) return;
+    const call = callOf(step?.action ?? actionOf(place));
+    if (!findForm(call.name)) return;
     openStage("demonstrate");
-    takeInHand({ ...parts, editing: place });
+    takeInHand({ ...call, editing: place });
     showBefore(place, view);
     select(hulls ?? step?.select ?? []);
   } catch (error) {

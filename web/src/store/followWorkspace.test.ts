@@ -105,7 +105,7 @@ describe("news of the server", () => {
   });
 
   it("opens the asset that is next, where the server names one", async () => {
-    change({ project: { ...emptyProject.project, next: { stage: "label", say: "", asset: "b" } } });
+    change({ project: { ...emptyProject.project, next: { kind: "label", text: "", asset: "b", command: null, note: null } } });
     await vi.waitFor(() => expect(useWorkspace.getState().asset).toBe("b"));
   });
 

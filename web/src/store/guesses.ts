@@ -3,6 +3,7 @@ import { create } from "zustand";
 import { api } from "../server/api";
 import { ServerProblem } from "../server/http";
 import type { Guess } from "../wire";
+import { callOf } from "./actions";
 import { draftStep } from "./draft";
 import { useProject } from "./project";
 import { getDetails } from "./scenes";
@@ -98,5 +99,5 @@ export async function acceptGuess(rule: number): Promise<void> {
   const { asset } = useGuesses.getState();
   const guess = guessFor(rule);
   if (asset !== null && guess && useWorkspace.getState().asset === asset)
-    await setStep(asset, rule - 1, guess.select, guess.action);
+    await setStep(asset, rule - 1, guess.select, callOf(guess.action));
 }

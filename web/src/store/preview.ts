@@ -4,9 +4,8 @@ import { api } from "../server/api";
 import { ServerProblem } from "../server/http";
 import type { EditedPacket } from "../server/packet";
 import type { EditHeader, PreviewRequest } from "../wire";
-import { missingArgument } from "./actions";
-import { selectedHulls, useDraftStatus, writeDraft } from "./draft";
-import { formOf, getLanguage } from "./language";
+import { callOf, formOf, missingArgument } from "./actions";
+import { selectedHulls, useDraftStatus } from "./draft";
 import { useProject } from "./project";
 import { useScenes } from "./scenes";
 import { placeOf } from "./steps";
@@ -33,7 +32,7 @@ export function followPreview(result: boolean): () => void {
   async function look(): Promise<void> {
     const { landing } = useDraftStatus.getState();
     if (landing !== null && landing === useScenes.getState().scene && !useWorkspace.getState().draft) return soon(LANDING);
-    const request = await nextRequest(result);
+    const request = nextRequest(result);
     const key = JSON.stringify([request, useScenes.getState().scene?.view.version]);
     if (key === asked) return;
     asked = key;
@@ -67,16 +66,16 @@ export function followPreview(result: boolean): () => void {
 }
 
 /** What is to be asked; null while there is nothing to preview. */
-async function nextRequest(result: boolean): Promise<PreviewRequest | null> {
+function nextRequest(result: boolean): PreviewRequest | null {
   const { asset, draft } = useWorkspace.getState();
   const { scene } = useScenes.getState();
   const select = selectedHulls();
   if (!draft || !scene || scene.asset !== asset || !select.length) return null;
-  const form = formOf(draft.action, (await getLanguage()).actions);
+  const form = formOf(draft.name, useProject.getState().language.actions);
   if (!form || missingArgument(draft, form)) return null;
   const own = scene.view.steps.length;
   const steps = Math.min(placeOf(draft, useProject.getState().project.rules.length, own), own);
-  return { asset, select, action: await writeDraft(draft), ...(result ? { result } : { steps }) };
+  return { asset, select, action: callOf(draft), ...(result ? { result } : { steps }) };
 }
 
 async function requestPreview(request: PreviewRequest, signal: AbortSignal): Promise<void> {

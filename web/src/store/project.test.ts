@@ -22,6 +22,7 @@ const hello: Hello = {
   tour: false,
   leave: false,
   engines: [],
+  language: emptyProject.language,
 };
 const begun = applyEvent(emptyProject, hello);
 

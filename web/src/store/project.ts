@@ -1,7 +1,7 @@
 // What the server says of the project, kept as it comes; knows neither DOM nor three.js.
 import { create } from "zustand";
 import { page } from "../server/http";
-import type { AssessmentView, Card, ConfidenceView, EngineView, Event, HistoryView, Job, OutcomeView, ProgramView, ProjectView, Reach, LabelUpdate } from "../wire";
+import type { AssessmentView, Card, ConfidenceView, EngineView, Event, HistoryView, Job, LanguageView, OutcomeView, ProgramView, ProjectView, Reach, LabelUpdate } from "../wire";
 
 export interface ProjectState {
   connected: boolean;
@@ -31,6 +31,7 @@ export interface ProjectState {
   leave: boolean;
   /** Engines whose limits can be checked. */
   engines: readonly EngineView[];
+  language: LanguageView;
   /** How often everything was sent anew, and of how many edits of this page. */
   hellos: number;
   own: number;
@@ -58,8 +59,7 @@ export const emptyProject: ProjectState = {
     name: "",
     folder: "",
     vocabulary: [],
-    orient: "",
-    orient_sentence: "",
+    orient: { text: "", sentence: "", snap: false, pairs: [] },
     contact: null,
     extremity: null,
     rules: [],
@@ -67,7 +67,7 @@ export const emptyProject: ProjectState = {
     templates: [],
     carried: null,
     new: null,
-    next: { stage: "label", say: "", asset: null },
+    next: { kind: "wait", text: "", asset: null, command: null, note: null },
     problem: null,
     lost: [],
     left_out: [],
@@ -87,6 +87,7 @@ export const emptyProject: ProjectState = {
   tour: false,
   leave: false,
   engines: [],
+  language: { actions: [], operators: [], directions: [] },
   hellos: 0,
   own: 0,
   revisions: {},
@@ -119,6 +120,7 @@ export function applyEvent(state: ProjectState, event: Event): ProjectState {
         tour: event.tour,
         leave: event.leave,
         engines: event.engines,
+        language: event.language,
         hellos: state.hellos + 1,
         // what is kept of an asset may be old after a time without connection
         revisions: increment(state.revisions, event.cards.map((card) => card.asset)),
@@ -159,7 +161,10 @@ export function applyEvent(state: ProjectState, event: Event): ProjectState {
       return { ...state, program: event.program };
     case "job":
       return { ...state, jobs: [...state.jobs.filter((job) => job.id !== event.job.id), event.job].slice(-20) };
+    case "start":
+      return state;
     default: // of a newer server than this page was made for
+      event satisfies never;
       return state;
   }
 }

@@ -1,5 +1,5 @@
 // A card, and how sure edits are, for tests, which say only what matters to them.
-import type { AssessmentView, Card, ConfidenceView, ReviewQuestionView } from "../wire";
+import type { ActionCall, ActionForm, ActionView, Argument, AssessmentView, Card, ConfidenceView, ReviewQuestionView } from "../wire";
 
 export const sampleCard = (change: Partial<Card> = {}): Card => ({
   asset: "a",
@@ -54,5 +54,44 @@ export const sampleQuestion = (change: Partial<ReviewQuestionView> = {}): Review
   rule: null,
   hulls: [],
   choices: [],
+  ...change,
+});
+
+export const sampleAction = (name = "Delete", change: Partial<ActionView> = {}): ActionView => ({
+  name,
+  arguments: {},
+  each: false,
+  label: null,
+  text: name,
+  short: name,
+  icon: "shapes",
+  ...change,
+});
+
+/** What the page sends of an action without arguments. */
+export const sampleCall = (name = "Delete"): Required<ActionCall> => ({ name, arguments: {}, each: false, label: null });
+
+export const sampleArgument = (name: string, kind: Argument["kind"], choices: string[] = [], required = true): Argument => ({
+  name,
+  kind,
+  title: name,
+  wants: name,
+  choices,
+  words: {},
+  omitted: "usual",
+  required,
+  usual: choices[0] ?? null,
+});
+
+export const sampleForm = (name: string, args: Argument[] = [], change: Partial<ActionForm> = {}): ActionForm => ({
+  name,
+  title: `${name} the selection`,
+  summary: "",
+  key: "",
+  icon: "shapes",
+  usage: name,
+  makes: true,
+  arguments: args,
+  clashes: [],
   ...change,
 });

@@ -2,7 +2,6 @@ import { describe, expect, it } from "vitest";
 import { amountText } from "./steps";
 import { ownPositions } from "./highlight";
 import { previewText } from "./preview";
-import { splitAction } from "./actions";
 
 describe("what an action would do, in words", () => {
   it.each([
@@ -21,11 +20,6 @@ it("says how much a step takes", () => {
     "open",
     "open",
   ]);
-});
-
-it("parts an action from the label that it gives", () => {
-  expect(splitAction('Each(Merge) as "table top"')).toEqual({ action: "Each(Merge)", label: "table top" });
-  expect(splitAction('Add(+X, "as leg.obj")')).toEqual({ action: 'Add(+X, "as leg.obj")', label: null });
 });
 
 it("finds the hulls that made ones are named after, each once", () => {

@@ -1,14 +1,14 @@
 // The steps of an asset, the changes to them, each one edit, and which steps are no longer offered as guesses.
 import { create } from "zustand";
-import type { ActionForm, AssetView, RuleLine, StepText, StepView } from "../wire";
-import { parseAction } from "./actions";
+import type { ActionCall, ActionView, AssetView, RuleLine, StepEdit, StepView } from "../wire";
+import { callOf } from "./actions";
 import { perform } from "./edits";
 import { useProject } from "./project";
 import { getDetails } from "./scenes";
 import { reportError } from "./toasts";
 import type { Draft } from "./workspace";
 
-type Change = (steps: readonly StepText[]) => readonly StepText[];
+type Change = (steps: readonly StepEdit[]) => readonly StepEdit[];
 
 /** How long to wait for the news of a change that was made [ms]. */
 const NEWS = 1000;
@@ -34,23 +34,26 @@ function nextChange(asset: string): { arrived: Promise<void>; stop: () => void }
   return { arrived, stop };
 }
 
-const stepTexts = (steps: readonly StepView[]): StepText[] =>
-  steps.map(({ select, action }) => ({ select, action }));
+const stepTexts = (steps: readonly StepView[]): StepEdit[] =>
+  steps.map(({ select, action }) => ({ select, action: callOf(action) }));
 
 /** Shows a rule on an asset: in place `at` (from 0), the rules before it left open where nothing is said yet. */
-export function withStep(at: number, step: StepText): Change {
+export function withStep(at: number, step: StepEdit): Change {
   return (steps) => {
     const filled = [...steps];
-    while (filled.length < at) filled.push({ select: null, action: actionOf(filled.length) });
+    while (filled.length < at) filled.push({ select: null, action: callOf(actionOf(filled.length)) });
     filled[at] = step;
     return filled;
   };
 }
 
 /** What the rule in a place (from 0) does, as other assets show it. */
-export function actionOf(place: number): string {
-  return useProject.getState().project.rules[place]?.action ?? "Delete";
+export function actionOf(place: number): ActionView {
+  return useProject.getState().project.rules[place]?.action ?? REMOVAL;
 }
+
+/** What a place without any rule begins with. */
+const REMOVAL: ActionView = { name: "Delete", arguments: {}, each: false, label: null, text: "Delete", short: "Delete", icon: "delete" };
 
 export const withoutStep =
   (at: number): Change =>
@@ -70,10 +73,8 @@ export function placeFor(
   action: string,
   rules: readonly RuleLine[],
   view: Pick<AssetView, "steps">,
-  forms: readonly ActionForm[],
 ): number | null {
-  const does = (place: number) => parseAction(rules[place]?.action ?? "", forms)?.action === action;
-  return openPlaces(rules, view).find(does) ?? null;
+  return openPlaces(rules, view).find((place) => rules[place]?.action.name === action) ?? null;
 }
 
 /** The place (from 0) that accepting a draft writes: that of its rule, or a new one after all others. */
@@ -104,7 +105,7 @@ export function setStep(
   asset: string,
   place: number,
   hulls: string[] | null,
-  action = actionOf(place),
+  action: ActionCall = callOf(actionOf(place)),
 ): Promise<boolean> {
   skipOffer(asset, place);
   decline(asset, place, hulls === null);
@@ -142,7 +143,7 @@ const stateKey = (asset: string, place: number): string =>
   `${placeKey(asset, place)}\n${useProject.getState().revisions[asset] ?? 0}`;
 
 /** Gives the step in a place (from 0) another action, on each of some assets. */
-export async function changeActionOn(assets: readonly string[], place: number, action: string): Promise<void> {
+export async function changeActionOn(assets: readonly string[], place: number, action: ActionCall): Promise<void> {
   try {
     for (const asset of assets) {
       const done = await changeSteps(asset, (steps) =>

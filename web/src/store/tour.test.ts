@@ -3,13 +3,13 @@ import { beforeEach, expect, test } from "vitest";
 import type { Card } from "../wire";
 import { initialWorkspace, useWorkspace } from "./workspace";
 import { emptyProject, useProject } from "./project";
-import { sampleAssessment, sampleCard } from "./sample.test-help";
+import { sampleAction, sampleAssessment, sampleCard } from "./sample.test-help";
 import { useScenes } from "./scenes";
 import { startTour, endTour, followTour, TOUR_STOPS, moveTour, useTour } from "./tour";
 
 const step = () => useTour.getState().step;
 const title = () => TOUR_STOPS[step() ?? -1]?.title;
-const rule = (number: number) => ({ rule: number, action: "Delete", shown: ["a"], nothing: [] });
+const rule = (number: number) => ({ rule: number, action: sampleAction(), shown: ["a"], nothing: [] });
 const rules = (count: number) =>
   useProject.setState(({ project }) => ({ project: { ...project, rules: Array.from({ length: count }, (_, k) => rule(k + 1)) } }));
 

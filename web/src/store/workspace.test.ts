@@ -24,7 +24,7 @@ import {
 
 const now = () => useWorkspace.getState();
 const selected = () => [...now().selection].sort();
-const draft = { action: "Merge", arguments: {}, each: false, label: "", editing: null };
+const draft = { name: "Merge", arguments: {}, each: false, label: null, editing: null };
 
 /** Something of everything that belongs to one asset. */
 function fillHands(): void {

@@ -1,12 +1,32 @@
 // What the person looks at and has in hand: asset, stage, selection, view, and how the window is divided; knows neither
 // DOM nor three.js.
 import { create } from "zustand";
-import type { Next } from "../wire";
+import type { ActionCall, NextStep } from "../wire";
 import { byAsset, type HullPlace, placeOf, sheetName } from "./hullPlaces";
 import type { LengthUnit } from "./units";
 
-export type StageName = Next["stage"];
-export const STAGES: readonly StageName[] = ["label", "demonstrate", "learn", "review"];
+export const STAGES = ["label", "demonstrate", "learn", "review"] as const;
+export type StageName = (typeof STAGES)[number];
+
+/** The stage in which each kind of step is done. */
+export const STAGE_OF: Readonly<Record<NextStep["kind"], StageName>> = {
+  wait: "label",
+  decompose: "label",
+  "label-files": "label",
+  "label-names": "label",
+  vocabulary: "label",
+  label: "label",
+  propagate: "label",
+  "check-labels": "label",
+  demonstrate: "demonstrate",
+  learn: "learn",
+  answer: "learn",
+  "fix-program": "learn",
+  apply: "review",
+  review: "review",
+  correct: "review",
+  export: "review",
+};
 
 /** Which state of the asset is shown: original, after some of its own steps, or edited. */
 export type Showing =
@@ -26,12 +46,7 @@ export interface Highlight {
 }
 
 /** The action that is being put together in the demonstrate stage. */
-export interface Draft {
-  action: string;
-  arguments: Readonly<Record<string, string | number | boolean>>;
-  each: boolean;
-  /** The label of what is made, empty for none. */
-  label: string;
+export interface Draft extends Required<ActionCall> {
   /** The place of the step that is being changed, null for a new one. */
   editing: number | null;
 }

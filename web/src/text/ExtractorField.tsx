@@ -4,7 +4,6 @@ import { EditorView, keymap, placeholder } from "@codemirror/view";
 import { Popover } from "radix-ui";
 import { useEffect, useMemo, useState } from "react";
 import { leaveExtractor, selectFound, typeExtractor, useExtractor } from "../store/extractor";
-import { loadLanguage } from "../store/language";
 import { coverageText } from "../store/outcome";
 import { countReadable, useProject } from "../store/project";
 import { countText } from "../store/words";
@@ -18,7 +17,6 @@ export function ExtractorField() {
   const text = useExtractor((state) => state.text);
   const mark = useExtractor((state) => state.found?.mark ?? null);
   const marks = useMemo(() => (mark && text ? [mark] : []), [mark, text]);
-  useEffect(loadLanguage, []);
   useEffect(() => leaveExtractor, []);
   const box = useEditor(text, marks, () => [
     Prec.high(

@@ -2,7 +2,6 @@
 import { EditorState } from "@codemirror/state";
 import { EditorView, highlightActiveLine, lineNumbers } from "@codemirror/view";
 import { useEffect, useRef } from "react";
-import { loadLanguage } from "../store/language";
 import type { Mark } from "../wire";
 import { editorExtensions, useEditor, viewerExtensions } from "./editor";
 import css from "./text.module.css";
@@ -19,7 +18,6 @@ export function ProgramText({ text, onChange, marks, readOnly }: ProgramTextProp
   useEffect(() => {
     changed.current = onChange;
   }, [onChange]);
-  useEffect(loadLanguage, []);
   const listener = EditorView.updateListener.of((update) => {
     if (update.docChanged) changed.current?.(update.state.doc.toString());
   });

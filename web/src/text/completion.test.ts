@@ -1,16 +1,9 @@
 import { describe, expect, it } from "vitest";
-import { labelText } from "../store/actions";
+import { sampleArgument as argument, sampleForm } from "../store/sample.test-help";
 import type { Argument } from "../wire";
 import { wordBefore, type Context, openCall, suggestions } from "./completion";
 
-const argument = (name: string, kind: "shape" | "words" | "factor" | "option", choices: string[], required = true) => ({
-  name,
-  kind,
-  wants: "",
-  choices,
-  required,
-});
-const operand = (name: string, kind: Argument["kind"], choices: string[] = []) => ({ name, kind, wants: "", choices, required: true });
+const operand = (name: string, kind: Argument["kind"], choices: string[] = []) => argument(name, kind, choices);
 const operator = (name: string, base: boolean, ...given: Argument[]) => ({
   name,
   usage: given.length > 0 ? `${name}(${given.map((one) => one.name).join(", ")})` : name,
@@ -21,14 +14,12 @@ const operator = (name: string, base: boolean, ...given: Argument[]) => ({
 const context: Context = {
   language: {
     actions: [
-      { name: "Delete", summary: "Removes.", usage: "Delete", makes: false, arguments: [] },
-      {
-        name: "Replace",
-        summary: "Replaces.",
-        usage: "Replace(box)",
-        makes: true,
-        arguments: [argument("geometry", "shape", ["box", "sphere"]), argument("fit", "words", ["tight"], false), argument("radius", "option", ["radius"], false)],
-      },
+      sampleForm("Delete"),
+      sampleForm("Replace", [
+        argument("geometry", "shape", ["box", "sphere"]),
+        argument("fit", "words", ["tight"], false),
+        argument("radius", "option", ["radius"], false),
+      ]),
     ],
     operators: [
       operator("All", true),
@@ -40,9 +31,8 @@ const context: Context = {
     ],
     directions: ["+X", "-X"],
   },
-  labels: ["leg", "table top"],
+  labels: ["leg", '"table top"'],
   templates: ["tray.obj"],
-  written: labelText,
 };
 const after = (line: string, bare = false) => suggestions(line, context, bare).map(({ label }) => label);
 

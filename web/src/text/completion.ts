@@ -11,10 +11,9 @@ export interface Suggestion {
 
 export interface Context {
   readonly language: LanguageView;
+  /** As programs write them. */
   readonly labels: readonly string[];
   readonly templates: readonly string[];
-  /** How labels are written. */
-  readonly written: (label: string) => string;
 }
 
 /** The word before the end of a text, which a suggestion takes the place of. */
@@ -94,8 +93,8 @@ function operators({ language }: Context, onlyBases: boolean): Suggestion[] {
     }));
 }
 
-function labels({ labels: all, written }: Context): Suggestion[] {
-  return all.map((label) => ({ label: written(label), detail: "label" }));
+function labels({ labels: all }: Context): Suggestion[] {
+  return all.map((label) => ({ label, detail: "label" }));
 }
 
 function directions({ language }: Context): Suggestion[] {

@@ -1,21 +1,13 @@
 import { CompletionContext } from "@codemirror/autocomplete";
 import { EditorState, Text } from "@codemirror/state";
 import { beforeEach, describe, expect, it } from "vitest";
-import { useLanguage } from "../store/language";
 import { emptyProject, useProject } from "../store/project";
+import { sampleArgument, sampleForm } from "../store/sample.test-help";
+import type { LanguageView } from "../wire";
 import { complete, diagnostic } from "./editor";
 
-const language = {
-  actions: [
-    { name: "Delete", summary: "Removes.", usage: "Delete", makes: false, arguments: [] },
-    {
-      name: "Replace",
-      summary: "Replaces.",
-      usage: "Replace(box)",
-      makes: true,
-      arguments: [{ name: "geometry", kind: "shape", wants: "", choices: ["box", "capsule"], required: true }],
-    },
-  ],
+const language: LanguageView = {
+  actions: [sampleForm("Delete"), sampleForm("Replace", [sampleArgument("geometry", "shape", ["box", "capsule"])])],
   operators: [
     { name: "All", usage: "All", summary: "", base: true, arguments: [] },
     {
@@ -23,7 +15,7 @@ const language = {
       usage: "Is(label)",
       summary: "",
       base: true,
-      arguments: [{ name: "label", kind: "label", wants: "a label", choices: [], required: true }],
+      arguments: [sampleArgument("label", "label")],
     },
   ],
   directions: ["+X", "-Z"],
@@ -38,9 +30,8 @@ function offered(text: string, { explicit = false, bare = false } = {}) {
 const labels = (text: string, how = {}) => offered(text, how)?.options.map((option) => option.label) ?? null;
 
 beforeEach(() => {
-  const vocabulary = ["leg", "table top"].map((name) => ({ name, color: "#000000", used: 0 }));
-  useLanguage.setState({ language: language as never });
-  useProject.setState({ ...emptyProject, project: { ...emptyProject.project, vocabulary, templates: ["tray.obj"] } }, true);
+  const vocabulary = ["leg", "table top"].map((name) => ({ name, text: name === "leg" ? name : JSON.stringify(name), color: "#000000", used: 0 }));
+  useProject.setState({ ...emptyProject, language, project: { ...emptyProject.project, vocabulary, templates: ["tray.obj"] } }, true);
 });
 
 describe("completion", () => {
@@ -82,11 +73,6 @@ describe("completion", () => {
 
   it("offers no actions in an extractor alone", () => {
     expect(labels("Is(leg) => D", { bare: true })).toEqual(["All", "Is"]);
-  });
-
-  it("offers nothing before the language is known", () => {
-    useLanguage.setState({ language: null });
-    expect(labels("A", { explicit: true })).toBeNull();
   });
 });
 

@@ -25,8 +25,6 @@ import {
   type ViewUpdate,
 } from "@codemirror/view";
 import { type RefObject, useEffect, useRef } from "react";
-import { labelText } from "../store/actions";
-import { useLanguage } from "../store/language";
 import { useProject } from "../store/project";
 import type { Mark } from "../wire";
 import { type Suggestion, suggestions, wordBefore } from "./completion";
@@ -55,14 +53,13 @@ export function viewerExtensions(name: string): Extension {
 
 /** What may be put where one types; null where nothing is to be offered. */
 export function complete(context: CompletionContext, bare: boolean): CompletionResult | null {
-  const { language } = useLanguage.getState();
   const line = context.state.doc.lineAt(context.pos);
   const before = line.text.slice(0, context.pos - line.from);
   const word = wordBefore(before);
-  if (!language || (!word && !context.explicit && !/[(,]\s*$|=>\s*$/.test(before))) return null;
-  const { vocabulary, templates } = useProject.getState().project;
-  const labels = vocabulary.map((label) => label.name);
-  const options = suggestions(before, { language, labels, templates, written: labelText }, bare);
+  if ((!word && !context.explicit && !/[(,]\s*$|=>\s*$/.test(before))) return null;
+  const { language, project } = useProject.getState();
+  const labels = project.vocabulary.map(({ text }) => text);
+  const options = suggestions(before, { language, labels, templates: project.templates }, bare);
   const done = (text: string) => options.some(({ label, call }) => label === text && !call);
   if (!options.length || done(word)) return null;
   const going = (text: string) => /^(?:"[^"]*"?|[+-]?[\p{L}\p{N}_]*)$/u.test(text) && !done(text);

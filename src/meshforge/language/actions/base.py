@@ -12,6 +12,7 @@ from meshforge.symbolic import SymbolicMesh, split_by_body
 
 Axis = Literal["all", "X", "Y", "Z"]
 AXES: tuple[Axis, ...] = get_args(Axis)
+ActionIcon = Literal["delete", "replace", "add", "merge", "scale", "shrink", "shapes"]
 
 
 class Action(Operation, ABC):
@@ -22,6 +23,10 @@ class Action(Operation, ABC):
     """Whether it acts on each body's hulls separately, since what it makes is one part."""
     planned: ClassVar[tuple[str, ...]] = ()
     """Options that the language has, and that this version does not run."""
+    key: ClassVar[str] = ""
+    """The key that begins it in the studio, as `M` or `Shift+A`; without one it is begun by its button alone."""
+    icon: ClassVar[ActionIcon] = "shapes"
+    """Its picture in the studio."""
 
     def groups(self, mesh: SymbolicMesh, mask: int) -> list[int]:
         """The parts of a selection that are edited one by one, as bit sets."""
@@ -49,6 +54,11 @@ class Action(Operation, ABC):
     def depends_on_frame(self) -> bool:
         """Whether it would do something else if the mesh were turned first, and back afterwards."""
         return False
+
+    @classmethod
+    def title(cls) -> str:
+        """What it does to a selection, as a command in the studio."""
+        return f"{cls.__name__} the selection"
 
     def phrase(self, whose: str) -> str:
         """What is done, in words after "is" or "are": `merged into one convex hull`; whose: "its" or "their"."""

@@ -11,7 +11,7 @@ from meshforge import geometry
 from meshforge.common import Plugin
 from meshforge.geometry import Aabb, Floats, convex_hull
 from meshforge.language import arguments
-from meshforge.language.actions.base import AXES, Action, ActionArgument, Axis
+from meshforge.language.actions.base import AXES, Action, ActionArgument, ActionIcon, Axis
 from meshforge.language.actions.edit import GroupEdit, HullGroup, NewShape
 from meshforge.language.words import DIRECTIONS, Direction
 from meshforge.symbolic import SymbolicMesh, split_by_contact
@@ -22,9 +22,19 @@ class Add(Action):
     """Puts a template against the side of the selected hulls' bounding box, as large as fits it or at its own size."""
 
     by_body: ClassVar[bool] = True
-    direction: Direction = field(metadata={"argument": arguments.WordArgument(DIRECTIONS, "direction")})
+    key: ClassVar[str] = "Shift+A"
+    icon: ClassVar[ActionIcon] = "add"
+    direction: Direction = field(
+        metadata={"argument": arguments.WordArgument(DIRECTIONS, "direction"), "title": "At the side"}
+    )
     template: str = field(metadata={"argument": arguments.FileArgument()})
-    keep: bool = field(default=False, metadata={"argument": arguments.FlagArgument("keep")})
+    keep: bool = field(
+        default=False, metadata={"argument": arguments.FlagArgument("keep"), "title": "Keep the template's own size"}
+    )
+
+    @classmethod
+    def title(cls) -> str:
+        return "Add a template beside the selection"
 
     @property
     def templates(self) -> tuple[str, ...]:
@@ -64,6 +74,9 @@ def _flush_offset(part: Aabb, bounds: Aabb, axis: int, sign: float, factor: floa
 class Delete(Action):
     """Removes the selected hulls."""
 
+    key: ClassVar[str] = "X"
+    icon: ClassVar[ActionIcon] = "delete"
+
     @property
     def makes_hulls(self) -> bool:
         return False
@@ -80,6 +93,8 @@ class Merge(Action):
     """Replaces the selected hulls of each body by the convex hull of all their points; a single hull stays as it is."""
 
     by_body: ClassVar[bool] = True
+    key: ClassVar[str] = "M"
+    icon: ClassVar[ActionIcon] = "merge"
 
     def edit(self, group: HullGroup) -> GroupEdit:
         if len(group.hulls) == 1:
@@ -97,7 +112,11 @@ class Scale(Action):
     """Scales the selected hulls as one group about the centre of their bounding box, along one axis or all."""
 
     planned: ClassVar[tuple[str, ...]] = ("to",)
-    axis: Axis = field(metadata={"argument": arguments.WordArgument(AXES)})
+    key: ClassVar[str] = "S"
+    icon: ClassVar[ActionIcon] = "scale"
+    axis: Axis = field(
+        metadata={"argument": arguments.WordArgument(AXES), "title": "Along", "words": {"all": "all axes"}}
+    )
     factor: float = field(metadata={"argument": arguments.FactorArgument()})
 
     def note_on(self, mesh: SymbolicMesh, mask: int) -> str | None:
@@ -130,7 +149,9 @@ class Scale(Action):
 class Shrink(Action):
     """Moves the surface of each selected hull inwards by a distance."""
 
-    distance: float = field(metadata={"argument": arguments.LengthArgument()})
+    key: ClassVar[str] = "Shift+S"
+    icon: ClassVar[ActionIcon] = "shrink"
+    distance: float = field(metadata={"argument": arguments.LengthArgument(), "title": "By [m]"})
 
     def edit(self, group: HullGroup) -> GroupEdit:
         return GroupEdit(

@@ -11,7 +11,7 @@ import numpy as np
 from meshforge import geometry
 from meshforge.geometry import Aabb, Floats, Shape, convex_hull
 from meshforge.language import arguments
-from meshforge.language.actions.base import Action
+from meshforge.language.actions.base import Action, ActionIcon
 from meshforge.language.actions.edit import GroupEdit, HullGroup
 
 Fit = Literal["native", "tight", "inscribed", "volume", "longest"]
@@ -23,6 +23,13 @@ _OPTIONS: Mapping[str, tuple[str, ...]] = {
     "capsule": _LONG,
     "sphere": ("native", "inscribed", "volume", "longest", "radius"),
 }
+_FIT_TEXTS: Mapping[Fit, str] = {
+    "native": "native, around all of it",
+    "tight": "tight, in any direction",
+    "inscribed": "inside, the largest",
+    "volume": "of the same volume",
+    "longest": "longest side matched",
+}
 _TIGHT_FITS = {"box": geometry.tight_box, "cylinder": geometry.tight_cylinder, "capsule": geometry.tight_capsule}
 
 
@@ -32,11 +39,20 @@ class Replace(Action):
 
     by_body: ClassVar[bool] = True
     planned: ClassVar[tuple[str, ...]] = ("within", "clear", "to")
-    geometry: str = field(metadata={"argument": arguments.PrimitiveOrFileArgument()})
-    fit: Fit | None = field(default=None, metadata={"argument": arguments.WordArgument(get_args(Fit))})
-    axis: Side | None = field(default=None, metadata={"argument": arguments.WordArgument(get_args(Side))})
+    key: ClassVar[str] = "R"
+    icon: ClassVar[ActionIcon] = "replace"
+    geometry: str = field(metadata={"argument": arguments.PrimitiveOrFileArgument(), "title": "By"})
+    fit: Fit | None = field(
+        default=None,
+        metadata={"argument": arguments.WordArgument(get_args(Fit)), "omitted": "bounding box", "words": _FIT_TEXTS},
+    )
+    axis: Side | None = field(
+        default=None,
+        metadata={"argument": arguments.WordArgument(get_args(Side)), "title": "Along", "omitted": "by itself"},
+    )
     radius: float | None = field(
-        default=None, metadata={"argument": arguments.OptionArgument("radius", arguments.LengthArgument())}
+        default=None,
+        metadata={"argument": arguments.OptionArgument("radius", arguments.LengthArgument()), "title": "Radius [m]"},
     )
 
     def conflict(self) -> str | None:

@@ -30,7 +30,7 @@ from meshforge.studio.thumbnails import ThumbnailOf
 from meshforge.studio.wire import requests
 from meshforge.studio.wire.asset import AssetView, CheckPart, CheckPicture, CheckResult
 from meshforge.studio.wire.jobs import Job, JobRequest
-from meshforge.studio.wire.program import CoverageView, Guesses, LanguageView, ProgramCheck, SelectionView
+from meshforge.studio.wire.program import CoverageView, Guesses, ProgramCheck, SelectionView
 from meshforge.studio.workers import wait_for
 
 router = APIRouter(prefix="/api")
@@ -155,12 +155,6 @@ def get_turned(session: CurrentSession, asset: str, orient: str) -> Response:
     mesh = session.mesh(asset)
     upright = assets.compute_upright(session.project, mesh, Program.parse(f"orient {orient}\n").orient)
     return Response(assets.draw_thumbnail(mesh, upright.pose), media_type="image/png")
-
-
-@router.get("/language")
-def get_language() -> LanguageView:
-    """Actions, operators and directions."""
-    return programs.build_language_view()
 
 
 @router.post("/program/check")

@@ -19,6 +19,7 @@ AnyEdit = Annotated[
     | program.MoveRule
     | program.DeleteRule
     | program.SetOrientation
+    | program.SetLandmarks
     | replies.ReplyToQuestion
     | program.AnswerForRule
     | program.TakeBack

@@ -7,11 +7,14 @@ from typing import Literal
 
 from pydantic import Field
 
+from meshforge.batch import action_text
 from meshforge.common import join_names, pluralize
 from meshforge.project import Project
 from meshforge.signoff import ExclusionReason
-from meshforge.store import ExclusionEvent, Layout, list_files, parse_action_text
+from meshforge.store import ExclusionEvent, Layout, list_files
+from meshforge.studio.actions import read_action
 from meshforge.studio.edits.base import Edit, LabelsByAsset
+from meshforge.studio.wire.actions import ActionCall
 from meshforge.studio.wire.requests import HullOfAsset
 
 
@@ -208,13 +211,13 @@ class CorrectByHand(_CorrectionEdit):
 
     kind: Literal["correct"] = "correct"
     select: tuple[str, ...]
-    action: str
+    action: ActionCall
 
     def apply(self, project: Project) -> None:
-        project.correct(self.asset, self.select, *parse_action_text(self.action, "action"))
+        project.correct(self.asset, self.select, *read_action(self.action, self.asset))
 
     def describe(self, project: Project) -> str:
-        return f"{self.asset} edited by hand: {self.action}"
+        return f"{self.asset} edited by hand: {action_text(*read_action(self.action, self.asset))}"
 
 
 class DropCorrections(_CorrectionEdit):

@@ -6,23 +6,22 @@ from typing import Literal
 
 from meshforge.batch import action_text
 from meshforge.common import MeshForgeError, pluralize
-from meshforge.language import Program
+from meshforge.language import All, BaseExtractor, Is, LandmarkPair, Orient, Program, show
 from meshforge.project import Project
-from meshforge.store import ConflictError, Layout, list_files, parse_action_text
+from meshforge.store import ConflictError, Layout, list_files
+from meshforge.studio.actions import read_action
 from meshforge.studio.edits import base
 from meshforge.studio.wire import Wire
+from meshforge.studio.wire.actions import ActionCall
+from meshforge.studio.wire.family import AxisLandmarks
 from meshforge.synthesis import Answer, Step
 
 
-class StepText(Wire):
-    """One step. select: names of hulls, [] for nothing here, null for open; action: in the language's own text."""
+class StepEdit(Wire):
+    """One step. select: names of hulls, [] for nothing here, null for open."""
 
     select: tuple[str, ...] | None
-    action: str
-
-    def parse(self, rule: int) -> Step:
-        """The step of a rule. Raises ProjectError for an action that does not parse."""
-        return Step(rule, self.select, *parse_action_text(self.action, f"step {rule}"))
+    action: ActionCall
 
 
 class SetSteps(base.Edit):
@@ -32,7 +31,7 @@ class SetSteps(base.Edit):
     touches = (Layout.demonstration, Layout.events)
     asset: str
     version: str
-    steps: tuple[StepText, ...]
+    steps: tuple[StepEdit, ...]
 
     def apply(self, project: Project) -> None:
         if base.steps_version(project, self.asset) != self.version:
@@ -41,11 +40,17 @@ class SetSteps(base.Edit):
                 where=self.asset,
                 remedy="They are shown as they are now; do it again if it is still wanted.",
             )
-        project.demonstrate(self.asset, [step.parse(k) for k, step in enumerate(self.steps, 1)])
+        project.demonstrate(self.asset, self._read())
+
+    def _read(self) -> list[Step]:
+        steps = enumerate(self.steps, 1)
+        return [Step(rule, step.select, *read_action(step.action, f"step {rule}")) for rule, step in steps]
 
     def describe(self, project: Project) -> str:
-        before = [(step.select, action_text(step.action, step.label)) for step in _read_steps(project, self.asset)]
-        now = [(None if s.select is None else frozenset(s.select), s.action) for s in self.steps]
+        before, now = (
+            [(step.select, action_text(step.action, step.label)) for step in steps]
+            for steps in (_read_steps(project, self.asset), self._read())
+        )
         if len(now) == len(before) + 1 and now[:-1] == before:
             select, action = now[-1]
             on = "left open" if select is None else pluralize(len(select), "hull") if select else "nothing here"
@@ -109,6 +114,30 @@ class SetOrientation(base.Edit):
 
     def describe(self, project: Project) -> str:
         return f"orientation: {self.text}" if self.text else "orientation taken away"
+
+
+class SetLandmarks(base.Edit):
+    """Set the orientation by landmarks; none takes it away. snap: whether it turns by quarter turns only."""
+
+    kind: Literal["landmarks"] = "landmarks"
+    touches = (Layout.settings,)
+    snap: bool
+    pairs: tuple[AxisLandmarks, ...]
+
+    def apply(self, project: Project) -> None:
+        project.set_orientation(self._read())
+
+    def _read(self) -> Orient | None:
+        pairs = tuple(LandmarkPair(pair.axis, _select(pair.start), _select(pair.end)) for pair in self.pairs)
+        return Orient(pairs, self.snap) if pairs else None
+
+    def describe(self, project: Project) -> str:
+        orient = self._read()
+        return show(orient).replace("orient", "orientation:", 1) if orient else "orientation taken away"
+
+
+def _select(label: str | None) -> BaseExtractor:
+    return All() if label is None else Is(label)
 
 
 class AnswerForRule(base.Edit):

@@ -9,12 +9,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshforge import rendering
-from meshforge.batch import action_text, software_version, text_digest
+from meshforge.batch import software_version, text_digest
 from meshforge.common import MeshForgeError
 from meshforge.formats import VisualSurfaces
 from meshforge.geometry import Floats, Pose
 from meshforge.language import Orient, Program, Replay, RuleTrace, orient_mesh
 from meshforge.project import Project
+from meshforge.studio.actions import view_action
 from meshforge.studio.edits.base import steps_version
 from meshforge.studio.queries.packets import contact_names, frame_packet, hull_views
 from meshforge.studio.queries.replay import replay_steps
@@ -63,7 +64,7 @@ def build_asset_view(project: Project, asset: str, mesh: SymbolicMesh) -> AssetV
         steps=_step_views(project.steps(asset), replay.trace if replay else (), shown.problem or problem),
         version=steps_version(project, asset),
         corrections=tuple(
-            CorrectionView(select=tuple(name for name, _ in c.hulls), action=action_text(c.action, c.label))
+            CorrectionView(select=tuple(name for name, _ in c.hulls), action=view_action(c.action, c.label))
             for c in project.corrections(asset)
         ),
         prepared=tuple(map(str, project.preparation(asset).steps)),
@@ -91,7 +92,7 @@ def _step_views(steps: tuple[Step, ...], results: tuple[RuleTrace, ...], problem
         StepView(
             rule=step.rule,
             select=None if step.select is None else tuple(sorted(step.select)),
-            action=action_text(step.action, step.label),
+            action=view_action(step.action, step.label),
             error=result.error,
             made=result.made,
             removed=result.removed,

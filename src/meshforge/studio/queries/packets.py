@@ -18,7 +18,7 @@ from meshforge.geometry import digest
 from meshforge.language import Program, Replay, RuleTrace, make_anew
 from meshforge.project import Project, make_correction, run_with_corrections
 from meshforge.rendering import RenderMesh, to_render_mesh
-from meshforge.store import parse_action_text
+from meshforge.studio.actions import read_action
 from meshforge.studio.queries.replay import replay_steps
 from meshforge.studio.wire import Wire
 from meshforge.studio.wire import asset as wire
@@ -183,7 +183,7 @@ def preview_action(project: Project, asset: str, mesh: SymbolicMesh, request: Pr
     """
     if request.result:
         return _preview_correction(project, asset, mesh, request)
-    action, label = parse_action_text(request.action, asset)
+    action, label = read_action(request.action, asset)
     before = replace(replay_steps(project, asset, mesh, request.steps), memo=make_anew)  # each one is another
     after = before.apply(before.mask_of(request.select), action, label, project.templates(action.templates))
     start, home = before.edited, after.edited
@@ -194,7 +194,7 @@ def preview_action(project: Project, asset: str, mesh: SymbolicMesh, request: Pr
 
 def _preview_correction(project: Project, asset: str, mesh: SymbolicMesh, request: PreviewRequest) -> bytes:
     before = run_with_corrections(project, asset, mesh, project.program())
-    one = make_correction(before.mesh, asset, request.select, *parse_action_text(request.action, asset))
+    one = make_correction(before.mesh, asset, request.select, *read_action(request.action, asset))
     templates = {**before.templates, **project.templates(one.action.templates)}
     after, flags = replay_corrections((*before.corrections, one), mesh, before.run.mesh, before.program, templates)
     notes = EditNotes(findings=findings_of_new(before.mesh, after), flags=flags)

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from typing import Any
+from collections.abc import Iterable, Mapping
 
 from meshforge import language
-from meshforge.batch import action_text
 from meshforge.common import MeshForgeError, ProgramError
 from meshforge.language import EXTREMITY, Extractor, Orient, Program, explain, parse_extractor, select_mask, show
 from meshforge.project import Project
+from meshforge.studio.actions import list_action_forms, list_operator_views, view_action
 from meshforge.studio.edits.base import program_version
 from meshforge.studio.queries.replay import replay_steps
 from meshforge.studio.wire import program as wire
@@ -19,22 +18,6 @@ from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Demonstration, begin_replay
 
 _POSITION = re.compile(r".*:(\d+):(\d+)")
-
-_KINDS: Mapping[type[language.ArgumentType], tuple[wire.ArgumentKind, Any]] = {
-    language.WordArgument: ("words", None),
-    language.DirectionArgument: ("words", None),
-    language.FlagArgument: ("flag", False),
-    language.FileArgument: ("file", "part.obj"),
-    language.PrimitiveOrFileArgument: ("shape", "box"),
-    language.FactorArgument: ("factor", 1.0),
-    language.LengthArgument: ("length", 0.001),
-    language.OptionArgument: ("option", None),
-    language.TextArgument: ("text", None),
-    language.ShareArgument: ("share", None),
-    language.LabelArgument: ("label", None),
-    language.BaseArgument: ("base", None),
-}
-"""What the page calls each kind of argument, and a value of it; of words, the first is one."""
 
 
 def read_program_view(project: Project) -> wire.ProgramView:
@@ -97,72 +80,11 @@ def mark_error(error: MeshForgeError, line: int = 0, column: int = 0) -> wire.Ma
 
 def build_language_view() -> wire.LanguageView:
     """Actions, operators and directions; `Each` is no form of its own."""
-    forms = (_try_action_form(name, kind) for name, kind in language.ACTIONS.loadable().items())
     return wire.LanguageView(
-        actions=tuple(form for form in forms if form),
-        operators=(*_list_leaf_views(), *map(_set_operator_view, language.SET_OPERATORS)),
+        actions=list_action_forms(),
+        operators=list_operator_views(),
         directions=language.DIRECTIONS,
     )
-
-
-def _try_action_form(name: str, kind: type[language.Action]) -> wire.ActionForm | None:
-    """The form of an action; None for `Each`, and for one of a plug-in whose arguments the page has no fields for."""
-    if kind is language.Each or (name not in language.ACTIONS.built_in and not _has_fields(kind)):
-        return None
-    try:
-        return _action_form(name, kind)
-    except MeshForgeError:  # a plug-in's, whose arguments do not go together so
-        return None
-
-
-def _has_fields(kind: type[language.Operation]) -> bool:
-    return all(type(argument) in _KINDS for argument in kind.arguments().values())
-
-
-def _action_form(name: str, kind: type[language.Action]) -> wire.ActionForm:
-    given = kind.arguments()
-    required = list(given)[: kind.min_arguments()]
-    example = language.make_operation(kind, {one: _example_value(given[one]) for one in required})
-    return wire.ActionForm(
-        name=name,
-        summary=kind.summary(),
-        usage=kind.usage(),
-        makes=example.makes_hulls,
-        arguments=tuple(_argument_field(one, argument, one in required) for one, argument in given.items()),
-    )
-
-
-def _argument_field(name: str, argument: language.ArgumentType, required: bool) -> wire.Argument:
-    kind, _ = _KINDS[type(argument)]
-    return wire.Argument(name=name, kind=kind, wants=argument.wants, choices=argument.choices, required=required)
-
-
-def _example_value(argument: language.ArgumentType) -> Any:
-    return argument.choices[0] if isinstance(argument, language.WordArgument) else _KINDS[type(argument)][1]
-
-
-def _list_leaf_views() -> Iterator[wire.Operator]:
-    """The leaves; of plug-ins those whose arguments the page knows."""
-    for name, kind in language.EXTRACTORS.loadable().items():
-        if _has_fields(kind):
-            needed = kind.min_arguments()
-            fields = [
-                _argument_field(one, argument, place < needed)
-                for place, (one, argument) in enumerate(kind.arguments().items())
-            ]
-            is_base = issubclass(kind, language.BaseExtractor)
-            yield _operator_view(name, kind.summary(), fields, is_base)
-
-
-def _set_operator_view(kind: type[language.Union | language.Intersect | language.Diff]) -> wire.Operator:
-    sides = [wire.Argument(name=name, kind="extractor", wants="an extractor") for name in ("left", "right")]
-    return _operator_view(kind.__name__, (kind.__doc__ or "").splitlines()[0], sides)
-
-
-def _operator_view(name: str, summary: str, arguments: Sequence[wire.Argument], base: bool = False) -> wire.Operator:
-    operands = ", ".join(one.name for one in arguments)
-    usage = f"{name}({operands})" if operands else name
-    return wire.Operator(name=name, usage=usage, summary=summary, base=base, arguments=tuple(arguments))
 
 
 def select_hulls(
@@ -225,6 +147,6 @@ def guess_selections(project: Project, asset: str, mesh: SymbolicMesh, program: 
         except MeshForgeError as problem:  # the next rules are guessed without this one
             error = problem.message
             replay = replay.skip(error)
-        action = action_text(rule.action, rule.label)
+        action = view_action(rule.action, rule.label)
         guesses.append(wire.Guess(rule=number, action=action, select=names, sentence=explain(rule), error=error))
     return wire.Guesses(asset=asset, guesses=tuple(guesses))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable, Iterable, Mapping
+from dataclasses import replace
 from functools import partial
 from itertools import islice
 from threading import Condition, Thread
@@ -11,15 +12,15 @@ from time import monotonic
 
 from meshforge.batch import read_stamp
 from meshforge.common import MeshForgeError, StoppedError, describe_error
-from meshforge.labels import LabelOffers, OfferCache
-from meshforge.project import Project, Status, suggest_first_demonstration
+from meshforge.labels import OfferCache
+from meshforge.project import AssetStatus, NextStep, Project, Status, choose_next_step, find_offers
 from meshforge.studio.label_changes import LabelChanges
 from meshforge.studio.output_checks import OutputChecks
 from meshforge.studio.output_measures import check_key
 from meshforge.studio.pages import PageState
 from meshforge.studio.queries.new_assets import NewAssetsQuery
-from meshforge.studio.queries.project import Lookups, build_card, build_project_view, choose_next_step
-from meshforge.studio.wire.family import Next, ProjectView
+from meshforge.studio.queries.project import add_session, build_card, build_project_view
+from meshforge.studio.wire.family import ProjectView
 from meshforge.studio.wire.jobs import Job
 
 _LOG = logging.getLogger(__name__)
@@ -29,7 +30,7 @@ _REPORT_SECONDS = 0.2
 
 def initial_view(project: Project) -> ProjectView:
     """The project before its assets are read. Raises ProjectError for a file of the project that cannot be read."""
-    return build_project_view(project, (), Next(stage="label", say="The assets are being read."), None, ())
+    return build_project_view(project, (), NextStep("wait", "The assets are being read."), None, ())
 
 
 class Refresher:
@@ -49,7 +50,7 @@ class Refresher:
         self._project, self._pages, self._checks, self._label_changes = project, pages, checks, label_changes
         self._offers = offers
         self.queue = RefreshQueue(self.refresh, self.portion_size)
-        self._names: dict[str, tuple[str, ...]] = {}
+        self._rows: dict[str, AssetStatus] = {}
         self._new_assets = NewAssetsQuery()
         self._read, self._next_report = 0, 0.0
         self._job: Job | None = None
@@ -57,7 +58,7 @@ class Refresher:
     @property
     def names(self) -> Mapping[str, tuple[str, ...]]:
         """The names of the hulls of each asset that was read, in order."""
-        return self._names
+        return {asset: row.names for asset, row in self._rows.items()}
 
     def portion_size(self) -> int:
         """How many assets are looked at together: few, so that their cards come soon."""
@@ -77,9 +78,11 @@ class Refresher:
 
     def _refresh(self, assets: tuple[str, ...]) -> None:
         project = self._project()
-        status = project.status(assets, progress=self._count_read, stop=self.queue.is_closed)
+        status = project.status(
+            assets, others=self._rows.values(), progress=self._count_read, stop=self.queue.is_closed
+        )
         settings = project.settings
-        self._names |= {row.id: row.names for row in status.assets}
+        self._rows |= {row.id: row for row in status.assets}
         keys = [check_key(read_stamp(project.layout.edited, row.id)) for row in status.assets]
         self._pages.set_cards(
             build_card(row, settings.vocabulary, settings.orient, key, self._checks.faults_of(key))
@@ -87,34 +90,18 @@ class Refresher:
         )
         self._report_progress()
         if self.queue.remaining == 0 or len(assets) < self.portion_size():
-            self._pages.set_relabelled(self._label_changes.last_change(self._names))
+            self._pages.set_relabelled(self._label_changes.last_change(self.names))
             self._pages.set_project(self._build_view(status))
 
     def _build_view(self, status: Status) -> ProjectView:
         project, cards = self._project(), self._pages.cards
-        program = self._pages.program
-        has_program = bool(program.text) and not program.error
-        lookups = Lookups(partial(suggest_first_demonstration, project), self._find_offers)
-        propagated = self._label_changes.propagation_state(project, cards)
+        propagation = self._label_changes.propagation_state(project, cards)
         new, damage = self._new_assets.find(project, cards)
         problem = status.problem or damage
-        next_step = choose_next_step(
-            cards,
-            status.vocabulary,
-            has_program,
-            self._pages.outcome,
-            problem,
-            lookups,
-            propagated,
-            self._pages.assessment,
-        )
-        return build_project_view(project, cards, next_step, problem, status.lost, propagated, new)
-
-    def _find_offers(self) -> LabelOffers:
-        try:
-            return self._offers.of(self._project(), self._pages.readable)
-        except MeshForgeError:  # taking the labels says why
-            return LabelOffers()
+        offers = partial(find_offers, project, self._offers, self._pages.readable)
+        family = replace(status.family, find_offers=offers)
+        family = add_session(family, self._pages.outcome, self._pages.assessment, propagation, problem)
+        return build_project_view(project, cards, choose_next_step(family), problem, status.lost, propagation, new)
 
     def _count_read(self) -> None:
         """One asset had to be read; called from another thread."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Literal
 
 from meshforge.studio.wire import Wire
+from meshforge.studio.wire.actions import ActionView
 
 PrimitiveKind = Literal["box", "cylinder", "capsule", "sphere", "ellipsoid"]
 
@@ -49,13 +50,12 @@ class NearMiss(Wire):
 class StepView(Wire):
     """One step of a demonstration. rule: its number; select: names of hulls, [] for none, null where it is left open.
 
-    action: in the language, with `as LABEL` where new hulls get a label; error: why the step cannot be replayed; made,
-    removed: names of hulls, where it can.
+    error: why the step cannot be replayed; made, removed: names of hulls, where it can.
     """
 
     rule: int
     select: tuple[str, ...] | None
-    action: str
+    action: ActionView
     error: str | None = None
     made: tuple[str, ...] = ()
     removed: tuple[str, ...] = ()
@@ -65,7 +65,7 @@ class CorrectionView(Wire):
     """An edit by hand that is replayed after the program."""
 
     select: tuple[str, ...]
-    action: str
+    action: ActionView
 
 
 class AssetView(Wire):

@@ -10,7 +10,7 @@ from meshforge.studio.wire import Wire
 from meshforge.studio.wire.asset import EngineView
 from meshforge.studio.wire.family import Card, HistoryView, ProjectView
 from meshforge.studio.wire.jobs import Job, LabelUpdate
-from meshforge.studio.wire.program import OutcomeView, ProgramView, Reach
+from meshforge.studio.wire.program import LanguageView, OutcomeView, ProgramView, Reach
 from meshforge.studio.wire.signoff import AssessmentView
 from meshforge.studio.wire.start import StartView
 
@@ -43,6 +43,7 @@ class Hello(Wire):
     history: HistoryView
     relabelled: LabelUpdate | None = None
     program: ProgramView
+    language: LanguageView
     outcome: OutcomeView | None = None
     learning: bool = False
     reach: tuple[Reach, ...] = ()

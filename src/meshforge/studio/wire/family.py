@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import Literal
 
+from meshforge.language import Direction
+from meshforge.project import NextStep, OutputState, PropagationState
 from meshforge.signoff import ExclusionReason
 from meshforge.studio.wire import Wire
+from meshforge.studio.wire.actions import ActionView
 from meshforge.studio.wire.asset import Fault
-from meshforge.studio.wire.jobs import PropagationState
 
-CardOutput = Literal["none", "edited", "unchanged", "failed"]
 Verdict = Literal["accepted", "wrong"]
-Stage = Literal["label", "demonstrate", "learn", "review"]
 
 
 class Card(Wire):
@@ -34,7 +34,7 @@ class Card(Wire):
     unsure: tuple[int, ...] = ()
     given: int = 0
     demonstrated: bool = False
-    output: CardOutput = "none"
+    output: OutputState = "none"
     after: int | None = None
     after_labels: tuple[int, ...] = ()
     stale: tuple[str, ...] = ()
@@ -53,9 +53,11 @@ class Card(Wire):
 
 
 class VocabularyLabel(Wire):
-    """A label of the vocabulary. color: `#rrggbb`, by its place; used: how many hulls of the family have it."""
+    """A label of the vocabulary. text: as programs write it; color: `#rrggbb`, by its place; used: how many hulls have
+    it."""
 
     name: str
+    text: str
     color: str
     used: int = 0
 
@@ -64,7 +66,7 @@ class RuleLine(Wire):
     """A rule in the demonstrations. action: the first one; shown, nothing: assets where it selects hulls, or none."""
 
     rule: int
-    action: str
+    action: ActionView
     shown: tuple[str, ...] = ()
     nothing: tuple[str, ...] = ()
 
@@ -78,14 +80,6 @@ class AnswerView(Wire):
     text: str
 
 
-class Next(Wire):
-    """The next sensible step. say: the step in words; asset: the one to open."""
-
-    stage: Stage
-    say: str
-    asset: str | None = None
-
-
 class NewAssetsView(Wire):
     """The assets that came after the others were prepared, so that a run prepares them first. ids: of all of them;
     rebuilt: in how many hulls that span parts are looked for, and bodies rebuilt from a probability of
@@ -97,8 +91,25 @@ class NewAssetsView(Wire):
     unclear: str | None = None
 
 
+class AxisLandmarks(Wire):
+    """A direction that goes from some hulls to others, each by their label; null for all hulls."""
+
+    axis: Direction
+    start: str | None
+    end: str | None
+
+
+class OrientView(Wire):
+    """The orientation. text: of the directive, empty for none; sentence: that in words."""
+
+    text: str = ""
+    sentence: str = ""
+    snap: bool = False
+    pairs: tuple[AxisLandmarks, ...] = ()
+
+
 class ProjectView(Wire):
-    """The project. orient: the text of the directive, empty for none; orient_sentence: that in words.
+    """The project.
 
     rules: what is demonstrated, by rule; templates: hull templates that actions can name; carried: the last propagation
     of labels, null where there was none; new: assets that a run prepares first, null for none; problem: why the program
@@ -109,15 +120,14 @@ class ProjectView(Wire):
     name: str
     folder: str
     vocabulary: tuple[VocabularyLabel, ...]
-    orient: str = ""
-    orient_sentence: str = ""
+    orient: OrientView
     contact: float | None = None
     extremity: float | None = None
     rules: tuple[RuleLine, ...] = ()
     said: tuple[AnswerView, ...] = ()
     templates: tuple[str, ...] = ()
     carried: PropagationState | None = None
-    next: Next
+    next: NextStep
     new: NewAssetsView | None = None
     problem: str | None = None
     lost: tuple[str, ...] = ()

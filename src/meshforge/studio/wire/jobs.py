@@ -145,14 +145,6 @@ class LabelUpdate(Wire):
     settled: int = 0
 
 
-class PropagationState(Wire):
-    """The last propagation of labels. unused: how many labels people and files gave since; next: the asset that would
-    help most if it were labelled, null where it is labelled by now, or where all are."""
-
-    unused: int
-    next: str | None = None
-
-
 class Model(Wire):
     """The model that can be asked for labels. mode, max_cost: as set in meshforge.toml; why: the reason that it cannot
     be asked, null where it can."""

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Literal
-
+from meshforge.project import LearnStatus
 from meshforge.studio.wire import Wire
-
-LearnStatus = Literal["found", "ambiguous", "repair", "none", "timeout", "error"]
+from meshforge.studio.wire.actions import ActionForm, ActionView, Argument
 
 
 class RuleView(Wire):
@@ -137,7 +135,7 @@ class Guess(Wire):
     """What the program would select for a rule on an asset, after the steps demonstrated before it."""
 
     rule: int
-    action: str
+    action: ActionView
     select: tuple[str, ...]
     sentence: str
     error: str | None = None
@@ -148,34 +146,6 @@ class Guesses(Wire):
 
     asset: str
     guesses: tuple[Guess, ...]
-
-
-ArgumentKind = Literal[
-    "words", "flag", "file", "shape", "factor", "length", "option", "text", "share", "label", "base", "extractor"
-]
-
-
-class Argument(Wire):
-    """One argument of an action or an extractor. kind: one of some `words`, a `flag` that is there or not, the `file`
-    of a template, a `shape` (a primitive or a template), a `factor` above 0, a `length` above 0 [m], an `option` with a
-    length [m], which is written `name = value`, a `text`, a `share` above 0 and at most 1, a `label`, a `base`
-    extractor, or any `extractor`."""
-
-    name: str
-    kind: ArgumentKind
-    wants: str
-    choices: tuple[str, ...] = ()
-    required: bool = True
-
-
-class ActionForm(Wire):
-    """An action as a form; usage: its syntax; makes: whether `as LABEL` may follow."""
-
-    name: str
-    summary: str
-    usage: str
-    makes: bool
-    arguments: tuple[Argument, ...]
 
 
 class Operator(Wire):

@@ -8,6 +8,7 @@ from pydantic import Field
 
 from meshforge.formats import DecomposeBy
 from meshforge.studio.wire import Wire
+from meshforge.studio.wire.actions import ActionCall
 from meshforge.studio.wire.jobs import Model
 
 
@@ -18,7 +19,7 @@ class PreviewRequest(Wire):
     asset: str
     steps: int = 0
     select: tuple[str, ...]
-    action: str
+    action: ActionCall
     result: bool = False
 
 

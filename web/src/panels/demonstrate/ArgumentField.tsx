@@ -4,7 +4,7 @@ import { type ReactNode, useId, useState } from "react";
 import { goesWith } from "../../store/actions";
 import type { Draft } from "../../store/workspace";
 import { Check, Choice, Slide } from "../../ui/fields";
-import type { Argument } from "../../wire";
+import type { ActionForm, Argument, AxisLandmarks } from "../../wire";
 import css from "./demonstrate.module.css";
 import { TemplateField } from "./TemplateField";
 
@@ -15,80 +15,60 @@ interface ArgumentFieldProps {
   value: Value | undefined;
   /** All arguments, since some go only with others. */
   given: Draft["arguments"];
+  form: ActionForm;
   onChange: (value: Value) => void;
 }
 
-export function ArgumentField({ argument, value, given, onChange }: ArgumentFieldProps) {
-  const { name, kind, wants } = argument;
+export function ArgumentField({ argument, value, given, form, onChange }: ArgumentFieldProps) {
+  const { name, kind, title, wants } = argument;
   if (kind === "flag") {
     return (
       <Check checked={value === true} onChange={onChange}>
-        {FLAGS[name] ?? name}
+        {title}
       </Check>
     );
   }
-  const words = wordsOf(argument, given);
+  const words = wordsOf(argument, given, form);
   if (kind === "words" && words.length < 2 && !argument.required) return null;
-  if (kind === "option" && !goesWith(name, given)) return null;
+  if (kind === "option" && !goesWith(name, 1, given, form)) return null;
   return (
     <Field
-      name={NAMES[name] ?? capital(name)}
+      name={title}
       hint={wants}
       inline={kind === "words" && !isDirections(argument)}
       hidden={kind === "shape"}
     >
       {kind === "factor" && <FactorField value={value} onChange={onChange} />}
       {(kind === "length" || kind === "option") && (
-        <LengthField name={NAMES[name] ?? capital(name)} required={argument.required} value={value} onChange={onChange} />
+        <LengthField name={title} required={argument.required} value={value} onChange={onChange} />
       )}
       {kind === "file" && <TemplateField value={String(value ?? "")} onChange={onChange} />}
       {kind === "shape" && <ShapeField primitives={argument.choices} value={String(value ?? "")} onChange={onChange} />}
       {kind === "words" && isDirections(argument) && <DirectionField value={String(value ?? "")} onChange={onChange} />}
       {kind === "words" && !isDirections(argument) && (
         <Choice
-          name={NAMES[name] ?? name}
-          value={String(value || USUAL)}
+          name={title}
+          value={String(value ?? OMITTED)}
           options={words}
-          onChange={(word) => onChange(word === USUAL ? "" : word)}
+          onChange={onChange}
         />
       )}
     </Field>
   );
 }
 
-const FLAGS: Readonly<Record<string, string>> = { keep: "Keep the template's own size" };
-const NAMES: Readonly<Record<string, string>> = {
-  geometry: "By",
-  fit: "Fit",
-  axis: "Along",
-  direction: "At the side",
-  template: "Template",
-  radius: "Radius [m]",
-  distance: "By [m]",
-};
-const WORDS: Readonly<Record<string, string>> = {
-  native: "native, around all of it",
-  tight: "tight, in any direction",
-  inscribed: "inside, the largest",
-  volume: "of the same volume",
-  longest: "longest side matched",
-  all: "all axes",
-};
-
 const isDirections = ({ choices }: Argument): boolean =>
   choices.every((word) => /^[+-]/.test(word)) && choices.length > 0;
-const capital = (word: string): string => word.slice(0, 1).toUpperCase() + word.slice(1);
 
 /** Stands for an optional word that is left out. */
-const USUAL = "usual";
+const OMITTED = "";
 
 /** The words to choose from, as far as they go with the other arguments. */
-function wordsOf({ choices, required }: Argument, given: Draft["arguments"]): { value: string; label: string }[] {
+function wordsOf({ name, choices, required, words, omitted }: Argument, given: Draft["arguments"], form: ActionForm) {
   const options = choices
-    .filter((word) => goesWith(word, given))
-    .map((value) => ({ value, label: WORDS[value] ?? value }));
-  const usual = choices.includes("X") ? "by itself" : "bounding box";
-  return required ? options : [{ value: USUAL, label: usual }, ...options];
+    .filter((word) => goesWith(name, word, given, form))
+    .map((value) => ({ value, label: words[value] ?? value }));
+  return required ? options : [{ value: OMITTED, label: omitted }, ...options];
 }
 
 /** A length in metres to type; one that may be left out is left out where nothing is typed. */
@@ -199,10 +179,11 @@ const AXES = [
   { axis: "Y", words: ["+Y", "-Y"] },
   { axis: "Z", words: ["+Z", "-Z"] },
 ] as const;
+export type Direction = AxisLandmarks["axis"];
 const MEANING: Readonly<Record<string, string>> = { "+Z": "top", "-Z": "bottom" };
 
 /** One of the six directions of the upright asset, axis by axis. */
-export function DirectionField({ value, onChange }: { value: string; onChange: (value: string) => void }) {
+export function DirectionField({ value, onChange }: { value: string; onChange: (value: Direction) => void }) {
   return (
     <div className={css.directions} role="radiogroup" aria-label="Direction">
       {AXES.map(({ axis, words }) => (

@@ -5,7 +5,6 @@ import { startCut } from "../../commands/demonstrate";
 import { perform } from "../../store/edits";
 import { followGuesses } from "../../store/guesses";
 import { makeHulls, useIsDecomposing } from "../../store/jobs";
-import { loadLanguage } from "../../store/language";
 import { followPreview } from "../../store/preview";
 import { useProject } from "../../store/project";
 import { useAssetView } from "../../store/scenes";
@@ -20,7 +19,6 @@ import { RebuildBodies } from "./RebuildBodies";
 import { Orientation } from "./Orientation";
 
 export function DemonstratePanel() {
-  useEffect(loadLanguage, []);
   useEffect(() => followPreview(false), []);
   useEffect(followGuesses, []);
   return (

@@ -1,12 +1,10 @@
 // The action in hand as a form: which action, its arguments, what it would do, and the button that keeps it.
 import { Check } from "lucide-react";
 import type { KeyboardEvent } from "react";
-import { ACTION_KEYS } from "../../commands/demonstrate";
 import { runInTurn } from "../../commands/queue";
-import { actionIcon } from "../../steps/actionIcon";
-import { draftText, missingArgument } from "../../store/actions";
+import { ACTION_ICONS } from "../../steps/actionIcon";
+import { callOf, formOf, isSameAction, missingArgument } from "../../store/actions";
 import { acceptDraft, changeArgument, changeDraft, dropDraft, startDraft, useDraftStatus } from "../../store/draft";
-import { formOf, useLanguage } from "../../store/language";
 import { previewText, usePreview } from "../../store/preview";
 import { useProject } from "../../store/project";
 import { changeActionOn } from "../../store/steps";
@@ -22,9 +20,8 @@ import css from "./demonstrate.module.css";
 
 export function DraftForm() {
   const draft = useWorkspace((workspace) => workspace.draft);
-  const forms = useLanguage((state) => state.language?.actions);
-  if (!forms) return null;
-  const form = draft && formOf(draft.action, forms);
+  const forms = useProject((state) => state.language.actions);
+  const form = draft && formOf(draft.name, forms);
   const onKeyDown = (event: KeyboardEvent) => {
     if (!draft || !isAcceptKey(event)) return;
     event.preventDefault();
@@ -32,7 +29,7 @@ export function DraftForm() {
   };
   return (
     <div className={css.draft} onKeyDown={onKeyDown}>
-      <ActionChoice forms={forms} action={draft?.action ?? null} />
+      <ActionChoice forms={forms} action={draft?.name ?? null} />
       {draft && form ? <Form draft={draft} form={form} /> : <Hint />}
     </div>
   );
@@ -61,7 +58,7 @@ function Form({ draft, form }: { draft: Draft; form: ActionForm }) {
   return (
     <form
       className={css.form}
-      aria-label={`${draft.action}: how`}
+      aria-label={`${draft.name}: how`}
       onSubmit={(event) => {
         event.preventDefault();
         accept();
@@ -73,6 +70,7 @@ function Form({ draft, form }: { draft: Draft; form: ActionForm }) {
           argument={argument}
           value={draft.arguments[argument.name]}
           given={draft.arguments}
+          form={form}
           onChange={(value) => changeArgument(form.name, argument.name, value)}
         />
       ))}
@@ -84,7 +82,7 @@ function Form({ draft, form }: { draft: Draft; form: ActionForm }) {
           <LabelSelect value={draft.label} onChange={(label) => changeDraft({ label })} />
         </Field>
       )}
-      {!isReview && <RulePlace draft={draft} form={form} />}
+      {!isReview && <RulePlace draft={draft} />}
       <div className={css.ending}>
         <PreviewNote lacking={lacking ? `Missing: ${lacking.wants}.` : null} />
         <div className={css.buttons}>
@@ -111,10 +109,10 @@ function Form({ draft, form }: { draft: Draft; form: ActionForm }) {
 function ActionChoice({ forms, action }: { forms: readonly ActionForm[]; action: string | null }) {
   return (
     <div className={css.actions} role="group" aria-label="Action">
-      {forms.map(({ name, summary }) => {
-        const Icon = actionIcon(name);
+      {forms.map(({ name, summary, key, icon }) => {
+        const Icon = ACTION_ICONS[icon];
         return (
-          <Tip key={name} text={summary} keys={ACTION_KEYS[name]}>
+          <Tip key={name} text={summary} keys={key || undefined}>
             <button
               type="button"
               className={css.action}
@@ -123,7 +121,7 @@ function ActionChoice({ forms, action }: { forms: readonly ActionForm[]; action:
             >
               <Icon size={17} aria-hidden />
               {name}
-              <kbd aria-hidden>{(ACTION_KEYS[name] ?? "").replace("Shift+", "⇧")}</kbd>
+              <kbd aria-hidden>{key.replace("Shift+", "⇧")}</kbd>
             </button>
           </Tip>
         );
@@ -163,7 +161,7 @@ function PreviewNote({ lacking }: { lacking: string | null }) {
 }
 
 /** Which rule of the family the action in hand shows: one that other assets show, or a new one. */
-function RulePlace({ draft, form }: { draft: Draft; form: ActionForm }) {
+function RulePlace({ draft }: { draft: Draft }) {
   const rules = useProject((state) => state.project.rules);
   if (!rules.length) return null;
   return (
@@ -179,43 +177,43 @@ function RulePlace({ draft, form }: { draft: Draft; form: ActionForm }) {
         >
           {rules.map((rule, place) => (
             <option key={rule.rule} value={place}>
-              {rule.rule}: {rule.action}
+              {rule.rule}: {rule.action.text}
             </option>
           ))}
           <option value="new">a new one</option>
         </select>
       </Field>
-      {draft.editing !== null && <Differs place={draft.editing} text={draftText(draft, form.arguments)} />}
+      {draft.editing !== null && <Differs place={draft.editing} draft={draft} />}
     </>
   );
 }
 
 /** A rule does the same everywhere: warns where it would not. */
-function Differs({ place, text }: { place: number; text: string }) {
+function Differs({ place, draft }: { place: number; draft: Draft }) {
   const asset = useWorkspace((workspace) => workspace.asset);
   const rule = useProject((state) => state.project.rules[place]);
   const others = rule ? [...rule.shown, ...rule.nothing].filter((other) => other !== asset) : [];
-  if (!rule || rule.action === text || !others.length) return null;
+  if (!rule || isSameAction(rule.action, draft) || !others.length) return null;
   return (
     <Note mood="warn">
-      A rule does the same on every asset. On {listText(others.map(shortName), 2)} this rule is {rule.action}.
+      A rule does the same on every asset. On {listText(others.map(shortName), 2)} this rule is {rule.action.text}.
       <div className={css.buttons}>
         <Button onClick={() => changeDraft({ editing: null })}>Make this a new rule</Button>
-        <Button onClick={() => void changeActionOn(others, place, text)}>Change it there too</Button>
+        <Button onClick={() => void changeActionOn(others, place, callOf(draft))}>Change it there too</Button>
       </div>
     </Note>
   );
 }
 
 /** The label of what an action makes: that of the hulls it is made of, or another one. */
-function LabelSelect({ value, onChange }: { value: string; onChange: (value: string) => void }) {
+function LabelSelect({ value, onChange }: { value: string | null; onChange: (value: string | null) => void }) {
   const vocabulary = useProject((state) => state.project.vocabulary);
   return (
     <select
       className={css.input}
       aria-label="Label of new hulls"
-      value={value}
-      onChange={(event) => onChange(event.target.value)}
+      value={value ?? ""}
+      onChange={(event) => onChange(event.target.value || null)}
     >
       <option value="">same as its source</option>
       {vocabulary.map(({ name }) => (

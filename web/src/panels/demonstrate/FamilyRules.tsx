@@ -2,7 +2,7 @@
 import { Check, Circle, CircleDashed, CircleOff, Ellipsis } from "lucide-react";
 import { useEffect } from "react";
 import { runInTurn } from "../../commands/queue";
-import { actionIcon } from "../../steps/actionIcon";
+import { ACTION_ICONS } from "../../steps/actionIcon";
 import { setStepHere, stepMenu } from "../../steps/stepMenu";
 import { draftStep } from "../../store/draft";
 import { acceptGuess, useGuesses } from "../../store/guesses";
@@ -68,7 +68,7 @@ function RuleRow({ rule, place, view, rules, isNext }: RuleRowProps) {
   const isOpen = step?.select == null;
   const names = step?.select ?? guess?.select ?? [];
   useEffect(() => clearStepHighlight, []);
-  const Icon = actionIcon(rule.action);
+  const Icon = ACTION_ICONS[rule.action.icon];
   return (
     <li
       className={css.rule}
@@ -87,7 +87,7 @@ function RuleRow({ rule, place, view, rules, isNext }: RuleRowProps) {
       >
         <span className={css.number}>{rule.rule}</span>
         <Icon size={14} aria-hidden />
-        <span className={css.code}>{step?.action ?? rule.action}</span>
+        <span className={css.code}>{(step ?? rule).action.text}</span>
         <span className={css.amount}>{amountText(step)}</span>
       </button>
       <Menu

@@ -3,14 +3,7 @@ import { Crosshair, Pencil, X } from "lucide-react";
 import { type FormEvent, useEffect, useState } from "react";
 import { startLandmarks } from "../../commands/demonstrate";
 import { perform } from "../../store/edits";
-import {
-  type Directive,
-  directiveText,
-  pairFromClicks,
-  parseDirective,
-  withoutPair,
-  withPair,
-} from "../../store/orientation";
+import { pairFromClicks, withoutPair, withPair } from "../../store/orientation";
 import { useProject } from "../../store/project";
 import { useAssetView, useScenes } from "../../store/scenes";
 import { reportProblem } from "../../store/toasts";
@@ -18,15 +11,15 @@ import { setTool, useWorkspace } from "../../store/workspace";
 import { Button, IconButton } from "../../ui/Button";
 import { Check } from "../../ui/fields";
 import { Note, Section } from "../../ui/Section";
-import { DirectionField } from "./ArgumentField";
+import type { OrientView } from "../../wire";
+import { type Direction, DirectionField } from "./ArgumentField";
 import css from "./demonstrate.module.css";
 
 export function Orientation() {
-  const text = useProject((state) => state.project.orient);
-  const sentence = useProject((state) => state.project.orient_sentence);
+  const orient = useProject((state) => state.project.orient);
+  const { text, sentence } = orient;
   const unturned = useAssetView()?.unturned;
   const [writing, setWriting] = useState(false);
-  const directive = parseDirective(text);
   const edit = <IconButton icon={Pencil} name="Write as text" on={writing} onClick={() => setWriting(!writing)} />;
   return (
     <Section title="Orientation" aside={edit}>
@@ -37,51 +30,45 @@ export function Orientation() {
       {writing ? (
         <OrientationText text={text} onDone={() => setWriting(false)} />
       ) : (
-        directive && (
-          <>
-            <Pairs directive={directive} />
-            <LandmarkClicks directive={directive} />
-          </>
-        )
+        <>
+          <Pairs orient={orient} />
+          <LandmarkClicks orient={orient} />
+        </>
       )}
     </Section>
   );
 }
 
-function Pairs({ directive }: { directive: Directive }) {
-  if (!directive.pairs.length) return null;
+function Pairs({ orient }: { orient: OrientView }) {
+  if (!orient.pairs.length) return null;
   return (
     <>
       <ul className={css.pairs}>
-        {directive.pairs.map((pair, k) => (
-          <li key={pair.direction}>
-            <strong>{pair.direction.replace("-", "−")}</strong>
+        {orient.pairs.map(({ axis, start, end }, k) => (
+          <li key={axis}>
+            <strong>{axis.replace("-", "−")}</strong>
             <span className={css.code}>
-              {pair.from} → {pair.to}
+              {start ?? "all"} → {end ?? "all"}
             </span>
-            <IconButton
-              icon={X}
-              name={`Remove ${pair.direction}`}
-              onClick={() => orient(withoutPair(directive, k))}
-            />
+            <IconButton icon={X} name={`Remove ${axis}`} onClick={() => setLandmarks(withoutPair(orient, k))} />
           </li>
         ))}
       </ul>
-      <Check checked={directive.snap} onChange={(snap) => orient({ ...directive, snap })}>
+      <Check checked={orient.snap} onChange={(snap) => setLandmarks({ ...orient, snap })}>
         Quarter turns only
       </Check>
     </>
   );
 }
 
-function orient(directive: Directive): void {
-  void perform({ kind: "orient", text: directiveText(directive) });
+function setLandmarks({ snap, pairs }: Pick<OrientView, "snap" | "pairs">): void {
+  void perform({ kind: "landmarks", snap, pairs });
 }
 
 /** A direction from two clicked hulls: it points from the landmark of the first to that of the second. */
-function LandmarkClicks({ directive }: { directive: Directive }) {
+function LandmarkClicks({ orient }: { orient: OrientView }) {
   const clicking = useWorkspace((workspace) => workspace.tool === "landmark");
-  const [direction, setDirection] = useState("+Z");
+  const [direction, setDirection] = useState<Direction>("+Z");
   if (!clicking) {
     return (
       <Button
@@ -89,28 +76,28 @@ function LandmarkClicks({ directive }: { directive: Directive }) {
         onClick={startLandmarks}
         tip="Click a hull where the direction starts and one where it ends"
       >
-        {directive.pairs.length ? "Set another by clicking" : "Set by clicking"}
+        {orient.pairs.length ? "Set another by clicking" : "Set by clicking"}
       </Button>
     );
   }
-  return <ClickForm directive={directive} direction={direction} setDirection={setDirection} />;
+  return <ClickForm orient={orient} direction={direction} setDirection={setDirection} />;
 }
 
 interface ClickFormProps {
-  directive: Directive;
-  direction: string;
-  setDirection: (direction: string) => void;
+  orient: OrientView;
+  direction: Direction;
+  setDirection: (direction: Direction) => void;
 }
 
-function ClickForm({ directive, direction, setDirection }: ClickFormProps) {
+function ClickForm({ orient, direction, setDirection }: ClickFormProps) {
   const first = useWorkspace((workspace) => workspace.landmarks[0]);
   useEffect(
     () =>
       useWorkspace.subscribe(({ landmarks: [start, end] }) => {
         if (start === undefined || end === undefined) return;
-        take(directive, direction, start, end);
+        take(orient, direction, start, end);
       }),
-    [directive, direction],
+    [orient, direction],
   );
   return (
     <div className={css.clicking}>
@@ -131,15 +118,15 @@ function ClickForm({ directive, direction, setDirection }: ClickFormProps) {
   );
 }
 
-/** Makes the directive of two clicked hulls; where they cannot be landmarks, clicking begins anew. */
-function take(directive: Directive, direction: string, start: string, end: string): void {
+/** Sets the landmarks of two clicked hulls; where they cannot be landmarks, clicking begins anew. */
+function take(orient: OrientView, direction: Direction, start: string, end: string): void {
   const pair = pairFromClicks(direction, labelOf(start), labelOf(end));
   if (typeof pair === "string") {
     setTool("landmark");
     return reportProblem({ message: pair, where: null, remedy: null, conflict: false });
   }
   setTool("select");
-  void perform({ kind: "orient", text: directiveText(withPair(directive, pair)) });
+  setLandmarks(withPair(orient, pair));
 }
 
 function labelOf(name: string): string | null {

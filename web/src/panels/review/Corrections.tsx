@@ -26,7 +26,7 @@ export function Corrections({ asset }: { asset: string }) {
         <ol className={css.corrections}>
           {corrections.map(({ select, action }, k) => (
             <li key={k} title={select.join(", ")}>
-              <code className={css.code}>{action}</code> <span className={css.dim}>{listText(select, 3)}</span>
+              <code className={css.code}>{action.text}</code> <span className={css.dim}>{listText(select, 3)}</span>
             </li>
           ))}
         </ol>

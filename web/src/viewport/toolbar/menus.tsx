@@ -82,7 +82,7 @@ export function ShowingMenu() {
           <span className={css.labelLine}>
             <Check size={13} aria-hidden style={{ visibility: nameOf(state) === now ? "visible" : "hidden" }} />
             {nameOf(state)}
-            {state.kind === "steps" && <small>{steps[state.steps - 1]?.action}</small>}
+            {state.kind === "steps" && <small>{steps[state.steps - 1]?.action.text}</small>}
           </span>
         ),
         onSelect: () => visit(asset, state),
