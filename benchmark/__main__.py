@@ -20,11 +20,10 @@ from benchmark.pages import PAGES, Page, page_of, parts_of, text_of
 from benchmark.progress import Progress
 from benchmark.report import Result, as_text, write_lines
 from benchmark.signoff.plot import draw_curves
-from benchmark.spanning.pictures import draw_splits
 from meshforge.common import AssetError, UsageError, write_atomically
 
 RESULTS = Path(__file__).resolve().parent / "results"
-_PICTURES = {"signoff": draw_curves, "spanning": draw_splits}
+_PICTURES = {"signoff": draw_curves}
 """What draws the pictures of a page from its results, and gives the Markdown that shows them."""
 
 

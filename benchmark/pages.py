@@ -82,7 +82,7 @@ PAGES = (
         "spanning",
         "# Hulls that span parts\n\nWritten by `script/bench` from the JSON beside it. Every run gives the same, but "
         "for times.\n",
-        ("detection", "splits", "edits", "costs", "real_assets", "programs"),
+        ("detection", "alarms", "edits", "costs", "real_assets", "programs"),
         ("numpy", "scipy", "coacd", "manifold3d", "mujoco"),
     ),
     Page(

@@ -1,4 +1,4 @@
-"""Draws docs/pictures/spans.png: a bundled cup that one call of CoACD decomposed, as it is, split and rebuilt."""
+"""Draws docs/pictures/spans.png: a bundled cup that one call of CoACD decomposed, as it is and rebuilt."""
 
 from __future__ import annotations
 
@@ -12,10 +12,11 @@ from PIL.Image import Image
 
 from meshforge.batch import IN_PROCESS
 from meshforge.common import join_and
+from meshforge.formats import read
 from meshforge.geometry import CoacdSettings
-from meshforge.labels import HullSpan, find_spans
+from meshforge.labels import HullSpan, read_reference_family
 from meshforge.labels.family_comparison import ignore_stage
-from meshforge.project import SPLIT_DEFAULTS, Project, SplitSettings
+from meshforge.project import REBUILD_DEFAULTS, Project
 from meshforge.rendering import color_hulls, make_contact_sheet, write_png
 from meshforge.rendering.canvas import Canvas
 from meshforge.rendering.hull_names import place_texts
@@ -35,17 +36,13 @@ def draw_spans(path: Path) -> None:
     """Write the picture."""
     with tempfile.TemporaryDirectory() as scratch:
         project = create_project(Path(scratch))
-        spans = find_spans(project, IN_PROCESS, ignore_stage).spans_of(CUP)
-        found = {span.hull: span for span in spans if span.chance >= SPLIT_DEFAULTS.sure}
-        pictures, titles = (
-            [_draw(project, found)],
-            [f"as decomposed: {_count(project)}, of which {len(found)} span parts"],
-        )
-        list(project.split_spanning([CUP], execution=IN_PROCESS))
-        pictures.append(_draw(project))
-        titles.append(f"--split-spanning: {_count(project)}")
-        project.unprepare(CUP)
-        list(project.split_spanning([CUP], SplitSettings(rebuild=True), execution=IN_PROCESS))
+        family = read_reference_family(project, IN_PROCESS, ignore_stage)
+        assert family, "two cups are labelled"
+        spans = family.find_spans(read(project.path(CUP)), project.mesh(CUP)).spans
+        found = {span.hull: span for span in spans if span.chance >= REBUILD_DEFAULTS.min_confidence}
+        pictures = [_draw(project, found)]
+        titles = [f"as decomposed: {_count(project)}, of which {len(found)} span parts"]
+        list(project.rebuild_spanning([CUP], execution=IN_PROCESS))
         pictures.append(_draw(project))
         titles.append(f"--rebuild-spanning: {_count(project)}")
         write_png(path, make_contact_sheet(pictures, columns=len(pictures), titles=titles))

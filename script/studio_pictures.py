@@ -19,7 +19,6 @@ from meshforge.samples import TABLES, family_of
 from meshforge.symbolic import read_labels
 from meshforge.synthesis import Step
 from script.pictures import BY_HAND
-from script.span_picture import create_project
 
 SIZE = (1440, 900)
 GUESSED = "Keep as step 2"
@@ -38,8 +37,6 @@ def main(folder: Path) -> None:
         _show_first_steps(project)
         with studio(project.folder) as address:
             _show_question(_page(browser, address, "dark"), folder / "studio-signoff.png")
-        with studio(create_project(Path(scratch) / "cups").folder) as address:
-            _show_split(_page(browser, address, "light"), folder / "studio-split.png")
         with studio(_prepare_project(Path(scratch) / "three").folder) as address:
             _show_labels(_page(browser, address, "light"), folder / "studio-label.png")
         project = create_tables(Path(scratch) / "two")
@@ -101,16 +98,6 @@ def _show_question(page: Page, path: Path) -> None:
     """A question, as pictures, beside the program; the view shows what it is about."""
     page.keyboard.press("Alt+3")
     page.get_by_role("heading", name="which hulls should rule").wait_for()
-    page.keyboard.press("u")
-    page.wait_for_timeout(4000)
-    page.screenshot(path=path)
-
-
-def _show_split(page: Page, path: Path) -> None:
-    """The question whether the hull of a cup that holds two parts is to be split."""
-    page.keyboard.press("Alt+2")
-    page.get_by_role("button", name="Find hulls that span parts").click()
-    page.get_by_role("button", name="Go to the question").wait_for(timeout=300_000)
     page.keyboard.press("u")
     page.wait_for_timeout(4000)
     page.screenshot(path=path)

@@ -11,10 +11,9 @@ from collections.abc import Iterator
 from benchmark.assets import CATEGORIES, MERGED
 from benchmark.real.family import families
 from benchmark.real.whole import REAL
-from benchmark.spanning.course import SURE, SplitFamily, SplitHull, split_some
+from benchmark.spanning.course import SURE, FamilyOutcome, judge_some
 from benchmark.spanning.detection import Detection
 from benchmark.spanning.fit import fit
-from benchmark.spanning.splits import Purity
 
 
 def main() -> None:
@@ -36,38 +35,28 @@ def main() -> None:
         return
     for name in given.categories or CATEGORIES:
         sets = MERGED if name in CATEGORIES else (REAL,)
-        for family in split_some([name], _tell, not given.test, sets):
+        for family in judge_some([name], _tell, not given.test, sets):
             for line in describe_family(family):
                 print(line)
 
 
-def describe_family(family: SplitFamily) -> Iterator[str]:
-    """How many hulls are found and how pure they are then, the hulls that are missed or falsely found, and the edits
+def describe_family(family: FamilyOutcome) -> Iterator[str]:
+    """How many hulls are found, the hulls that are missed or falsely found, and the edits
     that fail."""
-    found, purity = Detection.of(family.hulls), Purity.of([row for row in family.hulls if row.spans])
+    found = Detection.of(family.hulls)
     yield (
         f"{family.category}, {family.setting}, labels of {family.labelled}: {found.spanning} of {found.hulls} span, "
-        f"precision {found.precision:.2f}, recall {found.recall:.2f}, purity {purity.before:.2f} to {purity.after:.2f}"
+        f"precision {found.precision:.2f}, recall {found.recall:.2f}"
     )
     for row in family.hulls:
-        if row.spans != (row.chance >= SURE[0]):
-            yield f"    {'missed' if row.spans else 'falsely found'}: {_describe_hull(row)}"
-    before, split, truly, rebuilt = (
-        sum(getattr(row, what) is None for row in family.edits) for what in ("before", "split", "truly", "rebuilt")
-    )
-    told = f"{split} after the split, {truly} with true labels of pieces, {rebuilt} on rebuilt meshes"
-    yield f"    of {len(family.edits)} edits {before} do before, {told} ({sum(family.rebuilt.values())} hulls)"
+        if row.spans != (row.chance >= SURE):
+            yield f"    {'missed' if row.spans else 'falsely found'}: {row.asset} hull {row.number}, {row.chance:.0%}"
+    before, rebuilt = (sum(getattr(row, what) is None for row in family.edits) for what in ("before", "rebuilt"))
+    hulls = sum(family.rebuilt.values())
+    yield f"    of {len(family.edits)} edits {before} do before, {rebuilt} on rebuilt meshes ({hulls} hulls)"
     for edit in family.edits:
-        for what, why in (("split", edit.split), ("rebuilt", edit.rebuilt)):
-            if why:
-                yield f"    {edit.task} {edit.mesh} {what}: {why.splitlines()[0]}"
-
-
-def _describe_hull(row: SplitHull) -> str:
-    total = sum(row.volumes.values()) or 1.0
-    ordered = sorted(row.volumes.items(), key=lambda pair: -pair[1])
-    told = ", ".join(f"{label} {volume / total:.0%}" for label, volume in ordered if volume > 0.005 * total)
-    return f"{row.asset} hull {row.number}, {row.chance:.0%}: {told or 'in no part'}"
+        if edit.rebuilt:
+            yield f"    {edit.task} {edit.mesh} rebuilt: {edit.rebuilt.splitlines()[0]}"
 
 
 def _tell(line: str) -> None:

@@ -1,4 +1,4 @@
-"""What finding and splitting hulls that span costs: fine decompositions on one core, inference, and splits."""
+"""What finding hulls that span costs: fine decompositions on one core, and inference."""
 
 from __future__ import annotations
 
@@ -13,20 +13,20 @@ from typing import Any
 
 from benchmark.assets import MERGED, Sample, samples
 from benchmark.report import Cell, Goal, Result, Table, Tell
-from benchmark.spanning.course import SplitFamily, split_families
+from benchmark.spanning.course import FamilyOutcome, judge_families
 from benchmark.spanning.detection import categories_of
 from benchmark.spanning.family import BY_PIECES, choose_known
 from benchmark.spanning.sets import surface_of
 from meshforge.geometry import decompose_finely
 
-_DECOMPOSE, _SPLIT = 3.0, 0.5  # seconds to reach
+_DECOMPOSE = 3.0  # seconds to reach
 _COLUMNS = ("set", "category", "asset", "triangles of its parts", "pieces", "s of the processor", "s")
-_SPLIT_COLUMNS = ("set", "hulls split", "median s", "slowest s", "a family's inference, median s", "slowest s")
+_INFERENCE_COLUMNS = ("set", "a family's inference, median s", "slowest s")
 
 
 def measure(tell: Tell, quick: bool) -> Result:
     """Decompose the labelled assets of each family finely, without a cache, one after the other on one core."""
-    families = split_families(tell, quick)
+    families = judge_families(tell, quick)
     assets = [
         sample for name in categories_of(families) for setting in MERGED for sample in _choose(name, setting, quick)
     ]
@@ -37,22 +37,18 @@ def measure(tell: Tell, quick: bool) -> Result:
             pieces, spent, passed = _time(partial(decompose_finely, *surface_of(sample)))
             size = sum(part.solid.num_tri() for part in sample.asset.parts)
             rows.append((sample.setting, sample.asset.category, sample.asset.name, size, len(pieces), spent, passed))
-    splits = tuple(_list_splits(families))
     return Result(
         "costs",
         "Hulls that span parts: costs",
         (
             Table("Fine decomposition on one core, no cache", _COLUMNS, tuple(rows)),
-            Table("Splits and inference, on one core", _SPLIT_COLUMNS, splits),
+            Table("Inference, on one core", _INFERENCE_COLUMNS, tuple(_list_inference(families))),
         ),
-        (
-            Goal("fine decomposition of an asset, median s", "at most", _DECOMPOSE, _median([row[-1] for row in rows])),
-            Goal("a split, median s", "at most", _SPLIT, max(float(row[2]) for row in splits)),
-        ),
+        (Goal("fine decomposition of an asset, median s", "at most", _DECOMPOSE, _median([row[-1] for row in rows])),),
         (
             "Decomposed are the assets of a family that a person labels, elsewhere all is read from a cache. *s*: from "
             "start to end, with one core, from a surface that is welded already; *s of the processor*: of this process "
-            "and of CoACD's. Splits and inference are in seconds of the processor, while other families take the other "
+            "and of CoACD's. Inference is in seconds of the processor, while other families take the other "
             "cores.",
         ),
     )
@@ -63,12 +59,10 @@ def _choose(category: str, setting: str, quick: bool) -> list[Sample]:
     return [rows[place] for place in sorted(choose_known(len(rows)))[: 1 if quick else None]]
 
 
-def _list_splits(families: Sequence[SplitFamily]) -> Iterator[tuple[Cell, ...]]:
+def _list_inference(families: Sequence[FamilyOutcome]) -> Iterator[tuple[Cell, ...]]:
     for setting in MERGED:
-        mine = [one for one in families if (one.setting, one.labelled) == (setting, BY_PIECES)]
-        times = [hull.seconds for one in mine for hull in one.hulls if hull.parts] or [0.0]
-        inference = [one.seconds for one in mine]
-        yield setting, len(times), _median(times), max(times), _median(inference), max(inference)
+        inference = [one.seconds for one in families if (one.setting, one.labelled) == (setting, BY_PIECES)]
+        yield setting, _median(inference), max(inference)
 
 
 def _median(values: Sequence[Any]) -> float:

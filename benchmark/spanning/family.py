@@ -13,8 +13,8 @@ from benchmark.assets import Asset, Sample
 from benchmark.assets.decomposition import shares
 from benchmark.spanning.sets import list_samples, surface_of
 from benchmark.tasks.task import PURE
-from meshforge.geometry import FinePiece, Polytope, cache_folder, decompose_finely, divide
-from meshforge.label_model import AssetCells, AssetPieces, CellModel, SpanModel, SpanPosterior, piece_mesh
+from meshforge.geometry import FinePiece, Polytope, cache_folder, decompose_finely
+from meshforge.label_model import AssetPieces, SpanModel, SpanPosterior, piece_mesh
 from meshforge.symbolic import Hull, Label, SymbolicMesh
 
 KNOWN = 3
@@ -22,12 +22,7 @@ KNOWN = 3
 BY_PIECES, BY_HULLS = "pieces", "hulls"
 """What a person labelled of these: the fine pieces and the pure hulls, or the hulls alone."""
 LABELLED = (BY_PIECES, BY_HULLS)
-NO_SURFACE = "hulls, no surface"
-"""The hulls alone were labelled, and nobody knows the surface."""
-WAYS = (*LABELLED, NO_SURFACE)
 _SEED = 28
-Parts = Mapping[int, Sequence[Polytope]]
-"""The parts of the hulls that are split, by the number of the hull."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,34 +43,36 @@ class SpanFamily:
         return tuple(tuple(piece.shape for piece in own) for own in self.fine)
 
     @cached_property
-    def model(self) -> SpanModel:
-        """The model of the family, which knows shapes and no label."""
+    def assets(self) -> tuple[AssetPieces, ...]:
+        """Each with its pieces and no label."""
         meshes = [_without_labels(sample.mesh) for sample in self.samples]
         rows = zip(meshes, self.fine, strict=True)
-        return SpanModel([AssetPieces(mesh, piece_mesh({mesh.hulls[0].body: own}, mesh)) for mesh, own in rows])
-
-    @cached_property
-    def cells(self) -> CellModel:
-        """The same of hulls that stand for no surface."""
-        return CellModel([AssetCells(_without_labels(sample.mesh)) for sample in self.samples])
+        return tuple(AssetPieces(mesh, piece_mesh({mesh.hulls[0].body: own}, mesh)) for mesh, own in rows)
 
     @property
     def unknown(self) -> Iterator[tuple[int, Sample]]:
         """The assets that nobody labelled, with their numbers."""
         return ((place, sample) for place, sample in enumerate(self.samples) if place not in self.known)
 
-    def infer(self, labelled: str) -> SpanPosterior:
-        """What follows for all assets from what a person labelled of the known ones, of `WAYS`."""
-        labels: list[Label | None] = []
-        of_pieces: list[Label | None] = []
-        for place, (sample, pieces) in enumerate(zip(self.samples, self.pieces, strict=True)):
-            known = place in self.known
-            for hull, row in zip(sample.mesh.hulls, sample.shares, strict=True):
-                told = known and (labelled != BY_PIECES or not is_spanning(row))
-                labels.append(Label(hull.label) if told and hull.label else None)
-            told_pieces = known and labelled == BY_PIECES
-            of_pieces += map(Label, label_truly(pieces, sample.asset)) if told_pieces else [None] * len(pieces)
-        return self.cells.infer(labels) if labelled == NO_SURFACE else self.model.infer(labels, of_pieces)
+    def infer(self, place: int, labelled: str) -> SpanPosterior:
+        """What follows for one asset, the first of the posterior, from what a person labelled of the known ones, of
+        `LABELLED`: as the product looks at each asset beside the labelled ones alone."""
+        chosen = [place, *sorted(self.known - {place})]
+        rows = [self._label(one, labelled) for one in chosen]
+        labels, of_pieces = ([label for row in rows for label in row[kind]] for kind in (0, 1))
+        return SpanModel([self.assets[one] for one in chosen]).infer(labels, of_pieces)
+
+    def _label(self, place: int, labelled: str) -> tuple[list[Label | None], list[Label | None]]:
+        """The labels of the hulls and of the pieces of an asset."""
+        sample, pieces = self.samples[place], self.pieces[place]
+        if place not in self.known:
+            return [None] * len(sample.mesh.hulls), [None] * len(pieces)
+        by_pieces = labelled == BY_PIECES
+        hulls = [
+            Label(hull.label) if hull.label and not (by_pieces and is_spanning(row)) else None
+            for hull, row in zip(sample.mesh.hulls, sample.shares, strict=True)
+        ]
+        return hulls, list(map(Label, label_truly(pieces, sample.asset))) if by_pieces else [None] * len(pieces)
 
 
 def open_family(category: str, setting: str, calibration: bool = False) -> SpanFamily:
@@ -105,28 +102,6 @@ def label_truly(hulls: Sequence[Polytope], asset: Asset) -> list[str]:
     return [next(iter(shares(hull, asset.parts, asset.pose))) for hull in hulls]
 
 
-def split_hulls(sample: Sample, parts: Parts) -> Sample:
-    """The mesh with its hulls split, all hulls with their true labels."""
-    hulls: list[Hull] = []
-    rows: list[Mapping[str, float]] = []
-    for place, (hull, row) in enumerate(zip(sample.mesh.hulls, sample.shares, strict=True)):
-        if place not in parts:
-            hulls.append(hull)
-            rows.append(row)
-        for number, shape in enumerate(parts.get(place, ())):
-            share = shares(shape, sample.asset.parts, sample.asset.pose)
-            hulls.append(
-                Hull(name_part(sample, place, number), hull.body, shape, Label(next(iter(share)), 1.0, "file"))
-            )
-            rows.append(share)
-    return Sample(sample.name, sample.asset, sample.setting, SymbolicMesh(tuple(hulls)), tuple(rows))
-
-
-def name_part(sample: Sample, hull: int, number: int) -> str:
-    """What `split_hulls` calls a part of a hull."""
-    return f"{sample.mesh.hulls[hull].name}_{number}"
-
-
 def replace_hulls(sample: Sample, shapes: Sequence[Polytope]) -> Sample:
     """The mesh with other hulls in place of all of its own, with their true labels."""
     rows = [shares(shape, sample.asset.parts, sample.asset.pose) for shape in shapes]
@@ -135,15 +110,6 @@ def replace_hulls(sample: Sample, shapes: Sequence[Polytope]) -> Sample:
         for number, (shape, row) in enumerate(zip(shapes, rows, strict=True))
     )
     return Sample(sample.name, sample.asset, sample.setting, SymbolicMesh(tuple(hulls)), tuple(rows))
-
-
-def divide_truly(sample: Sample, pieces: Sequence[Polytope]) -> Parts:
-    """The parts of the spanning hulls of an asset, by the true labels of its pieces."""
-    labels = label_truly(pieces, sample.asset)
-    chances = np.eye(len(set(labels)))[np.unique(labels, return_inverse=True)[1]]
-    spanning = [place for place, row in enumerate(sample.shares) if is_spanning(row)]
-    found = {place: divide(sample.mesh.hulls[place].shape, pieces, chances) for place in spanning}
-    return {place: tuple(part.shape for part in some) for place, some in found.items() if len(some) > 1}
 
 
 def _without_labels(mesh: SymbolicMesh) -> SymbolicMesh:

@@ -1,5 +1,4 @@
-"""Fits the weights of the probability that a hull spans parts, by a surface and without, on the calibration assets
-alone."""
+"""Fits the weights of the probability that a hull spans parts, on the calibration assets alone."""
 
 from __future__ import annotations
 
@@ -16,7 +15,7 @@ from benchmark.journal import run_units
 from benchmark.report import Tell
 from benchmark.signoff.calibration import calibrate
 from benchmark.spanning.course import warm_cache
-from benchmark.spanning.family import LABELLED, NO_SURFACE, is_spanning, open_family
+from benchmark.spanning.family import LABELLED, is_spanning, open_family
 from meshforge.common import write_atomically
 from meshforge.geometry import Floats
 from meshforge.label_model import spans
@@ -28,13 +27,12 @@ _ABOUT = "made by `python -m benchmark.spanning fit` on the calibration set of t
 def fit(tell: Tell) -> None:
     """Fit the weights, say how good they are on categories left out, and write them where they ship."""
     warm_cache(CATEGORIES, tell, True)
-    data = {"about": _ABOUT, "weights": _fit_ways(LABELLED, tell), "cells": _fit_ways((NO_SURFACE,), tell)}
+    data = {"about": _ABOUT, "weights": _fit_ways(tell)}
     write_atomically(Path(spans.__file__).parent / spans.WEIGHTS_FILE, json.dumps(data, indent=1) + "\n")
 
 
-def _fit_ways(ways: Sequence[str], tell: Tell) -> list[float]:
-    """The weights for some of `WAYS`."""
-    units = [(name, setting, labelled) for name in CATEGORIES for setting in MERGED for labelled in ways]
+def _fit_ways(tell: Tell) -> list[float]:
+    units = [(name, setting, labelled) for name in CATEGORIES for setting in MERGED for labelled in LABELLED]
     found = run_units("spanning-evidence", collect_evidence, units, tell)
     rows = {unit: np.array(some, float) for unit, some in zip(units, found, strict=True)}
     pairs = list[tuple[float, bool]]()
@@ -45,18 +43,19 @@ def _fit_ways(ways: Sequence[str], tell: Tell) -> list[float]:
                 zip(_predict(others, some).tolist(), map(bool, some[:, -1]), strict=True) if unit[0] == left else ()
             )
     weights = [round(float(weight), 3) for weight in fit_weights(list(rows.values()))]
-    tell(f"{' and '.join(ways)}: of a category left out {calibrate(pairs)}; weights {weights}")
+    tell(f"of a category left out {calibrate(pairs)}; weights {weights}")
     return weights
 
 
 def collect_evidence(category: str, setting: str, labelled: str) -> list[list[float]]:
     """Of each hull of a calibration family that nobody labelled the evidence, and whether it spans."""
     family = open_family(category, setting, True)
-    posterior = family.infer(labelled)
     return [
         [*evidence, float(is_spanning(share))]
         for place, sample in family.unknown
-        for evidence, share in zip(posterior.collect_evidence(place).tolist(), sample.shares, strict=True)
+        for evidence, share in zip(
+            family.infer(place, labelled).collect_evidence(0).tolist(), sample.shares, strict=True
+        )
     ]
 
 

@@ -1,4 +1,4 @@
-"""Programs that are learned and signed off on meshes with hulls that span parts, as they are, split and rebuilt, beside
+"""Programs that are learned and signed off on meshes with hulls that span parts, as they are and rebuilt, beside
 meshes whose solids were decomposed one by one."""
 
 from __future__ import annotations
@@ -26,21 +26,20 @@ from benchmark.signoff.outcomes import (
 )
 from benchmark.signoff.queue import CAP, DONE, Review, sign_off
 from benchmark.spanning.course import SURE, warm_cache
-from benchmark.spanning.family import BY_PIECES, KNOWN, choose_known, name_part, open_family, replace_hulls, split_hulls
+from benchmark.spanning.family import BY_PIECES, KNOWN, choose_known, open_family, replace_hulls
 from benchmark.study import REPORTED, Bench
 from benchmark.study.condition import PROPAGATED
 from benchmark.study.desk import Start
 from benchmark.tasks import Task, task, tasks
-from meshforge.geometry import HullPart
 from meshforge.label_model import SpanPosterior
 from meshforge.symbolic import Label
 
 PartLabels = Mapping[str, Label]
-"""Labels of parts of split hulls, by name."""
+"""Labels of hulls of rebuilt assets, by name."""
 NO_LABELS: PartLabels = MappingProxyType({})
 FINE = SEPARATE[-1]
 """The set that is compared with."""
-AS_IT_IS, SPLIT, REBUILT = "as it is", "split", "rebuilt"
+AS_IT_IS, REBUILT = "as it is", "rebuilt"
 MOST_BELOW = 5.0
 """How far right edits may be below those on the fine set [% of the assets]."""
 LEVEL = "medium"
@@ -103,12 +102,10 @@ def sign_set(name: str, setting: str) -> list[dict[str, Any]]:
         meshes = {AS_IT_IS: [(sample, NO_LABELS) for sample in samples(one.category, False, (FINE,))]}
     else:
         family = open_family(one.category, setting)
-        posterior = family.infer(BY_PIECES)
         places = list(enumerate(family.samples))
         meshes = {
             AS_IT_IS: [(sample, NO_LABELS) for sample in family.samples],
-            SPLIT: [split_sample(sample, posterior, place) for place, sample in places],
-            REBUILT: [rebuild_sample(sample, posterior, place) for place, sample in places],
+            REBUILT: [rebuild_sample(sample, family.infer(place, BY_PIECES)) for place, sample in places],
         }
     return [
         {
@@ -124,37 +121,21 @@ def sign_set(name: str, setting: str) -> list[dict[str, Any]]:
 def open_bench(one: Task, rows: Sequence[tuple[Sample, PartLabels]]) -> Bench:
     """A task with a family of which those assets are labelled by hand by whose labels hulls that span are found.
 
-    rows: the meshes, with the labels that parts of split hulls have from the split.
+    rows: the meshes, with the labels that hulls of rebuilt assets have from that.
     """
     known = tuple(rows[place][0].name for place in sorted(choose_known(len(rows))))
     return Bench(one, [sample for sample, _ in rows], Start(known, {sample.name: labels for sample, labels in rows}))
 
 
-def split_sample(sample: Sample, posterior: SpanPosterior, place: int) -> tuple[Sample, PartLabels]:
-    """The mesh with the hulls split that likely span, all hulls with their true labels; and those of the parts."""
-    likely = np.flatnonzero(posterior.chances_of(place) >= SURE[0]).tolist()
-    made = {hull: parts for hull in likely if len(parts := posterior.divide(place, hull)) > 1}
-    split = split_hulls(sample, {hull: [part.shape for part in parts] for hull, parts in made.items()})
-    parts_by_name = {
-        name_part(sample, hull, number): part for hull, parts in made.items() for number, part in enumerate(parts)
-    }
-    return split, {name: _label_of(part, posterior) for name, part in parts_by_name.items()}
-
-
-def rebuild_sample(sample: Sample, posterior: SpanPosterior, place: int) -> tuple[Sample, PartLabels]:
+def rebuild_sample(sample: Sample, posterior: SpanPosterior) -> tuple[Sample, PartLabels]:
     """The mesh with all hulls rebuilt part by part where one likely spans, all hulls with their true labels; and those
-    of the new hulls."""
-    if posterior.chances_of(place).max() < SURE[0]:
+    of the new hulls, as `prepare` writes them. posterior: of which the asset is the first."""
+    if posterior.chances_of(0).max() < SURE:
         return sample, NO_LABELS
-    made = [part for _, part in posterior.rebuild(place, np.arange(len(sample.mesh.hulls)))]
-    rebuilt = replace_hulls(sample, [part.shape for part in made])
+    made = posterior.rebuild(0, np.arange(len(sample.mesh.hulls)))
+    rebuilt = replace_hulls(sample, [one.shape for one in made])
     rows = zip(rebuilt.mesh.hulls, made, strict=True)
-    return rebuilt, {hull.name: _label_of(part, posterior) for hull, part in rows}
-
-
-def _label_of(part: HullPart, posterior: SpanPosterior) -> Label:
-    """The label of a part as `prepare` writes it."""
-    return Label(posterior.labels[part.kind], round(float(part.shares[part.kind]), 3), "split")
+    return rebuilt, {hull.name: Label(one.label, round(one.share, 3), "split") for hull, one in rows}
 
 
 def _reviews_of(rows: Sequence[dict[str, Any]], setting: str, spanning: str) -> list[Review]:
@@ -195,12 +176,11 @@ def list_goals(rows: Sequence[dict[str, Any]]) -> Iterator[Goal]:
         ("of all assets", _right_of_all),
     )
     for setting in MERGED:
-        for spanning in (SPLIT, REBUILT):
-            reviews = _reviews_of(rows, setting, spanning)
-            for told, figure in figures:
-                below = mean_over_tasks(fine, figure) - mean_over_tasks(reviews, figure)
-                what = f"{setting}, {spanning}: right and signed off, {told}, below the {FINE} set, %"
-                yield Goal(what, "at most", MOST_BELOW, below)
+        reviews = _reviews_of(rows, setting, REBUILT)
+        for told, figure in figures:
+            below = mean_over_tasks(fine, figure) - mean_over_tasks(reviews, figure)
+            what = f"{setting}, {REBUILT}: right and signed off, {told}, below the {FINE} set, %"
+            yield Goal(what, "at most", MOST_BELOW, below)
 
 
 _NOTES = (
@@ -210,9 +190,9 @@ _NOTES = (
     "itself meets it there under true labels. The goals of `signoff.md` are about shares of the possible; *of all "
     "assets* counts those too where no edit is right since hulls span. Sessions are broken off after "
     f"{CAP:.0f} s.",
-    f"A person labels the fine pieces of {KNOWN} assets, and by these hulls are found, split and rebuilt on all 25, "
-    f"from a probability of {SURE[0]} on, as `prepare --sure {SURE[0]}` does. On each set the hulls of the same "
-    f"{KNOWN} assets have labels by hand when the session begins; parts and new hulls have those that `prepare` gives, "
+    f"A person labels the fine pieces of {KNOWN} assets, and by these assets are rebuilt on all 25, "
+    f"from a probability of {SURE} on, as `prepare --rebuild-spanning` does. On each set the hulls of the same "
+    f"{KNOWN} assets have labels by hand when the session begins; new hulls have those that `prepare` gives, "
     "and all other labels are propagated from those by hand.",
     f"*{FINE}*: each connected solid decomposed by itself, as in `signoff.md`.",
 )

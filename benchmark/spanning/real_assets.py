@@ -1,4 +1,4 @@
-"""Hulls that span parts of real assets, each decomposed as a whole: found, split, and edited."""
+"""Hulls that span parts of real assets, each decomposed as a whole: found, rebuilt, and edited."""
 
 from __future__ import annotations
 
@@ -6,8 +6,7 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from benchmark.assets import SEPARATE, Sample
-from benchmark.assets.decomposition import volumes_in_parts
+from benchmark.assets import SEPARATE
 from benchmark.journal import run_units
 from benchmark.real.family import families as list_families
 from benchmark.real.family import family
@@ -15,7 +14,7 @@ from benchmark.real.samples import make_sample
 from benchmark.real.tasks import tasks_of
 from benchmark.real.whole import REAL, THRESHOLD, list_hidden, list_whole
 from benchmark.report import Cell, Goal, Result, Table, Tell
-from benchmark.spanning.course import SURE, SplitFamily, SplitHull, SplitPart, split_some
+from benchmark.spanning.course import SURE, FamilyOutcome, judge_some
 from benchmark.spanning.detection import (
     ABOUT_LABELS,
     BY_PROBABILITY,
@@ -25,66 +24,55 @@ from benchmark.spanning.detection import (
     hulls_of,
     list_by_probability,
     list_calibrations,
+    list_counted,
     list_counts,
 )
-from benchmark.spanning.edits import FAILURES, SHARES, edits_of, list_failures, list_shares, share_right
-from benchmark.spanning.family import BY_PIECES, KNOWN, Parts, divide_truly, is_spanning, label_truly, open_family
-from benchmark.spanning.splits import (
-    MOST_SPLIT,
-    PURITIES,
+from benchmark.spanning.edits import (
+    FAILURES,
+    SHARES,
     SIZES,
-    Purity,
-    list_gains,
-    list_purities,
+    edits_of,
+    list_failures,
+    list_shares,
     list_sizes,
-    purity_of,
-    share_of_pure_split,
+    share_right,
 )
+from benchmark.spanning.family import BY_PIECES, KNOWN
 from benchmark.speed.assets import corpus
 from meshforge.common import AssetError, join_names
 
-PRECISION, RECALL, PURITY, RIGHT = 0.9, 0.8, 0.88, 0.8
-"""To reach: of hulls that span found, purity of these after the split, and the share of edits that do then."""
+PRECISION, RECALL, RIGHT = 0.9, 0.8, 0.8
+"""To reach: of hulls that span found, and the share of edits that do on rebuilt meshes."""
 _QUICK = "cups"
 _FINE = SEPARATE[-1]
-_LABELS = ("family", "labels of fine pieces right", "purity after the split", "by true labels of pieces")
 
 
 def measure(tell: Tell, quick: bool) -> Result:
-    """Find and split the hulls that span in all real families. Raises AssetError where the corpus is not here."""
+    """Find the hulls that span in all real families, and rebuild assets. Raises AssetError: no corpus is here."""
     if corpus() is None:
         raise AssetError("not run: no corpus is here", where="real_assets", remedy="Set MESHFORGE_CORPUS to it.")
     names = [_QUICK] if quick else list_families()
-    families = split_some(names, tell, sets=(REAL,))
+    families = judge_some(names, tell, sets=(REAL,))
     separate = open_separate(names, tell)
     sizes = tuple(list_sizes(families, separate.count))
     return Result(
         "real_assets",
         "Real assets: hulls that span parts",
         (
-            Table(f"Real assets: found at a probability of at least {SURE[0]}", COUNTS, tuple(list_counts(families))),
+            Table(f"Real assets: found at a probability of at least {SURE}", COUNTS, tuple(list_counts(families))),
             Table(
                 "Real assets: found from other probabilities on, labels of pieces",
                 BY_PROBABILITY,
                 tuple(list_by_probability(families)),
             ),
             Table("What the probabilities are worth", CALIBRATIONS, tuple(list_calibrations(families))),
-            *(
-                Table(
-                    f"Real assets: split from a probability of {sure} on",
-                    PURITIES,
-                    tuple(list_purities(families, sure)),
-                )
-                for sure in SURE
-            ),
             Table("Edits of the reference", (*SHARES, f"the {_FINE} set"), tuple(_list_shares(families, separate))),
             Table("What fails on rebuilt meshes", FAILURES, tuple(list_failures(families))),
-            Table("What is due to labels", _LABELS, tuple(_list_labels(names, families, tell))),
             Table("Hulls in all, all assets that nobody labelled", SIZES, sizes),
         ),
-        tuple(_list_goals(families, sizes)),
+        tuple(_list_goals(families)),
         (*_NOTES, *_list_absent(names)),
-        tuple(list_gains(families)),
+        tuple(list_counted(families)),
     )
 
 
@@ -123,39 +111,7 @@ def judge_separate(name: str, asset: str) -> dict[str, Any]:
     return {"hulls": {setting: len(one.mesh.hulls) for setting, one in made.items() if one}, "fine": fine}
 
 
-def _list_labels(names: Sequence[str], families: Sequence[SplitFamily], tell: Tell) -> Iterator[tuple[Cell, ...]]:
-    found = run_units("spanning-labels", judge_labels, [(name,) for name in names], tell)
-    for name, (right, truly) in zip(names, found, strict=True):
-        yield name, right, purity_of(families, REAL, BY_PIECES, name).after, truly
-
-
-def judge_labels(name: str) -> tuple[float, float]:
-    """Of a real family that nobody labelled: the share of fine pieces, by volume, whose likeliest label is right, mean
-    of assets; and the purity where all hulls that span are split by true labels of pieces."""
-    one = open_family(name, REAL)
-    posterior = one.infer(BY_PIECES)
-    right, hulls = list[float](), list[SplitHull]()
-    for place, sample in one.unknown:
-        pieces = one.pieces[place]
-        told = [posterior.labels[kind] for kind in posterior.chances[place].argmax(axis=1).tolist()]
-        rows = zip(pieces, told, label_truly(pieces, sample.asset), strict=True)
-        same = sum(piece.volume for piece, label, true in rows if label == true)
-        right.append(same / sum(piece.volume for piece in pieces))
-        hulls += _split_truly(sample, divide_truly(sample, pieces))
-    return sum(right) / len(right), Purity.of(hulls).after
-
-
-def _split_truly(sample: Sample, parts: Parts) -> Iterator[SplitHull]:
-    """The hulls of an asset that span, each with given parts."""
-    asset = sample.asset
-    for number, (hull, share) in enumerate(zip(sample.decomposition.hulls, sample.shares, strict=True)):
-        if is_spanning(share):
-            made = [volumes_in_parts(part, asset.parts, asset.pose) for part in parts.get(number, ())]
-            volumes = volumes_in_parts(hull, asset.parts, asset.pose)
-            yield SplitHull(asset.name, number, 1.0, True, volumes, tuple(SplitPart([], "", one) for one in made), 0.0)
-
-
-def _list_shares(families: Sequence[SplitFamily], separate: SeparateMeshes) -> Iterator[tuple[Cell, ...]]:
+def _list_shares(families: Sequence[FamilyOutcome], separate: SeparateMeshes) -> Iterator[tuple[Cell, ...]]:
     for row in list_shares(families):
         category = None if row[2] == "all" else str(row[2])
         edits = edits_of(families, str(row[0]), str(row[1]), category)
@@ -163,19 +119,12 @@ def _list_shares(families: Sequence[SplitFamily], separate: SeparateMeshes) -> I
         yield *row, right / len(edits)
 
 
-def _list_goals(families: Sequence[SplitFamily], sizes: Sequence[tuple[Cell, ...]]) -> Iterator[Goal]:
+def _list_goals(families: Sequence[FamilyOutcome]) -> Iterator[Goal]:
     found = Detection.of(hulls_of(families, REAL, BY_PIECES))
     yield Goal("real: hulls that span found, precision", "at least", PRECISION, found.precision)
     yield Goal("real: hulls that span found, recall", "at least", RECALL, found.recall)
-    after = purity_of(families, REAL, BY_PIECES).after
-    yield Goal("real: purity of spanning hulls after the split", "at least", PURITY, after)
-    split = share_of_pure_split(families, REAL, BY_PIECES)
-    yield Goal("real: share of the pure hulls that is split", "at most", MOST_SPLIT, split)
     if edits := edits_of(families, REAL, BY_PIECES):
-        for what, told in (("split", "after the split"), ("rebuilt", "on rebuilt meshes")):
-            yield Goal(f"real: edits that meet the criterion {told}", "at least", RIGHT, share_right(edits, what))
-    ratio = next(float(row[-1]) for row in sizes if row[1] == "all")
-    yield Goal("real: hulls afterwards as a ratio to the next finer decomposition", "at most", 1.0, ratio)
+        yield Goal("real: edits that meet the criterion on rebuilt meshes", "at least", RIGHT, share_right(edits))
 
 
 def _list_absent(names: Sequence[str]) -> Iterator[str]:
@@ -188,13 +137,10 @@ _NOTES = (
     f"The families of `benchmark/real`. Each asset is decomposed by one call of CoACD at a threshold of {THRESHOLD}, "
     "on all that its file shows, whatever the body: on the union of its solids, or, where a piece of the surface is "
     "not watertight, on all of it remeshed by voxels. The hulls are of one body. The surface by which hulls are found "
-    "and split is what the file shows, as it comes, with its open, doubled and overlapping pieces.",
-    "True parts are solids made of the regions of the surface that were labelled by hand from pictures; purity is by "
-    "volume in these. *All*: the mean of the families that have spanning hulls.",
+    "and rebuilt is what the file shows, as it comes, with its open, doubled and overlapping pieces.",
+    "True parts are solids made of the regions of the surface that were labelled by hand from pictures.",
     f"{KNOWN} assets of a family are labelled, one of each third, drawn with a fixed seed; families have 8 to 14. "
     "Nothing is tuned on these assets.",
-    "*Labels of fine pieces right*: by volume, mean of assets. *By true labels of pieces*: the purity where each hull "
-    "that spans is split by the true labels of its fine pieces, so what the geometry allows.",
     f"*The {_FINE} set*: the same tasks on the same assets where each solid is decomposed by itself, finely. The "
     "reference fails there too where that merges parts. *Next finer*: of the three such sets (coarse, medium, "
     "fine) the first that has more hulls than the set, family by family.",

@@ -55,10 +55,9 @@ def meshforge(*words: str) -> Done:
     return meshforge_here(*words, cwd=Path.cwd())
 
 
-@pytest.mark.parametrize("way", ["--split-spanning", "--rebuild-spanning"])
 @pytest.mark.parametrize(("known", "coarse"), [("chef", "cook"), ("cook", "chef")])
-def test_fingers_close_on_the_handle_of_a_coarse_knife_after_the_split(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, known: str, coarse: str, way: str
+def test_fingers_close_on_the_handle_of_a_coarse_knife_after_the_rebuild(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, known: str, coarse: str
 ) -> None:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("MESHFORGE_CACHE", str(tmp_path / "cache"))
@@ -74,7 +73,7 @@ def test_fingers_close_on_the_handle_of_a_coarse_knife_after_the_split(
     fingers, width = place_fingers(whole.vertices, whole.faces, float(np.quantile(HANDLES[coarse], NEAR_BLADE)))
     assert fingers.count_contacts(source) > 0, "the hull fills what is beside the handle"
 
-    told = meshforge("prepare", "knives", f"{coarse}.urdf", way, "--min-confidence", "0.5")
+    told = meshforge("prepare", "knives", f"{coarse}.urdf", "--rebuild-spanning", "--min-confidence", "0.5")
     assert "handle" in told.out
     meshforge("label", "knives", "--with", "propagate")
     (tmp_path / "knives/program.mf").write_text(PROGRAM)

@@ -1,4 +1,4 @@
-"""A real mug, decomposed so coarsely that a hull fills its handle: split by what the hulls of another mug are called,
+"""A real mug, decomposed so coarsely that a hull fills its handle: rebuilt by what the hulls of another mug are called,
 from the command line, until a rod passes through the handle in MuJoCo."""
 
 from __future__ import annotations
@@ -70,7 +70,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def test_a_coarse_mug_can_be_grasped_by_its_handle_after_the_split(folder: Path) -> None:
+def test_a_coarse_mug_can_be_grasped_by_its_handle_after_the_rebuild(folder: Path) -> None:
     (seen,) = read_triangles(corpus("cups_mugs", "object_sim", "coffeemug") / "coffeemug.stl")
     turn = rotation_about(np.array([0.0, 0.0, 1.0]), 0.7)
     at = turn @ (find_hole(seen.vertices) * [1.0, 1.1, 1.3])
@@ -82,7 +82,7 @@ def test_a_coarse_mug_can_be_grasped_by_its_handle_after_the_split(folder: Path)
     project.set_labels("mug.urdf", {name: labels.get(k, "wall") for k, name in enumerate(names)})
     assert count_contacts(folder / "assets/other.urdf", at, across) > 0, "a hull fills the handle"
 
-    told = meshforge("prepare", "mugs", "other.urdf", "--split-spanning", "--min-confidence", "0.5")
+    told = meshforge("prepare", "mugs", "other.urdf", "--rebuild-spanning", "--min-confidence", "0.5")
     assert "handle" in told.out
     meshforge("label", "mugs", "--with", "propagate")
     (folder / "mugs/program.mf").write_text("labels base, wall, handle\n\nIs(base) => Merge\n")

@@ -37,7 +37,7 @@ export type Event =
   | ProgramChanged
   | JobChanged;
 export type JobRequest =
-  ApplyJob | DecomposeJob | SpansJob | ExportJob | PropagateJob | ForecastJob | AskJob | CheckJob | DownloadJob;
+  ApplyJob | DecomposeJob | RebuildJob | ExportJob | PropagateJob | ForecastJob | AskJob | CheckJob | DownloadJob;
 export type NewProject = ProjectOfFolder | ProjectOfUpload | ProjectOfFamily;
 
 export interface Everything {
@@ -126,7 +126,6 @@ export interface Everything {
   Operator: Operator;
   OutcomeChanged: OutcomeChanged;
   OutcomeView: OutcomeView;
-  PartsHeader: PartsHeader;
   PreviewRequest: PreviewRequest;
   Problem: Problem;
   ProgramChanged: ProgramChanged;
@@ -142,6 +141,7 @@ export interface Everything {
   Reach: Reach;
   ReachChanged: ReachChanged;
   ReadingView: ReadingView;
+  RebuildJob: RebuildJob;
   RecentProject: RecentProject;
   RemoveAssets: RemoveAssets;
   RenameLabel: RenameLabel;
@@ -160,7 +160,6 @@ export interface Everything {
   ShapesHeader: ShapesHeader;
   SimilarRequest: SimilarRequest;
   SimilarView: SimilarView;
-  SpansJob: SpansJob;
   Start: Start;
   StartView: StartView;
   StepText: StepText;
@@ -327,7 +326,7 @@ export interface ReplyToQuestion {
  */
 export interface ReviewQuestionView {
   id: string;
-  kind: "group" | "repair" | "reading" | "label" | "selection" | "orientation" | "result" | "demonstrate" | "span";
+  kind: "group" | "repair" | "reading" | "label" | "selection" | "orientation" | "result" | "demonstrate";
   text: string;
   seconds: number;
   gain: number;
@@ -462,13 +461,13 @@ export interface RemoveAssets {
   ids: string[];
 }
 /**
- * Run the program on all assets, or on some; those that are new are prepared before. split: whether hulls of these
- * that span parts are split, if the project's own were.
+ * Run the program on all assets, or on some; those that are new are prepared before. rebuild: whether bodies of
+ * these are rebuilt of which a hull spans parts, if the project's own were.
  */
 export interface ApplyJob {
   kind: "apply";
   assets?: string[] | null;
-  split?: boolean;
+  rebuild?: boolean;
 }
 /**
  * Ask the model that meshforge.toml names for labels. max_cost: dollars to spend, null for the amount set there.
@@ -656,7 +655,6 @@ export interface AssetsFound {
  * after: how many hulls the output has; after_labels: like `labels`, empty where they are not known; stale: what
  * changed since the output was made; excluded: why it is given up; corrections: how many edits by hand.
  * sources: how many pieces and bodies have no hulls and can be decomposed; prepared: what was done before the program.
- * spans: the hulls that likely hold more than one part, by name, in words, as found last.
  * picture, edited_picture: the digest that the address of the thumbnail takes, null where there is none yet.
  * check: the digest of the output and of its inputs, null where there is no output; faults: what checks found, null
  * where it was not checked.
@@ -680,9 +678,6 @@ export interface Card {
   corrections: number;
   sources: number;
   prepared: string[];
-  spans: {
-    [k: string]: string;
-  };
   picture: string | null;
   edited_picture: string | null;
   check: string | null;
@@ -981,14 +976,13 @@ export interface Next {
 }
 /**
  * The assets that came after the others were prepared, so that a run prepares them first. ids: of all of them;
- * split: of how many hulls that span parts are looked for, and split where that is as sure as `sure`; rebuild: whether
- * all hulls of their bodies are made anew then; unclear: why they are not decomposed, null where it is clear how.
+ * rebuilt: in how many hulls that span parts are looked for, and bodies rebuilt from a probability of
+ * `min_confidence` on; unclear: why they are not decomposed, null where it is clear how.
  */
 export interface NewAssetsView {
   ids: string[];
-  split: number;
-  sure: number | null;
-  rebuild: boolean;
+  rebuilt: number;
+  min_confidence: number | null;
   unclear: string | null;
 }
 /**
@@ -1114,7 +1108,7 @@ export interface Job {
     | "read"
     | "apply"
     | "decompose"
-    | "spans"
+    | "rebuild"
     | "export"
     | "add"
     | "propagate"
@@ -1274,10 +1268,11 @@ export interface JobCancel {
   id: string;
 }
 /**
- * Find the hulls of all assets that likely span parts.
+ * Find the hulls of all assets that span parts, and rebuild their bodies. dry_run: only find them.
  */
-export interface SpansJob {
-  kind: "spans";
+export interface RebuildJob {
+  kind: "rebuild";
+  dry_run?: boolean;
 }
 /**
  * Propagate the labels of people and files to all other hulls of the family.
@@ -1363,15 +1358,6 @@ export interface ProjectOfFamily {
  */
 export interface OpenReceipt {
   folder: string;
-}
-/**
- * The header of a packet of the parts of a hull that likely spans them; see `ShapesHeader`. hull: its name; parts:
- * in the order of the rows.
- */
-export interface PartsHeader {
-  rows: ShapeRow[];
-  hull: string;
-  parts: HullView[];
 }
 /**
  * What would an action do? steps: how many of the asset's own steps come before it; result: apply it to what the

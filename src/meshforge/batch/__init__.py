@@ -24,9 +24,9 @@ __getattr__, __all__ = export_lazily(
         "outcome": (
             "MOST_SHOWN AssetOutcome Failed Held RuleEffect RunSummary Skipped describe_alarms status_of to_json_line"
         ),
+        "preparation.cut": "HullParts cut_hull replace_hulls",
         "preparation.decompose": "Concave DecompositionResult decompose_asset replace_concave",
         "preparation.record": "Preparation Replacement apply_preparation find_sources find_surfaces replay_preparation",
-        "preparation.split": "HullDivision cut_hull divide_hulls split_hull",
         "preparation.storage": (
             "RECORD_FILE read_preparation read_prepared read_steps record_digest remove_preparation write_preparation"
         ),

@@ -46,6 +46,9 @@ from meshforge.batch.outcome import Skipped as Skipped
 from meshforge.batch.outcome import describe_alarms as describe_alarms
 from meshforge.batch.outcome import status_of as status_of
 from meshforge.batch.outcome import to_json_line as to_json_line
+from meshforge.batch.preparation.cut import HullParts as HullParts
+from meshforge.batch.preparation.cut import cut_hull as cut_hull
+from meshforge.batch.preparation.cut import replace_hulls as replace_hulls
 from meshforge.batch.preparation.decompose import Concave as Concave
 from meshforge.batch.preparation.decompose import DecompositionResult as DecompositionResult
 from meshforge.batch.preparation.decompose import decompose_asset as decompose_asset
@@ -56,10 +59,6 @@ from meshforge.batch.preparation.record import apply_preparation as apply_prepar
 from meshforge.batch.preparation.record import find_sources as find_sources
 from meshforge.batch.preparation.record import find_surfaces as find_surfaces
 from meshforge.batch.preparation.record import replay_preparation as replay_preparation
-from meshforge.batch.preparation.split import HullDivision as HullDivision
-from meshforge.batch.preparation.split import cut_hull as cut_hull
-from meshforge.batch.preparation.split import divide_hulls as divide_hulls
-from meshforge.batch.preparation.split import split_hull as split_hull
 from meshforge.batch.preparation.storage import RECORD_FILE as RECORD_FILE
 from meshforge.batch.preparation.storage import read_preparation as read_preparation
 from meshforge.batch.preparation.storage import read_prepared as read_prepared

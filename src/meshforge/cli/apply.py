@@ -28,8 +28,8 @@ def apply(given: ApplyArguments) -> None:
     """Run a program on assets; each goes back into its own format below --out, labels beside it.
 
     Assets that are given beside a project, and those that came to it later, are prepared first as the project's were:
-    pieces decomposed, hulls that span parts split, labels taken from the files, names and plug-ins that labelled the
-    project, else by likeness. What was guessed is said of each.
+    pieces decomposed, bodies rebuilt of which a hull spans parts, labels taken from the files, names and plug-ins that
+    labelled the project, else by likeness. What was guessed is said of each.
     Results that stand out of the family are named at the end; with --json all lines come then.
     A run that was stopped or killed goes on where it was: the same command again. Exit code 1 when some assets failed
     or were held, or where results of a project stand out that are neither demonstrated, accepted nor signed off: they

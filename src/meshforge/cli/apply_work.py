@@ -72,8 +72,8 @@ class ApplyArguments:
     accept_outliers: Annotated[
         bool, typer.Option("--accept-outliers", help="Exit with 0 also where results of a project stand out.")
     ] = False
-    no_split: Annotated[
-        bool, typer.Option("--no-split", help="Leave hulls of new assets that span parts as they are; name them.")
+    no_rebuild: Annotated[
+        bool, typer.Option("--no-rebuild", help="Leave bodies of new assets as they are; name hulls that span parts.")
     ] = False
     json: options.Json = False
 
@@ -140,7 +140,7 @@ def _work_of_project(given: ApplyArguments, stack: ExitStack) -> ApplyWork:
     project = Project.open(given.program)
     if project.program() is None and project.work(()):  # else it raises
         remark("There is no program yet: assets are written as they are prepared, and nothing else is edited.")
-    new_options = NewAssetOptions(split=not given.no_split, execution=given.execution.to_options())
+    new_options = NewAssetOptions(rebuild=not given.no_rebuild, execution=given.execution.to_options())
     if given.assets:
         return _work_of_others(given, project, new_options, stack)
     out = given.out or project.layout.edited
@@ -209,8 +209,8 @@ def _hold_back(project: Project, out: Path, bar: float) -> tuple[batch.Held, ...
 def _work_of_program(given: ApplyArguments) -> ApplyWork:
     if given.min_confidence is not None:
         raise UsageError("--min-confidence needs a project: a program alone does not say how sure its results are")
-    if given.no_split:
-        raise UsageError("--no-split needs a project: a program alone splits no hulls")
+    if given.no_rebuild:
+        raise UsageError("--no-rebuild needs a project: a program alone rebuilds no bodies")
     if not given.program.exists():
         names = (path.name for path in given.program.parent.glob("*") if path.suffix == ".mf" or path.is_dir())
         near = suggest_name(given.program.name, names)

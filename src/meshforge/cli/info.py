@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 
@@ -13,9 +13,6 @@ from meshforge.cli.terminal import print_json
 from meshforge.common import escape_name, pluralize
 from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Shape, Sphere
 from meshforge.symbolic import Hull, SymbolicMesh
-
-if TYPE_CHECKING:
-    from meshforge.project import AssetStatus
 
 
 def info(
@@ -31,30 +28,18 @@ def info(
         print_json(describe_asset(mesh, str(asset), geometry=geometry) | (_describe_standing(asset, project)))
     else:
         _print_asset(mesh, str(asset))
-        for told in _list_spans(asset, project):
-            typer.echo(f"{told}: split it with meshforge prepare --split-spanning, or by hand with meshforge split")
-
-
-def _list_spans(asset: Path, folder: Path | None) -> tuple[str, ...]:
-    """The hulls of a project's asset that likely hold more than one part, in words, as was found last."""
-    return tuple(_read_status(asset, folder).spans.values()) if folder else ()
 
 
 def _describe_standing(asset: Path, folder: Path | None) -> dict[str, Any]:
-    """How sure the edit of a project's asset is, and its hulls that span parts, as found last; nothing without one."""
+    """How sure the edit of a project's asset is; nothing without a project."""
     if folder is None:
         return {}
-    found = _read_status(asset, folder)
-    return found.confidence_to_json() | {"spans": list(found.spans.values())}
-
-
-def _read_status(asset: Path, folder: Path) -> AssetStatus:
     from meshforge.project import Project  # lazy: 500 modules that only --project needs
 
     project = Project.open(folder)
     name = asset_id(asset, project)
     (found,) = (one for one in project.status().assets if one.id == name)
-    return found
+    return found.confidence_to_json()
 
 
 def describe_asset(mesh: SymbolicMesh, asset: str, *, geometry: bool = False) -> dict[str, Any]:

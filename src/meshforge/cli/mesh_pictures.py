@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import shutil
 from collections.abc import Callable, Mapping
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from meshforge.language import Orient, Program, to_canonical_frame
 from meshforge.project import Project, run_with_corrections
-from meshforge.rendering import Up, View, draw_before_after, make_contact_sheet, render, write_png
+from meshforge.rendering import Up, draw_before_after, make_contact_sheet, render, write_png
 from meshforge.symbolic import SymbolicMesh
 
 if TYPE_CHECKING:
@@ -51,18 +50,6 @@ class MeshPictures:
         """Draw an asset in the colours of its labels."""
         mesh, words = self._meshes()[asset], self._project.vocabulary
         return self._write(name, render(mesh, color_by="label", size=PICTURE_SIZE, title=asset, vocabulary=words))
-
-    def draw_split(self, asset: str, hull: str, name: str) -> Path:
-        """Draw an asset from two sides, and in the colours of their labels the parts of a hull that likely spans them.
-
-        Raises ProjectError where they are not known any more.
-        """
-        divided, parts = self._project.find_split(asset, hull).divide(self._meshes()[asset])
-        pale = (hull if hull.name in parts else replace(hull, annotation=None) for hull in divided.hulls)
-        views: tuple[View, ...] = ("iso", "iso-back")
-        mesh, words = divided.with_hulls(pale), self._project.vocabulary
-        picture = render(mesh, views=views, color_by="label", size=PICTURE_SIZE, title=asset, vocabulary=words)
-        return self._write(name, picture)
 
     def draw_result(self, asset: str, program: Program, name: str) -> Path:
         """Draw an asset before and after a program and its edits by hand. Raises MeshForgeError where that cannot

@@ -18,7 +18,7 @@ from meshforge.cli.console import progress
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import UsageError, describe_error, escape_name, pluralize, quote_path
 from meshforge.geometry import DecomposeSettings
-from meshforge.project import MADE_ANEW, SPLIT_DEFAULTS, PreparationResult, Project, SplitSettings, forget_plan
+from meshforge.project import MADE_ANEW, REBUILD_DEFAULTS, PreparationResult, Project, RebuildSettings, forget_plan
 from meshforge.project.prepare import count_pieces
 
 
@@ -37,8 +37,7 @@ class PrepareArguments:
         typer.Option(
             "--decompose",
             help="Make hulls of what has none, by this engine; hull: the convex hull of each collision mesh. "
-            "With --split-spanning or --rebuild-spanning: the engine "
-            "of the fine pieces that hulls are compared with; default coacd.",
+            "With --rebuild-spanning: the engine of the fine pieces that new hulls are made of; default coacd.",
         ),
     ] = None
     option: options.EngineOptions = None
@@ -50,9 +49,6 @@ class PrepareArguments:
     again: Annotated[bool, typer.Option("--again", help="Decompose anew what is decomposed already.")] = False
     hollow: options.Hollow = False
     by: options.By = "whole"
-    split_spanning: Annotated[
-        bool, typer.Option("--split-spanning", help="Split hulls that span parts, where labels change within them.")
-    ] = False
     rebuild_spanning: Annotated[
         bool,
         typer.Option(
@@ -62,13 +58,17 @@ class PrepareArguments:
     min_confidence: Annotated[
         float | None,
         typer.Option(
-            "--min-confidence", metavar="P", help="Split hulls that span parts with at least this probability [0.9]."
+            "--min-confidence",
+            metavar="P",
+            help="Rebuild where a hull spans parts with this probability or more [0.9].",
         ),
     ] = None
-    dry_run: Annotated[bool, typer.Option("--dry-run", help="Say which hulls would be split; write nothing.")] = False
+    dry_run: Annotated[bool, typer.Option("--dry-run", help="Name bodies that would be rebuilt; write nothing.")] = (
+        False
+    )
     limits: Annotated[
         options.EngineName | None,
-        typer.Option("--limits", help="Say which limits of this engine a split breaks [those that read the file]."),
+        typer.Option("--limits", help="Say which limits of this engine new hulls exceed [those that read the file]."),
     ] = None
     undo: Annotated[bool, typer.Option("--undo", help="Take back the last thing that was done to each.")] = False
     remove: Annotated[bool, typer.Option("--remove", help="Take back all that was done to each.")] = False
@@ -82,22 +82,20 @@ def prepare(given: PrepareArguments) -> None:
     """Decompose non-convex pieces, and what bodies without collision geometry show, into convex hulls.
 
     The hulls are kept in the project, in prepared/, and take the place of the piece whenever the project reads the
-    asset; the asset's own files stay as they are. To split one hull: meshforge split.
+    asset; the asset's own files stay as they are. To cut one hull: meshforge cut.
     Exit code 1 when some pieces could not be decomposed, or something could not be taken back (each named).
     """
-    spanning = given.split_spanning + given.rebuild_spanning
+    spanning = given.rebuild_spanning
     if (given.method is not None and not spanning) + spanning + given.undo + given.remove != 1:
-        what = "--decompose METHOD, --split-spanning, --rebuild-spanning, --undo or --remove"
+        what = "--decompose METHOD, --rebuild-spanning, --undo or --remove"
         raise UsageError(f"say what to do, one of these: {what}")
     if not spanning:
-        options.refuse_options(
-            given.context, ("min_confidence", "dry_run", "limits"), "--split-spanning or --rebuild-spanning"
-        )
+        options.refuse_options(given.context, ("min_confidence", "dry_run", "limits"), "--rebuild-spanning")
     if given.undo and not given.assets:
         raise UsageError("--undo of which asset?", remedy="Name it; --remove takes back everything, of all assets too.")
     project = Project.open(given.project)
     if spanning:
-        raise typer.Exit(_divide_spanning(project, given))
+        raise typer.Exit(_rebuild_spanning(project, given))
     if given.method is None:
         only_with_method = ("option", "max_vertices", "only", "again", "hollow", "by", "workers", "timeout")
         options.refuse_options(given.context, only_with_method, "--decompose METHOD")
@@ -123,16 +121,15 @@ def prepare(given: PrepareArguments) -> None:
     )
 
 
-def _divide_spanning(project: Project, given: PrepareArguments) -> int:
-    """Split hulls that span parts, or rebuild their bodies, and print what became of each asset; the exit code."""
-    these = "--split-spanning and --rebuild-spanning"
-    options.refuse_with(given.context, ("option", "max_vertices", "again", "hollow", "by"), these)
-    options.refuse_hull(given.method, these)
-    results = project.split_spanning(
+def _rebuild_spanning(project: Project, given: PrepareArguments) -> int:
+    """Rebuild bodies of which a hull spans parts, and print what became of each asset; the exit code."""
+    this = "--rebuild-spanning"
+    options.refuse_with(given.context, ("option", "max_vertices", "again", "hollow", "by"), this)
+    options.refuse_hull(given.method, this)
+    results = project.rebuild_spanning(
         [options.asset_id(asset, project) for asset in given.assets] if given.assets else None,
-        SplitSettings(
-            SPLIT_DEFAULTS.sure if given.min_confidence is None else given.min_confidence,
-            given.rebuild_spanning,
+        RebuildSettings(
+            REBUILD_DEFAULTS.min_confidence if given.min_confidence is None else given.min_confidence,
             "vhacd" if given.method is options.EngineMethod.VHACD else "coacd",
             tuple(given.only or ()),
         ),
@@ -186,13 +183,11 @@ def _print_one(result: PreparationResult) -> None:
     for step in result.undone:
         typer.echo(f"    {step}")
     entries = result.made or result.planned
-    anew = [entry for entry in entries if entry.with_body]
-    for entry in (entry for entry in entries if not entry.with_body):
+    for entry in (entry for entry in entries if entry.told != MADE_ANEW):
         is_named = entry.told.startswith(f"{entry.what} ")
         typer.echo(f"    {entry.told}" if is_named else f"    {entry.what}: {entry.told}")
-    if anew:
-        hulls = pluralize(sum(len(entry.made) for entry in anew), "hull")
-        typer.echo(f"    {pluralize(len(anew), 'other')} {MADE_ANEW}: into {hulls}")
+    if anew := sum(entry.told == MADE_ANEW for entry in entries):
+        typer.echo(f"    {pluralize(anew, 'other')} {MADE_ANEW}")
     for note in result.notes:
         typer.echo(f"    note: {note}")
     for problem in result.problems:

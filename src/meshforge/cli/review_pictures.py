@@ -10,7 +10,7 @@ from meshforge.cli.console import progress
 from meshforge.cli.mesh_pictures import MeshPictures
 from meshforge.common import MeshForgeError
 from meshforge.project import Project, ProjectReview
-from meshforge.signoff import OrientationQuestion, ReadingQuestion, ResultQuestion, ReviewQuestion, SpanQuestion
+from meshforge.signoff import OrientationQuestion, ReadingQuestion, ResultQuestion, ReviewQuestion
 from meshforge.signoff.question import RIGHT
 
 
@@ -26,8 +26,6 @@ def draw_question(project: Project, found: ProjectReview, question: ReviewQuesti
 
 def _draw(pictures: MeshPictures, found: ProjectReview, question: ReviewQuestion) -> list[Path]:
     name, program = question.id, found.outcome.program if found.outcome else None
-    if isinstance(question, SpanQuestion):
-        return [pictures.draw_split(*question.hulls[0], name)]
     if question.hulls:
         return [pictures.draw_sheet(_hulls_by_asset(question), name)]
     if question.asset not in found.state.meshes:

@@ -61,11 +61,8 @@ def _print_status(found: Status, folder: Path) -> None:
 def _to_row(asset: AssetStatus) -> tuple[object, ...]:
     stale = f"stale: {', '.join(asset.stale)} changed" if asset.stale else None
     bare = f"{asset.sources} without hulls (meshforge prepare)" if asset.sources else None
-    spans = (
-        f"{'; '.join(asset.spans.values())} (meshforge review, or prepare --split-spanning)" if asset.spans else None
-    )
     error = "; ".join(line.strip() for line in (asset.error or "").splitlines())
-    remarks = [text for text in (error, stale, asset.review, bare, spans, *asset.prepared, *asset.flags) if text]
+    remarks = [text for text in (error, stale, asset.review, bare, *asset.prepared, *asset.flags) if text]
     labelled = "" if not asset.hulls else "all" if asset.labelled == asset.hulls else asset.labelled
     output = "" if asset.output == "none" else asset.output
     return asset.id, asset.hulls, labelled, "yes" if asset.demonstrated else "", output, "; ".join(remarks)

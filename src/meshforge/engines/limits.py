@@ -15,7 +15,7 @@ from meshforge.symbolic import Geom, Hull, SymbolicMesh
 Severity = Literal["error", "warning"]
 Bound = Literal["most", "least"]
 
-_SIMPLER = "Reduce it (check --fix), replace it by a primitive, or split it."
+_SIMPLER = "Reduce it (check --fix), replace it by a primitive, or cut it."
 _THICKER = "Give it a thickness, replace it by a box, or merge it with a neighbour."
 _SHORTER = "Split it along its length."
 

@@ -34,8 +34,6 @@ from meshforge.geometry.decomposition.triangles import is_line as is_line
 from meshforge.geometry.decomposition.triangles import is_sheet as is_sheet
 from meshforge.geometry.decomposition.triangles import sheet_hulls as sheet_hulls
 from meshforge.geometry.decomposition.triangles import volume_inside as volume_inside
-from meshforge.geometry.division import HullPart as HullPart
-from meshforge.geometry.division import divide as divide
 from meshforge.geometry.faults import HullFault as HullFault
 from meshforge.geometry.faults import describe_fault as describe_fault
 from meshforge.geometry.faults import find_fault as find_fault
@@ -83,7 +81,6 @@ from meshforge.geometry.simplify import enclose as enclose
 from meshforge.geometry.solids import cut as cut
 from meshforge.geometry.solids import inertia as inertia
 from meshforge.geometry.solids import overlap_volume as overlap_volume
-from meshforge.geometry.solids import partition as partition
 from meshforge.geometry.solids import principal_axes as principal_axes
 from meshforge.geometry.solids import volume_of_union as volume_of_union
 from meshforge.geometry.surface import LEVEL as LEVEL

@@ -1,11 +1,10 @@
-"""Solids by manifold3d: volumes of overlaps and unions, inertia at one density; cut by planes, intersected, and
-partitioned by other shapes."""
+"""Solids by manifold3d: volumes of overlaps and unions, inertia at one density; cut by planes, and
+intersected."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any, assert_never
 
 import manifold3d
@@ -207,18 +206,6 @@ def _hull_of_part(side: Floats, crossing: Floats) -> Polytope | None:
     return convex_hull(points, name="a part of a cut") if spans_volume(points) else None
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class Partition:
-    """The parts of a shape, in the order of what parted it.
-
-    dropped: how many parts were too small; lost: the share of the shape's volume that is in no part.
-    """
-
-    parts: tuple[Polytope, ...]
-    dropped: int
-    lost: float
-
-
 def intersect(a: Shape, b: Shape) -> Polytope | None:
     """What two convex shapes have in common, to rounding; None where that spans no volume.
 
@@ -230,17 +217,6 @@ def intersect(a: Shape, b: Shape) -> Polytope | None:
     common = to_manifold(a.tessellate(), bounds) ^ to_manifold(b.tessellate(), bounds)
     corners = np.asarray(common.to_mesh64().vert_properties, dtype=np.float64)[:, :3] * bounds.diagonal + bounds.center
     return convex_hull(corners, name="the common part") if len(corners) > 3 and spans_volume(corners) else None
-
-
-def partition(shape: Shape, by: Sequence[Shape], least: float = 1e-3) -> Partition:
-    """A shape parted by convex shapes that together cover it more or less.
-
-    least: parts of a smaller share of its volume are dropped.
-    """
-    found = [part for other in by if (part := intersect(shape, other))]
-    parts = tuple(part for part in found if part.volume >= least * shape.volume)
-    lost = 1.0 - volume_of_union(parts) / shape.tessellate().volume
-    return Partition(parts, len(found) - len(parts), min(max(lost, 0.0), 1.0))
 
 
 def section(shape: Polytope, point: Floats, normal: Floats) -> tuple[float, float]:

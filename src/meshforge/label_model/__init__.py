@@ -8,14 +8,13 @@ __getattr__, __all__ = export_lazily(
     __name__,
     {
         "asset_pieces": "AssetPieces SurfacePieces piece_mesh",
-        "cells": "AssetCells CellModel cut_into_cells",
         "consensus": "EVIDENCE",
         "describe": "MeshDescriber ShapeDescriptor remember_descriptor",
         "odds": "LabelBeliefs LabelOdds is_human",
         "posterior": "FamilyModel FamilyPosterior model_family",
         "sides": "correct_upright find_doubtful_sides",
         "similar": "find_similar",
-        "spans": "WHOLE SpanModel SpanPosterior",
+        "spans": "RebuiltHull SpanModel SpanPosterior",
         "table": "FamilyTable Observations evidence_beside_splits evidence_of metric_weights reference_label",
     },
 )

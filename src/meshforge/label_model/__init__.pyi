@@ -2,9 +2,6 @@
 from meshforge.label_model.asset_pieces import AssetPieces as AssetPieces
 from meshforge.label_model.asset_pieces import SurfacePieces as SurfacePieces
 from meshforge.label_model.asset_pieces import piece_mesh as piece_mesh
-from meshforge.label_model.cells import AssetCells as AssetCells
-from meshforge.label_model.cells import CellModel as CellModel
-from meshforge.label_model.cells import cut_into_cells as cut_into_cells
 from meshforge.label_model.consensus import EVIDENCE as EVIDENCE
 from meshforge.label_model.describe import MeshDescriber as MeshDescriber
 from meshforge.label_model.describe import ShapeDescriptor as ShapeDescriptor
@@ -18,7 +15,7 @@ from meshforge.label_model.posterior import model_family as model_family
 from meshforge.label_model.sides import correct_upright as correct_upright
 from meshforge.label_model.sides import find_doubtful_sides as find_doubtful_sides
 from meshforge.label_model.similar import find_similar as find_similar
-from meshforge.label_model.spans import WHOLE as WHOLE
+from meshforge.label_model.spans import RebuiltHull as RebuiltHull
 from meshforge.label_model.spans import SpanModel as SpanModel
 from meshforge.label_model.spans import SpanPosterior as SpanPosterior
 from meshforge.label_model.table import FamilyTable as FamilyTable

@@ -8,12 +8,12 @@ from functools import cached_property
 
 import numpy as np
 
-from meshforge.geometry import FinePiece, Floats, Ints, convex_hull, overlap_volume
+from meshforge.geometry import Bools, FinePiece, Floats, Ints, convex_hull, overlap_volume
 from meshforge.symbolic import Hull, Label, SymbolicMesh
 
 _MOST = 0.8  # how much a label is believed that a piece takes from the hull that it lies in
-_ALL = 0.85  # of a piece, from which a hull has nearly all of it
-_NOTHING = 1e-3  # of what a hull stands for: without it no hole opens
+_ALL = 0.85  # of a solid, from which a hull has nearly all of it
+_SLIVER = 0.02  # of what a hull stands for
 WITHIN = 0.5
 """Of a piece's volume that a hull must have, for the piece to lie in it."""
 _THICKNESS = 1e-4  # of the asset's size, that a flat region gets
@@ -90,6 +90,15 @@ class AssetPieces:
             found.append(Hull(str(first.parent), first.body, shape))
         return self.pieces.with_hulls(found)
 
+    @cached_property
+    def solids_alone(self) -> Bools:
+        """Which solids (hulls, solids) each hull alone has nearly all of, where they are no sliver of it."""
+        held = sum_groups(self.solid_of, self.common.T).T
+        shares = held / np.maximum(sum_groups(self.solid_of, self.volumes), 1e-300)
+        is_alone = (shares >= _ALL) & (shares.sum(axis=0) - shares < WITHIN)
+        found: Bools = is_alone & (held >= _SLIVER * held.sum(axis=1, keepdims=True))
+        return found
+
     def collect_labels(self, labels: Sequence[Label | None]) -> list[Label | None]:
         """What labels of pieces say about each region: the label of more than half of it, believed by that share."""
         found = list[Label | None]()
@@ -102,15 +111,6 @@ class AssetPieces:
             best = max(said, key=lambda name: said[name], default=None)
             share = said[best] / float(self.volumes[own].sum()) if best else 0.0
             found.append(Label(best, min(share, 1.0), "file") if best and share > 0.5 else None)
-        return found
-
-    def pieces_of(self, hull: int) -> Ints:
-        """The pieces that a hull stands for: those that it meets, but for what another hull has nearly all of, so that
-        what this one alone has of it is next to nothing."""
-        held = self.common / np.maximum(self.volumes, 1e-300)
-        others = np.delete(held, hull, axis=0).max(axis=0, initial=0.0)
-        alone = np.minimum(held[hull], 1 - others) * self.volumes > _NOTHING * self.common[hull].sum()
-        found: Ints = np.flatnonzero((held[hull] > 0) & ((others < _ALL) | (held[hull] >= others) | alone))
         return found
 
     def take_labels(self, labels: Sequence[Label | None]) -> list[Label | None]:
@@ -128,3 +128,10 @@ def _number(names: Sequence[str]) -> Ints:
     """The number (n,) of each name, in the order in which they first come."""
     numbers = {name: number for number, name in enumerate(dict.fromkeys(names))}
     return np.array([numbers[name] for name in names], dtype=np.int64)
+
+
+def sum_groups(groups: Ints, rows: Floats) -> Floats:
+    """The sum (groups, ...) of rows (n, ...) by the group (n,) of each."""
+    found = np.zeros((int(groups.max(initial=-1)) + 1, *rows.shape[1:]))
+    np.add.at(found, groups, rows)
+    return found

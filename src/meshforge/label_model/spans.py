@@ -12,8 +12,8 @@ from itertools import islice
 
 import numpy as np
 
-from meshforge.geometry import Floats, HullPart, Ints, divide, merge_pieces
-from meshforge.label_model.asset_pieces import WITHIN, AssetPieces
+from meshforge.geometry import Bools, Floats, Ints, Polytope, merge_pieces
+from meshforge.label_model.asset_pieces import WITHIN, AssetPieces, sum_groups
 from meshforge.label_model.posterior import FamilyPosterior, model_family
 from meshforge.label_model.ties import EQUAL
 from meshforge.symbolic import Label
@@ -31,13 +31,24 @@ _IN_COMMON = 0.5  # exponent of what regions of a solid say against one label of
 
 
 @cache
-def span_weights(key: str = "weights") -> Floats:
-    """The weights of the evidence: (2,) of one, and of the logit of how often a hull spans parts where labels are
-    drawn; key: "weights" of hulls that stand for a surface, "cells" of others, by the evidence of `CellPosterior`."""
+def span_weights() -> Floats:
+    """The weights of the evidence (2,): of one, and of the logit of how often a hull spans parts where labels are
+    drawn."""
     read = json.loads(files("meshforge.label_model").joinpath(WEIGHTS_FILE).read_text("utf-8"))
-    found = np.array(read[key], dtype=float)
+    found = np.array(read["weights"], dtype=float)
     found.flags.writeable = False
     return found
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class RebuiltHull:
+    """A new hull of one part. label: its likeliest; share: of that label in what it stands for; old: the place of the
+    hull that has most of it."""
+
+    shape: Polytope
+    label: str
+    share: float
+    old: int
 
 
 class SpanModel:
@@ -139,17 +150,9 @@ class SpanPosterior:
         drawn = np.clip(drawn, _LEAST_DRAWN, 1 - _LEAST_DRAWN)
         return np.column_stack([np.ones(len(drawn)), np.log(drawn / (1 - drawn))])
 
-    def divide(self, mesh: int, hull: int) -> tuple[HullPart, ...]:
-        """The parts that a hull is divided into; one alone where it is not to be divided."""
-        asset = self.assets[mesh]
-        own = asset.pieces_of(hull)
-        pieces = [asset.pieces.hulls[place].shape.tessellate() for place in own.tolist()]
-        return divide(asset.mesh.hulls[hull].shape, pieces, self.chances[mesh][own])
-
-    def rebuild(self, mesh: int, hulls: Ints) -> tuple[tuple[int, HullPart], ...]:
+    def rebuild(self, mesh: int, hulls: Ints) -> tuple[RebuiltHull, ...]:
         """New hulls for what some hulls (n,) stand for together: fine pieces of one label and region, joined where a
-        convex hull around them adds little; each with the old hull that has most of it. Pieces of which no half is in
-        hulls are left out.
+        convex hull around them adds little. Pieces of which no half is in hulls are left out.
         """
         asset, chances = self.assets[mesh], self.chances[mesh]
         pieces = [piece.shape.tessellate() for piece in asset.pieces.hulls]
@@ -160,12 +163,12 @@ class SpanPosterior:
         labels = chances[own].argmax(axis=1)
         kinds = asset.region_of[own] * chances.shape[1] + labels
         least = _SLIVER * float(volumes[own].sum())
-        groups = merge_pieces([pieces[place] for place in own.tolist()], kinds, least, labels)
-        found = list[tuple[int, HullPart]]()
-        for group in groups:
+        found = list[RebuiltHull]()
+        for group in merge_pieces([pieces[place] for place in own.tolist()], kinds, least, labels):
             members = own[list(group.members)]
             shares = volumes[members] @ chances[members] / volumes[members].sum()
-            found.append((int(hulls[common[:, members].sum(axis=1).argmax()]), HullPart(group.shape, shares)))
+            label, old = int(shares.argmax()), int(hulls[common[:, members].sum(axis=1).argmax()])
+            found.append(RebuiltHull(group.shape, self.labels[label], float(shares[label]), old))
         return tuple(found)
 
 
@@ -219,18 +222,28 @@ class _Draw:
 
 
 def _draw_spans(shares: Floats, draw: _Draw, asset: AssetPieces) -> Floats:
-    """How often no label has `WHOLE` of a hull (hulls,), where labels of pieces are drawn by their probabilities:
-    together for those of a solid that is one part, else for those of one region; shares: (hulls, pieces) of what a hull
-    stands for."""
+    """How often no label has `WHOLE` of a hull (hulls,), or it alone has a solid of another one, where labels of pieces
+    are drawn by their probabilities: together for those of a solid that is one part, else for those of one region;
+    shares: (hulls, pieces) of what a hull stands for."""
     random = np.random.default_rng(0)
     of_regions = random.random((_DRAWS, asset.region_of.max(initial=-1) + 1))[:, asset.region_of]
     of_solids = random.random((_DRAWS, len(draw.solids)))[:, asset.solid_of]
     whole = (random.random((_DRAWS, len(draw.solids))) < draw.solids)[:, asset.solid_of]
     codes = np.where(whole, _pick(of_solids, draw.by_solid), _pick(of_regions, draw.by_region))
-    most = np.zeros((len(shares), _DRAWS))
-    for label in range(draw.by_region.shape[1]):
-        most = np.maximum(most, shares @ (codes == label).T)
-    found: Floats = (most < WHOLE - EQUAL).mean(axis=1)
+    by_label = np.stack([shares @ (codes == label).T for label in range(draw.by_region.shape[1])], axis=2)
+    is_mixed = by_label.max(axis=2) < WHOLE - EQUAL
+    found: Floats = (is_mixed | _has_other_solid(by_label.argmax(axis=2), codes, asset)).mean(axis=1)
+    return found
+
+
+def _has_other_solid(main: Ints, codes: Ints, asset: AssetPieces) -> Bools:
+    """Whether hulls (hulls, draws) alone stand for a solid of another label than the main one (hulls, draws) of each,
+    as that of seat and one leg does, be the leg ever so thin; codes: the label of each piece (draws, pieces)."""
+    order = np.argsort(asset.volumes, kind="stable")
+    largest = dict(zip(asset.solid_of[order].tolist(), order.tolist(), strict=True))
+    found = np.zeros(main.shape, dtype=np.bool_)
+    for hull, solid in np.argwhere(asset.solids_alone).tolist():
+        found[hull] |= codes[:, largest[solid]] != main[hull]
     return found
 
 
@@ -238,13 +251,6 @@ def _pick(drawn: Floats, chances: Floats) -> Ints:
     """The label of each piece (draws, pieces) by numbers from 0 to 1 (draws, pieces)."""
     ends = np.cumsum(chances, axis=1)
     found: Ints = (drawn[:, :, None] * ends[None, :, -1:] > ends[None]).sum(axis=2)
-    return found
-
-
-def sum_groups(groups: Ints, rows: Floats) -> Floats:
-    """The sum (groups, ...) of rows (n, ...) by the group (n,) of each."""
-    found = np.zeros((int(groups.max(initial=-1)) + 1, *rows.shape[1:]))
-    np.add.at(found, groups, rows)
     return found
 
 

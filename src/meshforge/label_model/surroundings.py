@@ -30,8 +30,6 @@ _RING_BOUNDS = (0.05, 0.15, 0.4)  # bounds of distances aside
 _CELLS = (len(_LEVEL_BOUNDS) + 1) * (len(_RING_BOUNDS) + 1)
 SURROUNDINGS_WIDTH = 4 + 8 * len(_RADII) + _CELLS
 """Columns of `describe_surroundings`."""
-NEAR_COLUMNS, PICTURE_COLUMNS = slice(4, 12), slice(4 + 8 * len(_RADII), SURROUNDINGS_WIDTH)
-"""Those of how the whole is spread within the smallest ball, and those of the picture of the whole."""
 
 
 def axes_along(direction: Floats, lengths: Floats, axes: Floats) -> Floats:

@@ -14,14 +14,11 @@ from meshforge.labels.merge import LabelOutcome as LabelOutcome
 from meshforge.labels.merge import label_new_hulls as label_new_hulls
 from meshforge.labels.offers import LabelOffers as LabelOffers
 from meshforge.labels.offers import OfferCache as OfferCache
-from meshforge.labels.reference_family import NEW as NEW
 from meshforge.labels.reference_family import ReferenceFamily as ReferenceFamily
 from meshforge.labels.reference_family import pick_evenly as pick_evenly
 from meshforge.labels.reference_family import read_reference_family as read_reference_family
 from meshforge.labels.spans import HullSpan as HullSpan
-from meshforge.labels.spans import LabelledPart as LabelledPart
 from meshforge.labels.spans import SpanReport as SpanReport
-from meshforge.labels.spans import find_spans as find_spans
 from meshforge.labels.summary import Proposal as Proposal
 from meshforge.labels.summary import Proposals as Proposals
 from meshforge.labels.summary import SourceTally as SourceTally

@@ -11,17 +11,15 @@ from typing import TypeVar
 
 from meshforge import batch
 from meshforge.geometry import PieceEngine
-from meshforge.label_model import AssetCells, AssetPieces, evidence_beside_splits, model_family
+from meshforge.label_model import AssetPieces, SpanModel, evidence_beside_splits, model_family
 from meshforge.label_model.describe import describe_mesh, digest_mesh
 from meshforge.labels.family_comparison import Stage
-from meshforge.labels.spans import FinePieces, SpanReport, decompose_surfaces, find_pieces, infer_spans
+from meshforge.labels.spans import FinePieces, SpanReport, decompose_surfaces, find_pieces, is_given
 from meshforge.store import Store
 from meshforge.symbolic import HUMAN_SOURCES, Asset, Label, LabelFile, SymbolicMesh
 
 MOST_COMPARED = 32
 """Labelled assets that a new one is compared with: those with labels of people first, evenly chosen of more."""
-NEW = ""
-"""The name of a new asset in the report of `ReferenceFamily.find_spans`; ids of a project are never empty."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,23 +44,21 @@ class ReferenceFamily:
         ]
         return batch.text_digest(json.dumps([rows, fine, self.words, self.engine]))
 
-    @cached_property
-    def cells(self) -> dict[str, AssetCells]:
-        """The cells of the hulls of its assets, for new hulls that stand for no surface."""
-        return {asset: AssetCells(mesh) for asset, mesh in self.meshes.items()}
-
     def find_spans(self, source: Asset, mesh: SymbolicMesh) -> SpanReport:
-        """Which hulls of an asset span parts, as a report on the asset `NEW` alone.
+        """Which hulls of an asset that is not among these span parts; where a person or a file labelled all, its
+        surface is not looked at.
 
         source: the asset as it was read; mesh: it as it is prepared, with its labels.
         """
+        if all(map(is_given, mesh.hulls)):
+            return SpanReport(mesh, None, FinePieces(mesh.with_hulls(())))
         found, notes = decompose_surfaces(source, self.engine)
         own = FinePieces.of(found, mesh, notes)
-        known = {asset: one.mesh for asset, one in self.pieces.items()}
-        pieces = {asset: FinePieces(one.pieces) for asset, one in self.pieces.items()}
-        cells = self.cells if own.unseen else {}
-        report = infer_spans({NEW: mesh, **known}, {NEW: own, **pieces}, {}, self.pieces, cells)
-        return replace(report, engine=self.engine)
+        if not own.mesh.hulls:
+            return SpanReport(mesh, None, own)
+        assets = [AssetPieces(mesh, own.mesh), *self.pieces.values()]
+        labels = [evidence_beside_splits(hull.annotation) for one in assets for hull in one.mesh.hulls]
+        return SpanReport(mesh, SpanModel(assets).infer(labels), own)
 
     def without(self, asset: str) -> ReferenceFamily:
         """The family without one of its assets, to which that is to be compared."""

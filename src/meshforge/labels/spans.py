@@ -1,57 +1,41 @@
-"""Which hulls of a project span parts, by the surface that they stand for, or by look-alikes where there is none, and
-the labels that are known."""
+"""Which hulls of an asset span parts, by the surface that they stand for and the labels that are known."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from types import MappingProxyType
 
 import numpy as np
 
 from meshforge import batch
-from meshforge.common import MeshForgeError, ProjectError, describe_error, format_share, join_and
+from meshforge.common import MeshForgeError, describe_error, format_share, join_and, join_names
 from meshforge.formats import VisualSurfaces, read
-from meshforge.geometry import FinePiece, Floats, HullPart, PieceEngine, cache_folder, decompose_finely
-from meshforge.label_model import (
-    AssetCells,
-    AssetPieces,
-    CellModel,
-    SpanModel,
-    SpanPosterior,
-    SurfacePieces,
-    evidence_beside_splits,
-    piece_mesh,
-)
+from meshforge.geometry import FinePiece, Floats, PieceEngine, cache_folder, decompose_finely
+from meshforge.label_model import RebuiltHull, SpanPosterior, SurfacePieces, piece_mesh
 from meshforge.labels.family_comparison import Stage
 from meshforge.store import Store
-from meshforge.symbolic import HUMAN_SOURCES, Asset, SymbolicMesh
+from meshforge.symbolic import GIVEN_SOURCES, Asset, Hull, SymbolicMesh
 
 _ALIKE = 20.0  # a surface larger or smaller than its hulls by this factor is in another unit
 _TINY = 1e-300
 _SHOWN = 0.1  # of what a hull stands for: labels of smaller shares are not named
 
 
-LabelledPart = tuple[HullPart, str, float]
-"""A part of a hull, its likeliest label, and the share of that in what it stands for."""
-
-
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, slots=True)
 class HullSpan:
     """A hull of an asset that may span parts. chance: of that; shares: of each label in what it stands for, the largest
-    first; by_surface: whether a surface says so, or only likeness."""
+    first."""
 
     hull: str
+    body: str
     chance: float
     shares: Mapping[str, float]
-    by_surface: bool = True
 
     def __str__(self) -> str:
-        """`base holds wall and handle, 94%`; without a surface `base holds wall and handle, by likeness, 64%`."""
-        how = "" if self.by_surface else ", by likeness"
-        return f"{self.hull} holds {join_and(self.labels)}{how}, {format_share(self.chance)}"
+        """`base holds wall and handle, 94%`."""
+        return f"{self.hull} holds {join_and(self.labels)}, {format_share(self.chance)}"
 
     @property
     def labels(self) -> tuple[str, ...]:
@@ -62,75 +46,64 @@ class HullSpan:
 
 @dataclass(frozen=True, eq=False)
 class SpanReport:
-    """What was found. meshes: the assets that were looked at, as they are prepared; lost: why others were not;
+    """What is known of the hulls of an asset. mesh: as it is prepared, with its labels; posterior: of the family, of
+    which it is the first asset, None where nobody has a surface; pieces: of its own surfaces."""
 
-    by_surface, by_cells: what is known of hulls that stand for a surface, and of others; None where no hull is such;
-    unseen: the bodies, by asset, that have no surface; engine: which made the fine pieces; notes: by asset, on surfaces
-    that could not be used.
-    """
-
-    meshes: Mapping[str, SymbolicMesh]
-    by_surface: SpanPosterior | None
-    by_cells: SpanPosterior | None
-    unseen: Mapping[str, frozenset[str]]
-    lost: Mapping[str, str]
-    engine: PieceEngine = "coacd"
-    notes: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    mesh: SymbolicMesh
+    posterior: SpanPosterior | None
+    pieces: FinePieces
 
     @cached_property
-    def bare(self) -> Mapping[str, tuple[str, ...]]:
-        """Hulls, by asset, that stand for nothing of their body's surface, and of which nothing can be said."""
-        found = dict[str, tuple[str, ...]]()
-        for place, (asset, mesh) in enumerate(self.meshes.items()):
-            held = self.by_surface.assets[place].common.sum(axis=1) if self.by_surface else np.zeros(len(mesh.hulls))
-            rows = zip(mesh.hulls, held.tolist(), strict=True)
-            names = tuple(hull.name for hull, own in rows if not own > 0 and hull.body not in self.unseen[asset])
-            if names:
-                found[asset] = names
-        return found
+    def spans(self) -> tuple[HullSpan, ...]:
+        """Each hull that stands for some of the surface of its body, in order, but for those that a person or a file
+        gave a label: they are of one part."""
+        if self.posterior is None:
+            return ()
+        rows = zip(self.mesh.hulls, self.posterior.chances_of(0).tolist(), self.posterior.shares_of(0), strict=True)
+        labels = self.posterior.labels
+        return tuple(
+            HullSpan(hull.name, hull.body, chance, _name_shares(labels, shares))
+            for hull, chance, shares in rows
+            if not is_given(hull) and hull.name not in self._bare
+        )
 
-    @cached_property
-    def _places(self) -> dict[str, int]:
-        return {asset: place for place, asset in enumerate(self.meshes)}
+    @property
+    def notes(self) -> Iterator[str]:
+        """On what could not be judged, as far as no person or file says what it is."""
+        unknown = [hull for hull in self.mesh.hulls if not is_given(hull)]
+        if not unknown:
+            return
+        yield from self.pieces.notes
+        bodies = dict.fromkeys(hull.body for hull in unknown if hull.body in self.pieces.unseen)
+        if bodies:
+            names = join_names(list(bodies))
+            yield f"no surface says which hulls of {names} span parts; cut them by hand: meshforge cut"
+        for hull in unknown:
+            if hull.name in self._bare and hull.body not in bodies:
+                yield f"{hull.name} stands for no surface: left as it is"
 
-    def spans_of(self, asset: str) -> list[HullSpan]:
-        """Each hull of an asset that stands for something, in order."""
-        found = dict[str, HullSpan]()
-        for posterior, unseen in ((self.by_surface, False), (self.by_cells, True)):
-            if posterior:
-                found.update((span.hull, span) for span in self._list_spans(asset, posterior, unseen))
-        return [found[hull.name] for hull in self.meshes[asset].hulls if hull.name in found]
-
-    def divide(self, asset: str, hull: str) -> list[LabelledPart]:
-        """The parts of a hull, each with its likeliest label and the share of that in what it stands for."""
-        place = self.meshes[asset].index[hull]
-        posterior = self.by_cells if self.meshes[asset].hulls[place].body in self.unseen[asset] else self.by_surface
-        assert posterior, f"{hull} of {asset} stands for nothing"
-        parts = posterior.divide(self._places[asset], place)
-        return [(part, posterior.labels[part.kind], float(part.shares[part.kind])) for part in parts]
-
-    def rebuild(self, asset: str, body: str) -> dict[str, list[LabelledPart]]:
+    def rebuild(self, body: str) -> dict[str, list[RebuiltHull]]:
         """New hulls for all of a body that stand for its surface, each of one label, by the old hull that has most of
-        it; nothing where the body has no surface."""
-        mesh, bare = self.meshes[asset], set(self.bare.get(asset, ()))
-        own = [k for k, hull in enumerate(mesh.hulls) if hull.body == body and hull.name not in bare]
-        if self.by_surface is None or body in self.unseen[asset]:
+        it; nothing where there is none."""
+        own = [k for k, hull in enumerate(self.mesh.hulls) if hull.body == body and hull.name not in self._bare]
+        if self.posterior is None:
             return {}
-        found: dict[str, list[LabelledPart]] = {mesh.hulls[k].name: [] for k in own}
-        for place, part in self.by_surface.rebuild(self._places[asset], np.array(own, dtype=np.int64)):
-            label = self.by_surface.labels[part.kind]
-            found[mesh.hulls[place].name].append((part, label, float(part.shares[part.kind])))
+        found: dict[str, list[RebuiltHull]] = {self.mesh.hulls[k].name: [] for k in own}
+        for one in self.posterior.rebuild(0, np.array(own, dtype=np.int64)):
+            found[self.mesh.hulls[one.old].name].append(one)
         return found if any(found.values()) else {}
 
-    def _list_spans(self, asset: str, posterior: SpanPosterior, unseen: bool) -> Iterator[HullSpan]:
-        place, mesh = self._places[asset], self.meshes[asset]
-        bare = set(self.bare.get(asset, ()))
-        rows = zip(mesh.hulls, posterior.chances_of(place).tolist(), posterior.shares_of(place), strict=True)
-        for hull, chance, shares in rows:
-            if hull.name in bare or (hull.body in self.unseen[asset]) != unseen:
-                continue
-            if not (unseen and hull.source in HUMAN_SOURCES):  # likeness does not outweigh what a person called it
-                yield HullSpan(hull.name, chance, _name_shares(posterior.labels, shares), not unseen)
+    @cached_property
+    def _bare(self) -> frozenset[str]:
+        """The hulls that stand for nothing of the surface of their body, of which nothing can be known."""
+        hulls = self.mesh.hulls
+        held = self.posterior.assets[0].common.sum(axis=1) if self.posterior else np.zeros(len(hulls))
+        return frozenset(hull.name for hull, own in zip(hulls, held.tolist(), strict=True) if not own > 0)
+
+
+def is_given(hull: Hull) -> bool:
+    """Whether a person or a file says what a hull is, so that it is of one part."""
+    return hull.source in GIVEN_SOURCES
 
 
 def _name_shares(labels: Sequence[str], shares: Floats) -> dict[str, float]:
@@ -178,26 +151,6 @@ class _Work:
     engine: PieceEngine
 
 
-def find_spans(
-    store: Store, execution: batch.ExecutionOptions, stage: Stage, engine: PieceEngine = "coacd"
-) -> SpanReport:
-    """Which hulls span parts, of all assets that can be read. engine: which makes the fine pieces of their surfaces.
-
-    Raises ProjectError where no hull has a label: nothing says what parts there are; and where no asset can be read.
-    """
-    meshes = dict(store.meshes_by_id())
-    if not any(evidence_beside_splits(hull.annotation) for mesh in meshes.values() for hull in mesh.hulls):
-        remedy = "Label the hulls of one or two assets first: meshforge label, or the studio."
-        raise ProjectError(
-            "no hull has a label, so nothing says what parts there are", where=str(store.folder), remedy=remedy
-        )
-    pieces, lost = find_pieces(store, meshes, execution, stage, engine)
-    if not pieces:
-        remedy = next(iter(lost.values()), "Give the project assets that can be read: meshforge add.")
-        raise ProjectError("no asset can be read", where=str(store.folder), remedy=remedy)
-    return replace(infer_spans({asset: meshes[asset] for asset in pieces}, pieces, lost), engine=engine)
-
-
 def find_pieces(
     store: Store,
     meshes: Mapping[str, SymbolicMesh],
@@ -216,31 +169,6 @@ def find_pieces(
             else:
                 pieces[asset] = FinePieces.of(found[0], meshes[asset], found[1])
     return pieces, lost
-
-
-def infer_spans(
-    known: Mapping[str, SymbolicMesh],
-    pieces: Mapping[str, FinePieces],
-    lost: Mapping[str, str],
-    measured: Mapping[str, AssetPieces] = MappingProxyType({}),
-    cells: Mapping[str, AssetCells] = MappingProxyType({}),
-) -> SpanReport:
-    """What labels say about hulls that span parts.
-
-    known, pieces: assets with their labels, and the fine pieces of their surfaces, by the same names; lost: why others
-    are not among them; measured, cells: what is known of the pieces and cells of some, which is not measured again.
-    """
-    said = [evidence_beside_splits(hull.annotation) for mesh in known.values() for hull in mesh.hulls]
-    by_surface: SpanPosterior | None = None
-    by_cells: SpanPosterior | None = None
-    if any(own.mesh.hulls for own in pieces.values()):
-        assets = [measured.get(asset) or AssetPieces(mesh, pieces[asset].mesh) for asset, mesh in known.items()]
-        by_surface = SpanModel(assets).infer(said)
-    if any(own.unseen for own in pieces.values()):
-        by_cells = CellModel([cells.get(asset) or AssetCells(mesh) for asset, mesh in known.items()]).infer(said)
-    unseen = {asset: own.unseen for asset, own in pieces.items()}
-    notes = {asset: own.notes for asset, own in pieces.items()}
-    return SpanReport(known, by_surface, by_cells, unseen, lost, notes=notes)
 
 
 def _find_pieces(work: _Work) -> tuple[SurfacePieces, list[str]] | str:

@@ -11,12 +11,14 @@ from meshforge.project.new_assets import NewAsset as NewAsset
 from meshforge.project.new_assets import NewAssetOptions as NewAssetOptions
 from meshforge.project.new_assets import list_new as list_new
 from meshforge.project.new_assets import prepare_aside as prepare_aside
-from meshforge.project.preparation_plan import SPLIT_DEFAULTS as SPLIT_DEFAULTS
-from meshforge.project.preparation_plan import SplitSettings as SplitSettings
+from meshforge.project.preparation_plan import REBUILD_DEFAULTS as REBUILD_DEFAULTS
+from meshforge.project.preparation_plan import RebuildSettings as RebuildSettings
 from meshforge.project.preparation_plan import forget_plan as forget_plan
+from meshforge.project.preparation_plan import read_piece_engine as read_piece_engine
 from meshforge.project.preparation_plan import read_preparation_plan as read_preparation_plan
 from meshforge.project.prepare import PreparationResult as PreparationResult
 from meshforge.project.project import Project as Project
+from meshforge.project.rebuild import MADE_ANEW as MADE_ANEW
 from meshforge.project.replies import has_agreed_labels as has_agreed_labels
 from meshforge.project.review import FamilyAssessment as FamilyAssessment
 from meshforge.project.review import ProjectReview as ProjectReview
@@ -32,10 +34,5 @@ from meshforge.project.sign_off_text import format_standing as format_standing
 from meshforge.project.sign_off_text import format_status as format_status
 from meshforge.project.sign_offs import AssessmentBasis as AssessmentBasis
 from meshforge.project.sign_offs import digest_lesson as digest_lesson
-from meshforge.project.span_questions import can_ask_about_spans as can_ask_about_spans
-from meshforge.project.span_questions import list_span_questions as list_span_questions
-from meshforge.project.span_search import MADE_ANEW as MADE_ANEW
-from meshforge.project.span_splits import LIKELY as LIKELY
-from meshforge.project.span_splits import Split as Split
 from meshforge.project.status import AssetStatus as AssetStatus
 from meshforge.project.status import Status as Status

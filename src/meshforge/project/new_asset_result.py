@@ -1,10 +1,10 @@
-"""What became of a new asset before the program (hulls that were split, those that were left though they likely span
-parts, labels by likeness) in words, as JSON and as doubts; and how probable its edit is, as a review sees it."""
+"""What became of a new asset before the program (bodies that were rebuilt, hulls that were left though they likely
+span parts, labels by likeness) in words, as JSON and as doubts; and how probable its edit is, as a review sees it."""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any
@@ -12,51 +12,31 @@ from typing import Any
 from meshforge import batch
 from meshforge.common import describe_error, join_names, pluralize
 from meshforge.label_model import model_family
-from meshforge.labels import NEW, HullSpan, pick_evenly
+from meshforge.labels import HullSpan, pick_evenly
 from meshforge.labels.reference_family import MOST_COMPARED, choose_labelled
+from meshforge.project.rebuild import MOST_SHOWN, RebuiltBody
 from meshforge.project.review import ProjectReview
-from meshforge.project.span_splits import WENT_ELSEWHERE
 from meshforge.signoff import AssetConfidence, Doubt, ReviewState, assess_asset
-from meshforge.store import MOST_TOLD, Store, describe_parts
+from meshforge.store import Store
 from meshforge.symbolic import Label, LabelFile
 from meshforge.synthesis import LearningOutcome
 
 _DIGITS = 3
+_NEW = ""  # the name of a new asset beside those of a project, whose ids are never empty
 _BY: Mapping[str, str] = {"name": "by names", "plugin": "by a plug-in"}
-
-
-@dataclass(frozen=True, slots=True)
-class HullSplit:
-    """A hull that was split. chance: that it spans parts, None where it was only made anew with its body; told: in
-    words; parts: the label of each by its name."""
-
-    hull: str
-    chance: float | None
-    told: str
-    parts: Mapping[str, Label]
-
-    def __str__(self) -> str:
-        """`base holds wall and handle, 94%: into wall (99%), 2 handle (97% to 98%)`."""
-        parts = describe_parts((label.name, label.confidence) for label in self.parts.values())
-        return f"{self.told}: {f'into {parts}' if parts else WENT_ELSEWHERE}"
-
-
-def parts_of(splits: Iterable[HullSplit]) -> dict[str, Label]:
-    """The label of each part of hulls that were split, by its name."""
-    return {name: label for split in splits for name, label in split.parts.items()}
 
 
 @dataclass(frozen=True, slots=True)
 class NewAssetResult:
     """What became of a new asset before the program.
 
-    splits: hulls that were split; spanning: those that likely span parts and were not; guesses: labels that the family
-    gave to hulls that had none; taken: labels that files, names and plug-ins gave to them before; notes: all else;
-    problem: why it could not be prepared.
+    rebuilt: bodies that were rebuilt; spanning: hulls that likely span parts and were left; guesses: labels that the
+    family gave to hulls that had none; taken: labels that files, names and plug-ins gave to them before; notes: all
+    else; problem: why it could not be prepared.
     """
 
     asset: str
-    splits: tuple[HullSplit, ...] = ()
+    rebuilt: tuple[RebuiltBody, ...] = ()
     spanning: tuple[HullSpan, ...] = ()
     guesses: Mapping[str, Label] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
@@ -64,22 +44,24 @@ class NewAssetResult:
     taken: Mapping[str, Label] = field(default_factory=dict)
 
     @property
-    def doubts(self) -> tuple[Doubt, ...]:
-        """All that was guessed, with the probability that it is wrong, the least sure first."""
-        words = [
-            (f"{name} is called {one.name} as a part that was split off", one, name)
-            for name, one in parts_of(self.splits).items()
-        ]
-        words += [(f"{name} is called {one.name} by its likeness", one, name) for name, one in self.guesses.items()]
-        labels = [Doubt("label", text, (name,), share=1 - one.confidence) for text, one, name in words]
-        return tuple(sorted([*self.split_doubts, *labels], key=lambda one: -one.share))
+    def new_labels(self) -> dict[str, Label]:
+        """The label of each hull of a body that was rebuilt, by its name."""
+        return {name: label for one in self.rebuilt for name, label in one.labels.items()}
 
     @property
-    def split_doubts(self) -> tuple[Doubt, ...]:
-        """Those about which hulls span parts: whether one that was split does not, or one that was left does."""
-        told = [(one, one.chance) for one in self.splits]
-        splits = [Doubt("label", str(one), (one.hull,), share=1 - chance) for one, chance in told if chance is not None]
-        return (*splits, *(Doubt("label", f"{one}: not split", (one.hull,), share=one.chance) for one in self.spanning))
+    def doubts(self) -> tuple[Doubt, ...]:
+        """All that was guessed, with the probability that it is wrong, the least sure first."""
+        words = [(f"{name} is called {one.name} by the rebuild", one, name) for name, one in self.new_labels.items()]
+        words += [(f"{name} is called {one.name} by its likeness", one, name) for name, one in self.guesses.items()]
+        labels = [Doubt("label", text, (name,), share=1 - one.confidence) for text, one, name in words]
+        return tuple(sorted([*self.span_doubts, *labels], key=lambda one: -one.share))
+
+    @property
+    def span_doubts(self) -> tuple[Doubt, ...]:
+        """Those about which hulls span parts: whether none of a body that was rebuilt does, or one that was left."""
+        rebuilt = (Doubt("label", str(one), tuple(one.labels), share=1 - one.chance) for one in self.rebuilt)
+        left = (Doubt("label", f"{one}: left as it is", (one.hull,), share=one.chance) for one in self.spanning)
+        return (*rebuilt, *left)
 
     @property
     def probability(self) -> float:
@@ -87,36 +69,33 @@ class NewAssetResult:
         return 1 - max((one.share for one in self.doubts), default=0.0)
 
     def describe(self) -> tuple[str, ...]:
-        """A sentence on each split, each hull that was left, and on the labels."""
-        rows = [*map(str, self.splits), *(f"{span}: not split" for span in self.spanning)]
+        """A sentence on each body that was rebuilt, each hull that was left, and on the labels."""
+        rows = [*map(str, self.rebuilt), *(f"{span}: left as it is" for span in self.spanning)]
         counts = Counter(_BY.get(one.source, "from a file") for one in self.taken.values())
         rows += [f"{pluralize(count, 'label')} {by}" for by, count in counts.items()]
         if self.guesses:
             name, least = min(self.guesses.items(), key=lambda row: row[1].confidence)
             rows.append(
                 f"{pluralize(len(self.guesses), 'label')} by likeness to the family; "
-                f"least sure: {name} is {least.name}, {min(least.confidence, MOST_TOLD):.0%}"
+                f"least sure: {name} is {least.name}, {min(least.confidence, MOST_SHOWN):.0%}"
             )
         return (*rows, *self.notes)
 
     def to_json(self) -> dict[str, Any]:
         """What the line of `apply --json` says of it."""
         return {
-            "split": [
+            "rebuilt": [
                 {
-                    "hull": one.hull,
-                    "chance": None if one.chance is None else round(one.chance, _DIGITS),
+                    "body": one.body,
+                    "spanning": list(map(_span_to_json, one.spans)),
                     "into": [
                         {"hull": name, "label": label.name, "confidence": label.confidence}
-                        for name, label in one.parts.items()
+                        for name, label in one.labels.items()
                     ],
                 }
-                for one in self.splits
+                for one in self.rebuilt
             ],
-            "spanning": [
-                {"hull": one.hull, "chance": round(one.chance, _DIGITS), "holds": list(one.shares)}
-                for one in self.spanning
-            ],
+            "spanning": list(map(_span_to_json, self.spanning)),
             "labelled": {
                 name: {"label": one.name, "confidence": one.confidence, "source": one.source}
                 for name, one in self.taken.items()
@@ -126,12 +105,18 @@ class NewAssetResult:
         }
 
 
+def _span_to_json(span: HullSpan) -> dict[str, Any]:
+    return {"hull": span.hull, "chance": round(span.chance, _DIGITS), "holds": list(span.shares)}
+
+
 def describe_new(results: Sequence[NewAssetResult]) -> str | None:
-    """How many hulls of new assets were split, and how many likely span parts and were not; None where none."""
-    splits, left = sum(len(one.splits) for one in results), sum(len(one.spanning) for one in results)
-    split = [one.asset for one in results if one.splits]
-    parts = [f"{pluralize(splits, 'hull')} of new assets split ({join_names(split)})"] if splits else []
-    parts += [f"{pluralize(left, 'hull')} likely {'spans' if left == 1 else 'span'} parts, not split"] if left else []
+    """How many bodies of new assets were rebuilt, and how many hulls likely span parts and were left; None where
+    none."""
+    bodies, left = sum(len(one.rebuilt) for one in results), sum(len(one.spanning) for one in results)
+    rebuilt = [one.asset for one in results if one.rebuilt]
+    noun = "body" if bodies == 1 else "bodies"
+    parts = [f"{bodies} {noun} of new assets rebuilt ({join_names(rebuilt)})"] if bodies else []
+    parts += [f"{pluralize(left, 'hull')} likely {'spans' if left == 1 else 'span'} parts, left as is"] if left else []
     return "; ".join(parts) or None
 
 
@@ -153,8 +138,9 @@ def assess_new_assets(
 ) -> dict[str, AssetConfidence]:
     """How probable the edits of assets are that were prepared beside a project, each by itself, by id.
 
-    results: what was guessed of them: an edit is at most as sure as that a hull which was split spans parts, and that
-    one which was left does not. What their labels mean for the edit, the review of the project says.
+    results: what was guessed of them: an edit is at most as sure as that a body which was rebuilt has a hull that
+    spans parts, and that a hull which was left does not. What their labels mean for the edit, the review of the project
+    says.
     """
     task = _Task(_choose_state(review.state), review.outcome, store.settings.thresholds.contact)
     new = [job for job in jobs if job.id in results]
@@ -162,7 +148,7 @@ def assess_new_assets(
     for job, one in zip(new, batch.execute(partial(_assess, task), new, execution), strict=True):
         if isinstance(one, batch.WorkerFailure):
             one = _describe_failure(one.why)
-        found[job.id] = replace(one.with_doubts(results[job.id].split_doubts), asset=job.id)
+        found[job.id] = replace(one.with_doubts(results[job.id].span_doubts), asset=job.id)
     return found
 
 
@@ -179,11 +165,11 @@ def _assess(task: _Task, job: batch.AssetJob) -> AssetConfidence:
     try:
         mesh = batch.read_job(job)
         mesh = mesh if task.contact is None else replace(mesh, epsilon=task.contact)
-        state = replace(task.state, meshes={**task.state.meshes, NEW: mesh})
-        return assess_asset(state, task.outcome, model_family(list(state.meshes.values())), NEW)
+        state = replace(task.state, meshes={**task.state.meshes, _NEW: mesh})
+        return assess_asset(state, task.outcome, model_family(list(state.meshes.values())), _NEW)
     except Exception as error:  # one asset never stops the others
         return _describe_failure(describe_error(error, str(job.path)))
 
 
 def _describe_failure(why: str) -> AssetConfidence:
-    return AssetConfidence(NEW, 0.0, (Doubt("alarm", f"it could not be looked at: {why}", share=1.0),))
+    return AssetConfidence(_NEW, 0.0, (Doubt("alarm", f"it could not be looked at: {why}", share=1.0),))

@@ -1,6 +1,6 @@
-"""Assets that are not of a project, or came to it later, prepared as it says: decomposed as its own, hulls that span
-parts split where that is sure enough, and hulls without a label given the one that files, names or plug-ins say, if
-these labelled its own, else the likeliest one.
+"""Assets that are not of a project, or came to it later, prepared as it says: decomposed as its own, bodies
+rebuilt of which a hull surely spans parts, and hulls without a label given the one that files, names or plug-ins say,
+if these labelled its own, else the likeliest one.
 
 Each is compared with the project's labelled assets alone, in a worker process: what becomes of it does not depend on
 the other new ones, nor on the number of workers, and no process holds more than these and one new asset.
@@ -8,26 +8,25 @@ the other new ones, nor on the number of workers, and no process holds more than
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 
 from meshforge import batch
-from meshforge.common import MeshForgeError, describe_error, join_names
+from meshforge.common import MeshForgeError, describe_error
 from meshforge.formats import read
 from meshforge.geometry import cache_folder
-from meshforge.labels import NEW, HullSpan, ReferenceFamily, ignore_stage, read_reference_family
+from meshforge.labels import ReferenceFamily, ignore_stage, read_reference_family
 from meshforge.labels.family_comparison import Stage
 from meshforge.labels.label_sources import FamilyLabelSources
 from meshforge.labels.merge import LabelWriter, can_fill_gap
 from meshforge.project.new_asset_memory import NewAssetFolder, digest_basis
-from meshforge.project.new_asset_result import HullSplit, NewAssetResult, parts_of
-from meshforge.project.preparation_plan import PreparationPlan, extend_plan, find_new_assets
+from meshforge.project.new_asset_result import NewAssetResult
+from meshforge.project.preparation_plan import PreparationPlan, RebuildSettings, extend_plan, find_new_assets
 from meshforge.project.prepare import exchange_preparation
-from meshforge.project.span_search import plan_splits
+from meshforge.project.rebuild import Rebuild, plan_rebuild
 from meshforge.store import Store, hull_digests
 from meshforge.symbolic import Asset, Label, LabelFile, SymbolicMesh, read_labels, transfer_labels, write_labels
 
@@ -37,15 +36,13 @@ _NO_LABELS = "no hull of the project has a label, so nothing says which hulls sp
 @dataclass(frozen=True, slots=True)
 class NewAsset:
     """One asset that is to be prepared. labels: its labels file, None where it has none; preparation: the folder of
-    what is done to it already, None for nothing; single: the digests of hulls that a person said to be one part, by
-    name."""
+    what is done to it already, None for nothing."""
 
     id: str
     path: Path
     plan: PreparationPlan
     labels: Path | None = None
     preparation: Path | None = None
-    single: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -64,22 +61,23 @@ class _WorkerOutcome:
 @dataclass(frozen=True, eq=False, slots=True)
 class _Task:
     """family: None where nothing is labelled; sources: by what hulls are labelled before likeness, None where they are
-    not; split: whether hulls are split; guess: whether hulls without a label get one; contact: the threshold, None for
-    the language's own."""
+    not; rebuild: whether bodies are rebuilt; guess: whether hulls without a label get one; contact: the threshold, None
+    for the language's own."""
 
     family: ReferenceFamily | None
     sources: FamilyLabelSources | None
-    split: bool
+    rebuild: bool
     guess: bool
     contact: float | None
 
 
 @dataclass(frozen=True, slots=True)
 class NewAssetOptions:
-    """split: whether hulls that span parts are split, or only named; guess: whether hulls without a label get the
-    likeliest one; write_block: the block in which the files of an asset of the project are written."""
+    """rebuild: whether bodies are rebuilt of which a hull spans parts, or these only named; guess: whether hulls
+    without a label get the likeliest one; write_block: the block in which the files of an asset of the project are
+    written."""
 
-    split: bool = True
+    rebuild: bool = True
     guess: bool = True
     execution: batch.ExecutionOptions = batch.EXECUTION_DEFAULTS
     stage: Stage = ignore_stage
@@ -113,10 +111,9 @@ def list_new(store: Store) -> tuple[list[NewAsset], str | None]:
     """The assets that came to a project after the others were prepared; and why they are not decomposed, where it is
     unclear how."""
     plans, unclear = find_new_assets(store)
-    layout, single = store.layout, store.single_parts().assets
+    layout = store.layout
     return [
-        NewAsset(one, store.path(one), plan, layout.labels(one), layout.preparation(one), single.get(one, {}))
-        for one, plan in plans.items()
+        NewAsset(one, store.path(one), plan, layout.labels(one), layout.preparation(one)) for one, plan in plans.items()
     ], unclear
 
 
@@ -130,7 +127,7 @@ def prepare_new(
     chosen = [one for one in new if only is None or one.id in only]
     for result in prepare_in_project(store, chosen, options):
         if not result.problem:
-            extend_plan(store, [result.asset], decomposed=unclear is None, split=options.split)
+            extend_plan(store, [result.asset], decomposed=unclear is None, rebuilt=options.rebuild)
         yield result
 
 
@@ -138,7 +135,7 @@ def _keep_in_project(store: Store, asset: str, found: _WorkerOutcome) -> list[st
     """Write what was done step by step, since each is undone by itself; notes on that."""
     notes, seen, after = list[str](), found.seen, found.preparation
     before = len(batch.read_steps(store.layout.preparation(asset)) or ())
-    labels = {name: label for name, label in parts_of(found.result.splits).items() if label.name in store.vocabulary}
+    labels = {name: label for name, label in found.result.new_labels.items() if label.name in store.vocabulary}
     for count in range(before + 1, len(after.steps) + 1):
         is_last = count == len(after.steps)
         part = after if is_last else after.with_only(after.steps[:count])
@@ -157,10 +154,10 @@ def prepare_aside(
     if not assets:
         return
     task = _make_task(store, assets, options)
-    shared = [task.family.digest if task.family else None, task.split, task.guess, task.contact]
+    shared = [task.family.digest if task.family else None, task.rebuild, task.guess, task.contact]
     homes = {one.id: NewAssetFolder(folder, one.id, one.path) for one in assets}
     basis = {
-        one.id: digest_basis(one.plan, one.labels, one.preparation, [*shared, json.dumps(dict(one.single)), said])
+        one.id: digest_basis(one.plan, one.labels, one.preparation, [*shared, said])
         for one in assets
         for said in [task.sources.digest(one.id, one.path) if task.sources else None]
     }
@@ -196,7 +193,7 @@ def _keep_aside(home: NewAssetFolder, basis: str, found: _WorkerOutcome) -> NewA
 
 def _make_task(store: Store, assets: Sequence[NewAsset], options: NewAssetOptions) -> _Task:
     """What is the same for all assets; the project's labelled ones are read, but for those that are new themselves."""
-    engine = next((one.plan.split.pieces for one in assets if one.plan.split), None)  # one for all of a project
+    engine = next((one.plan.rebuild.pieces for one in assets if one.plan.rebuild), None)  # one for all of a project
     own = {path: asset for asset, path in store.found.ids.items()}
     without = {own[one.path] for one in assets if one.path in own}
     family = None
@@ -205,7 +202,7 @@ def _make_task(store: Store, assets: Sequence[NewAsset], options: NewAssetOption
             store, options.execution, options.stage, engine or "coacd", without=without, spans=engine is not None
         )
     sources = FamilyLabelSources.of(store) if options.guess else None
-    return _Task(family, sources, options.split, options.guess, store.settings.thresholds.contact)
+    return _Task(family, sources, options.rebuild, options.guess, store.settings.thresholds.contact)
 
 
 def _prepare_all(task: _Task, assets: Sequence[NewAsset], options: NewAssetOptions) -> Iterator[_WorkerOutcome | str]:
@@ -223,18 +220,18 @@ def _prepare(task: _Task, work: NewAsset) -> _WorkerOutcome | str:
         after, notes = _decompose(source, before, work.plan)
         labels = read_labels(work.labels) if work.labels and work.labels.exists() else LabelFile()
         mesh, taken, odd = _take_labels(task, work, _build_mesh(source, after, labels, task.contact))
-        found = _SplitOutcome(after)
-        if work.plan.split and mesh.hulls:
-            found = _split(task, source, after, mesh, work)
-            if found.splits:
-                mesh = _build_mesh(source, found.preparation, labels, task.contact).with_labels(parts_of(found.splits))
+        found = Rebuild(after)
+        if work.plan.rebuild and mesh.hulls:
+            found = _rebuild(task, source, after, mesh, work.plan.rebuild)
+            if found.bodies:
+                mesh = _build_mesh(source, found.after, labels, task.contact).with_labels(found.labels)
                 mesh, taken, _ = _take_labels(task, work, mesh)  # what is odd of hulls that are gone was said
         guesses = task.family.infer_labels(mesh) if task.guess and task.family and mesh.hulls else {}
         notes = (*found.notes, *notes, *odd)
-        result = NewAssetResult(work.id, found.splits, found.spanning, guesses, notes, taken=taken)
+        result = NewAssetResult(work.id, found.bodies, found.left, guesses, notes, taken=taken)
         words = labels.vocabulary or (task.family.words if task.family else ())
         files = batch.asset_digests(work.path, source.files, work.path.parent)
-        return _WorkerOutcome(files, found.preparation, seen, mesh.with_labels(guesses), words, result)
+        return _WorkerOutcome(files, found.after, seen, mesh.with_labels(guesses), words, result)
     except Exception as error:  # one asset never stops the others
         return describe_error(error, str(work.path))
 
@@ -268,33 +265,15 @@ def _decompose(
     return before, tuple(notes)
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class _SplitOutcome:
-    """A preparation with the hulls split that surely span parts; spanning: those that likely do and are left."""
-
-    preparation: batch.Preparation
-    splits: tuple[HullSplit, ...] = ()
-    spanning: tuple[HullSpan, ...] = ()
-    notes: tuple[str, ...] = ()
-
-
-def _split(task: _Task, source: Asset, before: batch.Preparation, mesh: SymbolicMesh, work: NewAsset) -> _SplitOutcome:
-    """Look for hulls that span parts, and split those that surely do where that is asked for."""
-    if task.family is None or work.plan.split is None:
-        return _SplitOutcome(before, notes=(_NO_LABELS,))
-    report = task.family.find_spans(source, mesh)
-    bare = report.bare.get(NEW, ())
-    notes = [f"not compared with {asset}: {why}" for asset, why in task.family.lost.items()]
-    notes += report.notes.get(NEW, ())
-    notes += [f"no surface says whether {join_names(bare)} span parts"] if bare else []
-    plan = plan_splits(report, NEW, work.plan.split, work.single)
-    notes += [f"{span}: left as it is, since a person said that it is one part" for span in plan.single]
-    if not task.split or not plan.splits:
-        likely = {span.hull for span in (*plan.spanning, *plan.unsure)}
-        return _SplitOutcome(before, (), tuple(span for span in report.spans_of(NEW) if span.hull in likely), (*notes,))
-    after, labels = plan.divide(source, before)
-    splits = tuple(
-        HullSplit(one.hull, plan.chance_of(one.hull), one.span.told, {name: labels[name] for name in entry.made})
-        for one, entry in zip(plan.splits, after.steps[-1].replaced, strict=True)
-    )
-    return _SplitOutcome(after, splits, (*plan.unsure, *plan.whole), (*notes,))
+def _rebuild(
+    task: _Task, source: Asset, before: batch.Preparation, mesh: SymbolicMesh, how: RebuildSettings
+) -> Rebuild:
+    """Rebuild bodies of which a hull surely spans parts, or only say which, as is asked for."""
+    if task.family is None:
+        return Rebuild(before, notes=(_NO_LABELS,))
+    found = plan_rebuild(task.family, source, before, mesh, how)
+    lost = tuple(f"not compared with {asset}: {why}" for asset, why in task.family.lost.items())
+    if task.rebuild:
+        return replace(found, notes=(*lost, *found.notes))
+    spans = (span for one in found.bodies for span in one.spans)
+    return Rebuild(before, left=(*spans, *found.left), notes=(*lost, *found.notes))

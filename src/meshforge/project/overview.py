@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator
-from dataclasses import replace
 from functools import partial
 
 from meshforge.batch import ApplyTask, AssetJob, ExecutionOptions, OutputInputs, inputs_of
@@ -22,7 +21,6 @@ from meshforge.signoff import BAR
 from meshforge.store import (
     AssetFacts,
     AssetOutput,
-    SpansFile,
     Store,
     VerdictEvent,
     find_outputs,
@@ -58,15 +56,14 @@ def compute_status(
     program, task, problem = _read_program(store)
     bare = None if program or problem else make_empty_program(store)
     writing = build_task(store, bare) if bare else task
-    edits, rows, spans = dict[str, OutputInputs](), list[AssetStatus](), store.spans()
+    edits, rows = dict[str, OutputInputs](), list[AssetStatus]()
     for job in work:
         one, edit = facts[job.id], inputs_of(writing, job, facts[job.id].digests) if writing else None
         edits |= {job.id: edit} if edit and task and not one.error else {}
         made = outputs[job.id].stamp
         if edit and bare and made and made.inputs and made.inputs.program != edit.program:
             edit = None  # the output is of a program that is gone, and is not out of date without it
-        row = _asset_status(store, job, one, outputs[job.id], edit, said.verdict_on(job.id))
-        rows.append(replace(row, spans=_list_spans(spans, row.id, one)))
+        rows.append(_asset_status(store, job, one, outputs[job.id], edit, said.verdict_on(job.id)))
     last, lacks = store.assessment(), "asset" if task else "templates" if program else "program"
     current = last if last and last.holds(digest_lesson(store), edits) else None
     standings = Standings(find_bases(store, edits, outputs), lacks, said, store.sign_offs(), current)
@@ -154,10 +151,6 @@ def _asset_status(
         corrections=len(job.corrections),
         review_note=current_review.note if current_review else None,
     )
-
-
-def _list_spans(spans: SpansFile, asset: str, facts: AssetFacts) -> dict[str, str]:
-    return {hull: line.told for hull, line in spans.likely(asset, dict(facts.hulls)).items()}
 
 
 def _describe_unknown_hulls(store: Store, asset: str, facts: AssetFacts) -> Iterator[str]:

@@ -1,7 +1,7 @@
 """What a project says about preparing new assets, and which of its own are new.
 
 How pieces are decomposed is read from the preparations of its assets, so that nothing can get out of step with them;
-that hulls which span parts are split, and from when an asset is new, is kept when all assets are prepared.
+that bodies are rebuilt, and from when an asset is new, is kept when all assets are prepared.
 """
 
 from __future__ import annotations
@@ -31,38 +31,38 @@ class DecompositionPlan:
 
 
 @dataclass(frozen=True, slots=True)
-class SplitSettings:
-    """How hulls that span parts are split. sure: the probability from which that is done; rebuild: whether all hulls of
-    their bodies that stand for its surface are made anew, each of one part; pieces: the engine of the fine pieces that
-    they are found and divided by; only: names of hulls and bodies, or patterns of them, none for all."""
+class RebuildSettings:
+    """How bodies are rebuilt of which hulls span parts. min_confidence: the probability of that, from which they are;
+    pieces: the engine of the fine pieces that they are made of; only: names of hulls and bodies, or patterns of them,
+    none for all."""
 
-    sure: float = 0.9
-    rebuild: bool = False
+    min_confidence: float = 0.9
     pieces: PieceEngine = "coacd"
     only: tuple[str, ...] = ()
 
 
-SPLIT_DEFAULTS = SplitSettings()
+REBUILD_DEFAULTS = RebuildSettings()
 
 
 @dataclass(frozen=True, slots=True)
 class PreparationPlan:
     """How new assets of a family are prepared.
 
-    decompose: in this order, as all assets were that have been decomposed; split: how hulls that span parts are, None
-    where they are not looked for; unclear: a sentence where assets were decomposed in several ways, so that new ones
-    are not.
+    decompose: in this order, as all assets were that have been decomposed; rebuild: how bodies are of which hulls span
+    parts, None where these are not looked for; unclear: a sentence where assets were decomposed in several ways,
+    so that new ones are not.
     """
 
     decompose: tuple[DecompositionPlan, ...] = ()
-    split: SplitSettings | None = None
+    rebuild: RebuildSettings | None = None
     unclear: str | None = None
 
 
 def read_preparation_plan(store: Store) -> PreparationPlan:
     """What a project says about new assets. Raises ProjectError where its file is damaged."""
     kept = _read(store)
-    split = None if kept.sure is None else SplitSettings(kept.sure, kept.rebuild, kept.pieces, kept.only)
+    known = kept.min_confidence
+    rebuild = None if known is None else RebuildSettings(known, kept.pieces, kept.only)
     ways = dict[str, list[str]]()
     for asset in store.layout.ids_with_preparation():
         if asset not in store.found.ids:
@@ -77,13 +77,13 @@ def read_preparation_plan(store: Store) -> PreparationPlan:
     if len(ways) > 1:
         some = "; ".join(f"{_describe_way(way)}: {join_names(assets, _EXAMPLES)}" for way, assets in ways.items())
         problem = f"the assets were decomposed in {len(ways)} ways, so new ones are not decomposed ({some})"
-        return PreparationPlan(split=split, unclear=problem)
+        return PreparationPlan(rebuild=rebuild, unclear=problem)
     lines = next(iter(ways), "").splitlines()
     plans = [_parse_plan(json.loads(line)) for line in lines]
     if None in plans:
         problem = "the assets were decomposed by another version, with other options, so new ones are not decomposed"
-        return PreparationPlan(split=split, unclear=problem)
-    return PreparationPlan(tuple(plan for plan in plans if plan), split)
+        return PreparationPlan(rebuild=rebuild, unclear=problem)
+    return PreparationPlan(tuple(plan for plan in plans if plan), rebuild)
 
 
 def _describe_way(way: str) -> str:
@@ -122,17 +122,17 @@ def keep_decomposed(store: Store, assets: Collection[str]) -> None:
         _change(store, {"decomposed": store.assets()})
 
 
-def keep_split(store: Store, assets: Collection[str], how: SplitSettings) -> None:
-    """Keep how hulls of these assets were split, where they are all of the project."""
+def keep_rebuilt(store: Store, assets: Collection[str], how: RebuildSettings) -> None:
+    """Keep how bodies of these assets were rebuilt, where they are all of the project."""
     if set(store.assets()) <= set(assets):
-        _change(store, {"split": store.assets(), **asdict(how)})
+        _change(store, {"rebuilt": store.assets(), **asdict(how)})
 
 
-def extend_plan(store: Store, assets: Collection[str], *, decomposed: bool, split: bool) -> None:
-    """Keep that assets which came later were prepared as the others; decomposed, split: whether their pieces were
+def extend_plan(store: Store, assets: Collection[str], *, decomposed: bool, rebuilt: bool) -> None:
+    """Keep that assets which came later were prepared as the others; decomposed, rebuilt: whether their pieces were
     decomposed, and whether their hulls were looked at."""
     kept = _read(store)
-    lists = {"decomposed": kept.decomposed if decomposed else None, "split": kept.split if split else None}
+    lists = {"decomposed": kept.decomposed if decomposed else None, "rebuilt": kept.rebuilt if rebuilt else None}
     values = {name: tuple(dict.fromkeys([*ids, *assets])) for name, ids in lists.items() if ids is not None}
     _change(store, values)
 
@@ -162,14 +162,14 @@ def find_new_assets(store: Store) -> tuple[dict[str, PreparationPlan], str | Non
     kept = _read(store)
     every = frozenset(store.assets())
     whole = every - set(every if kept.decomposed is None else kept.decomposed)
-    split = every - set(every if kept.split is None else kept.split)
-    if not whole and not split:
+    rebuilt = every - set(every if kept.rebuilt is None else kept.rebuilt)
+    if not whole and not rebuilt:
         return {}, None
     plan = read_preparation_plan(store)
     found = {
-        asset: PreparationPlan(plan.decompose if asset in whole else (), plan.split if asset in split else None)
+        asset: PreparationPlan(plan.decompose if asset in whole else (), plan.rebuild if asset in rebuilt else None)
         for asset in store.assets()
-        if asset in whole or asset in split
+        if asset in whole or asset in rebuilt
     }
     return {asset: own for asset, own in found.items() if own != PreparationPlan()}, plan.unclear if whole else None
 

@@ -1,4 +1,4 @@
-"""What is done to assets before the program: hulls decomposed, cut and split, with labels that follow them."""
+"""What is done to assets before the program: hulls decomposed, cut and rebuilt, with labels that follow them."""
 
 from __future__ import annotations
 
@@ -69,21 +69,6 @@ def cut(store: Store, asset: str, hull: str, at: Sequence[float], across: Sequen
     return change_preparation(store, asset, lambda source, before: batch.cut_hull(source, before, hull, at, across))
 
 
-def split(
-    store: Store, asset: str, hull: str, settings: DecomposeSettings | None = None, *, hollow: bool = False
-) -> PreparationResult:
-    """Split a hull by a decomposition of what its body shows, or of the opaque piece that it was made of.
-
-    Raises GeometryError: no such hull, nothing to decompose, or nothing that divides it.
-    """
-
-    def make(source: Asset, before: batch.Preparation) -> batch.Preparation:
-        engine = settings or CoacdSettings()
-        return batch.split_hull(source, before, hull, engine, hollow=hollow, cache=cache_folder())
-
-    return change_preparation(store, asset, make)
-
-
 def unprepare(store: Store, asset: str, *, everything: bool = False) -> PreparationResult:
     """Take back the last thing that was done to an asset before the program, or everything.
 
@@ -135,8 +120,8 @@ def exchange_preparation(
 ) -> list[str]:
     """Write a preparation in the place of the one of a known digest. Raises ProjectError where that is another now.
 
-    labels: of new hulls by name, as what made them knows them; where a person gave the hull that is split the same
-    label, theirs is taken.
+    labels: of new hulls by name, as what made them knows them; where a person gave the hull that they replace the
+    same label, theirs is taken.
     """
     with store.lock():
         if batch.record_digest(store.layout.preparation(asset)) != seen:

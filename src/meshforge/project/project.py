@@ -16,11 +16,10 @@ from meshforge.project import (
     new_assets,
     overview,
     prepare,
+    rebuild,
     rename,
     run,
     sign_offs,
-    span_splits,
-    spans,
 )
 from meshforge.project.replies import reply_again, reply_to
 from meshforge.project.review import review_project
@@ -70,12 +69,9 @@ class Project(LabelStore):
 
     decompose = prepare.decompose
     cut = prepare.cut
-    split = prepare.split
     unprepare = prepare.unprepare
-    split_spanning = spans.split_spanning
-    list_spans = spans.list_spans
+    rebuild_spanning = rebuild.rebuild_spanning
     prepare_new = new_assets.prepare_new
-    find_split = span_splits.find_split
 
     # Demonstrations
 

@@ -12,7 +12,6 @@ from meshforge.labels.family_comparison import ignore_stage
 from meshforge.labels.label_by_consensus import label_by_consensus
 from meshforge.labels.merge import ignore_report, set_labels_of
 from meshforge.project import demonstrations, run
-from meshforge.project.span_questions import answer_span
 from meshforge.signoff import ReviewChoice, ReviewQuestion, ReviewReply
 from meshforge.signoff.question import EXCLUDE, NO, RIGHT, WRONG
 from meshforge.store import ExclusionEvent, LabelsEvent, Origin, ReplyEvent, SnoozeEvent, Store, VerdictEvent
@@ -54,12 +53,6 @@ def reply_to(store: Store, question: ReviewQuestion, reply: ReviewReply) -> None
             else:
                 turned = choice.orient
                 _do(store, said, lambda: store.set_orientation(turned))
-        case signoff.SpanQuestion():
-            if choice is None:
-                _snooze(store, said)
-            else:
-                split = choice
-                _do(store, said, lambda: answer_span(store, question, split))
         case signoff.DemonstrationQuestion():
             _snooze(store, said)
         case _:
@@ -90,7 +83,7 @@ def reply_again(store: Store, question: ReviewQuestion, reply: ReviewReply) -> N
             store.add_events(ExclusionEvent(asset=question.asset, **said._asdict()))
         case _:
             problem = f"question {question.id} was replied to before, and what followed from that stays"
-            raise ProjectError(problem, remedy="Change it by hand: its demonstration, its labels, or how it is split.")
+            raise ProjectError(problem, remedy="Change it by hand: its demonstration, its labels, or its hulls.")
 
 
 def find_choice(question: ReviewQuestion, reply: ReviewReply) -> ReviewChoice | None:

@@ -5,10 +5,11 @@ A sign-off rests on the digests of all that decides an edit: it is void when one
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 
+from meshforge import batch
 from meshforge.batch import EXECUTION_DEFAULTS, ExecutionOptions, program_digest
 from meshforge.common import MeshForgeError, ProjectError
 from meshforge.label_model import model_family
@@ -17,8 +18,8 @@ from meshforge.language import Program
 from meshforge.project import learn
 from meshforge.project.alarms import measure_results
 from meshforge.project.family_state import FamilyStateReader
+from meshforge.project.preparation_journal import describe_carried
 from meshforge.project.sign_offs import AssessmentBasis, Clock, keep_assessment, now_utc, renew_sign_offs
-from meshforge.project.span_questions import add_demonstration_doubts, add_span_doubts, ask_about_spans
 from meshforge.signoff import BAR, Assessment, AssetConfidence, Doubt, EditMeasures, ResultQuestion, ReviewState
 from meshforge.signoff.alarms import describe_odd_results
 from meshforge.signoff.prices import YES_OR_NO
@@ -27,6 +28,8 @@ from meshforge.signoff.review import EXCLUDE_CHOICES, review_family
 from meshforge.store import Store
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Ambiguous, Found, LearningOutcome
+
+_NOT_MEANT = 0.5  # the probability that not all new hulls are meant where a demonstration named the one before
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,10 +108,10 @@ def assess_family(
         return None
     shown = [measures[asset] for asset in (*state.demos, *state.accepted) if asset in measures]
     found = review_family(state, outcome, family, bar, describe_odd_results(measures, shown))
-    found = add_span_doubts(store, meshes, _add_unreadable(store, found, state, lost), state.reviewed_assets)
+    found = _add_unreadable(store, found, state, lost)
     if not by_hand:
-        found = add_demonstration_doubts(store, found, state.accepted | state.corrected)
-    return FamilyAssessment(ask_about_spans(store, meshes, found, program is not None), state, program, basis, measures)
+        found = _add_demonstration_doubts(store, found, state.accepted | state.corrected)
+    return FamilyAssessment(found, state, program, basis, measures)
 
 
 def _read_meshes(store: Store) -> tuple[dict[str, SymbolicMesh], dict[str, str]]:
@@ -149,6 +152,27 @@ def _add_unreadable(store: Store, found: Assessment, state: ReviewState, lost: M
     found = replace(found, assets={name: every[name] for name in store.assets() if name in every})
     asked = [_ask_to_exclude(name, lost[name]) for name in found.held if name in lost]
     return replace(found, questions=(*found.questions, *(one for one in asked if one.id not in state.snoozed)))
+
+
+def _add_demonstration_doubts(store: Store, found: Assessment, looked_at: Collection[str]) -> Assessment:
+    """The same, where a program is learned from a demonstration that names hulls which others replaced since, and
+    nobody has looked whether all of these are meant.
+
+    looked_at: assets whose result a person found right, or corrected.
+    """
+    texts = {
+        asset: [*describe_carried(store, asset, len(batch.read_steps(store.layout.preparation(asset)) or ()))]
+        for asset in store.demonstration_ids()
+        if asset in found.assets
+    }
+    if not any(texts.values()):
+        return found
+    assets = dict(found.assets)
+    for asset in assets.keys() - set(looked_at):
+        told = (text if one == asset else f"{one}: {text}" for one, own in texts.items() for text in own)
+        assets[asset] = assets[asset].with_doubts(Doubt("reading", text, share=_NOT_MEANT) for text in told)
+    unseen = {asset for asset, own in texts.items() if own} - set(looked_at)
+    return replace(found, assets=assets, looked_at=found.looked_at - unseen)
 
 
 def _ask_to_exclude(asset: str, why: str) -> ResultQuestion:

@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from types import MappingProxyType
-from typing import Literal
+from typing import Any, Literal
 
 from meshforge.batch import (
     EXECUTION_DEFAULTS,
@@ -40,6 +40,8 @@ from meshforge.store import (
     iterate_survey,
 )
 
+_NO_MARKS: Mapping[str, Any] = {"assets": {}}
+"""Of hulls as one part, which earlier versions kept: with it in digests, sign-offs of theirs stay."""
 Clock = Callable[[], datetime]
 
 
@@ -63,20 +65,19 @@ def _digest_edits(store: Store, task: ApplyTask, execution: ExecutionOptions) ->
 
 def digest_lesson(store: Store) -> str:
     """The digest of all that probabilities rest on beside the assets: what is learned from, what a person said, and
-    which hulls were found to span parts."""
-    journals = map(store.layout.preparation_journal, store.demonstration_ids())  # whether a person saw what was carried
-    kept = (content_digest(file) if file.exists() else None for file in (store.layout.spans, *journals))
+    whether they saw what preparations changed of it."""
+    journals = map(store.layout.preparation_journal, store.demonstration_ids())
+    kept = (content_digest(file) if file.exists() else None for file in journals)
     return value_digest([digest_learning_inputs(store), digest_feedback(store), *kept])
 
 
 def digest_feedback(store: Store) -> str:
-    """The digest of what people said: answers and fixes, verdicts without notes, exclusions, and hulls that are one
-    part."""
+    """The digest of what people said: answers and fixes, verdicts without notes, and exclusions."""
     feedback = store.feedback()
     lines = [*feedback.answers_and_fixes.values(), *(one for some in feedback.verdicts.values() for one in some)]
     said = [one.model_dump(mode="json", exclude={"note", "by", "question"}) for one in lines]
     away = {asset: one.reason for asset, one in feedback.exclusions.items()}
-    return value_digest([said, away, store.single_parts().model_dump(mode="json")])
+    return value_digest([said, away, _NO_MARKS])
 
 
 def find_bases(

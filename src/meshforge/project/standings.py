@@ -36,7 +36,7 @@ class Standings:
             sign_off=state,
             signed_by=by if state == "signed off" else None,
             void=void if state == "void" else (),
-            found_since=self._find_news(asset, line, by == "tool") if state == "signed off" else (),
+            found_since=self._find_news(line) if state == "signed off" else (),
             excluded=excluded.reason if excluded else None,
             probability=found.probability if found else None,
             doubts=found.doubts if found else (),
@@ -64,11 +64,9 @@ class Standings:
             return "unknown"
         return "sure" if line.passes(self.last.bar) else "held"
 
-    def _find_news(self, asset: AssetStatus, line: ConfidenceLine | None, by_tool: bool) -> tuple[str, ...]:
+    def _find_news(self, line: ConfidenceLine | None) -> tuple[str, ...]:
         """What was found after an asset was signed off, and no person has answered."""
-        if not line or not self.last:
-            return tuple(asset.spans.values()) if by_tool else ()
-        if line.passes(self.last.bar):
+        if not line or not self.last or line.passes(self.last.bar):
             return ()
         sure = f"it is {format_share(line.probability)} sure now"
         weighty = (one.text for one in line.doubts if one.kind == "alarm" or one.share > 1 - self.last.bar)

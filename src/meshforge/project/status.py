@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any, Literal
 
 from meshforge.signoff import BAR, Doubt, ExclusionReason
@@ -31,9 +31,7 @@ class AssetStatus:
     known, and its files; corrections: edits by hand, a number.
     sign_off: whether it is signed off; signed_by: by whom; void: what changed since it was; excluded: why it is given
     up; probability, doubts: of its edit, as of the last review where nothing changed since, else None; found_since:
-    doubts that were found after it was signed off, which stays so until a person answers. spans: hulls that likely hold
-    more than one part, by name, in words, as `prepare --split-spanning` found them, or as they look like one that a
-    person split.
+    doubts that were found after it was signed off, which stays so until a person answers.
     """
 
     id: str
@@ -63,7 +61,6 @@ class AssetStatus:
     found_since: tuple[str, ...] = ()
     probability: float | None = None
     doubts: tuple[Doubt, ...] = ()
-    spans: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def is_done(self) -> bool:
@@ -144,7 +141,6 @@ def _asset_json(asset: AssetStatus) -> dict[str, Any]:
         "hulls": asset.hulls,
         "sources": asset.sources,
         "prepared": list(asset.prepared),
-        "spans": list(asset.spans.values()),
         "labelled": asset.labelled,
         "doubtful": list(asset.doubtful),
         "demonstrated": asset.demonstrated,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection
 from typing import TypeVar
 
 import numpy as np
@@ -53,17 +53,6 @@ def render_thumbnail(
     if through:
         item, light = _look_through(item, light, sorted(through), hulls, frame, close, fine)
     return _encode(_fine_pixels(item, fine), _fine_pixels(light, fine), len(hulls))
-
-
-def read_places(picture: ThumbnailPixels) -> Ints:
-    """The index of the hull that each pixel of a thumbnail shows (height, width), -1 for what is no hull."""
-    return picture[..., 0].astype(np.int64) * 256 + picture[..., 1] - 1
-
-
-def renumber(picture: ThumbnailPixels, places: Sequence[int]) -> ThumbnailPixels:
-    """A thumbnail whose hulls have other indices: `places[k]` in the place of k."""
-    item = np.append(np.array(places, np.int64), -1)[read_places(picture)] + 1
-    return np.concatenate([np.stack([item // 256, item % 256], axis=2).astype(np.uint8), picture[..., 2:]], axis=2)
 
 
 def _look_through(

@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Collection
 
 import numpy as np
-import numpy.typing as npt
 
 from meshforge.geometry import Aabb, Floats, Pose
 from meshforge.rendering.annotation import count_pixels
 from meshforge.rendering.camera import View, aim_camera
-from meshforge.rendering.id_buffer import ThumbnailPixels, read_places, render_thumbnail, turn_render_mesh
+from meshforge.rendering.id_buffer import ThumbnailPixels, render_thumbnail, turn_render_mesh
 from meshforge.rendering.picture import render_meshes_of
 from meshforge.rendering.raycast import DrawLayer, ViewFrame, cast_layer, up_vector
 from meshforge.rendering.scene import RenderMesh
@@ -22,8 +21,6 @@ _SIDES: tuple[View, ...] = (
 """From the usual side to those from which one seldom looks; the first that is good enough is taken."""
 _SIZE = (160, 120)  # of the pictures in which that is found out
 _ENOUGH = 0.35  # of a hull, that is to be seen
-_MARGIN = 1.6  # of what a picture is cut to
-_LEAST_SHARE = 0.5  # of a side, so that it is seen where on the asset that is
 
 
 def render_revealing(
@@ -36,41 +33,6 @@ def render_revealing(
     """
     view, hidden = _choose_side(mesh, hulls, pose)
     return render_thumbnail(mesh, pose, size, view, through=hidden)
-
-
-def render_division(
-    mesh: SymbolicMesh,
-    hull: str,
-    divided: SymbolicMesh,
-    parts: Collection[str],
-    pose: Pose | None = None,
-    size: tuple[int, int] = (720, 540),
-) -> tuple[ThumbnailPixels, ThumbnailPixels]:
-    """Two pictures as `render_thumbnail` encodes them, from one side: a mesh with a hull, and with parts in its place.
-
-    They are cut to what is around these, with half of the sides of `size` at least. pose: shown_T_incoming. Raises
-    KeyError for a hull that is not there.
-    """
-    view, hidden = _choose_side(divided, parts, pose)
-    own = mesh.index[hull]
-    is_hidden = _shares_seen(_turn_hulls(mesh, pose), [own], view)[0] < _ENOUGH
-    before = render_thumbnail(mesh, pose, size, view, through=[own] if is_hidden else [])
-    after = render_thumbnail(divided, pose, size, view, through=hidden)
-    in_place = [divided.index[name] for name in parts]
-    rows, columns = _cut_around((read_places(before) == own) | np.isin(read_places(after), in_place))
-    return before[rows, columns], after[rows, columns]
-
-
-def _cut_around(seen: npt.NDArray[np.bool_]) -> tuple[slice, slice]:
-    """The rows and columns around what is seen in a picture (h, w), of the proportions of the whole."""
-    at = np.argwhere(seen)
-    if not len(at):
-        return slice(None), slice(None)
-    low, high, whole = at.min(axis=0), at.max(axis=0) + 1, np.array(seen.shape)
-    share = min(max(_MARGIN * ((high - low) / whole).max(), _LEAST_SHARE), 1.0)
-    extent = np.round(share * whole).astype(int)
-    start = np.clip((low + high - extent) // 2, 0, whole - extent)
-    return slice(start[0], start[0] + extent[0]), slice(start[1], start[1] + extent[1])
 
 
 def _choose_side(mesh: SymbolicMesh, hulls: Collection[str], pose: Pose | None) -> tuple[View, list[int]]:

@@ -12,7 +12,7 @@ __getattr__, __all__ = export_lazily(
         "measures": "EditMeasures measure_edit",
         "question": (
             "DemonstrationQuestion ExclusionReason GroupQuestion HullPlace OrientationQuestion ReadingQuestion "
-            "RepairQuestion ResultQuestion ReviewChoice ReviewQuestion ReviewReply SlipQuestion SpanQuestion "
+            "RepairQuestion ResultQuestion ReviewChoice ReviewQuestion ReviewReply SlipQuestion "
             "question_of"
         ),
         "review": "assess_asset review_family",

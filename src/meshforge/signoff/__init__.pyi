@@ -19,7 +19,6 @@ from meshforge.signoff.question import ReviewChoice as ReviewChoice
 from meshforge.signoff.question import ReviewQuestion as ReviewQuestion
 from meshforge.signoff.question import ReviewReply as ReviewReply
 from meshforge.signoff.question import SlipQuestion as SlipQuestion
-from meshforge.signoff.question import SpanQuestion as SpanQuestion
 from meshforge.signoff.question import question_of as question_of
 from meshforge.signoff.review import assess_asset as assess_asset
 from meshforge.signoff.review import review_family as review_family

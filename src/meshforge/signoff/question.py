@@ -9,9 +9,7 @@ from typing import Any, ClassVar, Literal, NamedTuple, TypeVar, get_args
 
 from meshforge.language import Orient, Program, show
 
-QuestionKind = Literal[
-    "group", "repair", "reading", "label", "selection", "orientation", "result", "demonstrate", "span"
-]
+QuestionKind = Literal["group", "repair", "reading", "label", "selection", "orientation", "result", "demonstrate"]
 ExclusionReason = Literal["not of this family", "not solved"]
 """Why an asset is given up: it is not edited, not counted and never asked about; or it is counted, and not written."""
 NOT_OF_FAMILY: ExclusionReason = "not of this family"
@@ -145,12 +143,6 @@ class DemonstrationQuestion(QuestionBase):
     kind: ClassVar[QuestionKind] = "demonstrate"
 
 
-class SpanQuestion(QuestionBase):
-    """Whether a hull that likely spans parts is split."""
-
-    kind: ClassVar[QuestionKind] = "span"
-
-
 ReviewQuestion = (
     GroupQuestion
     | RepairQuestion
@@ -159,13 +151,16 @@ ReviewQuestion = (
     | OrientationQuestion
     | ResultQuestion
     | DemonstrationQuestion
-    | SpanQuestion
 )
 _KINDS: Mapping[str, type[ReviewQuestion]] = {one.kind: one for one in (*get_args(ReviewQuestion), UnseenLabelQuestion)}
 
 
-def question_of(asked: Mapping[str, Any]) -> ReviewQuestion:
-    """The question that somebody was asked; asked: as `to_json` writes it."""
+def question_of(asked: Mapping[str, Any]) -> ReviewQuestion | None:
+    """The question that somebody was asked, None where only an earlier version asks such; asked: as `to_json` writes
+    it."""
+    kind = _KINDS.get(asked["kind"])
+    if kind is None:
+        return None
     choices = tuple(
         ReviewChoice(
             one["id"],
@@ -178,7 +173,7 @@ def question_of(asked: Mapping[str, Any]) -> ReviewQuestion:
     )
     hulls = tuple(HullPlace(one["asset"], one["hull"]) for one in asked["hulls"])
     rest = {name: asked[name] for name in ("text", "seconds", "gain", "asset", "rule", "id")}
-    return _KINDS[asked["kind"]](hulls=hulls, choices=choices, **rest)
+    return kind(hulls=hulls, choices=choices, **rest)
 
 
 Draft = TypeVar("Draft", bound=QuestionBase)

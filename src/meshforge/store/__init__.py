@@ -25,7 +25,6 @@ __getattr__, __all__ = export_lazily(
             "set_value toml_value"
         ),
         "sign_off": "SAID AssessmentFile ConfidenceLine SignOff SignOffBasis find_changes",
-        "spans": "MOST_TOLD SpanLine SpanPart SpansFile describe_parts",
         "store": "Store",
     },
 )

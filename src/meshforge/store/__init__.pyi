@@ -49,9 +49,4 @@ from meshforge.store.sign_off import ConfidenceLine as ConfidenceLine
 from meshforge.store.sign_off import SignOff as SignOff
 from meshforge.store.sign_off import SignOffBasis as SignOffBasis
 from meshforge.store.sign_off import find_changes as find_changes
-from meshforge.store.spans import MOST_TOLD as MOST_TOLD
-from meshforge.store.spans import SpanLine as SpanLine
-from meshforge.store.spans import SpanPart as SpanPart
-from meshforge.store.spans import SpansFile as SpansFile
-from meshforge.store.spans import describe_parts as describe_parts
 from meshforge.store.store import Store as Store

@@ -120,20 +120,6 @@ class Layout:
         return self.folder / STATE / "outputs.json"
 
     @property
-    def spans(self) -> Path:
-        """Which hulls were found to span parts."""
-        return self.folder / STATE / "spans.json"
-
-    @property
-    def single_parts(self) -> Path:
-        """Which hulls a person said to be one part."""
-        return self.folder / "single_parts.json"
-
-    def span_parts(self, asset: str) -> Path:
-        """The parts into which a split would divide the hulls of an asset that span parts."""
-        return self.folder / STATE / "spans" / f"{asset}.npz"
-
-    @property
     def sketches(self) -> Path:
         """How the hulls of assets are described, so that labels are propagated quickly the next time."""
         return self.folder / STATE / "sketches"

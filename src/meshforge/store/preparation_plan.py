@@ -1,25 +1,26 @@
-"""When all assets of a project were prepared last: what assets were there, and from which probability hulls that span
-parts are split. Assets that come later are new."""
+"""When all assets of a project were prepared last: what assets were there, and from which probability bodies are
+rebuilt of which hulls span parts. Assets that come later are new."""
 
 from __future__ import annotations
 
 from collections.abc import Collection
+
+from pydantic import AliasChoices, Field
 
 from meshforge.geometry import PieceEngine
 from meshforge.store.layout import JsonFile, Layout, read_json, write_json
 
 
 class PreparationPlanFile(JsonFile):
-    """preparation.json. decomposed, split: the ids of the assets that were there when pieces of all were decomposed
-    last, and when hulls of all that span parts were split last; None where that was never done. sure: the probability
-    from which they were split; rebuild: whether all hulls of their bodies were made anew; pieces: the engine of the
-    fine pieces that they were found by; only: which hulls and bodies, all where there are none.
+    """preparation.json. decomposed, rebuilt: the ids of the assets that were there when pieces of all were decomposed
+    last, and when bodies of all of which hulls span parts were rebuilt last (which earlier versions called split); None
+    where that was never done. min_confidence: the probability from which they were; pieces: the engine of their fine
+    pieces; only: which hulls and bodies, all where there are none.
     """
 
     decomposed: tuple[str, ...] | None = None
-    split: tuple[str, ...] | None = None
-    sure: float | None = None
-    rebuild: bool = False
+    rebuilt: tuple[str, ...] | None = Field(default=None, validation_alias=AliasChoices("rebuilt", "split"))
+    min_confidence: float | None = Field(default=None, validation_alias=AliasChoices("min_confidence", "sure"))
     pieces: PieceEngine = "coacd"
     only: tuple[str, ...] = ()
 
@@ -29,7 +30,7 @@ def forget_assets(layout: Layout, assets: Collection[str]) -> None:
     kept = read_json(layout.preparation_plan, PreparationPlanFile)
     if kept is None:
         return
-    lists = {"decomposed": kept.decomposed, "split": kept.split}
+    lists = {"decomposed": kept.decomposed, "rebuilt": kept.rebuilt}
     left = {name: tuple(one for one in ids if one not in assets) for name, ids in lists.items() if ids is not None}
     if (after := kept.model_copy(update=left)) != kept:
         write_json(layout.preparation_plan, after)

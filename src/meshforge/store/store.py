@@ -31,7 +31,6 @@ from meshforge.store.mesh_cache import MeshCache
 from meshforge.store.meshes import AssetFiles, read_labels_file
 from meshforge.store.preparation_plan import forget_assets
 from meshforge.store.sign_off import AssessmentFile, SignOff
-from meshforge.store.spans import SinglePartsFile, SpansFile
 from meshforge.symbolic import Label, LabelFile, SymbolicMesh, format_labels, match_labels
 from meshforge.synthesis import Demonstration, Step
 
@@ -350,25 +349,3 @@ class Store:
         """Keep how the family stands."""
         with self.lock():
             write_json(self.layout.assessment, found)
-
-    def spans(self) -> SpansFile:
-        """Which hulls likely span parts, but for those that a person said to be one part."""
-        found = self.last_spans()
-        return found.without(self.single_parts()) if found.assets else found
-
-    def last_spans(self) -> SpansFile:
-        """Which hulls likely span parts, as was found last; none where that is not kept, or damaged."""
-        return read_derived(self.layout.spans, SpansFile) or SpansFile()
-
-    def write_spans(self, found: SpansFile) -> None:
-        """Keep which hulls likely span parts."""
-        with self.lock():
-            write_json(self.layout.spans, found)
-
-    def single_parts(self) -> SinglePartsFile:
-        """Which hulls a person said to be one part."""
-        return read_json(self.layout.single_parts, SinglePartsFile) or SinglePartsFile()
-
-    def write_single_parts(self, said: SinglePartsFile) -> None:
-        """Write which hulls are one part, under the lock that the caller holds."""
-        write_json(self.layout.single_parts, said)

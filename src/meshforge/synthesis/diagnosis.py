@@ -35,7 +35,7 @@ def give_advice(miss: NearestExtractor, examples: Sequence[Example], answered: S
     ]
     if len([*miss.extra, *miss.missing]) == 1 and len(example.mesh.hulls) > 1:
         (name,) = [*miss.extra, *miss.missing]
-        lines.append(f"if only a part of {name!r} is meant, split the hull (meshforge split)")
+        lines.append(f"if only a part of {name!r} is meant, cut the hull (meshforge cut)")
     if sum(bool(other.selection) for other in examples) > 1:
         lines.append("if what was shown follows different rules, make two steps of it")
     return tuple(dict.fromkeys(lines))[:_MAX_SENTENCES]

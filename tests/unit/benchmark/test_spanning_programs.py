@@ -1,4 +1,4 @@
-"""Programs learned on meshes whose hulls that span are split: which hulls are, who labels first, what is compared."""
+"""Programs learned on meshes that are rebuilt where hulls span: which are, who labels first, what is compared."""
 
 from __future__ import annotations
 
@@ -16,39 +16,37 @@ from benchmark.spanning.programs import (
     AS_IT_IS,
     FINE,
     REBUILT,
-    SPLIT,
     list_chosen,
     list_goals,
     open_bench,
     rebuild_sample,
-    split_sample,
 )
 from benchmark.study.client import TaskClient
 from benchmark.study.project import SUFFIX, name_by_files, open_project
 from benchmark.study.propagation import begin_by_hand
 from benchmark.tasks import task
-from meshforge.geometry import Floats, HullPart, Ints, cut
+from meshforge.geometry import Floats, Ints, cut
+from meshforge.label_model import RebuiltHull
 from meshforge.symbolic import Label
 
 
 @dataclass
 class Halves:
-    """What stands for a posterior: some hulls of an asset likely span, and are cut in two along X."""
+    """What stands for a posterior: some hulls of an asset likely span, and all are cut in two along X."""
 
     sample: Sample
     chances: Floats
-    labels: tuple[str, ...] = ("base", "wall")
 
     def chances_of(self, place: int) -> Floats:
         return self.chances
 
-    def divide(self, place: int, hull: int) -> tuple[HullPart, ...]:
-        whole = self.sample.decomposition.hulls[hull]
-        halves = cut(whole, whole.centroid, np.array([1.0, 0.0, 0.0]))
-        return tuple(HullPart(half, np.array([0.3, 0.7])) for half in halves if half is not None)
-
-    def rebuild(self, place: int, hulls: Ints) -> tuple[tuple[int, HullPart], ...]:
-        return tuple((hull, part) for hull in hulls.tolist() for part in self.divide(place, hull))
+    def rebuild(self, place: int, hulls: Ints) -> tuple[RebuiltHull, ...]:
+        found = list[RebuiltHull]()
+        for hull in hulls.tolist():
+            whole = self.sample.decomposition.hulls[hull]
+            halves = cut(whole, whole.centroid, np.array([1.0, 0.0, 0.0]))
+            found += [RebuiltHull(half, "wall", 0.7, hull) for half in halves if half is not None]
+        return tuple(found)
 
 
 @pytest.fixture(scope="module")
@@ -56,24 +54,12 @@ def sample() -> Sample:
     return next(one for one in samples("cup", True, ("union",)) if any(map(is_spanning, one.shares)))
 
 
-def test_the_hulls_that_likely_span_are_split_and_no_other(sample: Sample) -> None:
-    chances = np.full(len(sample.mesh.hulls), 0.4)
-    chances[1] = 0.6
-    posterior: Any = Halves(sample, chances)
-    split, labels = split_sample(sample, posterior, 0)
-    assert list(labels) == [f"{sample.mesh.hulls[1].name}_{k}" for k in range(2)]
-    assert {(one.name, one.confidence, one.source) for one in labels.values()} == {("wall", 0.7, "split")}
-    names = [hull.name for hull in sample.mesh.hulls]
-    wanted = [name for name in names if name != names[1]] + [f"{names[1]}_0", f"{names[1]}_1"]
-    assert sorted(hull.name for hull in split.mesh.hulls) == sorted(wanted)
-
-
 def test_all_hulls_are_rebuilt_where_one_likely_spans_else_none(sample: Sample) -> None:
     chances = np.full(len(sample.mesh.hulls), 0.4)
     posterior: Any = Halves(sample, chances)
-    assert rebuild_sample(sample, posterior, 0) == (sample, {})
+    assert rebuild_sample(sample, posterior) == (sample, {})
     chances[1] = 0.6
-    rebuilt, labels = rebuild_sample(sample, posterior, 0)
+    rebuilt, labels = rebuild_sample(sample, posterior)
     assert list(labels) == [hull.name for hull in rebuilt.mesh.hulls]
     assert len(rebuilt.mesh.hulls) == 2 * len(sample.mesh.hulls)
     rows = zip(rebuilt.mesh.hulls, rebuilt.shares, strict=True)
@@ -112,12 +98,8 @@ def row(setting: str, spanning: str, possible: int, right: int) -> dict[str, Any
 def test_goals_are_how_far_right_edits_are_below_those_on_the_fine_set() -> None:
     rows = [row(FINE, AS_IT_IS, 25, 25)]
     rows += [row(setting, AS_IT_IS, 5, 1) for setting in ("union", "welded")]
-    rows += [row(setting, SPLIT, 20, 20) for setting in ("union", "welded")]
     rows += [row(setting, REBUILT, 25, 24) for setting in ("union", "welded")]
     found = {goal.what: goal for goal in list_goals(rows)}
     told = "right and signed off, {}, below the fine set, %"
-    split = found[f"union, split: {told.format('of all assets')}"]
-    assert split.measured == pytest.approx(20) and not split.reached
-    assert found[f"union, split: {told.format('of the possible')}"].measured == pytest.approx(0)
     rebuilt = found[f"welded, rebuilt: {told.format('of all assets')}"]
     assert rebuilt.measured == pytest.approx(4) and rebuilt.reached

@@ -11,29 +11,21 @@ from benchmark.pages import page_of
 from benchmark.real.family import families, family
 from benchmark.real.samples import make_sample
 from benchmark.real.whole import REAL, list_hidden, list_whole, whole_sample
-from benchmark.spanning.course import SplitFamily, SplitHull, SplitPart
+from benchmark.spanning.course import FamilyOutcome, HullChance
 from benchmark.spanning.detection import categories_of, list_counts
+from benchmark.spanning.edits import list_sizes
 from benchmark.spanning.family import BY_PIECES, label_truly, make_pieces
 from benchmark.spanning.real_assets import SeparateMeshes, judge_separate, measure
 from benchmark.spanning.sets import list_names, list_tasks, surface_of
-from benchmark.spanning.splits import list_sizes, purity_of
 from meshforge.common import AssetError
 from tests.corpus_path import corpus
 
-SPLIT = SplitHull(
-    "mug",
-    0,
-    0.8,
-    True,
-    {"wall": 3.0, "handle": 1.0},
-    tuple(SplitPart([], label, {label: volume}) for label, volume in (("wall", 3.0), ("handle", 0.6))),
-    0.0,
-)
-PURE = SplitHull("stool", 0, 0.1, False, {"leg": 1.0}, (), 0.0)
+MIXED = HullChance("mug", 0, 0.8, True)
+PURE = HullChance("stool", 0, 0.1, False)
 
 
-def made(category: str, *hulls: SplitHull) -> SplitFamily:
-    return SplitFamily(category, REAL, BY_PIECES, hulls, (), {}, 0.0)
+def made(category: str, *hulls: HullChance) -> FamilyOutcome:
+    return FamilyOutcome(category, REAL, BY_PIECES, hulls, (), {"mug": 2}, 0.0)
 
 
 def test_without_the_corpus_one_message_says_what_to_set(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
@@ -54,11 +46,9 @@ def test_assets_that_show_nothing_are_left_out_and_named() -> None:
     assert [task.difficulty for task in list_tasks("cups", REAL)] == ["easy", "medium", "hard"]
 
 
-def test_families_without_a_hull_that_spans_do_not_count_in_the_mean_purity() -> None:
-    rows = [made("cups", SPLIT), made("chairs", PURE)]
+def test_hulls_are_counted_family_by_family() -> None:
+    rows = [made("cups", MIXED), made("chairs", PURE)]
     assert categories_of(rows) == ["cups", "chairs"]
-    assert purity_of(rows, REAL, BY_PIECES).before == pytest.approx(3 / 4)
-    assert purity_of(rows, REAL, BY_PIECES).kept == pytest.approx(3.6 / 4)
     counts = {row[2]: row[3:6] for row in list_counts(rows) if row[1] == BY_PIECES}
     assert counts == {"cups": (1, 1, 1), "chairs": (1, 0, 0), "all": (2, 1, 1)}
 
@@ -66,8 +56,8 @@ def test_families_without_a_hull_that_spans_do_not_count_in_the_mean_purity() ->
 def test_hulls_are_compared_with_the_next_finer_decomposition_of_the_same_assets() -> None:
     counts = {"coarse": 1, "medium": 4, "fine": 9}
     hulls = {("cups", asset, setting): count for asset in ("mug", "other") for setting, count in counts.items()}
-    rows = list(list_sizes([made("cups", SPLIT)], SeparateMeshes(hulls, {}).count))
-    assert rows[0] == (REAL, "cups", 1, 1, 2, "medium", 4, 0.5)
+    rows = list(list_sizes([made("cups", MIXED)], SeparateMeshes(hulls, {}).count))
+    assert rows[0] == (REAL, "cups", 1, 2, "medium", 4, 0.5)
 
 
 @pytest.mark.slow

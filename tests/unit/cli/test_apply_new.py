@@ -11,7 +11,7 @@ import pytest
 from meshforge.batch import IN_PROCESS
 from meshforge.formats import load
 from meshforge.language import Merge
-from meshforge.project import Project, SplitSettings
+from meshforge.project import Project, RebuildSettings
 from meshforge.synthesis import Step
 from tests.unit.batch.families import tree
 from tests.unit.cli.in_process import Run, runner
@@ -31,7 +31,7 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
         project = Project.create(folder / "p", [folder / "assets"], vocabulary=("seat", "leg"))
         names = [hull.name for hull in project.mesh("a.urdf").hulls]
         project.set_labels("a.urdf", dict(zip(names, PARTS, strict=True)))
-        list(project.split_spanning(how=SplitSettings(0.7), execution=IN_PROCESS))
+        list(project.rebuild_spanning(how=RebuildSettings(0.7), execution=IN_PROCESS))
         (folder / "p/program.mf").write_text(PROGRAM)
     return folder
 
@@ -50,34 +50,35 @@ def add_to_project() -> None:
         shutil.copy(path, "assets")
 
 
-def test_what_was_split_is_told_and_the_program_sees_the_parts(run: Run) -> None:
+def test_what_was_rebuilt_is_named_and_the_program_sees_the_parts(run: Run) -> None:
     before = tree(Path("new"))
     told = run("apply", "p", "new", "--out", "out", "--workers", "1")
     assert told.code == 0
     assert "edited     c.urdf: 5 -> 5 hulls\n    note: base/h0 holds seat and leg, " in told.out
-    assert "%: into " in told.out and "by likeness to the family; least sure: " in told.out
-    assert "1 hull of new assets split (c.urdf)" in told.err
+    assert "%: base rebuilt into " in told.out
+    assert "1 body of new assets rebuilt (c.urdf)" in told.err
     assert tree(Path("new")) == before
     assert sorted(hull.label or "" for hull in load("out/c.urdf").hulls) == sorted(PARTS)
     again = run("apply", "p", "new", "--out", "out", "--workers", "1")
-    assert "skipped    c.urdf" in again.out and "%: into " in again.out
+    assert "skipped    c.urdf" in again.out and "%: base rebuilt into " in again.out
 
 
 def test_as_json(run: Run) -> None:
     line = json.loads(run("apply", "p", "new", "--out", "out", "--workers", "1", "--json").out)
-    (split,) = line["split"]
-    assert split["hull"] == "base/h0" and 0.7 <= split["chance"] < 1
-    assert {part["label"] for part in split["into"]} == {"seat", "leg"}
-    assert [part["hull"] for part in split["into"]] == ["base/h0#0", "base/h0#1"]
-    assert line["spanning"] == [] and set(line["guessed"]) == {"base/h1", "base/h2", "base/h3"}
-    assert line["sure_at_most"] <= split["chance"]
+    (rebuilt,) = line["rebuilt"]
+    (spanning,) = rebuilt["spanning"]
+    assert (rebuilt["body"], spanning["hull"]) == ("base", "base/h0") and 0.7 <= spanning["chance"] < 1
+    assert sorted(one["label"] for one in rebuilt["into"]) == sorted(PARTS)
+    assert [one["hull"] for one in rebuilt["into"]][:2] == ["base/h0#0", "base/h0#1"]
+    assert line["spanning"] == [] and line["guessed"] == {}
+    assert line["sure_at_most"] <= spanning["chance"]
 
 
-def test_no_split_leaves_hulls_and_names_them(run: Run) -> None:
-    told = run("apply", "p", "new", "--out", "out", "--workers", "1", "--no-split")
+def test_no_rebuild_leaves_hulls_and_names_them(run: Run) -> None:
+    told = run("apply", "p", "new", "--out", "out", "--workers", "1", "--no-rebuild")
     assert told.code == 0 and "edited     c.urdf: 4 -> 4 hulls" in told.out
-    assert "base/h0 holds seat and leg, " in told.out and "%: not split" in told.out
-    assert "1 hull likely spans parts, not split" in told.err
+    assert "base/h0 holds seat and leg, " in told.out and "%: left as it is" in told.out
+    assert "1 hull likely spans parts, left as is" in told.err
 
 
 @pytest.mark.slow
@@ -85,9 +86,9 @@ def test_a_dry_run_writes_nothing(run: Run) -> None:
     add_to_project()
     before = tree(Path("p"))
     told = run("apply", "p", "--dry-run", "--workers", "1")
-    assert told.code == 0 and "%: into " in told.out and tree(Path("p")) == before
+    assert told.code == 0 and "%: base rebuilt into " in told.out and tree(Path("p")) == before
     told = run("apply", "p", "new", "--out", "out", "--dry-run", "--workers", "1")
-    assert told.code == 0 and "%: into " in told.out and not Path("out").exists()
+    assert told.code == 0 and "%: base rebuilt into " in told.out and not Path("out").exists()
 
 
 @pytest.mark.slow
@@ -95,24 +96,24 @@ def test_what_came_later_is_prepared_in_the_project_once(run: Run) -> None:
     add_to_project()
     told = run("apply", "p", "--workers", "1")
     assert told.code == 0 and "edited     c.urdf: 5 -> 5 hulls\n    note: base/h0 holds seat and leg, " in told.out
-    assert "base/h0 divided into 2 hulls" in run("status", "p").out
+    assert "4 hulls rebuilt into 5 hulls" in run("status", "p").out
     assert run("prepare", "p", "c.urdf", "--undo").code == 0
     told = run("apply", "p", "--workers", "1")
-    assert "split in" not in told.out, "what a person took back is not done again"
+    assert "rebuilt in" not in told.out, "what a person took back is not done again"
     assert Project.open("p").mesh("c.urdf").hulls[0].name == "base/h0"
 
 
 @pytest.mark.slow
-def test_no_split_in_a_project_is_made_good_by_the_next_run(run: Run) -> None:
+def test_no_rebuild_in_a_project_is_made_good_by_the_next_run(run: Run) -> None:
     add_to_project()
-    assert "%: not split" in run("apply", "p", "--workers", "1", "--no-split").out
-    assert "%: into " in run("apply", "p", "--workers", "1").out
+    assert "%: left as it is" in run("apply", "p", "--workers", "1", "--no-rebuild").out
+    assert "%: base rebuilt into " in run("apply", "p", "--workers", "1").out
 
 
 def test_removing_all_that_was_prepared_ends_it(run: Run) -> None:
     assert run("prepare", "p", "--remove").code == 0
     told = run("apply", "p", "new", "--out", "out", "--workers", "1")
-    assert "%: into " not in told.out and "not split" not in told.out
+    assert "%: base rebuilt into " not in told.out and "left as it is" not in told.out
 
 
 def test_the_projects_own_assets_are_taken_as_they_are_there(run: Run) -> None:
@@ -129,9 +130,11 @@ def test_what_is_less_sure_than_asked_is_held_and_reported(run: Run) -> None:
         "apply", "p", "new", "--out", "out", "--workers", "1", "--min-confidence", "0.5", "--json", "--report", "r.html"
     )
     line = json.loads(told.out)
-    assert 0.5 <= line["probability"] <= line["split"][0]["chance"] + 0.001, "the chance has three digits"
-    assert any("%: into " in doubt["text"] for doubt in line["doubts"])
-    assert "%: into " in Path("r.html").read_text()
+    assert 0.5 <= line["probability"] <= line["rebuilt"][0]["spanning"][0]["chance"] + 0.001, (
+        "the chance has three digits"
+    )
+    assert any("%: base rebuilt into " in doubt["text"] for doubt in line["doubts"])
+    assert "%: base rebuilt into " in Path("r.html").read_text()
 
 
 @pytest.mark.parametrize(
@@ -140,7 +143,7 @@ def test_what_is_less_sure_than_asked_is_held_and_reported(run: Run) -> None:
         (["p", "new"], "--out DIR is missing"),
         (["p", "new", "--out", "p/edited"], "this folder is for the project's own assets"),
         (["p", "--labels", "new"], "a project has its own labels"),
-        (["p/program.mf", "new", "--out", "out", "--no-split"], "--no-split needs a project"),
+        (["p/program.mf", "new", "--out", "out", "--no-rebuild"], "--no-rebuild needs a project"),
         (["p", "nowhere", "--out", "out"], "there is no such file or folder"),
     ],
 )
@@ -210,7 +213,7 @@ def named(run: Run) -> Run:
 
 
 SOURCES = Path("p/label_sources.json")
-WORDS = ("apply", "p", "new", "--out", "out", "--workers", "1", "--no-split")
+WORDS = ("apply", "p", "new", "--out", "out", "--workers", "1", "--no-rebuild")
 
 
 def test_new_assets_are_labelled_by_the_patterns_that_labelled_the_family(named: Run) -> None:
@@ -247,7 +250,7 @@ def test_files_beside_new_assets_come_before_names_and_likeness(named: Run) -> N
 
 def test_an_asset_that_came_later_is_labelled_likewise_in_the_project(named: Run) -> None:
     add_to_project()
-    told = named("apply", "p", "--workers", "1", "--no-split")
+    told = named("apply", "p", "--workers", "1", "--no-rebuild")
     assert "note: 4 labels by names" in told.out
     assert {one.source for one in Project.open("p").labels("c.urdf").labels.values()} == {"name"}
 

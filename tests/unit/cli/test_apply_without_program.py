@@ -49,8 +49,8 @@ def test_what_is_prepared_is_written_and_said_to_be_without_a_program(run: Run) 
     assert "2 skipped" in run("apply", "p").out
 
 
-def test_a_split_is_written_and_the_output_is_stale_after_another(run: Run) -> None:
-    cut = ("split", "p", "row.obj")
+def test_a_cut_is_written_and_the_output_is_stale_after_another(run: Run) -> None:
+    cut = ("cut", "p", "row.obj")
     told = run(*cut, "geom0#0", "--at", "0.5,0.5,0.5", "--across", "1,0,0")
     assert told.code == 0 and "meshforge apply p" in told.err
     assert run("apply", "p").code == 0

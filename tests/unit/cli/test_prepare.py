@@ -200,8 +200,8 @@ def test_what_cannot_be_taken_back_is_named_and_the_rest_is(run: Run, project: s
 @pytest.mark.slow
 def test_what_is_kept_for_an_asset_that_is_gone_can_be_taken_away(run: Run) -> None:
     run("new", "p", "in/stand.*", "in/row.*", "--vocabulary", "a,b")
-    run("split", "p", "row.obj", "geom0#1", "--at", "2,0,0", "--across", "1,0,0")
-    run("split", "p", "stand.urdf", "frame/foot", "--at", "0,0,-1", "--across", "1,0,0")
+    run("cut", "p", "row.obj", "geom0#1", "--at", "2,0,0", "--across", "1,0,0")
+    run("cut", "p", "stand.urdf", "frame/foot", "--at", "0,0,-1", "--across", "1,0,0")
     write_boxes(Path("in/row.2.obj"))
     Path("in/row.obj").unlink()
     assert "kept for an asset that is not there: row.obj" in run("status", "p").out
@@ -250,19 +250,17 @@ def test_options_of_decomposing_make_no_project_without_it(run: Run, option: str
         (("prepare", "p", "roww.obj", "--decompose", "vhacd"), "Did you mean 'row.obj'"),
         (("prepare", "p", "row.obj", "--remove", "--only", "geom0"), "--only says nothing without --decompose"),
         (("prepare", "p", "row.obj", "--undo", "--again"), "--again says nothing without --decompose"),
-        (("split", "p", "row.obj", "geom0#1"), "say how"),
-        (("split", "p", "row.obj", "geom0#1", "--at", "2,0,0", "--across", "1,0,0", "--hollow"), "--hollow says"),
-        (("split", "p", "row.obj", "geom0#1", "--at", "1,0,0"), "say how"),
-        (("split", "p", "row.obj", "geom0#1", "--at", "1,0", "--across", "1,0,0"), "--at 1,0: three numbers"),
+        (("cut", "p", "row.obj", "geom0#1"), "Missing option '--at'"),
+        (("cut", "p", "row.obj", "geom0#1", "--at", "1,0,0"), "Missing option '--across'"),
+        (("cut", "p", "row.obj", "geom0#1", "--at", "1,0", "--across", "1,0,0"), "--at 1,0: three numbers"),
         (
-            ("split", "p", "row.obj", "geom0#1", "--at", "9,0,0", "--across", "1,0,0"),
+            ("cut", "p", "row.obj", "geom0#1", "--at", "9,0,0", "--across", "1,0,0"),
             "does not cut it\n  Choose --at within it",
         ),
-        (("split", "p", "row.obj", "geom0#1", "--at", "nan,0,0", "--across", "1,0,0"), "--at nan,0,0: three numbers"),
-        (("split", "p", "row.obj", "geom0#1", "--at", "2,0,0", "--across", "0,0,0"), "--across 0,0,0: a direction"),
-        (("split", "p", "row.obj", "geom0#1", "--at", "2,0,0", "--across", "inf,0,0"), "--across inf,0,0: three"),
-        (("split", "p", "row.obj", "geom9", "--at", "2,0,0", "--across", "1,0,0"), "there is no hull 'geom9'"),
-        (("split", "p", "row.obj", "geom0#1", "--decompose", "vhacd"), "shows nothing"),
+        (("cut", "p", "row.obj", "geom0#1", "--at", "nan,0,0", "--across", "1,0,0"), "--at nan,0,0: three numbers"),
+        (("cut", "p", "row.obj", "geom0#1", "--at", "2,0,0", "--across", "0,0,0"), "--across 0,0,0: a direction"),
+        (("cut", "p", "row.obj", "geom0#1", "--at", "2,0,0", "--across", "inf,0,0"), "--across inf,0,0: three"),
+        (("cut", "p", "row.obj", "geom9", "--at", "2,0,0", "--across", "1,0,0"), "there is no hull 'geom9'"),
     ],
 )
 def test_words_that_do_not_fit_are_wrong_usage(run: Run, project: str, words: tuple[str, ...], problem: str) -> None:

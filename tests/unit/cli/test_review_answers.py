@@ -22,9 +22,8 @@ from meshforge.signoff import (
     ReviewChoice,
     ReviewReply,
     ReviewState,
-    SpanQuestion,
 )
-from meshforge.signoff.question import EXCLUDE, NO, WRONG, YES
+from meshforge.signoff.question import EXCLUDE, WRONG
 from meshforge.symbolic import Hull, Label, SymbolicMesh
 
 LEFT, RIGHT = HullPlace("a.obj", "left"), HullPlace("b.obj", "right")
@@ -51,17 +50,6 @@ DEMONSTRATE = DemonstrationQuestion("Show the edit on a.obj.", 20.0, 1.0, "a.obj
 )
 def test_a_line_is_a_reply(line: str, reply: ReviewReply) -> None:
     assert parse_reply(line, GROUP) == reply
-
-
-@pytest.mark.parametrize(
-    ("line", "choice", "later"),
-    [("", NO, False), ("y", YES, False), ("yes", YES, False), ("2", YES, False), ("n", NO, False), ("l", None, True)],
-)
-def test_whether_to_split_a_hull_is_a_yes_or_no(line: str, choice: str | None, later: bool) -> None:
-    choices = (ReviewChoice(NO, "no, it is one part"), ReviewChoice(YES, "split so: wall (98%), handle (93%)"))
-    span = SpanQuestion("split so?", 3.0, 0.9, "a.obj", None, (LEFT,), choices, "span-1")
-    assert parse_reply(line, span) == ReviewReply("span-1", choice, later=later)
-    assert format_prompt(span) == "1, 2, l later, q stop; Enter: 1: "
 
 
 @pytest.mark.parametrize(

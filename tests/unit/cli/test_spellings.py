@@ -25,7 +25,6 @@ def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> 
         (("prepare", "p", "--engine", "coacd"), "--engine", "--decompose"),
         (("new", "p", "a.obj", "--method=vhacd"), "--method", "--decompose"),
         (("decompose", "a.obj", "-o", "b.obj", "--method", "vhacd"), "--method", "--decompose"),
-        (("split", "p", "a.obj", "hull", "--engine", "vhacd"), "--engine", "--decompose"),
     ],
 )
 def test_another_spelling_is_an_error_that_names_the_one(run: Run, words: tuple[str, ...], old: str, new: str) -> None:

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from meshforge.geometry import Aabb, Box, convex_hull, cut, is_convex, overlap_volume, partition
+from meshforge.geometry import Aabb, Box, convex_hull, is_convex, overlap_volume
 from meshforge.geometry.solids import intersect
 from tests.examples import examples
 
@@ -43,23 +43,3 @@ def test_what_two_hulls_have_in_common_is_convex_and_as_large_as_their_overlap(s
     else:
         assert is_convex(met.vertices, met.faces, 1e-6)
         assert met.volume == pytest.approx(volume, rel=1e-6, abs=1e-9)
-
-
-def test_a_shape_parted_by_its_halves_loses_nothing() -> None:
-    whole = convex_hull(np.random.default_rng(1).normal(size=(40, 3)))
-    halves = [half for half in cut(whole, np.zeros(3), np.array([1.0, 2.0, 3.0])) if half]
-    found = partition(whole, halves)
-    assert [p.volume for p in found.parts] == pytest.approx([h.volume for h in halves])
-    assert found.dropped == 0 and found.lost == pytest.approx(0.0, abs=1e-9)
-
-
-def test_what_no_part_covers_is_told_and_crumbs_are_dropped() -> None:
-    whole = box((0, 0, 0), (4, 1, 1))
-    by = [box((-1, -1, -1), (1, 2, 2)), box((3.999, 0, 0), (9, 9, 9)), box((7, 7, 7), (8, 8, 8))]
-    found = partition(whole, by)
-    assert [part.volume for part in found.parts] == pytest.approx([1.0])
-    assert found.dropped == 1 and found.lost == pytest.approx(0.75)
-
-
-def test_a_shape_that_nothing_covers_is_lost_whole() -> None:
-    assert partition(box((0, 0, 0), (1, 1, 1)), []).lost == 1.0

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 import pytest
 
-from meshforge.geometry import Aabb, Box, FinePiece, Floats, Polytope, cut, volume_of_union
+from meshforge.geometry import Aabb, Box, FinePiece, Floats, Polytope, cut
 from meshforge.label_model import AssetPieces, SpanModel, SpanPosterior, piece_mesh
 from meshforge.label_model.spans import weigh_solids
 from meshforge.symbolic import Hull, Label, SymbolicMesh
@@ -150,14 +150,17 @@ def test_where_nothing_is_said_of_any_piece_no_hull_spans_parts() -> None:
     assert SpanModel([new]).infer([None] * len(new.mesh.hulls)).chances_of(0).tolist() == [0.0] * len(new.mesh.hulls)
 
 
-@pytest.mark.parametrize(("reach", "kept"), [(0.9, True), (1.0, False)])
-def test_what_a_hull_alone_has_of_a_piece_stays_in_its_parts(reach: float, kept: bool) -> None:
-    """A base, of which another hull has all, or all but the foot of a wall."""
-    base, wall = make_box((0.5, 0, 0.05), (0.5, 0.5, 0.05)), make_box((0.95, 0, 0.6), (0.05, 0.5, 0.5))
-    spanning = make_box((0.95, 0, 0.55), (0.05, 0.5, 0.55))
-    other = make_box((reach / 2, 0, 0.05), (reach / 2, 0.5, 0.05))
-    mesh = SymbolicMesh((Hull("spanning", "b", spanning), Hull("other", "b", other)))
-    asset = pieces_of(mesh, [[base], [wall]])
-    assert asset.pieces_of(0).tolist() == ([0, 1] if kept else [1])
-    found = SpanPosterior([asset], ("base", "wall"), [np.eye(2)], np.array([0.0, 1.0]), [np.zeros(1)]).divide(0, 0)
-    assert volume_of_union([other, *(part.shape for part in found)]) == pytest.approx(0.1 + 0.1)
+@pytest.mark.parametrize(("apart", "spans"), [(True, True), (False, False)])
+def test_a_hull_that_alone_has_a_solid_of_another_label_spans_parts_however_thin_that_is(
+    apart: bool, spans: bool
+) -> None:
+    """A seat with a leg that is a twentieth of it, a solid by itself or not; and a hull of the seat alone."""
+    seat, leg = make_box((0, 0, 1), (1, 1, 0.1)), make_box((0, 0, 0.5), (0.1, 0.1, 0.5))
+    mesh = SymbolicMesh((Hull("h", "b", make_box((0, 0, 0.55), (1, 1, 0.55))), Hull("seat", "b", seat)))
+    asset = pieces_of(SymbolicMesh(mesh.hulls[:1]), [[seat], [leg]], apart)
+    solids = np.zeros(2 if apart else 1)
+    found = SpanPosterior([asset], ("leg", "seat"), [np.eye(2)[::-1]], np.array([0.0, 1.0]), [solids])
+    assert (found.chances_of(0)[0] > 0.99) == spans
+    beside = pieces_of(mesh, [[seat], [leg]], apart)
+    found = SpanPosterior([beside], ("leg", "seat"), [np.eye(2)[::-1]], np.array([0.0, 1.0]), [solids])
+    assert found.chances_of(0)[1] < 0.01

@@ -17,7 +17,6 @@ from meshforge.language import Each, Merge
 from meshforge.project import Project, ProjectReview
 from meshforge.signoff import ReviewQuestion
 from meshforge.signoff.question import QuestionKind
-from meshforge.store import SpanLine, SpanPart, SpansFile, hull_digests
 from meshforge.synthesis import Step
 from tests.unit.project.racks import LEGS, PLAIN, shown_racks
 from tests.unit.project.shelves import PLAIN as MISLABELLED
@@ -40,15 +39,6 @@ def forgetful(folder: Path) -> Project:
     return project
 
 
-def spanning(folder: Path) -> Project:
-    """Racks of which one has a hull that likely spans parts."""
-    project = shown_racks(folder)
-    digest, parts = hull_digests(project.mesh(ASKED))["rail"], (SpanPart(label="rail", share=0.9),) * 2
-    line = SpanLine(geometry=digest, chance=0.6, told="two parts", parts=parts)
-    project.write_spans(SpansFile(assets={ASKED: {"rail": line}}))
-    return project
-
-
 def undemonstrated(folder: Path) -> Project:
     """Racks of which none is shown."""
     project = shown_racks(folder)
@@ -58,7 +48,6 @@ def undemonstrated(folder: Path) -> Project:
 
 
 MAKERS: Mapping[str, Callable[[Path], Project]] = {
-    "spanning": spanning,
     "undemonstrated": undemonstrated,
     "lying": racks_on_their_side,
     "plain": shown_racks,
@@ -148,7 +137,6 @@ CASES = {
     "a label is repaired": Case("repair", MISLABELLED, {"choice": "knob"}, "up", "up", "mislabelled"),
     "a label is right": Case("repair", MISLABELLED, {"choice": "leg"}, "any", "any", "mislabelled"),
     "a slip": Case("selection", SHOWN, {"choice": "yes"}, "up", "any", "slip"),
-    "one part": Case("span", ASKED, {"choice": "no"}, "same", "up", "spanning"),
     "turned": Case("orientation", LYING, {"choice": "yes"}, "any", "up", "lying"),
     "not turned": Case("orientation", LYING, {"choice": "no"}, "same", "same", "lying"),
     "no demonstration": Case("demonstrate", SHOWN, {"later": True}, "same", "same", "undemonstrated"),

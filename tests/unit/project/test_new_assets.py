@@ -18,11 +18,10 @@ from meshforge.project import (
     NewAssetOptions,
     NewAssetResult,
     Project,
-    SplitSettings,
+    RebuildSettings,
     new_assets,
     prepare_aside,
     read_preparation_plan,
-    span_splits,
 )
 from meshforge.symbolic import Label, LabelFile, read_labels
 from tests.unit.batch.families import tree
@@ -31,7 +30,7 @@ from tests.unit.project.stools import PARTS, boxes, coarse, write_stool
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A project of two labelled stools, whose spanning hulls were split; and two new stools that have one each."""
+    """A project of two labelled stools, whose bodies were looked at; and two new stools that have one each."""
     folder = tmp_path_factory.mktemp("stools")
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("MESHFORGE_CACHE", str(folder / "cache"))
@@ -45,7 +44,7 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
         for name in ("a.urdf", "b.urdf"):
             names = [hull.name for hull in project.mesh(name).hulls]
             project.set_labels(name, dict(zip(names, PARTS, strict=True)))
-        list(project.split_spanning(how=SplitSettings(0.7), execution=IN_PROCESS))
+        list(project.rebuild_spanning(how=RebuildSettings(0.7), execution=IN_PROCESS))
     return folder
 
 
@@ -67,53 +66,50 @@ def prepare(
     return {work.id: result for work, result in prepare_aside(project, new, folder / to, given)}
 
 
-def test_a_new_hull_that_spans_parts_is_split_and_all_is_labelled(folder: Path) -> None:
+def test_a_new_body_with_a_hull_that_spans_parts_is_rebuilt_and_labelled(folder: Path) -> None:
     before = tree(folder / "new"), tree(folder / "p")
     found = prepare(folder)
     assert (tree(folder / "new"), tree(folder / "p")) == before, "neither the project nor the source is written"
-    (split,) = found["c.urdf"].splits
-    assert split.hull == "base/h0" and split.chance is not None and split.chance > 0.7
-    assert {label.name for label in split.parts.values()} == {"seat", "leg"}
-    assert str(split).startswith(f"base/h0 holds seat and leg, {format_share(split.chance)}: into leg (")
+    (rebuilt,) = found["c.urdf"].rebuilt
+    assert [span.hull for span in rebuilt.spans] == ["base/h0"] and rebuilt.chance > 0.7
+    assert str(rebuilt).startswith(f"base/h0 holds seat and leg, {format_share(rebuilt.chance)}: base rebuilt into ")
     labels = read_labels(folder / "aside/labels/c.urdf.json").labels
     assert [label.name for label in labels.values()].count("seat") == 1 and len(labels) == 5
-    assert {label.source for label in labels.values()} == {"propagated", "split"}, "no guess passes for a fact"
+    assert {label.source for label in labels.values()} == {"split"}, "no guess passes for a fact"
     kept = read_preparation(folder / "aside/prepared/c.urdf")
-    assert kept is not None and [step.do for step in kept.steps] == ["divide"]
-    parts = boxes(0.18, 0.4)[:2]
+    assert kept is not None and [step.do for step in kept.steps] == ["rebuild"]
+    assert kept.steps[0].settings["rebuilt"] == ["base"]
+    parts = boxes(0.18, 0.4)
     assert volume_of_union(list(kept.hulls.values())) == pytest.approx(sum(one.volume for one in parts), rel=1e-3)
 
 
 def test_what_was_guessed_is_no_surer_than_the_guess(folder: Path) -> None:
     found = prepare(folder)["c.urdf"]
-    chance = found.splits[0].chance
-    assert chance is not None
-    least = min(chance, *(label.confidence for label in found.splits[0].parts.values()))
-    least = min(least, *(label.confidence for label in found.guesses.values()))
+    least = min(found.rebuilt[0].chance, *(label.confidence for label in found.new_labels.values()))
     assert found.probability == pytest.approx(least) and found.probability < 1
-    left = prepare(folder, split=False)["c.urdf"]
+    left = prepare(folder, rebuild=False)["c.urdf"]
     assert left.probability == pytest.approx(1 - left.spanning[0].chance), "what likely spans parts is likely wrong"
 
 
-def test_without_splits_it_is_said_which_hulls_likely_span_parts(folder: Path) -> None:
-    found = prepare(folder, split=False)["c.urdf"]
-    assert found.splits == () and [span.hull for span in found.spanning] == ["base/h0"]
-    assert found.describe()[0].endswith(": not split")
+def test_without_a_rebuild_it_is_said_which_hulls_likely_span_parts(folder: Path) -> None:
+    found = prepare(folder, rebuild=False)["c.urdf"]
+    assert found.rebuilt == () and [span.hull for span in found.spanning] == ["base/h0"]
+    assert found.describe()[0].endswith(": left as it is")
     assert not (folder / "aside/prepared/c.urdf").exists()
-    assert found.to_json()["spanning"][0]["hull"] == "base/h0" and found.to_json()["split"] == []
+    assert found.to_json()["spanning"][0]["hull"] == "base/h0" and found.to_json()["rebuilt"] == []
 
 
 def test_what_is_less_sure_than_the_project_asks_is_left_and_named(folder: Path) -> None:
     path = folder / "p/preparation.json"
-    path.write_text(json.dumps(json.loads(path.read_text()) | {"sure": 0.999}))
+    path.write_text(json.dumps(json.loads(path.read_text()) | {"min_confidence": 0.999}))
     found = prepare(folder)["c.urdf"]
-    assert found.splits == () and [span.hull for span in found.spanning] == ["base/h0"]
+    assert found.rebuilt == () and [span.hull for span in found.spanning] == ["base/h0"]
 
 
 def test_nothing_is_looked_for_where_the_project_does_not_say_so(folder: Path) -> None:
     (folder / "p/preparation.json").unlink()
     found = prepare(folder)["c.urdf"]
-    assert (found.splits, found.spanning) == ((), ()) and len(found.guesses) == 4
+    assert (found.rebuilt, found.spanning) == ((), ()) and len(found.guesses) == 4
 
 
 @pytest.mark.slow
@@ -156,29 +152,16 @@ def test_labels_that_a_new_asset_has_stay(folder: Path) -> None:
     path = folder / "new/c.labels.json"
     path.write_text('{"vocabulary": ["seat", "leg"], "hulls": {"base/h1": "seat"}}')
     new = NewAsset("c.urdf", folder / "new/c.urdf", read_preparation_plan(project), path)
-    ((work, found),) = prepare_aside(project, [new], folder / "aside", NewAssetOptions(execution=IN_PROCESS))
+    options = NewAssetOptions(rebuild=False, execution=IN_PROCESS)
+    ((work, found),) = prepare_aside(project, [new], folder / "aside", options)
     assert "base/h1" not in found.guesses and work.labels is not None
     assert read_labels(work.labels).labels["base/h1"] == Label("seat", 1.0, "file")
 
 
-def test_new_assets_are_rebuilt_where_those_of_the_project_were(folder: Path) -> None:
-    list(Project.open(folder / "p").split_spanning(how=SplitSettings(0.7, rebuild=True), execution=IN_PROCESS))
-    found = prepare(folder)["c.urdf"]
-    assert [one.hull for one in found.splits] == [f"base/h{k}" for k in range(4)]
-    spanning, *others = found.splits
-    assert spanning.chance is not None and {one.chance for one in others} == {None}
-    assert str(others[0]).startswith("base/h1, made anew with its body: into leg (")
-    assert found.spanning == () and found.probability > 0.5, "no hull is in doubt for being made anew"
-    labels = read_labels(folder / "aside/labels/c.urdf.json").labels
-    assert sorted(label.name for label in labels.values()) == sorted(PARTS)
-    kept = read_preparation(folder / "aside/prepared/c.urdf")
-    assert kept is not None and kept.steps[0].settings["rebuilt"] == ["base"]
-
-
 def test_new_assets_are_looked_at_by_the_engine_of_the_project(folder: Path) -> None:
     project = Project.open(folder / "p")
-    list(project.split_spanning(how=SplitSettings(0.7, pieces="vhacd"), execution=IN_PROCESS))
-    assert len(prepare(folder)["c.urdf"].splits) == 1
+    list(project.rebuild_spanning(how=RebuildSettings(0.7, pieces="vhacd"), execution=IN_PROCESS))
+    assert len(prepare(folder)["c.urdf"].rebuilt) == 1
     kept = read_preparation(folder / "aside/prepared/c.urdf")
     assert kept is not None and kept.steps[0].settings["pieces"] == "vhacd" and "vhacdx" in kept.steps[0].software
 
@@ -187,18 +170,16 @@ def test_an_asset_that_cannot_be_read_does_not_stop_the_others(folder: Path) -> 
     (folder / "new/c.urdf").write_text("<robot")
     found = prepare(folder)
     assert found["c.urdf"].problem and "c.urdf" in found["c.urdf"].problem
-    assert len(found["d.urdf"].splits) == 1
+    assert len(found["d.urdf"].rebuilt) == 1
 
 
 @pytest.mark.slow
-def test_without_a_surface_likeness_says_so_and_without_a_label_nothing_is_looked_for(folder: Path) -> None:
+def test_without_a_surface_a_note_says_so_and_without_a_label_nothing_is_looked_for(folder: Path) -> None:
     text = (folder / "new/c.urdf").read_text()
     start, end = text.index("<visual>"), text.index("</visual>") + len("</visual>")
     (folder / "new/c.urdf").write_text(text[:start] + text[end:])
     found = prepare(folder, ["c.urdf"])["c.urdf"]
-    assert ["by likeness, " in told for told in (*(one.told for one in found.splits), *map(str, found.spanning))] == [
-        True
-    ]
+    assert found.notes == ("no surface says which hulls of base span parts; cut them by hand: meshforge cut",)
     shutil.rmtree(folder / "p/labels")
     assert prepare(folder, ["d.urdf"])["d.urdf"].notes == (
         "no hull of the project has a label, so nothing says which hulls span parts",
@@ -211,26 +192,13 @@ def test_what_comes_later_to_a_project_is_kept_in_it_and_undone(folder: Path) ->
     project = Project.open(folder / "p")
     (found,) = project.prepare_new(NewAssetOptions(execution=IN_PROCESS))
     assert found.asset == "c.urdf"
-    assert len(found.splits) == 1
+    assert len(found.rebuilt) == 1
     mesh = project.mesh("c.urdf")
     assert sorted(hull.label or "" for hull in mesh.hulls) == sorted(PARTS)
-    assert {hull.source for hull in mesh.hulls} == {"propagated", "split"}
+    assert {hull.source for hull in mesh.hulls} == {"split"}
     project.unprepare("c.urdf")
     assert list(project.prepare_new()) == [], "what was taken back is not done again"
     assert [hull.name for hull in project.mesh("c.urdf").hulls] == ["base/h0", "base/h1", "base/h2", "base/h3"]
-
-
-def test_a_hull_that_a_person_said_to_be_one_part_is_left(folder: Path) -> None:
-    for path in (folder / "new").glob("c*"):
-        shutil.copy(path, folder / "assets")
-    project = Project.open(folder / "p")
-    span_splits.mark_as_one_part(project, "c.urdf", "base/h0")
-    (found,) = project.prepare_new(NewAssetOptions(execution=IN_PROCESS))
-    assert found.splits == () and found.spanning == ()
-    assert [note.partition(": ")[2] for note in found.notes] == [
-        "left as it is, since a person said that it is one part"
-    ]
-    assert found.notes[0].startswith("base/h0 holds seat and leg, ")
 
 
 def test_labelled_assets_that_could_not_be_compared_are_named(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -44,7 +44,7 @@ def add(project: Project, name: str) -> Project:
 
 def test_nothing_is_planned_where_nothing_was_prepared(project: Project) -> None:
     plan = read_preparation_plan(project)
-    assert (plan.decompose, plan.split, plan.unclear) == ((), None, None)
+    assert (plan.decompose, plan.rebuild, plan.unclear) == ((), None, None)
     assert find_new_assets(add(project, "c")) == ({}, None)
 
 
@@ -79,7 +79,7 @@ def test_assets_that_come_later_are_new_until_they_are_done(project: Project) ->
     later = add(project, "c")
     found, unclear = find_new_assets(later)
     assert list(found) == ["c.urdf"] and found["c.urdf"].decompose[0].settings == QUICK and unclear is None
-    extend_plan(later, ["c.urdf"], decomposed=True, split=True)
+    extend_plan(later, ["c.urdf"], decomposed=True, rebuilt=True)
     assert find_new_assets(later) == ({}, None)
     later.remove_assets(["c.urdf"])
     assert list(find_new_assets(Project.open(project.folder).add_assets([later.path("c.urdf")]))[0]) == ["c.urdf"]
@@ -93,6 +93,6 @@ def test_what_is_done_to_some_assets_says_nothing_about_others(project: Project)
 
 
 def test_a_damaged_plan_is_named(project: Project) -> None:
-    project.layout.preparation_plan.write_text('{"sure": "often"}')
+    project.layout.preparation_plan.write_text('{"min_confidence": "often"}')
     with pytest.raises(ProjectError, match=r"preparation\.json"):
         find_new_assets(project)

@@ -13,7 +13,7 @@ import pytest
 from meshforge.batch import IN_PROCESS
 from meshforge.language import Add, Delete, Program
 from meshforge.project import AssetStatus, Project, make_correction, run_with_corrections
-from meshforge.store import SAID, SpanLine, SpansFile, hull_digests
+from meshforge.store import SAID
 from meshforge.synthesis import Answer, Step
 from tests.unit.batch.families import obj, write_tables, write_urdf_table
 from tests.unit.cli.in_process import Run, runner
@@ -219,15 +219,6 @@ def touch_all(project: Project) -> None:
         os.utime(path)
 
 
-def find_spans(project: Project) -> None:
-    """Keep what `prepare --split-spanning --dry-run` would have found."""
-    lines = {
-        asset: {"top": SpanLine(geometry=hull_digests(project.mesh(asset))["top"], chance=0.9, told="top holds two")}
-        for asset in (FIRST, THIRD)
-    }
-    project.write_spans(SpansFile(assets=lines))
-
-
 @pytest.mark.parametrize(
     ("change", "voids"),
     [
@@ -258,7 +249,6 @@ def find_spans(project: Project) -> None:
         (change_texture, NONE),
         (write_outputs_again, NONE),
         (touch_all, NONE),
-        (find_spans, NONE),
     ],
 )
 def test_a_change_voids_what_rests_on_it_and_nothing_else(
@@ -323,29 +313,11 @@ def test_without_a_program_all_that_it_made_is_void_but_what_a_person_accepted(p
     assert find_voids(project)[ACCEPTED] == ("program",)
 
 
-def test_what_was_found_since_is_said_beside_the_sign_off_until_a_person_answers(project: Project) -> None:
-    find_spans(project)
-    assert status_of(project, THIRD).found_since == ("top holds two",)
-    assert status_of(project, FIRST).found_since == (), "a person showed what becomes of it"
-    assert not project.review(0.5, execution=IN_PROCESS).taken_back
-    third = status_of(project, THIRD)
-    assert (third.sign_off, third.signed_by, third.found_since) == ("signed off", "tool", ("top holds two",))
-    assert third.probability is not None and third.probability < 0.5
-    project.set_verdict(THIRD, "accepted")
-    project.review(0.5, execution=IN_PROCESS)
-    third = status_of(project, THIRD)
-    assert (third.sign_off, third.signed_by, third.found_since) == ("signed off", "person", ())
-
-
-def test_after_the_next_review_what_is_still_sure_is_renewed_and_the_rest_is_not(project: Project) -> None:
+def test_after_the_next_review_what_is_still_sure_is_renewed(project: Project) -> None:
     add_answer(project)
     assert find_voids(project) == SHOWN
     assert not project.review(0.5, execution=IN_PROCESS).taken_back
     assert find_voids(project) == {}
-    find_spans(project)
-    delete_verdict(project)
-    assert project.review(0.5, execution=IN_PROCESS).taken_back.keys() >= {THIRD}
-    assert status_of(project, THIRD).sign_off == "held"
 
 
 def test_an_output_that_is_not_as_it_was_written_is_signed_off_by_no_review(project: Project) -> None:
@@ -369,7 +341,7 @@ def test_a_sign_off_of_an_earlier_version_is_void_until_a_review(project: Projec
 
 @pytest.mark.parametrize(
     ("change", "code"),
-    [(touch_all, 0), (find_spans, 0), (delete_verdict, 1), (delete_demonstration, 1), (cut_outputs_to_nothing, 1)],
+    [(touch_all, 0), (delete_verdict, 1), (delete_demonstration, 1), (cut_outputs_to_nothing, 1)],
 )
 def test_the_command_says_by_its_exit_code_whether_all_is_signed_off(
     project: Project,
@@ -385,4 +357,3 @@ def test_the_command_says_by_its_exit_code_whether_all_is_signed_off(
     assert run("status", "tables", "--signed-off").code == code
     told = run("status", "tables", "--signed-off", "--verify")
     assert told.code == code
-    assert ("found since: top holds two" in told.out) == (change is find_spans)

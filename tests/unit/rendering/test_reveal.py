@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from meshforge.rendering import ThumbnailPixels, render_division, render_revealing, render_thumbnail, renumber
+from meshforge.rendering import ThumbnailPixels, render_revealing, render_thumbnail
 from meshforge.symbolic import SymbolicMesh
 from tests.unit.rendering.scenes import box, hull, table
 
@@ -57,24 +57,3 @@ def test_of_hulls_that_are_not_asked_for_nothing_changes() -> None:
         hull("other", box((0, 0, 0), (0.4, 0.4, 0.4))),
     ))  # fmt: skip
     assert pixels_of(render_revealing(mesh, ["inner"], size=SIZE), 2) == 0
-
-
-def test_a_hull_and_its_parts_are_seen_from_one_side_cut_to_what_is_around_them() -> None:
-    room = hull("room", box((0, 0, 0), (3, 3, 0.1)))
-    whole = SymbolicMesh((room, hull("wide", box((0.2, 0, 0.3), (0.4, 0.2, 0.2)))))
-    parts = (hull("left", box((0, 0, 0.3), (0.2, 0.2, 0.2))), hull("right", box((0.4, 0, 0.3), (0.2, 0.2, 0.2))))
-    divided = SymbolicMesh((room, *parts))
-    before, after = render_division(whole, "wide", divided, ["left", "right"], size=(2 * SIZE[0], 2 * SIZE[1]))
-    assert before.shape == after.shape == (SIZE[1], SIZE[0], 4), "small as they are, half of each side is shown"
-    assert pixels_of(before, 1) > 40 and min(pixels_of(after, 1), pixels_of(after, 2)) > 20
-    together = np.isin(after[..., 1], [2, 3])
-    assert (together == (before[..., 1] == 2)).mean() > 0.98, "both from one side, and in one place"
-
-
-def test_hulls_of_a_picture_get_other_numbers() -> None:
-    mesh = SymbolicMesh((hull("a", box((0, 0, 0), (1, 1, 1))), hull("b", box((3, 0, 0), (1, 1, 1)))))
-    picture = render_thumbnail(mesh, size=SIZE)
-    other = renumber(picture, [300, 0])
-    assert pixels_of(other, 300) == pixels_of(picture, 0) > 0
-    assert pixels_of(other, 0) == pixels_of(picture, 1) > 0
-    assert np.array_equal(other[..., 2:], picture[..., 2:])

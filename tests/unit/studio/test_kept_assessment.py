@@ -12,7 +12,7 @@ import pytest
 from meshforge.batch import IN_PROCESS
 from meshforge.common import relative_name
 from meshforge.language import Delete
-from meshforge.project import Project, span_splits
+from meshforge.project import Project
 from meshforge.signoff import Assessment, review_family
 from meshforge.store import (
     SAID,
@@ -20,10 +20,7 @@ from meshforge.store import (
     AssessmentFile,
     ExclusionEvent,
     SnoozeEvent,
-    SpanLine,
-    SpansFile,
     VerdictEvent,
-    hull_digests,
 )
 from meshforge.studio.learning import process
 from meshforge.studio.learning.queue import CancelFlag
@@ -101,40 +98,6 @@ def found_since(project: Project) -> tuple[str, ...]:
     third = next(one for one in project.status().assets if one.id == THIRD)
     assert third.sign_off == "signed off"
     return third.found_since
-
-
-def find_span(project: Project, asset: str, chance: float = 0.6) -> str:
-    """Keep that the first hull of an asset likely spans parts; its name."""
-    hull, geometry = next(iter(hull_digests(project.mesh(asset)).items()))
-    project.write_spans(SpansFile(assets={asset: {hull: SpanLine(geometry=geometry, chance=chance, told="two parts")}}))
-    return hull
-
-
-def test_an_asset_with_a_hull_that_likely_spans_parts_is_held_as_a_review_holds_it(
-    tmp_path: Path, flag: CancelFlag
-) -> None:
-    project = judged(applied(tmp_path))
-    find_span(project, THIRD)
-    learn(project, flag)
-    assess(project, flag)
-    assert signers_of(project) == {FIRST: "person", SECOND: "person"}
-    before = files_of(project)
-    project.review(BAR, execution=IN_PROCESS)
-    assert files_of(project) == before
-
-
-def test_what_is_signed_off_stays_so_when_a_hull_is_found_to_span_parts(tmp_path: Path, flag: CancelFlag) -> None:
-    project = assessed(tmp_path, flag)
-    assert THIRD in signers_of(project)
-    hull = find_span(project, THIRD)
-    learn(project, flag, 2)
-    assess(project, flag, 2)
-    assert found_since(project) == ("two parts",)
-    span_splits.mark_as_one_part(project, THIRD, hull)
-    learn(project, flag, 3)
-    assess(project, flag, 3)
-    assert found_since(project) == ()
-    assert signers_of(project)[THIRD] == "tool"
 
 
 def test_nothing_rests_unseen_on_a_demonstration_that_was_carried_to_the_parts_of_a_hull(

@@ -12,7 +12,7 @@ from meshforge.studio.queries.new_assets import NewAssetsQuery
 from meshforge.studio.wire.family import Card
 from tests.mesh_files import ROOM
 
-PLAN = '{"version": 1, "decomposed": null, "split": ["a.obj"], "sure": 0.7}'
+PLAN = '{"version": 1, "decomposed": null, "rebuilt": ["a.obj"], "min_confidence": 0.7}'
 
 
 @pytest.fixture
@@ -30,7 +30,7 @@ def test_new_assets_are_named_with_what_becomes_of_them(project: Project) -> Non
     project.layout.preparation_plan.write_text(PLAN)
     new, damage = NewAssetsQuery().find(project, ())
     assert new and damage is None
-    assert (new.ids, new.split, new.sure, new.unclear) == (("b.obj",), 1, 0.7, None)
+    assert (new.ids, new.rebuilt, new.min_confidence, new.unclear) == (("b.obj",), 1, 0.7, None)
 
 
 def test_a_damaged_file_is_the_reason_that_nothing_can_be_applied(project: Project) -> None:

@@ -21,7 +21,6 @@ ONE = frozenset({FIRST})
         (f"../assets/{FIRST}", FileChanges(assets=ONE, shapes=ONE, learning=True)),
         ("program.mf", FileChanges(program=True, learning=True)),
         ("learned.json", FileChanges(program=True)),
-        ("single_parts.json", FileChanges(questions=True)),
         ("signoffs.jsonl", FileChanges()),
         ("labels/gone.obj.json", FileChanges(learning=True)),
         ("notes.txt", FileChanges()),

@@ -43,15 +43,6 @@ def test_the_stages_follow_one_another() -> None:
     assert stage(DONE, program=True, outcome=FOUND) == "review"
 
 
-def test_a_hull_that_likely_spans_parts_is_spoken_of_before_anything_is_demonstrated() -> None:
-    text = "base of a holds wall and handle, 94%: split so?"
-    question = ReviewQuestionView(id="s", kind="span", text=text, seconds=3, gain=0.94, asset="a")
-    asking = AssessmentView(number=1, bar=0.95, question=question)
-    found = choose_next_step([LABELLED], ("leg",), False, None, None, last, assessment=asking)
-    assert (found.stage, found.say, found.asset) == ("learn", text, "a")
-    assert choose_next_step([BARE], (), False, None, None, last, assessment=asking).stage == "label"
-
-
 def test_labels_that_are_there_already_are_taken_first() -> None:
     def say(card: Card, offers: LabelOffers, words: tuple[str, ...] = (), program: bool = False) -> str:
         return choose_next_step([card], words, program, None, None, Lookups(suggest_last, lambda: offers)).say

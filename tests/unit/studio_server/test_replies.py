@@ -28,10 +28,8 @@ from meshforge.signoff import (
     ReviewReply,
     ReviewState,
     SlipQuestion,
-    SpanQuestion,
     question_of,
 )
-from meshforge.store import SpanLine, SpansFile, hull_digests
 from meshforge.studio.edits import AnyEdit
 from meshforge.studio.edits.replies import ReplyToQuestion
 from meshforge.studio.history import History
@@ -47,7 +45,6 @@ READINGS = (ReviewChoice("a", "Is(crumb)", select=("crumb",)), ReviewChoice("b",
 TURN = Program.parse("orient +Z: Is(leg) -> Is(top)\n").orient
 TURNS = (ReviewChoice("no", "no"), ReviewChoice("yes", "yes", orient=TURN))
 MISC_OR_LEG = (ReviewChoice.of_label("leg"), ReviewChoice.of_label("misc"))
-SPLIT = (ReviewChoice("no", "no"), ReviewChoice("yes", "yes"))
 ASKED: dict[str, ReviewQuestion] = {
     "group": GroupQuestion("?", 4.0, 1.2, THIRD, None, (LEG, OTHER_LEG), LEG_OR_TOP, "group-1"),
     "repair": RepairQuestion("?", 3.0, 1.0, THIRD, 2, (CRUMB,), MISC_OR_LEG, "repair-1"),
@@ -55,7 +52,6 @@ ASKED: dict[str, ReviewQuestion] = {
     "selection": SlipQuestion("?", 3.0, 1.0, FIRST, 1, (HullPlace(FIRST, "top"),), YES_OR_NO, "selection-1"),
     "orientation": OrientationQuestion("?", 3.0, 1.0, FIRST, choices=TURNS, id="orientation-1"),
     "result": ResultQuestion("?", 3.0, 1.0, THIRD, choices=JUDGE, id="result-1"),
-    "span": SpanQuestion("?", 3.0, 0.8, THIRD, hulls=(CRUMB,), choices=SPLIT, id="span-1"),
 }
 
 REPLIES: dict[str, tuple[str, dict[str, Any], str]] = {
@@ -80,7 +76,6 @@ REPLIES: dict[str, tuple[str, dict[str, Any], str]] = {
     "other labels": ("result", {"choice": "wrong", "labels": {"left_low": "top"}}, "<"),
     "not of this family": ("result", {"choice": "not-of-family"}, "gone"),
     "not solved": ("result", {"choice": "not-solved"}, "="),
-    "one part": ("span", {"choice": "no"}, ">"),
     **{f"{kind} later": (kind, {"later": True}, "=") for kind in ASKED},
 }
 
@@ -93,14 +88,9 @@ def begun(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-def copied(begun: Path, to: Path, kind: str = "result") -> Project:
-    """A project of its own, with what a question of that kind is about."""
-    project = Project.open(shutil.copytree(begun, to) / "tables")
-    if kind == "span":
-        crumb = hull_digests(project.mesh(THIRD))["crumb"]
-        line = SpanLine(geometry=crumb, chance=0.6, told="two parts")
-        project.write_spans(SpansFile(assets={THIRD: {"crumb": line}}))
-    return project
+def copied(begun: Path, to: Path) -> Project:
+    """A project of its own."""
+    return Project.open(shutil.copytree(begun, to) / "tables")
 
 
 def view(question: ReviewQuestion, project: Project) -> dict[str, Any]:
@@ -136,7 +126,7 @@ def probability(project: Project) -> float | None:
 
 def kept(project: Project) -> dict[str, bytes]:
     """What a person said and set, as it is on disk."""
-    names = ("events.jsonl", "meshforge.toml", "single_parts.json", "labels", "demonstrations", "prepared")
+    names = ("events.jsonl", "meshforge.toml", "labels", "demonstrations", "prepared")
     paths = [file for name in names for file in (project.folder / name, *(project.folder / name).rglob("*"))]
     return {str(path.relative_to(project.folder)): path.read_bytes() for path in paths if path.is_file()}
 
@@ -150,7 +140,7 @@ def test_a_question_is_the_same_after_the_page_has_seen_it(begun: Path, kind: st
 @pytest.mark.parametrize("name", REPLIES)
 def test_a_reply_of_the_page_writes_what_a_reply_of_the_project_writes(begun: Path, tmp_path: Path, name: str) -> None:
     kind, said, moves = REPLIES[name]
-    page, twin = copied(begun, tmp_path / "page", kind), copied(begun, tmp_path / "twin", kind)
+    page, twin = copied(begun, tmp_path / "page"), copied(begun, tmp_path / "twin")
     before, was = kept(page), probability(page)
     twin.reply(ASKED[kind], reply_of(ASKED[kind], said))
     history = History(page)

@@ -41,14 +41,14 @@ def told(
 
 @pytest.mark.parametrize(("extra", "missing", "said"), [
     (["a"], [], ("if 'a' of row is meant, too, show it; if not, is the label leg right?",
-                 "if only a part of 'a' is meant, split the hull (meshforge split)")),
+                 "if only a part of 'a' is meant, cut the hull (meshforge cut)")),
     (["a", "b"], [], ("if a, b of row are meant, too, show them; if not, is the label leg right?",)),
     (["a", "c"], [], ("if 'a' of row is meant, too, show it; if not, is the label leg right?",
                       "if 'c' of row is meant, too, show it; if not, is the label bar right?")),
     (["e"], [], ("if 'e' of row is meant, too, show it; if not, is the label \"all of it\" right?",
-                 "if only a part of 'e' is meant, split the hull (meshforge split)")),
+                 "if only a part of 'e' is meant, cut the hull (meshforge cut)")),
     (["d"], [], ("'d' of row has no label",
-                 "if only a part of 'd' is meant, split the hull (meshforge split)")),
+                 "if only a part of 'd' is meant, cut the hull (meshforge cut)")),
 ])  # fmt: skip
 def test_hulls_that_are_too_much_are_named_with_their_labels(
     extra: list[str], missing: list[str], said: tuple[str, ...]
@@ -59,7 +59,7 @@ def test_hulls_that_are_too_much_are_named_with_their_labels(
 def test_hulls_that_are_left_out_are_told_from_those_with_another_label() -> None:
     assert told([], ["c"], example("row", ROW, "a", "b", "c")) == (
         "'c' of row is labelled bar, while others that were shown are labelled leg: is that right?",
-        "if only a part of 'c' is meant, split the hull (meshforge split)",
+        "if only a part of 'c' is meant, cut the hull (meshforge cut)",
     )
     assert told([], ["a", "b"], example("row", ROW, "a", "b", "c", "e")) == (
         'a, b of row are labelled leg, while others that were shown are labelled "all of it", bar: is that right?',
@@ -137,5 +137,5 @@ def test_a_hull_without_label_and_one_of_two_like_ones_are_pointed_at() -> None:
     assert isinstance(outcome, NoProgram)
     assert outcome.advice == (
         "'b' of row has no label",
-        "if only a part of 'b' is meant, split the hull (meshforge split)",
+        "if only a part of 'b' is meant, cut the hull (meshforge cut)",
     )

@@ -13,7 +13,6 @@ import {
   type LucideIcon,
   Pencil,
   RefreshCw,
-  Split,
   Tag,
   TriangleAlert,
   X,
@@ -209,7 +208,6 @@ function MakeHulls({ asset }: { asset: string }) {
 export const ICONS: Readonly<Record<Badge["name"], LucideIcon>> = {
   unlabelled: Tag,
   unsure: CircleDashed,
-  spanning: Split,
   demonstrated: CircleDot,
   edited: Pencil,
   stale: RefreshCw,

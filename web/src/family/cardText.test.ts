@@ -22,7 +22,6 @@ const card: Card = {
   corrections: 1,
   sources: 0,
   prepared: [],
-  spans: {},
   picture: null,
   edited_picture: null,
   check: null,
@@ -63,14 +62,4 @@ test("what became of labels is said in words", () => {
   const found = { asset: "a", new: [0, 1], changed: [2], was: ["leg"] };
   expect(relabelledText(found)).toBe("2 labels are new, 1 label changed");
   expect(relabelledText({ ...found, new: [], changed: [0, 2] })).toBe("2 labels changed");
-});
-
-test("hulls that likely span parts are named, each on a line", () => {
-  const spans = { base: "base holds wall and base, 87%", rim: "rim holds wall and handle, 75%" };
-  expect(badgesOf({ ...card, spans }).find(({ name }) => name === "spanning")).toEqual({
-    name: "spanning",
-    count: 2,
-    text: "base holds wall and base, 87%\nrim holds wall and handle, 75%",
-  });
-  expect(badgesOf(card).some(({ name }) => name === "spanning")).toBe(false);
 });

@@ -19,7 +19,7 @@ export interface Badge {
 export function badgesOf(card: Card, engine = ""): readonly Badge[] {
   const { output, review, corrections, stale } = card;
   const [bare, unsure] = [unlabelled(card), card.unsure.length];
-  const [faults, spans] = [faultsOf(card, engine), Object.values(card.spans)];
+  const faults = faultsOf(card, engine);
   const out: (Badge | false)[] = [
     output === "failed" && { name: "failed", text: "The program fails on it" },
     review === "wrong" && { name: "wrong", text: ["Wrong", card.note].filter(Boolean).join(": ") },
@@ -30,7 +30,6 @@ export function badgesOf(card: Card, engine = ""): readonly Badge[] {
     card.demonstrated && { name: "demonstrated", text: "Demonstrated" },
     corrections > 0 && countBadge("corrected", corrections, "edit by hand", "edits by hand"),
     output === "edited" && review === null && { name: "edited", text: "Edited by the program" },
-    spans.length > 0 && { name: "spanning", count: spans.length, text: spans.join("\n") },
     unsure > 0 && countBadge("unsure", unsure, "label is not sure", "labels are not sure"),
     bare > 0 && countBadge("unlabelled", bare, "hull has no label", "hulls have no label"),
   ];

@@ -1,5 +1,4 @@
 // One hull in the list; it subscribes to its own hover and selection, so that the list never renders for them.
-import { Split } from "lucide-react";
 import { memo } from "react";
 import type { Tone } from "../pictures/hullColors";
 import { type CommonParts, NONE } from "../store/commonParts";
@@ -27,13 +26,11 @@ interface HullRowProps extends Place {
   readonly short: string | undefined;
   /** Whether the keys are at it. */
   readonly active: boolean;
-  /** What it holds, where it likely spans parts. */
-  readonly spans: string | undefined;
   /** The label that it had before the last edit of all labels, where that was another one. */
   readonly was: string | undefined;
 }
 
-export const HullRow = memo(function HullRow({ row, tone, parts, short, active, spans, was, index, top }: HullRowProps) {
+export const HullRow = memo(function HullRow({ row, tone, parts, short, active, was, index, top }: HullRowProps) {
   const { hull, neighbours } = row;
   const unit = useUnit();
   const selected = useWorkspace((workspace) => workspace.selection.has(hull.name));
@@ -65,9 +62,8 @@ export const HullRow = memo(function HullRow({ row, tone, parts, short, active, 
           </>
         )}
       </span>
-      <span role="gridcell" title={spans ?? labelTitle(row, was)}>
+      <span role="gridcell" title={labelTitle(row, was)}>
         {hull.label ?? <i aria-label="no label">–</i>}
-        {spans !== undefined && <Split size={12} className={css.spans} role="img" aria-label={spans} />}
         {was !== undefined && <span className={css.changed} role="img" aria-label={`was ${was}`} />}
       </span>
       <span role="gridcell" className={css.number}>

@@ -17,7 +17,6 @@ import type {
   LanguageView,
   NewProject,
   OpenReceipt,
-  PartsHeader,
   PreviewRequest,
   ProgramCheck,
   SelectionView,
@@ -29,15 +28,12 @@ import type {
   UploadReceipt,
 } from "../wire";
 import { getBytes, getJson, postForBytes, postJson, putBytes, withQuery } from "./http";
-import { readPacket, readPicture, type EditedPacket, type PartsPacket, type ShapesPacket } from "./packet";
+import { readPacket, readPicture, type EditedPacket, type ShapesPacket } from "./packet";
 
 export const api = {
   asset: (asset: string) => getJson<AssetView>("api/asset", { asset }),
   shapes: async (asset: string): Promise<ShapesPacket> =>
     readPacket<ShapesHeader>(await getBytes("api/shapes", { asset })),
-  parts: async (asset: string, hull: string): Promise<PartsPacket> =>
-    readPacket<PartsHeader>(await getBytes("api/parts", { asset, hull })),
-  partsPicture: async (asset: string, hull: string) => readPicture(await getBytes("api/parts/picture", { asset, hull })),
   visual: async (asset: string): Promise<ShapesPacket> =>
     readPacket<ShapesHeader>(await getBytes("api/visual", { asset })),
   stage: async (asset: string, steps: number): Promise<EditedPacket> =>

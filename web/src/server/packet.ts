@@ -1,5 +1,5 @@
 // Packets of shapes: a JSON header, then vertices and triangles of all of its rows.
-import type { EditHeader, PartsHeader, ShapeRow, ShapesHeader } from "../wire";
+import type { EditHeader, ShapeRow, ShapesHeader } from "../wire";
 
 /** Triangles of one shape; positions: x, y, z of each vertex [m]; index: three vertices each. */
 export interface Shape {
@@ -15,7 +15,6 @@ interface Packet<Header> {
 
 export type ShapesPacket = Packet<ShapesHeader>;
 export type EditedPacket = Packet<EditHeader>;
-export type PartsPacket = Packet<PartsHeader>;
 
 export function readPacket<Header extends { rows: ShapeRow[] }>(buffer: ArrayBuffer): Packet<Header> {
   const length = new DataView(buffer).getUint32(0, true);

@@ -80,10 +80,10 @@ describe("how sure the family is", () => {
 });
 
 describe("the question of the assessment", () => {
-  it("is none while there is no program, but for hulls that span parts, labels that may be wrong and orientations", () => {
+  it("is none while there is no program, but for labels that may be wrong and orientations", () => {
     const asked = (count: number, kind: ReviewQuestionView["kind"]) => openQuestion({ assessment: sampleAssessment(count, 0, { question: sampleQuestion({ kind }) }) });
     expect([asked(0, "group"), asked(0, "demonstrate"), openQuestion({ assessment: null })]).toEqual([null, null, null]);
-    expect([asked(0, "span"), asked(0, "repair"), asked(0, "orientation"), asked(1, "group")].map((one) => one?.kind)).toEqual(["span", "repair", "orientation", "group"]);
+    expect([asked(0, "repair"), asked(0, "orientation"), asked(1, "group")].map((one) => one?.kind)).toEqual(["repair", "orientation", "group"]);
   });
 
   it("has its hulls by asset", () => {

@@ -98,7 +98,7 @@ export const rowsOf = (assessment: AssessmentView): Readonly<Record<string, Conf
   Object.fromEntries(assessment.assets.map((row) => [row.asset, row]));
 
 /** Kinds of questions that are asked while there is no program. */
-const FIRST: readonly ReviewQuestionView["kind"][] = ["span", "repair", "orientation"];
+const FIRST: readonly ReviewQuestionView["kind"][] = ["repair", "orientation"];
 
 /** The question of the assessment; null where there is none. */
 export function openQuestion({ assessment }: Pick<ProjectState, "assessment">): ReviewQuestionView | null {

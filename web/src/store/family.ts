@@ -7,7 +7,6 @@ import { type FilterName, type Filters, useWorkspace } from "./workspace";
 export const FILTERS: readonly FilterName[] = [
   "unlabelled",
   "unsure",
-  "spanning",
   "demonstrated",
   "edited",
   "accepted",
@@ -28,7 +27,6 @@ export const unlabelled = (card: Card): number => card.labels.filter((label) => 
 const MATCHES: Readonly<Record<FilterName, (card: Card, engine: string, sure?: ConfidenceView) => boolean>> = {
   unlabelled: (card) => card.labels.some((label) => label < 0),
   unsure: (card) => card.unsure.length > 0,
-  spanning: (card) => Object.keys(card.spans).length > 0,
   demonstrated: (card) => card.demonstrated,
   edited: (card) => card.output === "edited",
   accepted: (card) => card.review === "accepted",

@@ -1,7 +1,7 @@
 // Long work that a person starts: propagating labels, applying the program, checking, exporting.
 import { api } from "../server/api";
 import type { DownloadJob, Job, JobRequest, Model } from "../wire";
-import { useSplitChoice } from "./newAssets";
+import { useRebuildChoice } from "./newAssets";
 import { useProject } from "./project";
 import { reportError } from "./toasts";
 import { givenLabels } from "./unsureHulls";
@@ -44,7 +44,7 @@ const startJob = async (request: JobRequest): Promise<boolean> => (await request
 const applyJob = (assets: readonly string[] | null): JobRequest => ({
   kind: "apply",
   assets: assets && [...assets],
-  split: useSplitChoice.getState().split,
+  rebuild: useRebuildChoice.getState().rebuild,
 });
 
 /** Applies the program to all assets, or to some; those that are new are prepared before. */
@@ -53,16 +53,16 @@ export const applyTo = (assets: readonly string[] | null): Promise<boolean> => s
 export const propagateLabels = (): Promise<boolean> => startJob({ kind: "propagate" });
 
 /** Why hulls that span parts cannot be looked for, null where they can. */
-export function whyNotFindSpans(): string | null {
+export function whyNotRebuild(): string | null {
   const { cards, order, jobs } = useProject.getState();
-  if (isRunning(jobs, "spans")) return "They are being looked for now.";
+  if (isRunning(jobs, "rebuild")) return "They are being looked for now.";
   if (!order.length) return "There are no assets yet.";
   const isLabelled = Object.values(cards).some((card) => card.labels.some((label) => label >= 0));
   return isLabelled ? null : "Label the hulls of one or two assets first.";
 }
 
-/** Finds the hulls of all assets that likely span parts; a question about each follows. */
-export const findSpans = (): Promise<boolean> => startJob({ kind: "spans" });
+/** Rebuilds the bodies of all assets of which a hull spans parts, or only finds these hulls. */
+export const rebuildBodies = (dry_run: boolean): Promise<boolean> => startJob({ kind: "rebuild", dry_run });
 
 /** Finds out what asking the model would send and cost; gives the id of the job. */
 export const forecastModel = (mode: Model["mode"]): Promise<string | null> => requestJob({ kind: "forecast", mode });

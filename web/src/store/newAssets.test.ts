@@ -1,8 +1,8 @@
 import { describe, expect, it } from "vitest";
 import type { Job } from "../wire";
-import { linesOfNew, newAssetsText, splitChoiceText } from "./newAssets";
+import { linesOfNew, newAssetsText, rebuildChoiceText } from "./newAssets";
 
-const none = { ids: [], split: 0, sure: null, rebuild: false, unclear: null };
+const none = { ids: [], rebuilt: 0, min_confidence: null, unclear: null };
 
 describe("new assets", () => {
   it("are named where it is one, and counted otherwise", () => {
@@ -16,15 +16,14 @@ describe("new assets", () => {
   });
 
   it("offer a choice only where hulls are looked at", () => {
-    expect(splitChoiceText({ ...none, ids: ["a"] })).toBeNull();
-    const one = { ...none, ids: ["a"], split: 1, sure: 0.9 };
-    expect(splitChoiceText(one)).toBe("Split their hulls that span parts, from 90% on");
-    expect(splitChoiceText({ ...one, rebuild: true })).toBe("Make bodies anew of which hulls span parts, from 90% on");
+    expect(rebuildChoiceText({ ...none, ids: ["a"] })).toBeNull();
+    const one = { ...none, ids: ["a"], rebuilt: 1, min_confidence: 0.9 };
+    expect(rebuildChoiceText(one)).toBe("Rebuild their bodies where a hull spans parts, from 90% on");
   });
 
   it("are the lines of a run that say what was done before", () => {
     const line = { asset: "a", status: "edited", text: "", before: [] } as const;
-    const split = { ...line, asset: "b", before: ["base holds seat and leg, 94%: into seat (99%), leg (97%)"] };
-    expect(linesOfNew({ lines: [line, split] } as unknown as Job)).toEqual([split]);
+    const rebuilt = { ...line, asset: "b", before: ["base holds seat and leg, 94%: base rebuilt into seat (99%), leg (97%)"] };
+    expect(linesOfNew({ lines: [line, rebuilt] } as unknown as Job)).toEqual([rebuilt]);
   });
 });

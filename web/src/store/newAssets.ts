@@ -4,8 +4,8 @@ import type { Job, JobLine, NewAssetsView } from "../wire";
 import { percentText } from "./assessment";
 import { countText, shortName, toSentence } from "./words";
 
-/** Whether a run splits hulls of new assets that span parts, where the project's own were split. */
-export const useSplitChoice = create<{ split: boolean }>()(() => ({ split: true }));
+/** Whether a run rebuilds bodies of new assets of which a hull spans parts, where the project's own were rebuilt. */
+export const useRebuildChoice = create<{ rebuild: boolean }>()(() => ({ rebuild: true }));
 
 /** What a run does before it applies the program; null where there is nothing to say. */
 export function newAssetsText({ ids, unclear }: NewAssetsView): string | null {
@@ -14,11 +14,10 @@ export function newAssetsText({ ids, unclear }: NewAssetsView): string | null {
   return texts.filter(Boolean).join(" ") || null;
 }
 
-/** The choice whether hulls are split, in words; null where no hull would be looked at. */
-export function splitChoiceText({ split, sure, rebuild }: NewAssetsView): string | null {
-  if (!split || sure === null) return null;
-  const doing = rebuild ? "Make bodies anew of which hulls span parts" : "Split their hulls that span parts";
-  return `${doing}, from ${percentText(sure)} on`;
+/** The choice whether bodies are rebuilt, in words; null where no hull would be looked at. */
+export function rebuildChoiceText({ rebuilt, min_confidence }: NewAssetsView): string | null {
+  if (!rebuilt || min_confidence === null) return null;
+  return `Rebuild their bodies where a hull spans parts, from ${percentText(min_confidence)} on`;
 }
 
 /** What became of new assets in a run. */

@@ -20,7 +20,6 @@ export const sampleCard = (change: Partial<Card> = {}): Card => ({
   corrections: 0,
   sources: 0,
   prepared: [],
-  spans: {},
   picture: null,
   edited_picture: null,
   check: null,

@@ -9,13 +9,13 @@ import {
   cancelJob,
   checkAll,
   exportTo,
-  findSpans,
+  rebuildBodies,
   forecastModel,
   makeHulls,
   propagateLabels,
   whyNotApply,
   whyNotCheck,
-  whyNotFindSpans,
+  whyNotRebuild,
 } from "./jobs";
 import { emptyProject, type ProjectState, useProject } from "./project";
 import { sampleCard } from "./sample.test-help";
@@ -43,16 +43,16 @@ describe("a job", () => {
     await applyTo(["a"]);
     await propagateLabels();
     await checkAll();
-    await findSpans();
+    await rebuildBodies(true);
     await exportTo("out", true);
     await askModel("exact", 2.5);
     makeHulls(["a"]);
     expect(vi.mocked(api.startJob).mock.calls.map(([request]) => request)).toEqual([
-      { kind: "apply", assets: null, split: true },
-      { kind: "apply", assets: ["a"], split: true },
+      { kind: "apply", assets: null, rebuild: true },
+      { kind: "apply", assets: ["a"], rebuild: true },
       { kind: "propagate" },
       { kind: "check" },
-      { kind: "spans" },
+      { kind: "rebuild", dry_run: true },
       { kind: "export", folder: "out", signed_only: true },
       { kind: "ask", mode: "exact", max_cost: 2.5 },
       { kind: "decompose", assets: ["a"] },
@@ -116,12 +116,12 @@ describe("results can be checked", () => {
 describe("hulls that span parts can be looked for", () => {
   it("where a hull has a label, and they are not being looked for", () => {
     set({ cards: { a: sampleCard({ labels: [-1, -1] }) } });
-    expect(whyNotFindSpans()).toContain("Label the hulls");
+    expect(whyNotRebuild()).toContain("Label the hulls");
     set({ cards: { a: sampleCard({ labels: [-1, 0] }) } });
-    expect(whyNotFindSpans()).toBeNull();
-    set({ jobs: [job("spans")] });
-    expect(whyNotFindSpans()).toContain("looked for now");
-    set({ jobs: [job("spans", "cancelled")], order: [] });
-    expect(whyNotFindSpans()).toContain("no assets");
+    expect(whyNotRebuild()).toBeNull();
+    set({ jobs: [job("rebuild")] });
+    expect(whyNotRebuild()).toContain("looked for now");
+    set({ jobs: [job("rebuild", "cancelled")], order: [] });
+    expect(whyNotRebuild()).toContain("no assets");
   });
 });

@@ -61,7 +61,6 @@ export interface Filters {
 export type FilterName =
   | "unlabelled"
   | "unsure"
-  | "spanning"
   | "demonstrated"
   | "edited"
   | "accepted"

@@ -23,13 +23,15 @@ _GRID = 1.4142135e-7
 """[m] Coordinates are compared in these steps; no round number, so that rounding errors tip no round coordinates."""
 
 
+_DONE = {"decompose": "decomposed", "cut": "cut", "rebuild": "rebuilt", "split": "split", "divide": "divided"}
+
+
 @dataclass(frozen=True, slots=True)
 class Replacement:
     """One piece and the hulls that stand in its place.
 
     what: the name of the piece, the element or the body; source: the digest of its geometry, by which a change is
-    noticed; made: the digest of each hull by its name; told: how well they fit, for people; with_body: whether it is
-    replaced only because all hulls of its body are.
+    noticed; made: the digest of each hull by its name; told: how well they fit, for people.
     """
 
     what: str
@@ -37,19 +39,18 @@ class Replacement:
     source: str
     made: dict[str, str]
     told: str = ""
-    with_body: bool = False
 
 
 @dataclass(frozen=True, slots=True)
 class PreparationStep:
     """One thing done to an asset.
 
-    do: `decompose` by an engine, `cut` a hull along a plane, `split` it by a decomposition of what is seen there, or
-    `divide` hulls that span parts where the labels of what they stand for change.
+    do: `decompose` by an engine, `cut` a hull along a plane, or `rebuild` bodies of which hulls span parts; earlier
+    versions did `split` and `divide` to hulls, which are read and taken back like these.
     settings: all that it was done with; software: the versions of what did it.
     """
 
-    do: Literal["decompose", "cut", "split", "divide"]
+    do: Literal["decompose", "cut", "rebuild", "split", "divide"]
     settings: dict[str, Any]
     software: dict[str, str]
     replaced: tuple[Replacement, ...]
@@ -57,11 +58,10 @@ class PreparationStep:
     def __str__(self) -> str:
         """`link/geom0 decomposed into 12 hulls by coacd`."""
         names = [entry.what for entry in self.replaced]
-        kind = "hulls" if self.do == "divide" else "pieces"
+        kind = "hulls" if self.do in ("rebuild", "divide") else "pieces"
         what = names[0] if len(names) == 1 else f"{len(names)} {kind}"
-        done = {"decompose": "decomposed", "cut": "cut", "split": "split", "divide": "divided"}[self.do]
         by = f" by {self.settings['method']}" if "method" in self.settings else ""
-        return f"{what} {done} into {pluralize(sum(len(entry.made) for entry in self.replaced), 'hull')}{by}"
+        return f"{what} {_DONE[self.do]} into {pluralize(sum(len(entry.made) for entry in self.replaced), 'hull')}{by}"
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -76,7 +76,7 @@ class Preparation:
         """The digests of all hulls it makes by name, those that later steps replace too."""
         return {name: known for step in self.steps for r in step.replaced for name, known in r.made.items()}
 
-    def has_divided(self, hull: str, do: str, settings: Mapping[str, Any]) -> bool:
+    def has_done(self, do: str, hull: str, settings: Mapping[str, Any]) -> bool:
         """Whether a step did just that to a hull, which is not there any more."""
         alike = (step for step in self.steps if step.do == do and step.settings == settings)
         return any(entry.what == hull for step in alike for entry in step.replaced)

@@ -53,20 +53,6 @@ def get_shapes(session: CurrentSession, asset: str) -> Response:
     return packet_response(packets.pack_asset(session.mesh(asset)))
 
 
-@router.get("/parts")
-def get_parts(session: CurrentSession, asset: str, hull: str) -> Response:
-    """The parts of a hull that likely spans them, as was found last."""
-    mesh = session.mesh(asset)
-    return packet_response(packets.pack_split(mesh, session.project.find_split(asset, hull)))
-
-
-@router.get("/parts/picture")
-def get_parts_picture(session: CurrentSession, asset: str, hull: str) -> Response:
-    """An asset with these parts in the place of the hull."""
-    mesh = session.mesh(asset)
-    return packet_response(assets.draw_split_picture(session.project, mesh, session.project.find_split(asset, hull)))
-
-
 @router.get("/visual")
 def get_visual(session: CurrentSession, asset: str) -> Response:
     """The visual surfaces of an asset."""

@@ -289,6 +289,13 @@ class Decompose(_PreparationEdit, JobEdit):
         return f"{self.asset} decomposed"
 
 
+class RebuildBodies(_PreparationEdit, JobEdit):
+    """A job rebuilt bodies of an asset of which hulls span parts."""
+
+    def describe(self, project: Project) -> str:
+        return f"bodies of {self.asset} rebuilt"
+
+
 class PrepareNew(_PreparationEdit, JobEdit):
     """A job prepared an asset that came later as the others. That it was is kept when this is undone, so that it is not
     done again."""

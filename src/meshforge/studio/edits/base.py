@@ -13,7 +13,7 @@ from meshforge.project import Project
 from meshforge.studio.wire import Wire
 
 PROGRAM_FILE, PREVIOUS_FILE = "program.mf", "program.previous.mf"
-EVENTS_FILE, SINGLE_PARTS_FILE = "events.jsonl", "single_parts.json"
+EVENTS_FILE = "events.jsonl"
 LEARNED_FILE, LEARNED_BEFORE = "learned.json", f"{STATE}/learned.json"
 """What the program was learned from, and where that was kept before (`Layout.learned_before`)."""
 PROGRAM_FILES = (PROGRAM_FILE, PREVIOUS_FILE, LEARNED_FILE, LEARNED_BEFORE)

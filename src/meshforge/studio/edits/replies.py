@@ -15,7 +15,7 @@ from meshforge.common import pluralize
 from meshforge.project import Project, has_agreed_labels
 from meshforge.signoff import HullPlace, ReviewChoice, ReviewQuestion, ReviewReply, question_of
 from meshforge.signoff.question import NO
-from meshforge.studio.edits.base import EVENTS_FILE, PREPARED_FILES, Edit, LabelsByAsset
+from meshforge.studio.edits.base import EVENTS_FILE, Edit, LabelsByAsset
 from meshforge.studio.wire.requests import HullOfAsset
 from meshforge.studio.wire.signoff import ReviewQuestionView
 
@@ -71,9 +71,6 @@ class ReplyToQuestion(Edit):
                 return f"result of {asset}: {choice.text if choice else 'none'}"
             case signoff.OrientationQuestion():
                 return "assets are turned first"
-            case signoff.SpanQuestion():
-                how = "is one part" if self.choice == NO else "split into its parts"
-                return f"{question.hulls[0].hull} of {asset} {how}"
             case signoff.DemonstrationQuestion():
                 return "question put off"
             case _:
@@ -81,7 +78,9 @@ class ReplyToQuestion(Edit):
 
     @cached_property
     def _asked(self) -> ReviewQuestion:
-        return question_of(self.question.model_dump())
+        asked = question_of(self.question.model_dump())
+        assert asked, "the page sends what it was asked"
+        return asked
 
     @property
     def _reply(self) -> ReviewReply:
@@ -128,9 +127,6 @@ class ReplyToQuestion(Edit):
                 yield from [project.folder / "labels"] if everywhere else map(layout.labels, assets)
             case signoff.OrientationQuestion():
                 yield layout.settings
-            case signoff.SpanQuestion():
-                names = (name.format(asset=self._asked.asset) for name in PREPARED_FILES)
-                yield from (layout.single_parts, *(project.folder / name for name in names))
             case signoff.ReadingQuestion() | signoff.DemonstrationQuestion():
                 return
             case other:

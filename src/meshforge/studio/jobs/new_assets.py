@@ -44,12 +44,12 @@ class NewAssetPreparation:
 
 
 def prepare_new(
-    session: Session, progress: JobProgress, assets: Collection[str], *, split: bool
+    session: Session, progress: JobProgress, assets: Collection[str], *, rebuild: bool
 ) -> NewAssetPreparation:
     """Prepare those of some assets that are new; each is one edit, and all are undone at once.
 
-    split: whether hulls that span parts are split, or only named. Raises ProjectError where what the project keeps of
-    how its assets were prepared is damaged.
+    rebuild: whether bodies are rebuilt of which a hull spans parts, or these only named. Raises
+    ProjectError where what the project keeps of how its assets were prepared is damaged.
     """
     project, group = session.project, uuid4().hex
     new, unclear = list_new(project)
@@ -57,7 +57,7 @@ def prepare_new(
         return NewAssetPreparation(unclear=unclear)
     program = project.program()
     options = NewAssetOptions(
-        split=split,
+        rebuild=rebuild,
         guess=program is None or bool(program.labels_asked),
         execution=batch.ExecutionOptions(stop=progress.is_stopped),
         stage=progress.stage,

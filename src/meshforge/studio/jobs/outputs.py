@@ -42,7 +42,7 @@ def start_apply(session: Session, request: ApplyJob) -> Job:
     def work(progress: JobProgress) -> str:
         summary, new = (
             batch.RunSummary(shown=project.reference_measures()),
-            prepare_new(session, progress, assets, split=request.split),
+            prepare_new(session, progress, assets, rebuild=request.rebuild),
         )
         for failed in new.failed:
             summary.add(failed)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import Literal, TypedDict
 from uuid import uuid4
@@ -12,13 +12,21 @@ from meshforge.common import MeshForgeError, ProjectError, format_share, join_na
 from meshforge.formats import DecomposeBy
 from meshforge.geometry import CoacdSettings, DecomposeSettings, VhacdSettings
 from meshforge.labels import LabelOutcome, PropagationResult, VlmForecast, VlmResult, check_vlm_settings
-from meshforge.project import LIKELY, PreparationResult, Project, read_preparation_plan
-from meshforge.store import SpanLine, VlmSettings
-from meshforge.studio.edits.assets import Decompose, LabelFromModel, Propagate
+from meshforge.project import (
+    MADE_ANEW,
+    REBUILD_DEFAULTS,
+    PreparationResult,
+    Project,
+    RebuildSettings,
+    read_piece_engine,
+    read_preparation_plan,
+)
+from meshforge.store import VlmSettings
+from meshforge.studio.edits.assets import Decompose, LabelFromModel, Propagate, RebuildBodies
 from meshforge.studio.errors import ConflictError
 from meshforge.studio.session.job_runner import JobProgress
 from meshforge.studio.session.session import Session
-from meshforge.studio.wire.jobs import AskJob, DecomposeJob, ForecastJob, Job, JobLine
+from meshforge.studio.wire.jobs import AskJob, DecomposeJob, ForecastJob, Job, JobLine, RebuildJob
 from meshforge.symbolic import GIVEN_SOURCES
 
 
@@ -72,43 +80,55 @@ def _decompose_line(result: PreparationResult) -> JobLine:
     return JobLine(asset=result.asset, status="failed" if result.problems else "unchanged", text=text)
 
 
-def start_spans(session: Session) -> Job:
-    """Start to find hulls that likely span parts, which are asked about then."""
-    project = session.project
+def start_rebuild(session: Session, request: RebuildJob) -> Job:
+    """Start to rebuild bodies of which hulls span parts, or only to find these; each asset is one edit, all are undone
+    at once."""
+    project, group = session.project, uuid4().hex
 
     def work(progress: JobProgress) -> str:
-        results = project.list_spans(execution=ExecutionOptions(stop=progress.is_stopped), stage=progress.stage)
-        session.update([relative_name(project.layout.spans, project.folder)])
-        found = project.spans().assets
+        results = project.rebuild_spanning(
+            how=RebuildSettings(pieces=read_piece_engine(project)),
+            dry_run=request.dry_run,
+            execution=ExecutionOptions(stop=progress.is_stopped),
+            stage=progress.stage,
+            write_block=lambda asset: session.record_edit(RebuildBodies(asset=asset), group),
+        )
+        found = list[PreparationResult]()
         for result in results:
-            if line := _spans_line(result, found.get(result.asset, {})):
+            found.append(result)
+            if line := _rebuild_line(result):
                 progress.add_line(line)
-        return _describe_spans(found, sum(bool(result.problems) for result in results))
+        if not request.dry_run:
+            session.update([relative_name(project.layout.preparation_plan, project.folder)])
+        return _describe_rebuild(found)
 
-    assets = project.assets()
-    return session.jobs.start(
-        "spans", "Looking for hulls that span parts", len(assets), work, stays="nothing was kept."
-    )
+    title = "Looking for hulls that span parts" if request.dry_run else "Rebuilding bodies"
+    return session.jobs.start("rebuild", title, len(project.assets()), work, stays="what is rebuilt stays.")
 
 
-def _spans_line(result: PreparationResult, found: Mapping[str, SpanLine]) -> JobLine | None:
+def _rebuild_line(result: PreparationResult) -> JobLine | None:
     """What was found of one asset, and what of it could not be looked at; None where there is nothing to tell."""
-    told = [*result.problems, *(one.told for one in found.values()), *result.notes]
-    if not told:
+    entries = result.made or result.planned
+    texts = [*result.problems, *(entry.told for entry in entries if entry.told != MADE_ANEW), *result.notes]
+    if not texts:
         return None
-    status: Literal["failed", "done", "skipped"] = "failed" if result.problems else "done" if found else "skipped"
-    return JobLine(asset=result.asset, status=status, text="; ".join(told))
+    status: Literal["failed", "done", "skipped"] = "failed" if result.problems else "done" if entries else "skipped"
+    return JobLine(asset=result.asset, status=status, text="; ".join(texts))
 
 
-def _describe_spans(found: Mapping[str, Mapping[str, SpanLine]], lost: int) -> str:
-    lines = [line for own in found.values() for line in own.values()]
-    whole = sum(not line.parts for line in lines)
+def _describe_rebuild(results: Sequence[PreparationResult]) -> str:
+    made = [result for result in results if result.made]
+    planned = [result for result in results if result.planned]
+    lost = sum(bool(result.problems) for result in results)
     left = f" {pluralize(lost, 'asset')} could not be looked at." if lost else ""
-    if not lines:
-        return f"No hull spans parts with {format_share(LIKELY)} or more.{left}"
-    spans = "likely span parts" if len(lines) > 1 else "likely spans parts"
-    asked = "you are asked about each" if not whole else f"no plane divides {whole}, you are asked about the others"
-    return f"{pluralize(len(lines), 'hull')} of {pluralize(len(found), 'asset')} {spans}: {asked}.{left}"
+    if made:
+        hulls = pluralize(sum(len(result.hulls) for result in made), "hull")
+        return f"Bodies of {pluralize(len(made), 'asset')} rebuilt: {hulls}.{left}"
+    if planned:
+        spanning = sum(entry.told != MADE_ANEW for result in planned for entry in result.planned)
+        noun = "spans" if spanning == 1 else "span"
+        return f"{pluralize(spanning, 'hull')} of {pluralize(len(planned), 'asset')} {noun} parts.{left}"
+    return f"No hull spans parts with {format_share(REBUILD_DEFAULTS.min_confidence)} or more.{left}"
 
 
 def start_propagate(session: Session) -> Job:

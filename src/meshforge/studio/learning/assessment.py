@@ -11,7 +11,6 @@ from meshforge.project import (
     FamilyAssessment,
     Project,
     assess_family,
-    list_span_questions,
     program_by_hand,
     sees_whole_family,
 )
@@ -43,16 +42,6 @@ def keep_assessment(project: Project, made: FamilyAssessment) -> None:
     some assets only."""
     if made.program is not None and sees_whole_family(project) and made.keep(project):
         project.renew_sign_offs(keep_persons=True)
-
-
-def view_first_question(project: Project, meshes: Mapping[str, SymbolicMesh], number: int) -> wire.AssessmentView:
-    """What is asked before anything is demonstrated, in an assessment of no asset.
-
-    meshes: the assets that it may be about; number: of the learning run that was not needed.
-    """
-    questions = list_span_questions(project, meshes)
-    asked = _view_question(questions[0], meshes) if questions else None
-    return wire.AssessmentView(number=number, bar=BAR, question=asked)
 
 
 def view_assessment(

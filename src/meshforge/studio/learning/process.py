@@ -12,9 +12,9 @@ from time import perf_counter
 
 from meshforge.common import MeshForgeError
 from meshforge.language import Program, parse_extractor
-from meshforge.project import AssessmentBasis, Project, can_ask_about_spans, digest_lesson, select_assets
+from meshforge.project import AssessmentBasis, Project, digest_lesson, select_assets
 from meshforge.store import MeshCache
-from meshforge.studio.learning.assessment import assess_project, keep_assessment, view_assessment, view_first_question
+from meshforge.studio.learning.assessment import assess_project, keep_assessment, view_assessment
 from meshforge.studio.learning.queue import CancelToken
 from meshforge.studio.learning.results import ProgramWithTemplates, RuleSelector, build_outcome_view, measure_reach
 from meshforge.studio.wire.program import CoverageView, OutcomeView, Reach
@@ -80,12 +80,11 @@ def learn(folder: Path, token: CancelToken, number: int, take: bool) -> OutcomeV
 def assess(folder: Path, token: CancelToken, number: int) -> AssessmentView | None:
     """How sure the edits are that a learning run came to, None where that was interrupted, or was not the last one.
 
-    It is kept, as a review is, where nothing changed since that run. Where nothing is demonstrated yet, there is only
-    what is asked before; None where that is nothing.
+    It is kept, as a review is, where nothing changed since that run. None too where nothing is demonstrated yet.
     """
     lesson, project = _last_lesson(folder), Project.open(folder)
     if not project.demonstration_ids():
-        return _ask_first(project, token, number)
+        return None
     if lesson.number != number or lesson.outcome is None:
         return None
     basis = AssessmentBasis.take(project)
@@ -101,16 +100,6 @@ def assess(folder: Path, token: CancelToken, number: int) -> AssessmentView | No
             keep_assessment(project, made)
     unseen = len(project.assets()) - len(meshes)
     return view_assessment(made.found, made.state, number, made.program is not None, unseen)
-
-
-def _ask_first(project: Project, token: CancelToken, number: int) -> AssessmentView | None:
-    if not can_ask_about_spans(project):
-        return None
-    try:
-        meshes = dict(_family_cache(project.folder).read_meshes(project, select_assets(project), token.stop))
-    except ReadInterrupted:
-        return None
-    return view_first_question(project, meshes, number)
 
 
 def compute_reach(folder: Path, token: CancelToken, program: str) -> tuple[Reach, ...] | None:

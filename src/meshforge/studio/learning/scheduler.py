@@ -26,7 +26,7 @@ STOP_TIMEOUT = 30.0
 class LearningScheduler:
     """Starts learning runs, takes their outcomes and has the edits judged; of several runs only the last one counts.
 
-    can_learn: whether anything is demonstrated; can_ask: whether there may be a question before that; on_outcome:
+    can_learn: whether anything is demonstrated; on_outcome:
     called when a run is over, before pages see that and its reach is measured, so that a page that sees the end of the
     run sees its program, too; on_assessment: called once pages see how sure the edits are.
     """
@@ -36,12 +36,11 @@ class LearningScheduler:
         learner: Learner,
         pages: PageState,
         can_learn: Callable[[], bool],
-        can_ask: Callable[[], bool],
         on_outcome: Callable[[OutcomeView], None],
         on_assessment: Callable[[], None],
     ) -> None:
         self._learner, self._pages = learner, pages
-        self._can_learn, self._can_ask = can_learn, can_ask
+        self._can_learn = can_learn
         self._on_outcome, self._on_assessment = on_outcome, on_assessment
         self._lock = RLock()
         self._number, self._paused = 0, False
@@ -102,7 +101,7 @@ class LearningScheduler:
         """Judge anew how sure the edits are under the program as it is after the last learning run, and what to ask."""
         outcome, number = self._pages.outcome, self._number
         is_there = outcome is not None and outcome.number == number and outcome.status not in ("timeout", "error")
-        if not (is_there if self._can_learn() else self._can_ask()):
+        if not (is_there and self._can_learn()):
             self._show_assessment(number, None)
             return
         with self._lock:

@@ -14,7 +14,7 @@ from meshforge.common import MeshForgeError
 from meshforge.formats import VisualSurfaces
 from meshforge.geometry import Floats, Pose
 from meshforge.language import Orient, Program, orient_mesh
-from meshforge.project import Project, Split
+from meshforge.project import Project
 from meshforge.studio.edits.base import steps_version
 from meshforge.studio.queries.packets import contact_names, frame_packet, hull_views
 from meshforge.studio.queries.replay import AssetReplay, EditResult, replay_steps
@@ -161,18 +161,6 @@ def draw_rule_picture(
     pose = Z_FROM_Y if is_y_up(mesh, plan.orient) else None
     header = json.dumps({"names": [hull.name for hull in seen.hulls]})
     return frame_packet(header.encode(), _to_png(rendering.render_revealing(seen, show, pose, RULE_PICTURE_SIZE)))
-
-
-def draw_split_picture(project: Project, mesh: SymbolicMesh, split: Split) -> bytes:
-    """A packet as `draw_rule_picture` makes it, of two pictures side by side: an asset with a hull, and with the parts
-    in its place, from a side on which these can be seen. The hull's name comes after those of the others."""
-    divided, parts = split.divide(mesh)
-    pose = compute_upright(project, mesh).pose
-    names = [*(hull.name for hull in divided.hulls), split.hull]
-    before, after = rendering.render_division(mesh, split.hull, divided, parts, pose, RULE_PICTURE_SIZE)
-    renumbered = rendering.renumber(before, [names.index(hull.name) for hull in mesh.hulls])
-    header = json.dumps({"names": names})
-    return frame_packet(header.encode(), _to_png(np.hstack([renumbered, after])))
 
 
 def picture_digest(geometry: str, labels: Iterable[Label | None], orient: str) -> str:

@@ -35,9 +35,9 @@ def _find(project: Project) -> tuple[NewAssetsView | None, str | None]:
         return None, error.message
     if not new and not unclear:
         return None, None
-    splits = [one.plan.split for one in new if one.plan.split]
+    plans = [one.plan.rebuild for one in new if one.plan.rebuild]
     ids = tuple(one.id for one in new)
-    if not splits:
+    if not plans:
         return NewAssetsView(ids=ids, unclear=unclear), None
-    how = splits[0]
-    return NewAssetsView(ids=ids, split=len(splits), sure=how.sure, rebuild=how.rebuild, unclear=unclear), None
+    least = plans[0].min_confidence
+    return NewAssetsView(ids=ids, rebuilt=len(plans), min_confidence=least, unclear=unclear), None

@@ -16,7 +16,7 @@ from meshforge.common import ProjectError
 from meshforge.formats import load
 from meshforge.geometry import digest
 from meshforge.language import Program, RuleTrace
-from meshforge.project import Project, Split, make_correction, run_with_corrections
+from meshforge.project import Project, make_correction, run_with_corrections
 from meshforge.rendering import RenderMesh, to_render_mesh
 from meshforge.store import parse_action_text
 from meshforge.studio.queries.replay import AssetReplay, replay_steps
@@ -37,15 +37,6 @@ def pack_asset(mesh: SymbolicMesh) -> bytes:
     """The shapes of an asset: its hulls in their order, then its non-convex pieces that have a surface."""
     pieces = mesh.asset.opaque if mesh.asset else ()
     return _pack_rows([*hull_rows(mesh.hulls), *(_make_surface_row(p.name, p.surface) for p in pieces if p.surface)])
-
-
-def pack_split(mesh: SymbolicMesh, split: Split) -> bytes:
-    """The parts of a hull that likely spans them, each with its label."""
-    divided, names = split.divide(mesh)
-    parts = [divided.hull_of(name) for name in names]
-    rows = hull_rows(parts)
-    header = wire.PartsHeader(rows=tuple(row for row, _ in rows), hull=split.hull, parts=tuple(map(hull_view, parts)))
-    return pack_shapes(header, rows)
 
 
 def pack_visual(mesh: SymbolicMesh) -> bytes:

@@ -53,7 +53,6 @@ def choose_next_step(
         _step_for_hulls(cards)
         or _step_for_first_labels(cards, has_program, lookups.find_offers)
         or (None if vocabulary else Next(stage="label", say="Name what hulls can be: the labels of this family."))
-        or _step_for_span(assessment)
         or _step_before_learning(cards, has_program, lookups.suggest, propagated)
         or _step_for_learning(outcome, has_program)
         or (Next(stage="learn", say=f"The program cannot be applied: {problem.splitlines()[0]}") if problem else None)
@@ -186,12 +185,6 @@ def _step_for_outputs(cards: Sequence[Card]) -> Next | None:
     return None
 
 
-def _step_for_span(assessment: AssessmentView | None) -> Next | None:
-    """To say whether a hull is to be split, while nothing is demonstrated that a split would change."""
-    asked = assessment.question if assessment and not assessment.assets else None
-    return Next(stage="learn", say=asked.text, asset=asked.asset) if asked and asked.kind == "span" else None
-
-
 def _step_for_question(assessment: AssessmentView | None) -> Next | None:
     """To answer what makes most results right for a person's time, as long as some are held."""
     asked = assessment.question if assessment and assessment.held else None
@@ -204,7 +197,6 @@ def _step_for_question(assessment: AssessmentView | None) -> Next | None:
 _WHAT_TO_DO = {
     "result": "look at one result",
     "demonstrate": "demonstrate one more asset",
-    "span": "say whether a hull is to be split",
 }
 
 
@@ -348,7 +340,6 @@ def build_card(
         corrections=status.corrections,
         sources=status.sources,
         prepared=status.prepared,
-        spans=dict(status.spans),
         picture=picture,
         edited_picture=output_picture_digest(picture, output) if output and picture else None,
         check=check,

@@ -13,8 +13,8 @@ from time import monotonic
 from meshforge.batch import SETTINGS, STATE, source_files
 from meshforge.common import MeshForgeError, relative_name
 from meshforge.project import Project
-from meshforge.store import Feedback, SpanLine
-from meshforge.studio.edits.base import EVENTS_FILE, LEARNED_FILE, PROGRAM_FILE, SINGLE_PARTS_FILE
+from meshforge.store import Feedback
+from meshforge.studio.edits.base import EVENTS_FILE, LEARNED_FILE, PROGRAM_FILE
 from meshforge.studio.learning.scheduler import LearningScheduler
 from meshforge.studio.pages import PageState
 from meshforge.studio.queries.programs import read_program_view
@@ -30,8 +30,6 @@ _LEARNING_FOLDERS = ("labels/", "demonstrations/", "prepared/", "templates/")
 _LEARNING_FILES = frozenset((PROGRAM_FILE,))
 
 PREPARATION_PLAN_FILE = "preparation.json"
-_FOUND_FILES = (SINGLE_PARTS_FILE, f"{STATE}/spans.json")
-_QUESTION_FILES = _FOUND_FILES
 
 POLL_SECONDS = 1.5
 """Seconds between two polls; more where a poll itself takes long, so that it takes a small share of the time."""
@@ -39,7 +37,6 @@ _SHARE = 10
 _WATCH_FOLDERS = ("labels", "demonstrations", "corrections", "prepared", "templates", f"edited/{STATE}/stamps")
 _WATCH_FILES = (
     SETTINGS, PROGRAM_FILE, EVENTS_FILE, LEARNED_FILE, PREPARATION_PLAN_FILE,
-    *_QUESTION_FILES,
 )  # fmt: skip
 
 FileStamps = dict[str, tuple[int, int]]
@@ -56,7 +53,7 @@ class FileSync:
         self.project = project
         self._pages, self._learning, self._queue = pages, learning, queue
         self._stamps = read_stamps(project)
-        self._said, self._spans = _read_feedback(project), _read_spans(project)
+        self._said = _read_feedback(project)
 
     def update(self, names: Iterable[str]) -> None:
         """Refresh what depends on files that changed; names: paths from the project's folder."""
@@ -72,8 +69,6 @@ class FileSync:
             self._learning.restart()
         self._pages.announce_assets(sorted(changes.assets), bool(changes.shapes))
         self._queue.add(changes.assets, later=changes.settings)
-        if not names.isdisjoint(_FOUND_FILES):
-            self._queue.add(self._update_spans())
         if is_other and not changes.learning:
             self._learning.measure_reach()
         if changes.questions and not changes.learning:
@@ -132,24 +127,12 @@ class FileSync:
         assets = changes.assets | (about & self.project.found.ids.keys())
         return replace(changes, assets=assets, learning=changes.learning or learns, questions=True)
 
-    def _update_spans(self) -> list[str]:
-        """The assets of which other hulls likely span parts than before."""
-        before, self._spans = self._spans, _read_spans(self.project)
-        return [asset for asset in before | self._spans if before.get(asset) != self._spans.get(asset)]
-
 
 def _read_feedback(project: Project) -> Feedback:
     try:
         return project.feedback()
     except MeshForgeError:  # the assessment says so
         return Feedback()
-
-
-def _read_spans(project: Project) -> dict[str, dict[str, SpanLine]]:
-    try:
-        return project.spans().assets
-    except MeshForgeError:  # the cards say so
-        return {}
 
 
 def _view_program(project: Project, before: ProgramView) -> ProgramView:
@@ -189,7 +172,6 @@ def changes_of(project: Project, names: Iterable[str]) -> FileChanges:
         shapes=frozenset(shapes),
         settings=settings,
         program=bool(names & {PROGRAM_FILE, LEARNED_FILE}),
-        questions=not names.isdisjoint(_QUESTION_FILES),
         learning=settings
         or bool(shapes)
         or any(n.startswith(_LEARNING_FOLDERS) or n in _LEARNING_FILES for n in names),

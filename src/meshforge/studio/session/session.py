@@ -13,7 +13,7 @@ from typing import Literal
 from meshforge.batch import STATE, read_prepared, stamp_path
 from meshforge.common import UsageError, relative_name
 from meshforge.labels import OfferCache
-from meshforge.project import Project, can_ask_about_spans
+from meshforge.project import Project
 from meshforge.store import MeshCache
 from meshforge.studio.downloads import Downloads
 from meshforge.studio.edits.base import LEARNED_BEFORE, LEARNED_FILE, PREVIOUS_FILE, PROGRAM_FILE, Edit
@@ -87,7 +87,6 @@ class Session:
             Learner(project.folder),
             self.pages,
             self._has_demonstrations,
-            lambda: can_ask_about_spans(self.project),
             self._end_learning,
             self.refresh_queue.add,
         )

@@ -118,15 +118,6 @@ class ShapesHeader(Wire):
     rows: tuple[ShapeRow, ...]
 
 
-class PartsHeader(Wire):
-    """The header of a packet of the parts of a hull that likely spans them; see `ShapesHeader`. hull: its name; parts:
-    in the order of the rows."""
-
-    rows: tuple[ShapeRow, ...]
-    hull: str
-    parts: tuple[HullView, ...]
-
-
 class TraceLine(Wire):
     """What one rule did. selected, made: names of hulls; note: what a user should know."""
 

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import Literal
 
-from pydantic import Field
-
 from meshforge.signoff import ExclusionReason
 from meshforge.studio.wire import Wire
 from meshforge.studio.wire.asset import Fault
@@ -25,7 +23,6 @@ class Card(Wire):
     after: how many hulls the output has; after_labels: like `labels`, empty where they are not known; stale: what
     changed since the output was made; excluded: why it is given up; corrections: how many edits by hand.
     sources: how many pieces and bodies have no hulls and can be decomposed; prepared: what was done before the program.
-    spans: the hulls that likely hold more than one part, by name, in words, as found last.
     picture, edited_picture: the digest that the address of the thumbnail takes, null where there is none yet.
     check: the digest of the output and of its inputs, null where there is no output; faults: what checks found, null
     where it was not checked.
@@ -49,7 +46,6 @@ class Card(Wire):
     corrections: int = 0
     sources: int = 0
     prepared: tuple[str, ...] = ()
-    spans: dict[str, str] = Field(default_factory=dict)
     picture: str | None = None
     edited_picture: str | None = None
     check: str | None = None
@@ -92,13 +88,12 @@ class Next(Wire):
 
 class NewAssetsView(Wire):
     """The assets that came after the others were prepared, so that a run prepares them first. ids: of all of them;
-    split: of how many hulls that span parts are looked for, and split where that is as sure as `sure`; rebuild: whether
-    all hulls of their bodies are made anew then; unclear: why they are not decomposed, null where it is clear how."""
+    rebuilt: in how many hulls that span parts are looked for, and bodies rebuilt from a probability of
+    `min_confidence` on; unclear: why they are not decomposed, null where it is clear how."""
 
     ids: tuple[str, ...]
-    split: int = 0
-    sure: float | None = None
-    rebuild: bool = False
+    rebuilt: int = 0
+    min_confidence: float | None = None
     unclear: str | None = None
 
 

@@ -10,7 +10,7 @@ from meshforge.formats import DecomposeBy
 from meshforge.studio.wire import Wire
 
 JobKind = Literal[
-    "read", "apply", "decompose", "spans", "export", "add", "propagate", "forecast", "ask", "check", "download"
+    "read", "apply", "decompose", "rebuild", "export", "add", "propagate", "forecast", "ask", "check", "download"
 ]
 
 VlmMode = Literal["cheap", "balanced", "exact"]
@@ -48,12 +48,12 @@ class Job(Wire):
 
 
 class ApplyJob(Wire):
-    """Run the program on all assets, or on some; those that are new are prepared before. split: whether hulls of these
-    that span parts are split, if the project's own were."""
+    """Run the program on all assets, or on some; those that are new are prepared before. rebuild: whether bodies of
+    these are rebuilt of which a hull spans parts, if the project's own were."""
 
     kind: Literal["apply"] = "apply"
     assets: tuple[str, ...] | None = None
-    split: bool = True
+    rebuild: bool = True
 
 
 class DecomposeJob(Wire):
@@ -67,10 +67,11 @@ class DecomposeJob(Wire):
     by: DecomposeBy = "whole"
 
 
-class SpansJob(Wire):
-    """Find the hulls of all assets that likely span parts."""
+class RebuildJob(Wire):
+    """Find the hulls of all assets that span parts, and rebuild their bodies. dry_run: only find them."""
 
-    kind: Literal["spans"] = "spans"
+    kind: Literal["rebuild"] = "rebuild"
+    dry_run: bool = False
 
 
 class ExportJob(Wire):
@@ -120,7 +121,7 @@ class DownloadJob(Wire):
 
 
 JobRequest = (
-    ApplyJob | DecomposeJob | SpansJob | ExportJob | PropagateJob | ForecastJob | AskJob | CheckJob | DownloadJob
+    ApplyJob | DecomposeJob | RebuildJob | ExportJob | PropagateJob | ForecastJob | AskJob | CheckJob | DownloadJob
 )
 
 

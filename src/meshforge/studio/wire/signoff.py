@@ -7,9 +7,7 @@ from typing import Literal
 from meshforge.studio.wire import Wire
 
 DoubtKind = Literal["reading", "label", "orientation", "unlike", "alarm"]
-QuestionKind = Literal[
-    "group", "repair", "reading", "label", "selection", "orientation", "result", "demonstrate", "span"
-]
+QuestionKind = Literal["group", "repair", "reading", "label", "selection", "orientation", "result", "demonstrate"]
 SignoffState = Literal["signed", "held", "excluded"]
 
 

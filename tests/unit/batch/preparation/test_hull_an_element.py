@@ -166,8 +166,7 @@ def test_one_hull_of_a_mesh_file_is_written_and_nothing_is_divided_by_it(
     assert hull.volume == pytest.approx(hull_of(tmp_path / "cad.obj")[0])
     assert run("new", "p", "cad.urdf").code == 0
     for words in (
-        ("split", "p", "cad.urdf", "base/geom1", "--decompose", "hull"),
-        ("prepare", "p", "--split-spanning", "--decompose", "hull"),
+        ("prepare", "p", "--rebuild-spanning", "--decompose", "hull"),
         ("decompose", "cad.obj", "--advise", "--decompose", "hull"),
     ):
         refused = run(*words)

@@ -16,7 +16,7 @@ import { Section } from "../../ui/Section";
 import css from "./demonstrate.module.css";
 import { DraftForm } from "./DraftForm";
 import { FamilyRules } from "./FamilyRules";
-import { FindSpans } from "./FindSpans";
+import { RebuildBodies } from "./RebuildBodies";
 import { Orientation } from "./Orientation";
 
 export function DemonstratePanel() {
@@ -31,7 +31,7 @@ export function DemonstratePanel() {
       <FamilyRules />
       <Orientation />
       <Preparation />
-      <FindSpans />
+      <RebuildBodies />
     </div>
   );
 }

@@ -12,7 +12,6 @@ import { OrientationCard } from "./OrientationCard";
 import { PlainCard } from "./PlainCard";
 import css from "./questions.module.css";
 import { ReadingsCard } from "./ReadingsCard";
-import { SpanCard } from "./SpanCard";
 
 export function Questions() {
   const asked = useProject(openQuestion);
@@ -48,8 +47,6 @@ export function Questions() {
 
 function Card({ question }: { question: ReviewQuestionView }) {
   switch (question.kind) {
-    case "span":
-      return <SpanCard question={question} />;
     case "reading":
     case "label":
       return <ReadingsCard question={question} />;

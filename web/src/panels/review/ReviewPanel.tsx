@@ -3,7 +3,7 @@ import { Play } from "lucide-react";
 import { useMemo, useState } from "react";
 import { SignOff } from "../../family/Sureness";
 import { applyTo, useJob, whyNotApply } from "../../store/jobs";
-import { linesOfNew, newAssetsText, splitChoiceText, useSplitChoice } from "../../store/newAssets";
+import { linesOfNew, newAssetsText, rebuildChoiceText, useRebuildChoice } from "../../store/newAssets";
 import { useProject } from "../../store/project";
 import { groupCards, listOutdated } from "../../store/reviews";
 import { countText } from "../../store/words";
@@ -59,17 +59,17 @@ function ApplySection() {
   );
 }
 
-/** Assets that a run prepares first, and whether it splits hulls of theirs. */
+/** Assets that a run prepares first, and whether it rebuilds bodies of theirs. */
 function NewAssets() {
   const found = useProject((state) => state.project.new);
-  const split = useSplitChoice((state) => state.split);
-  const choice = found && splitChoiceText(found);
+  const rebuild = useRebuildChoice((state) => state.rebuild);
+  const choice = found && rebuildChoiceText(found);
   if (!found) return null;
   return (
     <div className={css.newAssets}>
       <p>{newAssetsText(found)}</p>
       {choice && (
-        <Check checked={split} onChange={(is) => useSplitChoice.setState({ split: is })}>
+        <Check checked={rebuild} onChange={(is) => useRebuildChoice.setState({ rebuild: is })}>
           {choice}
         </Check>
       )}

@@ -25,8 +25,6 @@ export class AssetDrawing {
   readonly shadow: GroundShadow;
   /** They close the hulls where the section plane cuts them. */
   readonly closed: SectionFaces;
-  /** The hull in whose place its parts are drawn: it is out of sight, and framed as if it were not. */
-  divided: string | null = null;
   private selection: ReadonlySet<string> = new Set();
   private readonly outlines: Readonly<Record<Exclude<OutlineName, "made">, Strokes>>;
 
@@ -118,7 +116,7 @@ export function pointsOf(side: AssetDrawing, only: ReadonlySet<string> | null, e
     }
   };
   hulls.forEach(({ name, shape }, k) => {
-    const wanted = only ? only.has(name) : side.hulls.visible[k] || name === side.divided;
+    const wanted = only ? only.has(name) : side.hulls.visible[k];
     if (wanted) add(shape, side.hulls.aways[k] ?? [0, 0, 0]);
   });
   if (!only) opaque.forEach(({ shape }) => add(shape, [0, 0, 0]));

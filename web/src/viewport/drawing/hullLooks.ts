@@ -19,8 +19,6 @@ export interface Appearance {
   readonly going: ReadonlySet<string>;
   /** What was changed, so that all else is paler; null where nothing is compared. */
   readonly changed: ReadonlySet<string> | null;
-  /** Whether all is seen through, beside the parts of a hull that a person is asked about. */
-  readonly faint: boolean;
   readonly ink: ThemeColors;
 }
 
@@ -38,9 +36,8 @@ export function hullLooks(scene: Scene, now: Appearance): HullLook[] {
   });
 }
 
-function roleOf(name: string, { going, changed, faint }: Appearance): number {
+function roleOf(name: string, { going, changed }: Appearance): number {
   if (going.has(name)) return ROLE.removed;
-  if (faint) return ROLE.faint;
   return changed && !changed.has(name) ? ROLE.washed : ROLE.plain;
 }
 

@@ -17,7 +17,7 @@ import type { ThemeColors } from "./themeColors";
 const WIDTH = 256;
 
 /** What is to become of a hull, as the third byte of its state has it. */
-export const ROLE = { plain: 0, washed: 1, removed: 2, faint: 3 } as const;
+export const ROLE = { plain: 0, washed: 1, removed: 2 } as const;
 
 /** What all materials of one set of hulls share; changing a value changes it for all. */
 export interface SharedUniforms {
@@ -116,7 +116,7 @@ const FACE_VERTEX = /* glsl */ `
     vec4 state = texelFetch(states, place(), 0);
     role = floor(state.b * 255.0 + 0.5);
     if (role == ${ROLE.removed}.0) base.rgb = mix(base.rgb, removed, 0.55);
-    if (role == ${ROLE.washed}.0 || role == ${ROLE.faint}.0) base.rgb = mix(base.rgb, pale, 0.45);
+    if (role == ${ROLE.washed}.0) base.rgb = mix(base.rgb, pale, 0.45);
     float lit = light(mat3(modelViewMatrix) * normal);
     vec3 glow = mix(vec3(1.0), tint, state.g);
     float share = max(0.26 * state.g, 0.16 * state.a);
@@ -146,7 +146,6 @@ const FACE_FRAGMENT = /* glsl */ `
     vec2 spot = gl_FragCoord.xy / pixel;
     vec2 cell = mod(floor(spot / 2.0), 2.0);
     if (role == ${ROLE.removed}.0 && cell.x != cell.y) discard;
-    if (role == ${ROLE.faint}.0 && cell.x + cell.y > 0.5) discard;
     if (color.a < 0.5 && fract((spot.x + spot.y) / 9.0) < 0.4) gl_FragColor.rgb = stripe;
   }
 `;

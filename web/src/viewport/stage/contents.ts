@@ -4,16 +4,13 @@ import { ContactGraph } from "../drawing/contactGraph";
 import { CutPlaneDrawing } from "../drawing/cutPlane";
 import { Ground } from "../drawing/ground";
 import type { Appearance } from "../drawing/hullLooks";
-import { PartHulls } from "../drawing/partHulls";
 import { PreviewHulls } from "../drawing/previewHulls";
 import { SectionFrame } from "../drawing/section";
 import { Surfaces } from "../drawing/surface";
 import { readThemeColors, type ThemeColors } from "../drawing/themeColors";
 import { type Point, rotateBox } from "../geometry/triangles";
-import type { Tone } from "../../pictures/hullColors";
-import type { EditedPacket, PartsPacket, ShapesPacket } from "../../server/packet";
-import type { Scene, SceneHull } from "../../store/scenes";
-import type { HullView } from "../../wire";
+import type { EditedPacket, ShapesPacket } from "../../server/packet";
+import type { Scene } from "../../store/scenes";
 
 const NOTHING = [-0.5, -0.5, 0, 0.5, 0.5, 1];
 const GHOST = 0.16;
@@ -27,8 +24,6 @@ export class Contents {
   shown: AssetDrawing | null = null;
   before: AssetDrawing | null = null;
   made: PreviewHulls | null = null;
-  /** In the place of a hull that a person is asked about. */
-  parts: PartHulls | null = null;
   ghost: Surfaces | null = null;
   /** The box around all there is, in the canonical frame. */
   bounds: readonly number[] = NOTHING;
@@ -64,16 +59,6 @@ export class Contents {
     if (this.made) this.shown?.turned.add(this.made.object);
   }
 
-  /** Shows parts in the place of a hull, which looks make invisible; null takes them away. */
-  divide(packet: PartsPacket | null, hull: SceneHull | null, tone: (hull: HullView) => Tone): void {
-    this.parts?.object.removeFromParent();
-    this.parts?.dispose();
-    this.parts = packet && hull && this.shown ? new PartHulls(packet, hull, this.centre, tone, this.ink) : null;
-    if (!this.shown) return;
-    this.shown.divided = this.parts && hull ? hull.name : null;
-    if (this.parts) this.shown.turned.add(this.parts.object);
-  }
-
   setGhost(packet: ShapesPacket | null): void {
     this.ghost?.object.removeFromParent();
     this.ghost?.dispose();
@@ -104,7 +89,6 @@ export class Contents {
   dispose(): void {
     this.show(null);
     this.preview(null);
-    this.divide(null, null, () => ({ color: null, hatched: false }));
     this.graph.dispose();
     this.cut.dispose();
     this.section.dispose();

@@ -1,6 +1,5 @@
 // What decides how hulls look: selection, pointer, preview, rules, and comparison.
 import { beforeEach, describe, expect, it } from "vitest";
-import { useHullParts } from "../../store/hullParts";
 import { usePreview } from "../../store/preview";
 import { emptyProject, useProject } from "../../store/project";
 import { initialWorkspace, setHighlight, useWorkspace } from "../../store/workspace";
@@ -35,16 +34,6 @@ describe("a hull", () => {
     expect([a?.selected, b?.selected]).toEqual([1, 0]);
     expect([a?.hover, b?.hover]).toEqual([0, 1]);
     expect([a?.visible, c?.visible]).toEqual([true, false]);
-  });
-
-  it("is out of sight while its parts are shown in its place, which no other hull is", () => {
-    useHullParts.setState({ shown: { asset: scene.asset, packet: { header: { rows: [], hull: "b", parts: [] }, rows: [], shapes: [] } } });
-    const { a, b } = looks();
-    expect([a?.visible, b?.visible]).toEqual([true, false]);
-    expect(a?.role).toBe(ROLE.faint);
-    useHullParts.setState({ shown: null });
-    expect(looks()["b"]?.visible).toBe(true);
-    expect(looks()["a"]?.role).toBe(ROLE.plain);
   });
 
   it("is lit by a region that is drawn over it, less than by the pointer", () => {

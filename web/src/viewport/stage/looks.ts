@@ -6,7 +6,6 @@ import { hullsToRemove } from "../drawing/previewHulls";
 import type { ThemeColors } from "../drawing/themeColors";
 import type { Point } from "../geometry/triangles";
 import { tonesOf } from "../../pictures/hullColors";
-import { dividedHull } from "../../store/hullParts";
 import { labelChangesOf } from "../../store/labelChanges";
 import { usePreview } from "../../store/preview";
 import { useProject } from "../../store/project";
@@ -22,9 +21,7 @@ export function appearances(scene: Scene, ink: ThemeColors): { shown: Appearance
   const going = hullsToRemove(showsPreview(tool) ? usePreview.getState().preview : null, names);
   const lit = new Set([...region, ...highlightedHulls(scene)]);
   const tone = tonesOf(scene, view.colorBy, useProject.getState().project.vocabulary);
-  const divided = dividedHull(scene);
-  const unseen = divided ? new Set([...hidden, divided.name]) : hidden;
-  const shown = { tone, selection, hover, hidden: unseen, lit, going, ink, changed: changedHulls(scene), faint: divided !== null };
+  const shown = { tone, selection, hover, hidden, lit, going, ink, changed: changedHulls(scene) };
   return { shown, before: { ...shown, going: new Set() } };
 }
 

@@ -250,7 +250,6 @@ function drawPane(gl: WebGLRenderer, stage: Stage, pane: Pane): void {
   stage.contents.cut.measure(frame);
   stage.contents.section.measure(frame);
   stage.contents.made?.measure(frame);
-  stage.contents.parts?.measure(frame);
   if (stage.section) gl.clippingPlanes = [clippingPlane(stage.section)];
   shade(gl, stage, side, pane.width, camera);
   gl.render(side.root, camera);
@@ -264,8 +263,8 @@ function shade(gl: WebGLRenderer, stage: Stage, { occlusion, shadow }: AssetDraw
     shadow.hide();
     return;
   }
-  // it knows nothing of faces that close what is cut open, nor of parts in the place of a hull
-  if (stage.section || stage.contents.parts) occlusion.hide();
+  // it knows nothing of faces that close what is cut open
+  if (stage.section) occlusion.hide();
   else occlusion.update(gl, camera, { width, height, explode, radius: stage.view.radius }, hasTime);
   shadow.update(gl, bounds, explode, ink.dark, hasTime);
 }

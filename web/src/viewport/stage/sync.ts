@@ -1,10 +1,8 @@
 // Keeps the stage in step with the stores and the theme, from when it is shown in an element of the page.
 import type { WebGLRenderer } from "three";
 import { readThemeColors, watchTheme } from "../drawing/themeColors";
-import { tonesOf } from "../../pictures/hullColors";
 import { api } from "../../server/api";
 import { hullToCut, planeOf, useCut } from "../../store/cut";
-import { dividedHull, useHullParts } from "../../store/hullParts";
 import { watchLabelChanges } from "../../store/labelChanges";
 import { usePreview } from "../../store/preview";
 import { useProject } from "../../store/project";
@@ -26,7 +24,6 @@ function followStores(stage: Stage): () => void {
   const shown = (scene: Scene | null): void => {
     stage.show(scene);
     stage.change((contents) => contents.preview(usePreview.getState().preview));
-    divide(stage);
     repaint();
     updateSection(stage);
     fetchBeside(stage, scene);
@@ -50,13 +47,8 @@ function followStores(stage: Stage): () => void {
       stage.change((contents) => contents.preview(preview));
       repaint();
     }),
-    useHullParts.subscribe(() => {
-      divide(stage);
-      repaint();
-    }),
     useProject.subscribe((now, before) => {
       if (now.project.vocabulary === before.project.vocabulary) return;
-      divide(stage);
       repaint();
     }),
     useRegion.subscribe((now, before) => {
@@ -68,7 +60,6 @@ function followStores(stage: Stage): () => void {
     useSection.subscribe(() => updateSection(stage)),
     watchTheme(() => {
       stage.change((contents) => contents.setInk(readThemeColors()));
-      divide(stage);
       repaint();
     }),
   ];
@@ -108,16 +99,6 @@ function paint(stage: Stage): void {
   const { nodes, lines, gaps } = graphOf(shown, stage.settings.explode);
   stage.gaps = gaps;
   stage.change(({ graph }) => graph.set(nodes, lines));
-}
-
-/** Shows the parts of the hull that a person is asked about, in the colours of their labels however others are coloured. */
-function divide(stage: Stage): void {
-  const scene = stage.shown?.scene;
-  const hull = scene ? dividedHull(scene) : null;
-  const packet = hull ? (useHullParts.getState().shown?.packet ?? null) : null;
-  if (!scene || (!packet && !stage.contents.parts)) return;
-  const tone = tonesOf(scene, "label", useProject.getState().project.vocabulary);
-  stage.change((contents) => contents.divide(packet, hull, tone));
 }
 
 function moveCameraTo(stage: Stage, { asset, cameraOrder, selection }: WorkspaceState): void {

@@ -5,11 +5,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.batch import HullDivision, Preparation, divide_hulls
+from meshforge.batch import HullParts, Preparation, replace_hulls
 from meshforge.common import UsageError
 from meshforge.formats import read
 from meshforge.geometry import Polytope, convex_hull, cut
-from meshforge.project.split_limits import describe_limits
+from meshforge.project.engine_limits import describe_limits
 from meshforge.symbolic import Asset
 from tests.unit.project.stools import boxes, write_stool
 
@@ -38,14 +38,14 @@ def slices(hull: Polytope, count: int) -> tuple[Polytope, ...]:
 
 
 def limits(asset: Asset, parts: tuple[Polytope, ...], engine: str | None) -> list[str]:
-    after = divide_hulls(asset, Preparation(), [HullDivision("base/h0", parts, "")], {})
+    after = replace_hulls(asset, Preparation(), [HullParts("base/h0", parts, "")], {"pieces": "coacd"})
     return describe_limits(asset, Preparation(), after, engine)
 
 
 def test_parts_of_too_many_vertices_are_named_with_the_remedy(stool: Asset) -> None:
     (text,) = [one for one in limits(stool, (ball(300), ball(20)), "physx-cpu") if "255 vertices" in one]
     assert text.startswith("then, PhysX on the CPU: base/h0#0 (300): more than 255 vertices; ")
-    assert text.endswith("Reduce it (check --fix), replace it by a primitive, or split it.")
+    assert text.endswith("Reduce it (check --fix), replace it by a primitive, or cut it.")
     assert limits(stool, (ball(60), ball(20)), "unity") == []
 
 

@@ -21,7 +21,7 @@ def test_the_same_cut_again_says_so_and_changes_nothing(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     project = cup_project(tmp_path)
-    words = ("split", "project", CUP, "cup/b0", "--at", "0.05,0.05,0.005", "--across", "1,0,0")
+    words = ("cut", "project", CUP, "cup/b0", "--at", "0.05,0.05,0.005", "--across", "1,0,0")
     first = run(*words)
     assert first.code == 0, first.err
     before = outputs(project.folder)
@@ -35,6 +35,6 @@ def test_another_cut_of_a_hull_that_is_gone_is_an_error(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     cup_project(tmp_path)
-    assert run("split", "project", CUP, "cup/b0", "--at", "0.05,0.05,0.005", "--across", "1,0,0").code == 0
-    again = run("split", "project", CUP, "cup/b0", "--at", "0.05,0.05,0.005", "--across", "0,1,0")
+    assert run("cut", "project", CUP, "cup/b0", "--at", "0.05,0.05,0.005", "--across", "1,0,0").code == 0
+    again = run("cut", "project", CUP, "cup/b0", "--at", "0.05,0.05,0.005", "--across", "0,1,0")
     assert again.code == 2 and "there is no hull 'cup/b0'" in again.err

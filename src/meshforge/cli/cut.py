@@ -1,4 +1,4 @@
-"""`meshforge split`: one hull of an asset made several, before any program sees it."""
+"""`meshforge cut`: one hull of an asset made two along a plane, before any program sees it."""
 
 from __future__ import annotations
 
@@ -10,7 +10,6 @@ from typing import Annotated
 import typer
 
 from meshforge.cli import options
-from meshforge.cli.console import progress
 from meshforge.cli.hulls import LISTING, find_hulls, is_number
 from meshforge.cli.prepare import print_results
 from meshforge.common import UsageError
@@ -18,10 +17,9 @@ from meshforge.project import Project
 
 
 @dataclass(frozen=True, slots=True)
-class SplitArguments:
-    """What is typed after `meshforge split`."""
+class CutArguments:
+    """What is typed after `meshforge cut`."""
 
-    context: typer.Context
     project: Annotated[Path, typer.Argument(help="A project folder.")]
     asset: Annotated[str, typer.Argument(help="The id of an asset, as `status` lists it.")]
     hull: Annotated[
@@ -29,41 +27,27 @@ class SplitArguments:
     ]
     at: Annotated[
         str, typer.Option("--at", metavar="X,Y,Z", help="A point of the cutting plane [m], in the asset's own frame.")
-    ] = ""
+    ]
     across: Annotated[
         str, typer.Option("--across", metavar="X,Y,Z", help="The direction across the plane; part #1 is on that side.")
-    ] = ""
-    method: Annotated[
-        options.EngineMethod | None, typer.Option("--decompose", help="Split it by decomposing what its body shows.")
-    ] = None
-    option: options.EngineOptions = None
-    hollow: options.Hollow = False
+    ]
     json: options.Json = False
 
 
-@options.takes(SplitArguments)
-def split(given: SplitArguments) -> None:
-    """Split a hull: along a plane, or by a decomposition of the visual mesh of its body.
+@options.takes(CutArguments)
+def cut(given: CutArguments) -> None:
+    """Cut a hull in two along a plane.
 
     The plane is given in metres in the frame that the asset comes in (root frame, joints at zero), as `info` shows it.
-    The parts are called HULL#0, HULL#1, ... and take over its label. Take it back with: meshforge prepare --undo.
+    The parts are called HULL#0 and HULL#1 and take over its label. Take it back with: meshforge prepare --undo.
+    To make all hulls of bodies anew in which hulls span parts: meshforge prepare --rebuild-spanning.
     """
-    at, across, method = given.at, given.across, given.method
-    if bool(at or across) == (method is not None) or bool(at) != bool(across):
-        raise UsageError("say how: either --at X,Y,Z --across X,Y,Z or --decompose METHOD")
-    options.refuse_hull(method, "split")
     project = Project.open(given.project)
     asset = options.asset_id(given.asset, project)
     hull = given.hull
     if is_number(hull):
         (hull,) = find_hulls(hull, project.mesh(asset).index, "HULL", f"{LISTING} --project {given.project}")
-    if method is None:
-        options.refuse_options(given.context, ("option", "hollow"), "--decompose METHOD")
-        result = project.cut(asset, hull, _parse_vector(at, "--at"), _parse_direction(across, "--across"))
-    else:
-        settings = options.parse_engine_settings(method, given.option)
-        with progress(None, f"splitting {hull}"):
-            result = project.split(asset, hull, settings, hollow=given.hollow)
+    result = project.cut(asset, hull, _parse_vector(given.at, "--at"), _parse_direction(given.across, "--across"))
     print_results(project, [result], given.json)
 
 

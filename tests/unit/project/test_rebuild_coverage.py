@@ -1,4 +1,4 @@
-"""Splits and rebuilds leave no gap in the surface that hulls held."""
+"""Rebuilt bodies leave no gap in the surface that hulls held."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.project import SplitSettings
+from meshforge.project import RebuildSettings
 from tests.surface_cover import merge_solids, sample_lost
 from tests.unit.project.stools import boxes, coarse, create_stools
 
@@ -22,11 +22,10 @@ def test_a_missing_hull_is_a_gap() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("rebuild", [False, True])
-def test_stools_have_no_gap_where_hulls_that_span_parts_were(tmp_path: Path, rebuild: bool) -> None:
+def test_stools_have_no_gap_where_hulls_that_span_parts_were(tmp_path: Path) -> None:
     project = create_stools(tmp_path, SIZES, spanning="c")
     parts = boxes(*SIZES["c"])
-    assert list(project.split_spanning(["c.urdf"], SplitSettings(0.5, rebuild)))
+    assert list(project.rebuild_spanning(["c.urdf"], RebuildSettings(0.5)))
     after = [hull.shape for hull in project.mesh("c.urdf").hulls]
     before = coarse(parts)
     assert len(after) > len(before)

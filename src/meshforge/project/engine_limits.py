@@ -1,4 +1,4 @@
-"""Limits of engines that the hulls of an asset would exceed after a split, said before anything is written."""
+"""Limits of engines that the hulls of an asset would exceed after a rebuild, said before anything is written."""
 
 from __future__ import annotations
 

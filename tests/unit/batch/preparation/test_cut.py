@@ -5,12 +5,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.batch import Preparation, apply_preparation, cut_hull, split_hull
+from meshforge.batch import Preparation, apply_preparation, cut_hull
 from meshforge.common import AssetError, GeometryError
 from meshforge.formats import load, read, save
 from meshforge.symbolic import SymbolicMesh
-from tests.unit.batch.preparation.samples import QUICK, stand, write_boxes, write_stand
-from tests.urdf_sample import corner_obj
+from tests.unit.batch.preparation.samples import stand, write_boxes, write_stand
 
 NONE = Preparation()
 
@@ -76,52 +75,7 @@ def test_what_is_no_hull_and_no_direction_is_refused(tmp_path: Path) -> None:
             cut_hull(asset, NONE, "geom0#1", (2, 0, 0), across)
 
 
-def test_a_hull_is_split_by_what_its_body_shows(tmp_path: Path) -> None:
-    (tmp_path / "corner.obj").write_text(corner_obj())
-    path = tmp_path / "crude.urdf"
-    shown = '<visual><geometry><mesh filename="corner.obj"/></geometry></visual>'
-    crude = '<collision><origin xyz="1.5 1.5 0.5"/><geometry><box size="3 3 1"/></geometry></collision>'
-    path.write_text(f'<robot name="r"><link name="a">{shown}{crude}</link></robot>')
-    asset = read(path)
-    done = split_hull(asset, NONE, "a/geom0", QUICK)
-    parts = apply_preparation(asset, done).geoms
-    assert [geom.name for geom in parts] == ["a/geom0#0", "a/geom0#1"]
-    assert sum(geom.shape.volume for geom in parts) == pytest.approx(5.0, rel=0.02)
-    assert done.steps[0].replaced[0].told == "2 hulls; 44% of its volume is in no part"
-    box = asset.geoms[0].shape.aabb
-    assert all((g.shape.aabb.min >= box.min - 1e-9).all() and (g.shape.aabb.max <= box.max + 1e-9).all() for g in parts)
-
-
-def test_a_hull_of_an_opaque_piece_is_split_by_that_piece(tmp_path: Path) -> None:
-    path = tmp_path / "corner.obj"
-    path.write_text(corner_obj())
-    asset = read(path)
-    crude = cut_hull(asset, _as_one_hull(tmp_path), "geom0#0", (0, 0, 0.5), (0, 0, 1))
-    done = split_hull(asset, crude, "geom0#0#1", QUICK)
-    parts = [geom for geom in apply_preparation(asset, done).geoms if geom.name.startswith("geom0#0#1#")]
-    assert len(parts) == 2 and sum(g.shape.volume for g in parts) == pytest.approx(2.5, rel=0.02)
-
-
-def _as_one_hull(folder: Path) -> Preparation:
-    from meshforge.batch import decompose_asset
-    from meshforge.geometry.decomposition.engines import CoacdSettings
-
-    coarse = CoacdSettings(threshold=1, resolution=200, mcts_iterations=20, mcts_nodes=8)
-    done = decompose_asset(read(folder / "corner.obj"), Preparation(), coarse)
-    assert len(done.preparation.hull_digests) == 1
-    return done.preparation
-
-
-def test_a_split_that_divides_nothing_is_refused(tmp_path: Path) -> None:
-    asset = read(write_boxes(tmp_path / "row.obj"))
-    with pytest.raises(GeometryError, match="shows nothing"):
-        split_hull(asset, NONE, "geom0#1", QUICK)
-    stand_asset = read(write_stand(tmp_path / "stand"))
-    with pytest.raises(GeometryError, match="nothing of what its body shows lies in it"):
-        split_hull(stand_asset, NONE, "frame/foot", QUICK)
-
-
-def test_a_split_hull_that_changed_since_is_noticed(tmp_path: Path) -> None:
+def test_a_cut_hull_that_changed_since_is_noticed(tmp_path: Path) -> None:
     path = write_boxes(tmp_path / "row.obj")
     asset = read(path)
     done = cut_hull(asset, NONE, "geom0#1", (2, 0, 0), (1, 0, 0))

@@ -1,0 +1,235 @@
+"""Bodies rebuilt of which a hull spans parts: found asset by asset, each in a worker process and compared with the
+labelled assets of the project alone, so that what is found of one does not depend on the others."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager, nullcontext
+from dataclasses import asdict, dataclass, replace
+from functools import partial
+from itertools import starmap
+
+from meshforge import batch
+from meshforge.batch.preparation.decompose import matches_only
+from meshforge.common import MeshForgeError, ProjectError, UsageError, describe_error, join_names
+from meshforge.engines import find_engine
+from meshforge.formats import read
+from meshforge.label_model import RebuiltHull
+from meshforge.labels import HullSpan, ReferenceFamily, SpanReport, read_reference_family
+from meshforge.labels.family_comparison import Stage, ignore_stage
+from meshforge.project.engine_limits import describe_limits
+from meshforge.project.preparation_plan import REBUILD_DEFAULTS, RebuildSettings, keep_rebuilt
+from meshforge.project.prepare import PreparationResult, exchange_preparation
+from meshforge.store import Store
+from meshforge.store.meshes import AssetFiles
+from meshforge.symbolic import Asset, Label, SymbolicMesh
+
+LIKELY = 0.5
+"""The probability from which a hull is named."""
+MADE_ANEW = "made anew with its body"
+"""Why a hull is replaced that spans no parts itself."""
+MOST_SHOWN = 0.99
+"""What is shown of the confidence of a label that follows from others, at most: 100% reads as certain."""
+_NAMED = 3  # hulls that a note names
+_DIGITS = 3
+
+
+def rebuild_spanning(
+    store: Store,
+    assets: Iterable[str] | None = None,
+    how: RebuildSettings = REBUILD_DEFAULTS,
+    *,
+    dry_run: bool = False,
+    engine: str | None = None,
+    execution: batch.ExecutionOptions = batch.EXECUTION_DEFAULTS,
+    stage: Stage = ignore_stage,
+    write_block: Callable[[str], AbstractContextManager[object]] = nullcontext,
+) -> Iterator[PreparationResult]:
+    """Make all hulls of a body anew, each of one part and with its label, where one of them spans parts with a
+    probability of at least `how.min_confidence`.
+
+    Each asset gets one step, which `unprepare` takes back with labels and selections. assets: which may be rebuilt, all
+    when None. dry_run: nothing is written; `planned` is what would be done. `notes` name hulls that were left, and
+    limits of an engine, by default of those that read the file, that the new hulls exceed. write_block: the block in
+    which an asset's files are written.
+    Raises UsageError for a probability that is none and for an unknown engine, ProjectError where no hull has a label.
+    """
+    if not 0 < how.min_confidence <= 1:
+        raise UsageError(f"--min-confidence {how.min_confidence:g}: a probability is needed, above 0 and at most 1")
+    if engine is not None:
+        find_engine(engine)
+    ids = store.assets() if assets is None else tuple(dict.fromkeys(assets))
+    for asset in ids:
+        store.path(asset)
+    family = read_reference_family(store, execution, stage, how.pieces)
+    if family is None:
+        remedy = "Label the hulls of one or two assets first: meshforge label, or the studio."
+        problem = "no hull has a label, so nothing says what parts there are"
+        raise ProjectError(problem, where=str(store.folder), remedy=remedy)
+    work = list(starmap(_Work, zip(ids, store.asset_files(ids), strict=True)))
+    with stage(len(work), "looking for hulls that span parts") as advance:
+        found = batch.execute(partial(_search, family, how, engine), work, replace(execution, progress=advance))
+        for asset, one in zip(ids, found, strict=True):
+            if isinstance(one, batch.WorkerFailure | str):
+                problem = one if isinstance(one, str) else one.why
+                yield PreparationResult(asset, problems=(problem,))
+            elif dry_run or not one.rebuild.bodies:
+                planned = one.rebuild.after.steps[-1].replaced if one.rebuild.bodies else ()
+                yield PreparationResult(asset, notes=one.notes, planned=planned)
+            else:
+                yield _write(store, asset, one, write_block)
+    if not dry_run:
+        keep_rebuilt(store, ids, how)
+
+
+def _write(
+    store: Store, asset: str, found: _SearchResult, write_block: Callable[[str], AbstractContextManager[object]]
+) -> PreparationResult:
+    after = found.rebuild.after
+    labels = {name: label for name, label in found.rebuild.labels.items() if label.name in store.vocabulary}
+    try:
+        with write_block(asset):
+            notes = exchange_preparation(store, asset, after, found.seen, labels)
+    except MeshForgeError as error:
+        return PreparationResult(asset, problems=(error.message,))
+    return PreparationResult(asset, after.steps[-1].replaced, (*notes, *found.notes))
+
+
+@dataclass(frozen=True, slots=True)
+class _Work:
+    """An asset to be looked at."""
+
+    asset: str
+    files: AssetFiles
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _SearchResult:
+    """What was found of an asset. seen: the digest of the preparation that it had."""
+
+    rebuild: Rebuild
+    notes: tuple[str, ...]
+    seen: str | None
+
+
+def _search(family: ReferenceFamily, how: RebuildSettings, engine: str | None, work: _Work) -> _SearchResult | str:
+    try:
+        folder = work.files.preparation
+        seen, before = batch.record_digest(folder), batch.read_preparation(folder) or batch.Preparation()
+        source, mesh = read(work.files.path), work.files.read_mesh()
+        found = plan_rebuild(family.without(work.asset), source, before, mesh, how)
+        matches = any(_matches(hull.name, hull.body, how) for hull in mesh.hulls)
+        missed = [] if matches else [f"no hull or body matches {join_names(how.only)}"]
+        limits = describe_limits(source, before, found.after, engine) if found.bodies else []
+        return _SearchResult(found, (*found.notes, *missed, *found.describe_left(how.min_confidence), *limits), seen)
+    except Exception as error:  # one asset never stops the others
+        return describe_error(error, str(work.files.path))
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class RebuiltBody:
+    """A body that is made anew. spans: its hulls that span parts; labels: of its new hulls, by name."""
+
+    body: str
+    spans: tuple[HullSpan, ...]
+    labels: Mapping[str, Label]
+
+    @property
+    def chance(self) -> float:
+        """The probability that it has a hull which spans parts, that of the surest one."""
+        return max(span.chance for span in self.spans)
+
+    def __str__(self) -> str:
+        """`base/h0 holds wall and handle, 94%: base rebuilt into wall (99%), 2 handle (97% to 98%)`."""
+        return f"{'; '.join(map(str, self.spans))}: {self.body} rebuilt into {describe_labels(self.labels.values())}"
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Rebuild:
+    """What is to be done to an asset. after: its preparation with that; bodies: those that are rebuilt; left: hulls
+    that likely span parts and stay as they are; notes: on what could not be judged."""
+
+    after: batch.Preparation
+    bodies: tuple[RebuiltBody, ...] = ()
+    left: tuple[HullSpan, ...] = ()
+    notes: tuple[str, ...] = ()
+
+    @property
+    def labels(self) -> dict[str, Label]:
+        """The labels of all new hulls, by name."""
+        return {name: label for one in self.bodies for name, label in one.labels.items()}
+
+    def describe_left(self, min_confidence: float) -> Iterator[str]:
+        """A sentence on hulls that stay as they are though they likely span parts."""
+        below = [str(span) for span in self.left if span.chance < min_confidence]
+        if below:
+            more = f"; and {len(below) - _NAMED} more" if len(below) > _NAMED else ""
+            yield f"below {min_confidence:.0%}, left as they are: {'; '.join(below[:_NAMED])}{more}"
+        for span in (one for one in self.left if one.chance >= min_confidence):
+            yield f"{span}: no half of any piece of the surface is in its body; cut it by hand: meshforge cut"
+
+
+def plan_rebuild(
+    family: ReferenceFamily, source: Asset, before: batch.Preparation, mesh: SymbolicMesh, how: RebuildSettings
+) -> Rebuild:
+    """How bodies of an asset are made anew. source: the asset as it was read; before: what is prepared already; mesh:
+    it as it is prepared, with its labels."""
+    report = family.find_spans(source, mesh)
+    notes, likely = tuple(report.notes), _find_likely(report, before, how)
+    spans = {span.hull: span for span in likely if span.chance >= how.min_confidence}
+    bodies = dict.fromkeys(span.body for span in spans.values())
+    made = {body: rows for body in bodies if (rows := report.rebuild(body))}
+    left = tuple(span for span in likely if span.body not in made)
+    if not made:
+        return Rebuild(before, left=left, notes=notes)
+    rows = {hull: own for body in made.values() for hull, own in body.items()}
+    parts = (
+        batch.HullParts(hull, tuple(one.shape for one in own), str(spans.get(hull, MADE_ANEW)))
+        for hull, own in rows.items()
+    )
+    chances = {hull: span.chance for hull, span in spans.items()}
+    settings = {**asdict(how), "only": list(how.only), "rebuilt": list(made), "chances": chances}
+    after = batch.replace_hulls(source, before, tuple(parts), settings)
+    labels = {
+        entry.what: dict(zip(entry.made, map(_label_hull, rows[entry.what]), strict=True))
+        for entry in after.steps[-1].replaced
+    }
+    rebuilt = (
+        RebuiltBody(
+            body,
+            tuple(span for span in spans.values() if span.body == body),
+            {name: label for hull in own for name, label in labels[hull].items()},
+        )
+        for body, own in made.items()
+    )
+    return Rebuild(after, tuple(rebuilt), left, notes)
+
+
+def _find_likely(report: SpanReport, before: batch.Preparation, how: RebuildSettings) -> list[HullSpan]:
+    """The hulls that likely span parts, but for those that a rebuild made: another would make no better ones."""
+    steps = (step for step in before.steps if "rebuilt" in step.settings)
+    anew = {name for step in steps for entry in step.replaced for name in entry.made}
+    least = min(LIKELY, how.min_confidence)
+    likely = (span for span in report.spans if span.chance >= least and span.hull not in anew)
+    return [span for span in likely if _matches(span.hull, span.body, how)]
+
+
+def _matches(hull: str, body: str, how: RebuildSettings) -> bool:
+    return any(matches_only(name, how.only) for name in (hull, body))
+
+
+def _label_hull(hull: RebuiltHull) -> Label:
+    return Label(hull.label, round(hull.share, _DIGITS), "split")
+
+
+def describe_labels(labels: Iterable[Label]) -> str:
+    """How many hulls have which label, and how sure these are: `10 wall (75% to 92%), handle (93%)`."""
+    confidences = dict[str, list[float]]()
+    for label in labels:
+        confidences.setdefault(label.name, []).append(min(label.confidence, MOST_SHOWN))
+    return ", ".join(_describe_label(name, own) for name, own in confidences.items())
+
+
+def _describe_label(name: str, confidences: Sequence[float]) -> str:
+    ends = dict.fromkeys(f"{one:.0%}" for one in (min(confidences), max(confidences)))
+    return f"{f'{len(confidences)} ' if len(confidences) > 1 else ''}{name} ({' to '.join(ends)})"
