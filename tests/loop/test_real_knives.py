@@ -1,4 +1,4 @@
-"""Knives of two makers, one of them a single hull: split by what the hulls of the other are called, from the command
+"""Knives of two makers, one of them a single hull: rebuilt by what the hulls of the other are called, from the command
 line, until two fingers close on its handle alone in MuJoCo."""
 
 from __future__ import annotations

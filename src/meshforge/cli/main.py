@@ -22,7 +22,7 @@ COMMANDS = {
     "samples": "Write a family of assets to try things on, with labels beside them",
     "new": "Make a project folder",
     "prepare": "Decompose non-convex pieces, and what bodies without collision geometry show, into convex hulls",
-    "cut": "Cut a hull",
+    "cut": "Cut a hull in two along a plane",
     "status": "Show what is labelled, demonstrated, learned, applied, stale and flagged, and the next sensible step",
     "label": "Give labels to hulls",
     "demonstrate": "Record the steps of a demonstration",

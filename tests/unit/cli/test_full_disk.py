@@ -22,7 +22,7 @@ _PAGE = os.sysconf("SC_PAGE_SIZE") if hasattr(os, "sysconf") else 4096
 COMMANDS = {
     "label": "label {p} --with names --pattern b*=other",
     "label by hand": "label {p} cup.urdf cup/b0=other",
-    "split": "split {p} cup.urdf cup/b0 --at 0.05,0.05,0.005 --across 1,0,0",
+    "cut": "cut {p} cup.urdf cup/b0 --at 0.05,0.05,0.005 --across 1,0,0",
     "apply": "apply {p} --workers 1",
     "demonstrate": "demonstrate {p} cup.urdf All=>Delete",
     "convert": "convert assets {p}/out --to .xml --workers 1",

@@ -105,7 +105,7 @@ def test_status_and_info_lead_to_what_can_be_prepared(run: Run, project: str) ->
 
 
 def test_select_and_render_show_the_project_s_asset_with_its_labels(run: Run, project: str) -> None:
-    run("split", project, "row.obj", "geom0#1", "--at", "2,0,0", "--across", "1,0,0")
+    run("cut", project, "row.obj", "geom0#1", "--at", "2,0,0", "--across", "1,0,0")
     assert run("select", "Geo(All, +X)", "row.obj", "--project", project, "--json").json == {"hulls": ["geom0#2"]}
     assert run("render", "row.obj", "--project", project, "-o", "row.png", "--size", "200x150").code == 0
     assert run("info", "row.obj", "--project", project, "--labels", "x.json").code == 2
@@ -127,8 +127,8 @@ def test_prepare_as_json_has_a_line_for_each_asset(run: Run, project: str) -> No
     assert stand["hulls"] == [name for entry in stand["made"] for name in entry["made"]]
 
 
-def test_split_along_a_plane_and_back(run: Run, project: str) -> None:
-    told = run("split", project, "row.obj", "geom0#1", "--at", "1.5,0,0", "--across", "1,0,0")
+def test_cut_along_a_plane_and_back(run: Run, project: str) -> None:
+    told = run("cut", project, "row.obj", "geom0#1", "--at", "1.5,0,0", "--across", "1,0,0")
     assert told.code == 0 and told.out == "row.obj: 1 piece into 2 hulls\n    geom0#1: 2 hulls\n"
     told = run("prepare", project, "row.obj", "--undo")
     assert told.out == "row.obj: taken back\n    geom0#1 cut into 2 hulls\n"
@@ -137,31 +137,13 @@ def test_split_along_a_plane_and_back(run: Run, project: str) -> None:
 
 
 def test_negative_coordinates_are_understood(run: Run, project: str) -> None:
-    told = run("split", project, "stand.urdf", "frame/foot", "--at", "-0.5,0,-1", "--across", "-1,0,0")
+    told = run("cut", project, "stand.urdf", "frame/foot", "--at", "-0.5,0,-1", "--across", "-1,0,0")
     assert told.code == 0 and "frame/foot: 2 hulls" in told.out
-
-
-@pytest.mark.slow
-def test_a_split_that_divides_nothing_says_what_to_do(run: Run, project: str) -> None:
-    run("prepare", project, "stand.urdf", *VOXELS)
-    told = run("split", project, "stand.urdf", "cover/geom0#0", "--decompose", "vhacd", "--set", "max_convex_hulls=1")
-    assert told.code == 2 and "the decomposition (1 piece) does not divide it" in told.err
-
-
-@pytest.mark.slow
-def test_the_same_split_again_was_done_already(run: Run, project: str) -> None:
-    run("prepare", project, "stand.urdf", "--decompose", "vhacd", "--set", "max_convex_hulls=1")
-    words = ("split", project, "stand.urdf", "cover/geom0#0", "--decompose", "vhacd", "--set", "max_convex_hulls=8")
-    first, again = run(*words), run(*words)
-    assert first.code == 0 and "1 piece into" in first.out, first.err
-    assert again.code == 0 and "this was done already" in again.out, again.err
-    other = run("split", project, "stand.urdf", "cover/geom0#0", "--decompose", "vhacd", "--set", "max_convex_hulls=3")
-    assert other.code == 2 and "there is no hull" in other.err
 
 
 def test_all_is_taken_back_at_once(run: Run, project: str) -> None:
     run("prepare", project, *VOXELS)
-    run("split", project, "row.obj", "geom0#1", "--at", "2,0,0", "--across", "1,0,0")
+    run("cut", project, "row.obj", "geom0#1", "--at", "2,0,0", "--across", "1,0,0")
     told = run("prepare", project, "--remove")
     assert told.out.count("taken back") == 2
     assert not Path("p/prepared/row.obj").exists()
@@ -188,7 +170,7 @@ def test_an_asset_that_is_named_twice_is_prepared_once(run: Run, project: str) -
 def test_what_cannot_be_taken_back_is_named_and_the_rest_is(run: Run, project: str) -> None:
     run("prepare", project, *VOXELS)
     for asset, hull, x in (("row.obj", "geom0#1", "2"), ("stand.urdf", "frame/foot", "0")):
-        run("split", project, asset, hull, "--at", f"{x},0,-1", "--across", "1,0,0")
+        run("cut", project, asset, hull, "--at", f"{x},0,-1", "--across", "1,0,0")
     Path("in/stand.urdf").write_text("<robot")
     told = run("prepare", project, "stand.urdf", "row.obj", "--undo")
     assert told.code == 1
