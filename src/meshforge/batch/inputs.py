@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from meshforge import language
 from meshforge.batch import provenance
 from meshforge.batch.corrections import corrections_digest, selections_digest
 from meshforge.batch.jobs import ApplyTask, AssetJob
 from meshforge.batch.preparation.storage import record_digest
 from meshforge.common import Plugin
 from meshforge.formats import plugin_of_suffix
-from meshforge.language import plugin_of
 
 
 def inputs_of(task: ApplyTask, job: AssetJob, files: dict[str, str]) -> provenance.OutputInputs:
@@ -36,4 +36,4 @@ def inputs_of(task: ApplyTask, job: AssetJob, files: dict[str, str]) -> provenan
 def _plugins_of(task: ApplyTask, job: AssetJob) -> Iterator[Plugin | None]:
     """The plug-ins that read, edit and write the asset; None for what is built in."""
     yield from map(plugin_of_suffix, {job.path.suffix, task.options.to or job.path.suffix})
-    yield from (plugin_of(rule.action) for rule in task.program.rules)
+    yield from (language.plugin_of(rule.action) for rule in task.program.rules)

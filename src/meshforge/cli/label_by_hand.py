@@ -7,13 +7,13 @@ from pathlib import Path
 
 import typer
 
+from meshforge import symbolic
 from meshforge.cli.hulls import find_hulls
 from meshforge.cli.options import asset_id, list_typed
 from meshforge.cli.terminal import print_json
 from meshforge.common import UsageError, escape_name, pluralize, quote_path, suggest_among
 from meshforge.labels import label_command
 from meshforge.project import Project
-from meshforge.symbolic import Label, SymbolicMesh
 
 _OWN = ("project", "asset", "hulls", "vocabulary", "json")
 
@@ -50,7 +50,7 @@ def label_by_hand(
     edit = LabelByName(asset=asset, labels=labels, vocabulary=None if vocabulary is None else tuple(vocabulary))
     entry = History(project).do(project, edit)
     before = {name: mesh.hull_of(name).annotation for name in mesh.index}
-    after = before | {name: Label(label, 1.0, "user") if label else None for name, label in labels.items()}
+    after = before | {name: symbolic.Label(label, 1.0, "user") if label else None for name, label in labels.items()}
     changed = {name: labels[name] for name in labels if after[name] != before[name]}
     bare = sum(label is None for label in after.values())
     if json:
@@ -60,7 +60,9 @@ def label_by_hand(
     typer.echo(f"{entry.title if entry else f'{escape_name(asset)}: nothing to change'}; {rest}")
 
 
-def _parse_labels(texts: Sequence[str], mesh: SymbolicMesh, words: Sequence[str], see: str) -> dict[str, str | None]:
+def _parse_labels(
+    texts: Sequence[str], mesh: symbolic.SymbolicMesh, words: Sequence[str], see: str
+) -> dict[str, str | None]:
     """The label of each hull that is named, None for none, in the order of the mesh; see: what lists the names."""
     found: dict[str, str | None] = {}
     for text in texts:

@@ -7,7 +7,7 @@ from dataclasses import asdict
 
 import typer
 
-from meshforge.batch import ExecutionOptions
+from meshforge import batch
 from meshforge.cli.console import progress
 from meshforge.cli.label_report import LabelPrinter
 from meshforge.cli.terminal import print_json, remark
@@ -18,7 +18,7 @@ from meshforge.project import Project
 _MAX_CHANGES = 20
 
 
-def label_by_consensus(project: Project, execution: ExecutionOptions, printer: LabelPrinter) -> None:
+def label_by_consensus(project: Project, execution: batch.ExecutionOptions, printer: LabelPrinter) -> None:
     """Give hulls the labels that all sources together speak for, and print what came of it."""
     remark(project.plan_labels())
     result = project.label_by_consensus(execution=execution, stage=progress, report=printer.print)
@@ -37,7 +37,7 @@ def label_by_consensus(project: Project, execution: ExecutionOptions, printer: L
         typer.echo(f"If some are wrong, label or correct this one next: {result.next}")
 
 
-def restore_sources(project: Project, execution: ExecutionOptions, printer: LabelPrinter) -> None:
+def restore_sources(project: Project, execution: batch.ExecutionOptions, printer: LabelPrinter) -> None:
     """Put what sources said in the place of labels that were inferred, and print what came of it."""
     with progress(len(project.assets()), "labelling") as advance:
 

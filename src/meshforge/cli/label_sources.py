@@ -10,7 +10,7 @@ from typing import Any, Literal
 
 import typer
 
-from meshforge.batch import ExecutionOptions
+from meshforge import batch
 from meshforge.cli.console import print_table, progress
 from meshforge.cli.label_report import LabelPrinter
 from meshforge.cli.terminal import print_json, remark
@@ -65,7 +65,7 @@ def preview(
     project: Project,
     options: SourceOptions,
     vocabulary: Sequence[str] | None,
-    execution: ExecutionOptions,
+    execution: batch.ExecutionOptions,
     *,
     json: bool,
 ) -> None:
@@ -120,7 +120,7 @@ def _cells(row: Proposal) -> tuple[str, str, str, str, str, str]:
 
 
 def label_from_sources(
-    project: Project, options: SourceOptions, execution: ExecutionOptions, printer: LabelPrinter
+    project: Project, options: SourceOptions, execution: batch.ExecutionOptions, printer: LabelPrinter
 ) -> None:
     """Label a project, and print what came of it."""
     if len(project.assets()) > 1:
@@ -131,7 +131,9 @@ def label_from_sources(
         typer.echo(closing)
 
 
-def _run_source(project: Project, options: SourceOptions, execution: ExecutionOptions, printer: LabelPrinter) -> str:
+def _run_source(
+    project: Project, options: SourceOptions, execution: batch.ExecutionOptions, printer: LabelPrinter
+) -> str:
     count = len(project.assets())
     if options.source == "propagate":
         result = project.propagate_labels(execution=execution, stage=progress, report=printer.print)

@@ -12,16 +12,13 @@ from typing import Annotated, Any, Literal
 
 import typer
 
+from meshforge import language, signoff, store, synthesis
 from meshforge.cli import synthesize_text
 from meshforge.cli.options import Json, takes
 from meshforge.cli.synthesize_session import LearningSession, check_all_asked, read_answers, run_script
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import UsageError, join_names, pluralize
-from meshforge.language import Program
 from meshforge.project import Project, select_assets
-from meshforge.signoff import BAR, ReadingQuestion, RepairQuestion, SlipQuestion
-from meshforge.store import AnswerEvent, LabelFixEvent
-from meshforge.synthesis import LearningOutcome, Options, outcome_to_json
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,34 +77,34 @@ def synthesize(given: SynthesizeArguments) -> None:
     if given.list_answers:
         _print_answers(project, given.project, given.json)
         return
-    options = Options(
+    options = synthesis.Options(
         strategy=given.strategy,
         layers=given.layers,
         repair=not given.no_repair,
         budget=given.budget,
-        follow=Program.read(given.follow) if given.follow else None,
+        follow=language.Program.read(given.follow) if given.follow else None,
     )
     session = LearningSession(project.with_cache(), options, keep=not given.dry_run)
     answers = read_answers(given.answers, project) if given.answers else None
     verdict = given.accept_repairs if given.accept_repairs or given.reject_repairs else None
     asks = _is_interactive() and not (given.json or given.dry_run) and answers is None and verdict is None
     outcome = run_script(session, answers, verdict)
-    if asks and not session.stopped and options == Options():
+    if asks and not session.stopped and options == synthesis.Options():
         outcome = _converse(session.project) or outcome
     if given.json:
-        print_json(outcome_to_json(outcome))
+        print_json(synthesis.outcome_to_json(outcome))
     else:
         _print_outcome(outcome, session, given.project, asks)
     check_all_asked(project, answers, outcome)
     raise typer.Exit(int(outcome.program is None))
 
 
-def _converse(project: Project) -> LearningOutcome | None:
+def _converse(project: Project) -> synthesis.LearningOutcome | None:
     """Ask what the demonstrations leave open, as a review does; the outcome after the last reply."""
     from meshforge.cli.review_session import ReviewSession  # lazy: 50 modules of rich that a script does not need
 
-    review = ReviewSession(project, BAR)
-    review.converse(kinds=(ReadingQuestion, RepairQuestion, SlipQuestion))
+    review = ReviewSession(project, signoff.BAR)
+    review.converse(kinds=(signoff.ReadingQuestion, signoff.RepairQuestion, signoff.SlipQuestion))
     return review.found.outcome
 
 
@@ -115,7 +112,7 @@ def _is_interactive() -> bool:
     return sys.stdin.isatty() and sys.stdout.isatty()
 
 
-def _print_outcome(outcome: LearningOutcome, session: LearningSession, folder: Path, asked: bool) -> None:
+def _print_outcome(outcome: synthesis.LearningOutcome, session: LearningSession, folder: Path, asked: bool) -> None:
     """The result to stdout, remarks to stderr, with the open question unless a person was asked it."""
     about = _context_of(session, folder, outcome)
     typer.echo(synthesize_text.format_result(outcome, about))
@@ -129,7 +126,9 @@ def _print_outcome(outcome: LearningOutcome, session: LearningSession, folder: P
         remark(synthesize_text.format_answer_help(outcome.question, about.folder_word))
 
 
-def _context_of(session: LearningSession, folder: Path, outcome: LearningOutcome) -> synthesize_text.LearningContext:
+def _context_of(
+    session: LearningSession, folder: Path, outcome: synthesis.LearningOutcome
+) -> synthesize_text.LearningContext:
     said = session.project.feedback()
     return synthesize_text.LearningContext(
         folder,
@@ -157,19 +156,19 @@ def _print_answers(project: Project, folder: Path, json: bool) -> None:
         remark("nothing was answered, repaired or refused yet")
 
 
-def _to_json(said: Mapping[str, AnswerEvent | LabelFixEvent]) -> dict[str, list[dict[str, Any]]]:
+def _to_json(said: Mapping[str, store.AnswerEvent | store.LabelFixEvent]) -> dict[str, list[dict[str, Any]]]:
     found: dict[str, list[dict[str, Any]]] = {"answers": [], "confirmed": [], "rejected": []}
     for name, event in said.items():
         line = event.model_dump(mode="json", by_alias=True, exclude={"event", "accepted"})
-        if isinstance(event, LabelFixEvent):
+        if isinstance(event, store.LabelFixEvent):
             found["confirmed" if event.accepted else "rejected"].append({"id": name, "from": None, **line})
         else:
             found["answers"].append({"id": name, "select": None, "action": None, "refused": [], **line})
     return found
 
 
-def _describe(event: AnswerEvent | LabelFixEvent) -> str:
-    if isinstance(event, LabelFixEvent):
+def _describe(event: store.AnswerEvent | store.LabelFixEvent) -> str:
+    if isinstance(event, store.LabelFixEvent):
         return f"{'repaired, was' if event.accepted else 'refused, stays'} {event.was or 'without a label'}"
     if event.select is None:
         return "neither of the choices"

@@ -12,13 +12,12 @@ from pathlib import Path
 from types import NoneType
 from typing import Any
 
+from meshforge import symbolic, synthesis
 from meshforge.cli.console import progress
 from meshforge.cli.synthesize_text import describe_change
 from meshforge.cli.terminal import catch_interrupt, remark
 from meshforge.common import UsageError
 from meshforge.project import Project, select_assets
-from meshforge.symbolic import SymbolicMesh
-from meshforge.synthesis import Ambiguous, Answer, LearningOutcome, Options, Question, Repair
 
 
 @dataclass
@@ -30,16 +29,16 @@ class LearningSession:
     """
 
     project: Project
-    options: Options
+    options: synthesis.Options
     keep: bool = True
     stopped: bool = False
-    given: dict[tuple[int, str], Answer] = field(default_factory=dict)
+    given: dict[tuple[int, str], synthesis.Answer] = field(default_factory=dict)
 
-    def learn(self, confirm: Callable[[Repair], bool] | None = None) -> LearningOutcome:
+    def learn(self, confirm: Callable[[synthesis.Repair], bool] | None = None) -> synthesis.LearningOutcome:
         """What is learned from all that is known by now."""
         with progress(None, "learning") as shown, catch_interrupt() as stop:
 
-            def ask(repair: Repair) -> bool:
+            def ask(repair: synthesis.Repair) -> bool:
                 shown.clear()
                 return confirm is not None and confirm(repair)
 
@@ -54,14 +53,14 @@ class LearningSession:
             self.stopped = stop()
         return outcome
 
-    def answer(self, answer: Answer) -> None:
+    def answer(self, answer: synthesis.Answer) -> None:
         """Take an answer into account from now on. Raises ProjectError: no such asset or rule."""
         if self.keep:
             self.project.add_answer(answer)
         else:
             self.given[answer.rule, answer.asset] = answer
 
-    def meshes(self) -> dict[str, SymbolicMesh]:
+    def meshes(self) -> dict[str, symbolic.SymbolicMesh]:
         """The assets that can be read."""
         return dict(self.project.meshes_by_id(select_assets(self.project)))
 
@@ -76,7 +75,7 @@ ANSWERS_FORM = (
 class ScriptAnswers:
     """What a file answers. direct: whether asked or not; choices: by the question's id, counted from 1."""
 
-    direct: tuple[Answer, ...]
+    direct: tuple[synthesis.Answer, ...]
     choices: dict[str, int | None]
 
 
@@ -97,7 +96,7 @@ def read_answers(path: Path, project: Project) -> ScriptAnswers:
                 "refused",
             } and all(isinstance(name, str) for name in select or ()):
                 project.path(asset)
-                direct.append(Answer(rule, asset, select))
+                direct.append(synthesis.Answer(rule, asset, select))
             case _:
                 raise _entry_error(path, number, _describe_misfit(entry))
     return ScriptAnswers(tuple(direct), choices)
@@ -146,20 +145,22 @@ def _entry_error(path: Path, number: int, problem: str) -> Exception:
     return UsageError(f"answer {number}: {problem}", where=str(path), remedy=ANSWERS_FORM)
 
 
-def run_script(session: LearningSession, given: ScriptAnswers | None, verdict: bool | None) -> LearningOutcome:
+def run_script(
+    session: LearningSession, given: ScriptAnswers | None, verdict: bool | None
+) -> synthesis.LearningOutcome:
     """The outcome after all answers that were given; verdict: what is said to each repair, None leaves it open."""
     for answer in given.direct if given else ():
         session.answer(answer)
     waiting = given.choices if given else {}
     confirm = None if verdict is None else _confirm_always(verdict)
     outcome = session.learn(confirm)
-    while isinstance(outcome, Ambiguous) and outcome.question.id in waiting:
+    while isinstance(outcome, synthesis.Ambiguous) and outcome.question.id in waiting:
         session.answer(outcome.question.answer_with(_choice_index(outcome.question, waiting.pop(outcome.question.id))))
         outcome = session.learn(confirm)
     return outcome
 
 
-def check_all_asked(project: Project, given: ScriptAnswers | None, outcome: LearningOutcome) -> None:
+def check_all_asked(project: Project, given: ScriptAnswers | None, outcome: synthesis.LearningOutcome) -> None:
     """Say which choices are left over since their questions were answered earlier. Raises UsageError for one whose
     question never came up."""
     known = project.feedback().answers_and_fixes
@@ -171,17 +172,17 @@ def check_all_asked(project: Project, given: ScriptAnswers | None, outcome: Lear
         raise UsageError(f"the question {odd[0]} did not come up", remedy=asked)
 
 
-def _choice_index(question: Question, choice: int | None) -> int | None:
+def _choice_index(question: synthesis.Question, choice: int | None) -> int | None:
     if choice is not None and choice > len(question.choices):
         count = len(question.choices)
         raise UsageError(f"the question {question.id} has {count} choices, there is no choice {choice}")
     return None if choice is None else choice - 1
 
 
-def _confirm_always(verdict: bool) -> Callable[[Repair], bool]:
+def _confirm_always(verdict: bool) -> Callable[[synthesis.Repair], bool]:
     """Answers every repair alike, and reports it."""
 
-    def confirm(repair: Repair) -> bool:
+    def confirm(repair: synthesis.Repair) -> bool:
         remark(f"{'repaired' if verdict else 'left as it is'}: {describe_change(repair)}")
         return verdict
 

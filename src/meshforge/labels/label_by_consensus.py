@@ -6,14 +6,14 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import nullcontext
 from dataclasses import dataclass
 
+from meshforge import label_model, symbolic
 from meshforge.batch import ExecutionOptions
 from meshforge.common import AssetError
-from meshforge.label_model import evidence_of
 from meshforge.labels import family_comparison
 from meshforge.labels.merge import LabelOutcome, LabelWriter, OutcomeCallback
 from meshforge.labels.summary import LabelEvidence, Proposals, group_evidence
 from meshforge.store import Store, iterate_survey
-from meshforge.symbolic import HUMAN_SOURCES, INFERRED_SOURCES, Label, match_labels
+from meshforge.symbolic import Label
 
 _BeforeAndAfter = tuple[family_comparison.HullLabels, Mapping[str, Label | None]]
 """The labels of an asset, by hull, and those that were given to it."""
@@ -52,12 +52,12 @@ def label_by_consensus(
     write_block: family_comparison.WriteBlock = nullcontext,
 ) -> ConsensusResult:
     """Give each hull the label that all sources together speak for; see `LabelStore.label_by_consensus`."""
-    compared = family_comparison.compare_assets(store, store.vocabulary, evidence_of, execution, stage)
+    compared = family_comparison.compare_assets(store, store.vocabulary, label_model.evidence_of, execution, stage)
     labels = dict(_share_labels(compared))
     with write_block(compared.next):
         reports = tuple(family_comparison.write_labels(store, labels, compared, _is_said_still, stage, report))
     free = sum(len(hulls) for hulls in compared.hulls.values()) - sum(
-        label.source in HUMAN_SOURCES for current in compared.current.values() for label in current.values()
+        label.source in symbolic.HUMAN_SOURCES for current in compared.current.values() for label in current.values()
     )
     written = {one.asset: labels[one.asset] for one in reports if not one.problems}
     changes = count_changes((compared.current[asset], now) for asset, now in written.items())
@@ -69,7 +69,7 @@ def propose_consensus(
 ) -> Proposals:
     """What `label_by_consensus` would write, with nothing written."""
     words = store.vocabulary if vocabulary is None else tuple(vocabulary)
-    compared = family_comparison.compare_assets(store, words, evidence_of, execution, stage)
+    compared = family_comparison.compare_assets(store, words, label_model.evidence_of, execution, stage)
     found, labelled = list[LabelEvidence](), 0
     for asset, given in _share_labels(compared):
         current = compared.current[asset]
@@ -96,12 +96,12 @@ def _share_labels(compared: family_comparison.FamilyComparison) -> Iterator[tupl
 
 def _is_overruled(current: Label | None, label: Label) -> bool:
     """Whether a label would take the place of a person's, whose word may have left the vocabulary."""
-    return current is not None and current.source in HUMAN_SOURCES and current != label
+    return current is not None and current.source in symbolic.HUMAN_SOURCES and current != label
 
 
 def _is_said_still(current: Label | None, given: Label) -> bool:
     """Whether what a label was inferred from is still what was said of its hull."""
-    return evidence_of(current) == evidence_of(given)
+    return label_model.evidence_of(current) == label_model.evidence_of(given)
 
 
 def count_changes(labels: Iterable[_BeforeAndAfter]) -> tuple[LabelChange, ...]:
@@ -151,12 +151,12 @@ def propose_sources(store: Store, execution: ExecutionOptions) -> Proposals:
     found, labelled, problems = list[LabelEvidence](), 0, list[str]()
     for asset, facts in iterate_survey(store.found, store.layout, execution=execution):
         try:
-            current = match_labels(store.labels(asset), facts.hulls).labels
+            current = symbolic.match_labels(store.labels(asset), facts.hulls).labels
         except AssetError as error:
             problems.append(f"{asset}: {error.message}")
             continue
         problems += [facts.error] if facts.error else []
-        inferred = {name: label for name, label in current.items() if label.source in INFERRED_SOURCES}
+        inferred = {name: label for name, label in current.items() if label.source in symbolic.INFERRED_SOURCES}
         found += [LabelEvidence(asset, one.given, f"not {one.name}", name) for name, one in inferred.items()]
         labelled += len(current) - len(inferred)
     return group_evidence(found, store.vocabulary, labelled, problems)

@@ -6,13 +6,11 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from meshforge import symbolic
+from meshforge import label_model, rendering, symbolic
 from meshforge.common import AssetError, ProjectError, file_state, join_names, suggest_aside
 from meshforge.geometry import Shape, digest, overlap_volume
-from meshforge.label_model import evidence_of
-from meshforge.rendering import UNSURE
 from meshforge.store import Store, hull_digests, iterate_survey
-from meshforge.symbolic import HUMAN_SOURCES, INFERRED_SOURCES, Label, SymbolicMesh
+from meshforge.symbolic import Label
 
 ReplacePolicy = Callable[[Label | None, Label], bool]
 """Whether a label, or none, may be replaced by a given one at all; what people said stays in any case."""
@@ -110,18 +108,22 @@ def merge_labels(
 def _summarize(
     asset: str, hulls: Collection[str], labels: Mapping[str, Label], *, taken: int, same: int
 ) -> LabelOutcome:
-    unsure = sum(label.confidence < UNSURE for label in labels.values())
+    unsure = sum(label.confidence < rendering.UNSURE for label in labels.values())
     return LabelOutcome(asset, taken, same, unlabelled=len(hulls) - len(labels), unsure=unsure)
 
 
 def is_protected(current: Label | None, given: Label) -> bool:
     """Whether a label stays though another one is given: a machine's does not take the place of a person's."""
-    return current is not None and current.source in HUMAN_SOURCES and given.source not in HUMAN_SOURCES
+    return (
+        current is not None and current.source in symbolic.HUMAN_SOURCES and given.source not in symbolic.HUMAN_SOURCES
+    )
 
 
 def infer_over(current: Label | None, given: Label) -> Label:
     """A given label; one that was inferred with what was said of its hull before that."""
-    return replace(given, given=evidence_of(current)) if given.source in INFERRED_SOURCES else given
+    return (
+        replace(given, given=label_model.evidence_of(current)) if given.source in symbolic.INFERRED_SOURCES else given
+    )
 
 
 def _problem(name: str, label: Label, hulls: Collection[str], vocabulary: Sequence[str]) -> str | None:
@@ -183,8 +185,8 @@ class LabelWriter:
         """
         with self._store.lock():
             current = symbolic.match_labels(self._store.labels(asset), hulls).labels
-            inferred = {name: label for name, label in current.items() if label.source in INFERRED_SOURCES}
-            said = {name: evidence_of(label) for name, label in current.items()}
+            inferred = {name: label for name, label in current.items() if label.source in symbolic.INFERRED_SOURCES}
+            said = {name: label_model.evidence_of(label) for name, label in current.items()}
             labels = {name: label for name, label in said.items() if label}
             if inferred:
                 self._store.write_labels(asset, hulls, labels, self.vocabulary)
@@ -222,7 +224,7 @@ class NewHullLabels:
 
     store: Store
     asset: str
-    mesh: SymbolicMesh
+    mesh: symbolic.SymbolicMesh
     gone: tuple[str, ...]
     notes: tuple[str, ...]
 
@@ -236,7 +238,7 @@ def label_new_hulls(
     store: Store,
     asset: str,
     old: Mapping[str, Shape],
-    mesh: SymbolicMesh,
+    mesh: symbolic.SymbolicMesh,
     known: Mapping[str, Label | None] | None = None,
 ) -> NewHullLabels | None:
     """The labels where hulls `old`, by name, become those of a mesh; None where no label is concerned.
@@ -266,7 +268,7 @@ def label_new_hulls(
 
 
 def _choose_label(by_overlap: Label | None, known: Label | None) -> Label | None:
-    is_same = by_overlap and known and by_overlap.name == known.name and by_overlap.source in HUMAN_SOURCES
+    is_same = by_overlap and known and by_overlap.name == known.name and by_overlap.source in symbolic.HUMAN_SOURCES
     return by_overlap if is_same else known
 
 

@@ -10,7 +10,7 @@ from typing import Protocol, TypeVar
 
 import numpy as np
 
-from meshforge import geometry
+from meshforge import geometry, symbolic
 from meshforge.common import Plugin, blame, join_names
 from meshforge.language.actions.base import Action
 from meshforge.language.actions.edit import GroupEdit, HullGroup, NewShape, Template, check_templates
@@ -18,7 +18,6 @@ from meshforge.language.actions.registry import plugin_of
 from meshforge.language.orient import orient_mesh
 from meshforge.language.print import Rule
 from meshforge.language.syntax import EXTREMITY, Orient, reference_length, select_mask
-from meshforge.symbolic import Hull, Label, SymbolicMesh, bits_of
 
 _NEW_SUFFIX = re.compile(r"~\d+$")
 _CONVEXITY = 1e-7  # relative to the size
@@ -29,10 +28,12 @@ Value = TypeVar("Value")
 class Memo(Protocol):
     """Gives what `make` makes for a mesh and a key; where that was asked before, what was made then."""
 
-    def __call__(self, mesh: SymbolicMesh, key: Hashable, kind: type[Value], make: Callable[[], Value]) -> Value: ...
+    def __call__(
+        self, mesh: symbolic.SymbolicMesh, key: Hashable, kind: type[Value], make: Callable[[], Value]
+    ) -> Value: ...
 
 
-def make_anew(mesh: SymbolicMesh, key: Hashable, kind: type[Value], make: Callable[[], Value]) -> Value:
+def make_anew(mesh: symbolic.SymbolicMesh, key: Hashable, kind: type[Value], make: Callable[[], Value]) -> Value:
     """The memo that keeps nothing."""
     return make()
 
@@ -45,7 +46,7 @@ class ActionResult:
     note: what a user should know; used: names that no later edit of the same run may give again.
     """
 
-    mesh: SymbolicMesh
+    mesh: symbolic.SymbolicMesh
     made: tuple[str, ...] = ()
     note: str | None = None
     sources: tuple[tuple[str, ...], ...] = ()
@@ -53,7 +54,7 @@ class ActionResult:
 
 
 def apply_action(
-    mesh: SymbolicMesh,
+    mesh: symbolic.SymbolicMesh,
     selected_mask: int,
     action: Action,
     templates: Mapping[str, Template] | None = None,
@@ -74,7 +75,9 @@ def apply_action(
     plugin = plugin_of(action)
     with blame(plugin):
         groups = [
-            HullGroup(tuple(mesh.hulls[index] for index in sorted(bits_of(part))), reference_length(mesh), templates)
+            HullGroup(
+                tuple(mesh.hulls[index] for index in sorted(symbolic.bits_of(part))), reference_length(mesh), templates
+            )
             for part in action.groups(mesh, selected_mask)
         ]
         edits = [action.edit(group) for group in groups]
@@ -112,13 +115,15 @@ def _verify_edits(plugin: Plugin, groups: list[HullGroup], edits: list[GroupEdit
                 raise plugin.error("named hulls that it was not given as the sources of one that it made")
 
 
-def names_in_use(mesh: SymbolicMesh) -> frozenset[str]:
+def names_in_use(mesh: symbolic.SymbolicMesh) -> frozenset[str]:
     """The names that a made hull must not take: those of the mesh and of the file it came from."""
     source = mesh.asset.geoms if mesh.asset else ()
     return frozenset([hull.name for hull in mesh.hulls] + [geom.name for geom in source])
 
 
-def _make_hull(made: NewShape, label: str | None, taken: set[str], reference: float, *, is_alone: bool) -> Hull:
+def _make_hull(
+    made: NewShape, label: str | None, taken: set[str], reference: float, *, is_alone: bool
+) -> symbolic.Hull:
     """The hull of a made shape, verified and named; its name is added to those taken."""
     heir = made.heir
     shape = ensure_valid(made.shape, heir.name, geometry.FLATNESS * reference)
@@ -128,18 +133,20 @@ def _make_hull(made: NewShape, label: str | None, taken: set[str], reference: fl
         count += 1
     taken.add(f"{stem}~{count}")
     keeps_name = is_alone and (heir.parent is None or heir.keeps_name)
-    return Hull(f"{stem}~{count}", heir.body, shape, _label_of_new(heir, label), heir.parent or heir.name, keeps_name)
+    return symbolic.Hull(
+        f"{stem}~{count}", heir.body, shape, _label_of_new(heir, label), heir.parent or heir.name, keeps_name
+    )
 
 
-def _label_of_new(heir: Hull, label: str | None) -> Label | None:
+def _label_of_new(heir: symbolic.Hull, label: str | None) -> symbolic.Label | None:
     """The label of a made hull; one that the program sets is as sure as the program."""
     if label is not None:
-        return Label(label, source="edit")
+        return symbolic.Label(label, source="edit")
     known = heir.annotation
-    return Label(known.name, known.confidence, "edit") if known else None
+    return symbolic.Label(known.name, known.confidence, "edit") if known else None
 
 
-def _relabel(groups: list[HullGroup], edits: list[GroupEdit], label: str | None) -> dict[str, Hull]:
+def _relabel(groups: list[HullGroup], edits: list[GroupEdit], label: str | None) -> dict[str, symbolic.Hull]:
     """The hulls of groups that an edit left whole (a merge of one), with the label that what is made would take."""
     if label is None:
         return {}
@@ -147,7 +154,7 @@ def _relabel(groups: list[HullGroup], edits: list[GroupEdit], label: str | None)
     return {hull.name: hull.with_label(_label_of_new(hull, label)) for group in whole for hull in group.hulls}
 
 
-def inheritance_notes(made: Iterable[NewShape], mesh: SymbolicMesh) -> list[str]:
+def inheritance_notes(made: Iterable[NewShape], mesh: symbolic.SymbolicMesh) -> list[str]:
     """A sentence for each hull whose sources differ in contact attributes: it takes those of the largest."""
     known = {geom.name: dict(geom.contact) for geom in mesh.asset.geoms if geom.contact} if mesh.asset else {}
     return [note for one in made if known and (note := _inheritance_note(one, known))]
@@ -162,7 +169,9 @@ def _inheritance_note(made: NewShape, known: dict[str, dict[str, str]]) -> str |
     return f"{join_names(differing)} as {made.heir.name} has it; the hulls beside it have another"
 
 
-def describe_lost_gaps(mesh: SymbolicMesh, selected_mask: int, made: Iterable[tuple[Hull, NewShape]]) -> str | None:
+def describe_lost_gaps(
+    mesh: symbolic.SymbolicMesh, selected_mask: int, made: Iterable[tuple[symbolic.Hull, NewShape]]
+) -> str | None:
     """A sentence on the gaps to hulls beside a selection that made primitives narrow, by more than a tenth and by more
     than the contact distance; None where there is none."""
     beside = [hull for k, hull in enumerate(mesh.hulls) if not selected_mask >> k & 1]
@@ -214,8 +223,8 @@ class RuleTrace:
 
 
 def to_canonical_frame(
-    mesh: SymbolicMesh, orient: Orient | None, contact: float | None = None, memo: Memo = make_anew
-) -> tuple[SymbolicMesh, geometry.Pose]:
+    mesh: symbolic.SymbolicMesh, orient: Orient | None, contact: float | None = None, memo: Memo = make_anew
+) -> tuple[symbolic.SymbolicMesh, geometry.Pose]:
     """The mesh as the first rule sees it: oriented, with L fixed; and the pose oriented_T_incoming.
 
     contact: the program's epsilon, None keeps the mesh's.
@@ -225,8 +234,8 @@ def to_canonical_frame(
 
 
 def _to_canonical_frame(
-    mesh: SymbolicMesh, orient: Orient | None, contact: float | None
-) -> tuple[SymbolicMesh, geometry.Pose]:
+    mesh: symbolic.SymbolicMesh, orient: Orient | None, contact: float | None
+) -> tuple[symbolic.SymbolicMesh, geometry.Pose]:
     oriented, pose = orient_mesh(mesh, orient)
     staged = replace(oriented, epsilon=mesh.epsilon if contact is None else contact, scale=oriented.diagonal)
     if oriented.known_graph is not None and staged.contact_distance == oriented.contact_distance:
@@ -234,7 +243,9 @@ def _to_canonical_frame(
     return staged, pose
 
 
-def from_canonical_frame(incoming: SymbolicMesh, staged: SymbolicMesh, pose: geometry.Pose) -> SymbolicMesh:
+def from_canonical_frame(
+    incoming: symbolic.SymbolicMesh, staged: symbolic.SymbolicMesh, pose: geometry.Pose
+) -> symbolic.SymbolicMesh:
     """An edited mesh back in the frame it came in; pose: oriented_T_incoming. The inverse of `to_canonical_frame`."""
     back = pose.inverse()
     turned = not np.array_equal(pose.rotation, np.eye(3))
@@ -246,7 +257,7 @@ def from_canonical_frame(incoming: SymbolicMesh, staged: SymbolicMesh, pose: geo
 
 
 def apply_rule(
-    mesh: SymbolicMesh,
+    mesh: symbolic.SymbolicMesh,
     rule: Rule,
     templates: Mapping[str, Template] | None = None,
     extremity: float | None = None,
@@ -259,7 +270,7 @@ def apply_rule(
 
 
 def apply_to_selection(
-    mesh: SymbolicMesh,
+    mesh: symbolic.SymbolicMesh,
     mask: int,
     rule: Rule,
     templates: Mapping[str, Template],
@@ -278,7 +289,7 @@ def apply_to_selection(
     return memo(mesh, (mask, rule.action, rule.label, used, made_of), ActionResult, applied)
 
 
-def _restore_hull(incoming: SymbolicMesh, hull: Hull, back: geometry.Pose | None) -> Hull:
+def _restore_hull(incoming: symbolic.SymbolicMesh, hull: symbolic.Hull, back: geometry.Pose | None) -> symbolic.Hull:
     """A hull in the incoming frame: the original where it was kept, relabelled where the program did so."""
     if hull.name in incoming.index:
         original = incoming.hull_of(hull.name)

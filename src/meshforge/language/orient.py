@@ -7,13 +7,12 @@ from math import hypot
 
 import numpy as np
 
-from meshforge import geometry
+from meshforge import geometry, symbolic
 from meshforge.common import ProgramError, join_names
 from meshforge.geometry import Floats, Pose
 from meshforge.language.print import show
 from meshforge.language.syntax import SLACK, BaseExtractor, LandmarkPair, Orient, select_mask
 from meshforge.language.words import Direction
-from meshforge.symbolic import SymbolicMesh, bits_of
 
 _PARALLEL = 1e-6  # sine of the angle below which two pairs count as giving one direction
 
@@ -24,7 +23,7 @@ _EQUAL = 1e-9  # areas and angles that differ by less are equal
 _ROUNDING = 1e-12  # of the size, by which points on one side of a hull are beside it
 
 
-def orient_mesh(mesh: SymbolicMesh, orient: Orient | None) -> tuple[SymbolicMesh, Pose]:
+def orient_mesh(mesh: symbolic.SymbolicMesh, orient: Orient | None) -> tuple[symbolic.SymbolicMesh, Pose]:
     """The mesh turned about its frame's origin as the directive says, and the pose oriented_T_incoming.
 
     None, and a turn by nothing, give the mesh itself. Raises ProgramError naming a landmark that selects nothing,
@@ -37,13 +36,13 @@ def orient_mesh(mesh: SymbolicMesh, orient: Orient | None) -> tuple[SymbolicMesh
     return mesh.with_hulls(hull.move(pose) for hull in mesh.hulls), pose
 
 
-def find_rotation(mesh: SymbolicMesh, orient: Orient, labels: Sequence[str | None] | None = None) -> Floats:
+def find_rotation(mesh: symbolic.SymbolicMesh, orient: Orient, labels: Sequence[str | None] | None = None) -> Floats:
     """The rotation (3, 3) by which `orient_mesh` turns a mesh; raises likewise. labels: of the hulls, instead of those
     that they have."""
     return geometry.snap_rotation(_measure_rotation(mesh, orient, labels))
 
 
-def _measure_rotation(mesh: SymbolicMesh, orient: Orient, labels: Sequence[str | None] | None) -> Floats:
+def _measure_rotation(mesh: symbolic.SymbolicMesh, orient: Orient, labels: Sequence[str | None] | None) -> Floats:
     directions = [_landmark_direction(mesh, pair, labels) for pair in orient.pairs]
     axes = [_axis_vector(pair.axis) for pair in orient.pairs]
     if len(directions) == 2:
@@ -55,7 +54,7 @@ def _measure_rotation(mesh: SymbolicMesh, orient: Orient, labels: Sequence[str |
     return _square_up(mesh, geometry.smallest_rotation(directions[0], axes[0]), "XYZ".index(orient.pairs[0].axis[1]))
 
 
-def _square_up(mesh: SymbolicMesh, upright: Floats, axis: int) -> Floats:
+def _square_up(mesh: symbolic.SymbolicMesh, upright: Floats, axis: int) -> Floats:
     """The rotation `upright`, then the turn about the coordinate axis that squares up the footprint."""
     plane = [(axis + 1) % 3, (axis + 2) % 3]
     points = np.concatenate([hull.vertices for hull in mesh.hulls]) @ upright.T
@@ -79,7 +78,7 @@ def _perpendicular_part(directions: list[Floats], orient: Orient) -> Floats:
     return part / norm
 
 
-def _landmark_direction(mesh: SymbolicMesh, pair: LandmarkPair, labels: Sequence[str | None] | None) -> Floats:
+def _landmark_direction(mesh: symbolic.SymbolicMesh, pair: LandmarkPair, labels: Sequence[str | None] | None) -> Floats:
     (start, from_names), (end, to_names) = (_landmark_centre(mesh, base, labels) for base in (pair.start, pair.end))
     norm = float(np.linalg.norm(end - start))
     if norm <= SLACK * mesh.diagonal:
@@ -92,10 +91,10 @@ def _landmark_direction(mesh: SymbolicMesh, pair: LandmarkPair, labels: Sequence
 
 
 def _landmark_centre(
-    mesh: SymbolicMesh, base: BaseExtractor, labels: Sequence[str | None] | None
+    mesh: symbolic.SymbolicMesh, base: BaseExtractor, labels: Sequence[str | None] | None
 ) -> tuple[Floats, str]:
     """The volume-weighted centroid (3,) of a selection, and the names of its hulls."""
-    hulls = [mesh.hulls[index] for index in sorted(bits_of(select_mask(base, mesh, labels=labels)))]
+    hulls = [mesh.hulls[index] for index in sorted(symbolic.bits_of(select_mask(base, mesh, labels=labels)))]
     if not hulls:
         problem = f"orient: the landmark {show(base)} selects nothing"
         raise ProgramError(problem, remedy="Label the hulls that it should select, or orient by another landmark.")

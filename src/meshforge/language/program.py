@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from types import MappingProxyType
 
+from meshforge import symbolic
 from meshforge.common import MeshForgeError, ProgramError
 from meshforge.language import parse, syntax
 from meshforge.language.actions.base import show_number
@@ -24,7 +25,6 @@ from meshforge.language.apply import (
 from meshforge.language.labels import check_declared, check_label, show_label
 from meshforge.language.print import CommentLines, Comments, Rule, show, show_rule
 from meshforge.language.text import Node, ProgramText, TreeReader, subtrees_of
-from meshforge.symbolic import SymbolicMesh, mask_of
 
 _MOST_ALIGNED = 60  # a longer extractor does not push the arrows of the other rules to the right
 
@@ -44,7 +44,7 @@ class HeaderComments:
 class RunResult:
     """The edited mesh in the incoming frame, the very same object where nothing changed, and a trace of every rule."""
 
-    mesh: SymbolicMesh
+    mesh: symbolic.SymbolicMesh
     trace: tuple[RuleTrace, ...]
 
 
@@ -116,7 +116,7 @@ class Program:
 
     def run(
         self,
-        mesh: SymbolicMesh,
+        mesh: symbolic.SymbolicMesh,
         templates: Mapping[str, Template] | None = None,
         *,
         selections: Mapping[int, Collection[str]] = MappingProxyType({}),
@@ -138,7 +138,7 @@ class Program:
         except MeshForgeError as error:
             raise error.at(str(mesh.asset.path)) if mesh.asset else error from None
 
-    def check_has_labels(self, mesh: SymbolicMesh) -> None:
+    def check_has_labels(self, mesh: symbolic.SymbolicMesh) -> None:
         """Raise ProgramError where it asks for labels and no hull has one."""
         if self.labels_asked and mesh.hulls and not any(hull.label for hull in mesh.hulls):
             remedy = "Label the asset first (meshforge label), or give its labels with --labels FILE."
@@ -146,7 +146,7 @@ class Program:
 
     def _run_rules(
         self,
-        mesh: SymbolicMesh,
+        mesh: symbolic.SymbolicMesh,
         templates: Mapping[str, Template],
         selections: Mapping[int, Collection[str]],
         memo: Memo,
@@ -170,10 +170,10 @@ class Program:
         return "".join(f"{line}\n" for line in _program_lines(self))
 
 
-def _find_hulls(mesh: SymbolicMesh, rule: int, names: Collection[str]) -> int:
+def _find_hulls(mesh: symbolic.SymbolicMesh, rule: int, names: Collection[str]) -> int:
     if gone := sorted(set(names) - mesh.index.keys()):
         raise ProgramError(f"rule {rule} is to select {gone[0]} here, and there is no such hull")
-    return mask_of(mesh.index[name] for name in names)
+    return symbolic.mask_of(mesh.index[name] for name in names)
 
 
 def rename_in_program(program: Program, old: str, new: str) -> Program:

@@ -8,11 +8,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 from typing import assert_never
 
+from meshforge import symbolic
 from meshforge.common import ProgramError
 from meshforge.geometry import Aabb
 from meshforge.language.labels import check_label, show_label
 from meshforge.language.words import Direction, check_direction
-from meshforge.symbolic import SymbolicMesh, bits_of, mask_of
 
 EXTREMITY = 0.05
 """delta: how near the boundary counts as extreme, as a share of the base selection's diagonal (paper)."""
@@ -39,7 +39,7 @@ class _Selector:
         operands = ", ".join(str(getattr(self, field.name)) for field in fields(_as_extractor(self)))
         return f"{type(self).__name__}({operands})"
 
-    def select(self, mesh: SymbolicMesh, extremity: float = EXTREMITY) -> frozenset[int]:
+    def select(self, mesh: symbolic.SymbolicMesh, extremity: float = EXTREMITY) -> frozenset[int]:
         """Indices of the hulls selected in the mesh, in the frame it is in."""
         return select(_as_extractor(self), mesh, extremity)
 
@@ -167,13 +167,16 @@ def _check_base(node: object, *operands: object) -> None:
             raise ProgramError(f"{type(node).__name__} takes All or Is(label), not {operand!r}", remedy=remedy)
 
 
-def select(extractor: Extractor, mesh: SymbolicMesh, extremity: float = EXTREMITY) -> frozenset[int]:
+def select(extractor: Extractor, mesh: symbolic.SymbolicMesh, extremity: float = EXTREMITY) -> frozenset[int]:
     """Indices of the hulls that an extractor selects, in the frame the mesh is in."""
-    return bits_of(select_mask(extractor, mesh, extremity))
+    return symbolic.bits_of(select_mask(extractor, mesh, extremity))
 
 
 def select_mask(
-    extractor: Extractor, mesh: SymbolicMesh, extremity: float = EXTREMITY, labels: Sequence[str | None] | None = None
+    extractor: Extractor,
+    mesh: symbolic.SymbolicMesh,
+    extremity: float = EXTREMITY,
+    labels: Sequence[str | None] | None = None,
 ) -> int:
     """The selection as a bit set. labels: of the hulls, in place of those that they have."""
     names = [hull.label for hull in mesh.hulls] if labels is None else labels
@@ -183,7 +186,7 @@ def select_mask(
             case All():
                 return (1 << len(mesh.hulls)) - 1
             case Is(label):
-                return mask_of(index for index, name in enumerate(names) if name == label)
+                return symbolic.mask_of(index for index, name in enumerate(names) if name == label)
             case Attach(selected, anchor):
                 return attach_mask(mesh, select(selected), select(anchor))
             case Geo(base, direction):
@@ -200,19 +203,19 @@ def select_mask(
     return select(extractor)
 
 
-def attach_mask(mesh: SymbolicMesh, selected: int, anchor: int) -> int:
+def attach_mask(mesh: symbolic.SymbolicMesh, selected: int, anchor: int) -> int:
     """The hulls of `selected` in contact with at least one of `anchor`."""
-    return mask_of(index for index in bits_of(selected) if mesh.adjacency[index] & anchor)
+    return symbolic.mask_of(index for index in symbolic.bits_of(selected) if mesh.adjacency[index] & anchor)
 
 
-def geo_mask(mesh: SymbolicMesh, base: int, direction: Direction, extremity: float = EXTREMITY) -> int:
+def geo_mask(mesh: symbolic.SymbolicMesh, base: int, direction: Direction, extremity: float = EXTREMITY) -> int:
     """The hulls of `base` within `extremity` times its diagonal of its boundary along `direction`."""
     if not base:
         return 0
-    boxes = {index: mesh.hulls[index].aabb for index in bits_of(base)}
+    boxes = {index: mesh.hulls[index].aabb for index in symbolic.bits_of(base)}
     reach = {index: _reach_of(box, direction) for index, box in boxes.items()}
     nearest = max(reach.values()) - extremity * Aabb.union(boxes.values()).diagonal - SLACK * reference_length(mesh)
-    return mask_of(index for index, value in reach.items() if value >= nearest)
+    return symbolic.mask_of(index for index, value in reach.items() if value >= nearest)
 
 
 def _reach_of(box: Aabb, direction: Direction) -> float:
@@ -221,7 +224,7 @@ def _reach_of(box: Aabb, direction: Direction) -> float:
     return float(box.max[axis] if direction[0] == "+" else -box.min[axis])
 
 
-def reference_length(mesh: SymbolicMesh) -> float:
+def reference_length(mesh: symbolic.SymbolicMesh) -> float:
     """L, the length [m] that relative thresholds refer to: fixed in a run, else the diagonal."""
     return mesh.diagonal if mesh.scale is None else mesh.scale
 

@@ -10,6 +10,7 @@ __getattr__, __all__ = export_lazily(
         "learn": "ProgramState program_by_hand sees_whole_family select_assets suggest_first_demonstration",
         "new_asset_result": "NewAssetResult assess_new_assets describe_new",
         "new_assets": "NewAsset NewAssetOptions list_new prepare_aside",
+        "overview": "compute_status",
         "preparation_plan": "SPLIT_DEFAULTS SplitSettings forget_plan read_preparation_plan",
         "prepare": "PreparationResult",
         "project": "Project",

@@ -11,6 +11,7 @@ from meshforge.project.new_assets import NewAsset as NewAsset
 from meshforge.project.new_assets import NewAssetOptions as NewAssetOptions
 from meshforge.project.new_assets import list_new as list_new
 from meshforge.project.new_assets import prepare_aside as prepare_aside
+from meshforge.project.overview import compute_status as compute_status
 from meshforge.project.preparation_plan import SPLIT_DEFAULTS as SPLIT_DEFAULTS
 from meshforge.project.preparation_plan import SplitSettings as SplitSettings
 from meshforge.project.preparation_plan import forget_plan as forget_plan

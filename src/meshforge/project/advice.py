@@ -6,8 +6,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from meshforge import labels
 from meshforge.common import pluralize, quote_path
-from meshforge.labels import label_command, label_file_beside
 from meshforge.project.learn import ProgramState
 from meshforge.project.status import Advice, AssetStatus
 
@@ -72,7 +72,7 @@ class Adviser:
         return self._advise_labels(bare) if some else self._advise_label_source(self.assets)
 
     def _advise_labels(self, bare: Sequence[AssetStatus]) -> Advice:
-        if any(label_file_beside(self.paths[asset.id]) for asset in bare):
+        if any(labels.label_file_beside(self.paths[asset.id]) for asset in bare):
             say = f"{_name_assets(bare)} no label: take over the labels files beside the assets."
             return Advice(say, self._type("label --with file"))
         if any(asset.hulls and asset.labelled == asset.hulls for asset in self.assets):
@@ -81,11 +81,11 @@ class Adviser:
         most = max(self.assets, key=lambda asset: asset.labelled)
         hull = next(name for name, label in zip(most.names, most.labels, strict=True) if label is None)
         say = f"{most.labelled} of {pluralize(len(most.names), 'hull')} of {most.id} have a label: label the others."
-        return Advice(say, label_command(self.folder, most.id, hull, self.vocabulary))
+        return Advice(say, labels.label_command(self.folder, most.id, hull, self.vocabulary))
 
     def _advise_label_source(self, bare: Sequence[AssetStatus]) -> Advice:
         """Files beside the assets, else names where they say something, else by hand."""
-        if any(label_file_beside(self.paths[asset.id]) for asset in bare):
+        if any(labels.label_file_beside(self.paths[asset.id]) for asset in bare):
             say = "No hull has a label yet: take over the labels files beside the assets."
             return Advice(say, self._type("label --with file"))
         if count := self.count_names():
@@ -99,7 +99,7 @@ class Adviser:
             f"No hull has a label yet: label those of an asset by hand, best first {usual.id}, here or in the studio "
             f"(names of hulls: meshforge info {quote_path(Path(usual.id))} --project {quote_path(self.folder)})."
         )
-        return Advice(say, label_command(self.folder, usual.id, usual.names[0], self.vocabulary))
+        return Advice(say, labels.label_command(self.folder, usual.id, usual.names[0], self.vocabulary))
 
     def _advise_demonstration(self) -> Advice:
         labelled = [asset.id for asset in self.assets if asset.labelled]

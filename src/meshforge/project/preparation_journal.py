@@ -12,9 +12,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from meshforge import store as files
+from meshforge import symbolic
 from meshforge.project import selections
 from meshforge.store import Store
-from meshforge.symbolic import Label, SymbolicMesh, parse_labels_text
 
 
 class StepSelections(files.JsonFile):
@@ -171,14 +171,14 @@ def restore_labels_text(now: LabelsText, undone: Sequence[StepSelections]) -> La
 
 
 def find_labels_before(
-    store: Store, asset: str, undone: Sequence[StepSelections], mesh: SymbolicMesh
-) -> tuple[dict[str, Label | None], list[str]]:
+    store: Store, asset: str, undone: Sequence[StepSelections], mesh: symbolic.SymbolicMesh
+) -> tuple[dict[str, symbolic.Label | None], list[str]]:
     """The labels that hulls had before they were split, unless those of their parts were changed since; notes on
     these."""
-    now: dict[str, Label | None] = dict(store.labels(asset).labels)
-    notes, found = list[str](), dict[str, Label | None]()
+    now: dict[str, symbolic.Label | None] = dict(store.labels(asset).labels)
+    notes, found = list[str](), dict[str, symbolic.Label | None]()
     for step in undone:
-        were, became = (parse_labels_text(text).labels for text in (step.labels_before, step.labels_after))
+        were, became = (symbolic.parse_labels_text(text).labels for text in (step.labels_before, step.labels_after))
         for hull, parts in step.parts.items():
             if all(now.get(part) == became.get(part) for part in parts):
                 now[hull] = found[hull] = were.get(hull)

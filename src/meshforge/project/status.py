@@ -6,9 +6,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
-from meshforge.signoff import BAR, Doubt, ExclusionReason
+from meshforge import signoff, symbolic
+from meshforge.signoff import BAR
 from meshforge.signoff.question import NOT_OF_FAMILY
-from meshforge.symbolic import Label
 
 SignOffState = Literal["signed off", "sure", "held", "void", "excluded", "unknown"]
 """Sure: sure enough to be signed off, once its output is up to date; void: signed off, but something changed since;
@@ -49,7 +49,7 @@ class AssetStatus:
     prepared: tuple[str, ...] = ()
     sources: int = 0
     names: tuple[str, ...] = ()
-    labels: tuple[Label | None, ...] = ()
+    labels: tuple[symbolic.Label | None, ...] = ()
     geometry: str = ""
     after: int | None = None
     after_labels: tuple[str | None, ...] = ()
@@ -59,10 +59,10 @@ class AssetStatus:
     sign_off: SignOffState = "unknown"
     signed_by: Literal["tool", "person"] | None = None
     void: tuple[str, ...] = ()
-    excluded: ExclusionReason | None = None
+    excluded: signoff.ExclusionReason | None = None
     found_since: tuple[str, ...] = ()
     probability: float | None = None
-    doubts: tuple[Doubt, ...] = ()
+    doubts: tuple[signoff.Doubt, ...] = ()
     spans: Mapping[str, str] = field(default_factory=dict)
 
     @property

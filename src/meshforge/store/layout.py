@@ -9,7 +9,7 @@ from typing import TypeVar
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
-from meshforge.batch import RECORD_FILE, SETTINGS, STATE
+from meshforge import batch
 from meshforge.common import ProjectError, first_validation_error, to_text, write_atomically
 
 _JOURNAL = "selections.json"
@@ -54,7 +54,7 @@ class Layout:
     @property
     def settings(self) -> Path:
         """What the project is about, as its owner writes it."""
-        return self.folder / SETTINGS
+        return self.folder / batch.SETTINGS
 
     @property
     def templates(self) -> tuple[Path, Path]:
@@ -89,17 +89,17 @@ class Layout:
     @property
     def learned_before(self) -> Path:
         """Where that was kept before: read while there is no other, removed when it is written."""
-        return self.folder / STATE / "learned.json"
+        return self.folder / batch.STATE / "learned.json"
 
     @property
     def assessment(self) -> Path:
         """How probable each edit was when the family was looked at last."""
-        return self.folder / STATE / "assessment.json"
+        return self.folder / batch.STATE / "assessment.json"
 
     @property
     def review_pictures(self) -> Path:
         """Pictures of the question of a review."""
-        return self.folder / STATE / "review"
+        return self.folder / batch.STATE / "review"
 
     @property
     def edited(self) -> Path:
@@ -107,22 +107,22 @@ class Layout:
 
     @property
     def lock(self) -> Path:
-        return self.folder / STATE / "lock"
+        return self.folder / batch.STATE / "lock"
 
     @property
     def survey(self) -> Path:
         """What is known of the asset files, so that they are not read again for a status."""
-        return self.folder / STATE / "survey.json"
+        return self.folder / batch.STATE / "survey.json"
 
     @property
     def outputs(self) -> Path:
         """What is known of the files of outputs, so that they are not hashed again for a status."""
-        return self.folder / STATE / "outputs.json"
+        return self.folder / batch.STATE / "outputs.json"
 
     @property
     def spans(self) -> Path:
         """Which hulls were found to span parts."""
-        return self.folder / STATE / "spans.json"
+        return self.folder / batch.STATE / "spans.json"
 
     @property
     def single_parts(self) -> Path:
@@ -131,17 +131,17 @@ class Layout:
 
     def span_parts(self, asset: str) -> Path:
         """The parts into which a split would divide the hulls of an asset that span parts."""
-        return self.folder / STATE / "spans" / f"{asset}.npz"
+        return self.folder / batch.STATE / "spans" / f"{asset}.npz"
 
     @property
     def sketches(self) -> Path:
         """How the hulls of assets are described, so that labels are propagated quickly the next time."""
-        return self.folder / STATE / "sketches"
+        return self.folder / batch.STATE / "sketches"
 
     @property
     def vlm(self) -> Path:
         """What was sent to models, and what came back."""
-        return self.folder / STATE / "vlm"
+        return self.folder / batch.STATE / "vlm"
 
     def ids_with(self, kind: str) -> tuple[str, ...]:
         """The ids of all assets that have a file in `labels`, `demonstrations` or `corrections`, sorted."""
@@ -153,7 +153,7 @@ class Layout:
     def ids_with_preparation(self) -> tuple[str, ...]:
         """The ids of all assets that have a preparation, or one whose removal was cut short, sorted."""
         root = self.folder / "prepared"
-        found = {path.parent for name in (RECORD_FILE, _JOURNAL) for path in root.rglob(name)}
+        found = {path.parent for name in (batch.RECORD_FILE, _JOURNAL) for path in root.rglob(name)}
         return tuple(sorted(to_text(path.relative_to(root).as_posix()) for path in found))
 
 

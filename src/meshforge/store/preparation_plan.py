@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
-from meshforge.geometry import PieceEngine
+from meshforge import geometry
 from meshforge.store.layout import JsonFile, Layout, read_json, write_json
 
 
@@ -20,7 +20,7 @@ class PreparationPlanFile(JsonFile):
     split: tuple[str, ...] | None = None
     sure: float | None = None
     rebuild: bool = False
-    pieces: PieceEngine = "coacd"
+    pieces: geometry.PieceEngine = "coacd"
     only: tuple[str, ...] = ()
 
 

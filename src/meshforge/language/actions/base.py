@@ -10,10 +10,10 @@ from collections.abc import Iterable
 from dataclasses import MISSING, Field, dataclass, fields
 from typing import Any, ClassVar, Literal, cast, get_args
 
+from meshforge import symbolic
 from meshforge.common import ProgramError
 from meshforge.language.actions.edit import GroupEdit, HullGroup
 from meshforge.language.words import DIRECTIONS
-from meshforge.symbolic import SymbolicMesh, split_by_body
 
 TokenKind = Literal["word", "text", "number", "direction"]
 Primitive = Literal["box", "cylinder", "capsule", "sphere"]
@@ -223,11 +223,11 @@ class Action(ABC):
         """Why the arguments do not go together, None where they do."""
         return None
 
-    def groups(self, mesh: SymbolicMesh, mask: int) -> list[int]:
+    def groups(self, mesh: symbolic.SymbolicMesh, mask: int) -> list[int]:
         """The parts of a selection that are edited one by one, as bit sets."""
-        return split_by_body(mesh, mask) if self.by_body else [mask] if mask else []
+        return symbolic.split_by_body(mesh, mask) if self.by_body else [mask] if mask else []
 
-    def note_on(self, mesh: SymbolicMesh, mask: int) -> str | None:
+    def note_on(self, mesh: symbolic.SymbolicMesh, mask: int) -> str | None:
         """What a user should know of acting on a selection, besides the notes on its parts."""
         return None
 

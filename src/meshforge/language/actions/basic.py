@@ -8,7 +8,7 @@ from typing import ClassVar, Literal, get_args
 
 import numpy as np
 
-from meshforge import geometry
+from meshforge import geometry, symbolic
 from meshforge.geometry import Aabb, Floats, Shape, convex_hull
 from meshforge.language.actions import base
 from meshforge.language.actions.base import (
@@ -22,7 +22,6 @@ from meshforge.language.actions.base import (
 )
 from meshforge.language.actions.edit import GroupEdit, HullGroup, NewShape
 from meshforge.language.words import Direction
-from meshforge.symbolic import SymbolicMesh, split_by_contact
 
 Fit = Literal["native", "tight", "inscribed", "volume", "longest"]
 Side = Literal["X", "Y", "Z"]
@@ -241,8 +240,8 @@ class Scale(Action):
     axis: Axis = field(metadata={"argument": WordArgument(AXES)})
     factor: float = field(metadata={"argument": FactorArgument()})
 
-    def note_on(self, mesh: SymbolicMesh, mask: int) -> str | None:
-        parts = len(split_by_contact(mesh, mask))
+    def note_on(self, mesh: symbolic.SymbolicMesh, mask: int) -> str | None:
+        parts = len(symbolic.split_by_contact(mesh, mask))
         if parts < 2:
             return None
         moved = f"{parts} parts that do not touch were scaled as one group, which moves them"
@@ -287,8 +286,8 @@ class Each(Action):
     def conflict(self) -> str | None:
         return "Each cannot stand inside Each" if isinstance(self.action, Each) else None
 
-    def groups(self, mesh: SymbolicMesh, mask: int) -> list[int]:
-        return split_by_contact(mesh, mask)
+    def groups(self, mesh: symbolic.SymbolicMesh, mask: int) -> list[int]:
+        return symbolic.split_by_contact(mesh, mask)
 
     def edit(self, group: HullGroup) -> GroupEdit:
         return self.action.edit(group)
