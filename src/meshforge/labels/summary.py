@@ -7,15 +7,18 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import partial
-from io import BytesIO
 from itertools import islice
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from meshforge import rendering
-from meshforge.batch import AssetJob, ExecutionOptions, plan_run, run_isolated
+from meshforge.batch import AssetJob, ExecutionOptions, WorkerFailure, plan_run, run_isolated
 from meshforge.common import AssetError, MeshForgeError
 from meshforge.store import AssetFiles, Store, iterate_survey
 from meshforge.symbolic import HUMAN_SOURCES, LABEL_SOURCES, Label, match_labels
+
+if TYPE_CHECKING:
+    from PIL.Image import Image
 
 
 @dataclass(frozen=True, slots=True)
@@ -179,7 +182,8 @@ def write_contact_sheets(
     vocabulary = store.vocabulary
     draw = partial(_draw, vocabulary)
     images = run_isolated(draw, store.asset_files(assets), ExecutionOptions(timeout=_TIMEOUT, progress=progress))
-    cells = iter([(asset, image) for asset, image in zip(assets, images, strict=True) if isinstance(image, bytes)])
+    drawn = zip(assets, images, strict=True)
+    cells = ((asset, image) for asset, image in drawn if image and not isinstance(image, WorkerFailure))
     written = list[Path]()
     while batch := tuple(islice(cells, PER_SHEET)):
         written.append(folder / f"labels-{len(written) + 1:03d}.png")
@@ -190,19 +194,15 @@ def write_contact_sheets(
     return tuple(written)
 
 
-def _draw(vocabulary: tuple[str, ...], place: AssetFiles) -> bytes | None:
+def _draw(vocabulary: tuple[str, ...], place: AssetFiles) -> Image | None:
     try:
         mesh = place.read_mesh()
     except MeshForgeError:
         return None
-    return rendering.encode_png(
-        rendering.render(mesh, color_by="label", size=_CELL, legend=False, vocabulary=vocabulary)
-    )
+    return rendering.render(mesh, color_by="label", size=_CELL, legend=False, vocabulary=vocabulary)
 
 
-def _write_sheet(path: Path, batch: Sequence[tuple[str, bytes]], vocabulary: Sequence[str]) -> None:
-    from PIL import Image  # lazy: 0.05 s, only contact sheets need it
-
-    images = [Image.open(BytesIO(image)) for _, image in batch]
+def _write_sheet(path: Path, batch: Sequence[tuple[str, Image]], vocabulary: Sequence[str]) -> None:
+    images = [image for _, image in batch]
     colors = rendering.label_colors(vocabulary) | {"no label": rendering.UNLABELLED}
     rendering.write_png(path, rendering.make_contact_sheet(images, _COLUMNS, [asset for asset, _ in batch], colors))
