@@ -19,7 +19,11 @@ from script.sign_off_picture import draw_sign_off
 from script.span_picture import draw_spans
 
 SHOWN = ("table_03", "table_08", "table_09", "table_11")
-CHOICES = ("Geo(Is(handle), -Z)", "Attach(Is(handle), Is(drawer))", "Geo(Is(handle), -Y)")
+CHOICES = (
+    "Attach(Is(handle), Is(drawer))",
+    "Geo(Is(handle), -Z)",
+    "Diff(Geo(Is(handle), -Z), Attach(Is(handle), Is(panel)))",
+)
 """Three readings of a rule of docs/learning.md, on the table that it is asked about."""
 BY_HAND = ("table_10", "table_08")
 """The tables that somebody labels who follows the advice."""
@@ -52,7 +56,7 @@ def _tables(path: Path) -> None:
 
 
 def _question(path: Path) -> None:
-    mesh, _ = to_canonical_frame(load(TABLES / "table_03.obj"), Program.read(TABLES / "tables.mf").orient)
+    mesh, _ = to_canonical_frame(load(TABLES / "table_02.obj"), Program.read(TABLES / "tables.mf").orient)
     drawn = []
     for text in CHOICES:
         (rule,) = Program.parse(f"{text} => Delete").rules
@@ -77,7 +81,7 @@ def _labels(path: Path) -> None:
         for name in BY_HAND:
             true = read_labels(TABLES / f"{name}.labels.json").labels
             project.set_labels(f"{name}.obj", {hull: label.name for hull, label in true.items()})
-        project.propagate_labels()
+        project.label("propagate")
         (drawn,) = project.draw_labels(Path(scratch), project.assets())
         shutil.copyfile(drawn, path)
 

@@ -56,7 +56,7 @@ class _Family:
         words, orient = self.meant.labels, self.meant.orient
         self.project = Project.create(folder / "p", sorted(TABLES.glob("*.obj")), vocabulary=words, orient=orient)
         shutil.copytree(TABLES / "templates", self.project.folder / "templates")
-        self.project.label_from_files()
+        self.project.label("file")
 
     def demonstrate(self, asset: str) -> None:
         trace = self.meant.run(self.project.mesh(asset), self.templates).trace

@@ -65,8 +65,8 @@ def create_project(folder: Path) -> Project:
     project = Project.create(folder / "p", paths, vocabulary=family.vocabulary)
     for result in project.decompose([CUP], settings=_COARSE, execution=IN_PROCESS):
         assert result.made, result.problems
-    project.label_from_files()
-    project.propagate_labels()
+    project.label("file")
+    project.label("propagate")
     return project
 
 

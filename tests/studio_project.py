@@ -22,5 +22,5 @@ def demo_project(folder: Path, *, demonstrated: bool = True, orient: str = ORIEN
     shutil.copytree(TABLES / "templates", project.folder / "templates")
     if demonstrated:
         shutil.copytree(TABLES / "demonstrations", project.folder / "demonstrations")
-    project.label_from_files()
+    project.label("file")
     return project

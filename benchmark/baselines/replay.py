@@ -9,8 +9,7 @@ from benchmark.study.person import Person
 from meshforge.common import MeshForgeError
 from meshforge.language import Program
 from meshforge.symbolic import SymbolicMesh
-from meshforge.synthesis import Demonstration
-from meshforge.synthesis.task import advance, begin_replay
+from meshforge.synthesis import Demonstration, begin_replay
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,8 +57,8 @@ def _replay(bench: Bench, desk: Desk, person: Person, name: str) -> Replay:
         demo = person.shows(_landmarks_right(bench, desk, name), name)
         replay = begin_replay(name, demo, frame.orient, frame.contact)
     stages = [replay.mesh]
-    for number, rule in enumerate(frame.rules, 1):
-        replay = advance(replay, number, rule, bench.task.templates, frame.extremity)
+    for rule in frame.rules:
+        replay = replay.advance(rule, bench.task.templates, frame.extremity)
         stages.append(replay.mesh)
     return Replay(name, demo, tuple(stages))
 

@@ -43,7 +43,7 @@ class LabelProject:
 
     def label_by_names(self) -> None:
         """Take labels from the names of hulls."""
-        self._client.project.label_from_names()
+        self._client.project.label("names")
 
     def read_labels(self) -> list[list[Label | None]]:
         """The label of each hull, mesh by mesh."""

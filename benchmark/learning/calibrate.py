@@ -1,4 +1,4 @@
-"""Fits the weights of `readings/belief.py` anew, and judges them on families that were not fitted.
+"""Fits the weights of `readings/belief.py` and of the leaf extractors anew, and judges them on other families.
 
 The nats of a reading are linear in the weights. So what a weight multiplies is what the product's own `beliefs` gives
 with this weight 1 and all others 0, up to what is equal for all readings of a rule; nothing is copied from there.
@@ -7,9 +7,10 @@ with this weight 1 and all others 0, up to what is equal for all readings of a r
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from contextlib import ExitStack
 from dataclasses import dataclass
 from itertools import chain, pairwise
-from typing import Any
+from types import ModuleType
 from unittest.mock import patch
 
 import numpy as np
@@ -20,13 +21,25 @@ from benchmark.learning.rule_courses import percent
 from benchmark.learning.task_cases import QUICK, task_cases
 from benchmark.report import Cell, Result, Table, Tell
 from meshforge.geometry import Floats
+from meshforge.language.extractors import attach, bases, geo
 from meshforge.synthesis.readings import belief
 from meshforge.synthesis.readings.belief import count_idle, measure_evidence
 from meshforge.synthesis.readings.rank import enumerate_consistent
 from meshforge.synthesis.search.smallest import Hit
 from meshforge.synthesis.search.terms import Term
 
-WEIGHTS = ("NODE", "ALL", "UPRIGHT", "SIDEWAYS", "SELF", "UNTRIED", "UNNEEDED", "IDLE", "STRANGE")
+WEIGHTS: dict[str, ModuleType] = {
+    "NODE": belief,
+    "ALL": bases,
+    "UPRIGHT": geo,
+    "SIDEWAYS": geo,
+    "SELF": attach,
+    "UNTRIED": belief,
+    "UNNEEDED": belief,
+    "IDLE": belief,
+    "STRANGE": belief,
+}
+"""The modules that they stand in."""
 FITTED, JUDGED = range(3), range(3, 5)
 COUNTS = (1, 2, 3)
 _BOUNDS = (-9.0, 9.0)  # a weight that nothing speaks against would grow without end
@@ -59,7 +72,7 @@ def measure(tell: Tell, quick: bool) -> Result:
         sets.append([rule for case in chain(drawn, shown) if (rule := _rule(case))])
         tell(f"calibrate: {len(sets[-1])} rules with several readings")
     fitting, judging = sets
-    used = np.array([float(getattr(belief, name)) for name in WEIGHTS])
+    used = np.array([float(getattr(module, name)) for name, module in WEIGHTS.items()])
     fitted, by_size = _fit(fitting), _fit(fitting, [0])
     choices = {"size only": by_size, "fitted": fitted, "in use": used}
     return Result(
@@ -102,8 +115,9 @@ def _rule(case: Case) -> Rule | None:
     idle = [count_idle(term, shown, search.field) for term in terms]
 
     def column(name: str) -> Floats:
-        alone: dict[str, Any] = {other: float(other == name) for other in WEIGHTS}
-        with patch.multiple(belief, **alone):
+        with ExitStack() as patches:
+            for other, module in WEIGHTS.items():
+                patches.enter_context(patch.object(module, other, float(other == name)))
             shares = belief.compute_beliefs(terms, facts, shown, len(case.rest()), None, idle)
         nats: Floats = -np.log(np.array(shares))
         return nats

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 from benchmark.learning.cases import FAMILY, name_of, read_family
@@ -11,8 +11,7 @@ from benchmark.learning.families import FAMILIES, VOCABULARIES
 from benchmark.learning.tables import DEMONSTRATED, PROGRAM, stretch_tables, templates
 from meshforge.language import Program, Rule, Template, select
 from meshforge.symbolic import SymbolicMesh
-from meshforge.synthesis import Demonstration, LearningOutcome, Step
-from meshforge.synthesis.task import Replay, advance, begin_replay
+from meshforge.synthesis import Demonstration, LearningOutcome, Step, memoize
 
 _TEXTS: dict[str, tuple[str, ...]] = {
     "table": (
@@ -68,13 +67,9 @@ class TargetProgram:
 
     def mesh_before(self, asset: str, rules: Sequence[Rule]) -> SymbolicMesh:
         """A mesh after some rules, as the next one meets it."""
-        program = self.program
-        replay: Replay = begin_replay(
-            asset, Demonstration(self.meshes[asset], (), asset), program.orient, program.contact
-        )
-        for number, rule in enumerate(rules, 1):
-            replay = advance(replay, number, rule, self.templates, program.extremity)
-        return replay.mesh
+        program = replace(self.program, rules=tuple(rules))
+        *_, last = program.replay(self.meshes[asset], self.templates, name=asset, memo=memoize)
+        return last.mesh
 
     def intend(self, asset: str, number: int, outcome: LearningOutcome) -> frozenset[str]:
         """What a person wants a rule to select, on the mesh that the learned rules before it make."""

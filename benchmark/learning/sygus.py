@@ -14,10 +14,10 @@ from multiprocessing import get_context
 from multiprocessing.connection import Connection
 from typing import Any
 
-from meshforge.language import EXTREMITY, All, Diff, Extractor, Intersect, Union, select_mask
+from meshforge.language import EXTREMITY, All, Diff, Extractor, Intersect, Leaf, Union, select_mask
 from meshforge.synthesis.demonstration import Example
 from meshforge.synthesis.options import Layers
-from meshforge.synthesis.search.terms import Leaf, enumerate_leaves
+from meshforge.synthesis.search.terms import enumerate_leaves
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,7 +75,7 @@ def state_problem(
     examples: Sequence[Example], vocabulary: Sequence[str], extremity: float = EXTREMITY, layers: Layers = "S+T+G"
 ) -> Problem:
     """The problem of a rule, as truth values."""
-    columns = {leaf: _column(leaf, examples, extremity) for leaf in enumerate_leaves(vocabulary, layers)}
+    columns = {leaf: _column(leaf, examples, extremity) for leaf in enumerate_leaves(tuple(vocabulary), layers)}
     telling = {leaf: column for leaf, column in columns.items() if len(set(column)) > 1 or leaf == All()}
     shown = [bool(e.selection >> hull & 1) for e in examples for hull in range(len(e.mesh.hulls))]
     rows = zip(zip(*telling.values(), strict=True), shown, strict=True)

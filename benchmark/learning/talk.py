@@ -47,7 +47,11 @@ def talk(task: TargetProgram, demos: Sequence[Demonstration], options: Options) 
 
 
 def _answer(task: TargetProgram, outcome: Ambiguous) -> Answer:
-    """The choice that is what is wanted, or neither."""
-    asks = outcome.question
-    meant = task.intend(asks.asset, asks.rule, outcome)
-    return asks.answer_with(next((k for k, choice in enumerate(asks.choices) if set(choice.select) == meant), None))
+    """The selection that is wanted, or none of them."""
+    one = outcome.open_rule
+    meant = task.intend(one.asset, one.rule, outcome)
+    return (
+        Answer(one.rule, one.asset, meant)
+        if meant in one.selections
+        else Answer(one.rule, one.asset, None, one.selections)
+    )

@@ -46,7 +46,7 @@ class Client(TaskClient):
         super().__init__(project)
         self.program = project.program()
         self.found: ProjectReview | None = None
-        self._outputs = dict[tuple[str, str, bytes, str], Output]()
+        self._outputs = dict[tuple[str, str, str, str], Output]()
 
     # What a person does
 
@@ -77,7 +77,7 @@ class Client(TaskClient):
         if program is None:
             return None
         by_hand, meant = project.corrections(asset), project.feedback().verdict_on(asset)
-        key = (asset, str(program), project.label_bytes(asset), f"{by_hand} {meant and meant.meant}")
+        key = (asset, str(program), str(project.labels(asset)), f"{by_hand} {meant and meant.meant}")
         if key not in self._outputs:
             self._outputs[key] = Output(self._edit(asset, program), bool(by_hand))
         return self._outputs[key]

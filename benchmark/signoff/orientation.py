@@ -193,9 +193,9 @@ class Lesson:
             outcome = self._synthesize(orient, answers)
             if outcome and outcome.suggested and not suggested:
                 suggested = outcome.suggested.orient
-            if not outcome or not outcome.question or not outcome.program or len(answers) == _MOST_ANSWERS:
+            if not outcome or not outcome.open_rule or not outcome.program or len(answers) == _MOST_ANSWERS:
                 return outcome, suggested, len(answers)
-            answers.append(person.answers(self._desk, outcome.question, outcome.program))
+            answers.append(person.answers(self._desk, outcome.open_rule, outcome.program))
 
     def _synthesize(self, orient: Orient | None, answers: Sequence[Answer]) -> LearningOutcome | None:
         """None where it cannot be done; proposals to correct labels are refused, as all are right."""

@@ -1,4 +1,4 @@
-"""The same person at a terminal: the commands `review --answers`, `demonstrate`, `label` and `synthesize --forget`,
+"""The same person at a terminal: the commands `review --answers`, `demonstrate`, `label` and `review --forget`,
 called in this process."""
 
 from __future__ import annotations
@@ -61,11 +61,11 @@ class TerminalClient(Client):
         self._call("demonstrate", asset, "--clear")
         for answer in self.answers:
             if answer.asset == asset:
-                self._call("synthesize", "--forget", f"{answer.rule}:{asset}")
+                self._call("review", "--forget", f"{answer.rule}:{asset}")
 
     def refuse_choices(self, answer: Answer) -> None:
         """Take the answer back; when the question is asked again, none of the choices is meant."""
-        self._call("synthesize", "--forget", f"{answer.rule}:{answer.asset}")
+        self._call("review", "--forget", f"{answer.rule}:{answer.asset}")
         self._refused.add((answer.rule, answer.asset))
 
     def set_labels(self, asset: str, labels: Mapping[str, str]) -> None:

@@ -60,7 +60,7 @@ def measure(tell: Tell, quick: bool) -> Result:
     with tempfile.TemporaryDirectory() as folder:
         tell(f"replies: making {ASSETS} tables")
         project = _family(Path(folder))
-        shown = set(project.layout.ids_with("demonstrations"))
+        shown = set(project.layout.demonstration.ids)
         named = [asset for asset in project.assets() if asset not in shown]
         with studio(project.folder) as address, chromium() as browser:
             page = open_asset(browser, address, project.assets()[0], _WATCH)
@@ -104,5 +104,5 @@ def _family(folder: Path) -> Project:
     )
     for part in ("templates", "demonstrations"):
         shutil.copytree(TABLES / part, project.folder / part)
-    project.label_from_files()
+    project.label("file")
     return project

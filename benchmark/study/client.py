@@ -58,7 +58,7 @@ class TaskClient:
         Where no label is given yet, that asset is all that the product tells.
         """
         try:
-            return self.project.propagate_labels().next
+            return self.project.label("propagate").next
         except ProjectError as refusal:
             told = refusal.remedy or ""
             return next((asset for asset in self.project.assets() if f"best {asset}." in told), None)
@@ -66,7 +66,7 @@ class TaskClient:
     def take_labels(self) -> None:
         """Take the labels that all sources together speak for, where any hull has one."""
         if any(mesh.labels for mesh in self.read_meshes().values()):
-            self.project.label_by_consensus()
+            self.project.label("consensus")
 
     # What a person sees
 

@@ -208,7 +208,7 @@ class Course:
             return False
         if sum(row.demonstrations == len(self.log.shown) for row in self.log.rounds) > _ANSWERS:
             return False
-        answer = self.person.answers(self.desk, outcome.question, outcome.program)
+        answer = self.person.answers(self.desk, outcome.open_rule, outcome.program)
         self.client.project.add_answer(answer)
         self.log.answers += 1
         self.log.neither += answer.select is None

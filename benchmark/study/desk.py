@@ -11,11 +11,10 @@ from benchmark.assets import SEPARATE, Sample, family
 from benchmark.study.condition import Labels
 from benchmark.study.labels import mislabel, noisy
 from benchmark.tasks import EditResult, Task, task
-from meshforge.language import EXTREMITY, Extractor, Program, select_mask
+from meshforge.language import EXTREMITY, Extractor, Program, Replay, select_mask
 from meshforge.signoff import EditMeasures, measure_edit
 from meshforge.symbolic import Label, SymbolicMesh
-from meshforge.synthesis import Demonstration, choose_first_demonstration
-from meshforge.synthesis.task import Replay, advance, begin_replay
+from meshforge.synthesis import choose_first_demonstration, memoize
 
 Selections = tuple[frozenset[str], ...]
 """What each rule selects on a mesh, by hull names."""
@@ -128,11 +127,11 @@ class Desk:
             task = self.bench.task
             frame = task.program
             if not place:
-                replay = begin_replay(name, Demonstration(self.meshes[name], (), name), frame.orient, frame.contact)
+                replay = Replay.begin(self.meshes[name], frame.orient, frame.contact, name=name, memo=memoize)
             else:
                 self.mesh_before(name, place - 1)
                 before, rule = self._met[name, place - 1], frame.rules[place - 1]
-                replay = advance(before, place, rule, task.templates, frame.extremity)
+                replay = before.advance(rule, task.templates, frame.extremity)
             self._met[key] = replay
         return self._met[key].mesh
 

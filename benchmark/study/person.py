@@ -9,7 +9,7 @@ from dataclasses import replace
 from benchmark.study.condition import SEEN, Condition
 from benchmark.study.desk import Desk, Selections
 from meshforge.language import Program
-from meshforge.synthesis import Answer, Demonstration, LabelCorrection, Question, Repair, Step
+from meshforge.synthesis import Answer, Demonstration, LabelCorrection, OpenRule, Repair, Step
 
 
 class Person:
@@ -82,11 +82,13 @@ class Person:
                 return name, frozenset(place + 1 for place in [*before, wrong]) if self._names_rules else None
         return None
 
-    def answers(self, desk: Desk, question: Question, program: Program) -> Answer:
-        """The choice that is right, or neither; program: what was learned so far."""
-        choices = [frozenset(choice.select) for choice in question.choices]
-        right = self.picks(desk, (question.asset, question.rule), choices, program)
-        return question.answer_with(self.slips_from(right, len(choices)))
+    def answers(self, desk: Desk, one: OpenRule, program: Program) -> Answer:
+        """The selection that is right, or none of them; program: what was learned so far."""
+        right = self.picks(desk, (one.asset, one.rule), one.selections, program)
+        said = self.slips_from(right, len(one.selections))
+        if said is None:
+            return Answer(one.rule, one.asset, None, one.selections)
+        return Answer(one.rule, one.asset, one.selections[said])
 
     def picks(
         self, desk: Desk, where: tuple[str, int], choices: Sequence[frozenset[str]], program: Program

@@ -54,7 +54,7 @@ def test_a_run_splits_hulls_of_new_assets_says_which_and_undo_takes_it_back(proj
             assert stamp and any("%: into " in note for note in stamp.notes)
         person.press("Control+z")
         person.page.wait_for_function("() => !document.querySelector('[aria-label^=\"Undo: \"]')")
-        assert not project.layout.ids_with_preparation() and not project.layout.labels("c.urdf").exists()
+        assert not project.layout.preparation.ids and not project.layout.labels("c.urdf").exists()
         assert not person.complaints
         hello = studio.settled()
         assert hello["project"]["new"] is None, "what was taken back is not done again"
@@ -70,7 +70,7 @@ def test_hulls_of_new_assets_stay_as_they_are_where_that_is_chosen(project: Proj
         assert "it could not be prepared: " in lines["d.urdf"]["text"] and lines["d.urdf"]["status"] == "failed"
         assert lines["c.urdf"]["status"] == "edited" and lines["c.urdf"]["before"][0].endswith(": not split")
         assert job["message"].endswith("1 hull likely spans parts, not split.")
-        assert not project.layout.ids_with_preparation()
+        assert not project.layout.preparation.ids
         hello = studio.until(lambda hello: hello["project"]["new"] is not None)
         assert hello["project"]["new"]["split"] == 2, "another run may still split them"
 
@@ -83,7 +83,7 @@ def test_a_run_that_is_stopped_leaves_each_new_asset_as_it_was_or_whole(project:
         assert studio.post("/api/jobs/cancel", {"id": job}).status_code == 200
         ended = page.job(job)
         assert (ended["state"], ended["message"]) == ("cancelled", "Cancelled: what was done by then stays.")
-        prepared = project.layout.ids_with_preparation()
+        prepared = project.layout.preparation.ids
         for asset in ("c.urdf", "d.urdf"):
             labels = [hull.label for hull in project.mesh(asset).hulls]
             assert labels == ["leg", "seat", "leg", "leg", "leg"] if asset in prepared else labels == [None] * 4

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from lxml import etree
 
 from meshforge.formats import read, save
-from meshforge.formats.couplings import plan_couplings
+from meshforge.formats.conversion import plan_couplings
 from meshforge.symbolic import Coupling, FeatureKind, Joint
 
 FINGER = """\

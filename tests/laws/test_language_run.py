@@ -14,12 +14,13 @@ from scipy.spatial import ConvexHull
 
 from meshforge.common import MeshForgeError
 from meshforge.geometry import Shape, digest
-from meshforge.language import All, Delete, Each, Is, Merge, Program, Rule, Scale, apply_action, select_mask
+from meshforge.language import All, Delete, Each, Is, Merge, Program, Rule, Scale, select_mask
 from meshforge.language.actions.base import Axis
 from meshforge.symbolic import Hull, SymbolicMesh
 from meshforge.synthesis import memoize
 from tests.examples import examples
 from tests.strategies import TEMPLATES, VOCABULARY, meshes, programs, rules, seeds, shape_of
+from tests.unit.language.scenes import apply_action
 
 DIRECTIONS = np.array([d for d in itertools.product((-1.0, 0.0, 1.0), repeat=3) if any(d)])
 

@@ -52,6 +52,8 @@ def naive(extractor: Extractor, mesh: SymbolicMesh) -> set[int]:
             return naive(left, mesh) & naive(right, mesh)
         case Diff(left, right):
             return naive(left, mesh) - naive(right, mesh)
+        case _:
+            raise AssertionError(f"{extractor} is none of the paper's")
 
 
 def touching(mesh: SymbolicMesh, u: int, v: int) -> bool:

@@ -8,7 +8,20 @@ from itertools import combinations, product
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from meshforge.language import All, Attach, BaseExtractor, Extractor, Geo, Is, labels_of, select_mask, size_of
+from meshforge.language import (
+    All,
+    Attach,
+    BaseExtractor,
+    Diff,
+    Extractor,
+    Geo,
+    Intersect,
+    Is,
+    Union,
+    labels_of,
+    select_mask,
+    size_of,
+)
 from meshforge.symbolic import Label, SymbolicMesh, bits_of
 from meshforge.synthesis.demonstration import Example
 from meshforge.synthesis.options import LAYERS, Layers, Options, TimeBudget
@@ -79,8 +92,10 @@ def with_holes(draw: st.DrawFn, extractor: Extractor) -> Partial:
                 return make_attach(base(selected), base(anchor))
             case Geo(_, direction):
                 return OpenGeo(direction) if draw(st.booleans()) else node
-            case joint:
-                return make_operator(type(joint), part(joint.left), part(joint.right))
+            case Union(left, right) | Intersect(left, right) | Diff(left, right):
+                return make_operator(type(node), part(left), part(right))
+            case _:
+                raise AssertionError(f"{node} is none of the paper's")
 
     return part(extractor)
 

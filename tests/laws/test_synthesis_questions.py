@@ -14,6 +14,7 @@ from meshforge.language import Delete, Extractor, Program, select
 from meshforge.symbolic import Label, SymbolicMesh
 from meshforge.synthesis import Ambiguous, Answer, Demonstration, Found, LearningOutcome, Repair, Step, synthesize
 from tests.examples import examples
+from tests.open_rules import answer_truly
 from tests.synthesis_boxes import Piece, boxes
 
 LAMPS = 20
@@ -61,9 +62,8 @@ def taught(
         outcome = synthesize(demos, meshes, vocabulary=vocabulary, answers=answers, confirm=lambda _: False)
         if not isinstance(outcome, Ambiguous):
             return outcome, answers
-        truth = selected(meshes[outcome.question.asset], meant)
-        offered = [frozenset(choice.select) for choice in outcome.question.choices]
-        answers.append(outcome.question.answer_with(offered.index(truth) if truth in offered else None))
+        truth = selected(meshes[outcome.open_rule.asset], meant)
+        answers.append(answer_truly(outcome.open_rule, truth))
 
 
 @pytest.mark.parametrize("text", ["Is(base)", "Geo(Is(base), -Z)"])
@@ -78,8 +78,8 @@ def test_a_rare_variant_is_asked_about_and_one_answer_settles_it(
     names = list(dict.fromkeys([f"lamp {first}", f"lamp {second}"]))
     outcome = synthesize(shown(meshes, names, rule.extractor), meshes)
     assert isinstance(outcome, Ambiguous)
-    assert outcome.question.asset == rare
-    assert {frozenset({"foot"}), frozenset({"foot", "step"})} <= {frozenset(c.select) for c in outcome.question.choices}
+    assert outcome.open_rule.asset == rare
+    assert {frozenset({"foot"}), frozenset({"foot", "step"})} <= set(outcome.open_rule.selections)
     settled, answers = taught(meshes, names, rule.extractor, ("base", "pole", "shade"))
     assert isinstance(settled, Found)
     assert len(answers) == 1

@@ -15,14 +15,14 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from meshforge.label_model.odds import LabelBeliefs
-from meshforge.language import Extractor, select_mask, size_of
+from meshforge.language import Extractor, HullTable, select_mask, size_of
 from meshforge.symbolic import Label, SymbolicMesh
 from meshforge.synthesis.demonstration import Example
 from meshforge.synthesis.options import Options, TimeBudget
 from meshforge.synthesis.questions import LabelCorrection
 from meshforge.synthesis.repair.explain import CorrectionSearch, Explanation
 from meshforge.synthesis.repair.relabelings import Relabeling, build_hull_table, relabel
-from meshforge.synthesis.search.observation_table import HullTable
+from meshforge.synthesis.search.observation_table import select_all
 from meshforge.synthesis.search.smallest import Hit, Search
 from meshforge.synthesis.search.terms import enumerate_leaves
 from tests.examples import examples
@@ -132,8 +132,9 @@ def test_relabelled_hulls_are_selected_as_on_relabelled_meshes(shown: Shown, dat
         some = data.draw(st.lists(changes, min_size=1, max_size=3))
         ways.append([Relabeling(changes=tuple(sorted(one))) for one in some])
     made = [relabel(e, way.changes).mesh for e, some in zip(examples, ways, strict=True) for way in some]
-    chosen = enumerate_leaves(LABELS)
-    assert np.array_equal(build_hull_table(examples, ways).table(chosen, 0.05), HullTable(made).table(chosen, 0.05))
+    chosen = enumerate_leaves(tuple(LABELS))
+    table = build_hull_table(examples, ways, 0.05)
+    assert np.array_equal(select_all(chosen, table), select_all(chosen, HullTable(made)))
 
 
 @pytest.mark.slow

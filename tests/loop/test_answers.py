@@ -12,7 +12,7 @@ import pytest
 from meshforge.language import Program, Rule
 from meshforge.project import Project
 from meshforge.samples import TABLES
-from meshforge.synthesis import Step
+from meshforge.synthesis import Answer, Step
 from tests.loop.command import meshforge_here as meshforge
 
 TAUGHT = Program.read(TABLES / "tables.mf")
@@ -32,7 +32,7 @@ def tables(tmp_path_factory: pytest.TempPathFactory) -> Path:
     project = Project.create(
         folder / "tables", [folder / "assets"], vocabulary=TAUGHT.labels, orient="+Z: Is(leg) -> Is(panel)"
     )
-    project.label_from_files()
+    project.label("file")
     for asset in SHOWN:
         steps = enumerate(_meant(folder, asset), 1)
         project.demonstrate(asset, [Step(k, names, rule.action) for k, (names, rule) in steps])
@@ -45,33 +45,29 @@ def _meant(folder: Path, asset: str) -> list[tuple[list[str], Rule]]:
     return [(list(trace.selected), rule) for trace, rule in zip(MEANT.run(mesh).trace, MEANT.rules, strict=True)]
 
 
-def test_questions_are_answered_from_a_file_until_all_is_settled(tables: Path) -> None:
-    learned = meshforge("synthesize", "tables", "--json", cwd=tables).json
-    assert learned["status"] == "ambiguous"
-    given: list[dict[str, object]] = []
-    while learned["question"]:
-        question = learned["question"]
+def test_questions_are_answered_from_a_file_until_the_program_is_what_is_meant(tables: Path) -> None:
+    assert meshforge("synthesize", "tables", "--json", cwd=tables).json["status"] == "ambiguous"
+    found, given = meshforge("review", "tables", "--json", cwd=tables, code=1).json, 0
+    while (question := found["question"]) and question["kind"] == "reading":
         right = set(_meant(tables, question["asset"])[question["rule"] - 1][0])
         choices = [set(choice["select"]) for choice in question["choices"]]
         assert right in choices
-        given.append({"question": question["id"], "choice": choices.index(right) + 1})
-        assert len(given) <= 4
-        (tables / "given.json").write_text(json.dumps(given[-1:]))
-        learned = meshforge("synthesize", "tables", "--json", "--answers", "given.json", cwd=tables).json
+        (tables / "given.json").write_text(json.dumps([{"id": question["id"], "choice": choices.index(right)}]))
+        given += 1
+        assert given <= 4
+        found = meshforge("review", "tables", "--json", "--answers", "given.json", cwd=tables, code=1).json
     assert Program.read(tables / "tables" / "program.mf") == MEANT
     assert given
 
 
 def test_more_answers_settle_what_is_not_asked(tables: Path) -> None:
     """Answers need not be asked for: what is left of doubt is settled by saying what is meant."""
-    given = [
-        {"rule": number, "asset": path.name, "select": names}
-        for path in sorted(TABLES.glob("*.obj"))
-        if path.name not in SHOWN
-        for number, (names, _) in enumerate(_meant(tables, path.name), 1)
-    ]
-    (tables / "all.json").write_text(json.dumps(given))
-    done = meshforge("synthesize", "tables", "--answers", "all.json", cwd=tables)
+    project = Project.open(tables / "tables")
+    for path in sorted(TABLES.glob("*.obj")):
+        if path.name not in SHOWN:
+            for number, (names, _) in enumerate(_meant(tables, path.name), 1):
+                project.add_answer(Answer(number, path.name, names))
+    done = meshforge("synthesize", "tables", cwd=tables)
     assert Program.parse(done.out) == MEANT
     assert "all believable readings of the rules agree on your 14 assets" in done.err
     status = Project.open(tables / "tables").status(workers=0)

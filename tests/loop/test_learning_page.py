@@ -20,14 +20,15 @@ def commands() -> list[list[str]]:
     return [shlex.split(line)[1:] for line in lines if line.startswith("meshforge")]
 
 
-def test_five_rules_are_taught_with_one_demonstration_and_one_answer(tmp_path: Path) -> None:
+def test_five_rules_are_taught_with_one_demonstration_and_three_clicks(tmp_path: Path) -> None:
     for words in commands():
-        meshforge(*words, cwd=tmp_path)
-    (tmp_path / "answers.json").write_text(json.dumps([{"question": "5:table_03.obj", "choice": 2}]), "utf-8")
-    meshforge("synthesize", "desks", "--answers", "answers.json", cwd=tmp_path)
-    page = PAGE.read_text("utf-8")
-    assert '[{"question": "5:table_03.obj", "choice": 2}]' in page
-    shown = page.split("Answer 2, and")[1].split("```")[1].strip()
+        meshforge(*words, cwd=tmp_path, code=int(words[0] == "review"))
+    for kind, asset in (("selection", "table_12.obj"), ("reading", "table_09.obj"), ("reading", "table_02.obj")):
+        question = meshforge("review", "desks", "--json", cwd=tmp_path, code=1).json["question"]
+        assert (question["kind"], question["asset"]) == (kind, asset)
+        (tmp_path / "said.json").write_text(json.dumps([{"id": question["id"], "choice": 0}]), "utf-8")
+        meshforge("review", "desks", "--answers", "said.json", cwd=tmp_path, code=1)
+    shown = PAGE.read_text("utf-8").split("Now all rules are what you meant")[1].split("```")[1].strip()
     learned = Program.read(tmp_path / "desks" / "program.mf")
     assert [str(rule) for rule in learned.rules] == [str(rule) for rule in Program.parse(header(learned) + shown).rules]
 

@@ -28,7 +28,8 @@ __getattr__, __all__ = export_lazily(
         "preparation.record": "Preparation Replacement apply_preparation find_sources find_surfaces replay_preparation",
         "preparation.split": "HullDivision cut_hull divide_hulls split_hull",
         "preparation.storage": (
-            "RECORD_FILE read_preparation read_prepared read_steps record_digest remove_preparation write_preparation"
+            "RECORD_FILE list_preparation_writes read_preparation read_prepared read_steps record_digest "
+            "write_preparation"
         ),
         "provenance": (
             "OutputInputs Stamp asset_digests content_digest has_same_files program_digest read_stamp "

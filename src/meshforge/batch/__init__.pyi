@@ -61,11 +61,11 @@ from meshforge.batch.preparation.split import cut_hull as cut_hull
 from meshforge.batch.preparation.split import divide_hulls as divide_hulls
 from meshforge.batch.preparation.split import split_hull as split_hull
 from meshforge.batch.preparation.storage import RECORD_FILE as RECORD_FILE
+from meshforge.batch.preparation.storage import list_preparation_writes as list_preparation_writes
 from meshforge.batch.preparation.storage import read_preparation as read_preparation
 from meshforge.batch.preparation.storage import read_prepared as read_prepared
 from meshforge.batch.preparation.storage import read_steps as read_steps
 from meshforge.batch.preparation.storage import record_digest as record_digest
-from meshforge.batch.preparation.storage import remove_preparation as remove_preparation
 from meshforge.batch.preparation.storage import write_preparation as write_preparation
 from meshforge.batch.provenance import OutputInputs as OutputInputs
 from meshforge.batch.provenance import Stamp as Stamp

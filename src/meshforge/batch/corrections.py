@@ -83,21 +83,21 @@ def replay_corrections(
     corrections = tuple(corrections)
     if not corrections:
         return edited, ()
-    staged, pose = language.to_canonical_frame(source, program.orient, program.contact)
-    known = staged.index
+    replay = language.Replay.begin(source, program.orient, program.contact)
+    staged, known = replay.mesh, replay.mesh.index
     current = staged.with_hulls(
-        staged.hulls[known[h.name]].with_label(h.annotation) if h.name in known else h.move(pose) for h in edited.hulls
+        staged.hulls[known[h.name]].with_label(h.annotation) if h.name in known else h.move(replay.pose)
+        for h in edited.hulls
     )
-    flags, used = [], frozenset(edited.index)
+    replay, flags = replace(replay, mesh=current, used=frozenset(edited.index)), []
     for number, correction in enumerate(corrections, 1):
-        lost = correction.find_problem(_restore_program_hulls(current, edited))
+        lost = correction.find_problem(_restore_program_hulls(replay.mesh, edited))
         if lost:
             flags.append(f"edit {number} by hand was left out: {lost}")
             continue
-        mask = symbolic.mask_of(current.index[name] for name, _ in correction.hulls)
-        applied = language.apply_action(current, mask, correction.action, templates, correction.label, used)
-        current, used = applied.mesh, applied.used
-    return _restore_program_hulls(language.from_canonical_frame(source, current, pose), edited), tuple(flags)
+        mask = replay.mask_of(name for name, _ in correction.hulls)
+        replay = replay.apply(mask, correction.action, correction.label, templates)
+    return _restore_program_hulls(replay.edited, edited), tuple(flags)
 
 
 def _restore_program_hulls(mesh: symbolic.SymbolicMesh, edited: symbolic.SymbolicMesh) -> symbolic.SymbolicMesh:

@@ -36,4 +36,8 @@ def inputs_of(task: ApplyTask, job: AssetJob, files: dict[str, str]) -> provenan
 def _plugins_of(task: ApplyTask, job: AssetJob) -> Iterator[Plugin | None]:
     """The plug-ins that read, edit and write the asset; None for what is built in."""
     yield from map(plugin_of_suffix, {job.path.suffix, task.options.to or job.path.suffix})
-    yield from (language.plugin_of(rule.action) for rule in task.program.rules)
+    pairs = task.program.orient.pairs if task.program.orient else ()
+    yield from (base.plugin for pair in pairs for base in (pair.start, pair.end))
+    for rule in task.program.rules:
+        yield from (one.plugin for leaf in language.leaves_of(rule.extractor) for one in (leaf, *leaf.bases))
+        yield rule.action.plugin

@@ -16,6 +16,16 @@ OTHER_SPELLINGS = {
     "--decompose": ("--method", "--engine", "--decomposer"),
 }
 """What options were called once, or are called elsewhere, by what they are called here."""
+_MOVED = {
+    "synthesize": {
+        "--answers": "--answers FILE",
+        "--accept-repairs": "--answers FILE",
+        "--reject-repairs": "--answers FILE",
+        "--list-answers": "--list-answers",
+        "--forget": "--forget ID",
+    }
+}
+"""What a command did once and `review` does now, by its option."""
 
 
 class Command(TyperCommand):
@@ -32,6 +42,10 @@ class Command(TyperCommand):
                 if other in typed - known:
                     remedy = f"All options: meshforge {self.name} --help"
                     raise UsageError(f"meshforge {self.name} has no {other}: it is {name}", remedy=remedy)
+        for other, now in _MOVED.get(str(self.name), {}).items():
+            if other in typed:
+                remedy = f"Use: meshforge review PROJECT {now}"
+                raise UsageError(f"meshforge {self.name} only learns, and has no {other}", remedy=remedy)
         try:
             return super().parse_args(ctx, args)
         except BadParameter as error:

@@ -151,5 +151,5 @@ def _create_project(out: Path) -> Project:
     labels, pattern = tables.vocabulary, out / "assets" / tables.pattern
     project = Project.create(out / "project", [pattern], name=tables.name, vocabulary=labels, orient=TABLE_ORIENT)
     shutil.copytree(TABLES / "templates", project.folder / "templates")
-    project.label_from_files()
+    project.label("file")
     return project

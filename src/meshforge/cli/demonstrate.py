@@ -15,9 +15,9 @@ from meshforge.cli.hulls import find_hulls
 from meshforge.cli.options import asset_id
 from meshforge.cli.terminal import remark
 from meshforge.common import escape_name, join_names, pluralize
-from meshforge.language import ActionResult, Program, apply_action, to_canonical_frame
+from meshforge.language import Program, Replay, RuleTrace
 from meshforge.project import Project
-from meshforge.symbolic import SymbolicMesh, mask_of
+from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Step
 
 
@@ -64,28 +64,25 @@ def demonstrate(
 
 def _record_steps(project: Project, asset: str, texts: Sequence[str]) -> list[tuple[Step, str]]:
     """The steps, each with what it does to the hulls, in words."""
-    mesh = to_canonical_frame(project.mesh(asset), project.orientation, project.settings.thresholds.contact)[0]
-    numbered, recorded, used = tuple(mesh.index), [], frozenset[str]()
+    replay = Replay.begin(project.mesh(asset), project.orientation, project.settings.thresholds.contact)
+    numbered, recorded = tuple(replay.mesh.index), []
     for number, text in enumerate(texts, 1):
         hulls, _, done_to_them = text.partition("=>")
         (rule,) = Program.parse(f"All => {done_to_them.strip()}", f"step {number}").rules
         action, label = rule.action, rule.label
-        select = _parse_hulls(hulls.strip(), mesh, f"step {number}", numbered, project)
+        select = _parse_hulls(hulls.strip(), replay.mesh, f"step {number}", numbered, project)
         result = ""
         if select:
-            templates = project.templates(action.templates)
-            mask = mask_of(mesh.index[name] for name in select)
-            done = apply_action(mesh, mask, action, templates, label, used)
-            result = _describe_result(len(select), done)
-            mesh, used = done.mesh, done.used
+            replay = replay.apply(replay.mask_of(select), action, label, project.templates(action.templates))
+            result = _describe_result(replay.trace[-1])
         recorded.append((Step(number, select, action, label), result))
     return recorded
 
 
-def _describe_result(before: int, done: ActionResult) -> str:
+def _describe_result(done: RuleTrace) -> str:
     """What a step did: `5 hulls -> 1, of which a~1 joins a, b and 3 more`."""
     joined = next((name for name, of in zip(done.made, done.sources, strict=True) if len(of) > 1), None)
-    said = f"{pluralize(before, 'hull')} -> {len(done.made)}"
+    said = f"{pluralize(len(done.selected), 'hull')} -> {len(done.made)}"
     if joined is not None:
         said += f", of which {escape_name(joined)} joins {join_names(done.sources[done.made.index(joined)])}"
     return said + (f"; {done.note}" if done.note else "")

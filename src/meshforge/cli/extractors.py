@@ -62,5 +62,5 @@ def find_absent_labels(
 
 def labels_of_project(project: Project) -> Collection[str]:
     """The labels that hulls of a project can have: its vocabulary, or, without one, those that its assets have."""
-    every = (project.labels(asset).labels.values() for asset in project.layout.ids_with("labels"))
+    every = (project.labels(asset).labels.values() for asset in project.layout.labels.ids)
     return project.vocabulary or {label.name for label in chain.from_iterable(every)}

@@ -10,13 +10,12 @@ import typer
 
 from meshforge.cli import options
 from meshforge.cli.label_by_hand import label_by_hand, refuse_sources
-from meshforge.cli.label_consensus import label_by_consensus, restore_sources
 from meshforge.cli.label_report import LabelPrinter, LabelReport
-from meshforge.cli.label_sources import SourceOptions, label_from_sources, preview
+from meshforge.cli.label_sources import SourceOptions, label_by, preview
 from meshforge.cli.label_vlm import VLM, VlmOptions, forecast, label_with_vlm
 from meshforge.cli.terminal import remark
 from meshforge.common import UsageError
-from meshforge.labels import approve_host, check_labeler
+from meshforge.labels import LABELERS, approve_host
 from meshforge.project import Project
 
 
@@ -43,11 +42,10 @@ class LabelArguments:
         str,
         typer.Option(
             "--with",
-            metavar="[file|names|propagate|vlm|consensus|sources|PLUGIN]",
-            help="Where labels come from: file takes over labels files, names reads them off the names of hulls and "
-            "bodies, propagate takes those of a few assets to all others, vlm asks a vision-language model; consensus "
-            "weighs all that these and people said against hulls that look alike, sources takes back what consensus "
-            "and propagate made of it; the name of a plug-in's labeller asks that.",
+            metavar=f"[{'|'.join(LABELERS.built_in)}|PLUGIN]",
+            help="Where labels come from: "
+            + "; ".join(f"{name}: {kind.about}" for name, kind in LABELERS.built_in.items())
+            + "; or the name of a plug-in's labeller.",
         ),
     ] = "file"
     labels: Annotated[
@@ -112,13 +110,10 @@ def label(given: LabelArguments) -> None:
         refuse_sources(given.context)
         label_by_hand(Project.open(given.project), given.asset, given.hulls or (), words, json=given.json)
         return
-    check_labeler(source)
-    if given.labels and source != "file":
-        raise UsageError(f"--labels names labels files, which --with {source} does not read", remedy="Leave one out.")
+    sources = SourceOptions(source, given.labels, given.pattern or (), given.classes, given.align, given.points_up)
+    labeler = sources.to_labeler()
     if source != "vlm" and given.vlm.first_option:
         raise UsageError(f"{given.vlm.first_option} is for --with vlm", remedy="Leave it out.")
-    sources = SourceOptions(source, given.labels, given.pattern or (), given.classes, given.align, given.points_up)
-    sources.refuse_strays()
     if given.report and given.dry_run:
         raise UsageError(options.NOTHING_TO_SHOW, remedy="Leave out --report.")
     project = Project.open(given.project)
@@ -127,18 +122,14 @@ def label(given: LabelArguments) -> None:
         forecast(project, given.vlm, words, execution, json=given.json)
         return
     if given.dry_run:
-        preview(project, sources, words, execution, json=given.json)
+        preview(project, labeler, words, execution, json=given.json)
         return
     if words is not None:
         project.set_vocabulary(words)
-    page = LabelReport(given.report, source) if given.report else None
+    page = LabelReport(given.report, labeler) if given.report else None
     printer = LabelPrinter(given.sheets, page, json=given.json)
     if source == "vlm":
         label_with_vlm(project, given.vlm, execution, printer)
-    elif source == "consensus":
-        label_by_consensus(project, execution, printer)
-    elif source == "sources":
-        restore_sources(project, execution, printer)
     else:
-        label_from_sources(project, sources, execution, printer)
+        label_by(project, labeler, execution, printer)
     raise typer.Exit(int(printer.failed))

@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import typer
 
-from meshforge import symbolic
 from meshforge.cli.hulls import find_hulls
 from meshforge.cli.options import asset_id, list_typed
 from meshforge.cli.terminal import print_json
 from meshforge.common import UsageError, escape_name, pluralize, quote_path, suggest_among
 from meshforge.labels import label_command
 from meshforge.project import Project
+from meshforge.store import History
+from meshforge.symbolic import Label, SymbolicMesh
 
 _OWN = ("project", "asset", "hulls", "vocabulary", "json")
 
@@ -34,9 +36,6 @@ def label_by_hand(
     vocabulary: to be set before, None for that of the project. Raises MeshForgeError, with nothing written, where
     anything of it is wrong.
     """
-    from meshforge.studio.edits.assets import LabelByName  # lazy: 140 classes that labels from elsewhere do not need
-    from meshforge.studio.history import History  # lazy: as LabelByName
-
     if not texts and "=" in asset:
         remedy = f"meshforge label {quote_path(project.folder)} ASSET '{asset}'"
         raise UsageError(f"{asset}: of which asset?", remedy=remedy)
@@ -47,22 +46,37 @@ def label_by_hand(
         raise UsageError(f"what is to be labelled on {asset} is missing", remedy=remedy)
     see = f"meshforge info {quote_path(Path(asset))} --project {quote_path(project.folder)}"
     labels = _parse_labels(texts, mesh, words, see)
-    edit = LabelByName(asset=asset, labels=labels, vocabulary=None if vocabulary is None else tuple(vocabulary))
-    entry = History(project).do(project, edit)
+    done = _write_labels(project, asset, labels, vocabulary)
     before = {name: mesh.hull_of(name).annotation for name in mesh.index}
-    after = before | {name: symbolic.Label(label, 1.0, "user") if label else None for name, label in labels.items()}
+    after = before | {name: Label(label, 1.0, "user") if label else None for name, label in labels.items()}
     changed = {name: labels[name] for name in labels if after[name] != before[name]}
     bare = sum(label is None for label in after.values())
     if json:
         print_json({"asset": asset, "labels": changed, "same": len(labels) - len(changed), "unlabelled": bare})
         return
     rest = f"{pluralize(bare, 'hull')} of {len(after)} without a label" if bare else "every hull has a label"
-    typer.echo(f"{entry.title if entry else f'{escape_name(asset)}: nothing to change'}; {rest}")
+    typer.echo(f"{done or f'{escape_name(asset)}: nothing to change'}; {rest}")
 
 
-def _parse_labels(
-    texts: Sequence[str], mesh: symbolic.SymbolicMesh, words: Sequence[str], see: str
-) -> dict[str, str | None]:
+def _write_labels(
+    project: Project, asset: str, labels: Mapping[str, str | None], vocabulary: Sequence[str] | None
+) -> str | None:
+    """Write labels and vocabulary as one entry of the history; the title of that, None where nothing changed."""
+    counts, layout, history = Counter(labels.values()), project.layout, History(project.folder)
+    parts = [f"{pluralize(n, 'hull')} labelled {label}" for label, n in counts.items() if label is not None]
+    parts += [f"label of {pluralize(counts[None], 'hull')} taken away"] if counts[None] else []
+    title, paths = (
+        f"{asset}: {', '.join(parts)}",
+        [layout.labels(asset), *([layout.settings] if vocabulary is not None else [])],
+    )
+    with history.record(title, {"asset": asset, "labels": dict(labels)}, paths) as at:
+        if vocabulary is not None:
+            project.set_vocabulary(vocabulary)
+        project.set_labels(asset, labels)
+    return title if history.state.undoable > at else None
+
+
+def _parse_labels(texts: Sequence[str], mesh: SymbolicMesh, words: Sequence[str], see: str) -> dict[str, str | None]:
     """The label of each hull that is named, None for none, in the order of the mesh; see: what lists the names."""
     found: dict[str, str | None] = {}
     for text in texts:

@@ -17,17 +17,9 @@ from meshforge.cli.console import print_table, progress
 from meshforge.cli.report import write_report_page
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import MeshForgeError, escape_name, pluralize
-from meshforge.labels import LabelOutcome, Tally
+from meshforge.labels import Labeler, LabelOutcome, Tally
 from meshforge.project import Project
 
-_ABOUT = {
-    "file": "Labels taken over from files.",
-    "names": "Labels read off the names of hulls and bodies.",
-    "propagate": "Labels of a few assets propagated to all others.",
-    "vlm": "Labels by a vision-language model.",
-    "consensus": "Labels that all sources together speak for.",
-    "sources": "Labels as their sources gave them.",
-}
 _DOUBTFUL = "Doubtful assets have hulls without a label, or with an unsure one."
 _MAX_PROBLEMS = 20  # of one asset that are shown
 _RANKS: tuple[batch.LabelStatus, ...] = ("problems", "doubtful", "labelled")
@@ -49,11 +41,12 @@ _SOURCE_WORDS = {
 
 
 class LabelReport:
-    """The page of `--report`: takes what became of assets as it comes; source: where labels come from, by `--with`."""
+    """The page of `--report`: takes what became of assets as it comes."""
 
-    def __init__(self, path: Path, source: str) -> None:
+    def __init__(self, path: Path, labeler: Labeler) -> None:
         self._path, self._started = path, perf_counter()
-        self._about = [_ABOUT.get(source, f"Labels by the plug-in {source}.")]
+        about = labeler.about or f"labels by the plug-in {labeler.name}"
+        self._about = [f"{about[0].upper()}{about[1:]}."]
         self._outcomes: dict[str, LabelOutcome] = {}
         self._problems: dict[str, Sequence[str]] = {}
         self._notes: dict[str, Sequence[str]] = {}

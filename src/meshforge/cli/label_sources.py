@@ -1,5 +1,4 @@
-"""`meshforge label` from files, names, a few labelled assets and plug-ins: its options, the preview of a dry run, and
-the run."""
+"""`meshforge label` from files, names, other assets and plug-ins: its options, a dry run, and the run."""
 
 from __future__ import annotations
 
@@ -15,16 +14,27 @@ from meshforge.cli.console import print_table, progress
 from meshforge.cli.label_report import LabelPrinter
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import UsageError, join_names, pluralize
-from meshforge.labels import LabelFileOptions, LabelOutcome, PointAlignment, Proposal, Proposals
+from meshforge.labels import (
+    FileLabeler,
+    LabelChange,
+    Labeler,
+    LabelFileOptions,
+    LabelResult,
+    NameLabeler,
+    PointAlignment,
+    Proposal,
+    Proposals,
+    make_labeler,
+)
 from meshforge.project import Project
 
 _MAX_NAMES = 3  # names of a row that are shown
-_MAX_PROBLEMS = 20
+_MAX_LINES = 20  # problems, and pairs of labels, that are shown
 
 
 @dataclass(frozen=True)
 class SourceOptions:
-    """Where labels come from, by the options of `--with file`, `names` and `propagate` as they are typed."""
+    """Where labels come from, by the options of `--with file` and `names` as they are typed."""
 
     source: str
     labels: Path | None
@@ -33,8 +43,22 @@ class SourceOptions:
     align: Literal["check", "box", "off"] | None
     points_up: Literal["y", "z"] | None
 
-    def refuse_strays(self) -> None:
-        """Raise UsageError for an option that the source of labels does not know."""
+    def to_labeler(self) -> Labeler:
+        """The labeler with its options. Raises UsageError for an option that it does not know, or a wrong one."""
+        labeler = make_labeler(self.source)
+        self._refuse_strays()
+        if isinstance(labeler, NameLabeler):
+            return NameLabeler(self.meanings)
+        if isinstance(labeler, FileLabeler):
+            classes = tuple(word.strip() for word in self.classes.split(",")) if self.classes else ()
+            placing = PointAlignment(self.align or "check", self.points_up)
+            return FileLabeler(self.labels, LabelFileOptions(self.meanings, classes, placing))
+        return labeler
+
+    def _refuse_strays(self) -> None:
+        if self.labels and self.source != "file":
+            problem = f"--labels names labels files, which --with {self.source} does not read"
+            raise UsageError(problem, remedy="Leave one out.")
         of_points = {"--classes": self.classes, "--align": self.align, "--points-up": self.points_up}
         given = next((name for name, value in of_points.items() if value), None)
         if given and self.source != "file":
@@ -47,12 +71,6 @@ class SourceOptions:
         """Patterns with the labels that they mean. Raises UsageError for one without a label."""
         return tuple(map(_parse_meaning, self.patterns))
 
-    @property
-    def file_options(self) -> LabelFileOptions:
-        """How files are read."""
-        classes = tuple(word.strip() for word in self.classes.split(",")) if self.classes else ()
-        return LabelFileOptions(self.meanings, classes, PointAlignment(self.align or "check", self.points_up))
-
 
 def _parse_meaning(text: str) -> tuple[str, str]:
     pattern, sign, label = text.rpartition("=")
@@ -63,26 +81,14 @@ def _parse_meaning(text: str) -> tuple[str, str]:
 
 def preview(
     project: Project,
-    options: SourceOptions,
+    labeler: Labeler,
     vocabulary: Sequence[str] | None,
     execution: batch.ExecutionOptions,
     *,
     json: bool,
 ) -> None:
     """Show what would be taken, with nothing written; vocabulary: the one to be tried, if another."""
-    match options.source:
-        case "names":
-            found = project.propose_from_names(options.meanings, vocabulary, execution=execution)
-        case "propagate":
-            found = project.propose_propagated(vocabulary, execution=execution, stage=progress)
-        case "consensus":
-            found = project.propose_consensus(vocabulary, execution=execution, stage=progress)
-        case "sources":
-            found = project.propose_sources(execution=execution)
-        case "file":
-            found = project.propose_from_files(options.labels, options.file_options, vocabulary, execution=execution)
-        case plugin:
-            found = project.propose_by_plugin(plugin, vocabulary, execution=execution)
+    found = project.label(labeler, vocabulary=vocabulary, dry_run=True, execution=execution, stage=progress).proposals
     if json:
         print_json(_to_json(found))
     else:
@@ -106,10 +112,10 @@ def _print_preview(found: Proposals) -> None:
     parts = [f"{pluralize(taken, 'label')} would be taken", f"{pluralize(left, 'hull')} left without one"]
     parts += [f"{pluralize(found.labelled, 'hull')} would stay as they are"] if found.labelled else []
     typer.echo(f"{'; '.join(parts)}. Nothing was written.")
-    for problem in found.problems[:_MAX_PROBLEMS]:
+    for problem in found.problems[:_MAX_LINES]:
         typer.echo(f"    left out: {problem}")
-    if len(found.problems) > _MAX_PROBLEMS:
-        typer.echo(f"    and {len(found.problems) - _MAX_PROBLEMS} more")
+    if len(found.problems) > _MAX_LINES:
+        typer.echo(f"    and {len(found.problems) - _MAX_LINES} more")
 
 
 def _cells(row: Proposal) -> tuple[str, str, str, str, str, str]:
@@ -119,37 +125,56 @@ def _cells(row: Proposal) -> tuple[str, str, str, str, str, str]:
     return row.label or "(none)", row.kind, names, f"{row.hulls:,}", f"{row.assets:,}", confidence
 
 
-def label_from_sources(
-    project: Project, options: SourceOptions, execution: batch.ExecutionOptions, printer: LabelPrinter
-) -> None:
+def label_by(project: Project, labeler: Labeler, execution: batch.ExecutionOptions, printer: LabelPrinter) -> None:
     """Label a project, and print what came of it."""
     if len(project.assets()) > 1:
         remark(project.plan_labels())
-    closing = _run_source(project, options, execution, printer)
+    result = project.label(labeler, execution=execution, stage=progress, report=printer.print)
     printer.summarize(project)
-    if closing and not printer.json:
-        typer.echo(closing)
+    if printer.json:
+        if labeler.replaces:
+            more = {"alike": result.alike, "next": result.next} if labeler.name == "consensus" else {}
+            print_json({"changes": [asdict(change) for change in result.changes]} | more, compact=True)
+        return
+    if labeler.replaces:
+        _print_changes(result)
+    for pair in result.alike:
+        typer.echo(_describe_alike(project, pair))
+    if result.next:
+        typer.echo(f"If some are wrong, label or correct this one next: {result.next}")
+    if bare := len(project.assets()) - len(result.outcomes):
+        typer.echo(f"{pluralize(bare, 'asset')} without a labels file")
 
 
-def _run_source(
-    project: Project, options: SourceOptions, execution: batch.ExecutionOptions, printer: LabelPrinter
-) -> str:
-    count = len(project.assets())
-    if options.source == "propagate":
-        result = project.propagate_labels(execution=execution, stage=progress, report=printer.print)
-        return f"If some are wrong, label or correct this one next: {result.next}" if result.next else ""
-    with progress(count, "labelling") as advance:
+def _print_changes(result: LabelResult) -> None:
+    new = sum(one.hulls for one in result.changes if one.was is None)
+    gone = sum(one.hulls for one in result.changes if one.label is None)
+    replaced = [one for one in result.changes if one.was is not None and one.label is not None]
+    count = sum(one.hulls for one in replaced)
+    parts = [f"{pluralize(new, 'hull')} got a label"] if new else []
+    parts += [f"{pluralize(gone, 'hull')} lost a label that was inferred"] if gone else []
+    parts += [f"{pluralize(count, 'label')} {'was' if count == 1 else 'were'} replaced"] if count else []
+    if parts:
+        typer.echo(f"{'; '.join(parts)}{':' if replaced else '.'}")
+    elif not result.free:
+        typer.echo("People labelled every hull: nothing is left to do.")
+    else:
+        typer.echo("Every hull keeps its label.")
+    for one in replaced[:_MAX_LINES]:
+        typer.echo(_describe_change(one))
+    if len(replaced) > _MAX_LINES:
+        typer.echo(f"    and {len(replaced) - _MAX_LINES} more pairs of labels")
 
-        def report(outcome: LabelOutcome) -> None:
-            printer.print(outcome)
-            advance()
 
-        if options.source == "names":
-            project.label_from_names(options.meanings, execution=execution, report=report)
-            return ""
-        if options.source != "file":
-            project.label_by_plugin(options.source, execution=execution, report=report)
-            return ""
-        read = project.label_from_files(options.labels, options.file_options, execution=execution, report=report)
-    bare = count - len(read)
-    return f"{pluralize(bare, 'asset')} without a labels file" if bare else ""
+def _describe_change(one: LabelChange) -> str:
+    return f"    {one.was} -> {one.label}: {pluralize(one.hulls, 'hull')} in {pluralize(one.assets, 'asset')}"
+
+
+def _describe_alike(project: Project, pair: tuple[str, str]) -> str:
+    one, other = pair
+    words = ",".join(word for word in project.vocabulary if word != other)
+    command = f"meshforge label {project.folder} --with consensus --vocabulary {words}"
+    return (
+        f"{one} and {other} are on hulls that look alike, and hardly an asset has both. If they are one part, leave "
+        f"one of them out: {command}"
+    )

@@ -7,7 +7,7 @@ import threading
 from collections import defaultdict
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
@@ -18,12 +18,20 @@ from meshforge.cli.console import progress
 from meshforge.cli.label_report import LabelPrinter
 from meshforge.cli.terminal import catch_interrupt, print_json, remark
 from meshforge.common import UsageError, first_validation_error, join_names, pluralize
-from meshforge.labels import Endpoint, approve_host, check_approved, describe_sending, endpoint_of, is_approved
+from meshforge.labels import (
+    Endpoint,
+    VlmLabeler,
+    approve_host,
+    check_approved,
+    describe_sending,
+    endpoint_of,
+    is_approved,
+)
 from meshforge.project import Project
 from meshforge.store import VlmSettings
 
 if TYPE_CHECKING:
-    from meshforge.labels import Usage, VlmForecast, VlmResult
+    from meshforge.labels import LabelOutcome, Usage, VlmForecast, VlmResult
 
 _MAX_NAMES = 8  # names in a row
 
@@ -89,8 +97,8 @@ def label_with_vlm(
     project: Project, options: VlmOptions, execution: batch.ExecutionOptions, printer: LabelPrinter
 ) -> None:
     """Label a project, and print what came of it; an asking that ended early has failed."""
-    found = _ask_model(project, options, execution)
-    for outcome in found.reports:
+    outcomes, found = _ask_model(project, options, execution)
+    for outcome in outcomes:
         printer.print(outcome, {"open": found.open.get(outcome.asset, {})}, _describe_open(found, outcome.asset))
     if found.ended:
         printer.failed = True
@@ -100,18 +108,19 @@ def label_with_vlm(
     _print_end(project, found, json=printer.json)
 
 
-def _ask_model(project: Project, options: VlmOptions, execution: batch.ExecutionOptions) -> VlmResult:
+def _ask_model(
+    project: Project, options: VlmOptions, execution: batch.ExecutionOptions
+) -> tuple[Sequence[LabelOutcome], VlmResult]:
     """Ask for labels; the first Ctrl-C ends the asking, and what is under way is waited for."""
     settings, waiting = options.settings(project), "stopping: waiting for the answers that are under way"
     endpoint, typed = endpoint_of(settings), (options.base_url,) if options.base_url else ()
     _ask_approval(endpoint, typed)
     check_approved(endpoint, typed)
     remark(describe_sending(endpoint))
-    bar = progress(len(project.assets()), f"asking {settings.model}")
-    with bar as advance, catch_interrupt() as stop, _announce_stop(stop, waiting):
-        return project.label_with_vlm(
-            settings, progress=lambda usage: advance(), stop=stop, execution=execution, typed=typed
-        )
+    labeler = VlmLabeler(settings, typed)
+    with catch_interrupt() as stop, _announce_stop(stop, waiting):
+        result = project.label(labeler, execution=replace(execution, stop=stop), stage=progress)
+    return result.outcomes, labeler.result
 
 
 def _ask_approval(endpoint: Endpoint, typed: Sequence[str]) -> None:

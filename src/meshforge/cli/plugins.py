@@ -14,10 +14,11 @@ from meshforge.cli.terminal import print_json
 from meshforge.common import PLUGIN_KINDS, Plugin, PluginKind, Registry, find_plugins
 from meshforge.formats import PLUGIN_FORMATS
 from meshforge.labels import LABELERS
-from meshforge.language import ACTIONS
+from meshforge.language import ACTIONS, EXTRACTORS
 
 _REGISTRIES: dict[PluginKind, Registry[Any]] = {
     "formats": PLUGIN_FORMATS,
+    "extractors": EXTRACTORS,
     "actions": ACTIONS,
     "labelers": LABELERS,
     "checks": CHECKS,

@@ -214,7 +214,7 @@ def _select_assets(project: Project, assets: list[str] | None) -> tuple[str, ...
 
     Raises ProjectError for a name that nothing has.
     """
-    kept = project.layout.ids_with_preparation()
+    kept = project.layout.preparation.ids
     named = [asset if asset in kept else options.asset_id(asset, project) for asset in assets or ()]
     return tuple(dict.fromkeys(named or kept))
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import shlex
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated, Any
@@ -17,9 +17,10 @@ from meshforge.cli.review_pictures import draw_question
 from meshforge.cli.review_session import ReviewSession
 from meshforge.cli.review_text import format_question, format_reply_help
 from meshforge.cli.terminal import print_json, remark
-from meshforge.common import escape_name
+from meshforge.common import escape_name, join_names, pluralize
 from meshforge.project import Project, ProjectReview, format_review
 from meshforge.signoff import BAR
+from meshforge.store import AnswerEvent, LabelFixEvent
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,6 +39,13 @@ class ReviewArguments:
     ] = None
     by: Annotated[str | None, typer.Option("--by", help="Your name, kept with what you say.")] = None
     again: Annotated[bool, typer.Option("--again", help="Ask again what was put off.")] = False
+    list_answers: Annotated[
+        bool, typer.Option("--list-answers", help="Only list what was said of rules and labels so far, with ids.")
+    ] = False
+    forget: Annotated[
+        list[str] | None,
+        typer.Option("--forget", help="Only take back what has this id in that list, or `all`.", metavar="ID"),
+    ] = None
     json: options.Json = False
 
 
@@ -50,6 +58,12 @@ def review(given: ReviewArguments) -> None:
     needs review, or where a reply did not fit any more.
     """
     project = Project.open(given.project).with_cache()
+    if given.forget:
+        _forget_answers(project, given.project, given.forget)
+        return
+    if given.list_answers:
+        _print_answers(project, given.project, given.json)
+        return
     replies = [replace(reply, by=given.by) for reply in read_replies(given.answers)] if given.answers else []
     if given.again:
         project.ask_again()
@@ -96,3 +110,52 @@ def to_json(project: Project, found: ProjectReview) -> dict[str, Any]:
         "question": {**question.to_json(), "pictures": list(map(str, pictures))} if question else None,
         "lost": dict(found.lost),
     }
+
+
+def _print_answers(project: Project, folder: Path, json: bool) -> None:
+    said = project.feedback().answers_and_fixes
+    if json:
+        print_json(_to_json(said))
+        return
+    for name, event in said.items():
+        typer.echo(f"{name}  {_describe(event)}")
+    if said:
+        command = f"meshforge review {shlex.quote(str(folder))} --forget {shlex.quote(next(iter(said)))}"
+        remark(f"To take one back: {command}")
+    else:
+        remark("nothing was answered, repaired or refused yet")
+
+
+def _to_json(said: Mapping[str, AnswerEvent | LabelFixEvent]) -> dict[str, list[dict[str, Any]]]:
+    found: dict[str, list[dict[str, Any]]] = {"answers": [], "confirmed": [], "rejected": []}
+    for name, event in said.items():
+        line = event.model_dump(mode="json", by_alias=True, exclude={"event", "accepted"})
+        if isinstance(event, LabelFixEvent):
+            found["confirmed" if event.accepted else "rejected"].append({"id": name, "from": None, **line})
+        else:
+            found["answers"].append({"id": name, "select": None, "action": None, "refused": [], **line})
+    return found
+
+
+def _describe(event: AnswerEvent | LabelFixEvent) -> str:
+    if isinstance(event, LabelFixEvent):
+        return f"{'repaired, was' if event.accepted else 'refused, stays'} {event.was or 'without a label'}"
+    if event.select is None:
+        return "neither of the choices"
+    return f"{pluralize(len(event.select), 'hull')}: {join_names(event.select)}" if event.select else "nothing"
+
+
+def _forget_answers(project: Project, folder: Path, ids: Sequence[str]) -> None:
+    if "all" in ids:
+        count = len(project.feedback().answers_and_fixes)
+        notes = list(project.forget_answers())
+        typer.echo(f"taken back: {pluralize(count, 'answer or repair', 'answers and repairs')}")
+    else:
+        notes = []
+        for answer_id in ids:
+            note = project.take_back(answer_id)
+            notes += [note] if note else []
+            typer.echo(f"taken back: {answer_id}")
+    for note in notes:
+        remark(note)
+    remark(f"Next: meshforge synthesize {shlex.quote(str(folder))}")

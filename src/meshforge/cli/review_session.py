@@ -17,7 +17,7 @@ from meshforge.cli.terminal import remark
 from meshforge.common import MeshForgeError, UsageError
 from meshforge.project import Project, ProjectReview, format_review
 from meshforge.signoff import ResultQuestion, ReviewQuestion, ReviewReply, question_of
-from meshforge.signoff.question import WRONG, QuestionBase
+from meshforge.signoff.question import WRONG
 
 _FEW_HELD = 3  # assets that need review and are named beside a question
 
@@ -68,10 +68,9 @@ class ReviewSession:
         self.found = self._look()
         return True
 
-    def converse(self, by: str | None = None, kinds: tuple[type[QuestionBase], ...] = (QuestionBase,)) -> None:
-        """Ask at the terminal until nothing of some kinds is left, or the person has enough; what was said is kept at
-        once."""
-        while question := next((one for one in self.found.assessment.questions if isinstance(one, kinds)), None):
+    def converse(self, by: str | None = None) -> None:
+        """Ask at the terminal until nothing is left, or the person has enough; what is said is kept at once."""
+        while question := self.found.assessment.question:
             typer.echo(format_review(self.found, held=_FEW_HELD))
             typer.echo(f"\n{format_question(question, draw_question(self._project, self.found, question))}")
             if not question.choices:

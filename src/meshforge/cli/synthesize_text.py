@@ -1,8 +1,7 @@
-"""What learning results in as text: the result for stdout, remarks on it for stderr, and the cards of questions."""
+"""What learning results in as text: the result for stdout, and remarks on it for stderr."""
 
 from __future__ import annotations
 
-import json
 import shlex
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -62,7 +61,8 @@ def format_remarks(outcome: synthesis.LearningOutcome, about: LearningContext) -
         took = f"learned in {sum(outcome.seconds.values()):.2f} s{_describe_inputs(about)}"
         lines += [f"{took}, kept as {about.folder / 'program.mf'}" if about.kept else took]
         lines += [*_describe_suggestion(outcome, "may be meant"), *_describe_agreement(outcome, about)]
-        lines += [f"Next: meshforge apply {about.folder_word}"] if about.kept else []
+        command = "review" if outcome.open_rule else "apply"
+        lines += [f"Next: meshforge {command} {about.folder_word}"] if about.kept else []
     return "\n".join(lines)
 
 
@@ -78,8 +78,8 @@ def _describe_agreement(outcome: synthesis.Found | synthesis.Ambiguous, about: L
         part = "were looked at" if about.in_use < about.assets else "can be read"
         seen = all_ if about.readable == about.assets else f"the {about.readable} of {all_} that {part}"
         yield f"all believable readings of the rules agree on {seen}"
-    elif outcome.question:
-        yield f"ambiguous: it is open what rule {outcome.question.rule} does on {outcome.question.asset}"
+    elif outcome.open_rule:
+        yield f"ambiguous: it is open what rule {outcome.open_rule.rule} does on {outcome.open_rule.asset}"
     yield from _list_assets(outcome)
     if outcome.hint and not outcome.settled:
         yield f"  meshforge demonstrate {about.folder_word} {shlex.quote(outcome.hint.asset)} 'HULLS => ACTION' ..."
@@ -88,14 +88,14 @@ def _describe_agreement(outcome: synthesis.Found | synthesis.Ambiguous, about: L
 def _list_assets(outcome: synthesis.Found | synthesis.Ambiguous) -> Iterator[str]:
     """The assets to look at, each once, with all reasons; those of the same reasons in one line."""
     rows = [(asset, _OVERRULED) for asset in outcome.overruled]
-    if not (outcome.settled or outcome.question):
+    if not (outcome.settled or outcome.open_rule):
         rows += _list_doubtful(outcome)
     if outcome.hint and not outcome.settled:
         rows.append((outcome.hint.asset, f"demonstrate it to be more certain: {outcome.hint.why}"))
     reasons, lines = dict[str, list[str]](), dict[str, list[str]]()
     for asset, why in rows:
         reasons.setdefault(asset, []).append(why)
-    for asset in () if outcome.settled or outcome.question else outcome.sample:
+    for asset in () if outcome.settled or outcome.open_rule else outcome.sample:
         reasons.setdefault(asset, ["best to see whether the program is right"])
     for asset, own in reasons.items():
         lines.setdefault("; ".join(own), []).append(asset)
@@ -117,7 +117,7 @@ def _describe_stale(outcome: synthesis.LearningOutcome, about: LearningContext) 
     for answer in outcome.stale:
         question = f"{answer.rule}:{answer.asset}"
         yield f"the answer {question} no longer fits what is there, and is left out"
-        yield f"  to take it back: meshforge synthesize {about.folder_word} --forget {shlex.quote(question)}"
+        yield f"  to take it back: meshforge review {about.folder_word} --forget {shlex.quote(question)}"
 
 
 def _describe_failure(outcome: synthesis.NoProgram) -> Iterator[str]:
@@ -162,30 +162,7 @@ def _describe_repairs(outcome: synthesis.NeedsRepair, about: LearningContext) ->
     if outcome.proposed:
         yield "With that, the program is:"
         yield from (f"  {rule}" for rule in outcome.proposed.rules)
-    command = f"meshforge synthesize {about.folder_word}"
-    yield f"To look at each: {command} in a terminal; to repair all: {command} --accept-repairs"
-    yield f"To keep the labels as they are: {command} --reject-repairs"
-
-
-def format_choices(question: synthesis.Question) -> str:
-    """The choices alone, numbered from 1."""
-    lines = [f"What should rule {question.rule} take on {question.asset}?"]
-    for number, choice in enumerate(question.choices, 1):
-        lines.append(f"  {number}  {_describe_choice(choice, number, question.choices[0])}")
-    return "\n".join(lines)
-
-
-def _describe_choice(choice: synthesis.Choice, number: int, first: synthesis.Choice) -> str:
-    """The hulls of a choice; those of a later one by how they differ from the first, where that says it shorter."""
-    if not choice.select:
-        return "nothing"
-    count = pluralize(len(choice.select), "hull")
-    more = [name for name in choice.select if name not in first.select]
-    less = [name for name in first.select if name not in choice.select]
-    if number == 1 or len(more) + len(less) >= len(choice.select):
-        return f"{count}: {join_names(choice.select)}"
-    parts = [f"and {join_names(more)}"] * bool(more) + [f"without {join_names(less)}"] * bool(less)
-    return f"{count}: those of 1, {', '.join(parts)}"
+    yield f"Next: meshforge review {about.folder_word}"
 
 
 def describe_change(repair: synthesis.Repair) -> str:
@@ -197,13 +174,3 @@ def describe_change(repair: synthesis.Repair) -> str:
 def format_belief(repair: synthesis.Repair) -> str | None:
     """How likely the repair is right, for people; None where that is not known, as of the paper's strategy."""
     return f"{min(round(100 * repair.belief), 99)} %" if repair.belief < 1 else None
-
-
-def format_answer_help(question: synthesis.Question, project: str) -> str:
-    """How to answer where nobody can be asked; project: its folder, as one types it."""
-    example = json.dumps([{"question": question.id, "choice": 1}], ensure_ascii=False)
-    return (
-        f"Answer it in a terminal: meshforge synthesize {project}\n"
-        f"  or in a script: meshforge synthesize {project} --answers FILE, where FILE holds {example}\n"
-        "  (null in place of 1: neither)"
-    )

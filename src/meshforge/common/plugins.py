@@ -14,9 +14,15 @@ from typing import Any, Generic, Literal, TypeVar, get_args
 
 from meshforge.common.messages import MeshForgeError, PluginError
 
-PluginKind = Literal["formats", "actions", "labelers", "checks"]
+PluginKind = Literal["formats", "extractors", "actions", "labelers", "checks"]
 PLUGIN_KINDS: tuple[PluginKind, ...] = get_args(PluginKind)
-_WORDS = {"formats": "format .", "actions": "action ", "labelers": "labeller ", "checks": "check "}
+_WORDS = {
+    "formats": "format .",
+    "extractors": "extractor ",
+    "actions": "action ",
+    "labelers": "labeller ",
+    "checks": "check ",
+}
 _GROUP = "meshforge."
 _ENTRY_POINTS = {
     "dist-info": "entry_points.txt",

@@ -22,8 +22,7 @@ __getattr__, __all__ = export_lazily(
             "format_for format_of format_with_names is_asset is_description labels_beside load load_many "
             "notes_after path_of plugin_of_suffix read resolve_asset_path to_mesh"
         ),
-        "segmentation.alignment": "PointAlignment align_points",
-        "segmentation.parts": "SegmentationFile read_parts",
+        "segmentation.parts": "PointAlignment SegmentationFile align_points read_parts",
         "segmentation.reader": "POINTS_SUFFIXES points_beside read_segmentation",
         "surface_parts": "plain_part_name",
         "trimesh_meshes": "from_trimesh",

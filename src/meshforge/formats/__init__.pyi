@@ -45,9 +45,9 @@ from meshforge.formats.registry import plugin_of_suffix as plugin_of_suffix
 from meshforge.formats.registry import read as read
 from meshforge.formats.registry import resolve_asset_path as resolve_asset_path
 from meshforge.formats.registry import to_mesh as to_mesh
-from meshforge.formats.segmentation.alignment import PointAlignment as PointAlignment
-from meshforge.formats.segmentation.alignment import align_points as align_points
+from meshforge.formats.segmentation.parts import PointAlignment as PointAlignment
 from meshforge.formats.segmentation.parts import SegmentationFile as SegmentationFile
+from meshforge.formats.segmentation.parts import align_points as align_points
 from meshforge.formats.segmentation.parts import read_parts as read_parts
 from meshforge.formats.segmentation.reader import POINTS_SUFFIXES as POINTS_SUFFIXES
 from meshforge.formats.segmentation.reader import points_beside as points_beside

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from abc import ABC, abstractmethod
+from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -191,7 +192,7 @@ class SceneFormat(Format):
         """What an unmarked scene shows, as it was read."""
 
     @abstractmethod
-    def write_beside(self, asset: Asset, name: str) -> Output:
+    def add_colliders(self, asset: Asset, name: str) -> Output:
         """The files of an unmarked scene, all of it as it is, with the hulls of the asset beside it, marked.
 
         They read back as the hulls of the asset, and what was taken for them is only seen. Raises AssetError where a
@@ -223,6 +224,12 @@ def note_renames(names: Mapping[str, str]) -> tuple[str, ...]:
         return ()
     shown = join_names([f"{old} is now {new}" for old, new in names.items()], 3)
     return (f"hulls are called otherwise in what is written: {shown}",)
+
+
+def note_shapes_as_hulls(kinds: Iterable[str], why: str) -> list[str]:
+    """Notes on shapes of some kinds, named once each, that are written as hulls; why: `{}` in it is the kind."""
+    counts = sorted(Counter(kinds).items())
+    return [f"{pluralize(number, kind)} written as hull meshes: {why.format(kind)}" for kind, number in counts]
 
 
 def nothing_collides_error(asset: Asset) -> AssetError:

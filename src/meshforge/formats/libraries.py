@@ -1,8 +1,13 @@
-"""Libraries that are loaded when something of them is first used: they take long, or are optional."""
+"""Libraries that are loaded when something of them is first used, as they take long or are optional; and folders for
+what those that read files read from memory."""
 
 from __future__ import annotations
 
+import atexit
+import shutil
+import tempfile
 from importlib import import_module
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -25,3 +30,10 @@ else:
             return found
 
     mujoco, pxr = _LazyLibrary("mujoco"), _LazyLibrary("pxr")  # 0.2 s, only MJCF needs it; 0.3 s, and optional
+
+
+def make_folder() -> Path:
+    """A new folder, removed when the process ends."""
+    folder = Path(tempfile.mkdtemp(prefix="meshforge-"))
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    return folder

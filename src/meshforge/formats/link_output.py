@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 from types import UnionType
 
 from meshforge.formats import base, kinematic_tree, mesh_output
-from meshforge.formats.couplings import plan_couplings
+from meshforge.formats.conversion import plan_couplings
 from meshforge.formats.slots import ElementMaker, Slot
 from meshforge.formats.visuals import unreadable_visuals, visuals_of
 from meshforge.geometry import Pose, Shape

@@ -118,7 +118,6 @@ def _to_asset(what: SymbolicMesh | Asset) -> Asset:
 
 
 def _format_of_output(out: Path, asset: Asset, names: MarkName | None) -> Format:
-    """The format that an asset is written in, which may mark collision in a way of its own."""
     known = format_for(out, asset.format)
     return format_with_names(known, names) if names else known
 
@@ -151,7 +150,7 @@ def _make_output(
     """
     source, notes = format_named(asset.format), _note_collision(asset, known, place)
     if place == "beside" and isinstance(known, SceneFormat) and known.name == asset.format:
-        output = known.write_beside(asset, name)
+        output = known.add_colliders(asset, name)
         return output, ConversionReport(lost=output.lost, remarks=(*notes, *output.notes), marked=False)
     if known.can_write_back(asset):
         output = known.write(asset, name, mass)
@@ -164,7 +163,6 @@ def _make_output(
 
 
 def _asset_of_mesh(mesh: SymbolicMesh) -> Asset:
-    """An asset of the hulls of a mesh that was not read from a file."""
     bodies = dict.fromkeys(hull.body for hull in mesh.hulls)
     named = mesh.names_in_file
     geoms = tuple(Geom(named.get(hull.name, hull.name), hull.body, hull.shape) for hull in mesh.hulls)
@@ -182,7 +180,6 @@ def _plan_files(output: Output, out: Path, is_folder: bool) -> dict[Path, Conten
 
 
 def _refuse_outside(plan: Mapping[Path, Content], folder: Path) -> None:
-    """Raise AssetError where a reference that climbs out of the folder would put another kind of file there."""
     for target in plan:
         if not target.is_relative_to(folder) and target.suffix.lower() not in _KINDS:
             problem = "this is no mesh or texture, and lies outside of the output folder: not written"
@@ -190,7 +187,6 @@ def _refuse_outside(plan: Mapping[Path, Content], folder: Path) -> None:
 
 
 def _refuse_overwrite(plan: Mapping[Path, Content], asset: Asset, overwrite: bool) -> None:
-    """Raise AssetError where a file would be overwritten that must not be."""
     inputs = {path.resolve() for path in (asset.path, *asset.files)}
     for target, content in plan.items():
         if target.is_dir():

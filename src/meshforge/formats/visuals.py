@@ -1,21 +1,24 @@
-"""What an asset shows: surfaces that are read only when somebody looks, so that batches do not wait for them."""
+"""What an asset shows: surfaces that are read only when they are asked for, so that batches do not wait for them, with
+one base colour or picture a mesh as trimesh reads them."""
 
 from __future__ import annotations
 
+import io
 from abc import ABC, abstractmethod
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any, overload
 
 import numpy as np
 
 from meshforge.common import MeshForgeError
-from meshforge.formats import base, collision_pieces, looks, mesh_reader
+from meshforge.formats import base, collision_pieces, mesh_reader
 from meshforge.formats.meshfile.surface import GAMMA
 from meshforge.formats.surface_parts import parts_of_surfaces
 from meshforge.geometry import Floats, Ints, Pose, Shape
-from meshforge.symbolic import Asset, FeatureKind, Rgba, Surface
+from meshforge.symbolic import Asset, FeatureKind, Rgba, Surface, Texture
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -60,12 +63,12 @@ class Visual:
             return error.sentence
         return f"{self.what}: it has no triangles"
 
-    def surfaces_with_looks(self) -> list[Surface]:
+    def surfaces_with_materials(self) -> list[Surface]:
         """Its surfaces with the base colours and pictures of their file, unless it has a colour itself."""
         if isinstance(self.what, Shape) or self.rgba is not None:
             return self.surfaces()
         try:
-            read = looks.read_looks(self.what)
+            read = read_materials(self.what)
         except MeshForgeError:
             return []
         return [replace(self._place(s.vertices, s.faces), rgba=s.rgba, texture=s.texture) for s in read]
@@ -135,7 +138,7 @@ def read_visual_surfaces(asset: Asset) -> tuple[list[tuple[str, Surface]], list[
     found: list[tuple[str, Surface]] = []
     refused: list[str] = []
     for body, visual in visuals_of(asset):
-        surfaces = visual.surfaces_with_looks() if isinstance(visual, Visual) else [visual]
+        surfaces = visual.surfaces_with_materials() if isinstance(visual, Visual) else [visual]
         found += [(body, surface) for surface in surfaces if len(surface.faces)]
         if not surfaces:
             refused.append(body)
@@ -151,3 +154,54 @@ def unreadable_visuals(bodies: Sequence[str]) -> list[base.Loss]:
 def linear_color(rgba: Rgba) -> list[float]:
     """Red, green and blue of a colour as glTF and USD have them."""
     return [round(float(share), 6) for share in np.clip(rgba[:3], 0, 1) ** GAMMA]
+
+
+MATERIAL_SUFFIXES = (".obj", ".dae", ".glb", ".gltf")
+"""The mesh files whose base colours and pictures `read_materials` reads."""
+_SLIGHT = 1e-4  # share of the size, by which single precision moves a box
+
+
+def read_materials(path: Path) -> list[Surface]:
+    """The surfaces of a mesh file with their base colours or pictures; plain where trimesh does not read the same.
+
+    Raises AssetError: the file cannot be read.
+    """
+    plain = [Surface(surface.vertices, surface.faces) for surface in mesh_reader.read_triangles(path)]
+    if path.suffix.lower() not in MATERIAL_SUFFIXES or find_spec("trimesh") is None:
+        return plain
+    import trimesh  # lazy: 0.3 s, and optional
+
+    try:
+        scene = trimesh.load_scene(path, process=False)
+        found = [_read_mesh(mesh, path.suffix.lower()) for mesh in scene.dump() if isinstance(mesh, trimesh.Trimesh)]
+    except Exception:  # whatever it raises for a damaged file, whose shape is known
+        return plain
+    return found if _is_same(plain, found) else plain
+
+
+def _read_mesh(mesh: Any, suffix: str) -> Surface:
+    vertices, faces = np.array(mesh.vertices, dtype=np.float64), np.array(mesh.faces, dtype=np.int64)
+    material, places = getattr(mesh.visual, "material", None), getattr(mesh.visual, "uv", None)
+    image = getattr(material, "baseColorTexture", getattr(material, "image", None))
+    if image and image.size == (2, 2) and not image.format:
+        return Surface(vertices, faces)  # trimesh made it up, for want of a material
+    if image and places is not None and len(places) == len(vertices) and np.isfinite(places).all():
+        file = io.BytesIO()
+        image.save(file, "PNG")
+        return Surface(vertices, faces, texture=Texture(np.array(places, dtype=np.float64), file.getvalue()))
+    color = None if image else getattr(material, "baseColorFactor", getattr(material, "diffuse", None))
+    if color is None:
+        return Surface(vertices, faces)
+    red, green, blue, alpha = (np.asarray(color, dtype=np.float64) / 255).tolist()
+    linear = suffix in (".glb", ".gltf")
+    rgba: Rgba = (*(round(share ** (1 / GAMMA), 4) if linear else share for share in (red, green, blue)), alpha)
+    return Surface(vertices, faces, rgba=rgba)
+
+
+def _is_same(plain: list[Surface], found: list[Surface]) -> bool:
+    """Whether surfaces have as many triangles in the same box; trimesh obeys the `up_axis` of Collada."""
+    if sum(len(s.faces) for s in plain) != sum(len(s.faces) for s in found) or not found:
+        return False
+    corners = [np.concatenate([s.vertices[s.faces.ravel()] for s in each]) for each in (plain, found)]
+    one, other = (np.concatenate([points.min(axis=0), points.max(axis=0)]) for points in corners)
+    return bool(np.allclose(one, other, atol=_SLIGHT * np.ptp(one)))

@@ -124,7 +124,6 @@ def _split_shape(shape: Shape, discs: bool) -> tuple[Floats, float, bool]:
 
 
 def _ends(shape: Capsule | Cylinder) -> Floats:
-    """The two ends (2, 3) of the axis."""
     return shape.pose.apply(np.array([[0.0, 0.0, -shape.half_length], [0.0, 0.0, shape.half_length]]))
 
 

@@ -298,7 +298,6 @@ def _number_by_group(corners: Ints, group: Ints) -> Ints:
 
 
 def _split(component: Ints) -> list[Ints]:
-    """The members of each component, ascending, in the order of the component numbers."""
     order = np.argsort(component, kind="stable")
     ordered = component[order]
     ends = [*(np.flatnonzero(ordered[1:] != ordered[:-1]) + 1).tolist(), len(order)]

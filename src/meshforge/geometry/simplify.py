@@ -138,7 +138,6 @@ def _is_within_budget(hull: Polytope, budget: HullBudget) -> bool:
 
 
 def _has_inside(hull: Polytope, points: Floats) -> bool:
-    """Whether a hull holds all points (n, 3), but for the rounding of its own planes."""
     planes = planes_of(hull.vertices, hull.faces)
     rounding = 16 * np.finfo(float).eps * float(np.abs(hull.vertices).max())
     return bool(((points - planes.middle) @ planes.normals.T <= planes.offsets + rounding).all())
@@ -233,7 +232,6 @@ class _PlaneSearch:
         return np.asarray(corners[np.sort(first)] * self.extents)
 
     def _nearest_below(self, corners: Floats) -> Floats:
-        """The nearest point (n, 3) of the hull to each corner."""
         keys = [key.tobytes() for key in np.round(corners / self.extents / _SAME)]
         new = [k for k, key in enumerate(keys) if key not in self.places]
         for k, place in zip(new, _nearest_on_surface(corners[new], self.old[self.faces]), strict=True):

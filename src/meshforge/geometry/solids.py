@@ -70,7 +70,6 @@ def _manifold_of_hull(vertices: Floats, hull: Polytope) -> Any:
 
 
 def _tessellate(shape: Sphere | Ellipsoid | Cylinder | Capsule) -> Any:
-    """A fine mesh of a round primitive about the origin of its pose."""
     match shape:
         case Sphere():
             return manifold3d.Manifold.sphere(shape.radius, _SEGMENTS)
@@ -86,7 +85,6 @@ def _tessellate(shape: Sphere | Ellipsoid | Cylinder | Capsule) -> Any:
 
 
 def _revolve_capsule(radius: float, half_length: float) -> Any:
-    """A fine mesh of a capsule about Z, turned from its outline."""
     angle = np.linspace(0.0, np.pi / 2, _SEGMENTS // 4 + 1)
     dome = np.column_stack([radius * np.cos(angle), radius * np.sin(angle) + half_length])
     dome[-1, 0] = 0.0

@@ -1,5 +1,5 @@
 """All hulls of a project compared, and what labels of some say about the others: described in worker processes, to be
-stopped at any time, and written asset by asset."""
+stopped at any time."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from meshforge.common import AssetError, MeshForgeError, ProjectError
 from meshforge.geometry import Floats, Ints
 from meshforge.labels.by_hand import label_command
 from meshforge.labels.descriptor_cache import DescriptorCache
-from meshforge.labels.merge import LabelOutcome, LabelWriter, OutcomeCallback, ReplacePolicy, infer_over
+from meshforge.labels.merge import infer_over
 from meshforge.store import Store, iterate_survey
 from meshforge.symbolic import Label
 
@@ -183,24 +183,3 @@ def _compute(work: tuple[label_model.FamilyTable, label_model.Observations]) -> 
     """Only what is new goes back to the process that asks."""
     found = label_model.FamilyPosterior.of(*work)
     return found.chances, found.by_others
-
-
-def write_labels(
-    store: Store,
-    labels: Mapping[str, HullLabels],
-    compared: FamilyComparison,
-    may: ReplacePolicy,
-    stage: Stage,
-    report: OutcomeCallback,
-) -> Iterator[LabelOutcome]:
-    """Write labels of all assets that were compared; yield what became of each asset."""
-    writer = LabelWriter(store)
-    with stage(len(store.assets()), "labelling") as advance:
-        for asset in store.assets():
-            if why := compared.lost.get(asset):
-                outcome = LabelOutcome(asset, problems=(why,))
-            else:
-                outcome = writer.try_write(asset, compared.hulls[asset], labels[asset], may)
-            report(outcome)
-            advance()
-            yield outcome

@@ -9,10 +9,12 @@ from pathlib import Path
 
 from meshforge import batch
 from meshforge.common import file_digest, relative_name
+from meshforge.labels.from_files.label_by_files import FileLabeler
 from meshforge.labels.from_files.read import LabelFileOptions, find_file_in_mirror, label_file_beside, read_label_file
-from meshforge.labels.label_by_plugin import ask_labeler
+from meshforge.labels.label_by_plugin import AssetLabeler, label_mesh
+from meshforge.labels.labeler import Labeler
 from meshforge.labels.merge import LabelOutcome, can_fill_gap, can_replace_less_certain, merge_labels
-from meshforge.labels.names.label_by_names import match_names, name_patterns, names_of_mesh, to_label
+from meshforge.labels.names.label_by_names import NameLabeler, match_names, name_patterns, names_of_mesh, to_label
 from meshforge.store import JsonFile, Settings, Store, read_json, write_json
 from meshforge.symbolic import Label, SymbolicMesh
 
@@ -34,20 +36,29 @@ class LabelSourcesFile(JsonFile):
     lines: tuple[LabelSourceLine, ...] = ()
 
 
-def keep_label_source(
-    store: Store, outcomes: Iterable[LabelOutcome], source: str, how: LabelFileOptions, folder: Path | None = None
-) -> None:
-    """Keep by what hulls were labelled, if any were; patterns add to those that were given before."""
-    if not any(one.taken or one.same or one.kept for one in outcomes):
+def keep_label_source(store: Store, outcomes: Iterable[LabelOutcome], labeler: Labeler) -> None:
+    """Keep by what hulls were labelled, if any were, where new assets can be labelled by that; patterns add to those
+    that were given before."""
+    line = _line_of(store, labeler)
+    if line is None or not any(one.taken or one.same or one.kept for one in outcomes):
         return
-    where = relative_name(folder, store.folder) if folder and folder.is_dir() else None
     with store.lock():
         kept = read_json(store.layout.label_sources, LabelSourcesFile) or LabelSourcesFile()
         lines = {one.source: one for one in kept.lines}
-        known = dict(lines[source].options.meanings) if source in lines else {}
-        how = replace(how, meanings=tuple((known | dict(how.meanings)).items()))
-        lines[source] = LabelSourceLine(source=source, options=how, folder=where)
+        known = dict(lines[line.source].options.meanings) if line.source in lines else {}
+        how = replace(line.options, meanings=tuple((known | dict(line.options.meanings)).items()))
+        lines[line.source] = line.model_copy(update={"options": how})
         write_json(store.layout.label_sources, LabelSourcesFile(lines=tuple(lines.values())))
+
+
+def _line_of(store: Store, labeler: Labeler) -> LabelSourceLine | None:
+    if isinstance(labeler, NameLabeler):
+        return LabelSourceLine(source=labeler.name, options=LabelFileOptions(labeler.meanings))
+    if isinstance(labeler, FileLabeler):
+        folder = labeler.source if labeler.source and labeler.source.is_dir() else None
+        where = relative_name(folder, store.folder) if folder else None
+        return LabelSourceLine(source=labeler.name, options=labeler.options, folder=where)
+    return LabelSourceLine(source=labeler.name) if isinstance(labeler, AssetLabeler) else None
 
 
 def rename_in_label_sources(kept: LabelSourcesFile, old: str, new: str) -> LabelSourcesFile:
@@ -110,7 +121,7 @@ class FamilyLabelSources:
             matches = {names.hull: match_names(names, words, patterns) for names in names_of_mesh(mesh)}
             return {hull: label for hull, one in matches.items() if one and (label := to_label(one))}
         if line.source != "file":
-            return ask_labeler(line.source, mesh, words, str(path))
+            return label_mesh(line.source, mesh, words, str(path))
         file = self._find_file(line, asset, path)
         return read_label_file(mesh, file, line.options, words, patterns).labels if file else {}
 

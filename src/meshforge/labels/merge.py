@@ -7,13 +7,13 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from meshforge import label_model, rendering, symbolic
-from meshforge.common import AssetError, ProjectError, file_state, join_names, suggest_aside
+from meshforge.common import ProjectError, file_state, join_names, suggest_aside
 from meshforge.geometry import Shape, digest, overlap_volume
 from meshforge.store import Store, hull_digests, iterate_survey
 from meshforge.symbolic import Label
 
-ReplacePolicy = Callable[[Label | None, Label], bool]
-"""Whether a label, or none, may be replaced by a given one at all; what people said stays in any case."""
+ReplacePolicy = Callable[[Label | None, Label | None], bool]
+"""Whether a label, or none, may be replaced by a given one, or none, at all; what people said stays in any case."""
 
 _MOST_OVERLAP = 0.5  # a hull takes a label that more than this share of what it overlaps has
 _WHOLE_OVERLAP = 0.99  # from here on it is that hull, or a part of it, and the label is as sure as it was
@@ -38,35 +38,44 @@ class LabelOutcome:
 
 
 def set_labels(
-    store: Store, asset: str, labels: Mapping[str, str | None], source: symbolic.LabelSource, confidence: float
+    store: Store,
+    asset: str,
+    labels: Mapping[str, str | None],
+    *,
+    source: symbolic.LabelSource = "user",
+    confidence: float = 1.0,
 ) -> LabelOutcome:
-    """Write labels of one asset, or remove them by None. Raises ProjectError, with nothing written, for a wrong one."""
-    (report,) = set_labels_of(store, {asset: labels}, source, confidence)
-    return report
+    """Label some hulls of an asset, or remove their labels by None. A machine never overwrites a person's label.
+
+    Raises ProjectError, with nothing written, for an unknown hull or a label that is not in the vocabulary.
+    """
+    (outcome,) = set_labels_of(store, {asset: labels}, source=source, confidence=confidence)
+    return outcome
 
 
 def set_labels_of(
-    store: Store, labels: Mapping[str, Mapping[str, str | None]], source: symbolic.LabelSource, confidence: float
+    store: Store,
+    labels: Mapping[str, Mapping[str, str | None]],
+    *,
+    source: symbolic.LabelSource = "user",
+    confidence: float = 1.0,
 ) -> tuple[LabelOutcome, ...]:
-    """Write labels of several assets as `set_labels` does, all or none. labels: by asset and hull."""
-    texts, reports = dict[str, str | None](), list[LabelOutcome]()
+    """Label hulls of several assets as `set_labels` does, all or none. labels: by asset and hull."""
+    texts, outcomes = dict[str, str | None](), list[LabelOutcome]()
     with store.lock():
         vocabulary, every = store.vocabulary, _read_digests(store, labels)
         for asset, wanted in labels.items():
             hulls = every[asset]
-            given = {name: Label(label, confidence, source) for name, label in wanted.items() if label is not None}
-            away = [name for name, label in wanted.items() if label is None]
+            given = {name: Label(label, confidence, source) if label else None for name, label in wanted.items()}
             current = symbolic.match_labels(store.labels(asset), hulls).labels
-            labelled, report = merge_labels(asset, hulls, current, given, vocabulary)
-            gone = [f"there is no hull {name!r}{suggest_aside(name, hulls)}" for name in away if name not in hulls]
-            if problems := [*report.problems, *gone]:
+            labelled, outcome = merge_labels(asset, hulls, current, given, vocabulary)
+            if outcome.problems:
                 remedy = f"The vocabulary is: {', '.join(vocabulary) or 'empty'}."
-                raise ProjectError(problems[0], where=asset, remedy=remedy)
-            kept = {name: label for name, label in labelled.items() if name not in away}
-            texts[asset] = store.labels_text(asset, hulls, kept, vocabulary)
-            reports.append(report)
+                raise ProjectError(outcome.problems[0], where=asset, remedy=remedy)
+            texts[asset] = store.labels_text(asset, hulls, labelled, vocabulary)
+            outcomes.append(outcome)
         store.write_labels_files(texts)
-    return tuple(reports)
+    return tuple(outcomes)
 
 
 def _read_digests(store: Store, assets: Collection[str]) -> dict[str, Mapping[str, str]]:
@@ -83,33 +92,29 @@ def merge_labels(
     asset: str,
     hulls: Collection[str],
     current: Mapping[str, Label],
-    given: Mapping[str, Label],
+    given: Mapping[str, Label | None],
     vocabulary: Sequence[str],
 ) -> tuple[dict[str, Label], LabelOutcome]:
     """The labels of an asset with those that may be taken, and what became of each of these.
 
-    hulls: the names of all; current: the labels that there are, by hull.
+    hulls: the names of all; current: the labels that there are, by hull; given: by hull, None to remove its label.
     """
-    taken, same, kept, problems = dict[str, Label](), 0, 0, list[str]()
-    for name, label in ((name, infer_over(current.get(name), label)) for name, label in given.items()):
+    labels, taken, same, kept, problems = dict(current), 0, 0, 0, list[str]()
+    for name, label in given.items():
+        label = infer_over(current.get(name), label) if label else None
         if problem := _problem(name, label, hulls, vocabulary):
             problems.append(problem)
         elif current.get(name) == label:
-            same += 1
+            same += label is not None
+        elif label is None:
+            labels.pop(name, None)
         elif is_protected(current.get(name), label):
             kept += 1
         else:
-            taken[name] = label
-    labels = {**current, **taken}
-    outcome = _summarize(asset, hulls, labels, taken=len(taken), same=same)
-    return labels, replace(outcome, kept=kept, problems=tuple(problems))
-
-
-def _summarize(
-    asset: str, hulls: Collection[str], labels: Mapping[str, Label], *, taken: int, same: int
-) -> LabelOutcome:
+            labels[name] = label
+            taken += 1
     unsure = sum(label.confidence < rendering.UNSURE for label in labels.values())
-    return LabelOutcome(asset, taken, same, unlabelled=len(hulls) - len(labels), unsure=unsure)
+    return labels, LabelOutcome(asset, taken, same, kept, len(hulls) - len(labels), unsure, tuple(problems))
 
 
 def is_protected(current: Label | None, given: Label) -> bool:
@@ -120,22 +125,31 @@ def is_protected(current: Label | None, given: Label) -> bool:
 
 
 def infer_over(current: Label | None, given: Label) -> Label:
-    """A given label; one that was inferred with what was said of its hull before that."""
+    """A given label; one that was inferred with the evidence on its hull before that."""
     return (
         replace(given, given=label_model.evidence_of(current)) if given.source in symbolic.INFERRED_SOURCES else given
     )
 
 
-def _problem(name: str, label: Label, hulls: Collection[str], vocabulary: Sequence[str]) -> str | None:
+def _problem(name: str, label: Label | None, hulls: Collection[str], vocabulary: Sequence[str]) -> str | None:
     if name not in hulls:
         return f"there is no hull {name!r}{suggest_aside(name, hulls)}"
-    if label.name not in vocabulary:
+    if label and label.name not in vocabulary:
         return f"{name}: the label {label.name!r} is not in the vocabulary{suggest_aside(label.name, vocabulary)}"
     return None
 
 
 OutcomeCallback = Callable[[LabelOutcome], None]
 """Called with what became of an asset, as soon as that is known; assets come in their order."""
+
+
+@dataclass(frozen=True, slots=True)
+class LabelMerge:
+    """The labels of an asset, by hull, before and after others are given; and what becomes of these."""
+
+    before: Mapping[str, Label]
+    after: Mapping[str, Label]
+    outcome: LabelOutcome
 
 
 class LabelWriter:
@@ -154,56 +168,34 @@ class LabelWriter:
             self._seen, self._vocabulary = now, self._store.vocabulary
         return self._vocabulary
 
-    def try_write(
-        self, asset: str, hulls: Mapping[str, str], given: Mapping[str, Label], may: ReplacePolicy
-    ) -> LabelOutcome:
-        """Write as `write` does; labels that cannot be read are a problem in the outcome."""
-        try:
-            return self.write(asset, hulls, given, may)
-        except AssetError as error:
-            return LabelOutcome(asset, problems=(error.message,))
-
     def write(
-        self, asset: str, hulls: Mapping[str, str], given: Mapping[str, Label], may: ReplacePolicy
-    ) -> LabelOutcome:
+        self, asset: str, hulls: Mapping[str, str], given: Mapping[str, Label | None], may: ReplacePolicy
+    ) -> LabelMerge:
         """Write those of the labels that may be taken: since they were computed, the asset may have got others.
 
         hulls: digests by name, in order. Raises AssetError where the present labels cannot be read.
         """
         with self._store.lock():
-            current = symbolic.match_labels(self._store.labels(asset), hulls).labels
-            wanted = {name: label for name, label in given.items() if may(current.get(name), label)}
-            labels, report = merge_labels(asset, hulls, current, wanted, self.vocabulary)
-            if report.taken:
-                self._store.write_labels(asset, hulls, labels, self.vocabulary)
-        return report
+            merged = self.merge(asset, hulls, given, may, self.vocabulary)
+            if merged.after != merged.before:
+                self._store.write_labels(asset, hulls, merged.after, self.vocabulary)
+        return merged
 
-    def remove_inferred(self, asset: str, hulls: Mapping[str, str]) -> tuple[dict[str, Label], LabelOutcome]:
-        """Put back what was said before labels were inferred; give these, and what became of the asset.
-
-        hulls: digests by name, in order. Raises AssetError where the present labels cannot be read.
-        """
-        with self._store.lock():
-            current = symbolic.match_labels(self._store.labels(asset), hulls).labels
-            inferred = {name: label for name, label in current.items() if label.source in symbolic.INFERRED_SOURCES}
-            said = {name: label_model.evidence_of(label) for name, label in current.items()}
-            labels = {name: label for name, label in said.items() if label}
-            if inferred:
-                self._store.write_labels(asset, hulls, labels, self.vocabulary)
-        taken = sum(label.given is not None for label in inferred.values())
-        return inferred, _summarize(asset, hulls, labels, taken=taken, same=len(current) - len(inferred))
+    def merge(
+        self,
+        asset: str,
+        hulls: Mapping[str, str],
+        given: Mapping[str, Label | None],
+        may: ReplacePolicy,
+        vocabulary: Sequence[str],
+    ) -> LabelMerge:
+        """The labels that `write` would write. Raises AssetError where the present labels cannot be read."""
+        current = symbolic.match_labels(self._store.labels(asset), hulls).labels
+        wanted = {name: label for name, label in given.items() if may(current.get(name), label)}
+        return LabelMerge(current, *merge_labels(asset, hulls, current, wanted, vocabulary))
 
 
-def ignore_report(report: LabelOutcome) -> None:
-    """A report that nobody reads."""
-
-
-def can_replace_any(current: Label | None, given: Label) -> bool:
-    """Every label may be replaced, of those that are not a person's."""
-    return True
-
-
-def can_fill_gap(current: Label | None, given: Label) -> bool:
+def can_fill_gap(current: Label | None, given: Label | None) -> bool:
     """Only hulls without a label get one."""
     return current is None
 

@@ -128,8 +128,8 @@ class Tally:
     unreadable: tuple[tuple[str, str], ...] = ()
 
 
-def tally(store: Store, progress: Callable[[], None] | None = None) -> Tally:
-    """Count the labels, as far as assets and their labels can be read."""
+def tally_labels(store: Store, progress: Callable[[], None] | None = None) -> Tally:
+    """Count hulls by the source and confidence of their labels, as far as assets and their labels can be read."""
     counts = {source: [0, 0, 0] for source in LABEL_SOURCES}
     hulls = unlabelled = 0
     doubtful: dict[str, int] = {}
@@ -157,7 +157,7 @@ def tally(store: Store, progress: Callable[[], None] | None = None) -> Tally:
 
 
 def describe_label_plan(store: Store) -> str:
-    """How many assets there are of what, how many have labels, and how many of these have labels of a person."""
+    """A sentence on how many assets there are of what, how many have labels, and how many of these a person's."""
     layout, found = store.layout, store.found
     places = {asset: layout.labels(asset) for asset in found.ids}
     jobs = [
@@ -178,7 +178,10 @@ def _has_human_label(store: Store, asset: str) -> bool:
 def write_contact_sheets(
     store: Store, folder: Path, assets: Sequence[str], progress: Callable[[], None] | None = None
 ) -> tuple[Path, ...]:
-    """Write `labels-001.png` and so on, in place of earlier ones; what cannot be drawn is left out."""
+    """Write contact sheets of some assets, `labels-001.png` and so on, in which hulls have their labels' colours.
+
+    Earlier sheets are replaced; what cannot be drawn is left out. Raises UsageError where one cannot be written.
+    """
     vocabulary = store.vocabulary
     draw = partial(_draw, vocabulary)
     images = run_isolated(draw, store.asset_files(assets), ExecutionOptions(timeout=_TIMEOUT, progress=progress))

@@ -7,25 +7,30 @@ from meshforge.common.exports import export_lazily
 __getattr__, __all__ = export_lazily(
     __name__,
     {
-        "actions.base": (
-            "AXES PRIMITIVES Action ArgumentType FactorArgument FileArgument FlagArgument LengthArgument "
-            "OptionArgument PrimitiveOrFileArgument WordArgument"
-        ),
-        "actions.basic": "Add Delete Each Merge Replace Scale Shrink",
+        "actions.base": "AXES Action",
+        "actions.basic": "Add Delete Each Merge Scale Shrink",
         "actions.edit": "GroupEdit HullGroup NewShape Template",
-        "actions.registry": "ACTIONS make_action plugin_of",
-        "apply": (
-            "ActionResult RuleTrace apply_action apply_rule apply_to_selection from_canonical_frame to_canonical_frame"
+        "actions.replace": "Replace",
+        "apply": "apply_action",
+        "arguments": (
+            "PRIMITIVES ArgumentType DirectionArgument FactorArgument FileArgument FlagArgument LabelArgument "
+            "LengthArgument Operation OptionArgument PrimitiveOrFileArgument ShareArgument TextArgument WordArgument"
         ),
-        "labels": "check_declared show_label",
-        "orient": "find_rotation orient_mesh",
+        "extractors.attach": "Attach",
+        "extractors.base": (
+            "SET_OPERATORS BaseArgument BaseExtractor Candidates Diff Extractor Intersect Leaf Union labels_of "
+            "leaves_of select select_hulls select_mask size_of to_bits"
+        ),
+        "extractors.geo": "SLACK UPRIGHT Geo",
+        "extractors.bases": "All Is",
+        "hull_table": "EXTREMITY Bools HullTable reference_length",
+        "orient": "LandmarkPair Orient find_rotation orient_mesh rename_in_orient",
         "parse": "parse_extractor",
         "print": "Comments Rule explain show",
         "program": "HeaderComments Program RunResult rename_in_program",
-        "syntax": (
-            "EXTREMITY SLACK All Attach BaseExtractor Diff Extractor Geo Intersect Is LandmarkPair Orient Union "
-            "attach_mask geo_mask labels_of reference_length rename_in_orient select select_mask size_of"
-        ),
-        "words": "DIRECTIONS OPERATORS Direction",
+        "replay": "Replay RuleTrace from_canonical_frame make_anew to_canonical_frame",
+        "registry": "ACTIONS EXTRACTORS make_operation",
+        "text": "list_operators",
+        "words": "DIRECTIONS OPERATORS Direction check_declared show_label",
     },
 )

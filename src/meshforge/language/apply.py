@@ -1,52 +1,33 @@
-"""One action on one selection, every new shape verified; one rule on one mesh in the canonical frame; and the way into
-that frame and back."""
+"""One action on one selection, every new shape verified."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Hashable, Iterable, Mapping
-from dataclasses import dataclass, replace
-from typing import Protocol, TypeVar
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 
 import numpy as np
 
-from meshforge import geometry, symbolic
+from meshforge import geometry
 from meshforge.common import Plugin, blame, join_names
 from meshforge.language.actions.base import Action
 from meshforge.language.actions.edit import GroupEdit, HullGroup, NewShape, Template, check_templates
-from meshforge.language.actions.registry import plugin_of
-from meshforge.language.orient import orient_mesh
-from meshforge.language.print import Rule
-from meshforge.language.syntax import EXTREMITY, Orient, reference_length, select_mask
+from meshforge.language.hull_table import reference_length
+from meshforge.symbolic import Hull, Label, SymbolicMesh, bits_of
 
 _NEW_SUFFIX = re.compile(r"~\d+$")
 _CONVEXITY = 1e-7  # relative to the size
-
-Value = TypeVar("Value")
-
-
-class Memo(Protocol):
-    """Gives what `make` makes for a mesh and a key; where that was asked before, what was made then."""
-
-    def __call__(
-        self, mesh: symbolic.SymbolicMesh, key: Hashable, kind: type[Value], make: Callable[[], Value]
-    ) -> Value: ...
-
-
-def make_anew(mesh: symbolic.SymbolicMesh, key: Hashable, kind: type[Value], make: Callable[[], Value]) -> Value:
-    """The memo that keeps nothing."""
-    return make()
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ActionResult:
     """The outcome of one action.
 
-    made: names of the made hulls; sources: for each of them, the names of the hulls it was made from.
-    note: what a user should know; used: names that no later edit of the same run may give again.
+    mesh: None where it stayed the same; made: names of the made hulls; sources: for each of them, the names of the
+    hulls it was made from; note: what a user should know; used: names that no later edit may give again.
     """
 
-    mesh: symbolic.SymbolicMesh
+    mesh: SymbolicMesh | None
     made: tuple[str, ...] = ()
     note: str | None = None
     sources: tuple[tuple[str, ...], ...] = ()
@@ -54,7 +35,7 @@ class ActionResult:
 
 
 def apply_action(
-    mesh: symbolic.SymbolicMesh,
+    mesh: SymbolicMesh,
     selected_mask: int,
     action: Action,
     templates: Mapping[str, Template] | None = None,
@@ -71,13 +52,11 @@ def apply_action(
     templates = templates or {}
     check_templates(action.templates, templates)
     if not selected_mask:
-        return ActionResult(mesh, note="nothing selected", used=used)
-    plugin = plugin_of(action)
+        return ActionResult(None, note="nothing selected", used=used)
+    plugin = action.plugin
     with blame(plugin):
         groups = [
-            HullGroup(
-                tuple(mesh.hulls[index] for index in sorted(symbolic.bits_of(part))), reference_length(mesh), templates
-            )
+            HullGroup(tuple(mesh.hulls[index] for index in sorted(bits_of(part))), reference_length(mesh), templates)
             for part in action.groups(mesh, selected_mask)
         ]
         edits = [action.edit(group) for group in groups]
@@ -95,7 +74,7 @@ def apply_action(
     notes = [action.note_on(mesh, selected_mask), *(edit.note for edit in edits)]
     notes += [*inheritance_notes((m for _, m in made), mesh), describe_lost_gaps(mesh, selected_mask, made)]
     return ActionResult(
-        mesh.with_hulls([*kept, *(hull for hull, _ in made)]) if made or gone or renamed else mesh,
+        mesh.with_hulls([*kept, *(hull for hull, _ in made)]) if made or gone or renamed else None,
         tuple(hull.name for hull, _ in made),
         "; ".join(dict.fromkeys(note for note in notes if note)) or None,
         tuple(tuple(source.name for source in m.sources) for _, m in made),
@@ -115,15 +94,13 @@ def _verify_edits(plugin: Plugin, groups: list[HullGroup], edits: list[GroupEdit
                 raise plugin.error("named hulls that it was not given as the sources of one that it made")
 
 
-def names_in_use(mesh: symbolic.SymbolicMesh) -> frozenset[str]:
+def names_in_use(mesh: SymbolicMesh) -> frozenset[str]:
     """The names that a made hull must not take: those of the mesh and of the file it came from."""
     source = mesh.asset.geoms if mesh.asset else ()
     return frozenset([hull.name for hull in mesh.hulls] + [geom.name for geom in source])
 
 
-def _make_hull(
-    made: NewShape, label: str | None, taken: set[str], reference: float, *, is_alone: bool
-) -> symbolic.Hull:
+def _make_hull(made: NewShape, label: str | None, taken: set[str], reference: float, *, is_alone: bool) -> Hull:
     """The hull of a made shape, verified and named; its name is added to those taken."""
     heir = made.heir
     shape = ensure_valid(made.shape, heir.name, geometry.FLATNESS * reference)
@@ -133,20 +110,18 @@ def _make_hull(
         count += 1
     taken.add(f"{stem}~{count}")
     keeps_name = is_alone and (heir.parent is None or heir.keeps_name)
-    return symbolic.Hull(
-        f"{stem}~{count}", heir.body, shape, _label_of_new(heir, label), heir.parent or heir.name, keeps_name
-    )
+    return Hull(f"{stem}~{count}", heir.body, shape, _label_of_new(heir, label), heir.parent or heir.name, keeps_name)
 
 
-def _label_of_new(heir: symbolic.Hull, label: str | None) -> symbolic.Label | None:
+def _label_of_new(heir: Hull, label: str | None) -> Label | None:
     """The label of a made hull; one that the program sets is as sure as the program."""
     if label is not None:
-        return symbolic.Label(label, source="edit")
+        return Label(label, source="edit")
     known = heir.annotation
-    return symbolic.Label(known.name, known.confidence, "edit") if known else None
+    return Label(known.name, known.confidence, "edit") if known else None
 
 
-def _relabel(groups: list[HullGroup], edits: list[GroupEdit], label: str | None) -> dict[str, symbolic.Hull]:
+def _relabel(groups: list[HullGroup], edits: list[GroupEdit], label: str | None) -> dict[str, Hull]:
     """The hulls of groups that an edit left whole (a merge of one), with the label that what is made would take."""
     if label is None:
         return {}
@@ -154,7 +129,7 @@ def _relabel(groups: list[HullGroup], edits: list[GroupEdit], label: str | None)
     return {hull.name: hull.with_label(_label_of_new(hull, label)) for group in whole for hull in group.hulls}
 
 
-def inheritance_notes(made: Iterable[NewShape], mesh: symbolic.SymbolicMesh) -> list[str]:
+def inheritance_notes(made: Iterable[NewShape], mesh: SymbolicMesh) -> list[str]:
     """A sentence for each hull whose sources differ in contact attributes: it takes those of the largest."""
     known = {geom.name: dict(geom.contact) for geom in mesh.asset.geoms if geom.contact} if mesh.asset else {}
     return [note for one in made if known and (note := _inheritance_note(one, known))]
@@ -169,9 +144,7 @@ def _inheritance_note(made: NewShape, known: dict[str, dict[str, str]]) -> str |
     return f"{join_names(differing)} as {made.heir.name} has it; the hulls beside it have another"
 
 
-def describe_lost_gaps(
-    mesh: symbolic.SymbolicMesh, selected_mask: int, made: Iterable[tuple[symbolic.Hull, NewShape]]
-) -> str | None:
+def describe_lost_gaps(mesh: SymbolicMesh, selected_mask: int, made: Iterable[tuple[Hull, NewShape]]) -> str | None:
     """A sentence on the gaps to hulls beside a selection that made primitives narrow, by more than a tenth and by more
     than the contact distance; None where there is none."""
     beside = [hull for k, hull in enumerate(mesh.hulls) if not selected_mask >> k & 1]
@@ -206,92 +179,3 @@ def ensure_valid(shape: geometry.Shape, name: str, thickness: float) -> geometry
     """
     is_sound = geometry.find_fault(shape, _CONVEXITY) is None
     return shape if is_sound else geometry.convex_hull(shape.vertices, name=name, thicken=thickness)
-
-
-@dataclass(frozen=True, slots=True)
-class RuleTrace:
-    """What one rule did on a mesh; rule: its number from 1; selected, made: names of hulls.
-
-    sources: for each made hull, the names of the hulls it was made from; note: what a user should know.
-    """
-
-    rule: int
-    selected: tuple[str, ...]
-    made: tuple[str, ...] = ()
-    note: str | None = None
-    sources: tuple[tuple[str, ...], ...] = ()
-
-
-def to_canonical_frame(
-    mesh: symbolic.SymbolicMesh, orient: Orient | None, contact: float | None = None, memo: Memo = make_anew
-) -> tuple[symbolic.SymbolicMesh, geometry.Pose]:
-    """The mesh as the first rule sees it: oriented, with L fixed; and the pose oriented_T_incoming.
-
-    contact: the program's epsilon, None keeps the mesh's.
-    """
-    staged, pose = memo(mesh, (orient, contact), tuple, lambda: _to_canonical_frame(mesh, orient, contact))
-    return staged, pose
-
-
-def _to_canonical_frame(
-    mesh: symbolic.SymbolicMesh, orient: Orient | None, contact: float | None
-) -> tuple[symbolic.SymbolicMesh, geometry.Pose]:
-    oriented, pose = orient_mesh(mesh, orient)
-    staged = replace(oriented, epsilon=mesh.epsilon if contact is None else contact, scale=oriented.diagonal)
-    if oriented.known_graph is not None and staged.contact_distance == oriented.contact_distance:
-        staged.set_known_graph(oriented.known_graph)  # the same shapes and reach
-    return staged, pose
-
-
-def from_canonical_frame(
-    incoming: symbolic.SymbolicMesh, staged: symbolic.SymbolicMesh, pose: geometry.Pose
-) -> symbolic.SymbolicMesh:
-    """An edited mesh back in the frame it came in; pose: oriented_T_incoming. The inverse of `to_canonical_frame`."""
-    back = pose.inverse()
-    turned = not np.array_equal(pose.rotation, np.eye(3))
-    hulls = tuple(_restore_hull(incoming, hull, back if turned else None) for hull in staged.hulls)
-    same = incoming.scale is None and len(hulls) == len(incoming.hulls)
-    if same and all(a is b for a, b in zip(hulls, incoming.hulls, strict=True)):
-        return incoming
-    return replace(incoming, hulls=hulls, scale=None)
-
-
-def apply_rule(
-    mesh: symbolic.SymbolicMesh,
-    rule: Rule,
-    templates: Mapping[str, Template] | None = None,
-    extremity: float | None = None,
-    used: frozenset[str] = frozenset(),
-    memo: Memo = make_anew,
-) -> tuple[tuple[str, ...], ActionResult]:
-    """Names of the hulls that a rule selects in a staged mesh, and what its action makes of them."""
-    mask = select_mask(rule.extractor, mesh, EXTREMITY if extremity is None else extremity)
-    return mesh.names_of(mask), apply_to_selection(mesh, mask, rule, templates or {}, used, memo)
-
-
-def apply_to_selection(
-    mesh: symbolic.SymbolicMesh,
-    mask: int,
-    rule: Rule,
-    templates: Mapping[str, Template],
-    used: frozenset[str],
-    memo: Memo = make_anew,
-) -> ActionResult:
-    """What the action of a rule makes of the hulls of a bit set, whatever its extractor selects."""
-
-    def applied() -> ActionResult:
-        return apply_action(mesh, mask, rule.action, templates, rule.label, used)
-
-    wanted = rule.action.templates
-    if not mask or any(name not in templates for name in wanted):  # nothing to do, or it fails
-        return applied()
-    made_of = tuple(templates[name].digest for name in wanted)
-    return memo(mesh, (mask, rule.action, rule.label, used, made_of), ActionResult, applied)
-
-
-def _restore_hull(incoming: symbolic.SymbolicMesh, hull: symbolic.Hull, back: geometry.Pose | None) -> symbolic.Hull:
-    """A hull in the incoming frame: the original where it was kept, relabelled where the program did so."""
-    if hull.name in incoming.index:
-        original = incoming.hull_of(hull.name)
-        return original if original.annotation == hull.annotation else original.with_label(hull.annotation)
-    return hull.move(back) if back else hull

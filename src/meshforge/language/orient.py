@@ -1,18 +1,20 @@
-"""The orientation directive: turns a mesh into the canonical frame that its landmarks ask for."""
+"""The orientation directive, which turns a mesh into the canonical frame that its landmarks ask for."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from math import hypot
 
 import numpy as np
 
-from meshforge import geometry, symbolic
+from meshforge import geometry
 from meshforge.common import ProgramError, join_names
 from meshforge.geometry import Floats, Pose
-from meshforge.language.print import show
-from meshforge.language.syntax import SLACK, BaseExtractor, LandmarkPair, Orient, select_mask
-from meshforge.language.words import Direction
+from meshforge.language.extractors.base import BaseArgument, BaseExtractor, select_mask
+from meshforge.language.extractors.geo import SLACK
+from meshforge.language.words import Direction, check_direction
+from meshforge.symbolic import SymbolicMesh, bits_of
 
 _PARALLEL = 1e-6  # sine of the angle below which two pairs count as giving one direction
 
@@ -23,7 +25,48 @@ _EQUAL = 1e-9  # areas and angles that differ by less are equal
 _ROUNDING = 1e-12  # of the size, by which points on one side of a hull are beside it
 
 
-def orient_mesh(mesh: symbolic.SymbolicMesh, orient: Orient | None) -> tuple[symbolic.SymbolicMesh, Pose]:
+@dataclass(frozen=True, slots=True)
+class LandmarkPair:
+    """The direction from the centre of `start` to the centre of `end` becomes `axis`."""
+
+    axis: Direction
+    start: BaseExtractor
+    end: BaseExtractor
+
+    def __post_init__(self) -> None:
+        check_direction(self.axis)
+        for base in (self.start, self.end):
+            BaseArgument().check(LandmarkPair, "base", base)
+
+
+@dataclass(frozen=True, slots=True)
+class Orient:
+    """The orientation directive: one or two landmark pairs on different axes; snap: nearest axis-aligned turn."""
+
+    pairs: tuple[LandmarkPair, ...]
+    snap: bool = False
+
+    def __post_init__(self) -> None:
+        if len(self.pairs) not in (1, 2):
+            raise ProgramError(f"orient takes one or two landmark pairs, not {len(self.pairs)}")
+        axes = [pair.axis for pair in self.pairs]
+        if len({axis[1] for axis in axes}) != len(axes):
+            problem = f"orient names the axis {axes[0][1]} twice"
+            raise ProgramError(problem, remedy="Give the second pair another axis than the first.")
+
+    @property
+    def names_z(self) -> bool:
+        """Whether it says what +Z is, so that Z points up whatever the files say."""
+        return any(pair.axis.endswith("Z") for pair in self.pairs)
+
+
+def rename_in_orient(orient: Orient, old: str, new: str) -> Orient:
+    """The orientation with a label by another name."""
+    pairs = (replace(pair, start=pair.start.rename(old, new), end=pair.end.rename(old, new)) for pair in orient.pairs)
+    return replace(orient, pairs=tuple(pairs))
+
+
+def orient_mesh(mesh: SymbolicMesh, orient: Orient | None) -> tuple[SymbolicMesh, Pose]:
     """The mesh turned about its frame's origin as the directive says, and the pose oriented_T_incoming.
 
     None, and a turn by nothing, give the mesh itself. Raises ProgramError naming a landmark that selects nothing,
@@ -36,13 +79,13 @@ def orient_mesh(mesh: symbolic.SymbolicMesh, orient: Orient | None) -> tuple[sym
     return mesh.with_hulls(hull.move(pose) for hull in mesh.hulls), pose
 
 
-def find_rotation(mesh: symbolic.SymbolicMesh, orient: Orient, labels: Sequence[str | None] | None = None) -> Floats:
+def find_rotation(mesh: SymbolicMesh, orient: Orient, labels: Sequence[str | None] | None = None) -> Floats:
     """The rotation (3, 3) by which `orient_mesh` turns a mesh; raises likewise. labels: of the hulls, instead of those
     that they have."""
     return geometry.snap_rotation(_measure_rotation(mesh, orient, labels))
 
 
-def _measure_rotation(mesh: symbolic.SymbolicMesh, orient: Orient, labels: Sequence[str | None] | None) -> Floats:
+def _measure_rotation(mesh: SymbolicMesh, orient: Orient, labels: Sequence[str | None] | None) -> Floats:
     directions = [_landmark_direction(mesh, pair, labels) for pair in orient.pairs]
     axes = [_axis_vector(pair.axis) for pair in orient.pairs]
     if len(directions) == 2:
@@ -54,7 +97,7 @@ def _measure_rotation(mesh: symbolic.SymbolicMesh, orient: Orient, labels: Seque
     return _square_up(mesh, geometry.smallest_rotation(directions[0], axes[0]), "XYZ".index(orient.pairs[0].axis[1]))
 
 
-def _square_up(mesh: symbolic.SymbolicMesh, upright: Floats, axis: int) -> Floats:
+def _square_up(mesh: SymbolicMesh, upright: Floats, axis: int) -> Floats:
     """The rotation `upright`, then the turn about the coordinate axis that squares up the footprint."""
     plane = [(axis + 1) % 3, (axis + 2) % 3]
     points = np.concatenate([hull.vertices for hull in mesh.hulls]) @ upright.T
@@ -72,18 +115,18 @@ def _perpendicular_part(directions: list[Floats], orient: Orient) -> Floats:
     part = second - (second @ first) * first
     norm = float(np.linalg.norm(part))
     if norm < _PARALLEL:
-        pairs = " and ".join(f"{show(pair.start)} -> {show(pair.end)}" for pair in orient.pairs)
+        pairs = " and ".join(f"{pair.start} -> {pair.end}" for pair in orient.pairs)
         remedy = "Choose a second pair of landmarks that lies across the first, or leave it out."
         raise ProgramError(f"orient: {pairs} run along one line, so they give no frame", remedy=remedy)
     return part / norm
 
 
-def _landmark_direction(mesh: symbolic.SymbolicMesh, pair: LandmarkPair, labels: Sequence[str | None] | None) -> Floats:
+def _landmark_direction(mesh: SymbolicMesh, pair: LandmarkPair, labels: Sequence[str | None] | None) -> Floats:
     (start, from_names), (end, to_names) = (_landmark_centre(mesh, base, labels) for base in (pair.start, pair.end))
     norm = float(np.linalg.norm(end - start))
     if norm <= SLACK * mesh.diagonal:
         raise ProgramError(
-            f"orient: the landmarks {show(pair.start)} ({from_names}) and {show(pair.end)} ({to_names}) "
+            f"orient: the landmarks {pair.start} ({from_names}) and {pair.end} ({to_names}) "
             "have one centre, so they give no direction",
             remedy="Choose landmarks that lie apart, or check the labels of these hulls.",
         )
@@ -91,12 +134,12 @@ def _landmark_direction(mesh: symbolic.SymbolicMesh, pair: LandmarkPair, labels:
 
 
 def _landmark_centre(
-    mesh: symbolic.SymbolicMesh, base: BaseExtractor, labels: Sequence[str | None] | None
+    mesh: SymbolicMesh, base: BaseExtractor, labels: Sequence[str | None] | None
 ) -> tuple[Floats, str]:
     """The volume-weighted centroid (3,) of a selection, and the names of its hulls."""
-    hulls = [mesh.hulls[index] for index in sorted(symbolic.bits_of(select_mask(base, mesh, labels=labels)))]
+    hulls = [mesh.hulls[index] for index in sorted(bits_of(select_mask(base, mesh, labels=labels)))]
     if not hulls:
-        problem = f"orient: the landmark {show(base)} selects nothing"
+        problem = f"orient: the landmark {base} selects nothing"
         raise ProgramError(problem, remedy="Label the hulls that it should select, or orient by another landmark.")
     volumes = np.array([hull.volume for hull in hulls])
     centroids = np.array([hull.shape.centroid for hull in hulls])

@@ -4,29 +4,53 @@ line, its column and a caret."""
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence, Set
+from dataclasses import dataclass
 from functools import cache, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
-from meshforge.common import ProgramError
-from meshforge.language import syntax
+from meshforge.common import PluginError, ProgramError
 from meshforge.language import text as program_text
-from meshforge.language.actions import base
-from meshforge.language.actions.registry import ACTIONS, make_action
+from meshforge.language.actions.base import Action, ActionArgument
+from meshforge.language.arguments import (
+    ArgumentType,
+    DirectionArgument,
+    FileArgument,
+    LabelArgument,
+    Operation,
+    OptionArgument,
+    TokenKind,
+    join_alternatives,
+)
+from meshforge.language.extractors.base import (
+    SET_OPERATORS,
+    BaseArgument,
+    BaseExtractor,
+    Extractor,
+    Leaf,
+)
+from meshforge.language.orient import LandmarkPair, Orient
 from meshforge.language.print import CommentLines, Comments, Rule
-from meshforge.language.text import Node, ProgramText, TreeReader, likely_word, quote_code, subtrees_of, tokens_of
-from meshforge.language.words import OPERATORS, Direction, check_direction
+from meshforge.language.registry import ACTIONS, EXTRACTORS, make_operation
+from meshforge.language.text import (
+    Node,
+    ProgramText,
+    TreeReader,
+    likely_word,
+    list_operators,
+    quote_code,
+    subtrees_of,
+    text_of_leaf,
+    tokens_of,
+)
+from meshforge.language.words import Direction, check_direction, check_threshold
 
 if TYPE_CHECKING:  # lark is loaded where a program is parsed
     from lark import Lark, Token
 
-_SET_OPERATORS: dict[str, type[syntax.Union | syntax.Intersect | syntax.Diff]] = {
-    "union": syntax.Union,
-    "intersect": syntax.Intersect,
-    "diff": syntax.Diff,
-}
-_TOKEN_KINDS: dict[str, base.TokenKind] = {
+_SET_OPERATORS = {kind.__name__.lower(): kind for kind in SET_OPERATORS}
+_TOKEN_KINDS: dict[str, TokenKind] = {
     "NAME": "word",
     "STRING": "text",
     "NUMBER": "number",
@@ -35,30 +59,62 @@ _TOKEN_KINDS: dict[str, base.TokenKind] = {
 _TEXT_OR_COMMENT = re.compile(r'"(?:[^"\\\n]|\\.)*"|#(?P<comment>[^\n]*)')
 
 
-def parse_extractor(text: str, name: str = "extractor") -> syntax.Extractor:
+def parse_extractor(text: str, name: str = "extractor") -> Extractor:
     """The extractor in a text; any label is known. Raises ProgramError at `name:line:column`."""
     source = ProgramText(text.strip(), name)
     return build_extractor(TreeReader(source), _only_child(parse_tree(source, "only_extractor")))
 
 
+@dataclass(frozen=True, eq=False, slots=True)
+class _Grammar:
+    """The grammar with the rules of some leaf extractors; words: these by the names of their terminals."""
+
+    parser: Lark
+    words: Mapping[str, str]
+
+
 @cache
-def _grammar() -> Lark:
+def _grammar(kinds: tuple[type[Leaf], ...]) -> _Grammar:
     from lark import Lark  # lazy: most runs parse no program
 
-    return Lark(
-        Path(__file__).with_name("grammar.lark").read_text(encoding="utf-8"),
+    rules = {True: list[str](), False: list[str]()}
+    lines, words = list[str](), dict[str, str]()
+    for k, kind in enumerate(kinds):
+        rules[issubclass(kind, BaseExtractor)].append(f"leaf_{k}")
+        words[f"LEAF_{k}"] = text_of_leaf(kind.__name__)
+        lines += [f"leaf_{k}: LEAF_{k} {_arguments_rule(kind)}", rf"LEAF_{k}: /{kind.__name__}\b/"]
+    lines += [f"_base: {' | '.join(rules[True])}", f"_leaf: {' | '.join(rules[False])}"]
+    text = Path(__file__).with_name("grammar.lark").read_text(encoding="utf-8")
+    parser = Lark(
+        "\n".join([text, *lines, ""]),
         parser="lalr",
         start=["program", "only_extractor"],
         propagate_positions=True,
         maybe_placeholders=True,
     )
+    return _Grammar(parser, words)
 
 
-def parse_tree(source: ProgramText, start: str) -> Node:
-    """The parse tree of a text. Raises ProgramError where it has none."""
+def _arguments_rule(kind: type[Leaf]) -> str:
+    """The arguments in brackets; those that may be left out are the last, and make nested options."""
+    rule, needed = "", kind.min_arguments()
+    for place, argument in reversed(list(enumerate(kind.arguments().values()))):
+        comma = '"," ' if place else ""
+        part = f"{comma}{argument.symbol} {rule}"
+        rule = part if place < needed else f"[{part}]"
+    brackets = f'"(" {rule} ")"'
+    return "" if not rule else brackets if needed else f"[{brackets}]"
+
+
+def parse_tree(source: ProgramText, start: str, plugins: tuple[type[Leaf], ...] = ()) -> Node:
+    """The parse tree of a text; plugins: leaves of plug-ins that it uses, found as it is read.
+
+    Raises ProgramError where it has none, PluginError for a leaf that cannot be loaded.
+    """
     from lark import Token, UnexpectedCharacters, UnexpectedInput, UnexpectedToken  # lazy: most runs parse no program
 
-    parsing = _grammar().parse_interactive(source.text, start=start)
+    grammar = _grammar((*EXTRACTORS.built_in.values(), *plugins))
+    parsing = grammar.parser.parse_interactive(source.text, start=start)
     before = ""
     try:
         for token in parsing.iter_parse():
@@ -68,8 +124,25 @@ def parse_tree(source: ProgramText, start: str) -> Node:
         at_end = isinstance(error, UnexpectedToken) and error.token.type == "$END"
         assert isinstance(error, UnexpectedCharacters | UnexpectedToken)
         offset = len(source.text.rstrip("\n")) if at_end else int(error.pos_in_stream or 0)
-        accepted: set[str] = parsing.accepts()  # type: ignore[no-untyped-call]  # lark leaves it untyped
-        raise program_text.syntax_error(source, offset, accepted, before) from None
+        names: set[str] = parsing.accepts()  # type: ignore[no-untyped-call]  # lark leaves it untyped
+        accepted = {grammar.words.get(name, name) for name in names}
+        found = _find_plugin_leaf(source, offset, accepted)
+        if found is None:
+            raise program_text.syntax_error(source, offset, accepted, before) from None
+    return parse_tree(source, start, (*plugins, found))
+
+
+def _find_plugin_leaf(source: ProgramText, offset: int, accepted: Set[str]) -> type[Leaf] | None:
+    """The leaf of a plug-in that stands at an offset where the grammar knows none. Raises PluginError."""
+    word = source.piece_at(offset)
+    if not program_text.leaves_among(accepted) or text_of_leaf(word) in accepted or word not in EXTRACTORS.plugin_names:
+        return None
+    try:
+        kind = EXTRACTORS[word]
+    except PluginError as error:
+        raise source.error_at(offset, error.problem, error.remedy) from None
+    is_known = issubclass(kind, BaseExtractor) or "_UNION" in accepted
+    return kind if is_known else None
 
 
 def _only_child(tree: Node) -> Node:
@@ -113,39 +186,50 @@ def build_rule(text: TreeReader, tree: Node, comments: Comments) -> Rule:
     return text.locate_errors(label[0] if label else tree, lambda: Rule(*parts, comments))
 
 
-def build_extractor(text: TreeReader, tree: Node) -> syntax.Extractor:
-    """The extractor of a node of the grammar's `extractor`."""
-    match tree.data:
-        case "attach":
-            selected, anchor = subtrees_of(tree)
-            return syntax.Attach(_build_base(text, selected), _build_base(text, anchor))
-        case "geo":
-            return syntax.Geo(_build_base(text, subtrees_of(tree)[0]), _build_direction(text, tokens_of(tree)[0]))
-        case "union" | "intersect" | "diff":
-            kind = _SET_OPERATORS[tree.data]
-            left, right = subtrees_of(tree)
-            return kind(build_extractor(text, left), build_extractor(text, right))
+def build_extractor(text: TreeReader, tree: Node) -> Extractor:
+    """The extractor of a node of the grammar's `_extractor`."""
+    kind = _SET_OPERATORS.get(tree.data)
+    if kind:
+        left, right = subtrees_of(tree)
+        return kind(build_extractor(text, left), build_extractor(text, right))
+    return _build_leaf(text, tree)
+
+
+def _build_leaf(text: TreeReader, tree: Node) -> Leaf:
+    name, *parts = (part for part in tree.children if part is not None)
+    kind = EXTRACTORS[str(name)]
+    rows = zip(kind.arguments().items(), parts, strict=False)
+    values = {field: _build_leaf_argument(text, kind, argument, part) for (field, argument), part in rows}
+    return text.locate_errors(name, lambda: make_operation(kind, values))
+
+
+def _build_leaf_argument(text: TreeReader, kind: type[Leaf], argument: ArgumentType, part: Node | Token) -> Any:
+    match argument:
+        case LabelArgument():
+            assert not isinstance(part, str)
+            return text.read_label(part)
+        case BaseArgument():
+            assert not isinstance(part, str)
+            return _build_leaf(text, part)
+        case DirectionArgument():
+            assert isinstance(part, str)
+            return _build_direction(text, part)
         case _:
-            return _build_base(text, tree)
+            return _build_argument(text, kind, argument, part)
 
 
-def build_orient(text: TreeReader, tree: Node) -> syntax.Orient:
+def build_orient(text: TreeReader, tree: Node) -> Orient:
     """The directive of an `orient` node; an error is about the pair that is one too many or turns back."""
     nodes = subtrees_of(tree)
     pairs = tuple(_build_pair(text, node) for node in nodes)
     wrong = nodes[min(2, len(nodes) - 1)]
-    return text.locate_errors(wrong, lambda: syntax.Orient(pairs, snap=len(tokens_of(tree)) > 0))
+    return text.locate_errors(wrong, lambda: Orient(pairs, snap=len(tokens_of(tree)) > 0))
 
 
-def _build_pair(text: TreeReader, tree: Node) -> syntax.LandmarkPair:
+def _build_pair(text: TreeReader, tree: Node) -> LandmarkPair:
     start, end = subtrees_of(tree)
-    return syntax.LandmarkPair(
-        _build_direction(text, tokens_of(tree)[0]), _build_base(text, start), _build_base(text, end)
-    )
-
-
-def _build_base(text: TreeReader, tree: Node) -> syntax.BaseExtractor:
-    return syntax.All() if tree.data == "all" else syntax.Is(text.read_label(subtrees_of(tree)[0]))
+    bases = [_build_leaf(text, node) for node in (start, end)]
+    return LandmarkPair(_build_direction(text, tokens_of(tree)[0]), cast(Any, bases[0]), cast(Any, bases[1]))
 
 
 def _build_direction(text: TreeReader, token: Token) -> Direction:
@@ -185,11 +269,11 @@ def build_threshold(text: TreeReader, tree: Node | None) -> float | None:
     if tree is None:
         return None
     (token,) = tokens_of(tree)
-    text.locate_errors(token, lambda: syntax.check_threshold(tree.data, float(token)))
+    text.locate_errors(token, lambda: check_threshold(tree.data, float(token)))
     return float(token)
 
 
-def build_action(text: TreeReader, tree: Node) -> base.Action:
+def build_action(text: TreeReader, tree: Node) -> Action:
     """The action of an `action` node. Raises ProgramError at its name or at the argument that does not fit."""
     (name,) = tokens_of(tree)[:1]
     parts = [part for part in tree.children[1:] if part is not None]
@@ -204,14 +288,14 @@ def build_action(text: TreeReader, tree: Node) -> base.Action:
         field: _build_argument(text, kind, argument, part)
         for part, (field, argument) in zip(parts, list(takes.items())[:needed], strict=False)
     }
-    made = text.locate_errors(tree, lambda: make_action(kind, given))
+    made = text.locate_errors(tree, lambda: make_operation(kind, given))
     for part in parts[needed:]:
         given |= [_build_option(text, kind, given, part)]
-        made = text.locate_errors(part, partial(make_action, kind, dict(given)))
+        made = text.locate_errors(part, partial(make_operation, kind, dict(given)))
     return made
 
 
-def _refuse_planned(text: TreeReader, kind: type[base.Action], parts: Iterable[Node | Token]) -> None:
+def _refuse_planned(text: TreeReader, kind: type[Action], parts: Iterable[Node | Token]) -> None:
     """Raise ProgramError for an option of the language that this version does not run."""
     for part in parts:
         word = text.source.piece_at(program_text.start_of(part))
@@ -221,7 +305,7 @@ def _refuse_planned(text: TreeReader, kind: type[base.Action], parts: Iterable[N
 
 
 def _build_option(
-    text: TreeReader, kind: type[base.Action], given: Mapping[str, Any], part: Node | Token
+    text: TreeReader, kind: type[Action], given: Mapping[str, Any], part: Node | Token
 ) -> tuple[str, Any]:
     """The field and the value of an argument that may be left out. Raises ProgramError for one that the action does
     not take, takes once only, or takes in another form."""
@@ -229,7 +313,7 @@ def _build_option(
     is_named, (word, value) = named is not None, named.children if named else (_bare_token(part), part)
     takes, taken = list(kind.arguments().items())[kind.min_arguments() :], None
     for field, argument in takes:
-        needs_value = isinstance(argument, base.OptionArgument)
+        needs_value = isinstance(argument, OptionArgument)
         if word in argument.choices and needs_value != is_named:
             problem = f"{word} {'lacks its value' if needs_value else 'takes no value'}"
             raise text.error_at(part, problem, f"Write {argument.usage if needs_value else word}.")
@@ -241,14 +325,14 @@ def _build_option(
             return field, found
         taken = argument if found is not None else taken
     if taken:
-        several = f"{kind.__name__} takes one of {base.join_alternatives(taken.choices)} only"
+        several = f"{kind.__name__} takes one of {join_alternatives(taken.choices)} only"
         problem = several if len(taken.choices) > 1 else f"{word} is given twice"
         raise text.error_at(part, problem, "Leave one of them out.")
     raise _unknown_option(text, kind, part, [argument for _, argument in takes])
 
 
 def _unknown_option(
-    text: TreeReader, kind: type[base.Action], part: Node | Token, takes: Sequence[base.ArgumentType]
+    text: TreeReader, kind: type[Action], part: Node | Token, takes: Sequence[ArgumentType]
 ) -> ProgramError:
     thing = quote_code(text.source.piece_at(program_text.start_of(part)))
     if not takes:
@@ -256,19 +340,19 @@ def _unknown_option(
     words = [word for argument in takes for word in argument.choices or (argument.usage,)]
     like = likely_word(thing.strip("`"), words)
     remedy = f"{f'Did you mean {like}? ' if like else ''}Write {kind.usage()}."
-    return text.error_at(part, f"{kind.__name__} takes {base.join_alternatives(words)} here, not {thing}", remedy)
+    return text.error_at(part, f"{kind.__name__} takes {join_alternatives(words)} here, not {thing}", remedy)
 
 
 def _unknown_action(text: TreeReader, name: Token) -> ProgramError:
-    known = f"Actions are {base.join_alternatives(ACTIONS)}."
-    if name in OPERATORS:
+    known = f"Actions are {join_alternatives(ACTIONS)}."
+    if name in list_operators():
         return text.error_at(name, f"{name} selects hulls, it is no action", known)
     like = likely_word(name, ACTIONS)
     return text.error_at(name, f"unknown action {quote_code(name)}", f"Did you mean {like}? {known}" if like else known)
 
 
-def _build_argument(text: TreeReader, kind: type[base.Action], argument: base.ArgumentType, given: Node | Token) -> Any:
-    if isinstance(argument, base.ActionArgument) and not isinstance(given, str):
+def _build_argument(text: TreeReader, kind: type[Operation], argument: ArgumentType, given: Node | Token) -> Any:
+    if isinstance(argument, ActionArgument) and not isinstance(given, str):
         return build_action(text, given)
     value = _read_argument(text, argument, given)
     if value is None:
@@ -276,7 +360,7 @@ def _build_argument(text: TreeReader, kind: type[base.Action], argument: base.Ar
     return value
 
 
-def _read_argument(text: TreeReader, argument: base.ArgumentType, given: Node | Token) -> Any | None:
+def _read_argument(text: TreeReader, argument: ArgumentType, given: Node | Token) -> Any | None:
     """The value of an argument, None where it is no such."""
     token = _bare_token(given)
     if token is None:
@@ -293,14 +377,12 @@ def _bare_token(given: Node | Token) -> Token | None:
     return tokens_of(given)[0] if subtrees_of(given) == [] and len(tokens_of(given)) == 1 else None
 
 
-def _misfit_error(
-    text: TreeReader, kind: type[base.Action], argument: base.ArgumentType, given: Node | Token
-) -> ProgramError:
+def _misfit_error(text: TreeReader, kind: type[Operation], argument: ArgumentType, given: Node | Token) -> ProgramError:
     thing = text.source.piece_at(program_text.start_of(given))
     remedy = f"Write {kind.usage()}."
     like = likely_word(thing.strip('"'), argument.choices)
     if like:
         remedy = f"Did you mean {like}? {remedy}"
-    elif isinstance(argument, base.FileArgument) and "\\" in thing:
+    elif isinstance(argument, FileArgument) and "\\" in thing:
         remedy = "Write / between the folders of a path."
     return text.error_at(given, f"{kind.__name__} takes {argument.wants} here, not {quote_code(thing)}", remedy)

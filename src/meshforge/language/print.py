@@ -6,12 +6,13 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import assert_never
 
-from meshforge.common import ProgramError
-from meshforge.language import syntax
-from meshforge.language.actions.base import PRIMITIVES, Action, show_number
-from meshforge.language.actions.basic import Add, Delete, Each, Merge, Replace, Scale, Shrink
-from meshforge.language.labels import WORD, check_label, show_label
-from meshforge.language.syntax import All, Attach, BaseExtractor, Diff, Extractor, Geo, Intersect, Is, Orient, Union
+from meshforge.common import ProgramError, blame
+from meshforge.language.actions.base import Action
+from meshforge.language.actions.basic import Each
+from meshforge.language.arguments import Operation
+from meshforge.language.extractors.base import Diff, Extractor, Intersect, Leaf, Union
+from meshforge.language.orient import LandmarkPair, Orient
+from meshforge.language.words import check_label, quote_label, show_label
 
 CommentLines = tuple[str | None, ...]
 """Comment lines without their `#`; None is an empty line."""
@@ -32,7 +33,7 @@ class Rule:
     Comments do not count when rules are compared.
     """
 
-    extractor: syntax.Extractor
+    extractor: Extractor
     action: Action
     label: str | None = None
     comments: Comments = field(default=Comments(), compare=False)
@@ -48,19 +49,17 @@ class Rule:
         return show(self)
 
 
-SyntaxNode = syntax.Extractor | Action | syntax.LandmarkPair | syntax.Orient | Rule
+SyntaxNode = Extractor | Action | LandmarkPair | Orient | Rule
 
 
 def show(node: SyntaxNode) -> str:
     """A node as program text."""
     match node:
-        case All() | Is() | Geo() | Attach() | Union() | Intersect() | Diff():
+        case Operation() | Union() | Intersect() | Diff():
             return str(node)
-        case Action():
-            return str(node)
-        case syntax.LandmarkPair(axis, start, end):
+        case LandmarkPair(axis, start, end):
             return f"{axis}: {show(start)} -> {show(end)}"
-        case syntax.Orient(pairs, snap):
+        case Orient(pairs, snap):
             return f"orient {'snap ' if snap else ''}{', '.join(map(show, pairs))}"
         case Rule():
             return show_rule(node, 0)
@@ -74,22 +73,18 @@ def show_rule(rule: Rule, width: int) -> str:
     return f"{show(rule.extractor):<{width}} => {rule.action}{label}"
 
 
-_SOLID_WORDS = {"box": "box", "cylinder": "cylinder", "capsule": "capsule", "sphere": "sphere or ellipsoid"}
-
-
 def explain(node: Rule | Orient | Extractor) -> str:
     """A sentence for a rule or an orientation, a noun phrase for an extractor."""
     match node:
         case Rule(extractor, action, label):
-            relabel = f"; what is made is labelled {_quote_label(label)}" if label is not None else ""
+            relabel = f"; what is made is labelled {quote_label(label)}" if label is not None else ""
             sentence = f"{_action_sentence(action, _subject_phrase(extractor))}{relabel}."
             return sentence[0].upper() + sentence[1:]
         case Orient():
             return _explain_orient(node)
-        case All() | Is():
-            return _all_phrase(node)
-        case Attach(selected) | Geo(selected):
-            return f"{_all_phrase(selected)} {_condition_phrase(node)}"
+        case Leaf():
+            with blame(node.plugin):
+                return f"{explain(node.bases[0])} {node.phrase}" if node.bases else node.phrase
         case Union(left, right):
             return f"{_operand_phrase(left)} and {_operand_phrase(right)}"
         case Intersect(left, right):
@@ -105,42 +100,15 @@ def _subject_phrase(extractor: Extractor) -> str:
     return explain(extractor) + "," * isinstance(extractor, Intersect | Diff)
 
 
-def _condition_phrase(part: Attach | Geo) -> str:
-    match part:
-        case Attach(selected, anchor):
-            return f"that touch {_one_phrase(anchor, other=selected)}"
-        case Geo(_, direction):
-            return f"that reach farthest along {direction}"
-        case _:
-            assert_never(part)
-
-
 def _operand_phrase(part: Extractor, of: Extractor | None = None) -> str:
     """The phrase for one side of a set operator, in brackets where it is one itself; `of`: the side before it."""
-    if (isinstance(part, Attach) and part.selected == of) or (isinstance(part, Geo) and part.base == of):
-        return f"those {_condition_phrase(part)}"
+    if isinstance(part, Leaf) and part.bases[:1] == (of,):
+        return f"those {part.phrase}"
     return f"({explain(part)})" if isinstance(part, Union | Intersect | Diff) else explain(part)
 
 
-def _all_phrase(base: BaseExtractor) -> str:
-    return f"the {_quote_label(base.label)} hulls" if isinstance(base, Is) else "all hulls"
-
-
-def _one_phrase(anchor: BaseExtractor, other: BaseExtractor) -> str:
-    """The phrase for a hull that is touched; `other` are those that touch it: none is its own neighbour."""
-    if isinstance(anchor, All):
-        return "any other hull"
-    word = _quote_label(anchor.label)
-    article = "another" if anchor == other else "an" if word[0].lower() in "aeiou" else "a"
-    return f"{article} {word} hull"
-
-
-def _quote_label(label: str) -> str:
-    return label if WORD.fullmatch(label) else f"“{label}”"
-
-
 def _explain_orient(orient: Orient) -> str:
-    ways = [f"{pair.axis} points from {_all_phrase(pair.start)} to {_all_phrase(pair.end)}" for pair in orient.pairs]
+    ways = [f"{pair.axis} points from {pair.start.phrase} to {pair.end.phrase}" for pair in orient.pairs]
     how = "by quarter turns, so that, as nearly as they allow, " if orient.snap else "so that "
     return f"For reasoning, turn every asset {how}{' and '.join(ways)}."
 
@@ -148,59 +116,6 @@ def _explain_orient(orient: Orient) -> str:
 def _action_sentence(action: Action, hulls: str) -> str:
     """What an action does to `hulls`; a sentence without its end."""
     if isinstance(action, Each):
-        return f"each connected group of {hulls.removeprefix('the ')} is {_action_phrase(action.action, 'its')}"
+        return f"each connected group of {hulls.removeprefix('the ')} is {action.action.phrase('its')}"
     parts = ", one for each body" if action.by_body else ""
-    return f"{hulls} are {_action_phrase(action, 'their')}{parts}"
-
-
-def _action_phrase(action: Action, whose: str) -> str:
-    match action:
-        case Delete():
-            return "deleted"
-        case Merge():
-            return "merged into one convex hull"
-        case Replace():
-            return f"replaced by {_substitute_phrase(action, whose)}"
-        case Add():
-            size = "in its own size" if action.keep else "as large as fits"
-            return f"given “{action.template}” at {whose} {action.direction} side, {size}"
-        case Scale():
-            where = "in every direction" if action.axis == "all" else f"along {action.axis}"
-            return f"scaled by {show_number(action.factor)} {where}, about {whose} common centre"
-        case Shrink():
-            return f"made smaller all round by {show_number(action.distance)} m"
-        case _:
-            return f"edited by {action}"  # of a plug-in
-
-
-def _substitute_phrase(action: Replace, whose: str) -> str:
-    if action.geometry not in PRIMITIVES:
-        turned = " turned lengthwise and" if action.fit == "longest" else ""
-        return f"“{action.geometry}”,{turned} stretched to fill {whose} bounding box"
-    solid, around = _SOLID_WORDS[action.geometry], f"around {'it' if whose == 'its' else 'them'}"
-    along = f", along {action.axis}" if action.axis else ""
-    if action.radius:
-        size = f"radius {show_number(action.radius)} m"
-        return f"a {action.geometry} of {size} at the middle of {whose} bounding box{along}"
-    match action.fit:
-        case "tight":
-            return f"the smallest {solid} {around}, at any angle"
-        case "native":
-            return _native_phrase(action, whose, around)
-        case "inscribed":
-            return f"the largest {action.geometry} inside {whose} convex hull{along}"
-        case "volume":
-            return f"a {action.geometry} of {whose} volume{along}"
-        case "longest":
-            return f"a sphere as wide as the longest side of {whose} bounding box"
-        case _:
-            return f"a {solid} that fills {whose} bounding box{along}"
-
-
-def _native_phrase(action: Replace, whose: str, around: str) -> str:
-    if action.geometry == "sphere":
-        return f"the smallest sphere {around}"
-    if action.geometry == "cylinder" and not action.axis:
-        return f"the smallest cylinder {around} along X, Y or Z"
-    side = action.axis or f"the longest side of {whose} bounding box"
-    return f"the thinnest {action.geometry} {around}, along {side}"
+    return f"{hulls} are {action.phrase('their')}{parts}"

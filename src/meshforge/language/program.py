@@ -8,23 +8,17 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from types import MappingProxyType
 
-from meshforge import symbolic
 from meshforge.common import MeshForgeError, ProgramError
-from meshforge.language import parse, syntax
-from meshforge.language.actions.base import show_number
+from meshforge.language import parse
 from meshforge.language.actions.edit import Template, check_templates
-from meshforge.language.apply import (
-    Memo,
-    RuleTrace,
-    apply_rule,
-    apply_to_selection,
-    from_canonical_frame,
-    make_anew,
-    to_canonical_frame,
-)
-from meshforge.language.labels import check_declared, check_label, show_label
+from meshforge.language.arguments import show_number
+from meshforge.language.extractors.base import Extractor, labels_of, rename_in_extractor
+from meshforge.language.orient import Orient, rename_in_orient
 from meshforge.language.print import CommentLines, Comments, Rule, show, show_rule
+from meshforge.language.replay import Memo, Replay, RuleTrace, make_anew
 from meshforge.language.text import Node, ProgramText, TreeReader, subtrees_of
+from meshforge.language.words import check_declared, check_label, check_threshold, show_label
+from meshforge.symbolic import SymbolicMesh
 
 _MOST_ALIGNED = 60  # a longer extractor does not push the arrows of the other rules to the right
 
@@ -44,7 +38,7 @@ class HeaderComments:
 class RunResult:
     """The edited mesh in the incoming frame, the very same object where nothing changed, and a trace of every rule."""
 
-    mesh: symbolic.SymbolicMesh
+    mesh: SymbolicMesh
     trace: tuple[RuleTrace, ...]
 
 
@@ -57,7 +51,7 @@ class Program:
     """
 
     labels: tuple[str, ...] = ()
-    orient: syntax.Orient | None = None
+    orient: Orient | None = None
     rules: tuple[Rule, ...] = ()
     contact: float | None = None
     extremity: float | None = None
@@ -72,16 +66,16 @@ class Program:
                 raise ProgramError(f"the label {label!r} is declared twice")
         for label in self.labels_in_use:
             check_declared(label, self.labels)
-        syntax.check_threshold("contact", self.contact)
-        syntax.check_threshold("extremity", self.extremity)
+        check_threshold("contact", self.contact)
+        check_threshold("extremity", self.extremity)
 
     @property
     def labels_asked(self) -> tuple[str, ...]:
         """The labels that landmarks and extractors ask for, each once, in order of mention."""
         pairs = self.orient.pairs if self.orient else ()
-        asked: list[syntax.Extractor] = [end for pair in pairs for end in (pair.start, pair.end)]
+        asked: list[Extractor] = [end for pair in pairs for end in (pair.start, pair.end)]
         asked += [rule.extractor for rule in self.rules]
-        return tuple(dict.fromkeys(label for extractor in asked for label in syntax.labels_of(extractor)))
+        return tuple(dict.fromkeys(label for extractor in asked for label in labels_of(extractor)))
 
     @property
     def labels_in_use(self) -> tuple[str, ...]:
@@ -116,7 +110,7 @@ class Program:
 
     def run(
         self,
-        mesh: symbolic.SymbolicMesh,
+        mesh: SymbolicMesh,
         templates: Mapping[str, Template] | None = None,
         *,
         selections: Mapping[int, Collection[str]] = MappingProxyType({}),
@@ -127,53 +121,45 @@ class Program:
         selections: names of hulls that rules select on this mesh whatever their extractors do, by their numbers; memo:
         where many programs are run on the same mesh, keeps what each step made, for those that begin alike.
         Hulls that no rule touches come back as the same objects. Raises ProgramError, about the mesh's file where it
-        has one: a missing template, no labels, a landmark that gives no direction, no hull of a name in `selections`;
-        GeometryError for a hull that cannot be made.
+        has one: a missing template, no labels, a landmark that gives no direction; DemonstrationError for no hull of a
+        name in `selections`; GeometryError for a hull that cannot be made.
         """
         templates = templates or {}
         try:
             check_templates(self.templates, templates)
             self.check_has_labels(mesh)
-            return self._run_rules(mesh, templates, selections, memo)
+            *_, last = self.replay(mesh, templates, selections=selections, memo=memo)
+            return RunResult(last.edited, last.trace)
         except MeshForgeError as error:
             raise error.at(str(mesh.asset.path)) if mesh.asset else error from None
 
-    def check_has_labels(self, mesh: symbolic.SymbolicMesh) -> None:
+    def replay(
+        self,
+        mesh: SymbolicMesh,
+        templates: Mapping[str, Template],
+        *,
+        name: str = "",
+        selections: Mapping[int, Collection[str]] = MappingProxyType({}),
+        memo: Memo = make_anew,
+    ) -> Iterator[Replay]:
+        """A mesh as each rule meets it, and after the last one; see `run` for the arguments and errors.
+
+        name: how errors call the mesh.
+        """
+        current = Replay.begin(mesh, self.orient, self.contact, name=name, selections=selections, memo=memo)
+        yield current
+        for rule in self.rules:
+            current = current.advance(rule, templates, self.extremity)
+            yield current
+
+    def check_has_labels(self, mesh: SymbolicMesh) -> None:
         """Raise ProgramError where it asks for labels and no hull has one."""
         if self.labels_asked and mesh.hulls and not any(hull.label for hull in mesh.hulls):
             remedy = "Label the asset first (meshforge label), or give its labels with --labels FILE."
             raise ProgramError("no labels, though the program asks for some", remedy=remedy)
 
-    def _run_rules(
-        self,
-        mesh: symbolic.SymbolicMesh,
-        templates: Mapping[str, Template],
-        selections: Mapping[int, Collection[str]],
-        memo: Memo,
-    ) -> RunResult:
-        current, pose = to_canonical_frame(mesh, self.orient, self.contact, memo)
-        trace, used = [], frozenset[str]()
-        for number, rule in enumerate(self.rules, 1):
-            if number in selections:
-                mask = _find_hulls(current, number, selections[number])
-                selected, result = (
-                    current.names_of(mask),
-                    apply_to_selection(current, mask, rule, templates, used, memo),
-                )
-            else:
-                selected, result = apply_rule(current, rule, templates, self.extremity, used, memo)
-            current, used = result.mesh, result.used
-            trace.append(RuleTrace(number, selected, result.made, result.note, result.sources))
-        return RunResult(from_canonical_frame(mesh, current, pose), tuple(trace))
-
     def __str__(self) -> str:
         return "".join(f"{line}\n" for line in _program_lines(self))
-
-
-def _find_hulls(mesh: symbolic.SymbolicMesh, rule: int, names: Collection[str]) -> int:
-    if gone := sorted(set(names) - mesh.index.keys()):
-        raise ProgramError(f"rule {rule} is to select {gone[0]} here, and there is no such hull")
-    return symbolic.mask_of(mesh.index[name] for name in names)
 
 
 def rename_in_program(program: Program, old: str, new: str) -> Program:
@@ -181,13 +167,13 @@ def rename_in_program(program: Program, old: str, new: str) -> Program:
     rules = (
         replace(
             rule,
-            extractor=syntax.rename_in_extractor(rule.extractor, old, new),
+            extractor=rename_in_extractor(rule.extractor, old, new),
             label=new if rule.label == old else rule.label,
         )
         for rule in program.rules
     )
     labels = dict.fromkeys(new if label == old else label for label in program.labels)
-    orient = syntax.rename_in_orient(program.orient, old, new) if program.orient else None
+    orient = rename_in_orient(program.orient, old, new) if program.orient else None
     return replace(program, labels=tuple(labels), orient=orient, rules=tuple(rules))
 
 

@@ -9,11 +9,11 @@ from collections.abc import Callable, Iterable, Set
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias, TypeVar
 
-from meshforge.common import PluginError, ProgramError, nearest_name
-from meshforge.language.actions.base import join_alternatives
-from meshforge.language.actions.registry import ACTIONS
-from meshforge.language.labels import RESERVED, check_declared, check_label
-from meshforge.language.words import DIRECTIONS, OPERATORS
+from meshforge.common import PluginError, ProgramError, join_and, nearest_name
+from meshforge.language.arguments import join_alternatives
+from meshforge.language.extractors.base import SET_OPERATORS, BaseExtractor
+from meshforge.language.registry import ACTIONS, EXTRACTORS
+from meshforge.language.words import DIRECTIONS, RESERVED, check_declared, check_label
 
 if TYPE_CHECKING:  # lark is loaded where a program is parsed
     from lark import Token, Tree
@@ -26,7 +26,9 @@ T = TypeVar("T")
 HEADERS = ("labels", "contact", "extremity", "orient")
 QUOTE_NAMES = "Put names with other characters than letters, digits and _ in double quotes."
 _SIGNS = {"COMMA": ",", "COLON": ":", "LPAR": "(", "RPAR": ")", "_EQUALS": "=", "_TO": "->", "_ARROW": "=>"}
-_WORDS = {f"_{word.upper()}": word for word in (*HEADERS, *OPERATORS, "as")} | {"SNAP": "snap"}
+_SETS = tuple(kind.__name__ for kind in SET_OPERATORS)
+_WORDS = {f"_{word.upper()}": word for word in (*HEADERS, *_SETS, "as")} | {"SNAP": "snap"}
+_LEAF = "leaf "
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,6 +123,25 @@ def syntax_error(source: ProgramText, offset: int, accepted: Set[str], before: s
     return source.error_at(offset, problem, _remedy(source, offset, found, accepted, before))
 
 
+def text_of_leaf(name: str) -> str:
+    """How the word of a leaf extractor is told from terminals of the grammar that may stand at a place."""
+    return _LEAF + name
+
+
+def leaves_among(accepted: Set[str]) -> list[str]:
+    """The leaf extractors that may stand at a place."""
+    return [name.removeprefix(_LEAF) for name in sorted(accepted) if name.startswith(_LEAF)]
+
+
+def list_operators() -> tuple[str, ...]:
+    """The words that an extractor may begin with, those of plug-ins among them."""
+    return (*EXTRACTORS, *_SETS)
+
+
+def _list_bases() -> list[str]:
+    return [kind.usage() for kind in EXTRACTORS.built_in.values() if issubclass(kind, BaseExtractor)]
+
+
 def likely_word(word: str, words: Iterable[str]) -> str | None:
     """The one of the words that was probably meant, whatever its case."""
     lower = {w.lower(): w for w in words}
@@ -136,22 +157,25 @@ def quote_code(found: str) -> str:
 
 def _problem(found: str, accepted: Set[str]) -> str:
     is_word = found[:1].isalpha() or found[:1] == "_"
-    if is_word and "_GEO" in accepted and found not in (*HEADERS, *ACTIONS):
+    if is_word and "_UNION" in accepted and found not in (*HEADERS, *ACTIONS):
         return f"unknown {'word' if '_LABELS' in accepted else 'operator'} {quote_code(found)}"
     if found == '"':
         return "this text is never closed: a double quotation mark is missing"
-    if found in HEADERS and "_GEO" in accepted:
+    if found in HEADERS and "_UNION" in accepted:
         return f"{found} must stand above the first rule"
     return f"expected {join_alternatives(_expectations(accepted))}, not {quote_code(found)}"
 
 
 def _expectations(accepted: Set[str]) -> list[str]:
     if "_LABELS" in accepted:
-        return [f"a header line ({', '.join(HEADERS)})", f"a rule, which begins with one of {', '.join(OPERATORS)}"]
-    if "_GEO" in accepted:
-        return [f"an extractor ({', '.join(OPERATORS)})"]
-    if "_ALL" in accepted:
-        return ["All", "Is(label)"]
+        return [
+            f"a header line ({', '.join(HEADERS)})",
+            f"a rule, which begins with one of {', '.join(list_operators())}",
+        ]
+    if "_UNION" in accepted:
+        return [f"an extractor ({', '.join(list_operators())})"]
+    if leaves_among(accepted):
+        return _list_bases()
     phrases = []
     if "NAME" in accepted:
         names = {"STRING", "NUMBER"} & accepted
@@ -170,21 +194,24 @@ def _expectations(accepted: Set[str]) -> list[str]:
 
 
 def _candidate_words(accepted: Set[str]) -> list[str]:
-    words = [word for name, word in _WORDS.items() if name in accepted]
+    words = [word for name, word in _WORDS.items() if name in accepted] + leaves_among(accepted)
+    words += EXTRACTORS.plugin_names if "_UNION" in accepted else ()
     if "DIRECTION" in accepted and "NAME" not in accepted:
         words += DIRECTIONS
     return words + (list(ACTIONS) if "NAME" in accepted and "STRING" not in accepted else [])
 
 
 def _remedy(source: ProgramText, offset: int, found: str, accepted: Set[str], before: str) -> str | None:
-    if "_ALL" in accepted and "_GEO" not in accepted and found in OPERATORS:
-        return "Attach, Geo and orient refine All or Is(label); combine selections with Union, Intersect and Diff."
-    if (found in ACTIONS and "_GEO" in accepted) or "_ARROW" in accepted:
+    if leaves_among(accepted) and "_UNION" not in accepted and found in list_operators():
+        refining = [name for name, kind in EXTRACTORS.built_in.items() if not issubclass(kind, BaseExtractor)]
+        bases = join_alternatives(_list_bases())
+        return f"{join_and([*refining, 'orient'])} refine {bases}; combine selections with {join_and(_SETS)}."
+    if (found in ACTIONS and "_UNION" in accepted) or "_ARROW" in accepted:
         return "A rule is written `extractor => action`."
     if accepted & {"_TO", "COLON"}:
         return "A landmark pair is written `+Z: start -> end`."
-    if "_GEO" in accepted and found[:1].isalpha() and found not in HEADERS:
-        return f"Operators are {join_alternatives(OPERATORS)}."
+    if "_UNION" in accepted and found[:1].isalpha() and found not in HEADERS:
+        return f"Operators are {join_alternatives(list_operators())}."
     if found.startswith("'"):
         return "Write double quotation marks."
     joined = offset > 0 and not source.text[offset - 1].isspace() and before[:1].isalpha() and found[:1] not in "(),"

@@ -10,6 +10,7 @@ from meshforge import labels
 from meshforge.common import pluralize, quote_path
 from meshforge.project.learn import ProgramState
 from meshforge.project.status import Advice, AssetStatus
+from meshforge.store import Layout
 
 
 @dataclass(frozen=True, slots=True)
@@ -152,7 +153,7 @@ class Adviser:
         if odd:
             say = f"All assets are edited; {len(odd)} of them want a look, first {odd[0]}: edit them by hand."
             return Advice(say, self._type("studio"))
-        edited = quote_path(self.folder / "edited")
+        edited = quote_path(Layout(self.folder).edited)
         return Advice("All assets are edited and signed off: check them.", f"meshforge check {edited}")
 
     def _type(self, words: str) -> str:

@@ -11,7 +11,7 @@ from meshforge import batch, symbolic, synthesis
 from meshforge import store as files
 from meshforge.common import MeshForgeError, ProjectError, UsageError, suggest_among, suggest_name
 from meshforge.labels import merge
-from meshforge.project.preparation_journal import confirm_selections
+from meshforge.project.hull_mapping import confirm_replaced
 from meshforge.store import NO_ORIGIN, Origin, Store
 
 
@@ -38,7 +38,7 @@ def demonstrate(store: Store, asset: str, steps: Iterable[synthesis.Step]) -> No
             elif said.meant:
                 store.add_events(said.model_copy(update={"meant": ()}))
         store.write_steps(asset, steps)
-        confirm_selections(store, asset)
+        confirm_replaced(store, asset)
 
 
 def shows(steps: Iterable[synthesis.Step], done: Iterable[batch.RuleSelection]) -> bool:
@@ -102,7 +102,7 @@ def delete_rule(store: Store, rule: int) -> None:
 def _read_demonstration_files(store: Store) -> dict[Path, files.DemonstrationFile]:
     """All demonstrations by file. Raises ProjectError where one cannot be read, or its steps are not in order."""
     layout = store.layout
-    paths = map(layout.demonstration, layout.ids_with("demonstrations"))
+    paths = map(layout.demonstration, layout.demonstration.ids)
     found = {path: files.read_json(path, files.DemonstrationFile) for path in paths}
     kept = {path: file for path, file in found.items() if file}
     for path, file in kept.items():
@@ -234,7 +234,7 @@ def take_back(store: Store, said: str) -> str | None:
     with store.lock():
         kept = store.feedback().answers_and_fixes
         if said not in kept:
-            listing = f"See what was said: meshforge synthesize {store.folder} --list-answers"
+            listing = f"See what was said: meshforge review {store.folder} --list-answers"
             remedy = suggest_name(said, kept, listing)
             raise ProjectError(f"there is no answer or repair {said!r}", where=str(store.folder), remedy=remedy)
         event = kept[said]

@@ -20,14 +20,12 @@ _LEAST_DOUBT = 0.05  # that labels on an asset are at fault
 
 
 def sort_answers(
-    store: Store, said: Feedback, demos: Mapping[str, synthesis.Demonstration], more: Sequence[synthesis.Answer]
+    said: Feedback, demos: Mapping[str, synthesis.Demonstration]
 ) -> tuple[list[synthesis.Answer], list[synthesis.Answer]]:
-    """The answers to learn from, and those to a rule that does something else by now; more: besides those kept."""
-    given = (demonstrations.check_answer(store, answer) for answer in more)
-    lines = {line.id: line for line in [*said.answers.values(), *given]}
+    """The answers to learn from, and those to a rule that does something else by now."""
     actions = demonstrations.actions_of(demo.steps for demo in demos.values())
-    fitting = [line.answer for line in lines.values() if line.fits(actions)]
-    return fitting, [line.answer for line in lines.values() if not line.fits(actions)]
+    fitting = [line.answer for line in said.answers.values() if line.fits(actions)]
+    return fitting, [line.answer for line in said.answers.values() if not line.fits(actions)]
 
 
 def list_accepted(

@@ -78,7 +78,7 @@ class ProgramState:
 def accept_outcome(store: Store, outcome: synthesis.Found | synthesis.Ambiguous, inputs: str) -> None:
     """Keep a learned program, and what it was learned from."""
     store.write_program(outcome.program)
-    question = outcome.question.id if outcome.question else None
+    question = outcome.open_rule.id if outcome.open_rule else None
     record = ProgramRecord(
         program=batch.program_digest(outcome.program), lesson=inputs, status=outcome.status, question=question
     )
@@ -169,13 +169,12 @@ def learn_program(
     options: synthesis.Options | None = None,
     confirm: Confirm | None = None,
     stop: Callable[[], bool] | None = None,
-    answers: Sequence[synthesis.Answer] = (),
     meshes: Mapping[str, symbolic.SymbolicMesh] | None = None,
 ) -> synthesis.LearningOutcome:
     """Learn the program from the demonstrations and from what a person said since.
 
     accept: what is found becomes the project's program, and what `confirm` says about repairs is kept at once.
-    confirm, stop: as of `meshforge.synthesize`; answers: for this run, before those that are kept.
+    confirm, stop: as of `meshforge.synthesize`.
     meshes: the assets by id, where they are in memory already; else they are read, of very many some.
     Raises ProjectError where nothing is demonstrated.
     """
@@ -183,7 +182,7 @@ def learn_program(
     demos = _read_demonstrations(store, meshes)
     inputs = digest_learning_inputs(store)
     said = store.feedback()
-    fitting, unfit = sort_answers(store, said, demos, answers)
+    fitting, unfit = sort_answers(said, demos)
     accepted, wrong = list_accepted(store, demos, fitting), list_wrong(said, demos, meshes)
     asker = _RepairAsker(store, confirm) if accept and confirm else None
     settings = store.settings

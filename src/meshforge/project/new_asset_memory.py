@@ -13,6 +13,7 @@ from meshforge import batch
 from meshforge.common import file_digest, write_atomically
 from meshforge.project.new_asset_result import NewAssetResult
 from meshforge.project.preparation_plan import PreparationPlan
+from meshforge.store import Layout
 
 
 class _ResultRecord(BaseModel):
@@ -38,11 +39,11 @@ class NewAssetFolder:
 
     @property
     def preparation(self) -> Path:
-        return self.folder / "prepared" / self.id
+        return Layout(self.folder).preparation(self.id)
 
     @property
     def labels(self) -> Path:
-        return self.folder / "labels" / f"{self.id}.json"
+        return Layout(self.folder).labels(self.id)
 
     @property
     def _kept(self) -> Path:

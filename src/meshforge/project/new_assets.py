@@ -182,10 +182,7 @@ def prepare_aside(
 def _keep_aside(home: NewAssetFolder, basis: str, found: _WorkerOutcome) -> NewAssetResult:
     """Write what was done to an asset, and last what became of it."""
     home.forget()
-    if found.preparation.steps:
-        batch.write_preparation(home.preparation, found.preparation)
-    else:
-        batch.remove_preparation(home.preparation)
+    batch.write_preparation(home.preparation, found.preparation)
     if found.mesh.labels:
         write_labels(home.labels, found.mesh, found.vocabulary)
     else:

@@ -7,11 +7,11 @@ from dataclasses import replace
 from functools import partial
 
 from meshforge import batch, labels, language, symbolic
-from meshforge.common import MeshForgeError
+from meshforge.common import MeshForgeError, relative_name
 from meshforge.project.advice import Adviser
 from meshforge.project.demonstrations import find_unknown_hulls
+from meshforge.project.hull_mapping import describe_replaced
 from meshforge.project.learn import program_state_of, suggest_first_demonstration
-from meshforge.project.preparation_journal import describe_carried
 from meshforge.project.run import build_jobs, build_task, make_empty_program, output_digest
 from meshforge.project.sign_offs import digest_lesson, find_bases
 from meshforge.project.standings import Standings
@@ -20,6 +20,7 @@ from meshforge.signoff import BAR
 from meshforge.store import (
     AssetFacts,
     AssetOutput,
+    History,
     SpansFile,
     Store,
     VerdictEvent,
@@ -134,7 +135,7 @@ def _asset_status(
             dict.fromkeys(
                 (
                     *_describe_unknown_hulls(store, job.id, facts),
-                    *_describe_carried(store, job.id, facts),
+                    *_describe_replaced(store, job.id, facts),
                     *(stamp.flags if stamp else ()),
                 )
             )
@@ -169,12 +170,19 @@ def _describe_unknown_hulls(store: Store, asset: str, facts: AssetFacts) -> Iter
         yield f"{name}, which is demonstrated for rule {rule}, {fate}: demonstrate it anew"
 
 
-def _describe_carried(store: Store, asset: str, facts: AssetFacts) -> tuple[str, ...]:
-    """What was carried to parts of split hulls and that a person has to look at."""
+def _describe_replaced(store: Store, asset: str, facts: AssetFacts) -> tuple[str, ...]:
+    """What names parts of split hulls in their place, so that a person has to look at it."""
     try:
-        return () if facts.error else tuple(describe_carried(store, asset, len(facts.prepared)))
+        return () if facts.error else (*describe_replaced(store, asset), *_describe_interrupted(store, asset))
     except MeshForgeError as error:
         return (error.message,)
+
+
+def _describe_interrupted(store: Store, asset: str) -> Iterator[str]:
+    own = relative_name(store.layout.preparation(asset), store.folder)
+    if any(name == own or name.startswith(f"{own}/") for name in History(store.folder).interrupted):
+        command = f"meshforge prepare {store.folder} {asset} --undo"
+        yield f"its preparation was cut short, and selections may name hulls that are not there. Finish with: {command}"
 
 
 def _read_labels(store: Store, job: batch.AssetJob) -> tuple[symbolic.LabelFile, str | None]:
@@ -196,6 +204,7 @@ def _find_changes(output: AssetOutput, edit: batch.OutputInputs | None) -> tuple
 
 
 def _find_lost_ids(store: Store) -> tuple[str, ...]:
-    kept = {asset for kind in ("labels", "demonstrations", "corrections") for asset in store.layout.ids_with(kind)}
-    kept |= set(store.layout.ids_with_preparation())
+    layout = store.layout
+    kinds = (layout.labels, layout.demonstration, layout.corrections, layout.preparation)
+    kept = {asset for kind in kinds for asset in kind.ids}
     return tuple(sorted(kept - {*store.assets(), *store.found.left_out}))

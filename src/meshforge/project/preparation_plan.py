@@ -64,7 +64,7 @@ def read_preparation_plan(store: Store) -> PreparationPlan:
     kept = _read(store)
     split = None if kept.sure is None else SplitSettings(kept.sure, kept.rebuild, kept.pieces, kept.only)
     ways = dict[str, list[str]]()
-    for asset in store.layout.ids_with_preparation():
+    for asset in store.layout.preparation.ids:
         if asset not in store.found.ids:
             continue
         try:

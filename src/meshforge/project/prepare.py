@@ -1,11 +1,11 @@
-"""What is done to assets before the program: hulls decomposed, cut and split, with labels that follow them."""
+"""What is done to assets before the program: hulls decomposed, cut and split, with labels and selections that follow
+them. Each change is an entry of the project's history."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
-from dataclasses import dataclass, replace
-from itertools import takewhile
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -13,15 +13,12 @@ from meshforge import batch
 from meshforge.common import AssetError, MeshForgeError, ProjectError, describe_error, join_names, write_atomically
 from meshforge.formats import DecomposeBy, read
 from meshforge.geometry import CoacdSettings, DecomposeSettings, Shape, cache_folder, digest
-from meshforge.labels import label_new_hulls
-from meshforge.project import preparation_journal as journal
-from meshforge.project import selections
+from meshforge.labels import NewHullLabels, label_new_hulls
 from meshforge.project.demonstrations import find_unknown_hulls
+from meshforge.project.hull_mapping import HullMapping, describe_replaced
 from meshforge.project.preparation_plan import keep_decomposed
-from meshforge.store import Store, hull_digests
+from meshforge.store import History, Store, hull_digests
 from meshforge.symbolic import Asset, Label, SymbolicMesh
-
-_FINISHED = "what a process had left half done, since it was killed, was taken back"
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,6 +48,8 @@ def change_preparation(
 ) -> PreparationResult:
     """Do one thing more to an asset. make: its preparation with that, of the asset as it was read and that before."""
     folder = store.layout.preparation(asset)
+    with store.lock():
+        History(store.folder).recover()
     seen = batch.record_digest(folder)
     before = batch.read_preparation(folder) or batch.Preparation()
     after = make(read(store.path(asset)), before)
@@ -84,139 +83,116 @@ def split(
     return change_preparation(store, asset, make)
 
 
-def unprepare(store: Store, asset: str, *, everything: bool = False) -> PreparationResult:
-    """Take back the last thing that was done to an asset before the program, or everything.
+def exchange_preparation(
+    store: Store, asset: str, after: batch.Preparation, seen: str | None, labels: Mapping[str, Label] | None = None
+) -> list[str]:
+    """Write a preparation in the place of the one of a known digest, so that it can be undone, and let labels and
+    selections follow; notes on that.
 
-    Where a process was killed in doing or undoing something, the last thing is what it left half done. Everything also
-    of an asset that is gone or cannot be read. Raises ProjectError where nothing was done.
+    labels: of new hulls by name, as what made them knows them; where a person gave the hull that is split the same
+    label, theirs is taken. Raises ProjectError, with nothing written, where there is another preparation now, or a file
+    of the project cannot be read.
     """
-    if asset not in store.layout.ids_with_preparation():
-        store.path(asset)
-    folder = store.layout.preparation(asset)
-    if _finish_undo(store, asset) and not (everything and batch.record_digest(folder)):
-        return PreparationResult(asset, undone=(_FINISHED,))
-    seen = batch.record_digest(folder)
-    if seen is None:
-        raise ProjectError("nothing was done to it that could be taken back", where=asset)
-    before = _read_or_empty(folder) if everything else batch.read_preparation(folder) or batch.Preparation()
-    left = 0 if everything else len(before.steps) - 1
-    notes = exchange_preparation(store, asset, before.with_only(before.steps[:left]), seen)
-    undone = tuple(map(str, before.steps[left:])) or ("what was kept, which was damaged",)
-    return PreparationResult(asset, undone=undone, notes=tuple(notes))
-
-
-def _finish_undo(store: Store, asset: str) -> bool:
-    """Take back what was half done to an asset when a process was killed; whether something was."""
-    folder = store.layout.preparation(asset)
     with store.lock():
-        try:
-            before = batch.read_preparation(folder) or batch.Preparation()
-        except AssetError:  # only undoing everything helps
-            return False
-        if all(step.place < len(before.steps) for step in journal.read_journal(store, asset)):
-            return False
-        selections.check_selections(store, asset)
-        if before.steps:
-            batch.write_preparation(folder, before)
-        else:
-            batch.remove_preparation(folder)
-        return journal.finish_undo(store, asset, len(before.steps))
+        History(store.folder).recover()
+        if batch.record_digest(store.layout.preparation(asset)) != seen:
+            raise ProjectError("someone else has prepared it meanwhile", where=asset, remedy="Try again.")
+        check_selections(store, asset)
+        change = HullChange.read(store, asset, after)
+        follow = label_new_hulls(store, asset, change.old, change.mesh, labels)
+        others = change.mapping.list_writes(store, asset)
+        done = str(after.steps[-1]) if after.steps else "preparation given up"
+        change.write(f"{asset}: {done}", "prepare", follow, others)
+        notes = list(follow.notes if follow else ())
+        notes += [f"look at it: {one}" for one in describe_replaced(store, asset)] if others else []
+        return [*notes, *change.describe_gone()]
 
 
-def _read_or_empty(folder: Path) -> batch.Preparation:
+def check_selections(store: Store, asset: str) -> None:
+    """Raises ProjectError, naming the file, where a demonstration, edits by hand or the events cannot be read."""
+    store.steps(asset)
+    store.corrections(asset)
+    store.feedback()
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class HullChange:
+    """The hulls of an asset before and after its preparation is exchanged. before, after: the preparations; old: the
+    hulls by name; mesh: the new ones."""
+
+    store: Store
+    asset: str
+    before: batch.Preparation
+    after: batch.Preparation
+    old: Mapping[str, Shape]
+    mesh: SymbolicMesh
+
+    @staticmethod
+    def read(store: Store, asset: str, after: batch.Preparation) -> HullChange:
+        """Raises AssetError where the asset cannot be read, or the preparation does not fit it."""
+        source = read(store.path(asset))
+        before = read_or_empty(store.layout.preparation(asset))
+        mesh = SymbolicMesh.of(batch.apply_preparation(source, after))
+        return HullChange(store, asset, before, after, _list_hulls(source, before), mesh)
+
+    @property
+    def mapping(self) -> HullMapping:
+        """Which new hulls take the place of old ones."""
+        return HullMapping.between(self.after, self._old_digests, hull_digests(self.mesh))
+
+    @property
+    def mapping_back(self) -> HullMapping:
+        """Which old hulls took the place of new ones."""
+        return HullMapping.between(self.before, hull_digests(self.mesh), self._old_digests)
+
+    @property
+    def _old_digests(self) -> dict[str, str]:
+        return {name: digest(shape) for name, shape in self.old.items()}
+
+    def write(
+        self, title: str, kind: str, follow: NewHullLabels | None, others: Sequence[tuple[Path, bytes | None]]
+    ) -> None:
+        """Write the preparation, labels and other files as one change.
+
+        Labels of the new hulls are written before these, the removal of old labels after them: what is read meanwhile
+        has a label for each hull.
+        """
+        labels, folder = self.store.layout.labels(self.asset), self.store.layout.preparation(self.asset)
+        texts = (follow.format(keep_old=True), follow.format(keep_old=False)) if follow else ()
+        between, *final = [(labels, None if text is None else text.encode()) for text in texts] or [(labels, None)]
+        own = batch.list_preparation_writes(folder, self.after)
+        rest = [*final, *others] if labels not in dict(others) else others
+        writes = [*([between] if final else []), *own, *(one for one in rest if one not in own[-1:])]
+        History(self.store.folder).write(title, edit_of(kind, self.asset), writes)
+
+    def describe_gone(self) -> list[str]:
+        """A note on hulls that the demonstration names and that are no more."""
+        gone = sorted({name for _, name in find_unknown_hulls(self.store.steps(self.asset), self.mesh.index)})
+        note = f"the demonstration on it names {join_names(gone)}, which it has no more: demonstrate it anew"
+        return [note] if gone else []
+
+
+def edit_of(kind: str, asset: str) -> dict[str, str]:
+    """What the history notes of a preparation, or of undoing one."""
+    return {"kind": kind, "asset": asset}
+
+
+def read_or_empty(folder: Path) -> batch.Preparation:
+    """The preparation in a folder, an empty one where there is none or it is damaged."""
     try:
         return batch.read_preparation(folder) or batch.Preparation()
     except AssetError:
         return batch.Preparation()
 
 
-def exchange_preparation(
-    store: Store, asset: str, after: batch.Preparation, seen: str | None, labels: Mapping[str, Label] | None = None
-) -> list[str]:
-    """Write a preparation in the place of the one of a known digest. Raises ProjectError where that is another now.
-
-    labels: of new hulls by name, as what made them knows them; where a person gave the hull that is split the same
-    label, theirs is taken.
-    """
-    with store.lock():
-        if batch.record_digest(store.layout.preparation(asset)) != seen:
-            raise ProjectError("someone else has prepared it meanwhile", where=asset, remedy="Try again.")
-        return _exchange(store, asset, after, labels or {})
-
-
-def _hulls_before(source: Asset, folder: Path) -> dict[str, Shape]:
+def _list_hulls(source: Asset, before: batch.Preparation) -> dict[str, Shape]:
     """The hulls of an asset by name as they are prepared, those of an outdated preparation too.
 
     A hull that a step puts others in the place of is none of them, whether or not that step still fits the asset.
     """
-    before = _read_or_empty(folder)
     made = {name: before.hulls[known] for name, known in before.hull_digests.items()}
     there = made | {geom.name: geom.shape for geom in batch.replay_preparation(source, before).asset.geoms}
     return {name: shape for name, shape in there.items() if name not in before.hulls_replaced}
-
-
-def _exchange(store: Store, asset: str, after: batch.Preparation, labels: Mapping[str, Label]) -> list[str]:
-    """Write a preparation, under the lock that the caller holds, and let labels and selections follow; notes on that.
-
-    What selections and labels were is written first. Labels of the new hulls are written before these, selections and
-    the removal of old labels after them: killed in between, labels of hulls that are not there are left, which is
-    harmless, and selections of such hulls, which the status names; an undo is finished the next time.
-
-    Raises ProjectError where a file of the project cannot be read; then nothing is written.
-    """
-    selections.check_selections(store, asset)
-    folder = store.layout.preparation(asset)
-    before = _read_or_empty(folder).steps
-    notes = [_FINISHED] if journal.finish_undo(store, asset, len(before)) else []
-    try:
-        source = read(store.path(asset))
-    except MeshForgeError as error:
-        if after.steps:
-            raise
-        return [*notes, *_remove_unread(store, asset, error)]
-    common = sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], zip(before, after.steps, strict=False)))
-    is_undo = common == len(after.steps)
-    change = journal.JournalChange.at(store, asset, common)
-    mesh, old = SymbolicMesh.of(batch.apply_preparation(source, after)), _hulls_before(source, folder)
-    were = journal.read_labels_text(store, asset)
-    restored = journal.restore_labels_text(were, change.undone) if is_undo else None
-    known, doubts = journal.find_labels_before(store, asset, change.undone, mesh) if is_undo else ({}, [])
-    known |= labels
-    follow = label_new_hulls(store, asset, old, mesh, known)
-    between = journal.LabelsText(follow.format(keep_old=True)) if follow else were
-    final = restored or (journal.LabelsText(follow.format(keep_old=False)) if follow else were)
-    if not is_undo:
-        digests = {name: digest(shape) for name, shape in old.items()}, hull_digests(mesh)
-        successors = selections.Successors.between(after, *digests)
-        step = journal.describe_step(store, asset, common, successors, (were, between, final))
-        change = replace(change, step=step)
-    change.write_before(between if restored else None)
-    if follow:
-        store.write_labels_files({asset: between.text})
-    if after.steps:
-        batch.write_preparation(folder, after)
-    else:
-        batch.remove_preparation(folder)
-    change.exchange_selections()
-    if follow or restored:
-        store.write_labels_files({asset: final.text})
-    change.write_after()
-    notes += [*(follow.notes if follow else ()), *doubts]
-    if change.step:
-        notes += [f"look at it: {one}" for one in journal.describe_carried(store, asset, len(after.steps))]
-    gone = sorted({name for _, name in find_unknown_hulls(store.steps(asset), mesh.index)})
-    if gone:
-        notes.append(f"the demonstration on it names {join_names(gone)}, which it has no more: demonstrate it anew")
-    return notes
-
-
-def _remove_unread(store: Store, asset: str, error: MeshForgeError) -> list[str]:
-    """Remove what was done to an asset that cannot be read; a note where its labels stay."""
-    batch.remove_preparation(store.layout.preparation(asset))
-    labels = store.label_bytes(asset)
-    journal.finish_undo(store, asset, 0)
-    stay = labels and store.label_bytes(asset) == labels
-    return [f"its labels stay as they are: {error.problem}"] if stay else []
 
 
 @dataclass(frozen=True, slots=True)
@@ -264,6 +240,8 @@ def decompose(
         _DecomposeWork(store.path(a), store.layout.preparation(a), engine, options, pieces and pieces / str(number))
         for number, a in enumerate(ids)
     ]
+    with store.lock():
+        History(store.folder).recover()
     keep_decomposed(store, ids)
     results = batch.run_isolated(_decompose_one, work, execution)
     for asset, result in zip(ids, results, strict=True):

@@ -7,8 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Self
 
-from meshforge import batch
-from meshforge.labels import LabelStore
+from meshforge import batch, labels
 from meshforge.language import Orient
 from meshforge.project import (
     demonstrations,
@@ -21,14 +20,15 @@ from meshforge.project import (
     sign_offs,
     span_splits,
     spans,
+    unprepare,
 )
 from meshforge.project.replies import reply_again, reply_to
 from meshforge.project.review import review_project
-from meshforge.store import MeshCache, add_assets, create_folder
+from meshforge.store import MeshCache, Store, add_assets, create_folder
 
 
 @dataclass(frozen=True)
-class Project(LabelStore):
+class Project(Store):
     """A project folder, with everything that is done with it. It is a `Store`: what is set is written at once."""
 
     # Opening
@@ -58,6 +58,15 @@ class Project(LabelStore):
             add_assets(self.folder, self.found, paths)
         return Project.open(self.folder)
 
+    # Labels
+
+    set_labels = labels.set_labels
+    set_labels_of = labels.set_labels_of
+    label = labels.label_project
+    forecast_vlm = labels.forecast_vlm
+    plan_labels = labels.describe_label_plan
+    tally_labels = labels.tally_labels
+    draw_labels = labels.write_contact_sheets
     rename_label = rename.rename_label
 
     # Preparation
@@ -65,7 +74,7 @@ class Project(LabelStore):
     decompose = prepare.decompose
     cut = prepare.cut
     split = prepare.split
-    unprepare = prepare.unprepare
+    unprepare = unprepare.unprepare
     split_spanning = spans.split_spanning
     list_spans = spans.list_spans
     prepare_new = new_assets.prepare_new
@@ -79,7 +88,7 @@ class Project(LabelStore):
 
     # The program
 
-    accept = LabelStore.write_program
+    accept = Store.write_program
     program_state = learn.read_program_state
     synthesize = learn.learn_program
     mesh_before_rule = run.mesh_before_rule

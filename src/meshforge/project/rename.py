@@ -64,13 +64,13 @@ def _is_writable(label: str) -> bool:
 def _rewrite_files(store: Store, old: str, new: str) -> Iterator[tuple[Path, str]]:
     """The files that say the label, except for program and settings, with what they say then."""
     layout = store.layout
-    for path in map(layout.labels, layout.ids_with("labels")):
+    for path in map(layout.labels, layout.labels.ids):
         file = read_labels(path)
         if old in (*file.vocabulary, *(name for label in file.labels.values() for name in label.names)):
             yield path, format_labels(_rename_in_labels(file, old, new))
-    for path in map(layout.demonstration, layout.ids_with("demonstrations")):
+    for path in map(layout.demonstration, layout.demonstration.ids):
         yield from _rename_in_steps(path, files.read_json(path, files.DemonstrationFile), old, new)
-    for path in map(layout.corrections, layout.ids_with("corrections")):
+    for path in map(layout.corrections, layout.corrections.ids):
         yield from _rename_in_steps(path, files.read_json(path, files.CorrectionsFile), old, new)
     kept = files.read_json(layout.label_sources, LabelSourcesFile) or LabelSourcesFile()
     if (after := files.json_text(rename_in_label_sources(kept, old, new))) != files.json_text(kept):

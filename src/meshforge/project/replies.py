@@ -8,9 +8,7 @@ from typing import assert_never
 from meshforge import batch, signoff
 from meshforge.batch import IN_PROCESS, Failed
 from meshforge.common import ProjectError, join_names, suggest_name
-from meshforge.labels.family_comparison import ignore_stage
-from meshforge.labels.label_by_consensus import label_by_consensus
-from meshforge.labels.merge import ignore_report, set_labels_of
+from meshforge.labels import label_project, set_labels_of
 from meshforge.project import demonstrations, run
 from meshforge.project.span_questions import answer_span
 from meshforge.signoff import ReviewChoice, ReviewQuestion, ReviewReply
@@ -160,7 +158,7 @@ def _label(
         _snooze(store, said)
         return
     event = LabelsEvent(labels=labels, **said._asdict())
-    store.add_events_before(lambda: set_labels_of(store, labels, "user", 1.0), event)
+    store.add_events_before(lambda: set_labels_of(store, labels), event)
     _agree_again(store)
 
 
@@ -176,7 +174,7 @@ def _repair(store: Store, question: signoff.RepairQuestion, choice: ReviewChoice
         demonstrations.confirm(store, LabelCorrection(place.asset, place.hull, was, label), said)
     elif proposed:
         demonstrations.reject(store, LabelCorrection(place.asset, place.hull, was, proposed), said)
-        set_labels_of(store, {place.asset: {place.hull: label}}, "user", 1.0)
+        set_labels_of(store, {place.asset: {place.hull: label}})
     _agree_again(store)
 
 
@@ -187,4 +185,4 @@ def has_agreed_labels(store: Store) -> bool:
 
 def _agree_again(store: Store) -> None:
     if has_agreed_labels(store):
-        label_by_consensus(store, IN_PROCESS, ignore_stage, ignore_report)
+        label_project(store, "consensus")

@@ -9,11 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import islice
 from types import MappingProxyType
 
-from meshforge import batch, geometry, language, signoff, symbolic, synthesis
+from meshforge import batch, language, signoff, symbolic, synthesis
 from meshforge import labels as labelling
 from meshforge.common import MeshForgeError, ProjectError, suggest_name
+from meshforge.geometry import digest
 from meshforge.labels.merge import set_labels_of
 from meshforge.signoff.question import WRONG
 from meshforge.store import NO_ORIGIN, ExclusionEvent, Feedback, Origin, Store, Verdict, VerdictEvent
@@ -38,7 +40,7 @@ def build_jobs(store: Store, only: Collection[str] | None = None) -> tuple[batch
 
 def build_task(store: Store, program: language.Program) -> batch.ApplyTask:
     """What `apply` does to each asset; the templates are those of the program and of all edits by hand."""
-    corrected = store.found.ids.keys() & set(store.layout.ids_with("corrections"))
+    corrected = store.found.ids.keys() & set(store.layout.corrections.ids)
     edits = (edit for asset in sorted(corrected) for edit in store.corrections(asset))
     by_hand = (name for edit in edits for name in edit.action.templates)
     templates = store.templates(dict.fromkeys([*program.templates, *by_hand]))
@@ -67,7 +69,7 @@ def build_work(
 
 def make_empty_program(store: Store) -> language.Program | None:
     """A program without rules, by which assets are written as they are prepared; None where nothing is."""
-    return language.Program() if store.found.ids.keys() & set(store.layout.ids_with_preparation()) else None
+    return language.Program() if store.found.ids.keys() & set(store.layout.preparation.ids) else None
 
 
 def mesh_before_rule(
@@ -83,13 +85,10 @@ def mesh_before_rule(
     Raises MeshForgeError where the asset cannot be turned, or an action fails.
     """
     mesh = (meshes or {}).get(asset) or store.mesh(asset)
-    replay = synthesis.begin_replay(
-        asset, synthesis.Demonstration(mesh, store.steps(asset), asset), program.orient, program.contact
-    )
-    templates = store.templates(program.templates)
-    for number, line in enumerate(program.rules[: rule - 1], 1):
-        replay = synthesis.advance(replay, number, line, templates, program.extremity)
-    return replay.mesh
+    shown, templates = synthesis.Demonstration(mesh, store.steps(asset)).selections, store.templates(program.templates)
+    replays = program.replay(mesh, templates, name=asset, selections=shown, memo=synthesis.memoize)
+    *_, met = islice(replays, rule)
+    return met.mesh
 
 
 def correct(store: Store, asset: str, select: Iterable[str], action: language.Action, label: str | None = None) -> None:
@@ -142,7 +141,7 @@ def make_correction(
         if name not in mesh.index:
             remedy = suggest_name(name, mesh.index)
             raise ProjectError(f"after the program there is no hull {name!r}", where=asset, remedy=remedy)
-    return batch.Correction(tuple((name, geometry.digest(mesh.hull_of(name).shape)) for name in select), action, label)
+    return batch.Correction(tuple((name, digest(mesh.hull_of(name).shape)) for name in select), action, label)
 
 
 MOST_ACCEPTED = 100
@@ -178,7 +177,7 @@ def review_assets(
         away = store.feedback().exclusions
         more = [ExclusionEvent(asset=asset) for asset in names if asset in away]
         given = dict.fromkeys(names, labels) if labels else {}
-        store.add_events_before(lambda: set_labels_of(store, given, "user", 1.0), *events, *more)
+        store.add_events_before(lambda: set_labels_of(store, given), *events, *more)
 
 
 def revise_verdict(store: Store, before: VerdictEvent, reply: signoff.ReviewReply, said: Origin) -> None:
@@ -190,7 +189,7 @@ def revise_verdict(store: Store, before: VerdictEvent, reply: signoff.ReviewRepl
         meant = _replace_selections(store, before.asset, before.seen, reply.selections)
     event = before.model_copy(update={"verdict": verdict, "note": None, "meant": meant, **said._asdict()})
     given = {before.asset: reply.labels} if reply.labels else {}
-    store.add_events_before(lambda: set_labels_of(store, given, "user", 1.0), event)
+    store.add_events_before(lambda: set_labels_of(store, given), event)
 
 
 def _judge(

@@ -70,7 +70,7 @@ def build_run_report(
         doubted = [asset.id for asset in found.open_assets]
         outcomes = batch.choose_outcomes(out, summary, tuple(held), doubted)
         readers, alarms = project.readers(outcome.asset for outcome in outcomes), summary.find_alarms()
-        demonstrated = frozenset(project.layout.ids_with("demonstrations"))
+        demonstrated = frozenset(project.layout.demonstration.ids)
         assets = list(batch.compare_outcomes(outcomes, program, readers, demonstrated, measures, alarms, execution))
     header = batch.ReportHeader(title or found.name, seconds=seconds, figures=figures, standing=format_status(found))
     return RunReport(header, add_standings(assets, found, back), program)

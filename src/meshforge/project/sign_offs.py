@@ -13,6 +13,7 @@ from typing import Literal
 from meshforge import batch, language, signoff
 from meshforge.batch import EXECUTION_DEFAULTS
 from meshforge.project import run
+from meshforge.project.hull_mapping import describe_replaced
 from meshforge.project.learn import digest_demonstrations, digest_learning_inputs, digest_settings
 from meshforge.signoff.question import NOT_OF_FAMILY
 from meshforge.store import (
@@ -56,9 +57,9 @@ def _digest_edits(
 def digest_lesson(store: Store) -> str:
     """The digest of all that probabilities rest on beside the assets: what is learned from, what a person said, and
     which hulls were found to span parts."""
-    journals = map(store.layout.preparation_journal, store.demonstration_ids())  # whether a person saw what was carried
-    kept = (batch.content_digest(file) if file.exists() else None for file in (store.layout.spans, *journals))
-    return batch.value_digest([digest_learning_inputs(store), digest_feedback(store), *kept])
+    spans = batch.content_digest(store.layout.spans) if store.layout.spans.exists() else None
+    unconfirmed = [text for asset in store.demonstration_ids() for text in describe_replaced(store, asset)]
+    return batch.value_digest([digest_learning_inputs(store), digest_feedback(store), spans, unconfirmed])
 
 
 def digest_feedback(store: Store) -> str:

@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import replace
 
-from meshforge import batch
 from meshforge.common import ProjectError
-from meshforge.project.preparation_journal import describe_carried
+from meshforge.project.hull_mapping import describe_replaced
 from meshforge.project.span_splits import mark_as_one_part, split_as_found
 from meshforge.signoff import Assessment, Doubt, HullPlace, ReviewChoice, SpanQuestion
 from meshforge.signoff.prices import YES_OR_NO
@@ -54,9 +53,7 @@ def add_demonstration_doubts(store: Store, found: Assessment, looked_at: Collect
 
     looked_at: assets whose result a person found right, or mended.
     """
-    texts = {
-        asset: [*_describe_demonstration(store, asset)] for asset in store.demonstration_ids() if asset in found.assets
-    }
+    texts = {asset: [*describe_replaced(store, asset)] for asset in store.demonstration_ids() if asset in found.assets}
     if not any(texts.values()):
         return found
     assets = dict(found.assets)
@@ -65,11 +62,6 @@ def add_demonstration_doubts(store: Store, found: Assessment, looked_at: Collect
         assets[asset] = assets[asset].with_doubts(Doubt("reading", text, share=_NOT_MEANT) for text in told)
     unseen = {asset for asset, own in texts.items() if own} - set(looked_at)
     return replace(found, assets=assets, looked_at=found.looked_at - unseen)
-
-
-def _describe_demonstration(store: Store, asset: str) -> Iterator[str]:
-    folder = store.layout.preparation(asset)
-    yield from describe_carried(store, asset, len(batch.read_steps(folder) or ()))
 
 
 def can_ask_about_spans(store: Store) -> bool:

@@ -12,7 +12,7 @@ from meshforge.common import MeshForgeError
 from meshforge.geometry import Floats
 from meshforge.language import EXTREMITY, Extractor, Orient, Program, Template, find_rotation, labels_of, select_mask
 from meshforge.symbolic import SymbolicMesh
-from meshforge.synthesis import Demonstration, advance, begin_replay, memoize
+from meshforge.synthesis import memoize
 
 LEAST_CHANCE = 0.003
 """A label that a hull has with a lower probability is not reckoned with."""
@@ -65,11 +65,11 @@ def try_program(asset: str, mesh: SymbolicMesh, program: Program, templates: Map
     meshes, selections = list[SymbolicMesh](), list[int]()
     try:
         program.check_has_labels(mesh)
-        replay = begin_replay(asset, Demonstration(mesh, (), asset), program.orient, program.contact)
-        for number, rule in enumerate(program.rules, 1):
+        replays = program.replay(mesh, templates, name=asset, memo=memoize)
+        for rule, replay in zip(program.rules, replays, strict=False):
             meshes.append(replay.mesh)
             selections.append(select_mask(rule.extractor, replay.mesh, delta))
-            replay = advance(replay, number, rule, templates, program.extremity)
+        next(replays, None)  # the last rule
     except MeshForgeError as error:
         return Trial(asset, tuple(meshes), tuple(selections), error=error.problem)
     return Trial(asset, tuple(meshes), tuple(selections))

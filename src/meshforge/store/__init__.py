@@ -14,7 +14,9 @@ __getattr__, __all__ = export_lazily(
             "SnoozeEvent Verdict VerdictEvent WithdrawalEvent format_lines"
         ),
         "feedback": "Feedback",
-        "layout": "JsonFile json_text read_json write_json",
+        "history": "FileConflict ConflictError History",
+        "history_entries": "HistoryEntry",
+        "layout": "Effect JsonFile Layout ProjectFile identify_file json_text list_files read_json write_json",
         "mesh_cache": "MeshCache",
         "meshes": "AssetFacts AssetFiles geometry_digest hull_digests iterate_survey",
         "outputs": "AssetOutput find_outputs",

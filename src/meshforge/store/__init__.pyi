@@ -15,8 +15,17 @@ from meshforge.store.events import VerdictEvent as VerdictEvent
 from meshforge.store.events import WithdrawalEvent as WithdrawalEvent
 from meshforge.store.events import format_lines as format_lines
 from meshforge.store.feedback import Feedback as Feedback
+from meshforge.store.history import FileConflict as FileConflict
+from meshforge.store.history import ConflictError as ConflictError
+from meshforge.store.history import History as History
+from meshforge.store.history_entries import HistoryEntry as HistoryEntry
+from meshforge.store.layout import Effect as Effect
 from meshforge.store.layout import JsonFile as JsonFile
+from meshforge.store.layout import Layout as Layout
+from meshforge.store.layout import ProjectFile as ProjectFile
+from meshforge.store.layout import identify_file as identify_file
 from meshforge.store.layout import json_text as json_text
+from meshforge.store.layout import list_files as list_files
 from meshforge.store.layout import read_json as read_json
 from meshforge.store.layout import write_json as write_json
 from meshforge.store.mesh_cache import MeshCache as MeshCache

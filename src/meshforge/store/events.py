@@ -12,7 +12,7 @@ from meshforge import symbolic, synthesis
 from meshforge.batch import RuleSelection
 from meshforge.common import ProjectError, first_validation_error
 from meshforge.signoff.question import ExclusionReason, QuestionBase, ReviewReply
-from meshforge.store.layout import JsonFile
+from meshforge.store.layout import JsonFile, ReplacedHulls
 
 Line = TypeVar("Line")
 Verdict = Literal["accepted", "wrong"]
@@ -89,6 +89,7 @@ class AnswerEvent(_Withdrawable):
     select: tuple[str, ...] | None = None
     action: str | None = None
     refused: tuple[tuple[str, ...], ...] = ()
+    replaced: ReplacedHulls = Field(default_factory=dict)
 
     @property
     def id(self) -> str:
@@ -144,6 +145,7 @@ class LabelFixEvent(_Withdrawable):
     to: str
     accepted: bool
     before: LabelBefore | None = None
+    replaced: ReplacedHulls = Field(default_factory=dict)
 
     @property
     def id(self) -> str:

@@ -1,166 +1,198 @@
-"""Where each file of a project lies, and how its JSON files are read and written."""
+"""Names each file of a project once, with what else depends on it; reads and writes JSON files."""
 
 from __future__ import annotations
 
 import codecs
+import re
 from dataclasses import dataclass
+from functools import cache, cached_property
 from pathlib import Path
-from typing import TypeVar
+from typing import Annotated, Literal, Self, TypeVar, overload
 
-from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from meshforge import batch
+from meshforge.batch import SETTINGS, STATE
 from meshforge.common import ProjectError, first_validation_error, to_text, write_atomically
 
-_JOURNAL = "selections.json"
 ATTRIBUTES = "events.jsonl merge=union\n"
 """What the .gitattributes of a project says."""
 Model = TypeVar("Model", bound=BaseModel)
 
+Effect = Literal[
+    "card", "hulls", "settings", "program", "questions", "learning", "feedback", "spanning hulls", "project view"
+]
+"""What a studio refreshes when a file changes."""
+
+
+@dataclass(frozen=True)
+class ProjectFile:
+    """One file of a project, or a folder of files. name: its path from the project's folder; a folder ends in `/`, and
+    `{asset}` stands for an id.
+
+    effects: what a studio refreshes when it changes; without any it is not watched. hulls: it is made of hulls of an
+    asset or names them, so preparing the asset changes it. words: it contains labels. learned: learning writes it, so
+    undo overwrites it whatever is in it.
+    """
+
+    name: str
+    effects: frozenset[Effect] = frozenset()
+    hulls: bool = False
+    words: bool = False
+    learned: bool = False
+
+    @cached_property
+    def _pattern(self) -> re.Pattern[str]:
+        text = re.escape(self.name).replace(re.escape("{asset}"), "(?P<asset>.+)")
+        return re.compile(
+            text + ("(?P<rest>[^/]+)" if "{asset}" in text else ".+") if self.name.endswith("/") else text
+        )
+
+    def match(self, name: str) -> str | None:
+        """The id of the asset whose file a path from the project's folder is, empty for a file of no asset; None where
+        it is another file."""
+        found = self._pattern.fullmatch(name)
+        return found and found.groupdict().get("asset", "")
+
+    def path(self, folder: Path, asset: str | None = None) -> Path:
+        """The file in a project's folder; for no asset the folder of those of all assets."""
+        return folder / (self.name.partition("{asset}")[0] if asset is None else self.name.format(asset=asset))
+
+    @property
+    def is_of_asset(self) -> bool:
+        """Whether each asset has one of its own."""
+        return "{asset}" in self.name
+
+
+class OneFile(ProjectFile):
+    """A file that a project has once: a path in a layout."""
+
+    @overload
+    def __get__(self, layout: None, owner: type) -> Self: ...
+    @overload
+    def __get__(self, layout: Layout, owner: type) -> Path: ...
+    def __get__(self, layout: Layout | None, owner: type) -> Self | Path:
+        return self if layout is None else self.path(layout.folder)
+
+
+class AssetFile(ProjectFile):
+    """A file that each asset has: a function of its id in a layout."""
+
+    @overload
+    def __get__(self, layout: None, owner: type) -> Self: ...
+    @overload
+    def __get__(self, layout: Layout, owner: type) -> AssetPaths: ...
+    def __get__(self, layout: Layout | None, owner: type) -> Self | AssetPaths:
+        return self if layout is None else AssetPaths(layout.folder, self)
+
+
+@dataclass(frozen=True, slots=True)
+class AssetPaths:
+    """The paths of one kind of file, which mirror the ids of assets."""
+
+    folder: Path
+    file: AssetFile
+
+    def __call__(self, asset: str) -> Path:
+        return self.file.path(self.folder, asset)
+
+    @property
+    def ids(self) -> tuple[str, ...]:
+        """The ids of all assets that have such a file, sorted; of a preparation, one that is complete."""
+        root = self.file.path(self.folder)
+        if self.file.name.endswith("/"):
+            found = [path.parent.relative_to(root).as_posix() for path in root.rglob(batch.RECORD_FILE)]
+        else:
+            suffix = self.file.name.rpartition("{asset}")[2]
+            names = (path.relative_to(root).as_posix() for path in root.rglob(f"*{suffix}"))
+            found = [name.removesuffix(suffix) for name in names]
+        return tuple(sorted(map(to_text, found)))
+
+
+def _effects(*effects: Effect) -> frozenset[Effect]:
+    return frozenset(effects)
+
 
 @dataclass(frozen=True, slots=True)
 class Layout:
-    """The paths of a project; those of one asset mirror its id."""
+    """The files of a project: of the class what is known of each, of an object its path."""
 
     folder: Path
 
-    def labels(self, asset: str) -> Path:
-        return self.folder / "labels" / f"{asset}.json"
+    # What people and learning make, for git
 
-    def demonstration(self, asset: str) -> Path:
-        return self.folder / "demonstrations" / f"{asset}.json"
+    settings = OneFile(SETTINGS, _effects("settings", "learning"), words=True)
+    labels = AssetFile("labels/{asset}.json", _effects("card", "learning"), hulls=True, words=True)
+    label_sources = OneFile("label_sources.json", words=True)
+    demonstration = AssetFile("demonstrations/{asset}.json", _effects("card", "learning"), hulls=True, words=True)
+    corrections = AssetFile("corrections/{asset}.json", _effects("card"), hulls=True, words=True)
+    preparation = AssetFile("prepared/{asset}/", _effects("card", "hulls", "learning"), hulls=True)
+    preparation_plan = OneFile("preparation.json", _effects("project view"))
+    single_parts = OneFile("single_parts.json", _effects("questions", "spanning hulls"))
+    own_templates = OneFile("templates/", _effects("learning"))
+    program = OneFile("program.mf", _effects("program", "learning"), words=True, learned=True)
+    previous_program = OneFile("program.previous.mf", words=True, learned=True)
+    learned = OneFile("learned.json", _effects("program"), words=True, learned=True)
+    events = OneFile("events.jsonl", _effects("feedback"), hulls=True, words=True)
+    sign_offs = OneFile("signoffs.jsonl")
+    edited = OneFile("edited/")
 
-    def corrections(self, asset: str) -> Path:
-        return self.folder / "corrections" / f"{asset}.json"
+    # What can be made again
 
-    def preparation(self, asset: str) -> Path:
-        """The folder of what is done to an asset before the program."""
-        return self.folder / "prepared" / asset
+    stamps = AssetFile(f"edited/{STATE}/stamps/{{asset}}.json", _effects("card"))
+    spans = OneFile(f"{STATE}/spans.json", _effects("questions", "spanning hulls"))
+    span_parts = AssetFile(f"{STATE}/spans/{{asset}}.npz")
+    assessment = OneFile(f"{STATE}/assessment.json")
+    review_pictures = OneFile(f"{STATE}/review/")
+    survey = OneFile(f"{STATE}/survey.json")
+    outputs = OneFile(f"{STATE}/outputs.json")
+    sketches = OneFile(f"{STATE}/sketches/")
+    vlm = OneFile(f"{STATE}/vlm/")
+    lock = OneFile(f"{STATE}/lock")
+    studio = OneFile(f"{STATE}/studio/")
+    history = OneFile(f"{STATE}/studio/history/")
 
-    def preparation_journal(self, asset: str) -> Path:
-        """What preparation steps changed of selections and labels."""
-        return self.preparation(asset) / _JOURNAL
+    # Where versions before kept things: read while there is nothing newer
 
-    @property
-    def preparation_plan(self) -> Path:
-        """How new assets are prepared, and which are new."""
-        return self.folder / "preparation.json"
-
-    @property
-    def label_sources(self) -> Path:
-        """By what hulls were labelled."""
-        return self.folder / "label_sources.json"
-
-    @property
-    def settings(self) -> Path:
-        """What the project is about, as its owner writes it."""
-        return self.folder / batch.SETTINGS
-
-    @property
-    def templates(self) -> tuple[Path, Path]:
-        """Where templates are looked for: beside the program, then in their folder."""
-        return self.folder, self.folder / "templates"
-
-    @property
-    def program(self) -> Path:
-        return self.folder / "program.mf"
-
-    @property
-    def events(self) -> Path:
-        """What people said."""
-        return self.folder / "events.jsonl"
-
-    @property
-    def sign_offs(self) -> Path:
-        """Which assets are signed off."""
-        return self.folder / "signoffs.jsonl"
+    learned_before = OneFile(f"{STATE}/learned.json", words=True, learned=True)
 
     @property
     def files_before_events(self) -> tuple[Path, ...]:
-        """Where that was kept before: answers, verdicts, sign-offs and snoozed questions."""
+        """Answers, verdicts, sign-offs and snoozed questions of before there were events."""
         names = ("answers.json", "review.json", "signoff.json", "later.json")
         return tuple(self.folder / name for name in names)
 
     @property
-    def learned(self) -> Path:
-        """What the program was learned from; it belongs beside the program, in git too."""
-        return self.folder / "learned.json"
+    def templates(self) -> tuple[Path, Path]:
+        """Where templates are looked for: beside the program, then in their folder."""
+        return self.folder, self.own_templates
 
-    @property
-    def learned_before(self) -> Path:
-        """Where that was kept before: read while there is no other, removed when it is written."""
-        return self.folder / batch.STATE / "learned.json"
+    def list_kept(self, asset: str) -> tuple[Path, ...]:
+        """The files and folders that a project keeps for an asset, whether they are there or not."""
+        return tuple(file.path(self.folder, asset) for file in list_files() if file.is_of_asset and file.hulls)
 
-    @property
-    def assessment(self) -> Path:
-        """How probable each edit was when the family was looked at last."""
-        return self.folder / batch.STATE / "assessment.json"
 
-    @property
-    def review_pictures(self) -> Path:
-        """Pictures of the question of a review."""
-        return self.folder / batch.STATE / "review"
+@cache
+def list_files() -> tuple[ProjectFile, ...]:
+    """All files of a project."""
+    return tuple(value for value in vars(Layout).values() if isinstance(value, ProjectFile))
 
-    @property
-    def edited(self) -> Path:
-        return self.folder / "edited"
 
-    @property
-    def lock(self) -> Path:
-        return self.folder / batch.STATE / "lock"
-
-    @property
-    def survey(self) -> Path:
-        """What is known of the asset files, so that they are not read again for a status."""
-        return self.folder / batch.STATE / "survey.json"
-
-    @property
-    def outputs(self) -> Path:
-        """What is known of the files of outputs, so that they are not hashed again for a status."""
-        return self.folder / batch.STATE / "outputs.json"
-
-    @property
-    def spans(self) -> Path:
-        """Which hulls were found to span parts."""
-        return self.folder / batch.STATE / "spans.json"
-
-    @property
-    def single_parts(self) -> Path:
-        """Which hulls a person said to be one part."""
-        return self.folder / "single_parts.json"
-
-    def span_parts(self, asset: str) -> Path:
-        """The parts into which a split would divide the hulls of an asset that span parts."""
-        return self.folder / batch.STATE / "spans" / f"{asset}.npz"
-
-    @property
-    def sketches(self) -> Path:
-        """How the hulls of assets are described, so that labels are propagated quickly the next time."""
-        return self.folder / batch.STATE / "sketches"
-
-    @property
-    def vlm(self) -> Path:
-        """What was sent to models, and what came back."""
-        return self.folder / batch.STATE / "vlm"
-
-    def ids_with(self, kind: str) -> tuple[str, ...]:
-        """The ids of all assets that have a file in `labels`, `demonstrations` or `corrections`, sorted."""
-        root = self.folder / kind
-        return tuple(
-            sorted(to_text(path.relative_to(root).as_posix()).removesuffix(".json") for path in root.rglob("*.json"))
-        )
-
-    def ids_with_preparation(self) -> tuple[str, ...]:
-        """The ids of all assets that have a preparation, or one whose removal was cut short, sorted."""
-        root = self.folder / "prepared"
-        found = {path.parent for name in (batch.RECORD_FILE, _JOURNAL) for path in root.rglob(name)}
-        return tuple(sorted(to_text(path.relative_to(root).as_posix()) for path in found))
+def identify_file(name: str) -> tuple[ProjectFile, str] | None:
+    """The file that a path from a project's folder is, and the id of the asset whose it is; None for another file."""
+    found = [(file, asset) for file in list_files() if (asset := file.match(name)) is not None]
+    return max(found, key=lambda pair: len(pair[0].name), default=None)
 
 
 class JsonFile(BaseModel):
     """Base of what a project keeps as JSON. Fields that this version does not know are kept and written back."""
 
     model_config = ConfigDict(extra="allow", frozen=True)
+
+
+ReplacedHulls = Annotated[dict[str, tuple[str, ...]], Field(exclude_if=lambda replaced: not replaced)]
+"""Hulls that a line named and that a preparation replaced, each with those that the line names in its place; empty once
+a person has confirmed them."""
 
 
 def read_json(path: Path, model: type[Model]) -> Model | None:

@@ -15,12 +15,12 @@ from meshforge import language, synthesis
 from meshforge.batch import Correction, action_text, read_template
 from meshforge.common import MeshForgeError, ProjectError, join_names, relative_name, write_atomically
 from meshforge.formats import MESH_SUFFIXES
-from meshforge.store.layout import JsonFile, Layout, read_json, write_json
+from meshforge.store.layout import JsonFile, Layout, ReplacedHulls, read_json, write_json
 
 
 def list_templates(layout: Layout) -> tuple[str, ...]:
     """The names of templates as actions write them, sorted."""
-    _, folder = layout.templates
+    folder = layout.own_templates
     paths = (path for path in folder.rglob("*") if path.is_file() and not path.name.startswith("."))
     return tuple(sorted(relative_name(path, folder) for path in paths if path.suffix.lower() in MESH_SUFFIXES))
 
@@ -59,12 +59,12 @@ class ProgramRecord(JsonFile):
     question: str | None = None
 
 
-def write_program(path: Path, program: language.Program) -> None:
+def write_program(layout: Layout, program: language.Program) -> None:
     """Write a program; the one that it replaces stays as `program.previous.mf`."""
-    text = str(program)
+    path, text = layout.program, str(program)
     old = path.read_text(encoding="utf-8") if path.exists() else text
     if old != text:
-        write_atomically(path.with_name("program.previous.mf"), old)
+        write_atomically(layout.previous_program, old)
     write_atomically(path, text)
 
 
@@ -74,6 +74,7 @@ class StepLine(JsonFile):
     rule: Annotated[int, Field(ge=1)]
     select: tuple[str, ...] | None
     action: str
+    replaced: ReplacedHulls = Field(default_factory=dict)
 
 
 class DemonstrationFile(JsonFile):
@@ -88,6 +89,7 @@ class CorrectionLine(JsonFile):
 
     hulls: dict[str, str]
     action: str
+    replaced: ReplacedHulls = Field(default_factory=dict)
 
 
 class CorrectionsFile(JsonFile):

@@ -141,14 +141,10 @@ class Store:
         with self.lock():
             membership.remove_from_settings(self.folder, self.found, assets)
             for asset in assets:
-                for path in (
-                    self.layout.labels(asset),
-                    self.layout.demonstration(asset),
-                    self.layout.corrections(asset),
-                    self.layout.preparation_journal(asset),
-                ):
-                    path.unlink(missing_ok=True)
-                batch.remove_preparation(self.layout.preparation(asset))
+                batch.write_preparation(self.layout.preparation(asset), batch.Preparation())
+                for path in self.layout.list_kept(asset):
+                    if path.is_file():
+                        path.unlink()
             said = self.feedback()
             verdicts = [VerdictEvent(asset=asset) for asset in assets if said.verdict_on(asset)]
             exclusions = [ExclusionEvent(asset=asset) for asset in assets if asset in said.exclusions]
@@ -161,11 +157,6 @@ class Store:
     def labels(self, asset: str) -> symbolic.LabelFile:
         """The labels file of an asset; an empty one where there is none."""
         return read_labels_file(self.layout.labels(asset))
-
-    def label_bytes(self, asset: str) -> bytes:
-        """What the labels file of an asset holds, empty where there is none."""
-        path = self.layout.labels(asset)
-        return path.read_bytes() if path.exists() else b""
 
     def write_labels(
         self,
@@ -211,7 +202,7 @@ class Store:
 
     def demonstration_ids(self) -> tuple[str, ...]:
         """The ids of the assets that have a demonstration."""
-        shown = set(self.layout.ids_with("demonstrations"))
+        shown = set(self.layout.demonstration.ids)
         return tuple(asset for asset in self.assets() if asset in shown)
 
     def demonstrations(self) -> dict[str, synthesis.Demonstration]:
@@ -253,7 +244,7 @@ class Store:
     def write_program(self, program: language.Program) -> None:
         """Write the accepted program; the one before stays as `program.previous.mf`."""
         with self.lock():
-            program_files.write_program(self.layout.program, program)
+            program_files.write_program(self.layout, program)
 
     def program_record(self) -> program_files.ProgramRecord | None:
         """What the program was learned from; None where none was learned."""
@@ -278,7 +269,7 @@ class Store:
         """Keep the contents of a mesh file as a template. Raises ProjectError: no plain name, or no convex hulls."""
         program_files.check_template(self.layout, name, data)
         with self.lock():
-            write_atomically(self.layout.templates[1] / name, data)
+            write_atomically(self.layout.own_templates / name, data)
 
     # What a person said
 

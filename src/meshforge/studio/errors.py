@@ -3,11 +3,8 @@
 from __future__ import annotations
 
 from meshforge.common import MeshForgeError, ProjectError, UsageError, describe_error
+from meshforge.store import ConflictError
 from meshforge.studio.wire.events import Problem
-
-
-class ConflictError(ProjectError):
-    """Something else changed first: another page, or a command in a terminal. Nothing was written."""
 
 
 class NotHereError(ProjectError):

@@ -8,10 +8,10 @@ from contextlib import ExitStack
 from pathlib import Path
 from threading import Lock, RLock
 
-from meshforge.batch import STATE, hold_lock
+from meshforge.batch import hold_lock
 from meshforge.common import MeshForgeError, ProjectError
 from meshforge.project import Project
-from meshforge.studio.errors import ConflictError
+from meshforge.store import ConflictError
 from meshforge.studio.pages import PageConnection, PageHub
 from meshforge.studio.session.session import Session, StudioOptions
 from meshforge.studio.start.page import StartPage
@@ -121,7 +121,7 @@ def _wait_for_processes() -> None:
 def _lock_studio(stack: ExitStack, project: Project) -> None:
     """Lock the project for this studio: two would each have half of its history."""
     try:
-        stack.enter_context(hold_lock(project.folder / STATE / "studio" / "lock", str(project.folder), wait=0))
+        stack.enter_context(hold_lock(project.layout.studio / "lock", str(project.folder), wait=0))
     except MeshForgeError as error:
         remedy = "Use the page that is open, or stop that studio first."
         raise ProjectError("the studio is open on this project already", where=error.where, remedy=remedy) from None

@@ -9,8 +9,7 @@ from typing import get_args
 from meshforge.common import MeshForgeError
 from meshforge.project import Project
 from meshforge.rendering import UNSURE
-from meshforge.studio.history import History
-from meshforge.studio.history_store import HistoryEntry
+from meshforge.store import History, HistoryEntry, Layout
 from meshforge.studio.wire.family import Card
 from meshforge.studio.wire.jobs import AssetLabelUpdate, LabelEditKind, LabelUpdate, PropagationState
 from meshforge.symbolic import GIVEN_SOURCES, Label, read_labels
@@ -114,7 +113,7 @@ class LabelChanges:
 
 def _labels_files(names: Iterable[str]) -> dict[str, str]:
     """The labels files among some files, by asset; names: paths from the project's folder."""
-    return {name.removeprefix("labels/").removesuffix(".json"): name for name in names if name.startswith("labels/")}
+    return {asset: name for name in names if (asset := Layout.labels.match(name)) is not None}
 
 
 def diff_labels(asset: str, names: Sequence[str], before: HullLabels, after: HullLabels) -> AssetLabelUpdate | None:

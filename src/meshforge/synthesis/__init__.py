@@ -13,9 +13,9 @@ __getattr__, __all__ = export_lazily(
         "options": "LAYERS Layers Options",
         "orientation.suggest": "OrientationSuggestion",
         "outcome": "Ambiguous Found LearningOutcome Nearest NeedsRepair NoProgram Reading TimedOut outcome_to_json",
-        "questions": "Answer Choice Hint LabelCorrection Question Repair",
+        "questions": "Answer Hint LabelCorrection OpenRule Repair",
         "readings.rank": "BELIEVABLE",
         "slips": "Slip find_slip",
-        "task": "advance begin_replay memoize",
+        "task": "begin_replay memoize",
     },
 )

@@ -19,14 +19,12 @@ from meshforge.synthesis.outcome import Reading as Reading
 from meshforge.synthesis.outcome import TimedOut as TimedOut
 from meshforge.synthesis.outcome import outcome_to_json as outcome_to_json
 from meshforge.synthesis.questions import Answer as Answer
-from meshforge.synthesis.questions import Choice as Choice
 from meshforge.synthesis.questions import Hint as Hint
 from meshforge.synthesis.questions import LabelCorrection as LabelCorrection
-from meshforge.synthesis.questions import Question as Question
+from meshforge.synthesis.questions import OpenRule as OpenRule
 from meshforge.synthesis.questions import Repair as Repair
 from meshforge.synthesis.readings.rank import BELIEVABLE as BELIEVABLE
 from meshforge.synthesis.slips import Slip as Slip
 from meshforge.synthesis.slips import find_slip as find_slip
-from meshforge.synthesis.task import advance as advance
 from meshforge.synthesis.task import begin_replay as begin_replay
 from meshforge.synthesis.task import memoize as memoize

@@ -11,10 +11,19 @@ import numpy as np
 
 from meshforge.common import MeshForgeError, pluralize
 from meshforge.label_model import LabelBeliefs
-from meshforge.language import EXTREMITY, Attach, Extractor, Geo, Is, Orient, select_mask, to_canonical_frame
+from meshforge.language import (
+    EXTREMITY,
+    Attach,
+    Extractor,
+    Geo,
+    HullTable,
+    Is,
+    Orient,
+    select_hulls,
+    to_canonical_frame,
+)
 from meshforge.symbolic import SymbolicMesh
-from meshforge.synthesis.outcome import reading_id
-from meshforge.synthesis.questions import Choice, Hint, Question
+from meshforge.synthesis.questions import Hint, OpenRule
 from meshforge.synthesis.readings.rank import RankedReadings
 from meshforge.synthesis.task import memoize
 
@@ -36,24 +45,21 @@ wrong, in selections. Measured on the calibration set (`script/bench tuning`): w
 right as without, with noisy ones a third of the corrections are spared."""
 
 
-def choose_question(
+def find_open_rule(
     rule: int, ranked: RankedReadings, names: Sequence[str], trust: Mapping[str, float], declined: Collection[str]
-) -> Question | None:
-    """The question about one rule that is worth a person's time, None where there is none.
+) -> OpenRule | None:
+    """The asset on which an answer about a rule is worth a person's time, None where there is none.
 
     names: of the meshes of the field; trust: how much an answer about each is worth; declined: those for which a person
     said that neither choice is right.
     """
-    doubt = ranked.question_value
     if len(declined) >= MAX_NEITHER_ANSWERS:
         return None
     split = ranked.best_question({k: trust[name] for k, name in enumerate(names) if name not in declined})
     if not split or not split.is_worth_asking:
         return None
-    choices = tuple(
-        Choice(reading_id(rule, reading), _hull_names(ranked, reading, split.asset)) for reading in split.choices
-    )
-    return Question(rule, names[split.asset], choices, doubt.harm, split.left)
+    selections = (_hull_names(ranked, reading, split.asset) for reading in split.choices)
+    return OpenRule(rule, names[split.asset], tuple(map(frozenset, selections)))
 
 
 def suggest_demonstration(learned: Sequence[tuple[RankedReadings, Sequence[str]]]) -> Hint | None:
@@ -187,7 +193,8 @@ def _stage_or_none(mesh: SymbolicMesh, orient: Orient | None, contact: float | N
 def _count_selections(mesh: SymbolicMesh, vocabulary: Sequence[str], delta: float) -> int:
     def count() -> int:
         used = [label for label in vocabulary if any(hull.label == label for hull in mesh.hulls)]
-        return len({0, *(select_mask(one, mesh, delta) for one in _small_extractors(used))})
+        hulls = HullTable([mesh], extremity=delta)
+        return len({bytes(len(hulls)), *(select_hulls(one, hulls).tobytes() for one in _small_extractors(used))})
 
     return memoize(mesh, ("told apart", tuple(vocabulary), delta), int, count)
 

@@ -77,6 +77,11 @@ class Demonstration:
         step = self.steps[rule - 1] if rule <= len(self.steps) else None
         return None if step is None or step.open else step
 
+    @property
+    def selections(self) -> dict[int, frozenset[str]]:
+        """The hulls of the steps that are not open, by the numbers of their rules."""
+        return {step.rule: step.select for step in self.steps if step.select is not None}
+
     def with_selection(self, rule: int, select: Iterable[str]) -> Demonstration:
         """The same with other hulls selected in a step that is there."""
         steps = [Step(one.rule, select, one.action, one.label) if one.rule == rule else one for one in self.steps]

@@ -7,13 +7,13 @@ from collections.abc import Iterator, Sequence
 
 from meshforge import language
 from meshforge.common import join_names, pluralize
-from meshforge.language import Extractor, show, show_label, size_of
-from meshforge.symbolic import SymbolicMesh
+from meshforge.language import Extractor, leaves_of, show, show_label, size_of
 from meshforge.synthesis.demonstration import Example, RuleSpec
 from meshforge.synthesis.options import Options
 from meshforge.synthesis.outcome import reading_id
 from meshforge.synthesis.readings.rank import RankedReadings
 from meshforge.synthesis.search.smallest import NearestExtractor
+from meshforge.synthesis.search.terms import enumerate_leaves
 from meshforge.synthesis.task import LearningTask
 
 _MAX_SENTENCES = 4
@@ -76,30 +76,16 @@ def _describe_hulls(names: Sequence[str], example: Example) -> str:
 def _advise_on_near_contacts(miss: NearestExtractor, example: Example) -> Iterator[str]:
     """Hulls that miss a contact, which the nearest extractor asks for, by little."""
     mesh = example.mesh
-    for anchor in _anchors(miss.extractor):
+    anchors = [leaf.anchor for leaf in leaves_of(miss.extractor) if isinstance(leaf, language.Attach)]
+    for anchor in anchors:
+        touched = language.select(anchor, mesh)
         for i, j, gap in mesh.near_misses:
             for here, there in ((i, j), (j, i)):
-                if mesh.hulls[here].name in miss.missing and _is_in_base(mesh, there, anchor):
+                if mesh.hulls[here].name in miss.missing and there in touched:
                     yield (
                         f"{mesh.hulls[here].name!r} and {mesh.hulls[there].name!r} of {example.name} are {gap:.2g} m "
                         f"apart, just too far to count as touching: a larger threshold `contact` would join them"
                     )
-
-
-def _anchors(extractor: Extractor) -> Iterator[language.BaseExtractor]:
-    if isinstance(extractor, language.Attach):
-        yield extractor.anchor
-    elif isinstance(extractor, language.Union | language.Intersect | language.Diff):
-        yield from _anchors(extractor.left)
-        yield from _anchors(extractor.right)
-
-
-def _is_in_base(mesh: SymbolicMesh, index: int, base: language.BaseExtractor) -> bool:
-    match base:
-        case language.All():
-            return True
-        case language.Is(label):
-            return mesh.hulls[index].label == label
 
 
 def find_obstacles(task: LearningTask, wanted: language.Program) -> tuple[str, ...]:
@@ -140,9 +126,13 @@ def _find_exclusion(wanted: Extractor, task: LearningTask) -> Iterator[str]:
         yield f"the label {show_label(unknown[0])} is not in the vocabulary"
     if size_of(wanted) > task.options.max_size:
         yield f"it has {size_of(wanted)} nodes, and the search ends at {task.options.max_size}"
-    for kind, letter in ((language.Attach, "T"), (language.Geo, "G")):
-        if letter not in task.options.layers and any(isinstance(leaf, kind) for leaf in _leaves_of(wanted)):
-            yield f"{kind.__name__} is switched off (layers {task.options.layers})"
+    for leaf in leaves_of(wanted):
+        if leaf.layer not in task.options.layers:
+            yield f"{type(leaf).__name__} is switched off (layers {task.options.layers})"
+    known = {*enumerate_leaves(task.frame.labels, task.options.layers), *task.options.leaves}
+    strange = [leaf for leaf in leaves_of(wanted) if leaf not in known]
+    if strange:
+        yield f"{show(strange[0])} is none of the extractors that were tried"
 
 
 def _find_difference(wanted: Extractor, examples: Sequence[Example], extremity: float) -> Iterator[str]:
@@ -183,11 +173,3 @@ def _explain_preference(ranked: RankedReadings, place: int, names: Sequence[str]
         f"{show(ranked.extractor)} is {better} ({first:.0%} against {second:.0%}). "
         f"They differ on {pluralize(len(differs), 'asset')}: {join_names(differs)}; demonstrate {one}"
     )
-
-
-def _leaves_of(extractor: Extractor) -> Iterator[language.All | language.Is | language.Attach | language.Geo]:
-    if isinstance(extractor, language.Union | language.Intersect | language.Diff):
-        yield from _leaves_of(extractor.left)
-        yield from _leaves_of(extractor.right)
-    else:
-        yield extractor

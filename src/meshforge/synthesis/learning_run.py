@@ -11,7 +11,7 @@ from meshforge.common import MeshForgeError
 from meshforge.language import Orient, Program, Rule
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import outcome
-from meshforge.synthesis.asset_selection import choose_question, select_sample, suggest_demonstration
+from meshforge.synthesis.asset_selection import find_open_rule, select_sample, suggest_demonstration
 from meshforge.synthesis.demonstration import Example, RuleSpec
 from meshforge.synthesis.diagnosis import find_obstacles, follow_rule, give_advice
 from meshforge.synthesis.options import OutOfTime, TimeBudget
@@ -23,7 +23,7 @@ from meshforge.synthesis.orientation.suggest import (
     suggest_orientation,
 )
 from meshforge.synthesis.paper.search import HitWithCorrections, PaperSearch
-from meshforge.synthesis.questions import Answer, LabelCorrection, Question, Repair
+from meshforge.synthesis.questions import Answer, LabelCorrection, OpenRule, Repair
 from meshforge.synthesis.readings.rank import RankedReadings, enumerate_consistent
 from meshforge.synthesis.repair.explain import RepairCollector, make_confirmer
 from meshforge.synthesis.rule_outcome import RuleOutcome, list_readings, to_nearest, verify
@@ -51,7 +51,7 @@ class LearningRun:
         self._replays = ReplaySet(task.demos, task.batch, task.frame, task.templates, task.answers)
         self._learned: list[RuleOutcome] = []
         self._tried: list[SearchEffort] = []
-        self._question: Question | None = None
+        self._open_rule: OpenRule | None = None
         self._searching = 0.0
         self._followed = list(find_obstacles(task, task.options.follow)) if task.options.follow else []
         meshes = {replay.name: replay.mesh for replay in [*self._replays.shown, *self._replays.others]}
@@ -161,10 +161,10 @@ class LearningRun:
     def _accept(self, spec: RuleSpec, ranked: RankedReadings, names: tuple[str, ...]) -> None:
         rule = Rule(ranked.extractor, spec.action, spec.label)
         self._learned.append(RuleOutcome(rule, ranked, names))
-        if not self._question:
+        if not self._open_rule:
             declined = {a.asset for a in self._task.answers if a.rule == spec.number and a.select is None}
-            self._question = choose_question(spec.number, ranked, names, self._repairs.trust, declined)
-        self._replays.advance(spec.number, rule, last=spec.number == len(self._task.rules))
+            self._open_rule = find_open_rule(spec.number, ranked, names, self._repairs.trust, declined)
+        self._replays.advance(rule, last=spec.number == len(self._task.rules))
 
     def _finish(self) -> outcome.LearningOutcome:
         task, program = self._task, self._program()
@@ -172,9 +172,9 @@ class LearningRun:
         known = [(learned.readings, learned.names) for learned in self._learned]
         hint, sample = suggest_demonstration(known), select_sample(known, self._repairs.trust)
         suggested, common = self._suggest_alternative(), self._common_fields()
-        if self._question:
+        if self._open_rule:
             return outcome.Ambiguous(
-                program=program, question=self._question, hint=hint, sample=sample, suggested=suggested, **common
+                program=program, open_rule=self._open_rule, hint=hint, sample=sample, suggested=suggested, **common
             )
         settled = bool(self._replays.others) and all(learned.readings.settled for learned in self._learned)
         return outcome.Found(program=program, settled=settled, hint=hint, sample=sample, suggested=suggested, **common)

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Literal, get_args
 
-from meshforge.language import EXTREMITY, Program
+from meshforge.language import EXTREMITY, Leaf, Program
 from meshforge.synthesis.questions import LabelCorrection
 
 Layers = Literal["S", "S+T", "S+G", "S+T+G"]
@@ -63,6 +63,8 @@ class Options:
     suggest_orientation: whether landmarks that would help are looked for where no program fits.
     rejected: corrections that a person refused, so the labels stand.
     follow: a program somebody had in mind; the outcome says what became of each of its rules.
+    extractors: names of leaf extractors of plug-ins that rules may use, too; leaves: what `synthesize` enumerates of
+    these for the family.
     stop: asked now and then; when it says so, what was found so far is returned, as when the time runs out.
     """
 
@@ -80,6 +82,8 @@ class Options:
     suggest_orientation: bool = True
     rejected: Collection[LabelCorrection] = ()
     follow: Program | None = None
+    extractors: tuple[str, ...] = ()
+    leaves: tuple[Leaf, ...] = ()
     clock: Clock = time.monotonic
     stop: Callable[[], bool] | None = None
 

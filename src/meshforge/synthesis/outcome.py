@@ -8,7 +8,7 @@ from typing import Any, ClassVar, Literal
 
 from meshforge.language import Extractor, Program, Rule, show, size_of
 from meshforge.synthesis.orientation.suggest import OrientationSuggestion
-from meshforge.synthesis.questions import Answer, Hint, Question, Repair
+from meshforge.synthesis.questions import Answer, Hint, OpenRule, Repair
 from meshforge.synthesis.search.smallest import SearchEffort
 
 
@@ -70,7 +70,7 @@ class _OutcomeBase:
     overruled: tuple[str, ...] = ()
     followed: tuple[str, ...] = ()
     repairs: tuple[Repair, ...] = ()
-    question: Question | None = None
+    open_rule: OpenRule | None = None
     nearest: Nearest | None = None
     program: Program | None = None
     suggested: OrientationSuggestion | None = None
@@ -78,7 +78,7 @@ class _OutcomeBase:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Found(_OutcomeBase):
-    """A program that does on every demonstration what was shown; what is still open is not worth a question."""
+    """A program that does on every demonstration what was shown; what is still open is not worth an answer."""
 
     status: ClassVar[Literal["found"]] = "found"
     program: Program
@@ -86,11 +86,11 @@ class Found(_OutcomeBase):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Ambiguous(_OutcomeBase):
-    """A program that does what was shown, and a question that may change what it does elsewhere."""
+    """A program that does what was shown, and a rule that may mean something else on other assets."""
 
     status: ClassVar[Literal["ambiguous"]] = "ambiguous"
     program: Program
-    question: Question
+    open_rule: OpenRule
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -132,7 +132,7 @@ def outcome_to_json(outcome: LearningOutcome) -> dict[str, Any]:
         "settled": outcome.settled,
         "readings": [_reading_json(reading) for reading in outcome.readings],
         "repairs": [_repair_json(repair) for repair in outcome.repairs],
-        "question": _question_json(outcome.question) if outcome.question else None,
+        "open_rule": _open_rule_json(outcome.open_rule) if outcome.open_rule else None,
         "nearest": _nearest_json(outcome.nearest) if outcome.nearest else None,
         "demonstrate_next": {"asset": outcome.hint.asset, "why": outcome.hint.why} if outcome.hint else None,
         "look_at": list(outcome.sample),
@@ -188,13 +188,8 @@ def _repair_json(repair: Repair) -> dict[str, Any]:
     }
 
 
-def _question_json(question: Question) -> dict[str, Any]:
-    return {
-        "id": question.id,
-        "asset": question.asset,
-        "rule": question.rule,
-        "choices": [{"reading": choice.reading, "select": list(choice.select)} for choice in question.choices],
-    }
+def _open_rule_json(one: OpenRule) -> dict[str, Any]:
+    return {"rule": one.rule, "asset": one.asset, "selections": [sorted(select) for select in one.selections]}
 
 
 def _nearest_json(nearest: Nearest) -> dict[str, Any]:

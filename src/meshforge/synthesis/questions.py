@@ -1,4 +1,4 @@
-"""What a person is asked, and what they answer: questions between readings, and corrections of labels."""
+"""What learning leaves open, and what a person says to it: answers, and corrections of labels."""
 
 from __future__ import annotations
 
@@ -32,40 +32,19 @@ class LabelCorrection:
 
 
 @dataclass(frozen=True, slots=True)
-class Choice:
-    """One way to go on; reading: the id of the most believable reading that does so; select: names of hulls."""
+class OpenRule:
+    """A rule that the demonstrations leave open, and the asset where that is best seen.
 
-    reading: str
-    select: tuple[str, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class Question:
-    """Which hulls should a rule select on an asset? One of the choices, or neither.
-
-    harm: the share of the assets that the program is expected to edit wrongly as it stands; left: after an answer.
+    selections: what its believable readings select there, names of hulls, each once; that of the program first.
     """
 
     rule: int
     asset: str
-    choices: tuple[Choice, ...]
-    harm: float
-    left: float
+    selections: tuple[frozenset[str], ...]
 
     @property
     def id(self) -> str:
         return f"{self.rule}:{self.asset}"
-
-    def answer_with(self, choice: int | None) -> Answer:
-        """The answer that takes a choice, counted from 0, or None for neither.
-
-        Raises DemonstrationError where there is no such choice.
-        """
-        if choice is not None and not 0 <= choice < len(self.choices):
-            raise DemonstrationError(f"the question has {len(self.choices)} choices, and none at place {choice}")
-        if choice is None:
-            return Answer(self.rule, self.asset, None, [other.select for other in self.choices])
-        return Answer(self.rule, self.asset, self.choices[choice].select)
 
 
 @dataclass(frozen=True, slots=True, init=False)

@@ -7,9 +7,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from meshforge.language import Extractor, size_of
+from meshforge.language import Extractor, leaves_of, size_of
 from meshforge.synthesis.demonstration import Example
 from meshforge.synthesis.options import Options, TimeBudget
 from meshforge.synthesis.search.bank import Bank
@@ -54,7 +54,11 @@ def find_slip(
     """
     if size_of(extractor) < _LEAST_NODES:
         return None
-    search = Search(examples, vocabulary, TimeBudget(math.inf), options)
+    used = tuple(leaf for leaf in leaves_of(extractor) if any(one.plugin for one in (leaf, *leaf.bases)))
+    bases = tuple(base for leaf in used for base in leaf.bases if base.plugin)
+    search = Search(
+        examples, vocabulary, TimeBudget(math.inf), replace(options, leaves=tuple(dict.fromkeys((*bases, *used))))
+    )
     field, shown = search.field, (1 << search.width) - 1
     bank = Bank([Term(one.bits & shown, one.key, one.form) for one in field.terms], search.width, search.budget)
     rows = zip(search.selections, field.groups, examples, strict=True)

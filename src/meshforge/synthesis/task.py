@@ -9,9 +9,10 @@ from typing import TypeVar
 from weakref import WeakKeyDictionary
 
 from meshforge import language
-from meshforge.common import DemonstrationError, MeshForgeError, suggest_name
+from meshforge.common import DemonstrationError, MeshForgeError
+from meshforge.language import Replay
 from meshforge.symbolic import Label, SymbolicMesh, mask_of, split_by_contact
-from meshforge.synthesis.demonstration import Demonstration, Example, RuleSpec, name_demonstrations
+from meshforge.synthesis.demonstration import Demonstration, Example, RuleSpec, Step, name_demonstrations
 from meshforge.synthesis.options import Options
 from meshforge.synthesis.questions import Answer, LabelCorrection
 from meshforge.synthesis.readings.belief import NEITHER
@@ -89,9 +90,8 @@ class ReplaySet:
         self._frame, self._templates = frame, templates
         self._answers = [answer for answer in answers if answer.price is None]
         self._unsure = [answer for answer in answers if answer.price is not None]
-        self.shown = [
-            begin_replay(name, demo, frame.orient, frame.contact) for name, demo in name_demonstrations(demos)
-        ]
+        self._demos = dict(name_demonstrations(demos))
+        self.shown = [begin_replay(name, demo, frame.orient, frame.contact) for name, demo in self._demos.items()]
         bare = {name for name, mesh in batch.items() if frame.labels and not any(hull.label for hull in mesh.hulls)}
         rows = ((name, mesh) for name, mesh in batch.items() if name not in bare)
         self.others = [replay for name, mesh in rows if (replay := self._begin(name, mesh))]
@@ -111,7 +111,7 @@ class ReplaySet:
 
     def _begin(self, name: str, mesh: SymbolicMesh) -> Replay | None:
         try:
-            return begin_replay(name, Demonstration(mesh, (), name), self._frame.orient, self._frame.contact)
+            return Replay.begin(mesh, self._frame.orient, self._frame.contact, name=name, memo=memoize)
         except MeshForgeError:
             return None
 
@@ -120,7 +120,7 @@ class ReplaySet:
         examples, open_ = [], []
         answered = {a.asset: a for a in self._answers if a.rule == rule.number}  # the last one counts
         for replay in [*self.shown, *self.others]:
-            shown = example_of(replay, rule)
+            shown = example_of(replay, self._demos.get(replay.name), rule)
             answer = answered.get(replay.name)
             if shown is None and answer and answer.select is not None:
                 shown = _example_of_answer(replay, answer)
@@ -134,7 +134,7 @@ class ReplaySet:
 
     def assets_with_answers(self, rule: int) -> tuple[str, ...]:
         """The meshes of which an answer, and no demonstration, says what the rule selects."""
-        silent = {replay.name for replay in [*self.shown, *self.others] if not replay.demo.step(rule)}
+        silent = {replay.name for replay in [*self.shown, *self.others] if rule not in replay.selections}
         selections = {a.asset: a.select for a in self._answers if a.rule == rule}
         return tuple(name for name, select in selections.items() if select is not None and name in silent)
 
@@ -152,16 +152,16 @@ class ReplaySet:
             if names <= mesh.index.keys()
         ]
 
-    def advance(self, number: int, rule: language.Rule, last: bool) -> None:
+    def advance(self, rule: language.Rule, last: bool) -> None:
         """Run a rule on all meshes; the last one only on those that are demonstrated."""
         delta = self._frame.extremity
-        self.shown = [advance(replay, number, rule, self._templates, delta) for replay in self.shown]
+        self.shown = [replay.advance(rule, self._templates, delta) for replay in self.shown]
         if not last:
-            self.others = [done for replay in self.others if (done := self._advance(replay, number, rule))]
+            self.others = [done for replay in self.others if (done := self._advance(replay, rule))]
 
-    def _advance(self, replay: Replay, number: int, rule: language.Rule) -> Replay | None:
+    def _advance(self, replay: Replay, rule: language.Rule) -> Replay | None:
         try:
-            return advance(replay, number, rule, self._templates, self._frame.extremity)
+            return replay.advance(rule, self._templates, self._frame.extremity)
         except MeshForgeError:
             return None
 
@@ -195,83 +195,28 @@ Value = TypeVar("Value")
 _memo: WeakKeyDictionary[SymbolicMesh, dict[Hashable, object]] = WeakKeyDictionary()
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class Replay:
-    """A demonstration in the midst of its replay.
-
-    mesh: in the canonical frame, edited by the rules so far; used: names that no made hull may take again.
-    """
-
-    name: str
-    demo: Demonstration
-    mesh: SymbolicMesh
-    used: frozenset[str] = frozenset()
-
-
 def begin_replay(name: str, demo: Demonstration, orient: language.Orient | None, contact: float | None) -> Replay:
     """A demonstration before its first rule. Raises ProgramError where the orientation fails on its mesh."""
-    try:
-        mesh, _ = language.to_canonical_frame(demo.mesh, orient, contact, memoize)
-    except MeshForgeError as error:
-        raise error.at(name) from None
-    return Replay(name, demo, mesh)
+    return Replay.begin(demo.mesh, orient, contact, name=name, selections=demo.selections, memo=memoize)
 
 
-def example_of(replay: Replay, rule: RuleSpec) -> Example | None:
-    """What the demonstration says about the next rule, None where it says nothing.
+def example_of(replay: Replay, demo: Demonstration | None, rule: RuleSpec) -> Example | None:
+    """What a demonstration says about the next rule, None where it says nothing.
 
     Raises DemonstrationError for a hull that is not there, and where `Each` would do something else than was shown.
     """
-    step = replay.demo.step(rule.number)
+    step = demo.step(rule.number) if demo else None
     if step is None:
         return None
-    selection = _mask_of_step(replay, rule.number)
+    selection = replay.mask_of(step.select or ())
     if rule.each_in and step.shown and not isinstance(step.action, language.Each):
-        _check_single(replay, rule, selection)
+        _check_single(replay, step, rule, selection)
     return Example(replay.name, replay.mesh, selection)
 
 
-def advance(
-    replay: Replay,
-    number: int,
-    rule: language.Rule,
-    templates: Mapping[str, language.Template],
-    extremity: float | None = None,
-) -> Replay:
-    """The replay after one more rule: on the hulls that were shown, or where nothing was shown on those it selects."""
-    is_given = replay.demo.step(number) is not None
-    delta = language.EXTREMITY if extremity is None else extremity
-    mask = _mask_of_step(replay, number) if is_given else language.select_mask(rule.extractor, replay.mesh, delta)
-    try:
-        applied = language.apply_to_selection(replay.mesh, mask, rule, templates, replay.used, memoize)
-    except MeshForgeError as error:
-        raise error.at(f"{replay.name}, rule {number}") from None
-    return replace(replay, mesh=applied.mesh, used=applied.used)
-
-
-def _mask_of_step(replay: Replay, number: int) -> int:
-    step = replay.demo.step(number)
-    wanted = sorted(step.select) if step and step.select else []
-    for name in wanted:
-        if name not in replay.mesh.index:
-            raise _unknown_hull_error(replay, number, name)
-    return mask_of(replay.mesh.index[name] for name in wanted)
-
-
-def _unknown_hull_error(replay: Replay, number: int, name: str) -> DemonstrationError:
-    where = f"{replay.name}, rule {number}"
-    if name in replay.demo.mesh.index or name in replay.used:
-        problem = f"the hull {name!r} is gone: an earlier rule removed or replaced it"
-        remedy = "Select what that rule made, or change the order of the steps."
-        return DemonstrationError(problem, where=where, remedy=remedy)
-    return DemonstrationError(f"there is no hull {name!r}", where=where, remedy=suggest_name(name, replay.mesh.index))
-
-
-def _check_single(replay: Replay, rule: RuleSpec, selection: int) -> None:
+def _check_single(replay: Replay, shown: Step, rule: RuleSpec, selection: int) -> None:
     parts = len(split_by_contact(replay.mesh, selection))
     if parts > 1:
-        shown = replay.demo.step(rule.number)
-        assert shown
         raise DemonstrationError(
             f"rule {rule.number} does {shown.action} in {replay.name} on {parts} parts that do not touch, "
             f"but {rule.action} in {rule.each_in}",

@@ -90,7 +90,7 @@ def test_checks_and_labels_are_the_same_there(cluster: Any, tmp_path: Path) -> N
         found.append([examined.to_json() for examined in check_assets(work, wanted, spread) if examined])
         made = Project.create(tmp_path / spread.backend, [tmp_path / "assets"], vocabulary=("top", "leg", "misc"))
         made.set_labels("table0/model.obj", {name: label_of(name) for name in table_boxes()})
-        named, told = made.label_from_names(execution=spread), made.propagate_labels(execution=spread)
+        named, told = made.label("names", execution=spread).outcomes, made.label("propagate", execution=spread)
         labels.append((named, told, tree(made.folder / "labels")))
     assert found[0] == found[1] and [row["asset"] for row in found[0] if row["error"]] == [str(work[3].path)]
     assert labels[0] == labels[1] and len(labels[0][2]) == 5

@@ -82,7 +82,7 @@ def test_labels_are_kept_and_told_where_pictures_cannot_be_drawn(run: Run, monke
     def refuse(*given: object) -> None:
         raise MeshForgeError("pictures need embreex, which is not installed")
 
-    monkeypatch.setattr("meshforge.labels.label_store.write_contact_sheets", refuse)
+    monkeypatch.setattr("meshforge.project.Project.draw_labels", refuse)
     told = run("label", "p", "--with", "names")
     assert told.code == 0
     assert "no pictures of the labels: pictures need embreex, which is not installed" in told.err

@@ -8,8 +8,9 @@ from pathlib import Path
 import pytest
 
 from meshforge.project import Project
+from meshforge.store import History
 from meshforge.studio.edits.assets import LabelHulls
-from meshforge.studio.history import History
+from meshforge.studio.edits.base import make_edit
 from meshforge.symbolic import Label
 from tests.unit.batch.families import table_boxes, tree, write_table
 from tests.unit.cli.in_process import Run, runner
@@ -65,30 +66,30 @@ def test_the_studio_undoes_one_command_as_one_edit_with_its_vocabulary(run: Run,
     project = Project.open("p")
     after = labels_of(), project.vocabulary
     assert after[1] == ("lid", "leg")
-    history = History(project)
-    assert history.view.undo == f"{FIRST}: 1 hull labelled lid, 2 hulls labelled leg"
-    history.undo(project)
+    history = History.open(project.folder)
+    assert history.state.undo == f"{FIRST}: 1 hull labelled lid, 2 hulls labelled leg"
+    history.undo()
     kept = {name: data for name, data in tree(tmp_path / "p").items() if not name.startswith(".meshforge")}
     assert kept == before
-    history.redo(project)
+    history.redo()
     assert (labels_of(), project.vocabulary) == after
 
 
 def test_a_studio_that_is_open_goes_on_with_the_history_that_the_command_made(run: Run) -> None:
     project = Project.open("p")
-    studio = History(project)
+    studio = History.open(project.folder)
     for hull in ("top", "crumb"):
-        studio.do(project, LabelHulls(asset=FIRST, hulls=(hull,), label="leg"))
-    studio.undo(project)
+        make_edit(studio, project, LabelHulls(asset=FIRST, hulls=(hull,), label="leg"))
+    studio.undo()
     assert not studio.refresh()
     run("label", "p", FIRST, "left_low=leg")
     assert studio.refresh() and not studio.refresh()
-    assert (studio.view.undo, studio.view.redoable) == (f"{FIRST}: 1 hull labelled leg", 0)
+    assert (studio.state.undo, studio.state.redoable) == (f"{FIRST}: 1 hull labelled leg", 0)
     run("label", "p", FIRST, "left_high=leg")
-    studio.do(project, LabelHulls(asset=FIRST, hulls=("crumb",), label="crumb"))
+    make_edit(studio, project, LabelHulls(asset=FIRST, hulls=("crumb",), label="crumb"))
     assert set(labels_of()) == {"top", "left_low", "left_high", "crumb"}
-    assert studio.view.undoable == History(project).view.undoable == 4
-    while studio.undo(project):
+    assert studio.state.undoable == History.open(project.folder).state.undoable == 4
+    while studio.undo():
         pass
     assert labels_of() == {}
 

@@ -1,4 +1,4 @@
-"""`meshforge synthesize` for scripts: answers, repairs, what is printed where, and how it is stopped."""
+"""`meshforge synthesize`: what is printed where, how it is stopped, and what `review` does of its answers."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from meshforge.cli.synthesize import synthesize
 from meshforge.cli.terminal import catch_interrupt
 from meshforge.language import Delete
 from meshforge.project import Project
-from meshforge.synthesis import LAYERS, Step
+from meshforge.synthesis import LAYERS, Answer, Step
 from meshforge.synthesis.options import STRATEGIES
 from tests.unit.cli.in_process import Run, runner
 from tests.unit.project.shelves import OTHER, PLAIN, SHELVED, ambiguous, mislabelled, racks
@@ -41,7 +41,7 @@ def answers(*entries: object) -> str:
     return "given.json"
 
 
-def test_a_question_is_printed_with_the_ways_to_answer_it(run: Run, tmp_path: Path) -> None:
+def test_a_rule_that_is_open_is_named_with_the_way_to_answer(run: Run, tmp_path: Path) -> None:
     ambiguous(tmp_path)
     told = run("synthesize", "racks")
     assert told.code == 0
@@ -55,84 +55,36 @@ ambiguous: it is open what rule 1 does on rack2.obj
 Look first at:
   AHEAD: demonstrate it to be more certain: believable readings of the rules differ there
   meshforge demonstrate racks AHEAD 'HULLS => ACTION' ...
-Next: meshforge apply racks
-
-What should rule 1 take on rack2.obj?
-  1  2 hulls: top, shelf
-  2  1 hull: top
-  3  1 hull: shelf
-Answer it in a terminal: meshforge synthesize racks
-  or in a script: meshforge synthesize racks --answers FILE, where FILE holds [{"question": "1:rack2.obj", "choice": 1}]
-  (null in place of 1: neither)
+Next: meshforge review racks
 """
     )
-
-
-def test_answers_come_from_a_file_by_the_choice(run: Run, tmp_path: Path) -> None:
-    ambiguous(tmp_path)
-    told = run("synthesize", "racks", "--answers", answers({"question": "1:rack2.obj", "choice": 2}))
-    assert (told.code, told.out) == (0, f"{LABELS}Geo(Is(board), +Z) => Delete\n")
-    assert (
-        timeless(told.err)
-        == """
-learned in TIME with 1 answer, kept as racks/program.mf
-all believable readings of the rules agree on your 30 assets
-Next: meshforge apply racks
-"""
-    )
-    again = run("synthesize", "racks", "--json", "--answers", "given.json")
-    assert again.code == 0 and again.json["settled"]
-
-
-def test_answers_come_from_a_file_by_the_selection(run: Run, tmp_path: Path) -> None:
-    ambiguous(tmp_path)
-    told = run("synthesize", "racks", "--answers", answers({"rule": 1, "asset": "rack3.obj", "select": ["top"]}))
-    assert told.out == f"{LABELS}Geo(Is(board), +Z) => Delete\n"
-    assert run("synthesize", "racks", "--json").json["status"] == "found"
-
-
-def test_neither_is_an_answer_too(run: Run, tmp_path: Path) -> None:
-    ambiguous(tmp_path)
-    told = run("synthesize", "racks", "--json", "--answers", answers({"question": "1:rack2.obj", "choice": None}))
-    assert told.json["question"]["id"] == "1:rack3.obj"
-    assert run("synthesize", "racks", "--list-answers").out == "1:rack2.obj  neither of the choices\n"
 
 
 def test_a_dry_run_keeps_nothing(run: Run, tmp_path: Path) -> None:
     project = ambiguous(tmp_path)
-    told = run("synthesize", "racks", "--dry-run", "--answers", answers({"question": "1:rack2.obj", "choice": 2}))
-    assert told.out == f"{LABELS}Geo(Is(board), +Z) => Delete\n"
-    assert timeless(told.err).splitlines()[1:] == [
-        "learned in TIME with 1 answer",
-        "all believable readings of the rules agree on your 30 assets",
-    ]
-    assert project.program() is None and not project.feedback().answers_and_fixes
+    told = run("synthesize", "racks", "--dry-run")
+    assert told.out == f"{LABELS}Is(board) => Delete\n"
+    assert timeless(told.err).splitlines()[1] == "learned in TIME"
+    assert "Next" not in told.err and project.program() is None
 
 
-@pytest.mark.parametrize(
-    ("entries", "problem"),
-    [
-        ([{"question": "1:rack3.obj", "choice": 1}], "the question 1:rack3.obj did not come up"),
-        ([{"question": "1:rack2.obj", "choice": 4}], "1:rack2.obj has 3 choices, there is no choice 4"),
-        ([{"question": "1:rack2.obj", "choice": 0}], "answer 1: the choice 0 is no number from 1"),
-        ([{"question": "rack2.obj", "choice": 1}], "answer 1: 'rack2.obj' is no question"),
-        ([{"question": "1:rack99.obj", "choice": 1}], "there is no asset 'rack99.obj'"),
-        ([{"rule": 2, "asset": "rack2.obj", "select": []}], "there is no rule 2 to answer for"),
-        ([{"rule": 1, "asset": "rack2.obj"}], "answer 1: it has no field 'select'"),
-        ([{"rule": "1", "asset": "rack2.obj", "select": []}], "answer 1: the field 'rule' cannot be '1'"),
-        ([{"question": "1:rack2.obj", "choice": "a"}], "answer 1: the field 'choice' cannot be 'a'"),
-        ([{"question": "1:rack2.obj", "choice": 1, "by": 2}], "answer 1: it has a field 'by', which is none of"),
-        ([7], "answer 1: it is no object"),
-        ([{"rule": 1, "asset": "rack2.obj", "select": [3]}], "answer 1: its hulls are not all names"),
-        ("no list", "this is no list of answers"),
-    ],
-)
-def test_an_answer_that_cannot_be_is_named(run: Run, tmp_path: Path, entries: Any, problem: str) -> None:
+@pytest.mark.parametrize("words", [("--answers", "given.json"), ("--accept-repairs",), ("--forget", "all")])
+def test_what_review_does_now_is_named(run: Run, tmp_path: Path, words: tuple[str, ...]) -> None:
     ambiguous(tmp_path)
-    Path("given.json").write_text(json.dumps(entries))
-    told = run("synthesize", "racks", "--answers", "given.json")
+    told = run("synthesize", "racks", *words)
     assert told.code == 2
-    assert problem in told.err.rpartition("error: ")[2]
+    assert f"meshforge synthesize only learns, and has no {words[0]}" in told.err
+    assert "Use: meshforge review PROJECT --" in told.err
+
+
+def test_answers_are_listed_and_taken_back(run: Run, tmp_path: Path) -> None:
+    project = ambiguous(tmp_path)
+    project.add_answer(Answer(1, "rack2.obj", None, [["top"]]))
+    listed = run("review", "racks", "--list-answers")
+    assert listed.out == "1:rack2.obj  neither of the choices\n"
+    assert listed.err == "To take one back: meshforge review racks --forget 1:rack2.obj\n"
+    assert run("review", "racks", "--forget", "1:rack2.obj").out == "taken back: 1:rack2.obj\n"
+    assert run("review", "racks", "--list-answers").err == "nothing was answered, repaired or refused yet\n"
 
 
 def test_repairs_are_proposed_with_the_program_they_lead_to(run: Run, tmp_path: Path) -> None:
@@ -145,61 +97,55 @@ def test_repairs_are_proposed_with_the_program_they_lead_to(run: Run, tmp_path: 
     assert lines[3:] == [
         "With that, the program is:",
         "  Is(knob) => Delete",
-        "To look at each: meshforge synthesize racks in a terminal; "
-        "to repair all: meshforge synthesize racks --accept-repairs",
-        "To keep the labels as they are: meshforge synthesize racks --reject-repairs",
+        "Next: meshforge review racks",
     ]
     assert project.mesh(PLAIN).hull_of("knob").label == "leg"
 
 
 def test_repairs_are_accepted_listed_and_taken_back(run: Run, tmp_path: Path) -> None:
     project = mislabelled(tmp_path)
-    told = run("synthesize", "racks", "--accept-repairs")
+    reply_to_repair(run, 0)
+    told = run("synthesize", "racks")
     assert (told.code, told.out) == (0, f"{LABELS}Is(knob) => Delete\n")
     assert (
         timeless(told.err)
-        == """repaired: knob of rack0.obj: leg -> knob
-
+        == """
 learned in TIME with 1 repaired label, kept as racks/program.mf
 all believable readings of the rules agree on your 7 assets
 Next: meshforge apply racks
 """
     )
-    listed = run("synthesize", "racks", "--list-answers")
-    assert listed.out == "rack0.obj#knob=knob  repaired, was leg\n"
-    assert listed.err == "To take one back: meshforge synthesize racks --forget 'rack0.obj#knob=knob'\n"
-    assert run("synthesize", "racks", "--list-answers", "--json").json["confirmed"][0]["from"] == "leg"
-    assert run("synthesize", "racks", "--forget", "rack0.obj#knob=knob").out == "taken back: rack0.obj#knob=knob\n"
+    assert run("review", "racks", "--list-answers").out == "rack0.obj#knob=knob  repaired, was leg\n"
+    assert run("review", "racks", "--list-answers", "--json").json["confirmed"][0]["from"] == "leg"
+    assert run("review", "racks", "--forget", "rack0.obj#knob=knob").out == "taken back: rack0.obj#knob=knob\n"
     assert project.mesh(PLAIN).hull_of("knob").label == "leg"
-    assert run("synthesize", "racks", "--list-answers").err == "nothing was answered, repaired or refused yet\n"
 
 
 def test_repairs_are_rejected_until_all_is_forgotten(run: Run, tmp_path: Path) -> None:
-    project = mislabelled(tmp_path)
-    assert "left as it is: knob of rack0.obj: leg -> knob" in run("synthesize", "racks", "--reject-repairs").err
+    mislabelled(tmp_path)
+    reply_to_repair(run, 1)
     assert run("synthesize", "racks", "--json").json["repairs"] == []
-    assert run("synthesize", "racks", "--list-answers").out == "rack0.obj#knob=knob  refused, stays leg\n"
-    assert run("synthesize", "racks", "--forget", "all").out == "taken back: 1 answer or repair\n"
+    assert run("review", "racks", "--list-answers").out == "rack0.obj#knob=knob  refused, stays leg\n"
+    assert run("review", "racks", "--forget", "all").out == "taken back: 1 answer or repair\n"
     assert run("synthesize", "racks", "--json").json["status"] == "repair"
     assert run("synthesize", "racks", "--json", "--no-repair").json["status"] != "repair"
-    assert project.mesh(PLAIN).hull_of("knob").label == "leg"
 
 
-def test_repairs_are_either_accepted_or_rejected(run: Run, tmp_path: Path) -> None:
-    mislabelled(tmp_path)
-    told = run("synthesize", "racks", "--accept-repairs", "--reject-repairs")
-    assert (told.code, told.err) == (2, "error: --accept-repairs and --reject-repairs exclude each other\n")
+def reply_to_repair(run: Run, choice: int) -> None:
+    """Reply to the question whether the label of a hull is wrong."""
+    question = run("review", "racks", "--json").json["question"]
+    assert question["kind"] == "repair", question
+    run("review", "racks", "--answers", answers({"id": question["id"], "choice": choice}))
 
 
 def test_an_answer_that_no_longer_fits_is_named_with_the_way_to_drop_it(run: Run, tmp_path: Path) -> None:
-    ambiguous(tmp_path)
-    run("synthesize", "racks", "--answers", answers({"rule": 1, "asset": "rack6.obj", "select": ["top"]}))
+    ambiguous(tmp_path).add_answer(Answer(1, "rack6.obj", ["top"]))
     (tmp_path / "assets" / "rack6.obj").unlink()
     told = run("synthesize", "racks")
     assert told.code == 0
     assert told.err.splitlines()[1:3] == [
         "the answer 1:rack6.obj no longer fits what is there, and is left out",
-        "  to take it back: meshforge synthesize racks --forget 1:rack6.obj",
+        "  to take it back: meshforge review racks --forget 1:rack6.obj",
     ]
 
 

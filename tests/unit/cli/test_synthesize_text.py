@@ -9,7 +9,7 @@ import pytest
 
 from meshforge.cli.synthesize_text import LearningContext, format_remarks
 from meshforge.language import All, Is, Program
-from meshforge.synthesis import Ambiguous, Choice, Found, Hint, Question, Reading
+from meshforge.synthesis import Ambiguous, Found, Hint, OpenRule, Reading
 
 ABOUT = LearningContext(Path("p"), assets=9, in_use=9, readable=9)
 READINGS = (
@@ -58,9 +58,9 @@ def test_where_all_readings_agree_only_accepted_results_that_are_not_kept_are_na
 
 
 def test_where_a_question_is_open_the_asset_to_demonstrate_alone_is_named() -> None:
-    question = Question(1, "b.obj", (Choice("a", ("x",)), Choice("b", ())), 1.0, 0.5)
+    open_rule = OpenRule(1, "b.obj", (frozenset({"x"}), frozenset()))
     asked = Ambiguous(
-        rules=(), readings=READINGS, tried=(), seconds={}, program=Program(), question=question, hint=HINT
+        rules=(), readings=READINGS, tried=(), seconds={}, program=Program(), open_rule=open_rule, hint=HINT
     )
     assert format_remarks(asked, ABOUT).splitlines()[1:-1] == [
         "ambiguous: it is open what rule 1 does on b.obj",

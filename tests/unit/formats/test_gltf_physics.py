@@ -7,6 +7,7 @@ import mujoco
 import numpy as np
 import pytest
 
+from meshforge.common import AssetError
 from meshforge.formats import read, save
 from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Sphere
 from meshforge.symbolic import PRIMITIVE_FEATURES, Asset, FeatureKind
@@ -24,13 +25,6 @@ def omi(scene: SceneFile, name: str, shape: Tree, **rest: object) -> int:
     shapes.append(shape)
     collider = {"collider": {"shape": len(shapes) - 1}}
     return scene.node(name, None, extensions={"OMI_physics_body": collider}, **rest)
-
-
-def older(scene: SceneFile, name: str, **shape: object) -> int:
-    """A node with a shape of OMI_collider."""
-    colliders = scene.tree.setdefault("extensions", {}).setdefault("OMI_collider", {}).setdefault("colliders", [])
-    colliders.append(shape)
-    return scene.node(name, extensions={"OMI_collider": {"collider": len(colliders) - 1}})
 
 
 def test_implicit_shapes_are_native_ones_about_y(tmp_path: Path) -> None:
@@ -95,20 +89,14 @@ def test_planes_and_shapes_without_volume_are_opaque(tmp_path: Path) -> None:
     assert odd.reason == "a shape of type 'torus' is not known"
 
 
-@pytest.mark.parametrize("form", ["node", "mesh", "shape"])
+@pytest.mark.parametrize("form", ["node", "mesh"])
 def test_meshes_collide_as_their_hull_or_as_they_are(tmp_path: Path, form: str) -> None:
     scene = SceneFile()
     hull, pieces, corner = scene.mesh(angle()), scene.mesh(together(box(), box((2, 0, 0)))), scene.mesh(angle())
     scene.uses(KHR)
     for name, mesh, convex in (("hull", hull, True), ("pieces", pieces, False), ("corner", corner, False)):
-        if form == "shape":
-            shape = {"type": "mesh", "mesh": {"mesh": mesh}, "extensions": {KHR: {"convexHull": convex}}}
-            shapes = scene.tree.setdefault("extensions", {}).setdefault("KHR_collision_shapes", {"shapes": []})
-            shapes["shapes"].append(shape)
-            collider: Tree = {"shape": len(shapes["shapes"]) - 1}
-        else:
-            value = scene.node(f"{name} mesh", mesh=mesh) if form == "node" else mesh
-            collider = {"geometry": {form: value, "convexHull": convex}}
+        value = scene.node(f"{name} mesh", mesh=mesh) if form == "node" else mesh
+        collider = {"geometry": {form: value, "convexHull": convex}}
         scene.node(name, extensions={KHR: {"collider": collider}}, scale=[2, 1, 1])
     scene.tree["scenes"] = [{"nodes": [k for k, n in enumerate(scene.tree["nodes"]) if "mesh" not in n]}]
     asset = asset_of(scene, tmp_path)
@@ -288,17 +276,22 @@ def test_bodies_of_omi_are_told_by_motion_or_by_type(tmp_path: Path) -> None:
     assert [geom.name for geom in asset_of(scene, tmp_path).geoms] == ["new/a", "old/b"]
 
 
-def test_the_first_form_of_omi_is_read(tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("draft", "standard"),
+    [("OMI_collider", "OMI_physics_shape"), ("KHR_collision_shapes", "KHR_implicit_shapes")],
+)
+def test_drafts_of_the_extensions_are_refused_with_what_they_are_called_now(
+    tmp_path: Path, draft: str, standard: str
+) -> None:
     scene = SceneFile()
-    older(scene, "box", type="box", size=[1, 2, 3])
-    older(scene, "pill", type="capsule", radius=1, height=4)
-    older(scene, "standard", type="capsule")
-    older(scene, "hull", type="hull", mesh=scene.mesh(angle()))
-    older(scene, "zone", type="box", isTrigger=True)
-    asset = asset_of(scene, tmp_path)
-    sizes = {geom.name: geom.shape.aabb.size.tolist() for geom in asset.geoms}
-    assert sizes == {"box": [1, 2, 3], "pill": [2, 4, 2], "standard": [1, 2, 1], "hull": [3, 3, 1]}
-    assert any("1 trigger" in note for note in asset.notes)
+    scene.node("box", box())
+    scene.uses(draft)
+    with pytest.raises(AssetError) as caught:
+        asset_of(scene, tmp_path)
+    assert caught.value.message == (
+        f"{tmp_path / 'a.glb'}: its colliders are those of {draft}, a draft of {standard}, which is not read\n"
+        f"  Export it with {standard}."
+    )
 
 
 def test_a_collider_of_a_shape_that_is_not_there_is_an_error(tmp_path: Path) -> None:

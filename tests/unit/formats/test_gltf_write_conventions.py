@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -199,17 +198,14 @@ def test_pieces_of_a_collider_become_colliders_of_their_own(tmp_path: Path) -> N
     assert child["extensions"][KHR]["collider"]["physicsMaterial"] == 0
 
 
-@pytest.mark.parametrize("form", ["omi", "omi collider"])
-def test_the_extensions_of_omi_are_written_in_their_own_form(tmp_path: Path, form: str) -> None:
+def test_the_extensions_of_omi_are_written_in_their_own_form(tmp_path: Path) -> None:
     scene = SceneFile()
-    flat = form == "omi collider"
-    key = "OMI_collider" if flat else "OMI_physics_shape"
-    shapes: list[dict[str, Any]] = [{"type": "box", **({"size": [1, 1, 1]} if flat else {"box": {"size": [1, 1, 1]}})}]
-    scene.tree["extensions"] = {key: {"colliders" if flat else "shapes": shapes}}
-    own = {"OMI_collider": {"collider": 0}} if flat else {"OMI_physics_body": {"collider": {"shape": 0}}}
+    shape = {"type": "box", "box": {"size": [1, 1, 1]}}
+    scene.tree["extensions"] = {"OMI_physics_shape": {"shapes": [shape]}}
+    own = {"OMI_physics_body": {"collider": {"shape": 0}}}
     scene.node("box", extensions=own)
     scene.node("other", extensions=own, translation=[3, 0, 0])
-    scene.uses(key, *own)
+    scene.uses("OMI_physics_shape", *own)
     made = [
         Geom("box~1", "body", Capsule(Pose.of_translation([0, 5, 0]), 0.5, 1.0), "box"),
         Geom("box~2", "body", Cylinder(Pose.of_translation([0, 9, 0]), 0.5, 1.0), "box"),

@@ -136,7 +136,7 @@ def test_a_stage_without_physics_collides_with_all_that_is_seen(tmp_path: Path) 
     assert "no prim is marked as collision" in asset.notes[0]
 
 
-def test_point_instancers_are_opaque_with_all_their_instances(tmp_path: Path) -> None:
+def test_what_point_instancers_show_is_not_read_and_that_is_said(tmp_path: Path) -> None:
     many = f"""def PointInstancer "many"
     {{
         rel prototypes = </World/many/one>
@@ -144,10 +144,9 @@ def test_point_instancers_are_opaque_with_all_their_instances(tmp_path: Path) ->
         point3f[] positions = [(0,0,0), (5,0,0), (0,5,0)]
         {mesh("one", api=COLLIDES, more=CONVEX)}
     }}"""
-    asset = of(tmp_path, many)
-    (piece,) = asset.opaque
-    assert not asset.geoms and piece.surface is not None
-    assert np.allclose(piece.surface.vertices.max(axis=0), [6, 6, 1])
+    asset = of(tmp_path, many + "\n" + mesh("two", api=COLLIDES, more=CONVEX))
+    assert [geom.name for geom in asset.geoms] == ["two"] and not asset.opaque
+    assert "what is shown many times by 1 point instancer (many) is not read, and left as it is" in asset.notes
 
 
 def test_visuals_are_what_renders_with_its_colour(tmp_path: Path) -> None:

@@ -16,7 +16,7 @@ from meshforge.common import AssetError
 from meshforge.formats import SaveResult, read, save
 from meshforge.geometry import Box, Cylinder, Ellipsoid, Pose, Shape, inertia
 from meshforge.symbolic import Asset, Geom
-from tests.usd_stages import COLLIDES, CONVEX, CUP, mesh, physics_shapes, specs, stage, table, written
+from tests.usd_stages import COLLIDES, CUP, mesh, physics_shapes, specs, stage, table, written
 
 SIDE, HANDLE, BOTTOM, BOTH = "Cup/collisions/side", "Cup/collisions/handle", "Cup/collisions/bottom", "Cup/both"
 CAN = Cylinder(Pose.from_rpy([0.01, 0.02, 0.1], [0.3, 0.2, 0.1]), 0.02, 0.03)
@@ -200,25 +200,6 @@ def test_a_collider_that_something_else_names_is_not_removed(tmp_path: Path) -> 
     )
     with pytest.raises(AssetError, match="filteredPairs refers to it"):
         edited(read(written(tmp_path, text)), tmp_path / "out" / "a.usda", [HANDLE])
-
-
-def test_what_a_point_instancer_makes_cannot_be_changed(tmp_path: Path) -> None:
-    many = f"""def Xform "World"
-    {{
-        def PointInstancer "many"
-        {{
-            rel prototypes = </World/many/one>
-            int[] protoIndices = [0]
-            point3f[] positions = [(0,0,0)]
-            {mesh("one", api=COLLIDES, more=CONVEX)}
-        }}
-        {mesh("two", api=COLLIDES, more=CONVEX)}
-    }}"""
-    asset = read(written(tmp_path, stage(many)))
-    (piece,) = asset.opaque
-    made = Geom("many~1", "body", CAN, parent=piece.name)
-    with pytest.raises(AssetError, match="point instancer"):
-        save(asset.with_geoms([*asset.geoms, made]), tmp_path / "out" / "a.usda")
 
 
 def test_a_file_that_changed_since_is_noticed(tmp_path: Path) -> None:

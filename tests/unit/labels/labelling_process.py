@@ -14,7 +14,7 @@ def main() -> None:
     for line in sys.stdin:
         match json.loads(line):
             case ["propagate", *_]:
-                project.propagate_labels()
+                project.label("propagate")
             case [source, asset, hull, label]:
                 project.set_labels(asset, {hull: label}, source=source, confidence=1.0 if source == "user" else 0.9)
         print("done", flush=True)

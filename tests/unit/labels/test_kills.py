@@ -90,5 +90,5 @@ def test_what_a_person_said_outlives_every_kill(
         also = said | {(asset, hull): label} if source == "user" else said
         assert found in (said, also)
         said = found
-    Project.open(folder / "p").propagate_labels()
+    Project.open(folder / "p").label("propagate")
     assert said_by_people(folder / "p") == said

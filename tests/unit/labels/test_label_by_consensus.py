@@ -39,7 +39,7 @@ def labels_of(project: Project) -> dict[tuple[str, str], Label]:
 def test_a_wrong_label_is_replaced_a_missing_one_found_and_right_ones_stay_as_they_are(tmp_path: Path) -> None:
     project = guessed(tmp_path)
     before = labels_of(project)
-    result = project.label_by_consensus()
+    result = project.label("consensus")
     now = labels_of(project)
     assert {place: label.name for place, label in now.items()} == {
         (asset, name): RIGHT[name] for asset in project.assets() for name in NAMES
@@ -51,22 +51,22 @@ def test_a_wrong_label_is_replaced_a_missing_one_found_and_right_ones_stay_as_th
     assert changed["t2.obj", "left_low"].given is None
     assert result.changes == (LabelChange(None, "leg", 1, 1), LabelChange("leg", "top", 1, 1))
     assert (result.free, result.alike) == (6 * len(NAMES), ())
-    assert [report.taken for report in result.reports] == [0, 1, 1, 0, 0, 0]
+    assert [report.taken for report in result.outcomes] == [0, 1, 1, 0, 0, 0]
 
 
 def test_again_changes_nothing_and_what_sources_said_comes_back_byte_for_byte(tmp_path: Path) -> None:
     project = guessed(tmp_path)
     before = tree(project.folder / "labels")
-    project.label_by_consensus()
+    project.label("consensus")
     after = tree(project.folder / "labels")
-    again = project.label_by_consensus()
+    again = project.label("consensus")
     assert tree(project.folder / "labels") == after != before
-    assert again.changes == () and not any(report.taken for report in again.reports)
-    restored = project.restore_sources()
+    assert again.changes == () and not any(report.taken for report in again.outcomes)
+    restored = project.label("sources")
     assert tree(project.folder / "labels") == before
     assert restored.changes == (LabelChange("leg", None, 1, 1), LabelChange("top", "leg", 1, 1))
-    assert [report.taken for report in restored.reports] == [0, 1, 0, 0, 0, 0]
-    assert [report.unlabelled for report in restored.reports] == [0, 0, 1, 0, 0, 0]
+    assert [report.taken for report in restored.outcomes] == [0, 1, 0, 0, 0, 0]
+    assert [report.unlabelled for report in restored.outcomes] == [0, 0, 1, 0, 0, 0]
 
 
 def test_propagated_labels_can_be_taken_back_too_with_what_they_replaced(tmp_path: Path) -> None:
@@ -74,21 +74,21 @@ def test_propagated_labels_can_be_taken_back_too_with_what_they_replaced(tmp_pat
     project.set_labels("t0.obj", RIGHT)
     project.set_labels("t1.obj", {"top": "misc"}, source="vlm", confidence=0.1)
     before = tree(project.folder / "labels")
-    project.propagate_labels()
+    project.label("propagate")
     assert project.labels("t1.obj").labels["top"].given == Label("misc", 0.1, "vlm")
     once = tree(project.folder / "labels")
-    project.propagate_labels()
+    project.label("propagate")
     assert tree(project.folder / "labels") == once
-    project.label_by_consensus()
+    project.label("consensus")
     assert project.labels("t1.obj").labels["top"].given == Label("misc", 0.1, "vlm")
-    project.restore_sources()
+    project.label("sources")
     assert tree(project.folder / "labels") == before
 
 
 def test_what_a_person_said_stays_against_all_others(tmp_path: Path) -> None:
     project = guessed(tmp_path)
     project.set_labels("t3.obj", {"top": "misc"})
-    project.label_by_consensus()
+    project.label("consensus")
     assert project.labels("t3.obj").labels["top"] == Label("misc")
 
 
@@ -97,7 +97,7 @@ def test_people_who_labelled_every_hull_are_left_alone(tmp_path: Path) -> None:
     for asset in project.assets():
         project.set_labels(asset, RIGHT | {"top": "misc" if asset == "t1.obj" else "top"})
     before = tree(project.folder / "labels")
-    result = project.label_by_consensus()
+    result = project.label("consensus")
     assert (result.free, result.changes, result.next) == (0, (), None)
     assert tree(project.folder / "labels") == before
 
@@ -105,7 +105,7 @@ def test_people_who_labelled_every_hull_are_left_alone(tmp_path: Path) -> None:
 def test_a_family_of_one_asset_keeps_what_was_said(tmp_path: Path) -> None:
     project = family(tmp_path, 1)
     project.set_labels("t0.obj", RIGHT | {"left_low": None}, source="vlm", confidence=0.9)
-    result = project.label_by_consensus()
+    result = project.label("consensus")
     assert result.changes == (LabelChange(None, "leg", 1, 1),)
     assert {name: label.name for name, label in project.labels("t0.obj").labels.items()} == RIGHT
 
@@ -113,13 +113,13 @@ def test_a_family_of_one_asset_keeps_what_was_said(tmp_path: Path) -> None:
 def test_without_a_label_or_a_vocabulary_it_says_what_to_do(tmp_path: Path) -> None:
     project = family(tmp_path)
     with pytest.raises(ProjectError, match=r"no label that others could be taken from\n  Label .* best t\d\.obj"):
-        project.label_by_consensus()
+        project.label("consensus")
     project.set_labels("t0.obj", {"top": "top"}, source="propagated", confidence=0.9)
     with pytest.raises(ProjectError, match="no label that others could be taken from"):
-        project.label_by_consensus()
+        project.label("consensus")
     project.set_vocabulary(())
     with pytest.raises(ProjectError, match="the vocabulary is empty"):
-        project.label_by_consensus()
+        project.label("consensus")
 
 
 def test_words_outside_of_the_vocabulary_say_nothing_but_can_be_put_back(tmp_path: Path) -> None:
@@ -128,13 +128,13 @@ def test_words_outside_of_the_vocabulary_say_nothing_but_can_be_put_back(tmp_pat
     project.set_labels("t5.obj", {"crumb": "leg"})
     project.set_vocabulary(("top", "leg"))
     before = tree(project.folder / "labels")
-    project.label_by_consensus()
+    project.label("consensus")
     labels = labels_of(project)
     assert labels["t4.obj", "crumb"] == labels["t4.obj", "right_low"] == Label("misc")
     assert labels["t0.obj", "crumb"].name == "leg"
     assert labels["t0.obj", "crumb"].given == Label("misc", 0.8, "vlm")
     project.set_vocabulary(("top", "leg", "misc"))
-    project.restore_sources()
+    project.label("sources")
     assert tree(project.folder / "labels") == before
 
 
@@ -148,7 +148,7 @@ def test_a_label_that_one_asset_alone_has_stays_where_a_person_or_a_file_gave_it
     for hull in hulls:
         project.set_labels("t3.obj", {hull: None})
         project.set_labels("t3.obj", {hull: "knob"}, source=source, confidence=sure)
-    project.label_by_consensus()
+    project.label("consensus")
     labels = project.labels("t3.obj").labels
     assert [labels[hull] for hull in hulls] == [Label("knob", sure, source)] * 3
 
@@ -158,7 +158,7 @@ def test_two_names_of_one_part_are_told(tmp_path: Path) -> None:
     for place, asset in enumerate(project.assets()):
         legs = {name: "legs" for name, label in RIGHT.items() if label == "leg" and place % 2}
         project.set_labels(asset, RIGHT | legs, source="user" if place < 2 else "vlm", confidence=0.8)
-    result = project.label_by_consensus()
+    result = project.label("consensus")
     assert result.alike == (("leg", "legs"),)
     assert project.labels("t1.obj").labels["left_low"] == Label("legs", 0.8)
 
@@ -170,7 +170,7 @@ def test_a_label_that_was_changed_meanwhile_stays(tmp_path: Path) -> None:
         project.set_labels("t1.obj", {"top": "misc"}, source="name", confidence=0.3)
         return ExitStack()
 
-    project.label_by_consensus(write_block=write)
+    project.label("consensus", write_block=write)
     assert project.labels("t1.obj").labels["top"] == Label("misc", 0.3, "name")
 
 
@@ -178,15 +178,15 @@ def test_a_stop_leaves_all_labels_as_they_were(tmp_path: Path) -> None:
     project = guessed(tmp_path)
     before = tree(project.folder / "labels")
     with pytest.raises(StoppedError):
-        project.label_by_consensus(execution=ExecutionOptions(0, stop=lambda: True))
+        project.label("consensus", execution=ExecutionOptions(0, stop=lambda: True))
     assert tree(project.folder / "labels") == before
 
 
 def test_an_asset_that_cannot_be_read_is_told_and_does_not_hide_the_others(tmp_path: Path) -> None:
     project = guessed(tmp_path)
     (tmp_path / "assets/t3.obj").write_text("nothing of use")
-    for found in (project.label_by_consensus(), project.restore_sources()):
-        reports = {report.asset: report for report in found.reports}
+    for found in (project.label("consensus"), project.label("sources")):
+        reports = {report.asset: report for report in found.outcomes}
         assert "t3.obj" in reports["t3.obj"].problems[0]
         assert reports["t1.obj"].taken == 1
 
@@ -194,21 +194,21 @@ def test_an_asset_that_cannot_be_read_is_told_and_does_not_hide_the_others(tmp_p
 def test_what_is_foretold_is_what_is_done_then(tmp_path: Path) -> None:
     project = guessed(tmp_path)
     before = tree(project.folder / "labels")
-    shown = project.propose_consensus()
+    shown = project.label("consensus", dry_run=True).proposals
     assert tree(project.folder / "labels") == before
     assert [(row.label, row.kind, row.hulls) for row in shown.rows] == [
         ("top", "consensus, not leg", 1),
         ("leg", "consensus", 1),
     ]
     assert shown.labelled == 6 * len(NAMES) - 2
-    project.label_by_consensus()
-    assert project.propose_consensus().rows == ()
-    back = project.propose_sources()
+    project.label("consensus")
+    assert project.label("consensus", dry_run=True).proposals.rows == ()
+    back = project.label("sources", dry_run=True).proposals
     assert [(row.label, row.kind, row.hulls) for row in back.rows] == [("leg", "not top", 1)]
     assert [(row.label, row.kind, row.hulls) for row in back.left] == [(None, "not leg", 1)]
     assert back.labelled == 6 * len(NAMES) - 2
-    project.restore_sources()
-    assert project.propose_sources().rows == ()
+    project.label("sources")
+    assert project.label("sources", dry_run=True).proposals.rows == ()
 
 
 SAID = st.lists(
@@ -234,15 +234,15 @@ def test_whatever_is_said_people_stay_again_changes_nothing_and_sources_come_bac
         by = cast(LabelSource, source)
         project.set_labels(asset, {hull: label}, source=by, confidence=1.0 if by == "user" else sure)
     files, before = tree(project.folder / "labels"), labels_of(project)
-    project.label_by_consensus()
+    project.label("consensus")
     once, after = tree(project.folder / "labels"), labels_of(project)
     assert all(after[place] == told for place, told in before.items() if told.source in HUMAN_SOURCES)
     for place, now in after.items():
         assert now == before.get(place) or (now.source in INFERRED_SOURCES and now.given == before.get(place))
-    project.label_by_consensus()
+    project.label("consensus")
     assert tree(project.folder / "labels") == once
-    project.propagate_labels() if any(label.source == "user" for label in before.values()) else None
-    project.label_by_consensus()
+    project.label("propagate") if any(label.source == "user" for label in before.values()) else None
+    project.label("consensus")
     assert tree(project.folder / "labels") == once
-    project.restore_sources()
+    project.label("sources")
     assert tree(project.folder / "labels") == files

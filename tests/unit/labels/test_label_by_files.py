@@ -11,7 +11,7 @@ import pytest
 from meshforge.common import AssetError, MeshForgeError, ProjectError, UsageError
 from meshforge.formats import PointAlignment, read
 from meshforge.geometry import Floats
-from meshforge.labels import LabelFileOptions, LabelOutcome, OfferCache
+from meshforge.labels import FileLabeler, LabelFileOptions, LabelOutcome, OfferCache
 from meshforge.project import Project
 from meshforge.symbolic import Label
 from tests.unit.batch.families import label_of, tree, write_table
@@ -39,7 +39,7 @@ def labels(project: Project, asset: str = ASSET) -> dict[str, tuple[str, float, 
 
 def test_hulls_are_what_their_links_are_or_what_they_say_of_themselves(tmp_path: Path) -> None:
     project = partnet(tmp_path)
-    (report,) = project.label_from_files(options=LabelFileOptions(MEANINGS))
+    (report,) = project.label(FileLabeler(options=LabelFileOptions(MEANINGS))).outcomes
     assert (report.taken, report.unlabelled, report.problems) == (6, 0, ())
     assert labels(project) == {
         "link_2/geom0": ("frame", 1.0, "file"),
@@ -53,7 +53,7 @@ def test_hulls_are_what_their_links_are_or_what_they_say_of_themselves(tmp_path:
 
 def test_what_means_nothing_in_the_vocabulary_is_told_and_left_out(tmp_path: Path) -> None:
     project = partnet(tmp_path)
-    (report,) = project.label_from_files()
+    (report,) = project.label("file").outcomes
     assert report == LabelOutcome(
         ASSET,
         taken=5,
@@ -67,30 +67,32 @@ def test_a_pattern_of_the_settings_says_what_a_semantic_means_or_that_it_means_n
     project = partnet(tmp_path)
     settings = project.layout.settings
     settings.write_text(f'{settings.read_text()}\n[names]\n"furniture_body" = "frame"\n"*door*" = ""\n')
-    (report,) = project.label_from_files()
+    (report,) = project.label("file").outcomes
     assert (report.taken, report.unlabelled, report.problems) == (4, 2, ())
     assert {name for name in HULLS if name not in labels(project)} == {"link_1/geom0", "link_1/geom1"}
 
 
 def test_links_that_are_not_there_are_told(tmp_path: Path) -> None:
     project = partnet(tmp_path, semantics="link_0 slider drawer\nlink_9 hinge door\n")
-    (report,) = project.label_from_files()
+    (report,) = project.label("file").outcomes
     assert report.taken == 2 and report.problems == ("there is no link 'link_9'",)
 
 
 def test_semantics_of_another_asset_and_damaged_ones_are_refused(tmp_path: Path) -> None:
     project = partnet(tmp_path, semantics="link_9 hinge door\n")
     file = tmp_path / "assets/semantics.txt"
-    assert project.label_from_files() == (LabelOutcome(ASSET, problems=(f"{file}: it lists no link of this asset",)),)
+    assert project.label("file").outcomes == (
+        LabelOutcome(ASSET, problems=(f"{file}: it lists no link of this asset",)),
+    )
     file.write_text("link_0 slider\n")
-    (report,) = project.label_from_files()
+    (report,) = project.label("file").outcomes
     assert "this line has 2 words, not three" in report.problems[0]
     assert not project.layout.labels(ASSET).exists()
 
 
 def test_a_project_without_a_vocabulary_takes_what_links_are(tmp_path: Path) -> None:
     project = Project.create(tmp_path / "p", [write_partnet(tmp_path / "assets")])
-    project.label_from_files()
+    project.label("file")
     assert project.vocabulary == ("drawer", "rotation_door", "furniture_body")
     assert labels(project)["link_1/geom0"] == ("rotation_door", 1.0, "file")
 
@@ -137,11 +139,11 @@ def right(project: Project, asset: str = "t.obj") -> bool:
 def test_each_hull_is_what_most_of_its_points_are(tmp_path: Path) -> None:
     project = table(tmp_path, *NAMES)
     segmented(project, "t.obj", tmp_path / "assets/t.points.npz", names=NAMES)
-    (report,) = project.label_from_files()
+    (report,) = project.label("file").outcomes
     assert (report.taken, report.unlabelled, report.problems) == (6, 0, ())
     assert right(project)
     assert all(0.5 < sure <= 1.0 and source == "file" for _, sure, source in labels(project, "t.obj").values())
-    (again,) = project.label_from_files()
+    (again,) = project.label("file").outcomes
     assert (again.taken, again.same) == (0, 6)
 
 
@@ -149,27 +151,27 @@ def test_names_of_classes_come_from_the_user_or_the_file(tmp_path: Path) -> None
     project = table(tmp_path, *NAMES)
     file = segmented(project, "t.obj", tmp_path / "given.npz")
     for how in (named("top,leg,misc"), named("vocabulary")):
-        assert project.label_from_files(file, how)[0].problems == () and right(project)
+        assert project.label(FileLabeler(file, how)).outcomes[0].problems == () and right(project)
     file = segmented(project, "t.obj", tmp_path / "given.npz", names=("leg", "top", "misc"))
-    project.label_from_files(file)
+    project.label(FileLabeler(file))
     assert labels(project, "t.obj")["top"][0] == "leg"
-    project.label_from_files(file, named("top,leg,misc"))
+    project.label(FileLabeler(file, named("top,leg,misc")))
     assert right(project), "what is typed counts before the file"
 
 
 def test_classes_without_names_are_refused_with_the_ways_to_name_them(tmp_path: Path) -> None:
     project = table(tmp_path, *NAMES)
     file = segmented(project, "t.obj", tmp_path / "given.npz")
-    (report,) = project.label_from_files(file)
+    (report,) = project.label(FileLabeler(file)).outcomes
     assert report.problems == (
         f"{file}: its classes are numbers, and nothing names them\n"
         "  Name them in order: --classes drawer,handle,leg, or --classes vocabulary where they are those of the "
         "vocabulary; or put `names` into the .npz file.",
     )
-    (report,) = project.label_from_files(file, named("top,leg"))
+    (report,) = project.label(FileLabeler(file, named("top,leg"))).outcomes
     assert report.problems[0].startswith(f"{file}: class 2 has no name\n")
     with pytest.raises(AssetError, match="nothing names them"):
-        table(tmp_path / "bare").label_from_files(file)
+        table(tmp_path / "bare").label(FileLabeler(file))
 
 
 def test_classes_mean_labels_as_names_do_and_several_may_mean_one(tmp_path: Path) -> None:
@@ -179,11 +181,11 @@ def test_classes_mean_labels_as_names_do_and_several_may_mean_one(tmp_path: Path
     file = tmp_path / "given.npz"
     names = ["board", "right legs", "left_leg", "crumb"]
     np.savez(file, points=points, labels=[kinds[name] for name in owner], names=names)
-    (report,) = project.label_from_files(file, LabelFileOptions((("board", "top"),)))
+    (report,) = project.label(FileLabeler(file, LabelFileOptions((("board", "top"),)))).outcomes
     assert report.problems == ("1 hull left out: 'crumb' is not in the vocabulary, and no pattern says what it means",)
     assert right(project) and len(labels(project, "t.obj")) == 5
     sure = {name: sure for name, (_, sure, _) in labels(project, "t.obj").items()}
-    project.label_from_files(file, LabelFileOptions((("board", "top"), ("*leg*", "leg"))))
+    project.label(FileLabeler(file, LabelFileOptions((("board", "top"), ("*leg*", "leg")))))
     assert all(now > sure[name] for name, (label, now, _) in labels(project, "t.obj").items() if label == "leg")
 
 
@@ -192,7 +194,7 @@ def test_points_without_class_leave_hulls_without_label(tmp_path: Path) -> None:
     points, owner = surface_points(project, "t.obj")
     kinds = [-1 if name == "crumb" else NAMES.index(label_of(name)) for name in owner]
     np.savez(tmp_path / "given.npz", points=points, labels=kinds, names=NAMES)
-    (report,) = project.label_from_files(tmp_path / "given.npz")
+    (report,) = project.label(FileLabeler(tmp_path / "given.npz")).outcomes
     assert (report.taken, report.unlabelled, report.problems) == (5, 1, ())
 
 
@@ -202,12 +204,12 @@ def test_points_elsewhere_are_refused_and_taken_when_the_way_is_said(tmp_path: P
     turned = np.column_stack([points[:, 0], points[:, 2], -points[:, 1]]) / 7
     kinds = [int(name[5]) for name in owner]
     np.savez(tmp_path / "given.npz", points=turned, labels=kinds)
-    (report,) = project.label_from_files(tmp_path / "given.npz", named("vocabulary"))
+    (report,) = project.label(FileLabeler(tmp_path / "given.npz", named("vocabulary"))).outcomes
     assert report.taken == 0 and len(report.problems) == 1
     assert "its points do not lie where the asset does" in report.problems[0]
     assert report.problems[0].endswith("They would fit with --points-up y --align box.")
     how = LabelFileOptions(classes=("vocabulary",), placing=PointAlignment("box", "y"))
-    (report,) = project.label_from_files(tmp_path / "given.npz", how)
+    (report,) = project.label(FileLabeler(tmp_path / "given.npz", how)).outcomes
     assert report.taken == 6 and all(hull.startswith(label) for hull, (label, _, _) in labels(project).items())
 
 
@@ -217,9 +219,11 @@ def test_points_that_most_hulls_do_not_hold_are_refused_unless_they_are_to_be_ta
     assert box is not None
     points = box.min + np.random.default_rng(5).random((500, 3)) * box.size
     np.savez(tmp_path / "given.npz", points=points, labels=np.zeros(500, int), names=["top"])
-    (report,) = project.label_from_files(tmp_path / "given.npz")
+    (report,) = project.label(FileLabeler(tmp_path / "given.npz")).outcomes
     assert "of its points are in hulls: it may be turned, or of another asset" in report.problems[0]
-    (report,) = project.label_from_files(tmp_path / "given.npz", LabelFileOptions(placing=PointAlignment("off")))
+    (report,) = project.label(
+        FileLabeler(tmp_path / "given.npz", LabelFileOptions(placing=PointAlignment("off")))
+    ).outcomes
     assert report.taken > 0 and not report.problems
 
 
@@ -228,7 +232,7 @@ def test_what_other_segmentations_write_is_refused_with_what_is_read(tmp_path: P
     project = table(tmp_path, *NAMES)
     np.save(tmp_path / "assets/t.points.npy", np.zeros(72, dtype=int))
     for source in (None, tmp_path / "assets/t.points.npy"):
-        (report,) = project.label_from_files(source, named("vocabulary"))
+        (report,) = project.label(FileLabeler(source, named("vocabulary"))).outcomes
         (problem,) = report.problems
         assert problem.startswith(f"{tmp_path / 'assets/t.points.npy'}: .npy is no kind of segmented points\n")
         assert "Points with a class each are read, from a .ply" in problem and "np.savez(" in problem
@@ -240,7 +244,7 @@ def test_a_person_is_never_overwritten_and_a_machine_is(tmp_path: Path) -> None:
     segmented(project, "t.obj", tmp_path / "assets/t.points.npz", names=NAMES)
     project.set_labels("t.obj", {"top": "misc"})
     project.set_labels("t.obj", {"crumb": "leg"}, source="propagated", confidence=0.99)
-    (report,) = project.label_from_files()
+    (report,) = project.label("file").outcomes
     assert (report.taken, report.kept) == (5, 1)
     kept = project.labels("t.obj").labels
     assert kept["top"] == Label("misc") and kept["crumb"].name == "misc" and kept["crumb"].source == "file"
@@ -253,10 +257,10 @@ def test_a_labels_file_goes_before_points_and_these_before_semantics(tmp_path: P
     project = partnet(tmp_path, *VOCABULARY, "leg")
     points, owner = surface_points(project, ASSET)
     np.savez(tmp_path / "assets/mobility.points.npz", points=points, labels=np.zeros(len(owner), int), names=["leg"])
-    project.label_from_files()
+    project.label("file")
     assert {label for label, _, _ in labels(project).values()} == {"leg"}
     (tmp_path / "assets/mobility.labels.json").write_text(json.dumps({"hulls": {"link_0/geom1": "handle"}}))
-    (report,) = project.label_from_files()
+    (report,) = project.label("file").outcomes
     assert report.taken == 1 and labels(project)["link_0/geom1"] == ("handle", 1.0, "file")
 
 
@@ -266,7 +270,7 @@ def test_a_folder_mirrors_the_assets_with_files_of_every_kind(tmp_path: Path) ->
     folder = tmp_path / "out"
     segmented(project, FIRST, folder / "table0/model.npz", names=NAMES)
     segmented(project, SECOND, folder / "table1/model.points.npz", names=NAMES)
-    reports = project.label_from_files(folder)
+    reports = project.label(FileLabeler(folder)).outcomes
     assert [(report.asset, report.taken) for report in reports] == [(FIRST, 6), (SECOND, 6)]
     assert right(project, FIRST) and right(project, SECOND)
 
@@ -275,7 +279,7 @@ def test_a_folder_mirrors_semantics_too(tmp_path: Path) -> None:
     project = partnet(tmp_path)
     (tmp_path / "out").mkdir()
     (tmp_path / "assets/semantics.txt").rename(tmp_path / "out/semantics.txt")
-    assert project.label_from_files(tmp_path / "out")[0].taken == 5
+    assert project.label(FileLabeler(tmp_path / "out")).outcomes[0].taken == 5
 
 
 def test_what_cannot_serve_is_refused_before_anything_is_read(tmp_path: Path) -> None:
@@ -291,9 +295,9 @@ def test_what_cannot_serve_is_refused_before_anything_is_read(tmp_path: Path) ->
     (tmp_path / "empty").mkdir()
     before = tree(project.folder)
     for name, (kind, message) in cases.items():
-        for ask in (project.label_from_files, project.propose_from_files):
+        for dry_run in (True, False):
             with pytest.raises(kind, match=message):
-                ask(tmp_path / name)
+                project.label(FileLabeler(tmp_path / name), dry_run=dry_run)
     assert tree(project.folder) == before
 
 
@@ -306,7 +310,7 @@ def test_points_and_semantics_are_offered_until_something_was_taken(tmp_path: Pa
     assert offers.of(project).files == (ASSET,)
     project.set_labels(ASSET, {"link_0/geom0": "drawer"}, source="propagated", confidence=0.6)
     assert offers.of(project).files == (ASSET,)
-    project.label_from_files()
+    project.label("file")
     assert offers.of(project).files == ()
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from meshforge.common import ProjectError, UsageError
-from meshforge.labels import LabelOutcome, OfferCache
+from meshforge.labels import LabelOutcome, NameLabeler, OfferCache
 from meshforge.project import Project
 from meshforge.symbolic import Label
 from tests.unit.batch.families import Corner, obj, tree, write_table
@@ -75,10 +75,10 @@ def test_labels_are_taken_where_there_are_none(tmp_path: Path) -> None:
     before = tree(project.folder / "labels")
     assert found(project) == {"base/door2": "door"}
     assert tree(project.folder / "labels") == before
-    assert project.label_from_names() == (LabelOutcome("robot.urdf", taken=1, unlabelled=1),)
+    assert project.label("names").outcomes == (LabelOutcome("robot.urdf", taken=1, unlabelled=1),)
     labels = project.labels("robot.urdf").labels
     assert labels == {"base/door1": Label("leg"), "base/door2": Label("door", 0.7, "name")}
-    assert project.label_from_names() == (LabelOutcome("robot.urdf", unlabelled=1),)
+    assert project.label("names").outcomes == (LabelOutcome("robot.urdf", unlabelled=1),)
 
 
 def test_an_asset_that_cannot_be_read_is_told_and_does_not_hide_the_others(tmp_path: Path) -> None:
@@ -87,7 +87,7 @@ def test_an_asset_that_cannot_be_read_is_told_and_does_not_hide_the_others(tmp_p
     project = Project.create(tmp_path / "p", [tmp_path / "assets"], vocabulary=["crumb"])
     (tmp_path / "assets/a.obj").write_text("nothing of use")
     assert OfferCache().of(project).names == {"b.obj": {"crumb": "crumb"}}
-    bad, good = project.label_from_names()
+    bad, good = project.label("names").outcomes
     assert bad.asset == "a.obj" and "a.obj" in bad.problems[0]
     assert good.taken == 1
 
@@ -96,7 +96,7 @@ def test_without_a_vocabulary_nothing_can_be_taken(tmp_path: Path) -> None:
     project = named(tmp_path, base=("door",))
     assert OfferCache().of(project).names == {}
     with pytest.raises(ProjectError, match="the vocabulary is empty"):
-        project.label_from_names()
+        project.label("names")
 
 
 # Patterns
@@ -114,7 +114,7 @@ def test_patterns_of_the_settings_count_in_their_order_and_before_words(tmp_path
     with_names(project, '"k_*" = ""\n"/strut[0-3]$/" = "leg"\n"strut*" = "door"')
     expected = {"base/door1": "door", "base/strut3": "leg", "base/strut4": "door"}
     assert found(project) == expected
-    project.label_from_names()
+    project.label("names")
     labels = project.labels("robot.urdf").labels
     assert {name: label.name for name, label in labels.items()} == expected
     assert labels["base/strut3"] == Label("leg", 0.9, "name")
@@ -122,7 +122,7 @@ def test_patterns_of_the_settings_count_in_their_order_and_before_words(tmp_path
 
 def test_given_patterns_precede_those_of_the_settings(tmp_path: Path) -> None:
     project = with_names(named(tmp_path, "door", "leg", base=("strut",)), '"strut" = "door"')
-    project.label_from_names([("s*", "leg")])
+    project.label(NameLabeler([("s*", "leg")]))
     assert project.labels("robot.urdf").labels["base/strut"].name == "leg"
 
 
@@ -145,7 +145,7 @@ def test_offers_follow_the_patterns(tmp_path: Path) -> None:
 )
 def test_a_pattern_that_makes_no_sense_is_told_with_its_file(tmp_path: Path, table: str, message: str) -> None:
     project = with_names(named(tmp_path, "door", base=("strut",)), table)
-    for ask in (project.label_from_names, project.propose_from_names, partial(OfferCache().of, project)):
+    for ask in (partial(project.label, "names"), partial(OfferCache().of, project)):
         with pytest.raises(UsageError) as told:
             ask()
         assert told.value.message == f"{project.layout.settings}: {message}"
@@ -161,5 +161,5 @@ def test_a_label_that_is_renamed_is_renamed_in_the_patterns(tmp_path: Path) -> N
 def test_what_a_person_said_stays_whatever_the_patterns_say(tmp_path: Path) -> None:
     project = with_names(named(tmp_path, "door", "leg", base=("a", "b")), '"*" = "door"')
     project.set_labels("robot.urdf", {"base/a": "leg"})
-    assert project.label_from_names() == (LabelOutcome("robot.urdf", taken=1),)
+    assert project.label("names").outcomes == (LabelOutcome("robot.urdf", taken=1),)
     assert project.labels("robot.urdf").labels["base/a"] == Label("leg")

@@ -25,9 +25,9 @@ def family(folder: Path, count: int = 3, *vocabulary: str) -> Project:
 def test_one_labelled_table_labels_the_others(tmp_path: Path) -> None:
     project = family(tmp_path)
     project.set_labels("t0.obj", {name: label_of(name) for name in NAMES})
-    carried = project.propagate_labels()
-    assert [report.asset for report in carried.reports] == ["t0.obj", "t1.obj", "t2.obj"]
-    assert [report.taken for report in carried.reports] == [0, len(NAMES), len(NAMES)]
+    carried = project.label("propagate")
+    assert [report.asset for report in carried.outcomes] == ["t0.obj", "t1.obj", "t2.obj"]
+    assert [report.taken for report in carried.outcomes] == [0, len(NAMES), len(NAMES)]
     assert carried.next in ("t1.obj", "t2.obj")
     for asset in ("t1.obj", "t2.obj"):
         labels = project.labels(asset).labels
@@ -38,12 +38,12 @@ def test_one_labelled_table_labels_the_others(tmp_path: Path) -> None:
 def test_again_changes_nothing_and_a_correction_teaches_the_others(tmp_path: Path) -> None:
     project = family(tmp_path)
     project.set_labels("t0.obj", {name: label_of(name) for name in NAMES})
-    project.propagate_labels()
+    project.label("propagate")
     before = project.labels("t1.obj").labels
-    assert [report.same for report in project.propagate_labels().reports] == [0, len(NAMES), len(NAMES)]
+    assert [report.same for report in project.label("propagate").outcomes] == [0, len(NAMES), len(NAMES)]
     assert project.labels("t1.obj").labels == before
     project.set_labels("t1.obj", {"crumb": "leg"})
-    project.propagate_labels()
+    project.label("propagate")
     assert project.labels("t1.obj").labels["crumb"] == Label("leg")
     crumb = project.labels("t2.obj").labels["crumb"]
     assert crumb.name == "leg" or crumb.confidence < before["crumb"].confidence
@@ -54,7 +54,7 @@ def test_a_surer_label_of_another_machine_stays_and_a_less_sure_one_gives_way(tm
     project.set_labels("t0.obj", {name: label_of(name) for name in NAMES})
     project.set_labels("t1.obj", {"top": "misc"}, source="vlm", confidence=0.999)
     project.set_labels("t1.obj", {"crumb": "top"}, source="name", confidence=0.01)
-    project.propagate_labels()
+    project.label("propagate")
     labels = project.labels("t1.obj").labels
     assert labels["top"] == Label("misc", 0.999, "vlm")
     assert labels["crumb"].source == "propagated"
@@ -64,7 +64,7 @@ def test_what_a_file_says_stays_however_unsure_it_is(tmp_path: Path) -> None:
     project = family(tmp_path)
     project.set_labels("t0.obj", {name: label_of(name) for name in NAMES})
     project.set_labels("t1.obj", {"top": "misc"}, source="file", confidence=0.01)
-    project.propagate_labels()
+    project.label("propagate")
     assert project.labels("t1.obj").labels["top"] == Label("misc", 0.01, "file")
 
 
@@ -73,9 +73,9 @@ def test_what_a_file_says_without_being_sure_teaches_nothing(tmp_path: Path) -> 
     wrong = dict.fromkeys(NAMES, "misc")
     project.set_labels("t0.obj", wrong, source="file", confidence=0.4)
     with pytest.raises(ProjectError, match="no label that others could be taken from"):
-        project.propagate_labels()
+        project.label("propagate")
     project.set_labels("t1.obj", {name: label_of(name) for name in NAMES}, source="file", confidence=0.8)
-    project.propagate_labels()
+    project.label("propagate")
     assert {name: label.name for name, label in project.labels("t2.obj").labels.items()} == {
         name: label_of(name) for name in NAMES
     }
@@ -85,19 +85,19 @@ def test_what_a_file_says_without_being_sure_teaches_nothing(tmp_path: Path) -> 
 def test_without_a_label_or_a_vocabulary_it_says_what_to_do(tmp_path: Path) -> None:
     project = family(tmp_path)
     with pytest.raises(ProjectError, match=r"no label that others could be taken from\n  Label .* best t\d\.obj"):
-        project.propagate_labels()
+        project.label("propagate")
     project.set_labels("t0.obj", {NAMES[0]: label_of(NAMES[0])})
     project.set_vocabulary(())
     with pytest.raises(ProjectError, match="the vocabulary is empty"):
-        project.propagate_labels()
+        project.label("propagate")
 
 
 def test_a_label_that_left_the_vocabulary_teaches_nothing(tmp_path: Path) -> None:
     project = family(tmp_path)
     project.set_labels("t0.obj", {name: label_of(name) for name in NAMES})
     project.set_vocabulary(("top", "leg"))
-    carried = project.propagate_labels()
-    assert not any(report.problems for report in carried.reports)
+    carried = project.label("propagate")
+    assert not any(report.problems for report in carried.outcomes)
     assert {label.name for label in project.labels("t1.obj").labels.values()} == {"top", "leg"}
     assert project.labels("t0.obj").labels["crumb"] == Label("misc")
 
@@ -106,7 +106,7 @@ def test_an_asset_that_cannot_be_read_is_told_and_does_not_hide_the_others(tmp_p
     project = family(tmp_path)
     project.set_labels("t0.obj", {name: label_of(name) for name in NAMES})
     (tmp_path / "assets/t1.obj").write_text("nothing of use")
-    reports = {report.asset: report for report in project.propagate_labels().reports}
+    reports = {report.asset: report for report in project.label("propagate").outcomes}
     assert "t1.obj" in reports["t1.obj"].problems[0]
     assert reports["t2.obj"].taken == len(NAMES)
 
@@ -136,7 +136,7 @@ def test_no_label_of_a_person_is_ever_changed_by_a_machine(
                 project.set_labels(asset, {hull: label})
                 said[asset, hull] = label
             case "propagate" if said:
-                project.propagate_labels()
+                project.label("propagate")
             case "vlm" | "name":
                 project.set_labels(asset, {hull: label}, source=who, confidence=0.9)
         kept = {

@@ -20,10 +20,10 @@ from tests.unit.labels.test_label_by_propagation import family
 
 NAMES = tuple(table_boxes())
 WAYS: dict[str, Callable[[Project, ExecutionOptions], tuple[LabelOutcome, ...]]] = {
-    "names": lambda project, spread: project.label_from_names(execution=spread),
-    "file": lambda project, spread: project.label_from_files(execution=spread),
-    "propagate": lambda project, spread: project.propagate_labels(execution=spread).reports,
-    "consensus": lambda project, spread: project.label_by_consensus(execution=spread).reports,
+    "names": lambda project, spread: project.label("names", execution=spread).outcomes,
+    "file": lambda project, spread: project.label("file", execution=spread).outcomes,
+    "propagate": lambda project, spread: project.label("propagate", execution=spread).outcomes,
+    "consensus": lambda project, spread: project.label("consensus", execution=spread).outcomes,
 }
 
 
@@ -71,11 +71,11 @@ def test_each_asset_is_told_in_order_when_its_labels_are_there(tmp_path: Path) -
         there = [asset for asset in project.assets() if project.layout.labels(asset).exists()]
         assert there == sorted({"t0.obj", *told})
 
-    project.label_from_names(execution=ExecutionOptions(2), report=report)
+    project.label("names", execution=ExecutionOptions(2), report=report)
     assert told == list(project.assets())
     shutil.rmtree(project.folder)
     told.clear()
-    begun(tmp_path).propagate_labels(execution=ExecutionOptions(2), report=report)
+    begun(tmp_path).label("propagate", execution=ExecutionOptions(2), report=report)
     assert told == list(project.assets())
 
 
@@ -97,20 +97,20 @@ def test_whenever_it_is_killed_labels_are_whole_and_another_run_completes_them(t
 
 def test_only_assets_that_changed_are_described_again(tmp_path: Path) -> None:
     project = begun(tmp_path)
-    project.propagate_labels()
+    project.label("propagate")
     kept, labels = sorted((project.layout.sketches / "seen").iterdir()), tree(project.folder / "labels")
     assert [path.name for path in kept] == [f"{asset}.npz" for asset in project.assets()]
     times = [file_state(path) for path in kept]
-    project.propagate_labels()
+    project.label("propagate")
     assert [file_state(path) for path in kept] == times
     kept[1].write_bytes(kept[1].read_bytes()[:200])
     kept[2].write_bytes(b"")
-    project.propagate_labels()
+    project.label("propagate")
     now = [file_state(path) for path in kept]
     assert [a == b for a, b in zip(now, times, strict=True)] == [True, False, False, True]
     assert tree(project.folder / "labels") == labels
     write_table(tmp_path / "assets/t3.obj", height=2.0, labels=False)
-    project.propagate_labels()
+    project.label("propagate")
     assert file_state(kept[0]) == times[0] and file_state(kept[3]) != times[3]
 
 
@@ -118,10 +118,10 @@ def test_what_is_foretold_is_what_is_carried_over_then(tmp_path: Path) -> None:
     project = begun(tmp_path)
     project.set_labels("t1.obj", {"top": "leg"}, source="vlm", confidence=0.999)
     before = tree(project.folder / "labels")
-    shown = project.propose_propagated()
+    shown = project.label("propagate", dry_run=True).proposals
     assert tree(project.folder / "labels") == before
-    reports = project.propagate_labels().reports
+    reports = project.label("propagate").outcomes
     assert sum(row.hulls for row in shown.rows) == sum(report.taken for report in reports)
     assert shown.labelled == len(NAMES) + 1
     assert {row.label for row in shown.rows} == {"top", "leg", "misc"}
-    assert project.propose_propagated().rows == ()
+    assert project.label("propagate", dry_run=True).proposals.rows == ()

@@ -14,7 +14,7 @@ from tests.unit.project.tables import FIRST, SECOND, THIRD, fresh, labelled
 def test_labels_files_are_offered_until_they_are_taken(tmp_path: Path) -> None:
     project = fresh(tmp_path)
     assert OfferCache().of(project).files == (FIRST, SECOND, THIRD)
-    project.label_from_files()
+    project.label("file")
     assert OfferCache().of(project).files == ()
 
 

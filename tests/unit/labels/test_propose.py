@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from meshforge.labels import Proposal, Proposals
+from meshforge.labels import NameLabeler, Proposal, Proposals
 from meshforge.project import Project
 from tests.unit.batch.families import tree
 from tests.unit.labels.test_label_by_names import named
@@ -13,7 +13,7 @@ from tests.unit.project.tables import FIRST, SECOND, THIRD, fresh
 
 def test_names_are_put_together_by_label_and_by_what_says_so(tmp_path: Path) -> None:
     project = named(tmp_path, "door", "leg", base=("door1", "leg1", "leg2", "drr", "x"), oak_door=("a", "b"))
-    assert project.propose_from_names([("x", "")]) == Proposals(
+    assert project.label(NameLabeler([("x", "")]), dry_run=True).proposals == Proposals(
         rows=(
             Proposal("door", "body", ("oak_door",), 2, 1, 0.6, 0.6),
             Proposal("door", "hull", ("door1",), 1, 1, 0.7, 0.7),
@@ -28,7 +28,7 @@ def test_names_are_put_together_by_label_and_by_what_says_so(tmp_path: Path) -> 
 
 def test_what_is_less_sure_has_a_row_of_its_own(tmp_path: Path) -> None:
     project = named(tmp_path, "drawer", base=("draw1", "drwr"))
-    sure, unsure = project.propose_from_names().rows
+    sure, unsure = project.label("names", dry_run=True).proposals.rows
     assert (sure.kind, sure.names, sure.is_unsure) == ("hull nearly", ("drwr",), False)
     assert (unsure.kind, unsure.names, unsure.is_unsure) == ("hull nearly", ("draw1",), True)
 
@@ -42,9 +42,9 @@ def test_what_names_propose_is_what_is_taken_then(tmp_path: Path) -> None:
     project.set_vocabulary(["top", "leg", "crumb"])
     project.set_labels(FIRST, {"top": "leg", "crumb": "crumb"})
     before = tree(project.folder / "labels")
-    shown = project.propose_from_names([("left_*", "leg")])
+    shown = project.label(NameLabeler([("left_*", "leg")]), dry_run=True).proposals
     assert tree(project.folder / "labels") == before
-    reports = project.label_from_names([("left_*", "leg")])
+    reports = project.label(NameLabeler([("left_*", "leg")])).outcomes
     assert numbers(shown.rows) == sum(report.taken for report in reports) == 10
     assert numbers(shown.left) == sum(report.unlabelled for report in reports)
     assert shown.labelled == 2
@@ -55,22 +55,22 @@ def test_what_files_propose_is_what_is_taken_then_and_another_vocabulary_may_be_
     project.set_vocabulary(["top", "leg", "misc"])
     project.set_labels(SECOND, {"top": "leg"})
     before = tree(project.folder / "labels")
-    shown = project.propose_from_files()
-    other = project.propose_from_files(vocabulary=["top"])
+    shown = project.label("file", dry_run=True).proposals
+    other = project.label("file", vocabulary=["top"], dry_run=True).proposals
     assert tree(project.folder / "labels") == before
     assert [row.label for row in shown.rows] == ["top", "leg", "misc"] and not shown.problems
     assert shown.labelled == 1
-    reports = project.label_from_files()
+    reports = project.label("file").outcomes
     assert numbers(shown.rows) == sum(report.taken for report in reports)
     assert [row.label for row in other.rows] == ["top"]
     assert f"{THIRD}: left_low: the label 'leg' is not in the vocabulary" in other.problems
-    again = project.propose_from_files()
+    again = project.label("file", dry_run=True).proposals
     assert not again.rows and not again.left and again.labelled == 18
 
 
 def test_a_project_without_vocabulary_shows_that_of_the_files_and_stays_without(tmp_path: Path) -> None:
     project = fresh(tmp_path)
-    assert {row.label for row in project.propose_from_files().rows} == {"top", "leg", "misc"}
+    assert {row.label for row in project.label("file", dry_run=True).proposals.rows} == {"top", "leg", "misc"}
     assert Project.open(project.folder).vocabulary == ()
 
 
@@ -78,7 +78,7 @@ def test_an_asset_that_cannot_be_read_is_told_and_does_not_hide_the_others(tmp_p
     project = fresh(tmp_path)
     project.set_vocabulary(["top", "leg", "misc"])
     (tmp_path / "assets" / FIRST).write_text("nothing of use")
-    for shown in (project.propose_from_names(), project.propose_from_files()):
+    for shown in (project.label("names", dry_run=True).proposals, project.label("file", dry_run=True).proposals):
         (problem,) = shown.problems
         assert problem.startswith(f"{FIRST}: ") and "this is no OBJ file" in problem
         assert shown.rows and all(row.assets == 2 for row in shown.rows)

@@ -19,13 +19,12 @@ from hypothesis import strategies as st
 
 from meshforge.batch import IN_PROCESS, ExecutionOptions
 from meshforge.common import MeshForgeError, ProjectError, UsageError
-from meshforge.labels import VlmResult
 from meshforge.labels.vlm import label_by_vlm, prompt
 from meshforge.project import Project
 from meshforge.symbolic import GIVEN_SOURCES, Label, SymbolicMesh
 from tests.examples import examples
 from tests.loopback import CUT, FAULTS, Asked, Server, labels_as_json, serving, sometimes, status
-from tests.unit.labels.vlm_family import KEY, VARIABLE, WORDS, family, hulls, right, settings, truth
+from tests.unit.labels.vlm_family import KEY, VARIABLE, WORDS, family, hulls, label_with_vlm, right, settings, truth
 
 MANY = 200
 
@@ -48,15 +47,15 @@ def charged(server: Server) -> float:
 def test_a_model_labels_a_family_and_a_second_run_asks_nothing(tmp_path: Path) -> None:
     project = family(tmp_path, 4)
     with serving(right) as server:
-        found = project.label_with_vlm(settings(server))
-        assert [report.asset for report in found.reports] == list(project.assets())
-        assert all((report.taken, report.unlabelled, report.problems) == (6, 0, ()) for report in found.reports)
+        found = label_with_vlm(project, settings(server))
+        assert [report.asset for report in found.outcomes] == list(project.assets())
+        assert all((report.taken, report.unlabelled, report.problems) == (6, 0, ()) for report in found.outcomes)
         assert (found.open, found.unasked, found.ended, found.blind) == ({}, (), None, False)
         assert all(labels(project, asset) == truth(asset) for asset in project.assets())
         assert {label.source for label in project.labels("t000.obj").labels.values()} == {"vlm"}
         before, asked = project.labels("t001.obj").labels, len(server.asked)
-        again = project.label_with_vlm(settings(server))
-        assert [report.same for report in again.reports] == [6] * 4
+        again = label_with_vlm(project, settings(server))
+        assert [report.same for report in again.outcomes] == [6] * 4
         assert (again.usage.answered, again.usage.cost, len(server.asked)) == (0, 0.0, asked)
         assert project.labels("t001.obj").labels == before
 
@@ -70,10 +69,10 @@ def test_drawn_in_worker_processes_it_asks_the_same_and_labels_the_same(tmp_path
         with serving(right) as server:
             seen = project.forecast_vlm(settings(server), execution=spread)
             assert (seen.assets, seen.questions, seen.unreadable) == (4, 4, ("t003.obj",))
-            found = project.label_with_vlm(settings(server), execution=spread)
+            found = label_with_vlm(project, settings(server), execution=spread)
             asked.append(sorted(one.raw for one, _, _ in server.asked))
-        assert [report.taken for report in found.reports] == [6, 6, 6, 0, 6]
-        assert "t003.obj" in found.reports[3].problems[0]
+        assert [report.taken for report in found.outcomes] == [6, 6, 6, 0, 6]
+        assert "t003.obj" in found.outcomes[3].problems[0]
         assert all(labels(project, asset) == truth(asset) for asset in project.assets() if asset != "t003.obj")
     assert asked[0] == asked[1]
 
@@ -82,9 +81,9 @@ def test_drawn_in_worker_processes_it_asks_the_same_and_labels_the_same(tmp_path
 def test_an_asset_that_takes_too_long_to_draw_costs_itself(tmp_path: Path) -> None:
     project = family(tmp_path, 3)
     with serving(right) as server:
-        found = project.label_with_vlm(settings(server), execution=ExecutionOptions(workers=1, timeout=0.001))
+        found = label_with_vlm(project, settings(server), execution=ExecutionOptions(workers=1, timeout=0.001))
     assert not server.asked
-    assert all("took longer than 0.001 seconds" in report.problems[0] for report in found.reports)
+    assert all("took longer than 0.001 seconds" in report.problems[0] for report in found.outcomes)
 
 
 def lying(asked: Asked) -> str:
@@ -114,11 +113,11 @@ def test_two_hundred_meshes_with_a_fifth_of_faults_are_all_labelled_or_named(tmp
     told = []
     with serving(lying, fault=fault, slow=60.0, logprobs="given") as server:
         how = settings(server, concurrency=8, timeout=2.0, retries=6)
-        found = project.label_with_vlm(how, progress=lambda bill: told.append(bill.answered))
+        found = label_with_vlm(project, how, report=lambda outcome: told.append(outcome.asset))
         assert len(told) == MANY
-        assert [report.asset for report in found.reports] == list(project.assets())
+        assert [report.asset for report in found.outcomes] == list(project.assets())
         assert (found.unasked, found.ended) == ((), None)
-        for report in found.reports:  # labelled, or named as unlabelled with the reason
+        for report in found.outcomes:  # labelled, or named as unlabelled with the reason
             here = labels(project, report.asset)
             assert here.keys() | found.open.get(report.asset, {}).keys() == set(hulls(report.asset))
             assert here.keys().isdisjoint(found.open.get(report.asset, {}))
@@ -145,7 +144,7 @@ def test_what_a_person_or_a_file_says_stays_and_so_does_what_is_surer(tmp_path: 
     project.set_labels(asset, {"left_low": "misc"}, source="propagated", confidence=0.999)
     project.set_labels(asset, {"left_high": "misc"}, source="name", confidence=0.01)
     with serving(right) as server:
-        (report,) = project.label_with_vlm(settings(server)).reports
+        (report,) = label_with_vlm(project, settings(server)).outcomes
     assert report.taken == 3
     now = project.labels(asset).labels
     assert now["top"] == Label("misc")
@@ -159,19 +158,19 @@ def test_assets_that_are_labelled_by_hand_are_not_asked_about(tmp_path: Path) ->
     first, second = project.assets()
     project.set_labels(first, truth(first))
     with serving(right) as server:
-        found = project.label_with_vlm(settings(server))
+        found = label_with_vlm(project, settings(server))
         assert {asked.asset for asked in server.answered} == {second}
-        assert [report.taken for report in found.reports] == [0, 6]
+        assert [report.taken for report in found.outcomes] == [0, 6]
 
 
 def test_a_correction_afterwards_does_not_make_the_rest_be_asked_about_again(tmp_path: Path) -> None:
     project = family(tmp_path, 1)
     asset = project.assets()[0]
     with serving(right) as server:
-        project.label_with_vlm(settings(server))
+        label_with_vlm(project, settings(server))
         project.set_labels(asset, {"top": "misc"})
         before = len(server.asked)
-        project.label_with_vlm(settings(server))
+        label_with_vlm(project, settings(server))
         assert len(server.asked) == before
     assert project.labels(asset).labels["top"] == Label("misc")
 
@@ -185,7 +184,7 @@ def test_a_label_given_by_hand_while_the_model_thinks_stays(tmp_path: Path) -> N
         return right(asked)
 
     with serving(meanwhile) as server:
-        (report,) = project.label_with_vlm(settings(server)).reports
+        (report,) = label_with_vlm(project, settings(server)).outcomes
     assert report.taken == 5
     assert labels(project, asset) == truth(asset) | {"top": "misc"}
 
@@ -200,7 +199,7 @@ def test_the_forecast_sends_nothing_and_says_what_is_sent_then(tmp_path: Path) -
         told = project.forecast_vlm(how)
         assert not server.asked
         assert not (project.layout.vlm).exists()
-        found = project.label_with_vlm(how)
+        found = label_with_vlm(project, how)
         assert told.questions == len(server.answered)
         assert told.pictures == sum(len(asked.pictures) for asked in server.answered)
         assert (told.assets, told.hulls, told.known, told.unreadable) == (3, 18, 0, ("broken.obj",))
@@ -209,7 +208,7 @@ def test_the_forecast_sends_nothing_and_says_what_is_sent_then(tmp_path: Path) -
         assert (told.host, told.model, told.mode) == (server.base_url[7:-3], server.model, "cheap")
         after = project.forecast_vlm(how)
         assert (after.known, after.pictures, after.input, after.cost) == (3, 0, 0, 0.0)
-    (broken,) = [report for report in found.reports if report.problems]
+    (broken,) = [report for report in found.outcomes if report.problems]
     assert broken.asset == "broken.obj"
 
 
@@ -218,15 +217,15 @@ def test_a_limit_on_the_cost_ends_it_and_a_higher_one_goes_on(tmp_path: Path) ->
     project = family(tmp_path, 12)
     with serving(right) as server:
         how = settings(server, max_cost=0.02, concurrency=2)
-        found = project.label_with_vlm(how)
+        found = label_with_vlm(project, how)
         assert charged(server) <= 0.02
         assert found.usage.cost == pytest.approx(charged(server))
         assert found.ended and "of $0.02 are spent" in found.ended
-        done = [report.asset for report in found.reports]
+        done = [report.asset for report in found.outcomes]
         assert done and len(done) + len(found.unasked) == 12
         assert all(labels(project, asset) == truth(asset) for asset in done)
         assert not any(labels(project, asset) for asset in found.unasked)
-        rest = project.label_with_vlm(how.model_copy(update={"max_cost": 1.0}))
+        rest = label_with_vlm(project, how.model_copy(update={"max_cost": 1.0}))
         assert rest.ended is None
         assert max(Counter(asked.raw for asked in server.answered).values()) == 1
     assert all(labels(project, asset) == truth(asset) for asset in project.assets())
@@ -236,14 +235,14 @@ def test_a_limit_on_the_cost_ends_it_and_a_higher_one_goes_on(tmp_path: Path) ->
 def test_a_stop_keeps_what_was_answered_and_the_next_run_goes_on(tmp_path: Path) -> None:
     project = family(tmp_path, 10)
     with serving(right, delay=0.01) as server:
-        found = project.label_with_vlm(settings(server, concurrency=2), stop=lambda: len(server.answered) >= 4)
+        found = label_with_vlm(project, settings(server, concurrency=2), stop=lambda: len(server.answered) >= 4)
         assert found.ended
         assert 4 <= len(server.answered) < 10
-        assert len(found.reports) + len(found.unasked) == 10
-        assert [report.asset for report in found.reports if report.taken] == [
+        assert len(found.outcomes) + len(found.unasked) == 10
+        assert [report.asset for report in found.outcomes if report.taken] == [
             asset for asset in project.assets() if labels(project, asset)
         ]
-        project.label_with_vlm(settings(server))
+        label_with_vlm(project, settings(server))
         assert max(Counter(asked.raw for asked in server.answered).values()) == 1
     assert all(labels(project, asset) == truth(asset) for asset in project.assets())
 
@@ -252,8 +251,9 @@ _RUN = """
 import sys
 import time
 from meshforge.project import Project
+from meshforge.labels import VlmLabeler
 from meshforge.store import VlmSettings
-Project.open(sys.argv[1]).label_with_vlm(VlmSettings.model_validate_json(sys.argv[2]))
+Project.open(sys.argv[1]).label(VlmLabeler(VlmSettings.model_validate_json(sys.argv[2])))
 """
 
 
@@ -272,7 +272,7 @@ def test_a_killed_run_loses_nothing_that_was_paid_for_but_what_was_under_way(tmp
             assert all(labels(project, asset).items() <= truth(asset).items() for asset in project.assets())
         kept = list((project.layout.vlm / "answers").glob("*.json"))
         assert len(kept) >= 9 - 2 * how.concurrency
-        project.label_with_vlm(how)
+        label_with_vlm(project, how)
         often = Counter(asked.raw for asked in server.answered)
         assert sum(often.values()) - len(often) <= 2 * how.concurrency
         assert len(often) == 16
@@ -304,7 +304,7 @@ def test_no_label_of_a_person_or_a_file_is_ever_changed(
             match who:
                 case "ask":
                     with suppress(MeshForgeError):  # where not even the first question gets through
-                        project.label_with_vlm(settings(server, retries=1))
+                        label_with_vlm(project, settings(server, retries=1))
                 case "propagated" if hull not in said:
                     project.set_labels("t001.obj", {hull: word}, source="propagated", confidence=0.5)
                 case "user":
@@ -328,7 +328,7 @@ def test_the_settings_of_the_project_say_whom_to_ask(tmp_path: Path) -> None:
             'examples = ["t000.obj"]\nabout = "small tables"\n'
             '[vlm.descriptions]\nmisc = "what fell off"\n[vlm.extra]\ntop_k = 1\n'
         )
-        found = project.label_with_vlm()
+        found = label_with_vlm(project)
         (asked,) = server.answered
         assert "- misc: what fell off" in asked.text
         assert "The objects are: small tables." in asked.text
@@ -354,7 +354,7 @@ def test_settings_that_do_not_fit_are_told_with_the_field(tmp_path: Path, lines:
     path = project.layout.settings
     path.write_text(f"{path.read_text()}\n[vlm]\n{lines}\n")
     with pytest.raises(ProjectError, match=message):
-        project.label_with_vlm()
+        label_with_vlm(project)
 
 
 def test_what_cannot_be_asked_is_told_before_anything_is_sent(tmp_path: Path) -> None:
@@ -369,12 +369,12 @@ def test_what_cannot_be_asked_is_told_before_anything_is_sent(tmp_path: Path) ->
         }
         for message, change in bad.items():
             with pytest.raises(UsageError, match=message):
-                project.label_with_vlm(how.model_copy(update=change))
+                label_with_vlm(project, how.model_copy(update=change))
         with pytest.raises(ProjectError, match=r"there is no asset 't009\.obj'"):
-            project.label_with_vlm(how.model_copy(update={"examples": ("t009.obj",)}))
+            label_with_vlm(project, how.model_copy(update={"examples": ("t009.obj",)}))
         project.set_vocabulary(())
         with pytest.raises(UsageError, match="the vocabulary is empty"):
-            project.label_with_vlm(how)
+            label_with_vlm(project, how)
         assert not server.asked
 
 
@@ -383,16 +383,16 @@ def test_a_wrong_key_is_one_error_and_changes_nothing(tmp_path: Path, monkeypatc
     monkeypatch.setenv(VARIABLE, "sk-wrong")
     with serving(right) as server:
         with pytest.raises(MeshForgeError, match="does not accept the key"):
-            project.label_with_vlm(settings(server))
+            label_with_vlm(project, settings(server))
         assert len(server.asked) == 1
-    assert not project.layout.ids_with("labels")
+    assert not project.layout.labels.ids
 
 
 def test_a_model_that_takes_red_for_blue_is_told_to_be_blind(tmp_path: Path) -> None:
     project = family(tmp_path, 1)
     with serving(right) as server:
         server._probed = lambda asked: '{"colour": "blue"}'  # type: ignore[method-assign]
-        assert project.label_with_vlm(settings(server)).blind
+        assert label_with_vlm(project, settings(server)).blind
 
 
 def test_all_assets_are_written_in_the_end_within_the_block_that_is_given(tmp_path: Path) -> None:
@@ -401,15 +401,15 @@ def test_all_assets_are_written_in_the_end_within_the_block_that_is_given(tmp_pa
     inside: list[list[int]] = []
 
     @contextmanager
-    def keeping() -> Iterator[None]:
+    def keeping(best: str | None) -> Iterator[None]:
         before = [len(labels(project, asset)) for asset in assets]
         yield
         inside.append([*before, *(len(labels(project, asset)) for asset in assets)])
 
     with serving(right) as server:
-        found = project.label_with_vlm(settings(server), write_block=keeping)
+        found = label_with_vlm(project, settings(server), write_block=keeping)
     assert inside == [[0, 0, 6, 6]]
-    assert [report.taken for report in found.reports] == [6, 6]
+    assert [report.taken for report in found.outcomes] == [6, 6]
 
 
 def test_pages_show_what_was_sent_and_what_came_back(tmp_path: Path) -> None:
@@ -419,7 +419,7 @@ def test_pages_show_what_was_sent_and_what_came_back(tmp_path: Path) -> None:
         return labels_as_json({0: "<b>leg</b>"}) if not asked.is_again else labels_as_json({1: "leg"})
 
     with serving(answer) as server:
-        project.label_with_vlm(settings(server))
+        label_with_vlm(project, settings(server))
     page = project.layout.vlm / "pages" / "t000.obj.html"
     text = page.read_text()
     assert "&lt;b&gt;leg&lt;/b&gt;" in text and "<b>" not in text
@@ -446,15 +446,15 @@ def test_an_asset_that_cannot_be_drawn_is_named_and_the_others_are_labelled(
     monkeypatch.setattr(label_by_vlm, "build_questions", looks)
     with serving(right) as server:
         assert project.forecast_vlm(settings(server)).unreadable == ("t001.obj",)
-        found = project.label_with_vlm(settings(server))
-    assert [report.taken for report in found.reports] == [6, 0, 6]
-    assert "t001.obj: ZeroDivisionError: no room for the picture" in found.reports[1].problems[0]
+        found = label_with_vlm(project, settings(server))
+    assert [report.taken for report in found.outcomes] == [6, 0, 6]
+    assert "t001.obj: ZeroDivisionError: no room for the picture" in found.outcomes[1].problems[0]
 
 
 def test_a_cut_answer_that_stays_cut_names_the_hulls(tmp_path: Path) -> None:
     project = family(tmp_path, 1)
     with serving(right, fault=lambda asked: None if asked.is_probe else CUT) as server:
-        found: VlmResult = project.label_with_vlm(settings(server))
+        found = label_with_vlm(project, settings(server))
     here = labels(project, "t000.obj")
     assert set(found.open["t000.obj"].values()) == {"the answer was cut off"}
     assert here.keys() | found.open["t000.obj"].keys() == set(hulls("t000.obj"))

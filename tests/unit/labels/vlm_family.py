@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from meshforge.batch import IN_PROCESS, ExecutionOptions
+from meshforge.labels import LabelOutcome, VlmLabeler, VlmResult
+from meshforge.labels.family_comparison import WriteBlock
 from meshforge.project import Project
 from meshforge.store import VlmSettings
 from tests.loopback import KEY, Asked, Server, labels_as_json
@@ -58,9 +63,32 @@ def settings(server: Server, **how: Any) -> VlmSettings:
     return VlmSettings(**told | how)
 
 
+@dataclass(frozen=True)
+class Labelling(VlmResult):
+    """How asking went, with what became of each asset."""
+
+    outcomes: tuple[LabelOutcome, ...] = ()
+
+
+def label_with_vlm(
+    project: Project,
+    settings: VlmSettings | None = None,
+    *,
+    stop: Callable[[], bool] | None = None,
+    execution: ExecutionOptions = IN_PROCESS,
+    report: Callable[[LabelOutcome], None] = lambda outcome: None,
+    write_block: WriteBlock | None = None,
+) -> Labelling:
+    """Label a project by a model; stop: whether to ask no more."""
+    labeler = VlmLabeler(settings)
+    done = project.label(labeler, execution=replace(execution, stop=stop), report=report, write_block=write_block)
+    result = labeler.result
+    return Labelling(result.usage, result.open, result.unasked, result.ended, result.blind, done.outcomes)
+
+
 def truth(asset: str) -> dict[str, str]:
     """The right label of each hull."""
     return {name: label_of(name) for name in hulls(asset)}
 
 
-__all__ = ["KEY", "VARIABLE", "WORDS", "family", "hulls", "right", "settings", "truth"]
+__all__ = ["KEY", "VARIABLE", "WORDS", "family", "hulls", "label_with_vlm", "right", "settings", "truth"]

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
 
 import numpy as np
 
 from meshforge.geometry import Box, Pose, Shape, convex_hull
-from meshforge.language import Template
+from meshforge.language import Action, Replay, Template
 from meshforge.symbolic import Hull, Label, SymbolicMesh
 
 
@@ -38,3 +39,27 @@ def wedge(name: str = "wedge.obj") -> Template:
     """A template of one prism: 4 m along X, 2 m along Y, 1 m along Z, its ridge at y = 2."""
     points = [[x, y, z] for x in (0, 4) for y, z in ((0, 0), (2, 0), (2, 1))]
     return Template((convex_hull(np.array(points, dtype=float)),), name)
+
+
+class Applied(NamedTuple):
+    """What one action makes of a mesh."""
+
+    mesh: SymbolicMesh
+    made: tuple[str, ...]
+    note: str | None
+    sources: tuple[tuple[str, ...], ...]
+    used: frozenset[str]
+
+
+def apply_action(
+    scene: SymbolicMesh,
+    mask: int,
+    action: Action,
+    templates: Mapping[str, Template] | None = None,
+    label: str | None = None,
+    used: frozenset[str] = frozenset(),
+) -> Applied:
+    """What an action makes of the hulls of a bit set; used: names that no made hull may take."""
+    done = Replay(scene, Pose.identity(), scene, scene, used=used).apply(mask, action, label, templates or {})
+    line = done.trace[-1]
+    return Applied(done.mesh, line.made, line.note, line.sources, done.used)

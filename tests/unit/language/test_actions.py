@@ -11,22 +11,20 @@ from meshforge.language import (
     ACTIONS,
     PRIMITIVES,
     Action,
-    ActionResult,
     Add,
     Delete,
     Each,
     Merge,
     Replace,
     Scale,
-    apply_action,
 )
 from meshforge.symbolic import SymbolicMesh
-from tests.unit.language.scenes import box, hull, mesh, table, wedge
+from tests.unit.language.scenes import Applied, apply_action, box, hull, mesh, table, wedge
 
 TEMPLATES = {"wedge.obj": wedge()}
 
 
-def applied(scene: SymbolicMesh, action: Action, *names: str, label: str | None = None) -> ActionResult:
+def applied(scene: SymbolicMesh, action: Action, *names: str, label: str | None = None) -> Applied:
     mask = sum(1 << scene.index[name] for name in names or scene.index)
     return apply_action(scene, mask, action, TEMPLATES, label)
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 from meshforge.geometry import Pose
-from meshforge.language import Delete, Each, Merge, Scale, apply_action
+from meshforge.language import Delete, Each, Merge, Scale
 from meshforge.symbolic import Asset, Body, Document, Geom, SymbolicMesh
-from tests.unit.language.scenes import box
+from tests.unit.language.scenes import apply_action, box
 
 SOFT, HARD = (("friction", "0.2"), ("condim", "3")), (("friction", "1"), ("condim", "3"))
 

@@ -9,7 +9,7 @@ import pytest
 
 from meshforge.common import GeometryError, MeshForgeError, ProgramError
 from meshforge.geometry import Box, Pose, convex_hull
-from meshforge.language import Delete, Is, Program, Rule, apply_rule, from_canonical_frame, to_canonical_frame
+from meshforge.language import Delete, Is, Program, Rule
 from meshforge.symbolic import Asset, Body, Document, Geom, Label, SymbolicMesh
 from tests.unit.language.scenes import box, hull, mesh, table, wedge
 
@@ -164,18 +164,15 @@ def test_an_edited_mesh_lowers_to_an_asset_whose_made_geoms_name_their_parent() 
     assert [(g.name, g.parent) for g in geoms][:2] == [("top", "top"), ("leg0_high~1", "leg0_high")]
 
 
-def test_replaying_rule_by_rule_gives_what_the_run_gives() -> None:
+def test_a_replay_gives_the_mesh_that_each_rule_meets() -> None:
     program = Program.parse(TABLES)
     scene = lying()
-    current, pose = to_canonical_frame(scene, program.orient, program.contact)
-    assert current.scale == current.diagonal
-    used = frozenset[str]()
-    for rule, traced in zip(program.rules, program.run(scene).trace, strict=True):
-        selected, applied = apply_rule(current, rule, used=used)
-        assert (selected, applied.made) == (traced.selected, traced.made)
-        current, used = applied.mesh, applied.used
-    result = from_canonical_frame(scene, current, pose)
-    assert [h.name for h in result.hulls] == [h.name for h in program.run(scene).mesh.hulls]
+    first, *later = program.replay(scene, {})
+    assert first.mesh.scale == first.mesh.diagonal
+    for replay, line in zip([first, *later], program.run(scene).trace, strict=False):
+        assert set(line.selected) <= replay.mesh.index.keys()
+        assert replay.number == line.rule
+    assert [h.name for h in later[-1].edited.hulls] == [h.name for h in program.run(scene).mesh.hulls]
 
 
 def test_a_label_set_by_the_program_is_sure_and_one_taken_over_is_as_sure_as_before() -> None:

@@ -200,7 +200,7 @@ def test_an_action_keeps_its_text_where_its_package_is_missing(
     kept = pickle.dumps(Each(parse_action("Spoil")))
     assert pickle.loads(kept) == Each(parse_action("Spoil"))
     monkeypatch.setattr("meshforge.common.plugins.import_module", _no_module)
-    monkeypatch.setattr("meshforge.language.actions.registry.ACTIONS._loaded", {})
+    monkeypatch.setattr("meshforge.language.registry.ACTIONS._loaded", {})
     found = pickle.loads(kept)
     assert str(Rule(All(), found)) == "All => Each(Spoil)"
     assert str(pickle.loads(pickle.dumps(found))) == "Each(Spoil)"
@@ -331,9 +331,9 @@ def test_an_asset_fails_when_an_action_raises(run: Run, install: Install, body: 
 def test_an_asset_gets_no_label_of_a_labeller_that_fails(run: Run, install: Install, body: str, why: str) -> None:
     install("labelers", "odd", broken.HEAD + broken.LABELER.format(body=body))
     project = Project.create("home", ["table.obj"], vocabulary=["top", "leg"])
-    (outcome,) = project.label_by_plugin("odd")
+    (outcome,) = project.label("odd").outcomes
     assert why in outcome.problems[0]
-    assert why in project.propose_by_plugin("odd").problems[0]
+    assert why in project.label("odd", dry_run=True).proposals.problems[0]
     assert not Path("home/labels/table.obj.json").exists()
 
 
@@ -342,7 +342,7 @@ def test_a_labeller_that_fails_on_one_asset_labels_the_others(run: Run, install:
     body = "return {'top': Label('top', 0.7 / bool(mesh.hull_of('top').aabb.max[2] < 1.3))}"
     package = install("labelers", "odd", broken.HEAD + broken.LABELER.format(body=body))
     project = Project.create("home", ["table.obj", "two/b.obj"], vocabulary=["top", "leg"])
-    table, b = project.label_by_plugin("odd")
+    table, b = project.label("odd").outcomes
     assert (table.taken, table.problems, b.taken) == (1, (), 0)
     assert f"b.obj: the labeller odd of the package {package} failed: ZeroDivisionError" in b.problems[0]
     assert project.mesh("table.obj").hull_of("top").source == "plugin"

@@ -29,7 +29,7 @@ def shown_racks(folder: Path) -> Project:
         given = {"vocabulary": ["top", "leg", "rail"], "hulls": labels}
         path.with_suffix(".labels.json").write_text(json.dumps(given))
     project = Project.create(folder / "racks", [folder / "assets"])
-    project.label_from_files()
+    project.label("file")
     project.set_labels(BLOCK, {"rail": "leg"})
     for asset in PLAIN[:2]:
         project.demonstrate(asset, [Step(1, LEGS, Each(Merge()))])

@@ -40,7 +40,7 @@ def racks(folder: Path, count: int = 7, **wrong: str) -> Project:
         rows = {name: {"label": label, "source": "vlm", "confidence": 0.75} for name, label in labels.items()}
         path.with_suffix(".labels.json").write_text(json.dumps({"vocabulary": WORDS, "hulls": rows}))
     project = Project.create(folder / "racks", [folder / "assets"])
-    project.label_from_files()
+    project.label("file")
     return project
 
 

@@ -24,7 +24,7 @@ def fresh(folder: Path) -> Project:
 def labelled(folder: Path) -> Project:
     """A project with all labels."""
     project = fresh(folder)
-    project.label_from_files()
+    project.label("file")
     return project
 
 

@@ -10,11 +10,12 @@ import pytest
 from meshforge.common import ProjectError
 from meshforge.project import Project, demonstrations, learn, select_assets
 from meshforge.symbolic import Label
-from meshforge.synthesis import Answer, Choice, LabelCorrection, Question
+from meshforge.synthesis import Answer, LabelCorrection, OpenRule
+from tests.open_rules import choose
 from tests.unit.project.shelves import OTHER, PLAIN, SHELVED, ambiguous, mislabelled
 
 WRONG = LabelCorrection(PLAIN, "knob", "leg", "knob")
-QUESTION = Question(1, SHELVED, (Choice("1.1", ("top", "shelf")), Choice("1.2", ("top",))), 0.5, 0.0)
+OPEN = OpenRule(1, SHELVED, (frozenset({"top", "shelf"}), frozenset({"top"})))
 MACHINE = Label("leg", 0.75, "vlm")
 
 
@@ -24,7 +25,7 @@ def knob(project: Project) -> Label | None:
 
 def test_an_answer_is_kept_as_one_can_read_it(tmp_path: Path) -> None:
     project = ambiguous(tmp_path)
-    assert project.add_answer(QUESTION.answer_with(1)) == "1:rack2.obj"
+    assert project.add_answer(choose(OPEN, 1)) == "1:rack2.obj"
     assert project.layout.events.read_text() == (
         '{"event":"answer","rule":1,"asset":"rack2.obj","select":["top"],"action":"Delete"}\n'
     )
@@ -33,10 +34,10 @@ def test_an_answer_is_kept_as_one_can_read_it(tmp_path: Path) -> None:
 
 def test_neither_keeps_what_was_refused(tmp_path: Path) -> None:
     project = ambiguous(tmp_path)
-    project.add_answer(QUESTION.answer_with(None))
+    project.add_answer(choose(OPEN, None))
     (line,) = project.feedback().answers.values()
-    assert line.answer == QUESTION.answer_with(None)
-    assert set(line.answer.refused) == {frozenset(choice.select) for choice in QUESTION.choices}
+    assert line.answer == choose(OPEN, None)
+    assert line.answer.refused == OPEN.selections
 
 
 def test_of_very_many_assets_some_are_learned_from_and_all_of_which_something_was_said(
@@ -55,15 +56,15 @@ def test_of_very_many_assets_some_are_learned_from_and_all_of_which_something_wa
 def test_the_last_answer_to_a_question_counts_and_the_order_is_stable(tmp_path: Path) -> None:
     project = ambiguous(tmp_path)
     project.add_answer(Answer(1, "rack4.obj", ()))
-    project.add_answer(QUESTION.answer_with(0))
-    project.add_answer(QUESTION.answer_with(None))
+    project.add_answer(choose(OPEN, 0))
+    project.add_answer(choose(OPEN, None))
     said = [(line.asset, line.select) for line in project.feedback().answers.values()]
     assert said == [(SHELVED, None), ("rack4.obj", ())]
 
 
 def test_fields_that_this_version_does_not_know_are_kept(tmp_path: Path) -> None:
     project = ambiguous(tmp_path)
-    project.add_answer(QUESTION.answer_with(0))
+    project.add_answer(choose(OPEN, 0))
     path = project.layout.events
     path.write_text(json.dumps(json.loads(path.read_text()) | {"when": "today"}) + "\n")
     project.add_answer(Answer(1, "rack4.obj", None))
@@ -164,14 +165,14 @@ def test_an_unknown_id_names_the_nearest(tmp_path: Path) -> None:
     project = ambiguous(tmp_path)
     with pytest.raises(ProjectError, match="--list-answers"):
         project.take_back("1:rack2.obj")
-    project.add_answer(QUESTION.answer_with(0))
+    project.add_answer(choose(OPEN, 0))
     with pytest.raises(ProjectError, match=r"Did you mean '1:rack2\.obj'"):
         project.take_back("1:rack2.ob")
 
 
 def test_everything_can_be_forgotten(tmp_path: Path) -> None:
     project = mislabelled(tmp_path)
-    project.add_answer(QUESTION.answer_with(0))
+    project.add_answer(choose(OPEN, 0))
     project.confirm(WRONG)
     demonstrations.reject(project, LabelCorrection(OTHER, "left", "leg", "knob"))
     assert project.forget_answers() == ()

@@ -84,7 +84,7 @@ def test_the_whole_loop_in_python(tmp_path: Path) -> None:
     learned = mf.synthesize(demos, batch=family, orient=None, confirm=lambda _: False)
     assert learned.status == "found" and learned.program
     assert str(learned.program.rules[0]) == "Is(misc) => Delete"
-    assert (len(learned.readings), learned.repairs, learned.question) == (1, (), None)
+    assert (len(learned.readings), learned.repairs, learned.open_rule) == (1, (), None)
 
 
 def test_errors_are_one_family_and_name_the_file(tmp_path: Path) -> None:

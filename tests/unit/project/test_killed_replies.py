@@ -9,14 +9,11 @@ from pathlib import Path
 import pytest
 
 from meshforge.batch import IN_PROCESS
-from meshforge.cli.synthesize_session import LearningSession, ScriptAnswers, run_script
 from meshforge.project import Project
-from meshforge.synthesis import Options
 from tests.unit.batch.families import tree
 from tests.unit.cli.in_process import runner
 from tests.unit.deaths import deaths, needs_fork
 from tests.unit.project.replying import CASES, MAKERS, STRICT, find_question, look, reply_by_method
-from tests.unit.project.shelves import ambiguous
 from tests.unit.project.tables import LEGS, THIRD, applied
 
 SAME = ("labels/", "demonstrations/", "meshforge.toml", "program.mf", "edited/")
@@ -88,30 +85,3 @@ def test_who_replies_again_once_all_is_done_gets_the_exit_code_of_that(
         assert (told.code, "skipped" in told.err) == (0, False)
         assert (f"{question.id}: it was replied to before" in told.err) == is_again
     assert len(project.layout.events.read_text().splitlines()) == 1
-
-
-@needs_fork
-def test_answers_whose_synthesize_was_killed_are_given_again_and_what_is_done_is_said(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    project, run = ambiguous(tmp_path), runner(monkeypatch, capsys)
-    question = "1:rack2.obj"
-    Path("said.json").write_text(json.dumps([{"question": question, "choice": 2}]))
-    shutil.copytree(project.folder, "before")
-    expected = run("synthesize", "racks", "--answers", "said.json").out
-    again = set[bool]()
-
-    def restore() -> None:
-        shutil.rmtree(project.folder)
-        shutil.copytree("before", project.folder)
-
-    restore()
-    for _ in deaths(lambda: run_script(LearningSession(project, Options()), ScriptAnswers((), {question: 2}), None)):
-        is_done = question in project.feedback().answers
-        told = run("synthesize", "racks", "--answers", "said.json")
-        assert (told.code, told.out) == (0, expected)
-        assert (f"{question} was answered before, which stays; --forget {question} " in told.err) == is_done
-        again.add(is_done)
-        restore()
-    assert again == {True, False}, "it was never killed between the answer and the program"

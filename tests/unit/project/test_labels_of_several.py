@@ -14,14 +14,16 @@ def test_labels_of_several_assets_are_written_as_those_of_each(tmp_path: Path) -
     labels: dict[str, dict[str, str | None]] = {FIRST: {hull: word}, SECOND: {hull: None}}
     reports = together.set_labels_of(labels)
     assert reports == tuple(apart.set_labels(asset, own) for asset, own in labels.items())
-    assert [together.label_bytes(asset) for asset in labels] == [apart.label_bytes(asset) for asset in labels]
+    assert [together.layout.labels(asset).read_bytes() for asset in labels] == [
+        apart.layout.labels(asset).read_bytes() for asset in labels
+    ]
 
 
 def test_of_labels_of_several_assets_all_are_written_or_none(tmp_path: Path) -> None:
     project = labelled(tmp_path)
     hull = next(iter(project.mesh(FIRST).index))
     project.set_labels(FIRST, {hull: project.vocabulary[0]})
-    before = [project.label_bytes(asset) for asset in (FIRST, SECOND)]
+    before = [project.layout.labels(asset).read_bytes() for asset in (FIRST, SECOND)]
     with pytest.raises(ProjectError, match="no hull"):
         project.set_labels_of({FIRST: {hull: None}, SECOND: {"nowhere": project.vocabulary[0]}})
-    assert [project.label_bytes(asset) for asset in (FIRST, SECOND)] == before
+    assert [project.layout.labels(asset).read_bytes() for asset in (FIRST, SECOND)] == before

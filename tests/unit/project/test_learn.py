@@ -11,6 +11,7 @@ from meshforge.language import Delete, Merge, Program
 from meshforge.project import Project
 from meshforge.symbolic import Label
 from meshforge.synthesis import Ambiguous, Answer, Found, NeedsRepair, NoProgram, Repair, Step, TimedOut
+from tests.open_rules import choose
 from tests.unit.project.shelves import OTHER, PLAIN, SHELVED, ambiguous, mislabelled
 
 ALL, HIGHEST = (f"labels board, leg, knob\n\n{rule} => Delete\n" for rule in ("Is(board)", "Geo(Is(board), +Z)"))
@@ -21,11 +22,11 @@ def test_a_question_stays_open_until_it_is_answered(tmp_path: Path) -> None:
     outcome = project.synthesize()
     assert isinstance(outcome, Ambiguous)
     assert str(project.program()) == ALL
-    assert outcome.question.id == project.status(workers=0).question
+    assert outcome.open_rule.id == project.status(workers=0).question
     say = project.status(workers=0).next.say
     assert say == "It is open what rule 1 does on rack2.obj: answer the question, or apply the program as it is."
-    (choice,) = (k for k, c in enumerate(outcome.question.choices) if c.select == ("top",))
-    project.add_answer(outcome.question.answer_with(choice))
+    (choice,) = (k for k, select in enumerate(outcome.open_rule.selections) if select == {"top"})
+    project.add_answer(choose(outcome.open_rule, choice))
     assert project.status(workers=0).outdated
     outcome = project.synthesize()
     assert isinstance(outcome, Found) and outcome.settled
@@ -60,13 +61,6 @@ def test_labels_of_an_answered_asset_are_learned_from(tmp_path: Path) -> None:
     assert not project.status(workers=0).outdated
     project.set_labels(SHELVED, {"knob": "leg"})
     assert project.status(workers=0).outdated
-
-
-def test_answers_for_one_lesson_are_not_kept(tmp_path: Path) -> None:
-    project = ambiguous(tmp_path)
-    outcome = project.synthesize(accept=False, answers=[Answer(1, SHELVED, ["top"])])
-    assert str(outcome.program) == HIGHEST
-    assert project.program() is None and not project.feedback().answers_and_fixes
 
 
 def test_answers_about_what_is_gone_are_reported_not_refused(tmp_path: Path) -> None:

@@ -227,6 +227,6 @@ def test_a_program_without_labels_asks_for_none(tmp_path: Path) -> None:
     write_tables(tmp_path / "assets", 2)
     (tmp_path / "assets/plain.obj").write_text(obj(table_boxes()))
     project = Project.create(tmp_path / "tables", [tmp_path / "assets"])
-    project.label_from_files()
+    project.label("file")
     project.accept(Program.parse("labels top\nAll => Merge\n"))
     assert of(project).next.command == f"meshforge apply {project.folder}"

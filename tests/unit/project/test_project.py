@@ -10,6 +10,7 @@ from meshforge.batch import IN_PROCESS, ExecutionOptions
 from meshforge.batch import status_of as word
 from meshforge.common import DemonstrationError, MeshForgeError, ProgramError, ProjectError
 from meshforge.formats import load
+from meshforge.labels import FileLabeler
 from meshforge.language import Delete, Is, LandmarkPair, Merge, Orient, Program, Replace
 from meshforge.project import Project
 from meshforge.synthesis import Found, NoProgram, Step
@@ -111,12 +112,12 @@ def test_a_machine_never_overwrites_what_a_person_said(tmp_path: Path) -> None:
     project.set_vocabulary(["top", "leg", "misc"])
     project.set_labels(FIRST, {"crumb": "leg"})
     project.set_labels(FIRST, {"top": "leg"}, source="vlm", confidence=0.5)
-    reports = {report.asset: report for report in project.label_from_files()}
+    reports = {report.asset: report for report in project.label("file").outcomes}
     assert (reports[FIRST].taken, reports[FIRST].kept) == (5, 1)
     mesh = project.mesh(FIRST)
     assert (mesh.hull_of("crumb").label, mesh.hull_of("crumb").source) == ("leg", "user")
     assert (mesh.hull_of("top").label, mesh.hull_of("top").source) == ("top", "file")
-    again = {report.asset: report for report in project.label_from_files()}
+    again = {report.asset: report for report in project.label("file").outcomes}
     assert (again[FIRST].taken, again[FIRST].same, again[FIRST].kept) == (0, 5, 1)
 
 
@@ -128,7 +129,7 @@ def test_unknown_hulls_and_labels_in_a_file_are_told_with_the_nearest(tmp_path: 
     folder = tmp_path / "labels"
     (folder / "table0").mkdir(parents=True)
     file.rename(folder / f"{FIRST}.json")
-    (report,) = project.label_from_files(folder)
+    (report,) = project.label(FileLabeler(folder)).outcomes
     assert report.asset == FIRST and report.taken == 1
     assert report.problems == (
         "there is no hull 'left_lo'; did you mean 'left_low'?",
@@ -144,7 +145,7 @@ def test_labels_files_that_are_not_there_are_asked_for(tmp_path: Path) -> None:
     write_table(tmp_path / "assets/t.obj", labels=False)
     project = Project.create(tmp_path / "p", [tmp_path / "assets"])
     with pytest.raises(ProjectError, match="no labels file for any asset"):
-        project.label_from_files()
+        project.label("file")
 
 
 def test_wrong_labels_given_by_hand_are_refused_whole(tmp_path: Path) -> None:
@@ -325,7 +326,7 @@ def test_assets_of_a_project_are_never_written_to(tmp_path: Path) -> None:
     write_urdf_table(tmp_path / "robots")
     before = tree(tmp_path / "robots")
     project = Project.create(tmp_path / "p", [tmp_path / "robots"])
-    project.label_from_files()
+    project.label("file")
     project.demonstrate("table.urdf", [Step(1, {"body/crumb"}, Delete())])
     project.synthesize()
     assert [word(o) for o in project.apply(execution=ExecutionOptions(1))] == ["edited"]
@@ -335,7 +336,7 @@ def test_assets_of_a_project_are_never_written_to(tmp_path: Path) -> None:
 def test_a_project_among_its_assets_does_not_take_its_own_files_for_assets(tmp_path: Path) -> None:
     write_table(tmp_path / "a.obj")
     project = Project.create(tmp_path, [tmp_path], vocabulary=["top", "leg", "misc"])
-    project.label_from_files()
+    project.label("file")
     (project.folder / "program.mf").write_text(PROGRAM)
     write_table(project.folder / "templates/knob.obj")
     list(project.apply(execution=IN_PROCESS))

@@ -18,7 +18,7 @@ from meshforge import Project
 project = Project.open("project")
 print([type(outcome).__name__ for outcome in project.apply()])
 print(len(project.review().assessment.assets), project.status().name)
-print(project.propagate_labels(), len(project.draw_labels(Path("sheets"), project.assets())))
+print(project.label("propagate"), len(project.draw_labels(Path("sheets"), project.assets())))
 print(sum(1 for _ in project.decompose(project.assets())), len(project.list_spans()))
 """
 COMMAND = """

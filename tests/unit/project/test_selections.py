@@ -13,14 +13,15 @@ from meshforge.common import ProjectError
 from meshforge.formats import read
 from meshforge.language import Merge
 from meshforge.project import Project, demonstrations
-from meshforge.project.preparation_journal import read_journal
 from meshforge.project.prepare import exchange_preparation
-from meshforge.project.selections import Successors
+from meshforge.store import ConflictError, History
+from meshforge.studio.edits.base import make_edit, steps_version
+from meshforge.studio.edits.program import SetSteps, StepText
 from meshforge.symbolic import Label
 from meshforge.synthesis import Answer, LabelCorrection
 from tests.unit.batch.families import tree
 from tests.unit.deaths import deaths, needs_fork
-from tests.unit.project.tables import FIRST, LEGS, applied
+from tests.unit.project.tables import FIRST, LEGS, SECOND, applied
 
 KEPT = ("labels/", "demonstrations/", "corrections/", "events.jsonl", "prepared/")
 PARTS = {"crumb#0", "crumb#1"}
@@ -58,6 +59,20 @@ def test_selections_of_a_split_hull_name_its_parts_and_come_back_bit_for_bit(tmp
     assert kept(project) == before
 
 
+def test_a_split_is_an_edit_that_the_studio_undoes_and_does_again(tmp_path: Path) -> None:
+    project = said(tmp_path)
+    before = kept(project)
+    project.cut(FIRST, "crumb", *PLANE)
+    after, history = kept(project), History.open(project.folder)
+    assert history.state.undo == f"{FIRST}: crumb cut into 2 hulls"
+    history.undo()
+    assert kept(project) == before
+    history.redo()
+    assert kept(project) == after
+    project.unprepare(FIRST)
+    assert (kept(project), History.open(project.folder).state.undoable) == (before, 2)
+
+
 def test_an_edit_by_hand_of_a_split_hull_is_one_of_its_parts(tmp_path: Path) -> None:
     project = applied(tmp_path)
     project.correct(FIRST, ["top"], Merge())
@@ -84,15 +99,90 @@ def test_splits_of_splits_are_all_undone_at_once(tmp_path: Path) -> None:
     assert kept(project) == before
 
 
-def test_what_a_person_changed_since_the_split_is_not_overwritten(tmp_path: Path) -> None:
+def test_an_undo_names_what_was_changed_since_and_by_what_and_writes_nothing(tmp_path: Path) -> None:
     project = said(tmp_path)
     project.cut(FIRST, "crumb", *PLANE)
-    project.add_answer(Answer(1, FIRST, ["top"]))
     demonstrations.correct_selection(project, FIRST, 1, ["crumb#0", "crumb#1", "top"])
     assert not any("demonstrated" in flag for flag in project.status(workers=0).assets[0].flags)
+    before = kept(project)
+    with pytest.raises(ConflictError) as caught:
+        project.unprepare(FIRST)
+    assert f"demonstrations/{FIRST}.json was changed since, by something else" in caught.value.problem
+    assert caught.value.remedy and caught.value.remedy.endswith(f" {FIRST} --remove")
+    assert kept(project) == before
+    done = project.unprepare(FIRST, everything=True)
+    assert done.undone == ("crumb cut into 2 hulls",)
+    assert f"demonstrations/{FIRST}.json was changed since, by something else, and stays as it is" in done.notes
+    assert any("which it has no more: demonstrate it anew" in note for note in done.notes)
+    assert not project.preparation(FIRST).steps
+
+
+def test_an_undo_names_the_edit_that_changed_something_since(tmp_path: Path) -> None:
+    project = said(tmp_path)
+    project.cut(FIRST, "crumb", *PLANE)
+    steps = [StepText(select=("top",), action="Delete")]
+    version = steps_version(project, FIRST)
+    make_edit(History(project.folder), project, SetSteps(asset=FIRST, version=version, steps=tuple(steps)))
+    with pytest.raises(ConflictError, match=f"was changed since, by “.*{FIRST}.*”"):
+        project.unprepare(FIRST)
+
+
+def test_what_people_said_of_other_assets_since_stays_when_a_split_is_undone(tmp_path: Path) -> None:
+    project = said(tmp_path)
+    before = kept(project)["events.jsonl"]
+    project.cut(FIRST, "crumb", *PLANE)
+    project.add_answer(Answer(1, SECOND, ["top"]))
     project.unprepare(FIRST)
-    assert project.steps(FIRST)[0].select == frozenset({"crumb", "top"})
-    assert project.feedback().answers[f"1:{FIRST}"].select == ("top",)
+    assert kept(project)["events.jsonl"].startswith(before)
+    assert set(project.feedback().answers) == {f"1:{FIRST}", f"1:{SECOND}"}
+
+
+def test_an_answer_about_the_parts_since_is_not_lost_by_undoing_the_split(tmp_path: Path) -> None:
+    project = said(tmp_path)
+    project.cut(FIRST, "crumb", *PLANE)
+    project.add_answer(Answer(1, FIRST, ["crumb#0"]))
+    with pytest.raises(ConflictError, match=r"events\.jsonl was changed since"):
+        project.unprepare(FIRST)
+
+
+def test_a_fix_that_was_taken_back_is_none_of_the_parts(tmp_path: Path) -> None:
+    project = applied(tmp_path)
+    project.take_back(demonstrations.reject(project, LabelCorrection(FIRST, "crumb", "misc", "leg")))
+    project.cut(FIRST, "crumb", *PLANE)
+    assert not project.feedback().fixes
+
+
+def test_a_split_is_undone_and_done_again_in_a_project_whose_history_is_gone(tmp_path: Path) -> None:
+    project = said(tmp_path)
+    project.cut(FIRST, "crumb", *PLANE)
+    shutil.rmtree(project.layout.history)
+    done = project.unprepare(FIRST)
+    assert done.undone == ("crumb cut into 2 hulls",)
+    assert any("crumb#0, crumb#1, which it has no more: demonstrate it anew" in note for note in done.notes)
+    assert "crumb" in project.mesh(FIRST).index
+
+
+def test_a_journal_of_an_earlier_version_is_no_hindrance(tmp_path: Path) -> None:
+    project = said(tmp_path)
+    project.cut(FIRST, "crumb", *PLANE)
+    shutil.rmtree(project.layout.history)
+    (project.layout.preparation(FIRST) / "selections.json").write_text("{")
+    assert project.status(workers=0).assets[0].error is None
+    project.unprepare(FIRST)
+    assert not project.layout.preparation(FIRST).exists()
+
+
+def test_undone_steps_are_not_done_again_by_another_undo(tmp_path: Path) -> None:
+    project = said(tmp_path)
+    before = kept(project)
+    project.cut(FIRST, "crumb", *PLANE)
+    middle = kept(project)
+    for _ in range(2):
+        project.cut(FIRST, "crumb#0", project.mesh(FIRST).hull_of("crumb#0").aabb.center.tolist(), (1, 0, 0))
+        project.unprepare(FIRST)
+        assert kept(project) == middle
+    project.unprepare(FIRST)
+    assert kept(project) == before
 
 
 def test_parts_get_the_labels_of_what_split_their_hull_and_a_persons_comes_back(tmp_path: Path) -> None:
@@ -165,10 +255,9 @@ def test_a_killed_undo_is_finished_by_the_next_bit_for_bit(tmp_path: Path, every
     states = set()
     for _ in deaths(lambda: project.unprepare(FIRST, everything=everything), removals=True):
         states.add(frozenset(kept(project).items()))
-        left = [step.place for step in read_journal(project, FIRST)]
-        cut_short = any(place >= len(project.preparation(FIRST).steps) for place in left)
+        cut_short = bool(History(project.folder).interrupted)
         assert any("cut short" in flag for flag in project.status(workers=0).assets[0].flags) == cut_short
-        if FIRST in project.layout.ids_with_preparation():
+        if cut_short or FIRST in project.layout.preparation.ids:
             assert project.unprepare(FIRST, everything=everything).undone
         assert kept(project) == (before if everything else middle)
         put_back(project, tmp_path / "late")
@@ -213,7 +302,7 @@ def test_a_killed_undo_does_not_overwrite_labels_that_a_person_changed_since(tmp
     project.set_labels(FIRST, {"crumb#0": "misc", "crumb#1": "misc"})
     shutil.copytree(project.folder, tmp_path / "after")
     for _ in deaths(lambda: project.unprepare(FIRST), removals=True):
-        if FIRST in project.layout.ids_with_preparation():
+        if FIRST in project.layout.preparation.ids:
             project.unprepare(FIRST)
         assert project.mesh(FIRST).hull_of("crumb").label == "misc"
         put_back(project, tmp_path / "after")
@@ -257,16 +346,6 @@ def messages_of_status(project: Project) -> list[str]:
         return [error.message]
 
 
-def test_a_broken_journal_is_named(tmp_path: Path) -> None:
-    project = said(tmp_path)
-    project.cut(FIRST, "crumb", *PLANE)
-    path = project.layout.preparation_journal(FIRST)
-    path.write_text("{")
-    with pytest.raises(ProjectError, match=path.name):
-        project.unprepare(FIRST)
-    assert any("selections.json" in message for message in messages_of_status(project))
-
-
 def test_files_with_other_line_ends_come_back_bit_for_bit(tmp_path: Path) -> None:
     project = said(tmp_path)
     for path in (project.layout.events, project.layout.demonstration(FIRST)):
@@ -285,10 +364,3 @@ def test_selections_and_labels_come_back_where_the_asset_cannot_be_read(tmp_path
     project.path(FIRST).write_bytes(b"f 1 2 3")
     assert not project.unprepare(FIRST, everything=True).notes
     assert kept(project) == before
-
-
-def test_a_hull_stands_for_its_parts_only_where_all_are_named() -> None:
-    parts = Successors({"a": ("a#0", "a#1")}, {})
-    assert parts.carry(["a", "b"]) == ["a#0", "a#1", "b"]
-    assert parts.carry_back(["b", "a#1", "a#0"]) == ["b", "a"]
-    assert parts.carry_back(["a#0", "b"]) == ["a#0", "b"]

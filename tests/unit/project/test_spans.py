@@ -262,7 +262,7 @@ def test_propagation_leaves_what_the_surface_says_of_parts(project: Project) -> 
     before = project.mesh("c.urdf")
     project.set_labels("c.urdf", dict.fromkeys(made))
     project.set_labels("c.urdf", dict.fromkeys(made, "leg"), source="split", confidence=0.3)
-    project.propagate_labels()
+    project.label("propagate")
     after = project.mesh("c.urdf")
     assert all(after.hull_of(name).annotation == Label("leg", 0.3, "split") for name in made)
     others = [hull.name for hull in before.hulls if hull.name not in made]

@@ -80,7 +80,7 @@ def test_where_some_assets_are_labelled_their_labels_are_to_be_carried_over(tmp_
     advice = of(project).next
     assert advice.say == "2 assets, first b.obj, have no label: propagate those of the labelled assets."
     assert advice.command == f"meshforge label {project.folder} --with propagate"
-    project.propagate_labels()
+    project.label("propagate")
     assert "demonstrate" in str(of(project).next.command)
 
 

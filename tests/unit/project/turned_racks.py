@@ -22,6 +22,6 @@ def racks_on_their_side(folder: Path) -> Project:
         labels = {"vocabulary": ["panel", "leg"], "hulls": {hull.name: hull.label for hull in mesh.hulls}}
         (folder / f"racks/rack{k}.labels.json").write_text(json.dumps(labels))
     project = Project.create(folder / "project", [folder / "racks"])
-    project.label_from_files()
+    project.label("file")
     project.demonstrate("rack1.obj", [Step(1, {"top_0", "top_1"}, Delete())])
     return project

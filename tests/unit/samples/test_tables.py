@@ -23,11 +23,9 @@ from meshforge.language import (
     RunResult,
     Template,
     Union,
-    apply_rule,
     orient_mesh,
     select_mask,
     size_of,
-    to_canonical_frame,
 )
 from meshforge.samples import TABLES
 from meshforge.symbolic import Asset, SymbolicMesh, mask_of
@@ -146,9 +144,10 @@ def small_extractors() -> list[Extractor]:
 
 def test_the_two_demonstrated_tables_leave_no_other_extractor_as_small() -> None:
     shown = ("table_03", "table_08")
-    current = [to_canonical_frame(mesh(name), program().orient)[0] for name in shown]
+    replays = [program().replay(mesh(name), templates()) for name in shown]
     for number, rule in enumerate(program().rules):
         picked = [result(name).trace[number].selected for name in shown]
+        current = [next(replay).mesh for replay in replays]
         wanted = [mask_of(m.index[n] for n in names) for names, m in zip(picked, current, strict=True)]
         known = size_of(rule.extractor)
         fitting = [
@@ -157,7 +156,6 @@ def test_the_two_demonstrated_tables_leave_no_other_extractor_as_small() -> None
             if size_of(e) <= known and [select_mask(e, m, 0.05) for m in current] == wanted
         ]
         assert fitting == [rule.extractor]
-        current = [apply_rule(m, rule, templates())[1].mesh for m in current]
 
 
 def test_the_template_is_an_open_tray_in_the_unit_cube() -> None:

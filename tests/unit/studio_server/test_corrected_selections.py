@@ -9,7 +9,8 @@ import pytest
 from meshforge.common import ProjectError
 from meshforge.project import Project
 from meshforge.signoff import ReviewChoice, SlipQuestion
-from meshforge.studio.history import History
+from meshforge.store import History
+from meshforge.studio.edits.base import make_edit
 from meshforge.synthesis import Answer
 from tests.unit.project.tables import FIRST, THIRD, applied
 from tests.unit.studio_server.test_replies import edit_of
@@ -26,13 +27,13 @@ def kept(project: Project) -> list[bytes | None]:
 def correct(project: Project, history: History, asset: str) -> bool:
     choices = (ReviewChoice("no", "no", select=("crumb",)), ReviewChoice("yes", "yes", select=MEANT))
     question = SlipQuestion("?", 3.0, 1.0, asset, 1, (), choices, "selection-1")
-    return history.do(project, edit_of(question, project, {"choice": "yes"})) is not None
+    return make_edit(history, project, edit_of(question, project, {"choice": "yes"})) is not None
 
 
 def test_undo_brings_a_demonstration_an_answer_and_a_verdict_back(tmp_path: Path) -> None:
     project = applied(tmp_path)
     project.set_verdict(THIRD, "accepted")
-    history, states = History(project), [kept(project)]
+    history, states = History.open(project.folder), [kept(project)]
     for asset in (FIRST, THIRD):
         assert correct(project, history, asset)
         states.append(kept(project))
@@ -41,7 +42,7 @@ def test_undo_brings_a_demonstration_an_answer_and_a_verdict_back(tmp_path: Path
     assert [one.answer for one in said.answers.values()] == [Answer(1, THIRD, MEANT)]
     assert said.verdict_on(THIRD) is None
     for before in reversed(states[:-1]):
-        assert history.undo(project)
+        assert history.undo()
         assert kept(project) == before
 
 
@@ -49,5 +50,5 @@ def test_what_nobody_said_cannot_be_corrected(tmp_path: Path) -> None:
     project = applied(tmp_path)
     before = kept(project)
     with pytest.raises(ProjectError, match="rule 1 is not demonstrated here any more"):
-        correct(project, History(project), THIRD)
+        correct(project, History.open(project.folder), THIRD)
     assert kept(project) == before

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 
 import pytest
@@ -11,9 +11,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from meshforge.project import Project
-from meshforge.studio.edits.assets import LabelFromNames, LabelHulls, Propagate, RenameLabel
-from meshforge.studio.edits.base import Edit
-from meshforge.studio.history import History
+from meshforge.store import History
+from meshforge.studio.edits.assets import LabelFromNames, LabelHulls, RenameLabel
+from meshforge.studio.edits.base import Edit, make_edit
 from meshforge.studio.label_changes import LabelChanges
 from meshforge.studio.wire.family import Card
 from meshforge.studio.wire.jobs import PropagationState
@@ -35,13 +35,18 @@ def labelled(folder: Path) -> tuple[Project, History]:
     """Three tables, of which one is labelled."""
     project = family(folder)
     project.set_labels("t0.obj", {name: label_of(name) for name in NAMES})
-    return project, History(project)
+    return project, History.open(project.folder)
 
 
 def carry(project: Project, history: History, best: str | None = "t1.obj") -> None:
     """Propagate labels, as the job does."""
-    with history.record(project, Propagate(used=history.view.undoable, next=best)):
-        project.propagate_labels()
+    with recorded(project, history, history.state.undoable, best):
+        project.label("propagate")
+
+
+def recorded(project: Project, history: History, used: int, best: str | None) -> AbstractContextManager[int]:
+    edit = {"kind": "propagate", "used": used, "next": best}
+    return history.record("labels propagated", edit, [project.folder / "labels"])
 
 
 def labels(project: Project) -> dict[str, bytes]:
@@ -64,9 +69,9 @@ def test_it_is_one_step_back_and_one_forth_to_the_byte(tmp_path: Path) -> None:
     carry(project, history)
     after = labels(project)
     assert before.keys() < after.keys()
-    assert len(history.undo(project)) == 1
+    assert len(history.undo()) == 1
     assert labels(project) == before
-    assert len(history.redo(project)) == 1
+    assert len(history.redo()) == 1
     assert labels(project) == after
 
 
@@ -80,14 +85,16 @@ def test_what_changed_is_told_until_the_next_edit_and_again_when_that_is_undone(
     assert [(one.asset, one.new, one.changed) for one in found.assets] == [
         (asset, tuple(range(len(NAMES))), ()) for asset in ASSETS[1:]
     ]
-    history.do(project, label("t1.obj", "crumb", "leg"))
+    make_edit(history, project, label("t1.obj", "crumb", "leg"))
     assert relabelling.last_change(HULLS) is None
-    history.undo(project)
+    history.undo()
     assert relabelling.last_change(HULLS) == found
-    assert LabelChanges(History(project)).last_change(HULLS) == found, "a studio that is opened anew knows it, too"
-    history.undo(project)
+    assert LabelChanges(History.open(project.folder)).last_change(HULLS) == found, (
+        "a studio that is opened anew knows it, too"
+    )
+    history.undo()
     assert relabelling.last_change(HULLS) is None
-    history.redo(project)
+    history.redo()
     assert relabelling.last_change(HULLS) == found
 
 
@@ -115,8 +122,8 @@ def test_assets_that_are_not_read_yet_are_told_later(tmp_path: Path) -> None:
 
 def test_labels_from_names_are_told_as_well(tmp_path: Path) -> None:
     project = family(tmp_path)
-    history = History(project)
-    history.do(project, LabelFromNames())
+    history = History.open(project.folder)
+    make_edit(history, project, LabelFromNames())
     found = LabelChanges(history).last_change(HULLS)
     assert found and found.way == "label-names"
     assert {(one.asset, one.new) for one in found.assets} == {(asset, (NAMES.index("top"),)) for asset in ASSETS}
@@ -129,7 +136,7 @@ def test_what_a_person_says_since_is_counted_until_labels_are_carried_over_again
     assert carried(project, history) == PropagationState(unused=0, next="t1.obj")
 
     def unused_after(edit: Edit) -> int:
-        history.do(project, edit)
+        make_edit(history, project, edit)
         now = carried(project, history)
         assert now
         return now.unused
@@ -141,12 +148,12 @@ def test_what_a_person_says_since_is_counted_until_labels_are_carried_over_again
     assert unused_after(label("t0.obj", "top", "top")) == 2, "as it was when labels were propagated"
     assert unused_after(RenameLabel(old="leg", new="foot")) == 2
     assert unused_after(label("t1.obj", "crumb", None)) == 1
-    history.undo(project)
+    history.undo()
     assert carried(project, history) == PropagationState(unused=2, next="t1.obj")
     project.set_labels("t2.obj", {"top": "misc"}, source="propagated", confidence=0.2)
     carry(project, history, "t2.obj")
     assert carried(project, history) == PropagationState(unused=0, next="t2.obj")
-    history.undo(project)
+    history.undo()
     assert carried(project, history) == PropagationState(unused=2, next="t1.obj")
 
 
@@ -156,14 +163,14 @@ def test_labels_are_used_also_where_that_changes_none(tmp_path: Path) -> None:
     relabelling.note_no_change(0, "t2.obj")
     assert relabelling.propagation_state(project, cards(project)) == PropagationState(unused=0, next="t2.obj")
     carry(project, history)
-    history.do(project, label("t1.obj", "top", "top"))
+    make_edit(history, project, label("t1.obj", "top", "top"))
     assert relabelling.propagation_state(project, cards(project)) == PropagationState(unused=1, next="t1.obj")
     relabelling.note_no_change(2, "t2.obj")
     assert relabelling.propagation_state(project, cards(project)) == PropagationState(unused=0, next="t2.obj")
-    history.do(project, label("t2.obj", "top", "top"))
+    make_edit(history, project, label("t2.obj", "top", "top"))
     assert relabelling.propagation_state(project, cards(project)) == PropagationState(unused=1, next="t2.obj")
-    history.undo(project)
-    history.undo(project)
+    history.undo()
+    history.undo()
     assert relabelling.propagation_state(project, cards(project)) == PropagationState(unused=0, next="t1.obj"), (
         "before it was said"
     )
@@ -174,15 +181,15 @@ def test_what_is_said_while_labels_are_carried_over_is_kept_and_is_news(tmp_path
 
     @contextmanager
     def keeping(best: str | None) -> Iterator[None]:
-        history.do(project, label("t1.obj", "crumb", "leg"))
-        with history.record(project, Propagate(used=0, next=best)):
+        make_edit(history, project, label("t1.obj", "crumb", "leg"))
+        with recorded(project, history, 0, best):
             yield
 
-    project.propagate_labels(write_block=keeping)
+    project.label("propagate", write_block=keeping)
     assert project.labels("t1.obj").labels["crumb"] == Label("leg")
     now = carried(project, history)
     assert now and now.unused == 1
-    history.undo(project)
+    history.undo()
     assert {name: one.name for name, one in project.labels("t1.obj").labels.items()} == {"crumb": "leg"}
 
 
@@ -193,7 +200,7 @@ def test_an_asset_that_is_labelled_is_no_longer_the_next(tmp_path: Path) -> None
     assert carried(project, history) == PropagationState(unused=0, next="t1.obj"), (
         "others than the studio are not counted"
     )
-    history.do(project, label("t1.obj", NAMES[0], label_of(NAMES[0])))
+    make_edit(history, project, label("t1.obj", NAMES[0], label_of(NAMES[0])))
     now = carried(project, history)
     assert now and now.next is None
 
@@ -201,13 +208,13 @@ def test_an_asset_that_is_labelled_is_no_longer_the_next(tmp_path: Path) -> None
 def test_a_damaged_history_tells_less_and_fails_nowhere(tmp_path: Path) -> None:
     project, history = labelled(tmp_path)
     carry(project, history)
-    history.do(project, label("t1.obj", "crumb", "leg"))
+    make_edit(history, project, label("t1.obj", "crumb", "leg"))
     for blob in (project.folder / ".meshforge/studio/history/blobs").glob("*/*"):
         blob.write_bytes(b"{")
     found = carried(project, history)
     assert found and found.next == "t1.obj"
-    history = History(project)
-    history.do(project, label("t1.obj", "crumb", "misc"))
+    history = History.open(project.folder)
+    make_edit(history, project, label("t1.obj", "crumb", "misc"))
     known = cards(project)
     project.layout.labels("t1.obj").write_text("{")
     assert LabelChanges(history).propagation_state(project, known) == PropagationState(unused=0, next="t1.obj")
@@ -233,20 +240,20 @@ def test_no_label_of_a_person_is_lost_whatever_is_done(
     states, at = [(labels(project), _said(project))], 0
     for move in moves:
         if move == "reopen":
-            history = History(project)
+            history = History.open(project.folder)
         elif move in ("undo", "redo"):
             way = -1 if move == "undo" else 1
-            moved = bool(history.undo(project) if move == "undo" else history.redo(project))
+            moved = bool(history.undo() if move == "undo" else history.redo())
             at += way if moved else 0
         else:
             said = dict(states[at][1])
             if isinstance(move, LabelHulls):
-                changed = history.do(project, move) is not None
+                changed = make_edit(history, project, move) is not None
                 said |= {(move.asset, move.hulls[0]): str(move.label)}
             else:
-                done = history.view.undoable
+                done = history.state.undoable
                 carry(project, history)
-                changed = history.view.undoable > done
+                changed = history.state.undoable > done
             if changed:
                 states, at = [*states[: at + 1], (labels(project), said)], at + 1
         assert (labels(project), _said(project)) == states[at]
@@ -265,17 +272,17 @@ def _said(project: Project) -> dict[tuple[str, str], str]:
 @needs_fork
 def test_carrying_over_that_is_killed_leaves_whole_labels_and_can_be_taken_back(tmp_path: Path) -> None:
     project, history = labelled(tmp_path)
-    history.do(project, label("t1.obj", "crumb", "leg"))
+    make_edit(history, project, label("t1.obj", "crumb", "leg"))
     before, said = labels(project), _said(project)
-    for _ in deaths(lambda: carry(project, History(project))):
+    for _ in deaths(lambda: carry(project, History.open(project.folder))):
         left = {name: text for name, text in labels(project).items() if not name.endswith(".tmp")}
         assert _said(project) == said
-        history = History(project)
+        history = History.open(project.folder)
         if left == before:
-            assert history.view.undoable == 1
+            assert history.state.undoable == 1
             continue
-        assert history.view.undo == "labels propagated"
-        history.undo(project)
+        assert history.state.undo == "labels propagated"
+        history.undo()
         assert {name: text for name, text in labels(project).items() if not name.endswith(".tmp")} == before
     assert _said(project) == said
     assert len(project.labels("t2.obj").labels) == len(NAMES)

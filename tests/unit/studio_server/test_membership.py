@@ -9,8 +9,9 @@ import pytest
 
 from meshforge.common import ProjectError
 from meshforge.project import Project
+from meshforge.store import History
 from meshforge.studio.edits.assets import AddAssets, LeaveOut, RemoveAssets
-from meshforge.studio.history import History
+from meshforge.studio.edits.base import make_edit
 from tests.unit.batch.families import tree
 from tests.unit.project.tables import FIRST, SECOND, THIRD, demonstrated, fresh
 
@@ -25,30 +26,30 @@ def _now(project: Project) -> tuple[str, ...]:
 
 def test_an_asset_that_is_left_out_keeps_what_is_known_of_it(tmp_path: Path) -> None:
     project = demonstrated(tmp_path)
-    before, history = _kept(project), History(project)
-    history.do(project, LeaveOut(ids=(FIRST,)))
+    before, history = _kept(project), History.open(project.folder)
+    make_edit(history, project, LeaveOut(ids=(FIRST,)))
     found = Project.open(project.folder)
     assert (found.assets(), found.found.left_out) == ((SECOND, THIRD), (FIRST,))
     assert found.status().lost == ()
     assert {name: data for name, data in _kept(project).items() if name != "meshforge.toml"} == {
         name: data for name, data in before.items() if name != "meshforge.toml"
     }
-    history.do(found, LeaveOut(ids=(FIRST,), out=False))
+    make_edit(history, found, LeaveOut(ids=(FIRST,), out=False))
     assert _now(project) == (FIRST, SECOND, THIRD)
-    history.undo(found)
-    history.undo(found)
+    history.undo()
+    history.undo()
     assert _kept(project) == before
 
 
 def test_an_asset_that_is_removed_goes_with_all_that_is_kept_for_it_and_its_own_file_stays(tmp_path: Path) -> None:
     project = demonstrated(tmp_path)
-    before, sources, history = _kept(project), tree(tmp_path / "assets"), History(project)
-    history.do(project, RemoveAssets(ids=(FIRST,)))
+    before, sources, history = _kept(project), tree(tmp_path / "assets"), History.open(project.folder)
+    make_edit(history, project, RemoveAssets(ids=(FIRST,)))
     found = Project.open(project.folder)
     assert (found.assets(), found.found.left_out, found.status().lost) == ((SECOND, THIRD), (), ())
     assert not [name for name in _kept(project) if FIRST in name]
     assert tree(tmp_path / "assets") == sources
-    history.undo(found)
+    history.undo()
     assert _kept(project) == before and _now(project) == (FIRST, SECOND, THIRD)
 
 
@@ -74,7 +75,7 @@ def test_the_last_asset_of_a_family_stays(tmp_path: Path, edit: LeaveOut | Remov
     project = fresh(tmp_path)
     before = _kept(project)
     with pytest.raises(ProjectError, match="would be left"):
-        History(project).do(project, edit)
+        make_edit(History.open(project.folder), project, edit)
     assert _kept(project) == before
 
 
@@ -101,12 +102,12 @@ def test_an_asset_that_is_added_lands_in_the_folder_of_the_project(tmp_path: Pat
     staged, sources = tmp_path / "staged", tree(tmp_path / "assets")
     (staged / "new").mkdir(parents=True)
     shutil.copyfile(project.path(FIRST), staged / "new" / "x.obj")
-    home, history = project.found.added, History(project)
+    home, history = project.found.added, History.open(project.folder)
     edit = AddAssets(staged=str(staged), files=("new/x.obj",), added=("new/x.obj",), home=str(home))
-    history.do(project, edit)
+    make_edit(history, project, edit)
     found = Project.open(project.folder)
     assert home == project.folder / "added"
     assert "added/new/x.obj" in found.assets() and tree(tmp_path / "assets") == sources
     assert found.mesh("added/new/x.obj").hulls
-    history.undo(found)
+    history.undo()
     assert _now(project) == (FIRST, SECOND, THIRD) and not (home / "new" / "x.obj").exists()

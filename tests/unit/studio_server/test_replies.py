@@ -31,10 +31,10 @@ from meshforge.signoff import (
     SpanQuestion,
     question_of,
 )
-from meshforge.store import SpanLine, SpansFile, hull_digests
+from meshforge.store import History, SpanLine, SpansFile, hull_digests
 from meshforge.studio.edits import AnyEdit
+from meshforge.studio.edits.base import make_edit
 from meshforge.studio.edits.replies import ReplyToQuestion
-from meshforge.studio.history import History
 from meshforge.studio.learning.assessment import view_assessment
 from tests.unit.project.tables import FIRST, SECOND, THIRD, applied
 
@@ -153,15 +153,15 @@ def test_a_reply_of_the_page_writes_what_a_reply_of_the_project_writes(begun: Pa
     page, twin = copied(begun, tmp_path / "page", kind), copied(begun, tmp_path / "twin", kind)
     before, was = kept(page), probability(page)
     twin.reply(ASKED[kind], reply_of(ASKED[kind], said))
-    history = History(page)
-    assert history.do(page, edit_of(ASKED[kind], page, said))
+    history = History.open(page.folder)
+    assert make_edit(history, page, edit_of(ASKED[kind], page, said))
     assert kept(page) == kept(twin) != before
     now = probability(page)
     if was is None or now is None:
         assert moves == "gone"
     else:
         assert ("=" if abs(now - was) < 1e-3 else "<" if now < was else ">") == moves, (was, now)
-    assert history.undo(page) and kept(page) == before
+    assert history.undo() and kept(page) == before
 
 
 def test_a_reply_that_does_not_fit_writes_nothing(begun: Path, tmp_path: Path) -> None:
@@ -173,5 +173,5 @@ def test_a_reply_that_does_not_fit_writes_nothing(begun: Path, tmp_path: Path) -
         {"choice": "wrong", "selections": {"9": []}},
     ):
         with pytest.raises(ProjectError):
-            History(project).do(project, edit_of(ASKED["result"], project, said))
+            make_edit(History.open(project.folder), project, edit_of(ASKED["result"], project, said))
         assert kept(project) == before

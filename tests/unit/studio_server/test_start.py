@@ -16,7 +16,7 @@ import pytest
 from meshforge.common import MeshForgeError, UsageError
 from meshforge.project import Project
 from meshforge.samples import TABLES
-from meshforge.studio.errors import ConflictError
+from meshforge.store import ConflictError
 from meshforge.studio.host import Host
 from meshforge.studio.session.session import StudioOptions
 from meshforge.studio.start import folders

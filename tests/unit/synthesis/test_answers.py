@@ -21,6 +21,7 @@ from meshforge.synthesis import (
     outcome_to_json,
     synthesize,
 )
+from tests.open_rules import answer_truly, choose
 from tests.synthesis_cupboards import cupboard, cupboards, meant, selected, shown, with_rare_doors
 
 MESHES = with_rare_doors()
@@ -40,7 +41,7 @@ def rules(outcome: LearningOutcome) -> list[str]:
 def test_a_choice_that_is_taken_is_what_the_program_selects(choice: int) -> None:
     asked = learned()
     assert isinstance(asked, Ambiguous)
-    answer = asked.question.answer_with(choice)
+    answer = choose(asked.open_rule, choice)
     outcome = learned(answer)
     assert isinstance(outcome, Found)
     assert outcome.settled
@@ -56,14 +57,14 @@ def test_every_choice_of_every_question_about_a_family_can_be_taken() -> None:
         names = [name for name, mesh in meshes.items() if meant(extractor, mesh)][:1]
         demos = shown(meshes, names, f"{extractor} => Delete")
         outcome = synthesize(demos, meshes, options=Options(repair=False)) if demos else None
-        for choice in range(len(outcome.question.choices) if outcome and outcome.question else 0):
+        for choice in range(len(outcome.open_rule.selections) if outcome and outcome.open_rule else 0):
             assert outcome
-            assert outcome.question
-            answer = outcome.question.answer_with(choice)
+            assert outcome.open_rule
+            answer = choose(outcome.open_rule, choice)
             taken = synthesize(demos, meshes, answers=[answer], options=Options(repair=False))
             assert isinstance(taken, Found | Ambiguous)
             assert selected(taken.program, 1, meshes[answer.asset]) == answer.select
-            assert not taken.question or taken.question.asset != answer.asset
+            assert not taken.open_rule or taken.open_rule.asset != answer.asset
             asked += 1
     assert asked > 10
 
@@ -73,8 +74,8 @@ def test_a_choice_is_never_larger_than_what_can_be_learned() -> None:
     outcome = synthesize(DEMOS, MESHES, options=options)
     assert isinstance(outcome, Ambiguous)
     assert {reading.size for reading in outcome.readings} == {1, 2}
-    for choice in range(len(outcome.question.choices)):
-        answers = [outcome.question.answer_with(choice)]
+    for choice in range(len(outcome.open_rule.selections)):
+        answers = [choose(outcome.open_rule, choice)]
         assert isinstance(synthesize(DEMOS, MESHES, answers=answers, options=options), Found | Ambiguous)
 
 
@@ -84,8 +85,8 @@ def test_neither_is_taken_note_of_and_not_asked_again_on_that_asset() -> None:
         outcome = learned(*answers)
         if not isinstance(outcome, Ambiguous):
             break
-        assert outcome.question.asset not in {answer.asset for answer in answers}
-        answers.append(outcome.question.answer_with(None))
+        assert outcome.open_rule.asset not in {answer.asset for answer in answers}
+        answers.append(choose(outcome.open_rule, None))
     assert isinstance(outcome, Found)
     assert len({answer.asset for answer in answers}) == len(answers) > 1
     assert not outcome.settled, "what was declined is still open"
@@ -94,9 +95,9 @@ def test_neither_is_taken_note_of_and_not_asked_again_on_that_asset() -> None:
 def test_what_was_refused_on_an_asset_is_believed_less() -> None:
     asked = learned()
     assert isinstance(asked, Ambiguous)
-    refused = {choice.reading for choice in asked.question.choices}
-    offered = {show(reading.extractor) for reading in asked.readings if reading.id in refused}
-    after = learned(asked.question.answer_with(None))
+    mesh, refused = MESHES[asked.open_rule.asset], asked.open_rule.selections
+    offered = {show(one.extractor) for one in asked.readings if meant(show(one.extractor), mesh) in refused}
+    after = learned(choose(asked.open_rule, None))
     before = {show(reading.extractor): reading.belief for reading in asked.readings}
     others = [reading for reading in after.readings if show(reading.extractor) not in before.keys() & offered]
     assert sum(reading.belief for reading in others) > sum(before[show(reading.extractor)] for reading in others)
@@ -105,7 +106,7 @@ def test_what_was_refused_on_an_asset_is_believed_less() -> None:
 def test_neither_to_one_rule_says_nothing_about_another() -> None:
     asked = learned(Answer(2, "c1", None))
     assert isinstance(asked, Ambiguous)
-    assert asked.question.id == "1:c1"
+    assert asked.open_rule.id == "1:c1"
 
 
 def test_an_answer_is_evidence_for_its_rule_only() -> None:
@@ -125,7 +126,7 @@ def test_of_several_answers_to_one_question_the_last_counts() -> None:
     assert rules(learned(Answer(1, "c1", BY_DOOR), Answer(1, "c1", BOTH))) == rules(learned(Answer(1, "c1", BOTH)))
     taken_back = learned(Answer(1, "c1", BOTH), Answer(1, "c1", None))
     assert rules(taken_back) == rules(learned(Answer(1, "c1", None)))
-    assert taken_back.question == learned(Answer(1, "c1", None)).question
+    assert taken_back.open_rule == learned(Answer(1, "c1", None)).open_rule
 
 
 def test_the_order_of_answers_about_different_assets_does_not_matter() -> None:
@@ -151,7 +152,7 @@ def test_a_question_may_be_about_the_open_step_of_a_demonstrated_mesh() -> None:
     open_ = Demonstration(MESHES["c1"], [Step(1, None, Delete())], "c1")
     outcome = synthesize([*DEMOS, open_], options=Options(repair=False))
     assert isinstance(outcome, Ambiguous)
-    assert outcome.question.asset == "c1"
+    assert outcome.open_rule.asset == "c1"
 
 
 def test_an_answer_may_name_what_an_earlier_rule_makes() -> None:
@@ -179,7 +180,7 @@ def test_an_answer_about_what_is_not_there_is_stale_and_counts_for_nothing(answe
     outcome, without = learned(answer), learned()
     assert outcome.stale == (answer,)
     assert rules(outcome) == rules(without)
-    assert outcome.question == without.question
+    assert outcome.open_rule == without.open_rule
 
 
 def test_stale_answers_are_told_once_even_where_labels_are_repaired_and_a_rule_is_learned_again() -> None:
@@ -204,9 +205,8 @@ def test_answers_to_every_question_end_in_a_program_that_agrees_with_all_of_them
     answers: list[Answer] = []
     outcome = learned()
     while isinstance(outcome, Ambiguous):
-        truth = meant("Attach(Is(handle), Is(drawer))", MESHES[outcome.question.asset])
-        offered = [frozenset(choice.select) for choice in outcome.question.choices]
-        answers.append(outcome.question.answer_with(offered.index(truth) if truth in offered else None))
+        truth = meant("Attach(Is(handle), Is(drawer))", MESHES[outcome.open_rule.asset])
+        answers.append(answer_truly(outcome.open_rule, truth))
         assert len(answers) <= len(MESHES)
         outcome = learned(*answers)
     assert isinstance(outcome, Found)

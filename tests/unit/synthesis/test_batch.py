@@ -93,7 +93,7 @@ def test_the_order_of_a_mapping_does_not_matter() -> None:
     forth, back = (synthesize(DEMOS, dict(rows)) for rows in (RARE.items(), list(RARE.items())[::-1]))
     assert isinstance(forth, Ambiguous)
     assert shape(forth) == shape(back)
-    assert forth.question == back.question
+    assert forth.open_rule == back.open_rule
 
 
 def test_learning_twice_gives_the_same() -> None:
@@ -164,7 +164,7 @@ def test_the_strategy_of_the_paper_takes_a_batch_and_settles_nothing() -> None:
     options = Options(strategy="paper", repair=False)
     outcome = synthesize(DEMOS, MESHES, options=options)
     assert isinstance(outcome, Found)
-    assert (outcome.settled, outcome.question) == (False, None)
+    assert (outcome.settled, outcome.open_rule) == (False, None)
     assert [rule.extractor for rule in outcome.rules] == [Is("handle")]
     assert outcome.hint is not None
 
@@ -176,11 +176,11 @@ def test_a_course_runs_the_last_rule_on_demonstrated_meshes_only() -> None:
     examples, rest = course.examples(rule)
     assert [example.name for example in examples] == ["c0"]
     assert [replay.name for replay in rest] == [f"c{k}" for k in range(1, 8)]
-    course.advance(1, program.rules[0], last=True)
+    course.advance(program.rules[0], last=True)
     assert "pull" not in course.shown[0].mesh.index
     assert all("pull" in replay.mesh.index for replay in course.others)
     before_another = ReplaySet(DEMOS, name_batch(MESHES, DEMOS), program, dict[str, Template](), ())
-    before_another.advance(1, program.rules[0], last=False)
+    before_another.advance(program.rules[0], last=False)
     assert len(before_another.others) == 7
     assert not any("pull" in replay.mesh.index for replay in before_another.others)
 

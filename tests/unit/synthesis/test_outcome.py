@@ -14,7 +14,7 @@ KEYS = [
     "settled",
     "readings",
     "repairs",
-    "question",
+    "open_rule",
     "nearest",
     "demonstrate_next",
     "look_at",
@@ -44,7 +44,7 @@ def test_a_found_program_as_json() -> None:
         "settled": False,
         "readings": [{"id": "1.1", "rule": 1, "extractor": "Is(panel)", "size": 1, "belief": 1.0, "differs_on": []}],
         "repairs": [],
-        "question": None,
+        "open_rule": None,
         "nearest": None,
         "demonstrate_next": None,
         "look_at": [],
@@ -102,5 +102,5 @@ def test_every_outcome_has_the_attributes_that_callers_read() -> None:
     assert isinstance(outcome, Found)
     assert outcome.status == "found"
     assert [rule.extractor for rule in outcome.rules] == [Attach(Is("handle"), Is("drawer"))]
-    assert (outcome.repairs, outcome.question, outcome.nearest, outcome.settled) == ((), None, None, False)
+    assert (outcome.repairs, outcome.open_rule, outcome.nearest, outcome.settled) == ((), None, None, False)
     assert outcome.tried[0].size == 2

@@ -102,7 +102,7 @@ def test_a_proposal_as_json() -> None:
     outcome = learned(planted(WRONG))
     shape = outcome_to_json(outcome)
     (repair,) = shape["repairs"]
-    assert (shape["status"], shape["program"], shape["question"]) == ("repair", None, None)
+    assert (shape["status"], shape["program"], shape["open_rule"]) == ("repair", None, None)
     assert {**repair, "belief": None, "why": None} == {
         "rule": 1, "asset": "one", "hull": "leg0_low", "from": "drawer", "to": "leg", "belief": None, "why": None,
     }  # fmt: skip

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import codecs
 import json
+import os
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass
+from errno import EISDIR
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +21,7 @@ from meshforge.common import AssetError, first_validation_error, write_atomicall
 RECORD_FILE = "preparation.json"
 """The file in a preparation's folder that says what was done."""
 _HULLS = "hulls.obj"
+_FORMER = "selections.json"  # what versions before wrote beside them
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,35 +81,40 @@ def record_digest(folder: Path) -> str | None:
 
 
 def write_preparation(folder: Path, preparation: Preparation) -> None:
-    """Write a preparation; a process that is killed meanwhile leaves the one before, or this one.
+    """Write a preparation, without any step remove it; killed meanwhile, the one before or this one is there.
 
-    The hulls of both are in the file while what was done is exchanged.
+    Raises AssetError where something else stands in the place of its files.
     """
+    for path, content in list_preparation_writes(folder, preparation):
+        if content is None:
+            path.unlink(missing_ok=True)
+        else:
+            write_atomically(path, content)
+    if folder.is_dir() and not any(folder.iterdir()):
+        folder.rmdir()
+
+
+def list_preparation_writes(folder: Path, preparation: Preparation) -> list[tuple[Path, bytes | None]]:
+    """The contents to write to files, in this order, so that a preparation takes the place of the one in a folder; None
+    removes a file. Raises AssetError as `write_preparation` does.
+
+    The hulls of both are in the file while what was done is exchanged, so that hulls are never missed.
+    """
+    path, hulls = folder / RECORD_FILE, folder / _HULLS
+    for file in (path, hulls):
+        if file.is_dir():
+            raise _file_error(file, IsADirectoryError(EISDIR, os.strerror(EISDIR)))
+    if not preparation.steps:
+        return [(file, None) for file in (path, hulls, folder / _FORMER) if file.exists()]
     try:
         before = read_preparation(folder) or Preparation()
     except AssetError:
         before = Preparation()
     own = [(name, preparation.hulls[known]) for name, known in preparation.hull_digests.items()]
     old = [(f"{n}@before", before.hulls[k]) for n, k in before.hull_digests.items() if k not in preparation.hulls]
-    write_atomically(folder / _HULLS, _format_hulls([*own, *old]))
-    record = _Record(preparation.steps)
-    write_atomically(folder / RECORD_FILE, json.dumps(asdict(record), ensure_ascii=False, indent=2) + "\n")
-    if old:
-        write_atomically(folder / _HULLS, _format_hulls(own))
-
-
-def remove_preparation(folder: Path) -> None:
-    """Take a preparation away; what was done first, so that hulls are never missed.
-
-    Raises AssetError where something else stands in the place of its files.
-    """
-    for path in (folder / RECORD_FILE, folder / _HULLS):
-        try:
-            path.unlink(missing_ok=True)
-        except OSError as error:
-            raise _file_error(path, error) from error
-    if folder.is_dir() and not any(folder.iterdir()):
-        folder.rmdir()
+    record = json.dumps(asdict(_Record(preparation.steps)), ensure_ascii=False, indent=2) + "\n"
+    writes: list[tuple[Path, bytes | None]] = [(hulls, _format_hulls([*own, *old])), (path, record.encode())]
+    return [*writes, (hulls, _format_hulls(own))] if old else writes
 
 
 def _read_record(path: Path) -> tuple[PreparationStep, ...]:

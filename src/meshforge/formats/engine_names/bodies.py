@@ -1,14 +1,13 @@
-"""The bodies of an asset under the names of an engine: the meshes of each, and what of it collides."""
+"""The bodies of an asset under the names of an engine: what each shows, and what of it collides."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import partial
 
 from meshforge.common import join_names
 from meshforge.formats import base, visuals
-from meshforge.formats.engine_names.conventions import CollisionNames
+from meshforge.formats.engine_names.conventions import CollisionNames, claim_name
 from meshforge.formats.meshfile.surface import stack_triangles
 from meshforge.symbolic import Asset, Body, FeatureKind, Geom, Opaque, Surface
 
@@ -17,13 +16,12 @@ _NAMELESS = "body"  # how formats without bodies call the one they have
 
 @dataclass(frozen=True, eq=False, slots=True)
 class EngineBody:
-    """One body; name: of what is seen of it; surfaces: what that is; hulls, opaque: what collides, each by its name."""
+    """One body; name: of what is seen of it; surfaces: what that is; pieces: what collides, each with its own name."""
 
     body: Body
     name: str
     surfaces: tuple[Surface, ...]
-    hulls: dict[str, Geom]
-    opaque: dict[str, Opaque]
+    pieces: tuple[tuple[Geom | Opaque, str], ...]
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -34,81 +32,47 @@ class EngineBodies:
     lost: tuple[base.Loss, ...]
     notes: tuple[str, ...]
 
-    @property
-    def names(self) -> dict[str, str]:
-        """The names of hulls in the file, by those in the asset."""
-        return {geom.name: name for family in self.each for name, geom in family.hulls.items()}
-
 
 def name_bodies(asset: Asset, engine: CollisionNames, stem: str) -> EngineBodies:
     """The bodies of an asset under the names of an engine; stem: of the file, for a body without a name.
 
     Raises AssetError: there is nothing that collides.
     """
-    return _Namer(asset, engine, stem).name_all()
-
-
-class _Namer:
-    def __init__(self, asset: Asset, engine: CollisionNames, stem: str) -> None:
-        self.asset, self.engine, self.stem = asset, engine, stem
-        self.taken: set[str] = set()
-        surfaces, refused = visuals.read_visual_surfaces(asset)
-        self.surfaces = {body.name: [s for owner, s in surfaces if owner == body.name] for body in asset.bodies}
-        self.lost = list(refused)
-        self.bare: list[str] = []
-
-    def name_all(self) -> EngineBodies:
-        asset, engine = self.asset, self.engine
-        collides = [piece for piece in asset.opaque if _has_triangles(piece)] if engine.takes_opaque else []
-        if not asset.geoms and not collides:
-            raise base.nothing_collides_error(asset)
-        bases = [self.stem] if [body.name for body in asset.bodies] == [_NAMELESS] else [b.name for b in asset.bodies]
-        names = [self._claim_name(engine.body, name) for name in bases]
-        found = [self._name_body(*pair) for pair in zip(asset.bodies, names, strict=True)]
-        notes = list[str]()
-        if self.bare:
-            notes.append(
-                f"{engine.title} needs a mesh to be seen: what collides stands for it in {join_names(self.bare, 3)}"
-            )
-        kept = tuple(one for one in found if one.surfaces or one.hulls or one.opaque)
-        return EngineBodies(kept, tuple(self.lost), tuple(notes))
-
-    def _name_body(self, body: Body, name: str) -> EngineBody:
-        engine = self.engine
-        geoms = [geom for geom in self.asset.geoms if geom.body == body.name]
-        opaque = [piece for piece in self.asset.opaque if piece.body == body.name and _has_triangles(piece)]
-        surfaces = tuple(self.surfaces[body.name])
-        bare = engine.shows and not surfaces and bool(geoms or opaque)
-        if bare:
+    shown, lost = visuals.read_visual_surfaces(asset)
+    found, bare, taken = [], [], set[str]()
+    only = [body.name for body in asset.bodies] == [_NAMELESS]
+    for body in asset.bodies:
+        name = claim_name(engine.body, stem if only else body.name, taken)
+        geoms = [geom for geom in asset.geoms if geom.body == body.name]
+        opaque = [piece for piece in asset.opaque if piece.body == body.name and has_triangles(piece)]
+        surfaces = tuple(surface for owner, surface in shown if owner == body.name)
+        is_bare = engine.shows and not surfaces and bool(geoms or opaque)
+        if is_bare:
             surfaces = _merge_surfaces(geoms, opaque)
-            self.bare.append(name)
+            bare.append(name)
         if opaque and not engine.takes_opaque:
-            why = f"{engine.title} makes one hull of any mesh that collides; meshforge prepare makes better ones"
-            instead = "written to be seen alone" if bare else None
-            self.lost.append(base.Loss(FeatureKind.OPAQUE, tuple(piece.name for piece in opaque), why, instead))
+            lost.append(lose_opaque(engine, opaque, is_seen=is_bare))
             opaque = []
-        hulls = {
-            self._claim_name(partial(engine.hull, name, geom, k), self._own_name_of(geom)): geom
-            for k, geom in enumerate(geoms)
-        }
-        pieces = {self._claim_name(engine.opaque, self._own_name_of(piece)): piece for piece in opaque}
-        return EngineBody(body, name, surfaces, hulls, pieces)
-
-    def _own_name_of(self, thing: Geom | Opaque) -> str:
-        """The name without the body, where there is only one or the engine reads it below its body."""
-        alone = len(self.asset.bodies) == 1 or self.engine.in_bodies
-        return thing.name.removeprefix(f"{thing.body}/") if alone else thing.name
-
-    def _claim_name(self, named: Callable[[str], str], wanted: str) -> str:
-        """What `named` makes of a name, or of it with a number, that no other has; Unreal takes no notice of case."""
-        name, number = named(wanted), 2
-        while name.lower() in self.taken:
-            name, number = named(f"{wanted}-{number}"), number + 1
-        self.taken.add(name.lower())
-        return name
+        prefix = f"{body.name}/" if len(asset.bodies) == 1 or engine.in_bodies else ""
+        pieces: list[Geom | Opaque] = [*geoms, *opaque]
+        own = tuple((piece, piece.name.removeprefix(prefix)) for piece in pieces)
+        found.append(EngineBody(body, name, surfaces, own))
+    if not any(family.pieces for family in found):
+        raise base.nothing_collides_error(asset)
+    stands = f"{engine.title} needs a mesh to be seen: what collides stands for it in {join_names(bare, 3)}"
+    kept = tuple(family for family in found if family.surfaces or family.pieces)
+    return EngineBodies(kept, tuple(lost), (stands,) if bare else ())
 
 
-def _has_triangles(piece: Opaque) -> bool:
+def lose_opaque(engine: CollisionNames, pieces: Sequence[Opaque], *, is_seen: bool) -> base.Loss:
+    """The loss of non-convex pieces of which an engine takes none; is_seen: whether they are there to be seen."""
+    why = f"{engine.title} makes one hull of any mesh that collides; meshforge prepare makes better ones"
+    names = tuple(piece.name for piece in pieces)
+    return base.Loss(FeatureKind.OPAQUE, names, why, "written to be seen alone" if is_seen else None)
+
+
+def has_triangles(piece: Opaque) -> bool:
+    """Whether a piece has a surface to write."""
     return piece.surface is not None and len(piece.surface.faces) > 0
 
 

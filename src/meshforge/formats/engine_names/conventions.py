@@ -5,7 +5,8 @@ from __future__ import annotations
 
 import re
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from itertools import count
 from typing import ClassVar, Literal
 
 import numpy as np
@@ -52,7 +53,7 @@ class CollisionNames(ABC):
 
     @abstractmethod
     def hull(self, body: str, geom: Geom, number: int, own: str) -> str:
-        """The name of a hull; body: the name of its body; number: its place there, from 0; own: the name it had."""
+        """The name of a hull; body: of the mesh that it stands for; number: its place there, from 0; own: it had."""
 
     def holder(self, body: str) -> str | None:
         """The name of a node that holds what collides of a body; None where that lies right below the body's."""
@@ -69,6 +70,15 @@ def clean_name(name: str, not_taken: str) -> str:
     while (bare := strip_godot_suffix(_UNREAL.sub("", name, count=1))) != name:
         name = bare
     return name.strip() or "part"
+
+
+def claim_name(named: Callable[[str], str], wanted: str, taken: set[str]) -> str:
+    """What `named` makes of a name, or of it with a number, that is not taken, lower case; it is taken from then on."""
+    name, number = named(wanted), 2
+    while name.lower() in taken:
+        name, number = named(f"{wanted}-{number}"), number + 1
+    taken.add(name.lower())
+    return name
 
 
 def fallbacks_of(names: CollisionNames) -> dict[FeatureKind, str]:
@@ -146,19 +156,13 @@ class UnrealNames(CollisionNames):
         return _ANYWHERE.sub(lambda found: found[0].lower(), name)
 
     def hull(self, body: str, geom: Geom, number: int, own: str) -> str:
-        return f"{prefix_of(geom)}_{body}_{number:02}"
+        return f"{_PREFIXES.get(geom.shape.kind, 'UCX')}_{body}_{number:02}"
 
 
-def prefix_of(geom: Geom) -> UnrealPrefix:
-    """The prefix of a mesh that stands for a shape."""
-    return _PREFIXES.get(geom.shape.kind, "UCX")
-
-
-def next_name(geom: Geom, base: str, names: Iterable[str]) -> str:
-    """The name of a new hull of the mesh `base`, with the number after the last of those that there are."""
+def number_hulls(base: str, names: Iterable[str]) -> Iterator[int]:
+    """The numbers for new hulls of the mesh `base`, after the last of those that there are."""
     taken = [re.fullmatch(rf"U\w\w_{re.escape(base)}_(\d+)", name, re.I) for name in names]
-    number = max((int(found[1]) for found in taken if found), default=0) + 1
-    return f"{prefix_of(geom)}_{base}_{number:02}"
+    return count(max((int(found[1]) for found in taken if found), default=-1) + 1)
 
 
 def interpret_unreal_shape(name: str, hull: Shape) -> tuple[Shape, str | None]:
@@ -226,7 +230,8 @@ class GodotNames(CollisionNames):
         return f"{name}-seen" if any(has_godot_word(name, word) for word in _GODOT_WORDS) else name
 
     def hull(self, body: str, geom: Geom, number: int, own: str) -> str:
-        return f"{clean_name(own, _GODOT_REFUSED)}-convcolonly"
+        base, tilde, made = own.partition("~")
+        return f"{clean_name(base, _GODOT_REFUSED)}{tilde}{made}-convcolonly"
 
     def opaque(self, own: str) -> str:
         return f"{clean_name(own, _GODOT_REFUSED)}-colonly"

@@ -14,9 +14,8 @@ from meshforge.formats.engine_names.conventions import godot_kind, holds_collide
 from meshforge.formats.gltf.document import Convention
 from meshforge.formats.gltf.physics import collider_of, has_collider, physics_extension_of, rigid_pose_of
 from meshforge.formats.meshfile.gltf_document import entry
-from meshforge.formats.meshfile.gltf_meshes import INSTANCING, GltfMesh, is_instanced, repeat_surface
+from meshforge.formats.meshfile.gltf_meshes import GltfMesh
 from meshforge.formats.meshfile.gltf_scene import GltfScene, Placement
-from meshforge.formats.meshfile.surface import RawSurface, join_surfaces
 from meshforge.geometry import Ellipsoid, Floats, Ints, Piece, Polytope, Pose, Sphere, hull_mesh, split_pieces
 
 _LEAST = 1e-12  # of the largest stretch of a map; below, it is a projection
@@ -55,32 +54,11 @@ class CollisionReader:
             "plain": self._read_plain,
         }
         each = read.get(self.convention, self._read_physics)
-        found = [
-            self._read_instances(placement, each) if is_instanced(placement.node) else each(placement)
-            for placement in self.scene.placements.values()
-        ]
+        found = map(each, self.scene.placements.values())
         return [source for source in found if source is not None and source.parts]
 
-    def _read_instances(
-        self, placement: Placement, each: Callable[[Placement], NodeCollision | None]
-    ) -> NodeCollision | None:
-        """A node that stands for many: one piece, of all instances of what it collides with."""
-        extensions = {name: own for name, own in placement.node["extensions"].items() if name != INSTANCING}
-        alone = {key: value for key, value in placement.node.items() if key != "skin"} | {"extensions": extensions}
-        one = each(replace(placement, node=alone, world=np.eye(4)))
-        if one is None or not one.parts:
-            return None
-        reason = f"many at once by {INSTANCING}, which is not edited"
-        shown = [surface for part in one.parts if (surface := part.shape or part.surface)]
-        if not shown:
-            return NodeCollision(placement.index, one.name, [CollisionPiece(None, reason)])
-        whole = join_surfaces([RawSurface(None, np.asarray(s.vertices), s.faces) for s in shown])
-        many = repeat_surface(whole.vertices, whole.faces, self.scene.instances(placement))
-        surface = place_surface(*many, placement.linear, placement.offset)
-        return NodeCollision(placement.index, one.name, [CollisionPiece(None, reason, surface)])
-
     def _read_physics(self, placement: Placement) -> NodeCollision | None:
-        if not has_collider(placement.node, self.convention, self.scene.tree):
+        if not has_collider(placement.node, self.convention):
             return None
         name = collision_name_of(self.scene, placement, self.convention)
         collider = collider_of(placement, self.convention, self.scene)
@@ -178,7 +156,6 @@ def _split_mesh(mesh: GltfMesh, name: str) -> list[Piece]:
 
 
 def _is_degenerate(linear: Floats) -> bool:
-    """Whether a map (3, 3) leaves no volume."""
     stretch = np.linalg.svd(linear, compute_uv=False)
     return bool(stretch[-1] <= _LEAST * stretch[0])
 

@@ -12,21 +12,18 @@ from urllib.parse import quote
 import numpy as np
 
 from meshforge.formats.base import Output, nothing_collides_error
-from meshforge.formats.engine_names.bodies import EngineBodies, EngineBody, name_bodies
+from meshforge.formats.engine_names.bodies import EngineBodies, EngineBody, has_triangles, name_bodies
 from meshforge.formats.engine_names.conventions import CollisionNames, godot_kind, unreal_kind
 from meshforge.formats.gltf.document import BODY, Convention, GltfDocument
 from meshforge.formats.gltf.draft import SceneDraft
-from meshforge.formats.gltf.edit import assign_names
-from meshforge.formats.gltf.edit_physics import PhysicsStyle, pose_keys
-from meshforge.formats.gltf.edit_styles import PlainStyle
+from meshforge.formats.gltf.edit import assign_names, style_of
 from meshforge.formats.gltf.physics import KHR, motion_of
+from meshforge.formats.gltf.physics_style import PhysicsStyle, pose_keys
+from meshforge.formats.gltf.styles import NewPiece, PlainStyle
 from meshforge.formats.meshfile.gltf_document import Container, Json
 from meshforge.formats.meshfile.gltf_scene import GltfScene
 from meshforge.formats.visuals import linear_color, read_visual_surfaces
-from meshforge.geometry import Floats, Ints
 from meshforge.symbolic import Asset, Geom, Opaque, Surface
-
-_FAR = 1e4  # sizes of a hull away from its body, beyond which single precision would spoil it
 
 
 def create_gltf(asset: Asset, name: str, convention: Literal["plain", "khr"] | None = None) -> Output:
@@ -62,10 +59,13 @@ class _Creator:
     def build_output(self, stem: str) -> Output:
         seen, lost = read_visual_surfaces(self.asset) if self.convention == "khr" else ([], [])
         style = PlainStyle(self.draft) if self.convention == "plain" else PhysicsStyle(self.draft, "khr", not seen)
-        for geom in self.asset.geoms:
-            style.add_hull(geom, self._own_name(geom), self.nodes.get(geom.body), None)
-        for piece in self.asset.opaque:
-            self._add_opaque(style, piece)
+        opaque = [
+            piece for piece in self.asset.opaque if has_triangles(piece) or (piece.plane and self.convention == "khr")
+        ]
+        pieces: list[Geom | Opaque] = [*self.asset.geoms, *opaque]
+        for piece in pieces:
+            own = piece.name.removeprefix(f"{piece.body}/") if self.nodes else piece.name
+            style.add(NewPiece(piece, own, self.nodes.get(piece.body)))
         if not self.draft.expected:
             raise nothing_collides_error(self.asset)
         for body, surface in seen:
@@ -93,16 +93,6 @@ class _Creator:
             tree["nodes"] = nodes
         return tree
 
-    def _own_name(self, thing: Geom | Opaque) -> str:
-        return thing.name.removeprefix(f"{thing.body}/") if self.nodes else thing.name
-
-    def _add_opaque(self, style: PlainStyle | PhysicsStyle, piece: Opaque) -> None:
-        """Add a piece as its triangles, or as a plane; the report names one that is neither."""
-        if piece.plane is not None and isinstance(style, PhysicsStyle):
-            style.add_plane(piece, self._own_name(piece), self.nodes.get(piece.body))
-        elif piece.surface is not None and len(piece.surface.faces):
-            style.add_opaque(piece, piece.surface, self._own_name(piece), self.nodes.get(piece.body))
-
     def _add_visual(self, body: str, surface: Surface) -> None:
         holder, name = self.nodes.get(body), f"{body}-visual"
         points = self.draft.points_in(np.asarray(surface.vertices), holder)
@@ -118,73 +108,45 @@ def create_for_engine(asset: Asset, name: str, engine: CollisionNames) -> Output
     places of nodes with collision; for others they lie about their own middle, so that single precision is fine.
     """
     path = PurePosixPath(name)
+    is_binary = path.suffix.lower() == ".glb"
     found = name_bodies(asset, engine, path.stem)
-    main, made, names = EngineCreator(asset, found, engine, path.suffix.lower() == ".glb").build_files(path.stem)
+    draft = draft_bodies(asset, found, is_binary)
+    for node, family in enumerate(found.each):
+        if family.surfaces:
+            draft.node(node)["mesh"] = add_visuals(draft, family, node)
+    style = style_of(engine.engine, draft, path.stem)
+    for node, family in enumerate(found.each):
+        for piece, own in family.pieces:
+            style.add(NewPiece(piece, own, node))
+    return pack_bodies(asset, draft, GltfDocument(b"", engine.engine, ()), found, path)
+
+
+def draft_bodies(asset: Asset, found: EngineBodies, is_binary: bool) -> SceneDraft:
+    """A draft with a node for each body."""
+    tree = new_tree()
+    tree["scenes"][0]["nodes"] = list(range(len(found.each)))
+    tree["nodes"] = [{"name": family.name, **pose_keys(family.body.pose)} for family in found.each]
+    return new_draft(tree, asset.path, is_binary)
+
+
+def add_visuals(draft: SceneDraft, family: EngineBody, node: int) -> int:
+    """One mesh of all that is seen of a body, a part for each surface."""
+    parts = []
+    for surface in family.surfaces:
+        points = draft.points_in(np.asarray(surface.vertices), node)
+        material = add_material(draft, surface)
+        parts.append(draft.build_primitive(points, surface.faces, material, surface.texture))
+    return draft.add_mesh({"name": family.name, "primitives": parts})
+
+
+def pack_bodies(
+    asset: Asset, draft: SceneDraft, document: GltfDocument, found: EngineBodies, path: PurePosixPath
+) -> Output:
+    """The files of a draft of bodies, with the names that hulls read back as."""
+    hulls = {geom.name for geom in asset.geoms}
+    names = {old: now for old, now in assign_names(draft, document, renames=False).items() if old in hulls}
+    main, made = pack_new(draft, path.stem, path.suffix.lower() == ".glb")
     return Output(main, made, names=names, lost=found.lost, notes=found.notes)
-
-
-class EngineCreator:
-    """Makes a node for each body, and below it those of what collides, by the names of an engine."""
-
-    def __init__(self, asset: Asset, found: EngineBodies, engine: CollisionNames, is_binary: bool) -> None:
-        self.asset, self.found, self.engine, self.is_binary = asset, found, engine, is_binary
-        tree = new_tree()
-        tree["scenes"][0]["nodes"] = list(range(len(found.each)))
-        tree["nodes"] = [{"name": family.name, **pose_keys(family.body.pose)} for family in found.each]
-        self.draft = new_draft(tree, asset.path, is_binary)
-
-    def build_files(self, stem: str) -> tuple[bytes, dict[str, bytes], dict[str, str]]:
-        """The main file, the one of its buffer, and the names of hulls in it."""
-        for node, family in enumerate(self.found.each):
-            if family.surfaces:
-                self._show(family, node, self._add_visuals(family, node))
-            self._add_collision(family, node)
-        document = self._build_document()
-        misread = assign_names(self.draft, document, renames=False)  # by the names of the asset
-        known = {geom: name for geom, name in misread.items() if geom in self.found.names}
-        return *pack_new(self.draft, stem, self.is_binary), known
-
-    def _build_document(self) -> GltfDocument:
-        return GltfDocument(b"", self.engine.engine, ())
-
-    def _show(self, family: EngineBody, node: int, mesh: int) -> None:
-        self.draft.node(node)["mesh"] = mesh
-
-    def _add_visuals(self, family: EngineBody, node: int) -> int:
-        """One mesh of all that is seen of a body, a part for each surface."""
-        draft, parts = self.draft, []
-        for surface in family.surfaces:
-            points = draft.points_in(np.asarray(surface.vertices), node)
-            material = add_material(draft, surface)
-            parts.append(draft.build_primitive(points, surface.faces, material, surface.texture))
-        return draft.add_mesh({"name": family.name, "primitives": parts})
-
-    def _add_collision(self, family: EngineBody, node: int) -> None:
-        if not family.hulls and not family.opaque:
-            return
-        above = self.engine.holder(family.name)
-        holder = node if above is None else self.draft.add_node({"name": above}, node)
-        for name, geom in family.hulls.items():
-            hull = self.draft.shape_in(geom.shape, node).tessellate()
-            self._add_node(name, hull.vertices, hull.faces, holder, geom.name)
-        for name, piece in family.opaque.items():
-            assert isinstance(piece.surface, Surface)  # no other is in a family
-            points = self.draft.points_in(np.asarray(piece.surface.vertices), node)
-            self._add_node(name, points, piece.surface.faces, holder, piece.name)
-
-    def _add_node(self, name: str, points: Floats, faces: Ints, holder: int, known: str) -> None:
-        """A node with a mesh; known: the name of the piece in the asset."""
-        middle, reach = (points.min(axis=0) + points.max(axis=0)) / 2, np.ptp(points, axis=0).max()
-        if not self.engine.centred and np.abs(middle).max() < _FAR * reach:
-            middle = np.zeros(3)
-        mesh = self.draft.add_mesh({"name": name, "primitives": [self.draft.build_primitive(points - middle, faces)]})
-        placed = {"translation": middle.tolist()} if middle.any() else {}
-        node = {"name": name, **self._build_collider(mesh, known), **placed}
-        self.draft.expected[self.draft.add_node(node, holder)] = (known,)
-
-    def _build_collider(self, mesh: int, known: str) -> Json:
-        """What makes a node collide with a mesh; known: the name of the piece in the asset."""
-        return {"mesh": mesh}
 
 
 def new_tree() -> Json:
@@ -221,7 +183,6 @@ def _add_picture(draft: SceneDraft, picture: bytes) -> int:
 
 
 def _number_of(tree: Json, key: str, wanted: Json) -> int:
-    """The number of a thing in a list of the tree, which is added where it is not there yet."""
     found: list[Json] = tree.setdefault(key, [])
     if wanted not in found:
         found.append(wanted)

@@ -13,7 +13,7 @@ from typing import Any, Literal
 from meshforge.geometry import Ints
 from meshforge.symbolic import Document
 
-Convention = Literal["khr", "omi", "omi collider", "unreal", "godot", "unity", "plain"]
+Convention = Literal["khr", "omi", "unreal", "godot", "unity", "plain"]
 """How a file marks its collision geometry: by an extension, by names, or not at all, then all meshes are collision."""
 
 BODY = "body"

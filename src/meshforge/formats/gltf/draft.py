@@ -15,7 +15,7 @@ from meshforge.formats.gltf import output, physics
 from meshforge.formats.meshfile.gltf_document import Json, entries, entry, extension
 from meshforge.formats.meshfile.gltf_scene import GltfScene
 from meshforge.geometry import Floats, Ints, Shape
-from meshforge.symbolic import Texture
+from meshforge.symbolic import Geom, Opaque, Texture
 
 _KINDS = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}  # by componentType
 _POINTER = re.compile(r"/nodes/(\d+)(/.*)?")
@@ -97,11 +97,6 @@ class SceneDraft:
         meshes.append(mesh)
         return len(meshes) - 1
 
-    def add_shape_mesh(self, shape: Shape, name: str, material: int | None = None) -> tuple[int, Floats]:
-        """A new mesh of a shape, about the middle of its box, so that single precision is fine; and that middle."""
-        polytope = shape.tessellate()
-        return self.add_surface_mesh(polytope.vertices, polytope.faces, name, material)
-
     def add_surface_mesh(
         self, points: Floats, faces: Ints, name: str, material: int | None = None, texture: Texture | None = None
     ) -> tuple[int, Floats]:
@@ -181,12 +176,25 @@ class SceneDraft:
         inverse: Floats = np.linalg.inv(self.scene.placements[holder].world).astype(np.float64)
         return shape.transform(inverse[:3, :3], inverse[:3, 3])
 
+    def triangles_in(self, what: Geom | Opaque, holder: int | None) -> tuple[Floats, Ints]:
+        """The vertices (n, 3) of a hull or a piece in the space of a node, and its faces (m, 3)."""
+        if isinstance(what, Geom):
+            hull = self.shape_in(what.shape, holder).tessellate()
+            return hull.vertices, hull.faces
+        assert what.surface is not None  # one that has triangles
+        return self.points_in(np.asarray(what.surface.vertices), holder), what.surface.faces
+
     def points_in(self, points: Floats, holder: int | None) -> Floats:
         """Points (n, 3) of the root frame in the space of a node."""
         if holder is None:
             return points
         inverse = np.linalg.inv(self.scene.placements[holder].world)
         return np.asarray(points @ inverse[:3, :3].T + inverse[:3, 3], dtype=np.float64)
+
+    def matrix_below(self, node: int | None, holder: int | None) -> Floats:
+        """The place (4, 4) of a node in the space of another one; None is the root frame."""
+        world = np.eye(4) if node is None else self.scene.placements[node].world
+        return world if holder is None else np.asarray(np.linalg.solve(self.scene.placements[holder].world, world))
 
     def _remove_node(self, index: int) -> None:
         parent = self.scene.placements[index].parent
@@ -198,6 +206,12 @@ class SceneDraft:
                 holder[key] = left
                 if not left:
                     del holder[key]  # an empty list is not allowed
+
+
+def name_of(thing: Json) -> str:
+    """The name of a node, mesh or material, empty where it has none."""
+    name = thing.get("name")
+    return name if isinstance(name, str) else ""
 
 
 def unpack_draco(part: Json, attributes: dict[str, Any], tree: Json, geometry: output.GeometryBuffer) -> None:

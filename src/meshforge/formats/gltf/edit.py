@@ -1,33 +1,30 @@
-"""Writing an edited glTF file: the authored JSON where nothing changed, and all bytes of its buffers."""
+"""Writing an edited glTF file: the authored JSON where nothing changed, and all bytes of its buffers; and adding
+colliders to an unmarked one, all of which stays as it is."""
 
 from __future__ import annotations
 
 import copy
-from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 
-from meshforge.common import AssetError, pluralize
+from meshforge.common import AssetError
 from meshforge.formats import references, slots
-from meshforge.formats.base import Output, note_renames
+from meshforge.formats.base import Output, note_renames, note_shapes_as_hulls, nothing_collides_error
 from meshforge.formats.collision_pieces import names_to_keep, new_hulls, refuse_changed_files
+from meshforge.formats.engine_names.bodies import has_triangles, lose_opaque
+from meshforge.formats.engine_names.conventions import CollisionNames
 from meshforge.formats.gltf.colliders import collision_name_of
-from meshforge.formats.gltf.document import BODY, Convention, GltfDocument
+from meshforge.formats.gltf.document import BODY, Convention, GltfDocument, NodeRecord
 from meshforge.formats.gltf.draft import SceneDraft
-from meshforge.formats.gltf.edit_physics import PhysicsStyle
-from meshforge.formats.gltf.edit_styles import EditStyle, GodotStyle, PlainStyle, UnityStyle, UnrealStyle
 from meshforge.formats.gltf.output import pack_scene, prepare_base
 from meshforge.formats.gltf.physics import body_nodes
+from meshforge.formats.gltf.physics_style import PhysicsStyle
+from meshforge.formats.gltf.styles import EngineStyle, GodotStyle, NewPiece, PlainStyle, Style, UnityStyle, UnrealStyle
 from meshforge.formats.meshfile import gltf_document, gltf_scene
-from meshforge.symbolic import Asset, Geom
+from meshforge.symbolic import Asset, Geom, Opaque
 
-_STYLES: dict[Convention, type[EditStyle]] = {
-    "plain": PlainStyle,
-    "unreal": UnrealStyle,
-    "godot": GodotStyle,
-    "unity": UnityStyle,
-}
+_ENGINES: dict[Convention, type[EngineStyle]] = {"unreal": UnrealStyle, "godot": GodotStyle, "unity": UnityStyle}
 
 
 def write_gltf(asset: Asset, document: GltfDocument, name: str) -> Output:
@@ -46,24 +43,24 @@ def write_gltf(asset: Asset, document: GltfDocument, name: str) -> Output:
         if known <= kept and not made:
             return pack_scene(base, scene, None, name)
         draft = SceneDraft(scene, copy.deepcopy(base.tree), base.before)
-        names = _edit_draft(draft, document, kept, made, asset.path)
+        style = style_of(document.convention, draft, Path(name).stem)
+        names = _edit_draft(style, document, kept, made, asset.path)
         output = pack_scene(base, scene, draft.geometry, name)
-    notes = note_lacking_shapes(style_of(document.convention, draft), made)
+    notes = note_lacking_shapes(style, made)
     return replace(output, notes=(*notes, *note_renames(names)), names=names)
 
 
-def note_lacking_shapes(style: EditStyle, made: Iterable[Geom]) -> list[str]:
+def note_lacking_shapes(style: Style, made: Iterable[Geom]) -> list[str]:
     """Notes on hulls of shapes that a convention does not have."""
-    lacking = Counter(geom.shape.kind for geom in made if geom.shape.kind not in style.holds)
-    counts = [(kind, pluralize(count, kind)) for kind, count in sorted(lacking.items())]
-    return [f"{many} written as hull meshes: {style.lacks} {kind}" for kind, many in counts]
+    lacking = (geom.shape.kind for geom in made if geom.shape.kind not in style.holds)
+    return note_shapes_as_hulls(lacking, f"{style.lacks} {{}}")
 
 
 def _edit_draft(
-    draft: SceneDraft, document: GltfDocument, kept: set[str], made: Sequence[Geom], path: Path
+    style: Style, document: GltfDocument, kept: set[str], made: Sequence[Geom], path: Path
 ) -> dict[str, str]:
     """Edit a draft; kept: the pieces that stay; made: the hulls that come. The names that read back otherwise."""
-    style = style_of(document.convention, draft)
+    draft = style.draft
     for element in document.authored:
         staying = [k for k, piece in enumerate(element.names) if piece in kept]
         if len(staying) == len(element.names):
@@ -83,20 +80,22 @@ def _edit_draft(
     return assign_names(draft, document, renames=style.renames)
 
 
-def style_of(convention: Convention, draft: SceneDraft) -> EditStyle:
-    """What writes edits in a convention."""
-    made = _STYLES.get(convention)
-    return made(draft) if made else PhysicsStyle(draft, convention)
+def style_of(convention: Convention, draft: SceneDraft, stem: str) -> Style:
+    """What writes hulls in a convention; stem: of the file."""
+    if convention in _ENGINES:
+        return _ENGINES[convention](draft, stem)
+    return PlainStyle(draft) if convention == "plain" else PhysicsStyle(draft, convention)
 
 
-def _place_hull(style: EditStyle, geom: Geom, document: GltfDocument, path: Path) -> None:
+def _place_hull(style: Style, geom: Geom, document: GltfDocument, path: Path) -> None:
     nodes = {name: node for node, name in document.bodies}
     bodies = {element.body for element in document.authored} | {"body"}
     if geom.body not in nodes and geom.body not in bodies:
         raise AssetError(f"hull {geom.name!r} is on {geom.body!r}, which is no body of the file", where=str(path))
     parent = next((e for e in document.authored if geom.parent in e.names and e.body == geom.body), None)
     own = geom.name.removeprefix(f"{geom.body}/") if document.bodies else geom.name
-    style.add_hull(geom, own, nodes.get(geom.body), parent)
+    holder = style.draft.holder_of(nodes.get(geom.body), parent.node if parent else None)
+    style.add(NewPiece(geom, own, holder, parent))
 
 
 def assign_names(draft: SceneDraft, document: GltfDocument, *, renames: bool) -> dict[str, str]:
@@ -132,3 +131,59 @@ def _find_misread(draft: SceneDraft, document: GltfDocument) -> dict[int, tuple[
         for node, body, read in zip(order, bodies, slots.name_element_pieces(sources), strict=True)
         if read != draft.expected[node]
     }
+
+
+def add_gltf_colliders(asset: Asset, document: GltfDocument, name: str, engine: CollisionNames | None) -> Output:
+    """The files of a scene with the hulls of an asset beside it, as colliders of KHR_physics_rigid_bodies.
+
+    engine: by whose names they collide instead. Raises AssetError: a buffer changed since the asset was read, or there
+    is no hull to write.
+    """
+    marked = GltfDocument(b"", engine.engine if engine else "khr", (), document.bodies)
+    lost: list[Opaque] = []
+    with gltf_document.report_damage(str(asset.path)):
+        scene = gltf_scene.GltfScene.of(document.source, asset.path)
+        refuse_changed_files(document.digests, str(asset.path), "the buffer ")
+        base = prepare_base(document.source, scene, name)
+        draft = SceneDraft(scene, copy.deepcopy(base.tree), base.before)
+        style = style_of(marked.convention, draft, PurePosixPath(name).stem)
+        for piece in _list_pieces(asset, document, draft):
+            if engine and not engine.takes_opaque and isinstance(piece.what, Opaque):
+                lost.append(piece.what)
+            elif isinstance(piece.what, Geom) or has_triangles(piece.what):
+                style.add(piece)
+        if not draft.expected:
+            raise nothing_collides_error(asset)
+        names = assign_names(draft, marked, renames=engine is None)
+        output = pack_scene(base, scene, draft.geometry, name)
+    hulls = {geom.name for geom in asset.geoms}
+    renamed = {old: now for old, now in names.items() if old in hulls}
+    notes = (*note_lacking_shapes(style, asset.geoms), *(() if engine else note_renames(renamed)), *style.notes)
+    losses = [lose_opaque(engine, lost, is_seen=True)] if engine and lost else []
+    return replace(output, notes=notes, names=renamed, lost=tuple(losses))
+
+
+def _list_pieces(asset: Asset, document: GltfDocument, draft: SceneDraft) -> Iterator[NewPiece]:
+    """All that collides, hulls first, with where it comes from."""
+    nodes, kept = {name: node for node, name in document.bodies}, names_to_keep(asset)
+    sources = {name: (element, k) for element in document.authored for k, name in enumerate(element.names)}
+    pieces: list[Geom | Opaque] = [*asset.geoms, *asset.opaque]
+    for what in pieces:
+        stays = what.name in sources and what.name in kept
+        origin = what.name if stays else what.parent if isinstance(what, Geom) else None
+        element, part = sources.get(origin or "", (None, None))
+        if element is not None and element.body != what.body:
+            element = None
+        own = what.name.removeprefix(f"{what.body}/") if document.bodies else what.name
+        holder = _holder_of(draft, element, nodes.get(what.body))
+        yield NewPiece(what, own, holder, element, part if stays else None)
+
+
+def _holder_of(draft: SceneDraft, element: NodeRecord | None, body: int | None) -> int | None:
+    """The node that a piece moves with: an animated one at or above where it comes from, else its body, else None."""
+    at = element.node if element else None
+    while at is not None and at != body:
+        if at in draft.referred.animated and draft.keeps_volume(at):
+            return at
+        at = draft.scene.placements[at].parent
+    return body

@@ -70,11 +70,11 @@ class GltfFormat(SceneFormat):
 
         return read.read_scene_surfaces(asset, asset.document)
 
-    def write_beside(self, asset: Asset, name: str) -> Output:
+    def add_colliders(self, asset: Asset, name: str) -> Output:
         assert isinstance(asset.document, GltfDocument)
-        from meshforge.formats.gltf import beside  # lazy: only glTF needs it
+        from meshforge.formats.gltf import edit  # lazy: only glTF needs it
 
-        return beside.write_gltf_beside(asset, asset.document, name, self.engine)
+        return edit.add_gltf_colliders(asset, asset.document, name, self.engine)
 
 
 class PhysicsGltf(GltfFormat):

@@ -17,9 +17,9 @@ from meshforge.formats.meshfile.gltf_scene import GltfScene, Placement
 from meshforge.geometry import Box, Capsule, Cylinder, Floats, Pose, Shape, Sphere, convex_hull, inertia
 from meshforge.symbolic import Asset, Body, Inertial
 
-KHR, SHAPES, OLD_SHAPES = "KHR_physics_rigid_bodies", "KHR_implicit_shapes", "KHR_collision_shapes"
-OMI, OMI_SHAPES, OMI_COLLIDER = "OMI_physics_body", "OMI_physics_shape", "OMI_collider"
-_MESHES = ("mesh", "convex", "hull", "trimesh")
+KHR, SHAPES = "KHR_physics_rigid_bodies", "KHR_implicit_shapes"
+OMI, OMI_SHAPES = "OMI_physics_body", "OMI_physics_shape"
+_MESHES = ("mesh", "convex", "trimesh")
 _KHR_DEFAULT = (0.25, 0.5, 0.5)
 _OMI_DEFAULT = (0.5, 2.0, 1.0)
 
@@ -39,72 +39,49 @@ class Collider:
 def physics_extension_of(scene: GltfScene) -> Convention | None:
     """The extension that marks the colliders of a file: the first that any node of the scene uses."""
     nodes = [placement.node for placement in scene.placements.values()]
-    found: list[Convention] = ["khr", "omi", "omi collider"]
-    return next((kind for kind in found if any(has_collider(node, kind, scene.tree) for node in nodes)), None)
+    found: tuple[Convention, ...] = ("khr", "omi")
+    return next((kind for kind in found if any(has_collider(node, kind) for node in nodes)), None)
 
 
-def has_collider(node: Json, kind: Convention, tree: Json) -> bool:
+def has_collider(node: Json, kind: Convention) -> bool:
     """Whether a node collides, by that extension; a trigger does not."""
-    match kind:
-        case "khr":
-            return bool((extension(node, KHR) or {}).get("collider"))
-        case "omi":
-            own = (extension(node, OMI) or {}).get("collider")
-            return isinstance(own, dict) and own.get("shape", -1) != -1
-        case "omi collider":
-            own = extension(node, OMI_COLLIDER)
-            return own is not None and not _omi_collider_of(own, tree).get("isTrigger", False)
-    return False
+    if kind == "khr":
+        return bool((extension(node, KHR) or {}).get("collider"))
+    own = (extension(node, OMI) or {}).get("collider")
+    return kind == "omi" and isinstance(own, dict) and own.get("shape", -1) != -1
 
 
-def is_trigger(node: Json, tree: Json) -> bool:
+def is_trigger(node: Json) -> bool:
     """Whether a node detects bodies without colliding."""
-    older = extension(node, OMI_COLLIDER)
-    return (
-        "trigger" in (extension(node, KHR) or {})
-        or "trigger" in (extension(node, OMI) or {})
-        or (older is not None and bool(_omi_collider_of(older, tree).get("isTrigger", False)))
-    )
+    return any("trigger" in (extension(node, name) or {}) for name in (KHR, OMI))
 
 
 def collider_of(placement: Placement, kind: Convention, scene: GltfScene) -> Collider:
     """What a node that has a collider collides with. Raises ValueError: something that is not there."""
-    match kind:
-        case "khr":
-            return _read_khr_collider(_require_object(extension(placement.node, KHR) or {}, "collider"), scene)
-        case "omi":
-            shapes = extension(scene.tree, OMI_SHAPES) or {}
-            index = _require_object(extension(placement.node, OMI) or {}, "collider")["shape"]
-            return _collider_of_shape(entry(shapes, "shapes", index), _OMI_DEFAULT)
-    flat = _omi_collider_of(extension(placement.node, OMI_COLLIDER) or {}, scene.tree)
-    if flat["type"] in ("cylinder", "capsule"):
-        flat = {"radius": 0.5, **flat}
-    return _collider_of_shape({"type": flat["type"], flat["type"]: flat}, _OMI_DEFAULT)
+    if kind == "khr":
+        return _read_khr_collider(_require_object(extension(placement.node, KHR) or {}, "collider"), scene)
+    shapes = extension(scene.tree, OMI_SHAPES) or {}
+    index = _require_object(extension(placement.node, OMI) or {}, "collider")["shape"]
+    return _collider_of_shape(entry(shapes, "shapes", index), _OMI_DEFAULT)
 
 
 def _read_khr_collider(collider: Json, scene: GltfScene) -> Collider:
-    geometry = _require_object(collider, "geometry") if "geometry" in collider else collider
+    geometry = _require_object(collider, "geometry")
     convex = bool(geometry.get("convexHull", False))
     if "mesh" in geometry:
         return Collider(mesh=geometry["mesh"], convex=convex)
     if "node" in geometry:
         return Collider(mesh=entry(scene.tree, "nodes", geometry["node"]).get("mesh"), convex=convex)
-    shapes = extension(scene.tree, SHAPES) or extension(scene.tree, OLD_SHAPES) or {}
-    shape = entry(shapes, "shapes", geometry["shape"])
-    hulled = bool((extension(shape, KHR) or {}).get("convexHull", False))
-    return _collider_of_shape(shape, _KHR_DEFAULT, convex=convex or hulled)
+    shape = entry(extension(scene.tree, SHAPES) or {}, "shapes", geometry["shape"])
+    return _collider_of_shape(shape, _KHR_DEFAULT, convex=convex)
 
 
 def _collider_of_shape(shape: Json, default: tuple[float, float, float], *, convex: bool = False) -> Collider:
     kind = shape["type"]
     own = _require_object(shape, kind) if kind in shape else {}
     if kind in _MESHES:
-        return Collider(mesh=own.get("mesh"), convex=convex or kind in ("convex", "hull"))
+        return Collider(mesh=own.get("mesh"), convex=convex or kind == "convex")
     return Collider(shape=read_shape(str(kind), own, default))
-
-
-def _omi_collider_of(own: Json, tree: Json) -> Json:
-    return entry(extension(tree, OMI_COLLIDER) or {}, "colliders", own.get("collider"))
 
 
 def _require_object(owner: Json, key: str) -> Json:

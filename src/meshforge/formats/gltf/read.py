@@ -17,6 +17,7 @@ from meshforge.formats.engine_names.name_problems import find_name_problems
 from meshforge.formats.gltf import physics
 from meshforge.formats.gltf.colliders import CollisionReader, NodeCollision, convention_of, nodes_below_colliders
 from meshforge.formats.gltf.document import BODY, Convention, GltfDocument, NodeRecord
+from meshforge.formats.gltf.draft import name_of
 from meshforge.formats.meshfile.gltf_document import Json, entries, entry, extension, report_damage
 from meshforge.formats.meshfile.gltf_meshes import GltfMesh
 from meshforge.formats.meshfile.gltf_scene import GltfScene
@@ -30,14 +31,15 @@ _DAMAGE = (ValueError, LookupError, TypeError, AttributeError)
 _HOW: dict[Convention, str] = {
     "khr": "its colliders are those of KHR_physics_rigid_bodies",
     "omi": "its colliders are those of OMI_physics_body",
-    "omi collider": "its colliders are those of OMI_collider",
     "unreal": "its collision is the nodes that Unreal takes by their names, UCX_ and the like",
     "godot": "its collision is the nodes that Godot takes by their names, -col and the like",
     "unity": "its collision is what lies below nodes called _colliders, as files for Unity have it",
 }
 _HARMLESS = ("KHR_materials_", "KHR_texture_", "EXT_texture_", "KHR_lights_", "MSFT_texture_")
-_KNOWN = ("KHR_draco_mesh_compression", "KHR_mesh_quantization", "EXT_mesh_gpu_instancing")
-_PHYSICS = ("KHR_physics_rigid_bodies", "KHR_implicit_shapes", "OMI_physics_body", "OMI_physics_shape", "OMI_collider")
+_KNOWN = ("KHR_draco_mesh_compression", "KHR_mesh_quantization")
+_PHYSICS = ("KHR_physics_rigid_bodies", "KHR_implicit_shapes", "OMI_physics_body", "OMI_physics_shape")
+_DRAFTS = {"OMI_collider": "OMI_physics_shape", "KHR_collision_shapes": "KHR_implicit_shapes"}
+"""What physics extensions were called in drafts of them."""
 
 
 def read_gltf(path: Path) -> Asset:
@@ -48,6 +50,7 @@ def read_gltf(path: Path) -> Asset:
     source = mesh_reader.read_content(path)
     with report_damage(str(path)):
         scene = GltfScene.of(source, path)
+        _refuse_drafts(scene.tree, path)
         reader = CollisionReader(scene)
         sources = reader.read()
         bodies = name_bodies(scene)
@@ -90,6 +93,13 @@ def read_gltf(path: Path) -> Asset:
     )
 
 
+def _refuse_drafts(tree: Json, path: Path) -> None:
+    used = entries(tree, "extensionsUsed")
+    for name in (name for name in _DRAFTS if name in used or extension(tree, name) is not None):
+        problem = f"its colliders are those of {name}, a draft of {_DRAFTS[name]}, which is not read"
+        raise AssetError(problem, where=str(path), remedy=f"Export it with {_DRAFTS[name]}.")
+
+
 def _find_name_problems(scene: GltfScene, marks: str, hulls: Sequence[str]) -> Iterator[NameProblem]:
     nodes = [placement.node for placement in scene.placements.values()]
     things = [[n, entry(scene.tree, "meshes", n["mesh"])] if "mesh" in n else [n] for n in nodes]
@@ -126,7 +136,6 @@ def _nodes_of(bodies: Mapping[int, tuple[int, str]]) -> tuple[tuple[int, str], .
 
 
 def _find_files(scene: GltfScene, path: Path) -> tuple[tuple[Path, ...], tuple[str, ...]]:
-    """The files beside it that are there, and the references that lead nowhere."""
     found = references.find_companions(path)
     uris = [e.get("uri") for key in ("buffers", "images") for e in entries(scene.tree, key) if isinstance(e, dict)]
     named = [uri for uri in uris if isinstance(uri, str) and not uri.startswith("data:")]
@@ -222,11 +231,11 @@ def mentions_of_node(scene: GltfScene, source: NodeCollision) -> list[Mentions]:
 def _collect_mentions(scene: GltfScene, source: NodeCollision) -> list[Mentions]:
     placement = scene.placements[source.node]
     node, parent = placement.node, placement.parent
-    common = [("node", _name_of(node))]
+    common = [("node", name_of(node))]
     mesh = entry(scene.tree, "meshes", node["mesh"]) if "mesh" in node else {}
-    common += [("mesh", _name_of(mesh))]
-    common += [("node", _name_of(scene.placements[parent].node))] if parent is not None else []
-    materials = [_name_of(material) for material in _materials(scene.tree, mesh)]
+    common += [("mesh", name_of(mesh))]
+    common += [("node", name_of(scene.placements[parent].node))] if parent is not None else []
+    materials = [name_of(material) for material in _materials(scene.tree, mesh)]
     own = _materials_of_pieces(scene, source, node, materials)
     return [drop_repeats([*common, *(("material", name) for name in names)]) for names in own]
 
@@ -244,14 +253,8 @@ def _materials_of_pieces(
 
 
 def _materials(tree: Json, mesh: Json) -> Iterator[Json]:
-    """The material of each primitive of a mesh; one without any is empty."""
     for part in entries(mesh, "primitives"):
         yield entry(tree, "materials", part["material"]) if "material" in part else {}
-
-
-def _name_of(thing: Json) -> str:
-    name = thing.get("name")
-    return name if isinstance(name, str) else ""
 
 
 def collect_notes(scene: GltfScene, convention: Convention) -> Iterator[str]:
@@ -273,7 +276,7 @@ def collect_notes(scene: GltfScene, convention: Convention) -> Iterator[str]:
     if len(entries(tree, "scenes")) > 1:
         default = "the default one" if "scene" in tree else "the first, as none is the default"
         yield f"of {len(entries(tree, 'scenes'))} scenes it is {default} that is read"
-    triggers = sum(physics.is_trigger(placement.node, tree) for placement in placements.values())
+    triggers = sum(physics.is_trigger(placement.node) for placement in placements.values())
     if triggers:
         yield FileNote(f"{pluralize(triggers, 'trigger')} detect bodies without colliding: they are left as they are")
     shown = [placement.node for placement in placements.values() if "mesh" in placement.node]

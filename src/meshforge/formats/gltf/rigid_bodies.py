@@ -11,16 +11,18 @@ import numpy as np
 
 from meshforge.common import join_names
 from meshforge.formats.base import Loss, Output
-from meshforge.formats.engine_names.bodies import EngineBody, name_bodies
-from meshforge.formats.engine_names.conventions import CollisionNames, GodotBodyNames
-from meshforge.formats.gltf.create import EngineCreator, create_for_engine
+from meshforge.formats.engine_names.bodies import EngineBodies, EngineBody, name_bodies
+from meshforge.formats.engine_names.conventions import CollisionNames, GodotBodyNames, claim_name
+from meshforge.formats.gltf.create import add_visuals, create_for_engine, draft_bodies, pack_bodies
 from meshforge.formats.gltf.document import GltfDocument
-from meshforge.formats.gltf.edit_physics import write_mesh_geometry
+from meshforge.formats.gltf.draft import SceneDraft
 from meshforge.formats.gltf.physics import OMI, OMI_SHAPES, mass_keys
+from meshforge.formats.gltf.physics_style import PhysicsStyle
+from meshforge.formats.gltf.styles import NewPiece
 from meshforge.formats.kinematic_tree import BodyTree
 from meshforge.formats.meshfile.gltf_document import Json
 from meshforge.formats.visuals import VisualSurfaces
-from meshforge.symbolic import Asset, FeatureKind, Inertial, Surface
+from meshforge.symbolic import Asset, FeatureKind, Inertial, Opaque, Surface
 
 _STILL = "in Godot, what stands still has none"
 _STRAIGHT = [0.0, 0.0, 0.0, 1.0]
@@ -49,15 +51,22 @@ def _create_rigid_bodies(asset: Asset, tree: BodyTree, path: PurePosixPath) -> O
             carriers[name] = carriers[joints[0].parent]
     welded = _weld_bodies(asset, carriers)
     moving = {name for name in tree.order if not tree.is_static(name)}
-    names = GodotBodyNames()
-    found = name_bodies(welded, names, path.stem)
-    creator = _RigidBodyCreator(welded, found, names, path.suffix.lower() == ".glb")
-    losses = [*creator.found.lost, *_list_joints(asset), *creator.add_motions(moving)]
-    main, made, read = creator.build_files(path.stem)
+    found = name_bodies(welded, GodotBodyNames(), path.stem)
+    draft = draft_bodies(welded, found, path.suffix.lower() == ".glb")
+    notes, pieces = _add_bodies(draft, welded, found, moving)
+    bodies = tuple((node, family.body.name) for node, family in enumerate(found.each))
+    output = pack_bodies(welded, draft, GltfDocument(b"", "omi", (), bodies), found, path)
     held = tuple(name for name in tree.order if carriers[name] != name)
     why = join_names([f"{name} to {carriers[name]}" for name in held], 3)
-    losses.append(Loss(FeatureKind.BODIES, held, f"fixed joints hold {why}", "written as parts of others"))
-    return Output(main, made, names=read, lost=tuple(loss for loss in losses if loss.count), notes=tuple(creator.notes))
+    still = tuple(i.body for i in welded.mechanism.inertials if i.body not in moving)
+    losses = (
+        *found.lost,
+        *_list_joints(asset),
+        Loss(FeatureKind.OPAQUE, tuple(pieces), "in Godot a mesh that is no hull cannot move"),
+        Loss(FeatureKind.MASSES, still, _STILL),
+        Loss(FeatureKind.BODIES, held, f"fixed joints hold {why}", "written as parts of others"),
+    )
+    return replace(output, lost=tuple(loss for loss in losses if loss.count), notes=(*found.notes, *notes))
 
 
 def _list_joints(asset: Asset) -> list[Loss]:
@@ -95,7 +104,7 @@ def _weld_bodies(asset: Asset, carriers: Mapping[str, str]) -> Asset:
     return replace(
         asset,
         bodies=tuple(body for body in asset.bodies if carriers[body.name] == body.name),
-        geoms=tuple(replace(geom, body=carriers[geom.body]) for geom in asset.geoms),
+        geoms=tuple(replace(g, body=carriers[g.body], shape=g.shape.tessellate()) for g in asset.geoms),
         opaque=tuple(replace(piece, body=carriers[piece.body]) for piece in asset.opaque),
         visuals=visuals,
         mechanism=replace(asset.mechanism, inertials=tuple(sums)),
@@ -115,52 +124,38 @@ def _add_inertials(body: str, parts: Sequence[Inertial]) -> Inertial:
     return Inertial(body, mass, centre, np.sum(shifted, axis=0))
 
 
-class _RigidBodyCreator(EngineCreator):
-    """What Godot's importer (modules/gltf/extensions/physics) takes: it joins shapes to the body right above them, lets
-    a body's own mesh go, and takes moments of inertia about the axes of the body only."""
+def _add_bodies(draft: SceneDraft, asset: Asset, found: EngineBodies, moving: set[str]) -> tuple[list[str], list[str]]:
+    """Add what Godot's importer (modules/gltf/extensions/physics) takes of bodies; notes, and pieces that it does not.
 
-    notes: list[str]
+    It joins shapes to the body right above them, lets a body's own mesh go, and takes moments of inertia about the axes
+    of the body only.
+    """
+    style, names = PhysicsStyle(draft, "omi"), GodotBodyNames()
+    taken, notes, lost = {family.name.lower() for family in found.each}, list[str](), list[str]()
+    for name in (OMI, OMI_SHAPES):
+        draft.declare_extension(name)
+    for node, family in enumerate(found.each):
+        motion: Json = {"type": "static"}
+        if moves := family.body.name in moving:
+            motion = {"type": "dynamic", **_weigh(asset, family, notes)}
+        draft.node(node)["extensions"] = {OMI: {"motion": motion}}
+        if family.surfaces:
+            seen = add_visuals(draft, family, node)
+            draft.add_node({"name": f"{family.name}_visual", "mesh": seen}, node)
+        for piece, own in family.pieces:
+            if moves and isinstance(piece, Opaque):
+                lost.append(piece.name)
+            else:
+                style.add(NewPiece(piece, claim_name(names.body, own, taken), node))
+    return notes, lost
 
-    def add_motions(self, moving: set[str]) -> list[Loss]:
-        """Make bodies of the nodes; what Godot does not take of them."""
-        self.notes = list(self.found.notes)
-        for name in (OMI, OMI_SHAPES):
-            self.draft.declare_extension(name)
-        lost, kept = list[Loss](), list[EngineBody]()
-        for node, family in enumerate(self.found.each):
-            name = family.body.name
-            motion: Json = {"type": "dynamic" if name in moving else "static"}
-            if name in moving:
-                motion |= self._weigh(family)
-                if family.opaque:
-                    pieces = tuple(piece.name for piece in family.opaque.values())
-                    lost.append(Loss(FeatureKind.OPAQUE, pieces, "in Godot a mesh that is no hull cannot move"))
-                    family = replace(family, opaque={})
-            self.draft.node(node)["extensions"] = {OMI: {"motion": motion}}
-            kept.append(family)
-        still = [i.body for i in self.asset.mechanism.inertials if i.body not in moving]
-        lost.append(Loss(FeatureKind.MASSES, tuple(still), _STILL))
-        self.found = replace(self.found, each=tuple(kept))
-        return lost
 
-    def _weigh(self, family: EngineBody) -> Json:
-        motion = mass_keys(self.asset, family.body)
-        if not motion:
-            self.notes.append(f"the mass of {family.name} is not known: Godot takes 1 kg")
-        if motion.pop("inertiaOrientation", _STRAIGHT) != _STRAIGHT:
-            del motion["inertiaDiagonal"]
-            why = "it takes none about turned axes"
-            self.notes.append(f"Godot computes the moments of inertia of {family.name} from its shapes: {why}")
-        return motion
-
-    def _build_document(self) -> GltfDocument:
-        bodies = tuple((node, family.body.name) for node, family in enumerate(self.found.each))
-        return GltfDocument(b"", "omi", (), bodies)
-
-    def _show(self, family: EngineBody, node: int, mesh: int) -> None:
-        self.draft.add_node({"name": f"{family.name}_visual", "mesh": mesh}, node)
-
-    def _build_collider(self, mesh: int, known: str) -> Json:
-        hulled = any(geom.name == known for geom in self.asset.geoms)
-        shape = write_mesh_geometry(self.draft, "omi", mesh, None, hulled=hulled, like={})
-        return {"extensions": {OMI: {"collider": {"shape": shape}}}}
+def _weigh(asset: Asset, family: EngineBody, notes: list[str]) -> Json:
+    motion = mass_keys(asset, family.body)
+    if not motion:
+        notes.append(f"the mass of {family.name} is not known: Godot takes 1 kg")
+    if motion.pop("inertiaOrientation", _STRAIGHT) != _STRAIGHT:
+        del motion["inertiaDiagonal"]
+        why = "it takes none about turned axes"
+        notes.append(f"Godot computes the moments of inertia of {family.name} from its shapes: {why}")
+    return motion

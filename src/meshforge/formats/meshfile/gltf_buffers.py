@@ -142,7 +142,6 @@ class Buffers:
 
 
 def _layout_of(accessor: Json) -> tuple[int, int, np.dtype[Any]]:
-    """How many rows an accessor has, of how many numbers each, and of which type."""
     count, kind, width = accessor["count"], accessor["componentType"], accessor["type"]
     if not isinstance(count, int) or count < 0 or kind not in _TYPES or width not in _WIDTHS:
         raise ValueError(f"an accessor of {count!r} {width!r} of type {kind!r}")

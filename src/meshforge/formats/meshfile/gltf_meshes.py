@@ -1,5 +1,4 @@
-"""The triangles of a glTF mesh, of all its primitives together: plain, compressed by Draco, or shown many times at
-once."""
+"""The triangles of a glTF mesh, of all its primitives together: plain, or compressed by Draco."""
 
 from __future__ import annotations
 
@@ -16,10 +15,6 @@ from meshforge.geometry import Floats, Ints
 _TRIANGLES, _STRIP, _FAN = 4, 5, 6
 
 DRACO = "KHR_draco_mesh_compression"
-
-INSTANCING = "EXT_mesh_gpu_instancing"
-_WIDTHS = {"TRANSLATION": 3, "ROTATION": 4, "SCALE": 3}
-_MOST_VERTICES = 20_000_000  # vertices of all instances, which a small file may ask for
 
 _ALIKE = 1e-12  # how far the square of a quaternion's length may be from one, to be taken as it is
 
@@ -119,60 +114,6 @@ def decode_draco(data: bytes, names: Json) -> DracoMesh:
     if len(rows) > 1:
         raise ValueError("its Draco data holds attributes of several lengths")
     return DracoMesh(np.asarray(mesh.faces, dtype=np.int64).reshape(-1, 3), found)
-
-
-def is_instanced(node: Json) -> bool:
-    """Whether a node shows its mesh many times, not where it is itself."""
-    return extension(node, INSTANCING) is not None
-
-
-def read_instances(node: Json, buffers: gltf_buffers.Buffers) -> Floats:
-    """The places (k, 4, 4) of the instances of a node, in its space. Raises ValueError: they are damaged."""
-    accessors = (extension(node, INSTANCING) or {}).get("attributes", {})
-    found: dict[str, Floats] = {}
-    for name in (name for name in _WIDTHS if name in accessors):
-        found[name] = rows = np.asarray(buffers.accessor(accessors[name]), dtype=np.float64)
-        if rows.shape[1] != _WIDTHS[name] or not np.isfinite(rows).all():
-            raise ValueError(f"the {name} of its instances should be {_WIDTHS[name]} finite numbers each")
-    counts = {len(rows) for rows in found.values()} or {1}
-    if len(counts) > 1 or max(counts) > _MOST_VERTICES:
-        raise ValueError(f"the attributes of its instances have {' and '.join(map(str, sorted(counts)))} values")
-    places = np.tile(np.eye(4), (counts.pop(), 1, 1))
-    if "ROTATION" in found:
-        places[:, :3, :3] = rotations_of(found["ROTATION"])
-    if "SCALE" in found:
-        places[:, :3, :3] *= found["SCALE"][:, None]
-    if "TRANSLATION" in found:
-        places[:, :3, 3] = found["TRANSLATION"]
-    return places
-
-
-def repeat_surface(vertices: Floats, faces: Ints, places: Floats) -> tuple[Floats, Ints]:
-    """A surface in each of some places (k, 4, 4); a reflection turns its faces round. Raises ValueError: too many."""
-    if len(vertices) * len(places) > _MOST_VERTICES:
-        raise ValueError(f"{len(places):,} instances of {len(vertices):,} vertices are too many")
-    points = np.einsum("kij,nj->kni", places[:, :3, :3], vertices) + places[:, None, :3, 3]
-    turned = np.where(_is_reflection(places)[:, None, None], faces[:, ::-1], faces)
-    starts = np.arange(len(places))[:, None, None] * len(vertices)
-    return points.reshape(-1, 3), (turned + starts).reshape(-1, 3)
-
-
-def repeat_mesh(mesh: GltfMesh, places: Floats) -> GltfMesh:
-    """A mesh in each of some places (k, 4, 4), with the patches of each instance after those of the one before."""
-    vertices, faces = repeat_surface(mesh.vertices, mesh.faces, places)
-    starts = np.cumsum([0, *(len(patch.points) for patch in mesh.patches)])
-    patches = [
-        GltfPrimitive(
-            patch.index, patch.faces[:, ::-1] if reflects else patch.faces, points[start : start + len(patch.points)]
-        )
-        for points, reflects in zip(vertices.reshape(len(places), -1, 3), _is_reflection(places), strict=True)
-        for patch, start in zip(mesh.patches, starts, strict=False)
-    ]
-    return GltfMesh(vertices, faces, tuple(patches))
-
-
-def _is_reflection(places: Floats) -> Any:
-    return np.linalg.det(places[:, :3, :3]) < 0
 
 
 def rotations_of(quaternions: Floats) -> Floats:

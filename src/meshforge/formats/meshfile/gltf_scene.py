@@ -11,11 +11,22 @@ from typing import Any
 
 import numpy as np
 
+from meshforge.common import AssetError
 from meshforge.formats.meshfile import gltf_buffers, gltf_meshes
-from meshforge.formats.meshfile.gltf_document import Container, Json, entries, entry, numbers, parse_json, report_damage
+from meshforge.formats.meshfile.gltf_document import (
+    Container,
+    Json,
+    entries,
+    entry,
+    extension,
+    numbers,
+    parse_json,
+    report_damage,
+)
 from meshforge.formats.meshfile.surface import RawSurface, check_surfaces
 from meshforge.geometry import Floats, Ints
 
+_INSTANCING = "EXT_mesh_gpu_instancing"
 _PLACED = frozenset(("matrix", "translation", "rotation", "scale"))
 
 
@@ -110,6 +121,11 @@ class GltfScene:
             world = above @ matrix_of(node)
             if not np.isfinite(world).all():
                 raise ValueError(f"the place of node {index} is not finite")
+            if extension(node, _INSTANCING) is not None:
+                problem = (
+                    f"node {node.get('name') or index!r} shows a mesh many times by {_INSTANCING}, which is not read"
+                )
+                raise AssetError(problem, where=str(self.path), remedy="Give each a node: gltf-transform uninstance.")
             found[index] = Placement(index, node, world, parent)
             waiting += [(child, index, world) for child in reversed(entries(node, "children"))]
         return found
@@ -120,18 +136,12 @@ class GltfScene:
             self._meshes[index] = gltf_meshes.read_mesh(entry(self.tree, "meshes", index), self.buffers)
         return self._meshes[index]
 
-    def instances(self, placement: Placement) -> Floats:
-        """The places (k, 4, 4) of the instances of a node, in its space."""
-        return gltf_meshes.read_instances(placement.node, self.buffers)
-
     def place_mesh(self, placement: Placement) -> tuple[gltf_meshes.GltfMesh, Floats, Floats]:
         """The triangles of the mesh of a node, and the map x -> linear @ x + offset that puts them in the root frame.
 
-        A skinned mesh is put in place by its joints, as the file has them; of an instanced one it is all instances.
+        A skinned mesh is put in place by its joints, as the file has them.
         """
         mesh = self.mesh(placement.node["mesh"])
-        if gltf_meshes.is_instanced(placement.node):
-            return gltf_meshes.repeat_mesh(mesh, self.instances(placement)), placement.linear, placement.offset
         if "skin" in placement.node:
             return pose_skin(self, placement.node, mesh), np.eye(3), np.zeros(3)
         return mesh, placement.linear, placement.offset

@@ -146,7 +146,6 @@ def arguments(statement: bytes) -> list[bytes]:
 
 
 def _refuse_others(statements: list[bytes], words: list[bytes], where: str) -> None:
-    """Raise AssetError where no statement of a file is one of OBJ."""
     first = next((k for k, word in enumerate(words) if word and word[:1] != b"#"), None)
     if first is None:
         raise AssetError("the file holds no statement", where=where)

@@ -59,7 +59,6 @@ def check_surfaces(surfaces: Iterable[RawSurface], where: str) -> list[RawSurfac
 
 
 def _refuse_far(used: Floats, where: str) -> None:
-    """Raise AssetError where one of the vertices that faces use is not finite, or too far out."""
     if not np.isfinite(used).all():
         x, y, z = used[~np.isfinite(used).all(axis=1)][0]
         problem = f"a coordinate is not a finite number, at the vertex {x:.6g} {y:.6g} {z:.6g}"

@@ -84,7 +84,6 @@ def _split_polygons(indices: list[int]) -> list[list[int]]:
 
 
 def _transform_of(node: VrmlNode) -> Floats:
-    """The matrix of a Transform: translation, center, rotation, scale orientation, scale."""
     move = _translation_by(node.vector("translation", 3))
     center = node.vector("center", 3)
     turn = _rotation_by(node.vector("rotation", 4))
@@ -102,7 +101,6 @@ def _translation_by(offset: list[float]) -> Floats:
 
 
 def _rotation_by(rotation: list[float]) -> Floats:
-    """The matrix of a rotation given by axis and angle [rad]."""
     matrix = np.eye(4)
     if rotation:
         x, y, z = np.array(rotation[:3]) / max(float(np.linalg.norm(rotation[:3])), 1e-300)

@@ -145,7 +145,6 @@ def _add_setting(target: MjcfNode, child: MjcfNode) -> None:
 
 
 def _refuse_missing(tree: MjcfTree, flat: compiler.FlatText, spec: mujoco.MjSpec) -> None:
-    """Raise AssetError where the mesh of a collision geom is not there."""
     lost = _find_missing_meshes(tree, flat, spec)
     geoms = [
         geom
@@ -173,7 +172,6 @@ def _refuse_lookalikes(tree: MjcfTree, flat: compiler.FlatText, spec: mujoco.MjS
 
 
 def _locate_meshes(tree: MjcfTree, flat: compiler.FlatText, spec: mujoco.MjSpec) -> dict[str, tuple[MjcfNode, Path]]:
-    """The elements of meshes that have a file, by name, and where it is or would be."""
     folders, nodes = AssetFolders.of(tree), {mesh.name: flat.node_at(mesh.info) for mesh in spec.meshes}
     return {
         name: (node, folders.find(tree, node)) for name, node in nodes.items() if node and node.attributes.get("file")

@@ -12,8 +12,7 @@ from meshforge.common import join_names, pluralize
 from meshforge.formats import mesh_output, visuals, xml
 from meshforge.formats.base import Loss, Output
 from meshforge.formats.collision_pieces import is_flat
-from meshforge.formats.conversion import note_hulled
-from meshforge.formats.couplings import plan_couplings
+from meshforge.formats.conversion import note_hulled, plan_couplings
 from meshforge.formats.kinematic_tree import BodyTree, claim_name
 from meshforge.formats.mjcf import document, elements, references
 from meshforge.geometry import Aabb, Pose, convex_hull

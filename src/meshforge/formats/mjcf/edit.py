@@ -208,7 +208,6 @@ class MjcfEdit:
         return {name: (node, text) for name, node, text in found.values()}
 
     def _asset_splices(self) -> Iterator[tuple[int, Splice]]:
-        """The made meshes, at the end of the last `<asset>` of the main file, or in a new one."""
         if not self.meshes.elements:
             return
         data, root = self.tree.main.text.data, self.tree.root.element

@@ -152,7 +152,6 @@ def _compare_new_geoms(before: MjcfModel, after: MjcfModel, made: dict[int, NewG
 
 
 def _is_same_shape(found: Shape | None, wanted: Shape, origin: Floats) -> bool:
-    """Whether a shape is the wanted one, as far as MuJoCo's numbers reach; origin: of its body's frame."""
     if found is None or found.kind != wanted.kind:
         return False
     size = float(np.linalg.norm(wanted.aabb.size))

@@ -208,7 +208,6 @@ class HullMeshes:
         return "" if self.folders.strip else reference[: reference.rfind("/") + 1]
 
     def _place_of(self, folder: str) -> str:
-        """Where a folder of references is, seen from the main file, with a final slash."""
         place = posixpath.normpath(posixpath.join(self.folders.mesh.replace("\\", "/"), folder))
         return "" if place == "." else f"{place}/"
 

@@ -100,7 +100,6 @@ def gather_model(path: Path, files: Mapping[Path, bytes] | None = None) -> MjcfT
 
 
 def _refuse_fragment(path: Path, root: Element) -> None:
-    """Raise AssetError where the root of a file is not `<mujoco>`."""
     tag, where = root.tag, f"{path}:{root.line}"
     if tag.lower() == "mujoco":
         return
@@ -209,7 +208,6 @@ class _Visuals:
         return Visual(body, Polytope(surface.vertices, surface.faces), np.eye(3), np.zeros(3), rgba)
 
     def _find_file(self, mesh: int) -> Path | None:
-        """The file of a mesh that can be read again, None where there is none."""
         node = self.reading.flat.node_at(self.meshes[mesh].info) if mesh in self.meshes else None
         if node is None or not node.attributes.get("file"):
             return None

@@ -9,9 +9,8 @@ from typing import Any, Protocol, runtime_checkable
 
 from meshforge.common import AssetError, is_file, plain_path
 from meshforge.formats.base import Output
-from meshforge.formats.libraries import mujoco
+from meshforge.formats.libraries import make_folder, mujoco
 from meshforge.formats.mjcf.document import read_tree
-from meshforge.formats.temporary import make_folder
 from meshforge.symbolic import Asset
 
 

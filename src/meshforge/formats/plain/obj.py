@@ -110,19 +110,20 @@ class ObjForUnreal(ObjFormat):
 
     def create(self, asset: Asset, name: str) -> Output:
         found = bodies.name_bodies(asset, _UNREAL, PurePosixPath(name).stem)
-        parts = [part for family in found.each for part in _parts_of(family)]
-        hulls = set(found.names.values())
+        seen = [MeshPart(family.name, surface) for family in found.each for surface in family.surfaces]
+        made = {
+            geom.name: MeshPart(_UNREAL.hull(family.name, geom, k, own), Surface(hull.vertices, hull.faces))
+            for family in found.each
+            for k, (geom, own) in enumerate(family.pieces)
+            if isinstance(geom, Geom) and (hull := geom.shape.tessellate())
+        }
+        parts, hulls = [*seen, *made.values()], {part.name for part in made.values()}
         whose = [part.name if part.name in hulls else VISUAL_ONLY for part in parts for _ in part.surface.faces]
         data = format_obj(parts, words=(b"o", b"g"))
         read = self._check_output(data, Path(name), TargetTriangles(whose, corners_of(parts)), hulls, asset.path)
-        names = {name: read.get(now, now) for name, now in found.names.items() if read.get(now, now) != name}
+        named = {old: read.get(part.name, part.name) for old, part in made.items()}
+        names = {old: now for old, now in named.items() if now != old}
         return Output(data, names=names, lost=found.lost, notes=(_SCALE, *found.notes))
-
-
-def _parts_of(family: bodies.EngineBody) -> Sequence[MeshPart]:
-    seen = [MeshPart(family.name, surface) for surface in family.surfaces]
-    hulls = {name: geom.shape.tessellate() for name, geom in family.hulls.items()}
-    return [*seen, *(MeshPart(name, Surface(hull.vertices, hull.faces)) for name, hull in hulls.items())]
 
 
 def regroup_by_marks(text: ObjText, soup: Soup) -> Soup:
@@ -139,8 +140,11 @@ def next_hull_names(text: ObjText, geoms: Sequence[Geom]) -> list[str]:
     """The names of made hulls in a file with marks, each after the mesh that its parent stands for."""
     names = [name for group in text.groups for name in group if name]
     rendered = [name for name in names if not conventions.unreal_kind(name)]
+    numbers: dict[str, Iterator[int]] = {}
     made: list[str] = []
     for geom in geoms:
         base = conventions.visible_mesh_of(geom.parent, rendered) if geom.parent else next(iter(rendered), "hull")
-        made.append(conventions.next_name(geom, base, [*names, *made]))
+        if base not in numbers:
+            numbers[base] = conventions.number_hulls(base, names)
+        made.append(_UNREAL.hull(base, geom, next(numbers[base]), ""))
     return made

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from meshforge.common import AssetError
-from meshforge.formats.base import nothing_collides_error
+from meshforge.formats.base import note_shapes_as_hulls, nothing_collides_error
 from meshforge.formats.meshfile.surface import Soup
 from meshforge.geometry import Box, Floats, Ints, Piece, Polytope
 from meshforge.symbolic import Asset, Document, Geom, Surface, unique_names
@@ -113,17 +113,13 @@ def natural_key(name: str) -> tuple[tuple[bool, int, str], ...]:
 
 def to_parts(geoms: Iterable[Geom], native: Collection[str] = ()) -> tuple[tuple[MeshPart, ...], tuple[str, ...]]:
     """Geoms as triangles, and notes on those that lose by it; native: kinds of round shapes that come back."""
-    parts, round_ones = [], Counter[str]()
+    parts, round_ones = [], []
     for geom in geoms:
         shape = geom.shape.tessellate()
         parts.append(MeshPart(geom.name, Surface(shape.vertices, shape.faces)))
         if not isinstance(geom.shape, Polytope | Box) and geom.shape.kind not in native:
-            round_ones[geom.shape.kind] += 1
-    notes = tuple(
-        f"{count} {kind}{'s' * (count > 1)} written as hull meshes: mesh files have no primitives"
-        for kind, count in sorted(round_ones.items())
-    )
-    return tuple(parts), notes
+            round_ones.append(geom.shape.kind)
+    return tuple(parts), tuple(note_shapes_as_hulls(round_ones, "mesh files have no primitives"))
 
 
 def collect_parts(asset: Asset) -> tuple[MeshPart, ...]:

@@ -106,7 +106,6 @@ class _PlyEditor:
         return head + body
 
     def _refuse_misfits(self) -> None:
-        """Raise AssetError where a new row has a number that the type of its property cannot hold."""
         made = {
             "vertex": dict(zip("xyz", self.vertices.T, strict=True)),
             "face": dict.fromkeys(INDEX_NAMES, self.faces),

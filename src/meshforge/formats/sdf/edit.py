@@ -111,7 +111,6 @@ class _FileEdits:
 
 
 def _first_mesh_folder(root: Element, files: mesh_output.HullFiles) -> str:
-    """The folder of the first collision mesh, as its reference has it, where hulls of no mesh's kin go."""
     kinds = (document.geometry_of(element) for element in root.walk() if element.tag == "collision")
     return files.folder_of(
         next((document.mesh_uri(kind) for kind in kinds if kind is not None and kind.tag == "mesh"), None)

@@ -75,10 +75,7 @@ class _Creator:
     def _add_hull(self, geom: Geom) -> None:
         holder, name = self._find_holder(geom.name, geom.body)
         space = self._space(geom.body)
-        spec, approximation = prims.add_native(holder, name, geom.shape, space), None
-        if spec is None:
-            points = np.asarray(geom.shape.vertices)
-            spec, approximation = prims.add_mesh(holder, name, points, geom.shape.faces, space), "convexHull"
+        spec, approximation = prims.add_shape(holder, name, geom.shape, space)
         prims.mark_collider(spec, approximation, drawn=self.drawn)
         body = self.bodies.get(geom.body)
         own = str(spec.path).removeprefix(f"{body.path if body else self.root.path}/")
@@ -89,8 +86,8 @@ class _Creator:
     def _add_opaque(self, piece: Opaque) -> None:
         """Add a piece as its triangles, or as a plane; the report names one that is neither."""
         if piece.plane is not None:  # which USD does not let move
-            spec = prims.add_prim(self.root, self._free_name(self.root, piece.name.rsplit("/", 1)[-1]), "Plane")
-            prims.set_place(spec, piece.plane.translation, piece.plane.rotation)
+            name = self._free_name(self.root, piece.name.rsplit("/", 1)[-1])
+            spec = prims.add_plane(self.root, name, piece.plane.translation, piece.plane.rotation)
             prims.mark_collider(spec, None)
             return
         holder, name = self._find_holder(piece.name, piece.body)

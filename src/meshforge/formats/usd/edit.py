@@ -115,7 +115,6 @@ def _build_output(
 
 
 def _read_files_beside(copies: Mapping[str, Path], asset: Asset) -> dict[str, bytes]:
-    """The files that go into a package. Raises AssetError: one lies outside of the folder."""
     for place in copies:
         if place.startswith(".."):
             raise AssetError(

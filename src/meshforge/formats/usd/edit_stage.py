@@ -3,21 +3,23 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
 from meshforge.common import AssetError, pluralize
+from meshforge.formats.base import note_shapes_as_hulls
 from meshforge.formats.collision_pieces import CollisionPiece, names_to_keep, new_hulls
 from meshforge.formats.libraries import pxr
 from meshforge.formats.usd import colliders
-from meshforge.formats.usd.prims import PrimSpace, add_collision, add_mesh, add_native, free_prim_name, mark_collider
+from meshforge.formats.usd.prims import PrimSpace, add_collision, add_mesh, add_shape, free_prim_name, mark_collider
 from meshforge.formats.usd.read import PrimCollision
 from meshforge.formats.usd.stage import BODY, PrimRecord, UsdDocument, UsdStage
 from meshforge.symbolic import Asset, Geom
 
+NO_SHAPE = "USD has no such shape here"
 _GROUP_PREFIX = "collection:colliders:"
 _GROUP_MEMBERS = f"{_GROUP_PREFIX}includes"
 _OWN = ("physics:collisionEnabled", "physics:simulationOwner", "physics:approximation")
@@ -37,7 +39,7 @@ class UsdEdit:
     names: dict[str, str] = field(default_factory=dict)
     changed: set[str] = field(default_factory=set)
     _how: Counter[str] = field(default_factory=Counter)
-    _hulled: Counter[str] = field(default_factory=Counter)
+    _hulled: list[str] = field(default_factory=list)
 
     def run(self, asset: Asset, sources: Sequence[PrimCollision]) -> None:
         """Bring the layer to hold just the geoms and non-convex pieces of an asset. Raises AssetError."""
@@ -56,7 +58,7 @@ class UsdEdit:
     @property
     def notes(self) -> list[str]:
         """How the edit is written where that is not obvious."""
-        found = note_hulls(self._hulled)
+        found = note_shapes_as_hulls(self._hulled, NO_SHAPE)
         if number := self._how["deactivated"]:
             verb = "is" if number == 1 else "are"
             prims = f"{pluralize(number, 'prim')} of other layers"
@@ -67,8 +69,6 @@ class UsdEdit:
         return found
 
     def _remove(self, element: PrimRecord, source: PrimCollision, staying: Sequence[int]) -> None:
-        if element.fixed:
-            raise AssetError(f"hull {element.names[0]!r} cannot be changed: it {element.fixed}", where=self._where)
         self._how[remove_collision(self.scene, self.layer, source.prim, self.document.physics)] += 1
         self.changed.add(element.body)
         for k in staying:
@@ -83,16 +83,10 @@ class UsdEdit:
         self._finish(spec, name, body, source, "convexHull" if part.shape else "none")
 
     def _add_hull(self, geom: Geom, parent: PrimCollision | None) -> None:
-        if parent is not None and parent.fixed:
-            raise AssetError(f"hull {geom.name!r} takes after {parent.path}, which {parent.fixed}", where=self._where)
         holder, space = self._find_holder(parent, geom.body)
-        wanted = self._free_name(holder, geom.name)
-        spec, approximation = add_native(holder, wanted, geom.shape, space), None
-        if spec is None:
-            if geom.shape.is_primitive:
-                self._hulled[geom.shape.kind] += 1
-            spec = add_mesh(holder, wanted, np.asarray(geom.shape.vertices), geom.shape.faces, space)
-            approximation = "convexHull"
+        spec, approximation = add_shape(holder, self._free_name(holder, geom.name), geom.shape, space)
+        if approximation and geom.shape.is_primitive:
+            self._hulled.append(geom.shape.kind)
         self._finish(spec, geom.name, geom.body, parent, approximation)
         self.changed.add(geom.body)
 
@@ -111,11 +105,10 @@ class UsdEdit:
     def _mark(self, source: PrimCollision) -> None:
         """Say of a prim that was taken for collision that it collides, as the pieces that it has; it is still seen."""
         whole = len(source.parts) == 1 and source.parts[0].shape is not None
-        for prim in _list_prototypes(source.prim):
-            make_instances_editable(self.layer, prim)
-            spec = pxr.Sdf.CreatePrimInLayer(self.layer, prim.GetPath())
-            is_mesh = prim.GetTypeName() == "Mesh"
-            add_collision(spec, ("convexHull" if whole else "none") if is_mesh else None)
+        make_instances_editable(self.layer, source.prim)
+        spec = pxr.Sdf.CreatePrimInLayer(self.layer, source.prim.GetPath())
+        is_mesh = source.prim.GetTypeName() == "Mesh"
+        add_collision(spec, ("convexHull" if whole else "none") if is_mesh else None)
 
     def _find_holder(self, parent: PrimCollision | None, body: str) -> tuple[Any, PrimSpace]:
         """The spec below which a new prim goes, and the space that it is put in."""
@@ -163,14 +156,6 @@ class UsdEdit:
         return str(self.scene.path)
 
 
-def note_hulls(hulled: Mapping[str, int]) -> list[str]:
-    """Notes on shapes that are written as hulls; hulled: how many of each kind."""
-    return [
-        f"{pluralize(number, kind)} written as hull meshes: USD has no such shape here"
-        for kind, number in sorted(hulled.items())
-    ]
-
-
 def holds_volume(scene: UsdStage, prim: Any) -> bool:
     """Whether what is put below a prim keeps its volume."""
     linear, offset = scene.placement(prim)
@@ -178,18 +163,6 @@ def holds_volume(scene: UsdStage, prim: Any) -> bool:
         return False
     stretch = np.linalg.svd(linear, compute_uv=False)
     return bool(stretch[-1] > 1e-9 * stretch[0])
-
-
-def _list_prototypes(prim: Any) -> list[Any]:
-    """The prims that a point instancer shows many times, else the prim itself."""
-    if not prim.IsA(pxr.UsdGeom.PointInstancer):
-        return [prim]
-    roots = [
-        prim.GetStage().GetPrimAtPath(path)
-        for path in pxr.UsdGeom.PointInstancer(prim).GetPrototypesRel().GetForwardedTargets()
-    ]
-    predicate = pxr.Usd.TraverseInstanceProxies(pxr.Usd.PrimDefaultPredicate)
-    return [own for root in roots if root for own in pxr.Usd.PrimRange(root, predicate) if own.IsA(pxr.UsdGeom.Gprim)]
 
 
 def remove_collision(scene: UsdStage, layer: Any, prim: Any, physics: bool) -> str:
@@ -260,7 +233,6 @@ def _count_own_specs(prim: Any, layer: Any) -> int:
 
 
 def _refuse_referenced(scene: UsdStage, prim: Any) -> None:
-    """Raise AssetError where a relationship, but for a membership in a group, leads to a prim that is to go."""
     path = prim.GetPath()
     for other in scene.stage.Traverse():
         for relationship in other.GetAuthoredRelationships():

@@ -66,11 +66,11 @@ class UsdFormat(base.SceneFormat):
 
         return call_isolated(read.read_stage_surfaces, asset, asset.document, where=str(asset.path))
 
-    def write_beside(self, asset: Asset, name: str) -> base.Output:
+    def add_colliders(self, asset: Asset, name: str) -> base.Output:
         assert isinstance(asset.document, UsdDocument)
-        from meshforge.formats.usd import beside  # lazy: only USD needs it
+        from meshforge.formats.usd import add_colliders  # lazy: only USD needs it
 
-        return call_isolated(beside.write_usd_beside, asset, asset.document, name, where=str(asset.path))
+        return call_isolated(add_colliders.add_usd_colliders, asset, asset.document, name, where=str(asset.path))
 
 
 def _read_features(path: Path) -> list[Feature]:

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any, Protocol, runtime_checkable
 
 from meshforge.common.processes import call_isolated
-from meshforge.formats.temporary import make_folder
+from meshforge.formats.libraries import make_folder
 from meshforge.formats.usd.stage import usd
 from meshforge.symbolic import Asset, FileNote
 

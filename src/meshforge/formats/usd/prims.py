@@ -83,6 +83,21 @@ def set_place(spec: Any, translation: Floats, rotation: Floats | None = None, sc
         set_value(spec, "xformOpOrder", "TokenArray", order, uniform=True)
 
 
+def add_shape(holder: Any, name: str, shape: Shape, space: PrimSpace) -> tuple[Any, str | None]:
+    """The prim of a shape, and the approximation by which it collides where it is a mesh."""
+    spec = add_native(holder, name, shape, space)
+    if spec is not None:
+        return spec, None
+    return add_mesh(holder, name, np.asarray(shape.vertices), shape.faces, space), "convexHull"
+
+
+def add_plane(holder: Any, name: str, translation: Floats, rotation: Floats) -> Any:
+    """The prim of an endless plane."""
+    spec = add_prim(holder, name, "Plane")
+    set_place(spec, translation, rotation)
+    return spec
+
+
 def add_native(holder: Any, name: str, shape: Shape, space: PrimSpace) -> Any | None:
     """The prim of a box, sphere, cylinder or capsule; None where USD lacks the shape, or would shear it here."""
     if not isinstance(shape, Box | Sphere | Cylinder | Capsule):

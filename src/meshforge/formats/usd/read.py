@@ -16,7 +16,7 @@ from meshforge.formats.libraries import pxr
 from meshforge.formats.meshfile.surface import GAMMA
 from meshforge.formats.usd import colliders, guard
 from meshforge.formats.usd.mechanism import read_mechanism
-from meshforge.formats.usd.shapes import read_instances, read_mesh, read_parts
+from meshforge.formats.usd.shapes import read_mesh, read_parts
 from meshforge.formats.usd.stage import PrimRecord, UsdDocument, UsdStage, usd
 from meshforge.formats.visuals import LazySurfaces
 from meshforge.symbolic import Asset, FileNote, Geom, Mentions, Rgba, Surface
@@ -27,12 +27,11 @@ _ISAAC = "SemanticsAPI:"
 
 @dataclass(frozen=True, eq=False, slots=True)
 class PrimCollision:
-    """A prim with collision: its pieces in the root frame; fixed: why no edit can change it."""
+    """A prim with collision: its pieces in the root frame."""
 
     prim: Any
     body: str
     parts: Sequence[collision_pieces.CollisionPiece]
-    fixed: str = ""
 
     @property
     def path(self) -> str:
@@ -92,10 +91,7 @@ def read_collisions(
 ) -> Iterator[PrimCollision]:
     """All prims with collision, in the order of the stage."""
     for prim in scene.prims():
-        if prim.IsA(pxr.UsdGeom.PointInstancer):
-            if part := read_instances(scene, prim, physics, notes):
-                yield PrimCollision(prim, bodies.of(prim), [part], "is made many times by a point instancer")
-        elif (colliders.is_collider if physics else colliders.is_seen)(scene, prim) and (
+        if (colliders.is_collider if physics else colliders.is_seen)(scene, prim) and (
             parts := read_parts(scene, prim, notes)
         ):
             yield PrimCollision(prim, bodies.of(prim), parts)
@@ -105,7 +101,7 @@ def record_prims(sources: Sequence[PrimCollision], bodies: colliders.StageBodies
     """The sources with the names of their pieces."""
     bases = [(bodies.hull_name(source.path, source.body), len(source.parts)) for source in sources]
     return tuple(
-        PrimRecord(source.path, source.body, names, source.fixed)
+        PrimRecord(source.path, source.body, names)
         for source, names in zip(sources, collision_pieces.name_pieces(bases), strict=True)
     )
 
@@ -186,17 +182,19 @@ def collect_notes(scene: UsdStage, physics: bool) -> Iterator[str]:
         yield FileNote(f"{pluralize(triggers, 'trigger')} detect bodies without colliding: they are left as they are")
     if chosen := [prim.GetName() for prim in prims if prim.HasVariantSets()]:
         yield f"of variants, the selected ones are read ({join_names(chosen, 3)})"
+    if many := [prim.GetName() for prim in prims if prim.IsA(pxr.UsdGeom.PointInstancer)]:
+        named = f"{pluralize(len(many), 'point instancer')} ({join_names(many, 3)})"
+        yield f"what is shown many times by {named} is not read, and left as it is"
     if sum(prim.IsInstance() for prim in prims):
         yield FileNote("what an edit changes in an instance becomes that instance's own: it is no longer shared")
 
 
 def read_stage_surfaces(asset: Asset, document: UsdDocument) -> tuple[Surface, ...]:
-    """What a stage shows in which all that is seen is taken for collision; of a point instancer, all instances."""
+    """What a stage shows in which all that is seen is taken for collision."""
     with usd(str(asset.path)):
         scene = UsdStage.open(asset.path)
         shown = StageSurfaces.of(scene, colliders.StageBodies(scene, document.physics))
-    many = {name for element in document.authored if element.fixed for name in element.names}
-    return (*shown, *(piece.surface for piece in asset.opaque if piece.name in many and piece.surface is not None))
+    return (*shown,)
 
 
 class StageSurfaces(LazySurfaces):

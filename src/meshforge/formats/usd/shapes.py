@@ -1,5 +1,4 @@
-"""The collision of a prim as convex shapes and non-convex pieces in the root frame, as engines take it; of a point
-instancer, all its instances as one."""
+"""The collision of a prim as convex shapes and non-convex pieces in the root frame, as engines take it."""
 
 from __future__ import annotations
 
@@ -10,8 +9,7 @@ import numpy as np
 from meshforge.common import GeometryError
 from meshforge.formats.collision_pieces import CollisionPiece, build_solid, end_points, place_pieces, place_surface
 from meshforge.formats.libraries import pxr
-from meshforge.formats.meshfile.surface import FARTHEST, RawSurface, join_surfaces
-from meshforge.formats.usd.colliders import COLLISION, has_schema
+from meshforge.formats.meshfile.surface import FARTHEST, RawSurface
 from meshforge.formats.usd.stage import UsdStage, rotation_of
 from meshforge.geometry import Box, Capsule, Cylinder, Floats, Ints, Pose, Sphere, convex_hull, hull_mesh, split_pieces
 
@@ -26,9 +24,6 @@ _TO_Z = {
 """Rotations that take Z to the axis of a prim's shape."""
 WHOLE = ("convexHull", "boundingCube", "boundingSphere")
 """The approximations that make one shape of a mesh, whatever its pieces."""
-
-_MOST_TRIANGLES = 2_000_000  # triangles of all instances together; beyond, they are named and not shown
-_REASON = "many at once by a point instancer, which is not edited"
 
 
 def read_parts(scene: UsdStage, prim: Any, notes: list[str]) -> list[CollisionPiece]:
@@ -139,7 +134,6 @@ def _build_round(kind: str, pose: Pose, radii: Floats, half: float) -> Collision
 
 
 def _axis_rotation(scene: UsdStage, prim: Any) -> Floats:
-    """The rotation (3, 3) that takes Z to the axis that a prim says."""
     return _TO_Z.get(str(scene.get(prim.GetAttribute("axis")) or "Z"), _TO_Z["Z"])
 
 
@@ -151,7 +145,6 @@ def _proper_rotation(turn: Floats) -> Floats:
 
 
 def _is_regular(linear: Floats, offset: Floats) -> bool:
-    """Whether a map leaves volume, and is made of numbers within bounds."""
     if not (np.isfinite(linear).all() and np.isfinite(offset).all()):
         return False
     stretch = np.linalg.svd(linear, compute_uv=False)
@@ -190,45 +183,3 @@ def triangulate(corners: Ints, counts: Ints, holes: Ints) -> Ints:
     first = np.repeat(np.cumsum(counts) - counts, solid)
     step = np.arange(solid.sum()) - np.repeat(np.cumsum(solid) - solid, solid)
     return np.stack([corners[first], corners[first + step + 1], corners[first + step + 2]], axis=1)
-
-
-def read_instances(scene: UsdStage, instancer: Any, physics: bool, notes: list[str]) -> CollisionPiece | None:
-    """All instances of the prototypes that collide; None where none does."""
-    kinds = pxr.UsdGeom.PointInstancer(instancer)
-    roots = [scene.stage.GetPrimAtPath(path) for path in kinds.GetPrototypesRel().GetForwardedTargets()]
-    predicate = pxr.Usd.TraverseInstanceProxies(pxr.Usd.PrimDefaultPredicate)
-    below = [pxr.Usd.PrimRange(root, predicate) if root else () for root in roots]
-    shapes = [_prototype_surface(scene, *prototype, physics, notes) for prototype in zip(roots, below, strict=True)]
-    if all(shape is None for shape in shapes):
-        return None
-    at = np.asarray(kinds.ComputeInstanceTransformsAtTime(scene.time, scene.time), dtype=np.float64).reshape(-1, 4, 4)
-    which = np.asarray(scene.get(kinds.GetProtoIndicesAttr()) or [], dtype=np.int64)
-    shown = [(shapes[k], matrix) for k, matrix in zip(which, at, strict=False) if 0 <= k < len(shapes)]
-    there = [(shape, matrix) for shape, matrix in shown if shape is not None]
-    if not there or sum(len(shape.faces) for shape, _ in there) > _MOST_TRIANGLES:
-        return CollisionPiece(None, _REASON)
-    many = [RawSurface(None, s.vertices @ m[:3, :3] + m[3, :3], s.faces) for s, m in there]
-    whole = join_surfaces(many)
-    if not np.isfinite(whole.vertices).all():
-        return CollisionPiece(None, _REASON)
-    return CollisionPiece(None, _REASON, place_surface(whole.vertices, whole.faces, *scene.placement(instancer)))
-
-
-def _prototype_surface(scene: UsdStage, root: Any, below: Any, physics: bool, notes: list[str]) -> RawSurface | None:
-    """What collides of a prototype, where the instancer puts it, in units of the stage."""
-    if not root:
-        return None
-    linear, offset = scene.placement(root)
-    own = np.array(pxr.UsdGeom.Xformable(root).GetLocalTransformation(scene.time), dtype=np.float64)
-    inverse = np.linalg.pinv(linear)
-    surfaces = []
-    for prim in below:
-        if prim.IsA(pxr.UsdGeom.Gprim) and (has_schema(prim, COLLISION) or not physics):
-            for part in read_parts(scene, prim, notes):
-                if shape := part.shape or part.surface:
-                    local = (np.asarray(shape.vertices) - offset) @ inverse.T
-                    surfaces.append(RawSurface(None, local @ own[:3, :3] + own[3, :3], shape.faces))
-    if not surfaces:
-        return None
-    whole = join_surfaces(surfaces)
-    return RawSurface(None, whole.vertices, whole.faces)

@@ -37,15 +37,11 @@ _PADDING = 0x1986  # the id of the extra field that holds nothing
 
 @dataclass(frozen=True, slots=True)
 class PrimRecord:
-    """A prim with collision: its path, its body, and the names of its pieces in order, hulls and non-convex ones.
-
-    fixed: why no edit can change it, empty where one can.
-    """
+    """A prim with collision: its path, its body, and the names of its pieces in order, hulls and non-convex ones."""
 
     path: str
     body: str
     names: tuple[str, ...]
-    fixed: str = ""
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -1,95 +1,53 @@
-"""Labels for the hulls of a project from files, taken or only proposed."""
+"""Labels for the hulls of a project from files."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
-from meshforge.batch import ExecutionOptions
-from meshforge.common import AssetError, ProjectError
-from meshforge.labels import merge
+from meshforge.common import ProjectError
 from meshforge.labels.from_files import read
 from meshforge.labels.from_files.links import read_semantics
 from meshforge.labels.from_files.points import read_class_names
+from meshforge.labels.labeler import AssetLabels, Labeler, LabelFamily, LabelProposal
 from meshforge.labels.names.label_by_names import name_patterns
-from meshforge.labels.summary import LabelEvidence, Proposals, group_evidence
-from meshforge.store import Store
-from meshforge.symbolic import Label, match_labels, read_labels
+from meshforge.symbolic import Label, read_labels
 
 
-def label_from_files(
-    store: Store,
-    source: Path | None,
-    options: read.LabelFileOptions,
-    execution: ExecutionOptions,
-    report: merge.OutcomeCallback,
-) -> tuple[merge.LabelOutcome, ...]:
-    """Take the labels that files give; see `LabelStore.label_from_files`."""
-    files = _require_files(store, source)
-    if not store.vocabulary:
-        store.set_vocabulary(_read_vocabulary(files, options))
-    patterns = name_patterns(store.folder, store.settings, store.vocabulary, options.meanings)
-    writer, reports = merge.LabelWriter(store), list[merge.LabelOutcome]()
-    for asset, content in read.read_label_files(store, files, options, writer.vocabulary, patterns, execution):
-        reports.append(_write_asset(writer, asset, content))
-        report(reports[-1])
-    return tuple(reports)
+class FileLabeler(Labeler):
+    """Takes labels from files: labels files, segmented points, and PartNet's semantics of links.
+
+    source: a file for a single asset, a folder that mirrors the assets, or None for the files beside them. A project
+    without a vocabulary takes that of the files.
+    Raises ProjectError: no file at all; UsageError: a wrong pattern, or one file for several assets; AssetError: a file
+    that cannot be read while a vocabulary is looked for.
+    """
+
+    name = "file"
+    about = "labels taken over from files"
+
+    def __init__(self, source: Path | None = None, options: read.LabelFileOptions | None = None) -> None:
+        self.source, self.options = source, options or read.LabelFileOptions()
+
+    def propose(self, family: LabelFamily) -> LabelProposal:
+        store = family.store
+        files = read.find_label_files(store.found, self.source)
+        if not files:
+            remedy = "Put a labels file beside each asset, or name a folder of them that mirrors the assets."
+            raise ProjectError("there is no labels file for any asset", where=str(store.folder), remedy=remedy)
+        words = family.vocabulary or _read_vocabulary(files, self.options)
+        patterns = name_patterns(store.folder, store.settings, words, self.options.meanings)
+        contents = read.read_label_files(store, files, self.options, words, patterns, family.execution)
+        return LabelProposal((_to_labels(*one, files) for one in contents), vocabulary=words)
+
+    def can_replace(self, current: Label | None, given: Label | None) -> bool:
+        return given is not None
 
 
-def _write_asset(writer: merge.LabelWriter, asset: str, content: read.LabelFileContent) -> merge.LabelOutcome:
-    if content.error:
-        return merge.LabelOutcome(asset, problems=(content.error,))
-    report = writer.try_write(asset, content.hulls, content.given.labels, merge.can_replace_any)
-    return replace(report, problems=(*report.problems, *content.given.problems))
-
-
-def propose_from_files(
-    store: Store,
-    source: Path | None,
-    options: read.LabelFileOptions,
-    vocabulary: Sequence[str] | None,
-    execution: ExecutionOptions,
-) -> Proposals:
-    """What `label_from_files` would take, with nothing written."""
-    files = _require_files(store, source)
-    words = (store.vocabulary if vocabulary is None else tuple(vocabulary)) or _read_vocabulary(files, options)
-    patterns = name_patterns(store.folder, store.settings, words, options.meanings)
-    found, problems, labelled = list[LabelEvidence](), list[str](), 0
-    for asset, content in read.read_label_files(store, files, options, words, patterns, execution):
-        try:
-            current = match_labels(store.labels(asset), content.hulls).labels
-        except AssetError as error:
-            problems.append(f"{asset}: {error.message}")
-            continue
-        _, report = merge.merge_labels(asset, content.hulls, current, content.given.labels, words)
-        left_out = (content.error,) if content.error else (*report.problems, *content.given.problems)
-        problems += [f"{asset}: {problem}" for problem in left_out]
-        rows = list(_evidence_of_asset(asset, content, current, files[asset], words))
-        labelled += len(content.hulls) - len(rows)
-        found += rows
-    return group_evidence(found, words, labelled, problems)
-
-
-def _evidence_of_asset(
-    asset: str, content: read.LabelFileContent, current: Mapping[str, Label], file: Path, words: Sequence[str]
-) -> Iterator[LabelEvidence]:
-    """What becomes of the hulls whose label would change, or that have none."""
-    for hull in content.hulls:
-        label, now = content.given.labels.get(hull), current.get(hull)
-        if label and label.name in words and label != now and not merge.is_protected(now, label):
-            yield LabelEvidence(asset, label, read.kind_of(file), content.given.names.get(hull) or file.name)
-        elif now is None:
-            yield LabelEvidence(asset, None, "nothing said", hull)
-
-
-def _require_files(store: Store, source: Path | None) -> dict[str, Path]:
-    """The file of each asset that has one. Raises ProjectError where no asset has one."""
-    files = read.find_label_files(store.found, source)
-    if not files:
-        remedy = "Put a labels file beside each asset, or name a folder of them that mirrors the assets."
-        raise ProjectError("there is no labels file for any asset", where=str(store.folder), remedy=remedy)
-    return files
+def _to_labels(asset: str, content: read.LabelFileContent, files: Mapping[str, Path]) -> AssetLabels:
+    file, names = files[asset], content.given.names
+    reasons = {hull: (read.kind_of(file), names.get(hull) or file.name) for hull in content.given.labels}
+    return AssetLabels(asset, content.hulls, content.given.labels, reasons, content.given.problems, content.error)
 
 
 def _read_vocabulary(files: Mapping[str, Path], options: read.LabelFileOptions) -> tuple[str, ...]:

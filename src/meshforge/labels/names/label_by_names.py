@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Generator, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fnmatch import translate
 from pathlib import Path
 from typing import Literal
 
-from meshforge.batch import SETTINGS, ExecutionOptions
-from meshforge.common import MeshForgeError, ProjectError, UsageError, suggest_name
-from meshforge.labels.merge import LabelOutcome, LabelWriter, OutcomeCallback, can_fill_gap
+from meshforge.batch import SETTINGS
+from meshforge.common import MeshForgeError, UsageError, suggest_name
+from meshforge.labels.labeler import NO_REASON, AssetLabels, Labeler, LabelFamily, LabelProposal, LabelReason
+from meshforge.labels.merge import can_fill_gap
 from meshforge.labels.names.words import UNSURE, match_label
-from meshforge.labels.summary import LabelEvidence, Proposals, group_evidence
-from meshforge.store import AssetFacts, Settings, Store, iterate_survey
-from meshforge.symbolic import Label, Mentions, SymbolicMesh, match_labels
+from meshforge.store import AssetFacts, Settings
+from meshforge.symbolic import Label, Mentions, SymbolicMesh
 
 MatchKind = Literal["pattern", "word", "likeness"]
 
@@ -154,31 +154,42 @@ def _check_pattern(text: str, label: str, vocabulary: Sequence[str]) -> NamePatt
     return pattern_of(text, label)
 
 
-def label_from_names(
-    store: Store, meanings: PatternPairs, execution: ExecutionOptions, report: OutcomeCallback
-) -> tuple[LabelOutcome, ...]:
-    """Give hulls without a label the one that their names say; see `LabelStore.label_from_names`."""
-    patterns = require_patterns(store, store.vocabulary, meanings)
-    writer, reports = LabelWriter(store), list[LabelOutcome]()
-    for asset, facts in iterate_survey(store.found, store.layout, execution=execution):
-        reports.append(_label_asset(writer, asset, facts, patterns))
-        report(reports[-1])
-    return tuple(reports)
+class NameLabeler(Labeler):
+    """Labels hulls without a label by their own names, those of their bodies, and what else their files call them.
+
+    Patterns count first: `meanings`, then those of the project's settings; then the words of the vocabulary, and words
+    that are nearly those. Raises ProjectError: no vocabulary; UsageError: a wrong pattern.
+    """
+
+    name = "names"
+    about = "labels read off the names of hulls and bodies"
+
+    def __init__(self, meanings: PatternPairs = ()) -> None:
+        self.meanings = tuple(meanings)
+
+    def propose(self, family: LabelFamily) -> LabelProposal:
+        words, store = family.require_vocabulary(), family.store
+        patterns = name_patterns(store.folder, store.settings, words, self.meanings)
+        return LabelProposal(_label_assets(family, patterns))
+
+    def can_replace(self, current: Label | None, given: Label | None) -> bool:
+        return can_fill_gap(current, given)
 
 
-def require_patterns(store: Store, vocabulary: Sequence[str], meanings: PatternPairs) -> tuple[NamePattern, ...]:
-    """The patterns that say what names mean. Raises ProjectError: no vocabulary; UsageError: a wrong pattern."""
-    if not vocabulary:
-        raise ProjectError("the vocabulary is empty", where=str(store.folder), remedy="Say first what hulls can be.")
-    return name_patterns(store.folder, store.settings, vocabulary, meanings)
+def _label_assets(family: LabelFamily, patterns: Sequence[NamePattern]) -> Generator[AssetLabels, None, None]:
+    for asset, facts in family.iterate_facts():
+        found = {
+            names.hull: (names, match_names(names, family.vocabulary, patterns)) for names in names_of_facts(facts)
+        }
+        given = {hull: label for hull, (_, one) in found.items() if one and (label := to_label(one))}
+        reasons = {hull: _reason_of(names, one) for hull, (names, one) in found.items()}
+        yield AssetLabels(asset, facts.hulls, given, reasons, error=facts.error)
 
 
-def _label_asset(writer: LabelWriter, asset: str, facts: AssetFacts, patterns: Sequence[NamePattern]) -> LabelOutcome:
-    if facts.error:
-        return LabelOutcome(asset, problems=(facts.error,))
-    matches = ((names.hull, match_names(names, writer.vocabulary, patterns)) for names in names_of_facts(facts))
-    given = {hull: label for hull, one in matches if one and (label := to_label(one))}
-    return writer.try_write(asset, facts.hulls, given, can_fill_gap)
+def _reason_of(names: HullNames, one: NameMatch | None) -> LabelReason:
+    if one is None:
+        return NO_REASON, names.own
+    return one.kind + {"pattern": " by pattern", "likeness": " nearly", "word": ""}[one.how], one.name
 
 
 def to_label(one: NameMatch) -> Label | None:
@@ -195,33 +206,3 @@ def names_of_mesh(mesh: SymbolicMesh) -> Iterator[HullNames]:
 def names_of_facts(facts: AssetFacts) -> Iterator[HullNames]:
     """The names of each hull of an asset, from its facts."""
     return map(HullNames, facts.hulls, facts.bodies, facts.mentions)
-
-
-def propose_from_names(
-    store: Store, meanings: PatternPairs, vocabulary: Sequence[str] | None, execution: ExecutionOptions
-) -> Proposals:
-    """What names would give, by the survey alone, with nothing written."""
-    words = store.vocabulary if vocabulary is None else tuple(vocabulary)
-    patterns = require_patterns(store, words, meanings)
-    found, problems, labelled = list[LabelEvidence](), list[str](), 0
-    for asset, facts in iterate_survey(store.found, store.layout, execution=execution):
-        try:
-            present = match_labels(store.labels(asset), facts.hulls).labels
-        except MeshForgeError as error:
-            problems.append(f"{asset}: {error.message}")
-            continue
-        problems += [f"{asset}: {facts.error}"] if facts.error else []
-        labelled += len(present)
-        found += [
-            _evidence_of(asset, names, match_names(names, words, patterns))
-            for names in names_of_facts(facts)
-            if names.hull not in present
-        ]
-    return group_evidence(found, words, labelled, problems)
-
-
-def _evidence_of(asset: str, names: HullNames, one: NameMatch | None) -> LabelEvidence:
-    if one is None:
-        return LabelEvidence(asset, None, "nothing said", names.own)
-    suffix = {"pattern": " by pattern", "likeness": " nearly", "word": ""}[one.how]
-    return LabelEvidence(asset, to_label(one), one.kind + suffix, one.name)

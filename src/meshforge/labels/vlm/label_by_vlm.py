@@ -3,14 +3,14 @@ what that sends and costs."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Generator, Mapping, Sequence
-from contextlib import AbstractContextManager, closing
+from collections.abc import Callable, Collection, Generator, Iterable, Iterator, Mapping, Sequence
+from contextlib import closing
 from dataclasses import dataclass, field, replace
 from functools import partial
 
 from meshforge.batch import IN_PROCESS, ExecutionOptions, WorkerFailure, execute
 from meshforge.common import UsageError, describe_error
-from meshforge.labels.merge import LabelOutcome, LabelWriter, can_replace_less_certain
+from meshforge.labels.labeler import AssetLabels, Labeler, LabelFamily, LabelProposal
 from meshforge.labels.vlm.approval import check_approved
 from meshforge.labels.vlm.cache import write_page
 from meshforge.labels.vlm.client import Client
@@ -20,9 +20,6 @@ from meshforge.labels.vlm.limits import Usage, estimate_tokens
 from meshforge.labels.vlm.prompt import HullQuestion, PromptConfig, build_questions, prompt_config_of
 from meshforge.store import AssetFiles, Store, VlmSettings, hull_digests
 from meshforge.symbolic import GIVEN_SOURCES, SymbolicMesh
-
-UsageCallback = Callable[[Usage], None]
-VlmWriteBlock = Callable[[], AbstractContextManager[object]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,13 +62,12 @@ def _draw(config: PromptConfig, item: tuple[str, AssetFiles]) -> AssetQuestions:
 
 @dataclass(frozen=True, slots=True)
 class VlmResult:
-    """What came of asking a model. reports: of all assets, in their order; usage: what was asked, and its cost.
+    """How asking a model went. usage: what was asked, and its cost.
 
     open: why hulls that were asked about have no label from it, by asset and hull; unasked: assets that were not
     reached, and ended: why, None where all were; blind: the model did not name the colour of a red picture.
     """
 
-    reports: tuple[LabelOutcome, ...]
     usage: Usage
     open: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
     unasked: tuple[str, ...] = ()
@@ -79,104 +75,81 @@ class VlmResult:
     blind: bool = False
 
 
-def label_with_vlm(
+class VlmLabeler(Labeler):
+    """Asks a vision-language model; labels of people and files stay. Answers are kept, so that none is paid for twice.
+
+    settings: those of the project when None; typed: addresses that the user typed, who thereby approves them: elsewhere
+    but to this machine nothing is sent before `approve_host`. `stop` of the execution ends the asking, and what was
+    answered by then is proposed. result: how it went, once all is proposed.
+    Raises MeshForgeError where nothing could be asked at all.
+    """
+
+    name = "vlm"
+    about = "labels by a vision-language model"
+    work = "asking"
+
+    def __init__(self, settings: VlmSettings | None = None, typed: Collection[str] = ()) -> None:
+        self._settings, self._typed = settings, typed
+        self.result = VlmResult(Usage())
+
+    def propose(self, family: LabelFamily) -> LabelProposal:
+        settings = self._settings or family.store.settings.vlm
+        check_approved(endpoint_of(settings), self._typed)
+        return LabelProposal(self._ask(family, settings, prompt_config_of(settings, family.vocabulary)))
+
+    def _ask(
+        self, family: LabelFamily, settings: VlmSettings, config: PromptConfig
+    ) -> Generator[AssetLabels, None, None]:
+        store, stop = family.store, family.execution.stop or (lambda: False)
+        endpoint, pending = endpoint_of(settings), dict[str, tuple[Mapping[str, str], OpenAnswers]]()
+        client = Client(endpoint, store.layout.vlm, max_cost=settings.max_cost, stop=stop)
+        reached, left = set[str](), dict[str, Mapping[str, str]]()
+        with (
+            closing(client),
+            closing(Labeller(client, config, examples_of(store, settings))) as labeller,
+            closing(draw_assets(store, config, replace(family.execution, stop=None))) as drawn,
+        ):
+
+            def finish(assets: Iterable[str]) -> Iterator[AssetLabels]:
+                for asset in assets:
+                    if labels := _read_answers(store, client, asset, *pending.pop(asset), left):
+                        reached.add(asset)
+                        yield labels
+
+            while not (client.end or stop()) and (one := next(drawn, None)):
+                asset, found = one
+                if found.error:
+                    reached.add(asset)
+                    yield AssetLabels(asset, error=found.error)
+                else:
+                    pending[asset] = found.hulls, labeller.ask(found.wanted, found.questions)
+                    yield from finish([name for name, (_, answers) in pending.items() if answers.is_done()])
+            yield from finish(list(pending))
+        if client.end and not client.usage.answered + client.usage.cached:
+            raise client.end
+        unasked = tuple(asset for asset in store.assets() if asset not in reached)
+        ended = client.end.message if client.end else "stopped" if unasked else None
+        self.result = VlmResult(client.usage, left, unasked, ended, client.is_blind)
+
+
+def _read_answers(
     store: Store,
-    settings: VlmSettings,
-    progress: UsageCallback | None = None,
-    stop: Callable[[], bool] | None = None,
-    write_block: VlmWriteBlock | None = None,
-    execution: ExecutionOptions = IN_PROCESS,
-    typed: Collection[str] = (),
-) -> VlmResult:
-    """Ask about all hulls without a label of a person or a file; see `LabelStore.label_with_vlm`."""
-    check_approved(endpoint_of(settings), typed)
-    config = prompt_config_of(settings, store.vocabulary)
-    client = Client(endpoint_of(settings), store.layout.vlm, max_cost=settings.max_cost, stop=stop or (lambda: False))
-    with (
-        closing(client),
-        closing(Labeller(client, config, examples_of(store, settings))) as labeller,
-        closing(draw_assets(store, config, execution)) as pictures,
-    ):
-        run = _Run(store, client, labeller, write_block, progress)
-        while not (client.end or (stop and stop())) and (found := next(pictures, None)):
-            run.begin(*found)
-        run.finish()
-    return run.result()
-
-
-class _Run:
-    """Assets on their way: asked about at one time, written as they are done."""
-
-    def __init__(
-        self,
-        store: Store,
-        client: Client,
-        labeller: Labeller,
-        write_block: VlmWriteBlock | None,
-        progress: UsageCallback | None,
-    ) -> None:
-        self._store, self._client, self._labeller = store, client, labeller
-        self._write_block, self._progress = write_block, progress
-        self._writer = LabelWriter(store)
-        self._pending: dict[str, tuple[Mapping[str, str], OpenAnswers]] = {}
-        self._reports: dict[str, LabelOutcome] = {}
-        self._open: dict[str, Mapping[str, str]] = {}
-        self._unwritten: list[Callable[[], None]] = []
-
-    def begin(self, asset: str, found: AssetQuestions) -> None:
-        """Ask about an asset; write those of which all is said by then."""
-        if found.error:
-            self._reports[asset] = LabelOutcome(asset, problems=(found.error,))
-            self._advance()
-            return
-        self._pending[asset] = found.hulls, self._labeller.ask(found.wanted, found.questions)
-        for done in [name for name, (_, pending) in self._pending.items() if pending.is_done()]:
-            self._write(done)
-
-    def finish(self) -> None:
-        """Wait for all answers, and write what they say."""
-        for asset in list(self._pending):
-            self._write(asset)
-        if self._write_block and self._unwritten:
-            with self._write_block():
-                for write in self._unwritten:
-                    write()
-
-    def result(self) -> VlmResult:
-        """What came of it all. Raises the error that ended it, where nothing came of it."""
-        end, usage = self._client.end, self._client.usage
-        if end and not usage.answered + usage.cached:
-            raise end
-        reports = tuple(self._reports[asset] for asset in self._store.assets() if asset in self._reports)
-        unasked = tuple(asset for asset in self._store.assets() if asset not in self._reports)
-        ended = end.message if end else "stopped" if unasked else None
-        return VlmResult(reports, usage, self._open, unasked, ended, self._client.is_blind)
-
-    def _write(self, asset: str) -> None:
-        hulls, pending = self._pending.pop(asset)
-        answers = pending.result()
-        end = self._client.end
-        failed = tuple(problem for problem in answers.failed if end is None or problem != end.sentence)
-        if end and answers.failed and not answers.labels:
-            return  # the result says once that asking ended, and which assets were not reached
-        if answers.open:
-            self._open[asset] = answers.open
-        if answers.asked:
-            write_page(self._store.layout.vlm, asset, answers)
-
-        def write() -> None:
-            report = self._writer.write(asset, hulls, answers.labels, can_replace_less_certain)
-            self._reports[asset] = replace(report, problems=(*report.problems, *failed))
-
-        if self._write_block:
-            self._unwritten.append(write)
-        else:
-            write()
-        self._advance()
-
-    def _advance(self) -> None:
-        if self._progress:
-            self._progress(self._client.usage)
+    client: Client,
+    asset: str,
+    hulls: Mapping[str, str],
+    pending: OpenAnswers,
+    left: dict[str, Mapping[str, str]],
+) -> AssetLabels | None:
+    """The labels of an asset when all its answers are there; None where asking ended before any."""
+    answers, end = pending.result(), client.end
+    if end and answers.failed and not answers.labels:
+        return None  # the result says once that asking ended, and which assets were not reached
+    if answers.open:
+        left[asset] = answers.open
+    if answers.asked:
+        write_page(store.layout.vlm, asset, answers)
+    failed = tuple(problem for problem in answers.failed if end is None or problem != end.sentence)
+    return AssetLabels(asset, hulls, answers.labels, {hull: ("model", hull) for hull in answers.labels}, failed)
 
 
 def check_vlm_settings(settings: VlmSettings, vocabulary: Sequence[str]) -> None:
@@ -227,13 +200,18 @@ class VlmForecast:
 
 def forecast_vlm(
     store: Store,
-    settings: VlmSettings,
+    settings: VlmSettings | None = None,
+    *,
     progress: Callable[[], None] | None = None,
     stop: Callable[[], bool] | None = None,
     vocabulary: Sequence[str] | None = None,
     execution: ExecutionOptions = IN_PROCESS,
 ) -> VlmForecast:
-    """What `label_with_vlm` would send; questions that have to be asked again come on top of it."""
+    """What `VlmLabeler` would send and what that costs, with nothing sent; vocabulary: one to try instead.
+
+    Questions that have to be asked again come on top of it.
+    """
+    settings = settings or store.settings.vlm
     endpoint = endpoint_of(settings)
     config = prompt_config_of(settings, store.vocabulary if vocabulary is None else vocabulary)
     client = Client(endpoint, store.layout.vlm, max_cost=settings.max_cost)
@@ -246,7 +224,7 @@ def forecast_vlm(
     ):
         while not (stop and stop()) and (next_one := next(drawn_assets, None)):
             asset, found = next_one
-            if found.error:  # `label_with_vlm` says then what is wrong
+            if found.error:  # `VlmLabeler` says then what is wrong
                 unreadable.append(asset)
                 continue
             assets, hulls = assets + bool(found.wanted), hulls + len(found.wanted)

@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from pathlib import Path
 from typing import Literal
 
 from pydantic import Field
 
-from meshforge.batch import SETTINGS
 from meshforge.common import join_names, pluralize
 from meshforge.project import Project
 from meshforge.signoff import ExclusionReason
-from meshforge.store import ExclusionEvent, parse_action_text
-from meshforge.studio.edits.base import EVENTS_FILE, LABELS, PREPARED_FILES, PROGRAM_FILES, Edit, JobEdit, LabelsByAsset
+from meshforge.store import ExclusionEvent, Layout, list_files, parse_action_text
+from meshforge.studio.edits.base import Edit, LabelsByAsset
 from meshforge.studio.wire.requests import HullOfAsset
 
 
@@ -21,7 +19,7 @@ class LabelHulls(Edit):
     """Label some hulls of an asset; null takes their labels away."""
 
     kind: Literal["label"] = "label"
-    touches = ("labels/{asset}.json",)
+    touches = (Layout.labels,)
     asset: str
     hulls: tuple[str, ...]
     label: str | None
@@ -37,37 +35,10 @@ class LabelHulls(Edit):
         return f"{hulls} labelled {self.label}" if self.label else f"label of {hulls} taken away"
 
 
-class LabelByName(Edit):
-    """Label hulls of an asset, each with its own label, as `meshforge label` does; null takes a label away.
-
-    vocabulary: set before, None for that of the project.
-    """
-
-    touches = ("labels/{asset}.json",)
-    asset: str
-    labels: dict[str, str | None]
-    vocabulary: tuple[str, ...] | None = None
-
-    def apply(self, project: Project) -> None:
-        if self.vocabulary is not None:
-            project.set_vocabulary(self.vocabulary)
-        project.set_labels(self.asset, self.labels)
-
-    def list_paths(self, project: Project) -> tuple[Path, ...]:
-        return (*super().list_paths(project), *([] if self.vocabulary is None else [project.layout.settings]))
-
-    def describe(self, project: Project) -> str:
-        counts = Counter(self.labels.values())
-        parts = [f"{pluralize(n, 'hull')} labelled {label}" for label, n in counts.items() if label is not None]
-        parts += [f"label of {pluralize(counts[None], 'hull')} taken away"] if counts[None] else []
-        return f"{self.asset}: {', '.join(parts)}"
-
-
 class LabelGroup(Edit):
     """Give hulls of several assets one label; null takes their labels away."""
 
     kind: Literal["label-group"] = "label-group"
-    touches = ()
     hulls: tuple[HullOfAsset, ...]
     label: str | None
 
@@ -98,10 +69,10 @@ class LabelFromFiles(Edit):
     """Take over the labels files beside the assets."""
 
     kind: Literal["label-files"] = "label-files"
-    touches = (SETTINGS, *LABELS)
+    touches = (Layout.settings, Layout.labels, Layout.label_sources)
 
     def apply(self, project: Project) -> None:
-        project.label_from_files()
+        project.label("file")
 
     def describe(self, project: Project) -> str:
         return "labels taken over from files"
@@ -111,10 +82,10 @@ class LabelFromNames(Edit):
     """Label hulls without a label by the words in their names and in the names of their bodies."""
 
     kind: Literal["label-names"] = "label-names"
-    touches = LABELS
+    touches = (Layout.labels, Layout.label_sources)
 
     def apply(self, project: Project) -> None:
-        project.label_from_names()
+        project.label("names")
 
     def describe(self, project: Project) -> str:
         return "labels taken from names"
@@ -124,7 +95,7 @@ class SetVocabulary(Edit):
     """Set the labels that hulls can have, in the order of their colours."""
 
     kind: Literal["vocabulary"] = "vocabulary"
-    touches = (SETTINGS,)
+    touches = (Layout.settings,)
     labels: tuple[str, ...]
 
     def apply(self, project: Project) -> None:
@@ -138,7 +109,7 @@ class RenameLabel(Edit):
     """Give a label of the vocabulary another name, wherever it is used."""
 
     kind: Literal["rename-label"] = "rename-label"
-    touches = (SETTINGS, *LABELS, "demonstrations", "corrections", EVENTS_FILE, *PROGRAM_FILES)
+    touches = tuple(file for file in list_files() if file.words)
     old: str
     new: str
 
@@ -149,35 +120,11 @@ class RenameLabel(Edit):
         return f"{self.old} renamed {self.new}"
 
 
-class Propagate(JobEdit):
-    """A job propagated labels to all other hulls. next: the asset that would help most if it were labelled; used: how
-    many entries the history had when labels were read."""
-
-    kind: Literal["propagate"] = "propagate"
-    touches = ("labels",)
-    used: int
-    next: str | None
-
-    def describe(self, project: Project) -> str:
-        return "labels propagated"
-
-
-class LabelFromModel(JobEdit):
-    """A job asked a model for labels."""
-
-    kind: Literal["label-vlm"] = "label-vlm"
-    touches = ("labels",)
-    model: str
-
-    def describe(self, project: Project) -> str:
-        return f"labels from {self.model}"
-
-
 Vector = tuple[float, float, float]
 
 
 class _PreparationEdit(Edit):
-    touches = PREPARED_FILES
+    touches = tuple(file for file in list_files() if file.hulls)
     asset: str
 
 
@@ -216,7 +163,7 @@ class ReviewAssets(Edit):
     """
 
     kind: Literal["review"] = "review"
-    touches = (EVENTS_FILE,)
+    touches = (Layout.events,)
     ids: tuple[str, ...]
     verdict: Literal["accepted", "wrong"] | None
     note: str | None = None
@@ -238,7 +185,7 @@ class ExcludeAssets(Edit):
     """Give some assets up, with the reason; null includes them again."""
 
     kind: Literal["exclude"] = "exclude"
-    touches = (EVENTS_FILE,)
+    touches = (Layout.events,)
     ids: tuple[str, ...]
     reason: ExclusionReason | None
 
@@ -252,7 +199,7 @@ class ExcludeAssets(Edit):
 
 
 class _CorrectionEdit(Edit):
-    touches = ("corrections/{asset}.json", EVENTS_FILE)
+    touches = (Layout.corrections, Layout.events)
     asset: str
 
 
@@ -282,30 +229,17 @@ class DropCorrections(_CorrectionEdit):
         return f"edits by hand of {self.asset} taken away"
 
 
-class Decompose(_PreparationEdit, JobEdit):
-    """A job made hulls of the pieces of an asset that had none."""
-
-    def describe(self, project: Project) -> str:
-        return f"{self.asset} decomposed"
-
-
-class PrepareNew(_PreparationEdit, JobEdit):
-    """A job prepared an asset that came later as the others. That it was is kept when this is undone, so that it is not
-    done again."""
-
-    def describe(self, project: Project) -> str:
-        return f"{self.asset} prepared as the others"
-
-
 class AddTemplate(Edit):
     """Keep an uploaded file as a template. file: where it lies."""
 
-    touches = ("templates/{name}",)
     name: str
     file: str
 
     def apply(self, project: Project) -> None:
         project.add_template(self.name, Path(self.file).read_bytes())
+
+    def list_paths(self, project: Project) -> tuple[Path, ...]:
+        return (project.layout.own_templates / self.name,)
 
     def describe(self, project: Project) -> str:
         return f"template {self.name} added"
@@ -315,7 +249,7 @@ class LeaveOut(Edit):
     """Leave assets out of the family, or put them back; what is kept for them stays."""
 
     kind: Literal["leave-out"] = "leave-out"
-    touches = (SETTINGS,)
+    touches = (Layout.settings,)
     ids: tuple[str, ...]
     out: bool = True
 
@@ -333,16 +267,15 @@ class RemoveAssets(Edit):
     """Remove assets from the project, with their labels, demonstrations and corrections; their own files stay."""
 
     kind: Literal["remove-assets"] = "remove-assets"
-    touches = (SETTINGS, EVENTS_FILE)
+    touches = (Layout.settings, Layout.events)
     ids: tuple[str, ...]
 
     def apply(self, project: Project) -> None:
         project.remove_assets(self.ids)
 
     def list_paths(self, project: Project) -> tuple[Path, ...]:
-        layout = project.layout
-        kinds = (layout.labels, layout.demonstration, layout.corrections, layout.preparation)
-        return (*super().list_paths(project), *(kind(asset) for asset in self.ids for kind in kinds))
+        kept = (path for asset in self.ids for path in project.layout.list_kept(asset))
+        return (*super().list_paths(project), *kept)
 
     def describe(self, project: Project) -> str:
         return f"{_count_or_name(self.ids)} removed from the project"

@@ -7,29 +7,10 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import ClassVar
 
-from meshforge.batch import STATE
 from meshforge.common import file_digest
 from meshforge.project import Project
+from meshforge.store import History, HistoryEntry, ProjectFile
 from meshforge.studio.wire import Wire
-
-PROGRAM_FILE, PREVIOUS_FILE = "program.mf", "program.previous.mf"
-EVENTS_FILE, SINGLE_PARTS_FILE = "events.jsonl", "single_parts.json"
-LEARNED_FILE, LEARNED_BEFORE = "learned.json", f"{STATE}/learned.json"
-"""What the program was learned from, and where that was kept before (`Layout.learned_before`)."""
-PROGRAM_FILES = (PROGRAM_FILE, PREVIOUS_FILE, LEARNED_FILE, LEARNED_BEFORE)
-"""The files that accepting a program writes, from the project's folder."""
-
-PREPARED_FILES = (
-    "prepared/{asset}",
-    "labels/{asset}.json",
-    "demonstrations/{asset}.json",
-    "corrections/{asset}.json",
-    EVENTS_FILE,
-)
-"""The files that preparing an asset writes."""
-
-LABELS = ("labels", "label_sources.json")
-"""The files that labels from files and names write."""
 
 LabelsByAsset = Mapping[str, Mapping[str, str | None]]
 """Labels of hulls by their names, by asset; None where one is taken away."""
@@ -38,11 +19,11 @@ LabelsByAsset = Mapping[str, Mapping[str, str | None]]
 class Edit(Wire):
     """One change that a person makes to a project, as the page sends it and the history keeps it.
 
-    touches: the files and folders that `apply` may change, from the project's folder, `{asset}` standing for the field;
-    the history puts back what they held before.
+    touches: the files that `apply` may change: where the edit is of one `asset`, those of that asset, else of all; undo
+    puts back what was in them.
     """
 
-    touches: ClassVar[tuple[str, ...]]
+    touches: ClassVar[tuple[ProjectFile, ...]] = ()
 
     @abstractmethod
     def apply(self, project: Project) -> None:
@@ -54,18 +35,22 @@ class Edit(Wire):
 
     def list_paths(self, project: Project) -> tuple[Path, ...]:
         """The files and folders that `apply` may change."""
-        return tuple(project.folder / name.format(**dict(self)) for name in self.touches)
+        asset: str | None = getattr(self, "asset", None)
+        return tuple(file.path(project.folder, asset) for file in self.touches)
 
     def list_labels(self) -> LabelsByAsset:
         """The labels that `apply` gives, as far as they are known without reading anything."""
         return {}
 
 
-class JobEdit(Edit):
-    """An edit that a job makes: the job itself changes the files, and the history records it."""
-
-    def apply(self, project: Project) -> None:
-        raise AssertionError("a job makes this change")
+def make_edit(history: History, project: Project, edit: Edit, by: str | None = None) -> HistoryEntry | None:
+    """Make an edit; it is on disk with its entry when this returns. None where it changed nothing."""
+    with project.lock():
+        title, data, paths = edit.describe(project), edit.model_dump(mode="json"), edit.list_paths(project)
+        with history.record(title, data, paths, by=by) as at:
+            edit.apply(project)
+        entries = history.entries
+    return entries[-1] if len(entries) > at else None
 
 
 def steps_version(project: Project, asset: str) -> str:

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from typing import Literal
 
-from meshforge.batch import SETTINGS, action_text
+from meshforge.batch import action_text
 from meshforge.common import MeshForgeError, pluralize
 from meshforge.language import Program
 from meshforge.project import Project
-from meshforge.store import parse_action_text
+from meshforge.store import ConflictError, Layout, list_files, parse_action_text
 from meshforge.studio.edits import base
-from meshforge.studio.errors import ConflictError
 from meshforge.studio.wire import Wire
 from meshforge.synthesis import Answer, Step
 
@@ -30,7 +29,7 @@ class SetSteps(base.Edit):
     """Set the steps of an asset, one a rule, in order. version: of the steps that were changed."""
 
     kind: Literal["steps"] = "steps"
-    touches = ("demonstrations/{asset}.json", base.EVENTS_FILE)
+    touches = (Layout.demonstration, Layout.events)
     asset: str
     version: str
     steps: tuple[StepText, ...]
@@ -68,7 +67,7 @@ def _read_steps(project: Project, asset: str) -> tuple[Step, ...]:
 class _RuleEdit(base.Edit):
     """An edit of a rule in all demonstrations, and in the answers about it."""
 
-    touches = ("demonstrations", base.EVENTS_FILE)
+    touches = (Layout.demonstration, Layout.events)
 
 
 class MoveRule(_RuleEdit):
@@ -102,7 +101,7 @@ class SetOrientation(base.Edit):
     """Set the orientation directive; empty takes it away."""
 
     kind: Literal["orient"] = "orient"
-    touches = (SETTINGS,)
+    touches = (Layout.settings,)
     text: str
 
     def apply(self, project: Project) -> None:
@@ -116,7 +115,7 @@ class AnswerForRule(base.Edit):
     """Say which hulls a rule selects on an asset, without being asked."""
 
     kind: Literal["answer"] = "answer"
-    touches = (base.EVENTS_FILE,)
+    touches = (Layout.events,)
     rule: int
     asset: str
     select: tuple[str, ...]
@@ -132,7 +131,7 @@ class TakeBack(base.Edit):
     """Take back an answer or a repair by its id."""
 
     kind: Literal["take-back"] = "take-back"
-    touches = (base.EVENTS_FILE, "labels")
+    touches = (Layout.events, Layout.labels)
     id: str
 
     def apply(self, project: Project) -> None:
@@ -146,7 +145,7 @@ class WriteProgram(base.Edit):
     """Make a text the project's program. version: of the program that was changed."""
 
     kind: Literal["program"] = "program"
-    touches = base.PROGRAM_FILES
+    touches = tuple(file for file in list_files() if file.learned)
     text: str
     version: str
 
@@ -154,7 +153,7 @@ class WriteProgram(base.Edit):
         if base.program_version(project) != self.version:
             raise ConflictError(
                 "the program was changed elsewhere meanwhile",
-                where="program.mf",
+                where=Layout.program.name,
                 remedy="Copy your text, look at the present one, and do it again.",
             )
         project.accept(Program.parse(self.text))
@@ -166,11 +165,12 @@ class WriteProgram(base.Edit):
 class TakeLearned(base.Edit):
     """Give up the program that was written by hand, so that the learned one takes its place."""
 
-    touches = base.PROGRAM_FILES
+    touches = tuple(file for file in list_files() if file.learned)
 
     def apply(self, project: Project) -> None:
-        for name in (base.PROGRAM_FILE, base.LEARNED_FILE, base.LEARNED_BEFORE):
-            (project.folder / name).unlink(missing_ok=True)
+        layout = project.layout
+        for path in (layout.program, layout.learned, layout.learned_before):
+            path.unlink(missing_ok=True)
 
     def describe(self, project: Project) -> str:
         return "the learned program taken in place of the one by hand"

@@ -15,7 +15,8 @@ from meshforge.common import pluralize
 from meshforge.project import Project, has_agreed_labels
 from meshforge.signoff import HullPlace, ReviewChoice, ReviewQuestion, ReviewReply, question_of
 from meshforge.signoff.question import NO
-from meshforge.studio.edits.base import EVENTS_FILE, PREPARED_FILES, Edit, LabelsByAsset
+from meshforge.store import Layout
+from meshforge.studio.edits.base import Edit, LabelsByAsset
 from meshforge.studio.wire.requests import HullOfAsset
 from meshforge.studio.wire.signoff import ReviewQuestionView
 
@@ -35,7 +36,7 @@ class ReplyToQuestion(Edit):
     """
 
     kind: Literal["reply"] = "reply"
-    touches = (EVENTS_FILE,)
+    touches = (Layout.events,)
     question: ReviewQuestionView
     choice: str | None = None
     exceptions: tuple[HullLabel, ...] = ()
@@ -125,12 +126,11 @@ class ReplyToQuestion(Edit):
             case signoff.GroupQuestion() | signoff.RepairQuestion() | signoff.ResultQuestion() | signoff.SlipQuestion():
                 assets = self.list_labels()
                 everywhere = bool(assets) and has_agreed_labels(project)
-                yield from [project.folder / "labels"] if everywhere else map(layout.labels, assets)
+                yield from [Layout.labels.path(project.folder)] if everywhere else map(layout.labels, assets)
             case signoff.OrientationQuestion():
                 yield layout.settings
             case signoff.SpanQuestion():
-                names = (name.format(asset=self._asked.asset) for name in PREPARED_FILES)
-                yield from (layout.single_parts, *(project.folder / name for name in names))
+                yield from (layout.single_parts, *layout.list_kept(self._asked.asset))
             case signoff.ReadingQuestion() | signoff.DemonstrationQuestion():
                 return
             case other:

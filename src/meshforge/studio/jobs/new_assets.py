@@ -9,7 +9,6 @@ from uuid import uuid4
 from meshforge import batch
 from meshforge.common import relative_name
 from meshforge.project import NewAssetOptions, NewAssetResult, describe_new, list_new
-from meshforge.studio.edits.assets import PrepareNew
 from meshforge.studio.session.job_runner import JobProgress
 from meshforge.studio.session.session import Session
 
@@ -61,7 +60,7 @@ def prepare_new(
         guess=program is None or bool(program.labels_asked),
         execution=batch.ExecutionOptions(stop=progress.is_stopped),
         stage=progress.stage,
-        write_block=lambda asset: session.record_edit(PrepareNew(asset=asset), group),
+        write_block=lambda asset: session.record_preparation(f"{asset} prepared as the others", asset, group),
     )
     results = {one.asset: one for one in project.prepare_new(options, assets)}
     session.update([relative_name(project.layout.preparation_plan, project.folder)])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from typing import Literal, TypedDict
 from uuid import uuid4
 
@@ -11,11 +11,9 @@ from meshforge.batch import ExecutionOptions, record_digest
 from meshforge.common import MeshForgeError, ProjectError, format_share, join_names, pluralize, relative_name
 from meshforge.formats import DecomposeBy
 from meshforge.geometry import CoacdSettings, DecomposeSettings, VhacdSettings
-from meshforge.labels import LabelOutcome, PropagationResult, VlmForecast, VlmResult, check_vlm_settings
+from meshforge.labels import LabelOutcome, LabelResult, VlmForecast, VlmLabeler, VlmResult, check_vlm_settings
 from meshforge.project import LIKELY, PreparationResult, Project, read_preparation_plan
-from meshforge.store import SpanLine, VlmSettings
-from meshforge.studio.edits.assets import Decompose, LabelFromModel, Propagate
-from meshforge.studio.errors import ConflictError
+from meshforge.store import ConflictError, Layout, SpanLine, VlmSettings
 from meshforge.studio.session.job_runner import JobProgress
 from meshforge.studio.session.session import Session
 from meshforge.studio.wire.jobs import AskJob, DecomposeJob, ForecastJob, Job, JobLine
@@ -43,7 +41,7 @@ def start_decompose(session: Session, request: DecomposeJob) -> Job:
             settings,
             **options,
             execution=ExecutionOptions(stop=progress.is_stopped, progress=progress.advance),
-            write_block=lambda asset: session.record_edit(Decompose(asset=asset), group),
+            write_block=lambda asset: session.record_preparation(f"{asset} decomposed", asset, group),
         )
         for result in results:
             made += len(result.hulls)
@@ -115,21 +113,22 @@ def start_propagate(session: Session) -> Job:
     """Start to propagate labels. Raises ProjectError: no vocabulary, or no label that a person or a file gave."""
     project = session.project
     _check_labels(project)
-    began, used = _preparation_digests(project), session.history.view.undoable
+    began, used = _preparation_digests(project), session.history.state.undoable
 
     @contextmanager
     def record(best: str | None) -> Iterator[None]:
-        with session.record_edit(Propagate(used=used, next=best), uuid4().hex):
+        edit = {"kind": "propagate", "used": used, "next": best}
+        with session.record("labels propagated", edit, [Layout.labels.path(project.folder)], uuid4().hex):
             if _preparation_digests(session.project) != began:
                 raise ConflictError("assets or their hulls were changed meanwhile", remedy="Propagate labels again.")
             yield
 
     def work(progress: JobProgress) -> str:
         options = ExecutionOptions(stop=progress.is_stopped)
-        result = project.propagate_labels(execution=options, stage=progress.stage, write_block=record)
-        for report in result.reports:
+        result = project.label("propagate", execution=options, stage=progress.stage, write_block=record)
+        for report in result.outcomes:
             progress.add_line(_labels_line(report, [f"{report.unsure} unsure"] if report.unsure else []))
-        if not any(report.taken for report in result.reports):
+        if not any(report.taken for report in result.outcomes):
             session.label_changes.note_no_change(used, result.next)
             session.refresh_queue.add()
         return _describe_propagation(result)
@@ -152,12 +151,12 @@ def _preparation_digests(project: Project) -> dict[str, str | None]:
     return {asset: record_digest(project.layout.preparation(asset)) for asset in project.assets()}
 
 
-def _describe_propagation(result: PropagationResult) -> str:
-    taken = sum(report.taken for report in result.reports)
+def _describe_propagation(result: LabelResult) -> str:
+    taken = sum(report.taken for report in result.outcomes)
     if not taken:
         return "Every label stays as it is."
-    assets = pluralize(sum(report.taken > 0 for report in result.reports), "asset")
-    unsure = sum(report.unsure for report in result.reports)
+    assets = pluralize(sum(report.taken > 0 for report in result.outcomes), "asset")
+    unsure = sum(report.unsure for report in result.outcomes)
     doubt = f"{pluralize(unsure, 'label')} {'is' if unsure == 1 else 'are'} unsure" if unsure else "all are sure"
     return f"{pluralize(taken, 'label')} on {assets}; {doubt}."
 
@@ -183,19 +182,22 @@ def start_ask(session: Session, request: AskJob) -> Job:
     if request.max_cost is not None:
         settings = settings.model_copy(update={"max_cost": request.max_cost})
 
+    title, edit = f"labels from {settings.model}", {"kind": "label-vlm", "model": settings.model}
+
+    def record(best: str | None) -> AbstractContextManager[object]:
+        return session.record(title, edit, [Layout.labels.path(project.folder)], uuid4().hex)
+
     def work(progress: JobProgress) -> str:
-        found = project.label_with_vlm(
-            settings,
-            progress=lambda usage: progress.advance(),
-            stop=progress.is_stopped,
-            write_block=lambda: session.record_edit(LabelFromModel(model=settings.model), uuid4().hex),
-        )
-        for report in found.reports:
-            bare = list(found.open.get(report.asset, {}))
-            progress.add_line(_labels_line(report, [f"none for {join_names(bare, most=3)}"] if bare else []))
+        labeler, execution = VlmLabeler(settings), ExecutionOptions(0, stop=progress.is_stopped)
+        result = project.label(labeler, execution=execution, stage=progress.stage, write_block=record)
+        found = labeler.result
+        for outcome in result.outcomes:
+            bare = list(found.open.get(outcome.asset, {}))
+            progress.add_line(_labels_line(outcome, [f"none for {join_names(bare, most=3)}"] if bare else []))
+        text = _describe_answers(result, found)
         if found.ended and not progress.is_stopped():
-            raise MeshForgeError(f"The asking ended early: {found.ended}", remedy=_describe_answers(found))
-        return _describe_answers(found)
+            raise MeshForgeError(f"The asking ended early: {found.ended}", remedy=text)
+        return text
 
     return session.jobs.start(
         "ask", f"Asking {settings.model}", len(project.assets()), work, stays="nothing was asked."
@@ -227,8 +229,8 @@ def _labels_line(report: LabelOutcome, notes: list[str]) -> JobLine:
     return JobLine(asset=report.asset, status="done" if report.taken else "unchanged", text=text)
 
 
-def _describe_answers(found: VlmResult) -> str:
-    taken, spent = sum(report.taken for report in found.reports), found.usage
+def _describe_answers(result: LabelResult, found: VlmResult) -> str:
+    taken, spent = sum(outcome.taken for outcome in result.outcomes), found.usage
     bare = sum(map(len, found.open.values()))
     cost = f"{spent.usage.input + spent.usage.output:,} tokens" if spent.cost is None else f"${spent.cost:.4f}"
     parts = [f"{pluralize(taken, 'label')} taken"]

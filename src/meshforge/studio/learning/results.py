@@ -11,7 +11,7 @@ from weakref import WeakKeyDictionary
 from meshforge import synthesis
 from meshforge.batch import template_digests
 from meshforge.common import MeshForgeError
-from meshforge.language import EXTREMITY, Extractor, Program, Template, apply_rule, explain, select_mask, show
+from meshforge.language import EXTREMITY, Extractor, Program, Template, explain, select_mask, show
 from meshforge.studio.queries.programs import rule_views
 from meshforge.studio.wire import program as wire
 from meshforge.symbolic import SymbolicMesh, bits_of
@@ -135,13 +135,11 @@ class RuleSelector:
 
 
 def _run_rules(plan: ProgramWithTemplates, mesh: SymbolicMesh) -> _RuleMesh:
-    program, origins, used = plan.program, HullOrigins(mesh), frozenset[str]()
+    origins = HullOrigins(mesh)
     try:
-        current = synthesis.begin_replay("", synthesis.Demonstration(mesh, ()), program.orient, program.contact).mesh
-        for rule in program.rules:
-            _, applied = apply_rule(current, rule, plan.templates, program.extremity, used, synthesis.memoize)
-            origins.add(applied.made, applied.sources)
-            current, used = applied.mesh, applied.used
+        *_, last = plan.program.replay(mesh, plan.templates, memo=synthesis.memoize)
     except MeshForgeError:
         return _RuleMesh(plan.key, None)
-    return _RuleMesh(plan.key, current, tuple(origins.of([hull.name]) for hull in current.hulls))
+    for line in last.trace:
+        origins.add(line.made, line.sources)
+    return _RuleMesh(plan.key, last.mesh, tuple(origins.of([hull.name]) for hull in last.mesh.hulls))

@@ -13,11 +13,11 @@ from meshforge.batch import action_text, software_version, text_digest
 from meshforge.common import MeshForgeError
 from meshforge.formats import VisualSurfaces
 from meshforge.geometry import Floats, Pose
-from meshforge.language import Orient, Program, orient_mesh
+from meshforge.language import Orient, Program, Replay, RuleTrace, orient_mesh
 from meshforge.project import Project, Split
 from meshforge.studio.edits.base import steps_version
 from meshforge.studio.queries.packets import contact_names, frame_packet, hull_views
-from meshforge.studio.queries.replay import AssetReplay, EditResult, replay_steps
+from meshforge.studio.queries.replay import replay_steps
 from meshforge.studio.wire.asset import AssetView, CorrectionView, NearMiss, OpaqueView, StepView
 from meshforge.symbolic import Asset, Label, SymbolicMesh
 from meshforge.synthesis import Step
@@ -60,7 +60,7 @@ def build_asset_view(project: Project, asset: str, mesh: SymbolicMesh) -> AssetV
         contact_distance=seen.contact_distance,
         upright=to_numbers(shown.pose),
         unturned=shown.problem,
-        steps=_step_views(project.steps(asset), replay.results if replay else (), shown.problem or problem),
+        steps=_step_views(project.steps(asset), replay.trace if replay else (), shown.problem or problem),
         version=steps_version(project, asset),
         corrections=tuple(
             CorrectionView(select=tuple(name for name, _ in c.hulls), action=action_text(c.action, c.label))
@@ -72,7 +72,7 @@ def build_asset_view(project: Project, asset: str, mesh: SymbolicMesh) -> AssetV
     )
 
 
-def _try_replay(project: Project, asset: str, mesh: SymbolicMesh) -> tuple[AssetReplay | None, str | None]:
+def _try_replay(project: Project, asset: str, mesh: SymbolicMesh) -> tuple[Replay | None, str | None]:
     """The asset after its own steps; or why it cannot be turned."""
     try:
         return replay_steps(project, asset, mesh), None
@@ -85,8 +85,8 @@ def _has_visual(source: Asset) -> bool:
     return bool(visuals.visuals if isinstance(visuals, VisualSurfaces) else visuals)
 
 
-def _step_views(steps: tuple[Step, ...], results: tuple[EditResult, ...], problem: str | None) -> tuple[StepView, ...]:
-    done = results or tuple(EditResult(step.rule, error=problem) for step in steps)
+def _step_views(steps: tuple[Step, ...], results: tuple[RuleTrace, ...], problem: str | None) -> tuple[StepView, ...]:
+    done = results or tuple(RuleTrace(step.rule, error=problem) for step in steps)
     return tuple(
         StepView(
             rule=step.rule,

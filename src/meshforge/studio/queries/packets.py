@@ -15,11 +15,11 @@ from meshforge.checks import Finding, check
 from meshforge.common import ProjectError
 from meshforge.formats import load
 from meshforge.geometry import digest
-from meshforge.language import Program, RuleTrace
+from meshforge.language import Program, Replay, RuleTrace, make_anew
 from meshforge.project import Project, Split, make_correction, run_with_corrections
 from meshforge.rendering import RenderMesh, to_render_mesh
 from meshforge.store import parse_action_text
-from meshforge.studio.queries.replay import AssetReplay, replay_steps
+from meshforge.studio.queries.replay import replay_steps
 from meshforge.studio.wire import Wire
 from meshforge.studio.wire import asset as wire
 from meshforge.studio.wire.asset import TraceLine
@@ -180,7 +180,7 @@ def preview_steps(project: Project, asset: str, mesh: SymbolicMesh, steps: int) 
     A step that fails is left out, and the note says why. Raises ProgramError where the asset cannot be turned.
     """
     replay = replay_steps(project, asset, mesh, steps)
-    home = replay.incoming_mesh
+    home = replay.edited
     notes = EditNotes(_describe_problems(replay), _trace_lines(replay), findings_of_new(mesh, home))
     return pack_edited(mesh, mesh, home, notes, replay.mesh)
 
@@ -193,10 +193,10 @@ def preview_action(project: Project, asset: str, mesh: SymbolicMesh, request: Pr
     if request.result:
         return _preview_correction(project, asset, mesh, request)
     action, label = parse_action_text(request.action, asset)
-    before = replay_steps(project, asset, mesh, request.steps)
+    before = replace(replay_steps(project, asset, mesh, request.steps), memo=make_anew)  # each one is another
     after = before.apply(before.mask_of(request.select), action, label, project.templates(action.templates))
-    start, home = before.incoming_mesh, after.incoming_mesh
-    note = "; ".join(note for note in (_describe_problems(before), after.results[-1].note) if note)
+    start, home = before.edited, after.edited
+    note = "; ".join(note for note in (_describe_problems(before), after.trace[-1].note) if note)
     notes = EditNotes(note or None, _trace_lines(after)[-1:], findings_of_new(start, home))
     return pack_edited(mesh, start, home, notes, after.mesh)
 
@@ -210,15 +210,15 @@ def _preview_correction(project: Project, asset: str, mesh: SymbolicMesh, reques
     return pack_edited(mesh, before.mesh, after, notes)
 
 
-def _trace_lines(replay: AssetReplay) -> tuple[TraceLine, ...]:
+def _trace_lines(replay: Replay) -> tuple[TraceLine, ...]:
     return tuple(
         TraceLine(rule=result.rule, selected=result.selected, made=result.made, note=result.error or result.note)
-        for result in replay.results
+        for result in replay.trace
     )
 
 
-def _describe_problems(replay: AssetReplay) -> str | None:
-    return "; ".join(result.error for result in replay.results if result.error) or None
+def _describe_problems(replay: Replay) -> str | None:
+    return "; ".join(result.error for result in replay.trace if result.error) or None
 
 
 def preview_result(project: Project, asset: str, mesh: SymbolicMesh, of: ResultOf, program: Program | None) -> bytes:

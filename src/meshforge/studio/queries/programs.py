@@ -16,8 +16,8 @@ from meshforge.studio.edits.base import program_version
 from meshforge.studio.queries.replay import replay_steps
 from meshforge.studio.wire import program as wire
 from meshforge.studio.wire.requests import SelectRequest
-from meshforge.symbolic import SymbolicMesh, bits_of
-from meshforge.synthesis import Demonstration, advance, begin_replay
+from meshforge.symbolic import SymbolicMesh
+from meshforge.synthesis import Demonstration, begin_replay
 
 _POSITION = re.compile(r".*:(\d+):(\d+)")
 
@@ -120,7 +120,7 @@ def _has_fields(kind: type[language.Action]) -> bool:
 def _action_form(name: str, kind: type[language.Action]) -> wire.ActionForm:
     given = kind.arguments()
     required = list(given)[: kind.min_arguments()]
-    example = language.make_action(kind, {one: _example_value(given[one]) for one in required})
+    example = language.make_operation(kind, {one: _example_value(given[one]) for one in required})
     return wire.ActionForm(
         name=name,
         summary=kind.summary(),
@@ -168,8 +168,7 @@ def select_hulls(
     if unknown := _mark_unknown_label(extractor, text, known):
         return wire.SelectionView(mark=unknown)
     mask = select_mask(extractor, now, project.settings.thresholds.extremity or EXTREMITY)
-    names = tuple(now.hulls[k].name for k in sorted(bits_of(mask)))
-    return wire.SelectionView(select=names, sentence=explain(extractor))
+    return wire.SelectionView(select=now.names_of(mask), sentence=explain(extractor))
 
 
 def _end_of(text: str) -> tuple[int, int]:
@@ -195,18 +194,18 @@ def guess_selections(project: Project, asset: str, mesh: SymbolicMesh, program: 
     A rule that was demonstrated on the asset, or left out there, does that before the next one is guessed. Raises
     ProgramError where the asset cannot be turned.
     """
-    demo = Demonstration(mesh, project.steps(asset), asset)
-    replay = begin_replay(asset, demo, program.orient, program.contact)
+    replay = begin_replay(asset, Demonstration(mesh, project.steps(asset)), program.orient, program.contact)
     guesses = []
     for number, rule in enumerate(program.rules, 1):
         error: str | None = None
         mask = select_mask(rule.extractor, replay.mesh, program.extremity or EXTREMITY)
-        names = tuple(replay.mesh.hulls[k].name for k in sorted(bits_of(mask)))
+        names = replay.mesh.names_of(mask)
         try:
             templates = project.templates(rule.action.templates)
-            replay = advance(replay, number, rule, templates, program.extremity)
+            replay = replay.advance(rule, templates, program.extremity)
         except MeshForgeError as problem:  # the next rules are guessed without this one
             error = problem.message
+            replay = replay.skip(error)
         action = action_text(rule.action, rule.label)
         guesses.append(wire.Guess(rule=number, action=action, select=names, sentence=explain(rule), error=error))
     return wire.Guesses(asset=asset, guesses=tuple(guesses))

@@ -276,7 +276,7 @@ def build_project_view(
 
 
 def _rule_lines(project: Project) -> tuple[RuleLine, ...]:
-    shown = set(project.layout.ids_with("demonstrations"))
+    shown = set(project.layout.demonstration.ids)
     steps = [(asset, step) for asset in project.assets() if asset in shown for step in project.steps(asset)]
     count = max((step.rule for _, step in steps), default=0)
     return tuple(_rule_line(k, [row for row in steps if row[1].rule == k]) for k in range(1, count + 1))

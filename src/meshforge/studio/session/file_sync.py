@@ -4,17 +4,16 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from stat import S_ISDIR
 from threading import Event, Thread
 from time import monotonic
 
-from meshforge.batch import SETTINGS, STATE, source_files
+from meshforge.batch import source_files
 from meshforge.common import MeshForgeError, relative_name
 from meshforge.project import Project
-from meshforge.store import Feedback, SpanLine
-from meshforge.studio.edits.base import EVENTS_FILE, LEARNED_FILE, PROGRAM_FILE, SINGLE_PARTS_FILE
+from meshforge.store import Effect, Feedback, Layout, SpanLine, identify_file, list_files
 from meshforge.studio.learning.scheduler import LearningScheduler
 from meshforge.studio.pages import PageState
 from meshforge.studio.queries.programs import read_program_view
@@ -24,23 +23,9 @@ from meshforge.studio.wire.program import ProgramView
 
 _LOG = logging.getLogger(__name__)
 
-_STAMPS = f"edited/{STATE}/stamps/"
-_ASSET_FOLDERS = ("labels/", "demonstrations/", "corrections/", _STAMPS)
-_LEARNING_FOLDERS = ("labels/", "demonstrations/", "prepared/", "templates/")
-_LEARNING_FILES = frozenset((PROGRAM_FILE,))
-
-PREPARATION_PLAN_FILE = "preparation.json"
-_FOUND_FILES = (SINGLE_PARTS_FILE, f"{STATE}/spans.json")
-_QUESTION_FILES = _FOUND_FILES
-
 POLL_SECONDS = 1.5
 """Seconds between two polls; more where a poll itself takes long, so that it takes a small share of the time."""
 _SHARE = 10
-_WATCH_FOLDERS = ("labels", "demonstrations", "corrections", "prepared", "templates", f"edited/{STATE}/stamps")
-_WATCH_FILES = (
-    SETTINGS, PROGRAM_FILE, EVENTS_FILE, LEARNED_FILE, PREPARATION_PLAN_FILE,
-    *_QUESTION_FILES,
-)  # fmt: skip
 
 FileStamps = dict[str, tuple[int, int]]
 """Modification time [ns] and size of each file, by its path from the project's folder."""
@@ -63,29 +48,30 @@ class FileSync:
         names = frozenset(names)
         self._note_stamps(names)
         changes = changes_of(self.project, names)
-        if EVENTS_FILE in names:
+        if "feedback" in changes.effects:
             changes = self._add_feedback(changes)
-        if changes.settings:
+        effects = changes.effects
+        if "settings" in effects:
             self.reopen()
-        is_other = self.show_program() if changes.settings or changes.program else False
-        if changes.learning:  # before the rest, as it takes longest
+        is_other = self.show_program() if effects & {"settings", "program"} else False
+        if "learning" in effects:  # before the rest, as it takes longest
             self._learning.restart()
         self._pages.announce_assets(sorted(changes.assets), bool(changes.shapes))
-        self._queue.add(changes.assets, later=changes.settings)
-        if not names.isdisjoint(_FOUND_FILES):
+        self._queue.add(changes.assets, later="settings" in effects)
+        if "spanning hulls" in effects:
             self._queue.add(self._update_spans())
-        if is_other and not changes.learning:
+        if is_other and "learning" not in effects:
             self._learning.measure_reach()
-        if changes.questions and not changes.learning:
+        if "questions" in effects and "learning" not in effects:
             self._learning.assess()
 
     def show_program(self) -> bool:
         """Show the accepted program; whether it is another one, so that outputs may be stale."""
-        self._note_stamps((PROGRAM_FILE, LEARNED_FILE))
+        self._note_stamps(file.name for file in (Layout.program, Layout.learned))
         is_other = self._pages.set_program(_view_program(self.project, self._pages.program))
         if is_other:
             self._queue.add([card.asset for card in self._pages.cards if card.output != "none"], later=True)
-            self._pages.announce_assets(self.project.layout.ids_with("demonstrations"), shapes=False)
+            self._pages.announce_assets(self.project.layout.demonstration.ids, shapes=False)
         return is_other
 
     def reopen(self) -> None:
@@ -123,14 +109,11 @@ class FileSync:
             for asset in before.verdicts.keys() | now.verdicts.keys()
             if before.verdict_on(asset) != now.verdict_on(asset)
         }
-        about |= {
-            one
-            for one in before.exclusions.keys() | now.exclusions.keys()
-            if (one in before.exclusions) != (one in now.exclusions)
-        }
+        about |= before.exclusions.keys() ^ now.exclusions.keys()
         learns = bool(about) or before.answers_and_fixes != now.answers_and_fixes
         assets = changes.assets | (about & self.project.found.ids.keys())
-        return replace(changes, assets=assets, learning=changes.learning or learns, questions=True)
+        changes = replace(changes, assets=assets)
+        return changes.with_effects("questions", "learning") if learns else changes.with_effects("questions")
 
     def _update_spans(self) -> list[str]:
         """The assets of which other hulls likely span parts than before."""
@@ -161,39 +144,32 @@ def _view_program(project: Project, before: ProgramView) -> ProgramView:
 
 @dataclass(frozen=True, slots=True)
 class FileChanges:
-    """assets: ids of which something changed; shapes: those of them whose hulls may be others.
+    """assets: ids of which something changed; shapes: those of them whose hulls may be others; effects: what else is to
+    be refreshed."""
 
-    settings, program: whether these changed; questions: whether others are to be asked; learning: whether what is
-    learned from did.
-    """
+    assets: frozenset[str] = frozenset()
+    shapes: frozenset[str] = frozenset()
+    effects: frozenset[Effect] = frozenset()
 
-    assets: frozenset[str] = field(default_factory=frozenset)
-    shapes: frozenset[str] = field(default_factory=frozenset)
-    settings: bool = False
-    program: bool = False
-    questions: bool = False
-    learning: bool = False
+    def with_effects(self, *effects: Effect) -> FileChanges:
+        return replace(self, effects=self.effects | set(effects))
 
 
 def changes_of(project: Project, names: Iterable[str]) -> FileChanges:
     """What a change of files means; names: paths from the project's folder."""
-    names = frozenset(names)
-    prepared = {name.removeprefix("prepared/").rpartition("/")[0] for name in names if name.startswith("prepared/")}
-    files = {relative_name(path, project.folder): asset for asset, path in project.found.ids.items()}
-    shapes = (prepared | {files[name] for name in names if name in files}) & project.found.ids.keys()
-    kept = {name: kind for kind in _ASSET_FOLDERS for name in names if name.startswith(kind)}
-    own = {name.removeprefix(kind).removesuffix(".json") for name, kind in kept.items()}
-    settings = SETTINGS in names
-    return FileChanges(
-        assets=frozenset(project.assets()) if settings else frozenset((own & project.found.ids.keys()) | shapes),
-        shapes=frozenset(shapes),
-        settings=settings,
-        program=bool(names & {PROGRAM_FILE, LEARNED_FILE}),
-        questions=not names.isdisjoint(_QUESTION_FILES),
-        learning=settings
-        or bool(shapes)
-        or any(n.startswith(_LEARNING_FOLDERS) or n in _LEARNING_FILES for n in names),
-    )
+    ids = project.found.ids
+    sources = {relative_name(path, project.folder): asset for asset, path in ids.items()}
+    effects, cards, shapes = set[Effect](), set[str](), {sources[name] for name in names if name in sources}
+    for file, asset in filter(None, map(identify_file, names)):
+        effects |= file.effects
+        shapes |= {asset} if "hulls" in file.effects else set()
+        cards |= {asset} if "card" in file.effects else set()
+    shapes &= ids.keys()
+    effects -= {"card", "hulls"}
+    if shapes:
+        effects.add("learning")
+    assets = frozenset(ids) if "settings" in effects else frozenset((cards & ids.keys()) | shapes)
+    return FileChanges(assets, frozenset(shapes), frozenset(effects))
 
 
 def read_stamps(project: Project) -> FileStamps:
@@ -201,9 +177,15 @@ def read_stamps(project: Project) -> FileStamps:
     folder = project.folder
     assets = [file for path in project.found.paths for file in _source_files(path)]
     homes = {path.parent for path in project.found.paths}
-    kept = (file for name in _WATCH_FOLDERS for file in (folder / name).rglob("*") if not file.name.startswith("."))
-    files = dict(_stamp_files([*(folder / name for name in _WATCH_FILES), *kept, *assets], folder))
+    watched = (file.path(folder) for file in list_files() if file.effects)
+    kept = (one for path in watched for one in _list_files(path))
+    files = dict(_stamp_files([*kept, *assets], folder))
     return files | dict(_stamp_files(homes, folder, folders=True))
+
+
+def _list_files(path: Path) -> Iterator[Path]:
+    """A file, or those in a folder, without drafts."""
+    return (one for one in path.rglob("*") if not one.name.startswith(".")) if path.is_dir() else iter([path])
 
 
 def diff_stamps(before: FileStamps, now: FileStamps) -> frozenset[str]:

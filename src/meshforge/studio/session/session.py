@@ -3,24 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
-from dataclasses import dataclass
+from contextlib import AbstractContextManager, contextmanager
+from dataclasses import asdict, dataclass
 from importlib.metadata import version
 from pathlib import Path
 from threading import RLock
-from typing import Literal
+from typing import Any, Literal
 
-from meshforge.batch import STATE, read_prepared, stamp_path
+from meshforge.batch import read_prepared, stamp_path
 from meshforge.common import UsageError, relative_name
 from meshforge.labels import OfferCache
 from meshforge.project import Project, can_ask_about_spans
-from meshforge.store import MeshCache
+from meshforge.store import History, HistoryEntry, Layout, MeshCache, list_files
 from meshforge.studio.downloads import Downloads
-from meshforge.studio.edits.base import LEARNED_BEFORE, LEARNED_FILE, PREVIOUS_FILE, PROGRAM_FILE, Edit
+from meshforge.studio.edits.base import Edit, make_edit
 from meshforge.studio.edits.program import TakeLearned
 from meshforge.studio.errors import NotHereError
-from meshforge.studio.history import History
-from meshforge.studio.history_store import HistoryEntry
 from meshforge.studio.label_changes import LabelChanges
 from meshforge.studio.learning.scheduler import Learner, LearningScheduler
 from meshforge.studio.output_checks import OutputChecks
@@ -34,6 +32,7 @@ from meshforge.studio.similar_hulls import SimilarHulls
 from meshforge.studio.thumbnails import Thumbnails
 from meshforge.studio.uploads import Uploads
 from meshforge.studio.wire.events import HistoryChanged
+from meshforge.studio.wire.family import HistoryView
 from meshforge.studio.wire.program import OutcomeView
 from meshforge.studio.wire.requests import EditReceipt
 from meshforge.studio.workers import Workers
@@ -65,13 +64,13 @@ class Session:
         project = Project.open(folder).with_cache(
             MeshCache(lambda path, prepared: self.readers.run(read_prepared, path, prepared), _MESHES)
         )
-        own = project.folder / STATE / "studio"
-        self.history = History(project, _list_learned_files)
+        own = project.layout.studio
+        self.history = History.open(project.folder, lambda: _list_learned_files(project))
         self.label_changes = LabelChanges(self.history)
         self.hub = PageHub()
         view = initial_view(project)
         self.pages = PageState(
-            self.hub, view, self.history.view, version("meshforge"), tour=options.tour, leave=options.folder is None
+            self.hub, view, self._history_view, version("meshforge"), tour=options.tour, leave=options.folder is None
         )
         self.offers = OfferCache()
         self.jobs = JobRunner(self.pages.set_job)
@@ -123,6 +122,10 @@ class Session:
 
     # Reading
 
+    @property
+    def _history_view(self) -> HistoryView:
+        return HistoryView(**asdict(self.history.state))
+
     def mesh(self, asset: str) -> SymbolicMesh:
         """An asset with its labels. Raises NotHereError, or AssetError where it cannot be read."""
         self.check_assets(asset)
@@ -144,7 +147,7 @@ class Session:
                 self.learning.pause()
             try:
                 with self._early_labels.show(edit):
-                    entry = self.history.do(self.project, edit, by)
+                    entry = make_edit(self.history, self.project, edit, by)
             finally:
                 self.learning.resume()
             if entry is None:
@@ -157,7 +160,7 @@ class Session:
         with self._mutex:
             self.learning.pause()
             try:
-                entries = self.history.undo(self.project) if way == "undo" else self.history.redo(self.project)
+                entries = self.history.undo() if way == "undo" else self.history.redo()
             finally:
                 self.learning.resume()
             if not entries:
@@ -173,16 +176,22 @@ class Session:
             entries = tuple(entries)
             self.pages.set_relabelled(None)
             self.update({name for entry in entries for name in entry.names})
-            self.pages.set_history(HistoryChanged(history=self.history.view, did=did, said=entries[0].title, by=by))
+            self.pages.set_history(HistoryChanged(history=self._history_view, did=did, said=entries[0].title, by=by))
 
     @contextmanager
-    def record_edit(self, edit: Edit, group: str) -> Iterator[None]:
-        """Record an edit whose change a job makes within the block."""
+    def record(self, title: str, edit: dict[str, Any], paths: Iterable[Path], group: str) -> Iterator[None]:
+        """Record a change of files that a job makes within the block. edit: what it is, as JSON."""
         with self._mutex:
-            with self.history.record(self.project, edit, group=group) as before:
+            with self.history.record(title, edit, paths, group=group) as before:
                 yield
-            if self.history.view.undoable > before:
-                self.announce((self.history.last_entry,), "edit")
+            entries = self.history.entries
+            if len(entries) > before:
+                self.announce(entries[-1:], "edit")
+
+    def record_preparation(self, title: str, asset: str, group: str) -> AbstractContextManager[None]:
+        """Record what a job does to an asset before the program, within a block."""
+        paths = (file.path(self.project.folder, asset) for file in list_files() if file.hulls)
+        return self.record(title, {"asset": asset}, paths, group)
 
     def note_output(self, asset: str) -> None:
         """The output of an asset was written."""
@@ -197,7 +206,7 @@ class Session:
         with self._mutex:
             self._file_sync.poll()
             if self.history.refresh():
-                view = self.history.view
+                view = self._history_view
                 self.pages.set_history(HistoryChanged(history=view, did="edit", said=view.undo or ""))
 
     # Learning
@@ -212,7 +221,7 @@ class Session:
         return EditReceipt(said="learning")
 
     def _has_demonstrations(self) -> bool:
-        shown = set(self.project.layout.ids_with("demonstrations"))
+        shown = set(self.project.layout.demonstration.ids)
         return any(asset in shown for asset in self.project.assets())
 
     def _end_learning(self, outcome: OutcomeView) -> None:
@@ -227,5 +236,5 @@ class Session:
 
 def _list_learned_files(project: Project) -> frozenset[str]:
     """The files that learning writes: undo puts them back whatever they hold by then, but for a program by hand."""
-    always = {LEARNED_FILE, LEARNED_BEFORE, PREVIOUS_FILE}
-    return frozenset(always if project.program_state().by_hand else {*always, PROGRAM_FILE})
+    names = {file.name for file in list_files() if file.learned}
+    return frozenset(names - {Layout.program.name} if project.program_state().by_hand else names)

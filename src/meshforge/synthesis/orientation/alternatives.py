@@ -11,14 +11,26 @@ from collections.abc import Collection, Mapping, Sequence
 import numpy as np
 
 from meshforge.common import MeshForgeError
-from meshforge.language import All, Attach, Extractor, Geo, Is, Orient, Program, Template, orient_mesh, size_of
+from meshforge.language import (
+    UPRIGHT,
+    BaseExtractor,
+    DirectionArgument,
+    Extractor,
+    Leaf,
+    Orient,
+    Program,
+    Template,
+    leaves_of,
+    orient_mesh,
+    size_of,
+)
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis.demonstration import Demonstration, RuleSpec
 from meshforge.synthesis.options import Options, TimeBudget
 from meshforge.synthesis.orientation.attempts import OrientationSearch
 from meshforge.synthesis.orientation.landmarks import ALONG, NEARLY_ALL, Landmarks
 from meshforge.synthesis.orientation.suggest import Directives
-from meshforge.synthesis.readings.belief import ALL, NODE, UPRIGHT
+from meshforge.synthesis.readings.belief import NODE
 
 UNSUPPORTED = 2.6
 """For a direction along whose axis no landmarks lie on nearly all meshes [nats]."""
@@ -139,25 +151,18 @@ def cost_extractor(extractor: Extractor, supported: Collection[str]) -> float:
 
 
 def _doubt(extractor: Extractor, supported: Collection[str]) -> float:
-    match extractor:
-        case All():
-            return ALL
-        case Is():
-            return 0.0
-        case Attach(selected, anchor):
-            return _doubt(selected, supported) + _doubt(anchor, supported)
-        case Geo(base, direction):
-            return _doubt(base, supported) + (UPRIGHT if direction[1] in supported else UNSUPPORTED)
-        case _:
-            return _doubt(extractor.left, supported) + _doubt(extractor.right, supported)
+    return sum(_doubt_leaf(leaf, supported) for leaf in leaves_of(extractor))
+
+
+def _doubt_leaf(leaf: Leaf, supported: Collection[str]) -> float:
+    """What is believed less of a leaf for its bases, and for directions that mean something or not."""
+    if isinstance(leaf, BaseExtractor):
+        return leaf.cost
+    given = (getattr(leaf, name) for name, kind in leaf.arguments().items() if isinstance(kind, DirectionArgument))
+    doubts = sum(UPRIGHT if direction[1] in supported else UNSUPPORTED for direction in given)
+    return sum(base.cost for base in leaf.bases) + doubts
 
 
 def _asks_for_places(extractor: Extractor) -> bool:
     """Whether it asks for more than labels, so that what earlier rules made counts."""
-    match extractor:
-        case All() | Is():
-            return False
-        case Attach() | Geo():
-            return True
-        case _:
-            return _asks_for_places(extractor.left) or _asks_for_places(extractor.right)
+    return any(leaf.bases for leaf in leaves_of(extractor))

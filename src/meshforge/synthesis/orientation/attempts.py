@@ -10,14 +10,15 @@ import numpy as np
 
 from meshforge import language
 from meshforge.common import MeshForgeError
+from meshforge.geometry import Pose
+from meshforge.language import HullTable, Replay
 from meshforge.symbolic import NEAR_MISS, SymbolicMesh
 from meshforge.synthesis.demonstration import Demonstration, Example, RuleSpec, name_demonstrations
-from meshforge.synthesis.options import Layers, Options, TimeBudget
-from meshforge.synthesis.search.observation_table import HullTable
+from meshforge.synthesis.options import Options, TimeBudget
+from meshforge.synthesis.search.observation_table import select_all
 from meshforge.synthesis.search.smallest import Search
 from meshforge.synthesis.search.terms import enumerate_leaves
-from meshforge.synthesis.task import Replay, example_of
-from meshforge.synthesis.task import advance as advanced
+from meshforge.synthesis.task import example_of, memoize
 
 Signature = tuple[bytes, bool]
 """Which leaf extractors select a hull, and whether it was selected."""
@@ -48,9 +49,8 @@ class OrientationSearch:
         self._closed = all(demo.step(rule.number) for demo in demos for rule in rules)
         self.floors = [min(nodes, 2) if self._closed else 1 for nodes in sizes or [1] * len(rules)]
         self._frame, self._templates, self._options, self._budget = frame, templates, options, budget
-        self._turners = [
-            (name, demo, MeshTurner(demo.mesh, frame.contact)) for name, demo in name_demonstrations(demos)
-        ]
+        self._demos = dict(name_demonstrations(demos))
+        self._turners = [MeshTurner(demo.mesh, frame.contact) for demo in demos]
         self._by_orient: dict[language.Orient, FrameAttempt | None] = {}
         self._by_turns: dict[tuple[bytes, ...], FrameAttempt] = {}
         self._extractors: dict[frozenset[Signature], language.Extractor] = {}
@@ -66,18 +66,23 @@ class OrientationSearch:
     def _begin(self, orient: language.Orient) -> FrameAttempt | None:
         """Directives that turn every mesh alike share one attempt."""
         try:
-            turned = [(name, demo, *turning.turn(orient)) for name, demo, turning in self._turners]
+            turned = [turner.turn(orient) for turner in self._turners]
         except MeshForgeError:
             return None
-        turns = tuple(turn for *_, turn in turned)
+        turns = tuple((pose.rotation.round(9) + 0.0).tobytes() for _, pose in turned)
         if turns not in self._by_turns:
-            self._by_turns[turns] = FrameAttempt(self, [Replay(name, demo, mesh) for name, demo, mesh, _ in turned])
+            rows = zip(self._demos.items(), turned, strict=True)
+            replays = [
+                Replay(demo.mesh, pose, mesh, mesh, name, demo.selections, memo=memoize)
+                for (name, demo), (mesh, pose) in rows
+            ]
+            self._by_turns[turns] = FrameAttempt(self, replays)
         return self._by_turns[turns]
 
     def analyze(self, rule: RuleSpec, replays: Sequence[Replay]) -> RuleInFrame:
         """The next rule of some replays. Raises MeshForgeError where what was shown cannot be done."""
-        examples = [shown for replay in replays if (shown := example_of(replay, rule))]
-        found = analyze_rule(examples, self._frame.labels, self._options.layers, self._options.geo_extremity)
+        examples = [shown for replay in replays if (shown := example_of(replay, self._demos[replay.name], rule))]
+        found = analyze_rule(examples, self._frame.labels, self._options)
         if not found.base and self._closed:  # bases select the same in every frame, unless open steps differ
             self.floors[rule.number - 1] = 2
         return found
@@ -107,7 +112,7 @@ class OrientationSearch:
     def advance(self, replays: Sequence[Replay], rule: RuleSpec, extractor: language.Extractor) -> list[Replay]:
         """The replays after one more rule. Raises MeshForgeError where its action cannot be done."""
         done = language.Rule(extractor, rule.action, rule.label)
-        return [advanced(replay, rule.number, done, self._templates, self._frame.extremity) for replay in replays]
+        return [replay.advance(done, self._templates, self._frame.extremity) for replay in replays]
 
 
 class FrameAttempt:
@@ -184,20 +189,18 @@ class RuleInFrame:
     leaves: tuple[language.Extractor, ...] = ()
 
 
-def analyze_rule(
-    examples: Sequence[Example], vocabulary: Sequence[str], layers: Layers, extremity: float
-) -> RuleInFrame:
+def analyze_rule(examples: Sequence[Example], vocabulary: Sequence[str], options: Options) -> RuleInFrame:
     """A rule as it is met on some examples."""
-    bases: list[language.BaseExtractor] = [*map(language.Is, vocabulary), language.All()]
-    for base in bases:
-        if all(language.select_mask(base, example.mesh) == example.selection for example in examples):
-            return RuleInFrame(tuple(examples), base)
-    chosen = enumerate_leaves(vocabulary, layers)
-    table = HullTable([example.mesh for example in examples]).table(chosen, extremity)
+    chosen = (*enumerate_leaves(tuple(vocabulary), options.layers), *options.leaves)
+    hulls = HullTable([example.mesh for example in examples], extremity=options.geo_extremity)
     shown = [bool(e.selection >> index & 1) for e in examples for index in range(len(e.mesh.hulls))]
-    fits = (table == np.array(shown)).all(axis=1)
+    for leaf in chosen:
+        if isinstance(leaf, language.BaseExtractor) and (language.select_hulls(leaf, hulls) == shown).all():
+            return RuleInFrame(tuple(examples), leaf)
+    table = select_all(chosen, hulls)
+    fits = (table == np.array(shown, dtype=np.bool_)).all(axis=1)
     leaves = tuple(chosen[row] for row in np.flatnonzero(fits))
-    least = 2 if any(isinstance(leaf, language.Geo) for leaf in leaves) else 3
+    least = min((leaf.size for leaf in leaves), default=3)
     seen = Counter(zip([column.tobytes() for column in np.packbits(table.T, axis=1)], shown, strict=True))
     strays = sum(min(count, seen[signature, False]) for (signature, selected), count in seen.items() if selected)
     return RuleInFrame(tuple(examples), None, frozenset(seen), strays, least, leaves)
@@ -214,8 +217,8 @@ class MeshTurner:
         self._mesh = replace(mesh, epsilon=epsilon)
         self._wide = replace(mesh, epsilon=epsilon * _MAX_STRETCH, scale=None)
 
-    def turn(self, orient: language.Orient | None) -> tuple[SymbolicMesh, bytes]:
-        """The mesh in the frame of a directive, and a key that turns have in common when they are the same.
+    def turn(self, orient: language.Orient | None) -> tuple[SymbolicMesh, Pose]:
+        """The mesh in the frame of a directive, and the pose oriented_T_incoming.
 
         Raises ProgramError where the orientation fails.
         """
@@ -223,4 +226,4 @@ class MeshTurner:
         staged = replace(oriented, scale=oriented.diagonal)
         reach = staged.contact_distance * NEAR_MISS
         staged.set_known_graph({pair: gap for pair, gap in self._wide.graph.items() if gap <= reach})
-        return staged, (pose.rotation.round(9) + 0.0).tobytes()
+        return staged, pose

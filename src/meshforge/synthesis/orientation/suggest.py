@@ -20,7 +20,6 @@ from meshforge.language import (
     Orient,
     Program,
     Template,
-    show_label,
     size_of,
 )
 from meshforge.symbolic import SymbolicMesh
@@ -177,7 +176,7 @@ def _describe_pair(pair: LandmarkPair) -> str:
 
 
 def _describe_base(base: BaseExtractor) -> str:
-    return "the middle of all hulls" if isinstance(base, All) else f"the {show_label(base.label)} hulls"
+    return "the middle of all hulls" if isinstance(base, All) else base.phrase
 
 
 def _describe_sizes(sizes: Sequence[int]) -> str:

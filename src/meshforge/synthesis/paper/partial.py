@@ -9,13 +9,15 @@ from dataclasses import dataclass
 from functools import cache
 from typing import TypeAlias, assert_never
 
+import numpy as np
+
 from meshforge import language
 from meshforge.synthesis.demonstration import Example, LabelChange
 from meshforge.synthesis.options import Layers
 from meshforge.synthesis.search.smallest import NearestExtractor
 from meshforge.synthesis.search.terms import SetOperator
 
-OPERATORS: tuple[SetOperator, ...] = (language.Union, language.Intersect, language.Diff)
+_ATTACH = language.Attach(language.All(), language.All())  # whose bases are given as what they select
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,7 +68,7 @@ class HoleGrammar:
         self.bases: tuple[language.BaseExtractor, ...] = (*map(language.Is, vocabulary), language.All())
         contact = [OpenAttach(BaseHole(), BaseHole())] if "T" in layers else []
         position = map(OpenGeo, language.DIRECTIONS) if "G" in layers else []
-        operators = [OpenOperator(operator, Hole(), Hole()) for operator in OPERATORS]
+        operators = [OpenOperator(operator, Hole(), Hole()) for operator in language.SET_OPERATORS]
         self.extractors: tuple[Partial, ...] = (*self.bases, *contact, *position, *operators)
 
     def fill(self, partial: Open) -> Iterator[Partial]:
@@ -159,28 +161,22 @@ class ExampleMasks:
         self.everything = (1 << len(mesh.hulls)) - 1
         self.labels = _masks_by_label([hull.label for hull in mesh.hulls])
 
-        @cache
-        def attach(selected: int, anchor: int) -> int:
-            return language.attach_mask(mesh, selected, anchor)
+        hulls = language.HullTable([mesh], extremity=extremity)
 
         @cache
-        def geo(base: int, direction: language.Direction) -> int:
-            return language.geo_mask(mesh, base, direction, extremity)
+        def refine(leaf: language.Leaf, *bases: int) -> int:
+            return language.to_bits(leaf.mask(hulls, *(_to_bools(bits, len(hulls)) for bits in bases)))
 
-        self.attach, self.geo = attach, geo
+        self.refine = refine
 
     def select(self, extractor: language.Extractor, labels: LabelMasks | None = None) -> int:
         """What an extractor selects, as a bit set; labels: those to go by, without them the mesh's own."""
         labels = self.labels if labels is None else labels
         match extractor:
-            case language.All():
-                return self.everything
             case language.Is(label):
                 return labels.get(label, 0)
-            case language.Attach(selected, anchor):
-                return self.attach(self.select(selected, labels), self.select(anchor, labels))
-            case language.Geo(base, direction):
-                return self.geo(self.select(base, labels), direction)
+            case language.Leaf():
+                return self.refine(extractor, *(self.select(base, labels) for base in extractor.bases))
             case language.Union(left, right):
                 return self.select(left, labels) | self.select(right, labels)
             case language.Intersect(left, right):
@@ -203,6 +199,11 @@ class ExampleMasks:
                 labels[was] &= ~(1 << index)
             labels[to] = labels.get(to, 0) | 1 << index
         return labels
+
+
+def _to_bools(bits: int, count: int) -> language.Bools:
+    packed = np.frombuffer(bits.to_bytes((count + 7) // 8, "little"), np.uint8)
+    return np.unpackbits(packed, count=count, bitorder="little").astype(np.bool_)
 
 
 def _masks_by_label(labels: Iterable[str | None]) -> dict[str, int]:
@@ -229,7 +230,7 @@ def bounds(partial: Partial, demo: ExampleMasks) -> Bounds:
             return 0, demo.everything
         case OpenAttach(selected, anchor):
             (low, high), (anchor_low, anchor_high) = _base_bounds(selected, demo), _base_bounds(anchor, demo)
-            return demo.attach(low, anchor_low), demo.attach(high, anchor_high)
+            return demo.refine(_ATTACH, low, anchor_low), demo.refine(_ATTACH, high, anchor_high)
         case OpenOperator(operator, left, right):
             return _combine_bounds(operator, bounds(left, demo), bounds(right, demo))
         case _:

@@ -1,4 +1,4 @@
-"""How believable each reading is: the weights, in one place, and what was measured.
+"""How believable each reading is: the weights, but for what leaves cost themselves, and what was measured.
 
 A reading's weight is exp(-nats), its belief the share of its weight in that of all readings of the rule. The nats
 are linear in the features below; the factors are the most likely ones given rules of known meaning: those of the
@@ -12,29 +12,24 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import assert_never
 
 import numpy as np
 import numpy.typing as npt
 
 from meshforge.geometry import Floats
-from meshforge.language import All, Attach, Diff, Extractor, Geo, Is
+from meshforge.language import Diff, Extractor, Leaf
 from meshforge.symbolic import bits_of, descriptors
 from meshforge.synthesis.search.observation_table import ObservationTable
 from meshforge.synthesis.search.terms import Compound, Term
 
 NODE = 0.36
 """For each syntax node."""
-ALL = 2.6
-"""For each `All`: people think in parts."""
-UPRIGHT, SIDEWAYS = 0.3, 1.65
-"""For each direction: six are tried, so they fit by accident; up and down are meant more often than the others."""
-SELF = 6.0
-"""For a label attached to itself: that says how parts were cut rather than what they are."""
 UNTRIED = 1.6
 """For each set operator with an operand that makes no difference on the demonstrated meshes. Measured was 1.1, where
 demonstrations were drawn blindly; a person shows what is wanted on a mesh that has it."""
 UNNEEDED = 0.9
-"""For each `Attach` or `Geo` that leaves nothing out of its label on the demonstrated meshes."""
+"""For each `Attach` or `Geo` that leaves nothing out of its base on the demonstrated meshes."""
 IDLE = 0.11
 """Times the share of assets where it selects nothing: nearly no evidence, since many a rule is about a rare part."""
 STRANGE, STRANGEST = 0.23, 9.0
@@ -97,20 +92,8 @@ def _doubt_nats(term: Term, known: dict[Extractor, float]) -> float:
     if isinstance(made, Compound):
         return _doubt_nats(made.left, known) + _doubt_nats(made.right, known)
     if made not in known:
-        known[made] = _leaf_doubt_nats(made)
+        known[made] = made.cost
     return known[made]
-
-
-def _leaf_doubt_nats(leaf: All | Is | Attach | Geo) -> float:
-    match leaf:
-        case All():
-            return ALL
-        case Is():
-            return 0.0
-        case Attach(selected, anchor):
-            return ALL * (isinstance(selected, All) + isinstance(anchor, All)) + SELF * (selected == anchor)
-        case Geo(base, direction):
-            return (UPRIGHT if direction[1] == "Z" else SIDEWAYS) + ALL * isinstance(base, All)
 
 
 @dataclass(frozen=True, slots=True)
@@ -193,7 +176,7 @@ def count_untested(term: Term, shown: int) -> int:
 
 
 def count_idle(term: Term, shown: int, field: ObservationTable) -> int:
-    """How many `Attach` and `Geo` in a term leave nothing out of their label on the demonstrated meshes.
+    """How many leaves in a term leave nothing out of their base on the demonstrated meshes.
 
     shown: the groups of demonstrated hulls.
     """
@@ -201,7 +184,7 @@ def count_idle(term: Term, shown: int, field: ObservationTable) -> int:
     match made:
         case Compound():
             return count_idle(made.left, shown, field) + count_idle(made.right, shown, field)
-        case Attach(base, _) | Geo(base, _):
-            return int(field.bits(base) & shown == term.bits & shown)
+        case Leaf():
+            return int(bool(made.bases) and field.bits(made.bases[0]) & shown == term.bits & shown)
         case _:
-            return 0
+            assert_never(made)

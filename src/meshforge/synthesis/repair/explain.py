@@ -199,7 +199,7 @@ class CorrectionSearch:
         ]
         if not any(len(some) > 1 for some in ways):
             return None
-        return Variants(self._examples, ways, self._vocabulary, self._options.layers, self._options.geo_extremity)
+        return Variants(self._examples, ways, self._vocabulary, self._options)
 
     def _count_allowed(self, example: Example) -> int:
         """Corrections that the mesh has left; none where it has no label at all, as any would do as well."""

@@ -17,7 +17,7 @@ import numpy as np
 from meshforge.common import MeshForgeError, pluralize
 from meshforge.geometry import Floats
 from meshforge.label_model import LabelBeliefs, LabelOdds, is_human
-from meshforge.language import All, Extractor, Orient, find_rotation, size_of
+from meshforge.language import Extractor, Orient, find_rotation, size_of
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis.demonstration import name_demonstrations
 from meshforge.synthesis.options import TimeBudget
@@ -136,7 +136,7 @@ class LandmarkCorrectionSearch:
     ) -> Iterator[tuple[float, LabelCorrection]]:
         """What it costs to correct labels that may be wrong, where one before or after it is a landmark's."""
         bases = [base for pair in orient.pairs for base in (pair.start, pair.end)]
-        landmarks = {base.label for base in bases if not isinstance(base, All)}
+        landmarks = {label for base in bases for label in base.labels}
         rejected = {(one.hull, one.was) for one in self._task.rejected if one.asset == name}
         for hull in mesh.hulls:
             if (hull.name, hull.label) in rejected:

@@ -8,12 +8,13 @@ from dataclasses import dataclass
 from math import exp
 
 from meshforge.label_model import LabelBeliefs
-from meshforge.language import Extractor
+from meshforge.language import Extractor, HullTable
 from meshforge.symbolic import Label, mask_of
 from meshforge.synthesis.demonstration import Example, LabelChange
-from meshforge.synthesis.options import Layers
+from meshforge.synthesis.options import Options
 from meshforge.synthesis.questions import LabelCorrection
-from meshforge.synthesis.search.observation_table import HullGroups, HullTable
+from meshforge.synthesis.search.observation_table import HullGroups
+from meshforge.synthesis.search.terms import enumerate_leaves
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,11 +108,11 @@ class Variant:
     avoid: int
 
 
-def build_hull_table(examples: Sequence[Example], ways: Sequence[Sequence[Relabeling]]) -> HullTable:
+def build_hull_table(examples: Sequence[Example], ways: Sequence[Sequence[Relabeling]], extremity: float) -> HullTable:
     """The hulls of each example under each of its relabelings, in one row."""
     rows = [(example, one) for example, some in zip(examples, ways, strict=True) for one in some]
     labels = [label for example, one in rows for label in _labels_under(example, one)]
-    return HullTable([example.mesh for example, _ in rows], labels)
+    return HullTable([example.mesh for example, _ in rows], labels, extremity)
 
 
 class Variants:
@@ -125,10 +126,10 @@ class Variants:
         examples: Sequence[Example],
         ways: Sequence[Sequence[Relabeling]],
         vocabulary: Sequence[str],
-        layers: Layers,
-        extremity: float,
+        options: Options,
     ) -> None:
-        self._groups = HullGroups(build_hull_table(examples, ways), vocabulary, layers, extremity)
+        leaves = (*enumerate_leaves(tuple(vocabulary), options.layers), *options.leaves)
+        self._groups = HullGroups(build_hull_table(examples, ways, options.geo_extremity), leaves, vocabulary)
         self.width, self.terms = self._groups.width, self._groups.terms
         self.by_example: list[list[Variant]] = []
         begin = 0

@@ -6,17 +6,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import cached_property
 from itertools import pairwise
-from math import dist
+from typing import assert_never
 
 import numpy as np
-import numpy.typing as npt
 
 from meshforge import language
+from meshforge.language import Bools, HullTable, Leaf, select_hulls
 from meshforge.symbolic import SymbolicMesh, mask_of
 from meshforge.synthesis.options import Layers
-from meshforge.synthesis.search.terms import Leaf, Term, combine, enumerate_leaves, leaf_key
-
-Bools = npt.NDArray[np.bool_]
+from meshforge.synthesis.search.terms import Term, combine, enumerate_leaves, leaf_key
 
 
 class ObservationTable:
@@ -24,7 +22,8 @@ class ObservationTable:
 
     Groups are numbered by their first hull, so those of the first meshes come first. An extractor selects a group
     wholly or not at all, whatever its size, on all meshes alike; so there are far fewer bits than hulls.
-    vocabulary: labels in the order in which they are preferred; group: False makes every hull a group of its own.
+    vocabulary: labels in the order in which they are preferred; group: False makes every hull a group of its own;
+    more: leaves besides the built-in ones.
     """
 
     def __init__(
@@ -34,10 +33,12 @@ class ObservationTable:
         layers: Layers = "S+T+G",
         extremity: float = language.EXTREMITY,
         group: bool = True,
+        more: tuple[Leaf, ...] = (),
     ) -> None:
         self.meshes = tuple(meshes)
-        hulls = HullTable(meshes)
-        self._groups = HullGroups(hulls, vocabulary, layers, extremity, group)
+        hulls = HullTable(meshes, extremity=extremity)
+        leaves = (*enumerate_leaves(tuple(vocabulary), layers), *more)
+        self._groups = HullGroups(hulls, leaves, vocabulary, group)
         spans = list(pairwise(hulls.starts.tolist()))
         self.groups = [self._groups.of[low:high] for low, high in spans]
         self._signatures = [self._groups.signatures[low:high] for low, high in spans]
@@ -91,11 +92,8 @@ class HullGroups:
     vocabulary: labels in the order in which they are preferred; group: False makes every hull a group of its own.
     """
 
-    def __init__(
-        self, hulls: HullTable, vocabulary: Sequence[str], layers: Layers, extremity: float, group: bool = True
-    ) -> None:
-        chosen = enumerate_leaves(vocabulary, layers)
-        table = hulls.table(chosen, extremity)
+    def __init__(self, hulls: HullTable, leaves: Sequence[Leaf], vocabulary: Sequence[str], group: bool = True) -> None:
+        table = select_all(leaves, hulls)
         self.signatures = [column.tobytes() for column in np.packbits(table.T, axis=1)]
         numbers: dict[object, int] = {}
         firsts: list[int] = []
@@ -110,7 +108,7 @@ class HullGroups:
         places = {label: place for place, label in enumerate(vocabulary)}
         self.terms = [
             Term(int.from_bytes(row.tobytes(), "little"), leaf_key(leaf, places), leaf)
-            for leaf, row in zip(chosen, np.packbits(table[:, firsts], axis=1, bitorder="little"), strict=True)
+            for leaf, row in zip(leaves, np.packbits(table[:, firsts], axis=1, bitorder="little"), strict=True)
         ]
 
     def term(self, extractor: language.Extractor) -> Term:
@@ -118,89 +116,19 @@ class HullGroups:
         match extractor:
             case language.Union(left, right) | language.Intersect(left, right) | language.Diff(left, right):
                 return combine(type(extractor), self.term(left), self.term(right))
-            case leaf:
-                return self._leaves[leaf]
+            case Leaf():
+                return self._leaves[extractor]
+            case _:
+                assert_never(extractor)
 
     @cached_property
     def _leaves(self) -> dict[language.Extractor, Term]:
         return {term.extractor: term for term in self.terms}
 
 
-class HullTable:
-    """The hulls of several meshes in one row: labels, boxes, contacts.
-
-    labels: of each hull, where they are not those of the meshes. A mesh may come several times, under other labels.
-    Everything is selected exactly as the language does, which tests hold against it.
-    """
-
-    __slots__ = ("_contacts", "_high", "_labels", "_low", "_owner", "_slack", "starts")
-
-    def __init__(self, meshes: Sequence[SymbolicMesh], labels: Sequence[str | None] | None = None) -> None:
-        counts = [len(mesh.hulls) for mesh in meshes]
-        self.starts = np.cumsum([0, *counts], dtype=np.int64)
-        self._owner = np.repeat(np.arange(len(meshes)), counts)
-        none = np.zeros((0, 3))
-        self._low = np.concatenate([none, *(mesh.corners[0] for mesh in meshes)])
-        self._high = np.concatenate([none, *(mesh.corners[1] for mesh in meshes)])
-        self._labels = labels if labels is not None else [hull.label for mesh in meshes for hull in mesh.hulls]
-        self._slack = np.array([language.SLACK * language.reference_length(mesh) for mesh in meshes])
-        contacts = {id(mesh): np.array(list(mesh.contacts), dtype=np.int64).reshape(-1, 2) for mesh in meshes}
-        pairs = [contacts[id(mesh)] + start for mesh, start in zip(meshes, self.starts, strict=False)]
-        self._contacts = np.concatenate([np.zeros((0, 2), dtype=np.int64), *pairs])
-
-    def table(self, leaves: Sequence[Leaf], extremity: float) -> Bools:
-        """Whether each leaf selects each hull: (leaves, hulls)."""
-        bases = self._base_masks([leaf for leaf in leaves if isinstance(leaf, language.All | language.Is)])
-        touching: dict[language.BaseExtractor, Bools] = {}
-        extreme: dict[language.BaseExtractor, Bools] = {}
-        table = np.zeros((len(leaves), len(self._labels)), dtype=np.bool_)
-        for row, leaf in enumerate(leaves):
-            match leaf:
-                case language.All() | language.Is():
-                    table[row] = bases[leaf]
-                case language.Attach(selected, anchor):
-                    if anchor not in touching:
-                        touching[anchor] = self._contact_mask(bases[anchor])
-                    table[row] = bases[selected] & touching[anchor]
-                case language.Geo(base, direction):
-                    if base not in extreme:
-                        extreme[base] = self._extreme_masks(bases[base], extremity)
-                    table[row] = extreme[base][language.DIRECTIONS.index(direction)]
-        return table
-
-    def _base_masks(self, asked: Sequence[language.BaseExtractor]) -> dict[language.BaseExtractor, Bools]:
-        places: dict[str | None, list[int]] = {}
-        for place, label in enumerate(self._labels):
-            places.setdefault(label, []).append(place)
-        found: dict[language.BaseExtractor, Bools] = {}
-        for base in asked:
-            found[base] = np.full(len(self._labels), isinstance(base, language.All))
-            if isinstance(base, language.Is):
-                found[base][places.get(base.label, [])] = True
-        return found
-
-    def _contact_mask(self, anchor: Bools) -> Bools:
-        found = np.zeros_like(anchor)
-        for here, there in ((0, 1), (1, 0)):
-            found[self._contacts[anchor[self._contacts[:, there]], here]] = True
-        return found
-
-    def _extreme_masks(self, base: Bools, extremity: float) -> Bools:
-        """For each direction, the hulls of a base that reach farthest along it on their mesh: (6, hulls)."""
-        found = np.zeros((len(language.DIRECTIONS), len(base)), dtype=np.bool_)
-        chosen = np.flatnonzero(base)
-        if not len(chosen):
-            return found
-        owner = self._owner[chosen]
-        fresh = np.concatenate([[True], owner[1:] != owner[:-1]])
-        firsts, part = np.flatnonzero(fresh), np.cumsum(fresh) - 1
-        low, high = self._low[chosen], self._high[chosen]
-        lowest, highest = np.minimum.reduceat(low, firsts), np.maximum.reduceat(high, firsts)
-        diagonals = np.array([dist(a, b) for a, b in zip(lowest.tolist(), highest.tolist(), strict=True)])
-        slack = self._slack[owner[firsts]]
-        for row, direction in enumerate(language.DIRECTIONS):
-            axis = "XYZ".index(direction[1])
-            reach, most = (high, highest) if direction[0] == "+" else (-low, -lowest)
-            nearest = most[:, axis] - extremity * diagonals - slack
-            found[row, chosen[reach[:, axis] >= nearest[part]]] = True
-        return found
+def select_all(leaves: Sequence[Leaf], hulls: HullTable) -> Bools:
+    """Whether each leaf selects each hull: (leaves, hulls)."""
+    table = np.zeros((len(leaves), len(hulls)), dtype=np.bool_)
+    for row, leaf in enumerate(leaves):
+        table[row] = select_hulls(leaf, hulls)
+    return table

@@ -81,7 +81,7 @@ class Search:
         self.selections = tuple(example.selection for example in examples)
         meshes = [*(example.mesh for example in examples), *batch]
         self.field = ObservationTable(
-            meshes, vocabulary, options.layers, options.geo_extremity, options.shortcuts.group
+            meshes, vocabulary, options.layers, options.geo_extremity, options.shortcuts.group, options.leaves
         )
         self.width = self.field.width_of(len(examples))
         self.need = self.field.groups_in(self.selections)

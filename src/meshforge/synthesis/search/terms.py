@@ -9,57 +9,100 @@ search may forget all but the first.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import product
-from typing import Any, assert_never
+from functools import lru_cache
+from typing import Any, TypeVar, assert_never
 
 from meshforge import language
-from meshforge.language import All, Attach, BaseExtractor, Diff, Geo, Is, Union
+from meshforge.common import UsageError, blame, suggest_among
+from meshforge.language import BaseExtractor, Diff, Leaf, Union
+from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis.options import Layers
 
-Leaf = All | Is | Attach | Geo
+L = TypeVar("L", bound=Leaf)
 
 Key = tuple[Any, ...]
 """Sorts extractors; entry 0 is the size, entry 1 the doubts."""
 
 SetOperator = type[Union] | type[language.Intersect] | type[Diff]
 
-_IS, _ALL, _ATTACH, _GEO = range(4)
-OPERATOR_RANK: Mapping[SetOperator, int] = {Union: 4, language.Intersect: 5, Diff: 6}
-"""Of equal size and doubts: labels, then contact, then position, then what adds, and last what takes away."""
-
-DIRECTION_RANK: Mapping[language.Direction, int] = {"+Z": 0, "-Z": 1, "+X": 2, "-X": 3, "+Y": 4, "-Y": 5}
-"""Up and down first: an orientation settles them, while the turn about the upright axis is often a convention."""
-
-
-def enumerate_leaves(vocabulary: Sequence[str], layers: Layers = "S+T+G") -> tuple[Leaf, ...]:
-    """Every extractor without set operators over the labels of a vocabulary."""
-    bases: list[BaseExtractor] = [*map(Is, vocabulary), All()]
-    attached = [Attach(selected, anchor) for selected, anchor in product(bases, bases)] if "T" in layers else []
-    extreme = [Geo(base, direction) for base, direction in product(bases, language.DIRECTIONS)] if "G" in layers else []
-    return (*bases, *attached, *extreme)
+_LEAF_RANK = {kind: rank for rank, kind in enumerate(language.EXTRACTORS.built_in.values())}
+_PLUGIN_RANK = len(_LEAF_RANK)
+OPERATOR_RANK: Mapping[SetOperator, int] = {
+    kind: _PLUGIN_RANK + place for place, kind in enumerate(language.SET_OPERATORS, 1)
+}
+"""Of equal size and doubts: labels, then contact, then position, then leaves of plug-ins, then what adds, and last what
+takes away."""
 
 
-def leaf_key(leaf: All | Is | Attach | Geo, labels: Mapping[str, int]) -> Key:
+@lru_cache(maxsize=64)
+def enumerate_leaves(vocabulary: tuple[str, ...], layers: Layers = "S+T+G") -> tuple[Leaf, ...]:
+    """Every built-in leaf over the labels of a vocabulary, bases first, labels before `All`."""
+    return _enumerate(language.EXTRACTORS.built_in.values(), vocabulary, layers)
+
+
+def enumerate_more_leaves(
+    names: Sequence[str], vocabulary: Sequence[str], layers: Layers, meshes: Iterable[SymbolicMesh]
+) -> tuple[Leaf, ...]:
+    """The leaves that plug-ins of these names add to the built-in ones; meshes: of the family, as they come in.
+
+    Raises PluginError where one cannot be loaded or fails, UsageError where there is none of the name.
+    """
+    if not names:
+        return ()
+    for name in names:
+        if name not in language.EXTRACTORS:
+            remedy = suggest_among(name, language.EXTRACTORS.plugin_names, "Extractors of plug-ins:")
+            raise UsageError(f"there is no extractor {name!r}", remedy=remedy)
+    known = dict.fromkeys(enumerate_leaves(tuple(vocabulary), layers))
+    kinds = dict.fromkeys([*language.EXTRACTORS.built_in.values(), *map(language.EXTRACTORS.__getitem__, names)])
+    every = _enumerate(kinds, tuple(vocabulary), layers, tuple(meshes))
+    return tuple(leaf for leaf in dict.fromkeys(every) if leaf not in known)
+
+
+def _enumerate(
+    kinds: Iterable[type[Leaf]], labels: tuple[str, ...], layers: Layers, meshes: tuple[SymbolicMesh, ...] = ()
+) -> tuple[Leaf, ...]:
+    some = [kind for kind in kinds if kind.layer in layers]
+    bases = [leaf for kind in some if issubclass(kind, BaseExtractor) for leaf in _list(kind, labels, (), meshes)]
+    bases.sort(key=lambda base: base.doubts)
+    others = [kind for kind in some if not issubclass(kind, BaseExtractor)]
+    return (*bases, *(leaf for kind in others for leaf in _list(kind, labels, tuple(bases), meshes)))
+
+
+def _list(
+    kind: type[L], labels: tuple[str, ...], bases: tuple[BaseExtractor, ...], meshes: tuple[SymbolicMesh, ...]
+) -> list[L]:
+    with blame(kind.owner):
+        found = list(kind.enumerate(language.Candidates(labels, bases, meshes)))
+        strange = next((leaf for leaf in found if not isinstance(leaf, kind)), None)
+    if kind.owner and strange is not None:
+        raise kind.owner.error(f"enumerates {strange!r}, which is no {kind.__name__}")
+    return found
+
+
+def leaf_key(leaf: Leaf, labels: Mapping[str, int]) -> Key:
     """The key of an extractor without set operators; labels: the place of each label in the vocabulary.
 
     Doubts count what fits by accident more easily than labels, and contact between two labels, do: `All`; a
     direction, since there are six to try; an `Attach` that is not between two labels, since it says how parts
     were cut rather than what they are.
     """
-    match leaf:
-        case Is(label):
-            return (1, 0, _IS, labels[label])
-        case All():
-            return (1, 1, _ALL)
-        case Attach(selected, anchor):
-            doubts = _count_all(selected, anchor) + (not _is_between_labels(selected, anchor))
-            return (3, doubts, _ATTACH, leaf_key(selected, labels), leaf_key(anchor, labels))
-        case Geo(base, direction):
-            return (2, 1 + _count_all(base), _GEO, leaf_key(base, labels), DIRECTION_RANK[direction])
-        case _:
-            assert_never(leaf)
+    kind = type(leaf)
+    rank = (_LEAF_RANK[kind],) if kind in _LEAF_RANK else (_PLUGIN_RANK, kind.__name__)
+    return (leaf.size, leaf.doubts, *rank, *_argument_keys(leaf, labels))
+
+
+def _argument_keys(leaf: Leaf, labels: Mapping[str, int]) -> Iterator[Any]:
+    for name, argument in leaf.arguments().items():
+        value = getattr(leaf, name)
+        if isinstance(value, BaseExtractor):
+            yield leaf_key(value, labels)
+        elif value is None:
+            yield ()
+        else:
+            yield (argument.sort_key(value, labels),)
 
 
 def operator_key(operator: SetOperator, left: Key, right: Key) -> Key:
@@ -74,18 +117,10 @@ def order_key(extractor: language.Extractor, labels: Mapping[str, int]) -> Key:
     match extractor:
         case Union(left, right) | language.Intersect(left, right) | Diff(left, right):
             return operator_key(type(extractor), order_key(left, labels), order_key(right, labels))
-        case All() | Is() | Attach() | Geo():
+        case Leaf():
             return leaf_key(extractor, labels)
         case _:
             assert_never(extractor)
-
-
-def _count_all(*bases: BaseExtractor) -> int:
-    return sum(isinstance(base, All) for base in bases)
-
-
-def _is_between_labels(selected: BaseExtractor, anchor: BaseExtractor) -> bool:
-    return isinstance(selected, Is) and isinstance(anchor, Is) and selected != anchor
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -106,7 +141,7 @@ class Term:
 
     bits: int
     key: Key
-    form: All | Is | Attach | Geo | Compound
+    form: Leaf | Compound
 
     @property
     def extractor(self) -> language.Extractor:

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import json
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -13,7 +14,6 @@ from meshforge.batch import (
     read_preparation,
     read_prepared,
     record_digest,
-    remove_preparation,
     write_preparation,
 )
 from meshforge.common import AssetError
@@ -57,7 +57,7 @@ def test_an_asset_is_read_with_its_preparation_or_without_one(tmp_path: Path) ->
     write_preparation(tmp_path / "p", preparation)
     assert len(read_prepared(asset.path, tmp_path / "p").geoms) == 5
     assert len(read_prepared(asset.path, None).geoms) == 1
-    remove_preparation(tmp_path / "p")
+    write_preparation(tmp_path / "p", Preparation())
     assert not (tmp_path / "p").exists() and record_digest(tmp_path / "p") is None
     assert len(read_prepared(asset.path, tmp_path / "p").geoms) == 1
 
@@ -92,7 +92,7 @@ def test_a_record_is_read_with_a_byte_order_mark(tmp_path: Path) -> None:
 
 def test_a_folder_in_the_place_of_a_record_is_to_be_taken_away_by_hand(tmp_path: Path) -> None:
     (tmp_path / "preparation.json").mkdir()
-    for reach in (read_preparation, remove_preparation):
+    for reach in (read_preparation, partial(write_preparation, preparation=Preparation())):
         with pytest.raises(AssetError, match=r"preparation\.json: .*\n  Take away by hand") as caught:
             reach(tmp_path)
         assert "prepare --remove" not in caught.value.message
@@ -120,7 +120,7 @@ def test_a_killed_change_has_happened_or_not(tmp_path: Path) -> None:
     folder = tmp_path / "p"
     for before, after in ((Preparation(), first), (first, second), (second, first.with_only(()))):
         died = 0
-        for _ in deaths(lambda: write_preparation(folder, after)):  # noqa: B023  called at once
+        for _ in deaths(lambda: write_preparation(folder, after), removals=True):  # noqa: B023  called at once
             died += 1
             assert hulls(read_preparation(folder)) in (hulls(before), hulls(after))
         assert died and hulls(read_preparation(folder)) == hulls(after)
@@ -131,4 +131,4 @@ def test_a_killed_change_has_happened_or_not(tmp_path: Path) -> None:
 def test_nothing_prepared_is_nothing_done(tmp_path: Path) -> None:
     asset = read(write_boxes(tmp_path / "row.obj"))
     assert apply_preparation(asset, Preparation()).geoms == asset.geoms
-    remove_preparation(tmp_path / "nowhere")
+    write_preparation(tmp_path / "nowhere", Preparation())

@@ -2,94 +2,76 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from pathlib import PurePosixPath
 from typing import Any
 
 import numpy as np
 
-from meshforge.formats.base import Output, nothing_collides_error
+from meshforge.formats.base import Output, note_shapes_as_hulls, nothing_collides_error
 from meshforge.formats.collision_pieces import names_to_keep
 from meshforge.formats.libraries import pxr
 from meshforge.formats.usd import colliders, prims
 from meshforge.formats.usd.edit import edit_root_layer
-from meshforge.formats.usd.edit_stage import holds_volume, note_hulls
+from meshforge.formats.usd.edit_stage import NO_SHAPE, holds_volume
 from meshforge.formats.usd.stage import UsdDocument, UsdStage
 from meshforge.symbolic import Asset, Geom, Opaque
 
 _SCOPE = "collision"
 
 
-def write_usd_beside(asset: Asset, document: UsdDocument, name: str) -> Output:
+def add_usd_colliders(asset: Asset, document: UsdDocument, name: str) -> Output:
     """The files of a stage with the hulls of an asset beside it, hidden and marked by UsdPhysics.
 
     Raises AssetError: a file changed since the asset was read, or there is no hull to write.
     """
 
     def author(scene: UsdStage, layer: Any) -> tuple[list[str], dict[str, str]]:
-        writer = _BesideWriter(scene, layer, document, asset)
+        writer = _ColliderWriter(scene, layer, document, asset)
         pieces: list[Geom | Opaque] = [*asset.geoms, *asset.opaque]
         for piece in pieces:
             writer.add(piece)
         if not writer.count:
             raise nothing_collides_error(asset)
-        return note_hulls(writer.hulled), {}
+        return note_shapes_as_hulls(writer.hulled, NO_SHAPE), {}
 
     return edit_root_layer(asset, document, PurePosixPath(name), author)
 
 
-class _BesideWriter:
-    """Adds pieces to a copy of a root layer; hulled: how many of each kind are hulls as USD lacks the shape."""
+class _ColliderWriter:
+    """Adds pieces to a copy of a root layer; hulled: the kinds of shapes that are hulls as USD lacks them."""
 
     def __init__(self, scene: UsdStage, layer: Any, document: UsdDocument, asset: Asset) -> None:
         self.scene, self.layer = scene, layer
         self.kept = names_to_keep(asset)
         self.paths = {name: element.path for element in document.authored for name in element.names}
         self.scopes: dict[str, Any] = {}
-        self.hulled: Counter[str] = Counter()
+        self.hulled: list[str] = []
         self.count = 0
 
     def add(self, piece: Geom | Opaque) -> None:
         """Add a piece below the scope of what it moves with; one that is neither triangles nor a plane is left out."""
         parent = piece.parent if isinstance(piece, Geom) else None
-        path = self.paths.get(piece.name if piece.name in self.kept else parent or "")
-        carrier = self._find_carrier(path)
-        space = self._space_of(carrier)
+        carrier = self._find_carrier(self.paths.get(piece.name if piece.name in self.kept else parent or ""))
+        space, spec, how = self._space_of(carrier), None, None
         if isinstance(piece, Geom):
-            self._add_hull(piece, carrier, space)
+            spec, how = prims.add_shape(*self._place_of(carrier, piece), piece.shape, space)
+            self.hulled += [piece.shape.kind] if how and piece.shape.is_primitive else []
         elif piece.plane is not None and (place := space.split_pose(piece.plane)) is not None:
-            spec = self._add_prim(carrier, piece.name, "Plane")
-            prims.set_place(spec, place[0], place[1])
-            self._mark(spec, piece.name, None)
+            spec = prims.add_plane(*self._place_of(carrier, piece), *place[:2])
         elif piece.surface is not None and len(piece.surface.faces):
-            holder, name = self._scope_of(carrier), self._free_name(carrier, piece.name)
-            spec = prims.add_mesh(holder, name, np.asarray(piece.surface.vertices), piece.surface.faces, space)
-            self._mark(spec, piece.name, "none")
-
-    def _add_hull(self, geom: Geom, carrier: Any, space: prims.PrimSpace) -> None:
-        holder, name = self._scope_of(carrier), self._free_name(carrier, geom.name)
-        spec, approximation = prims.add_native(holder, name, geom.shape, space), None
+            points, how = np.asarray(piece.surface.vertices), "none"
+            spec = prims.add_mesh(*self._place_of(carrier, piece), points, piece.surface.faces, space)
         if spec is None:
-            if geom.shape.is_primitive:
-                self.hulled[geom.shape.kind] += 1
-            spec = prims.add_mesh(holder, name, np.asarray(geom.shape.vertices), geom.shape.faces, space)
-            approximation = "convexHull"
-        self._mark(spec, geom.name, approximation)
-
-    def _mark(self, spec: Any, name: str, approximation: str | None) -> None:
-        """Make a prim collide, and remember what it is called in the asset."""
-        prims.mark_collider(spec, approximation)
-        spec.SetInfoDictionaryValue("customData", colliders.HULL_NAME, name)
+            return
+        prims.mark_collider(spec, how)
+        spec.SetInfoDictionaryValue("customData", colliders.HULL_NAME, piece.name)
         self.count += 1
 
-    def _add_prim(self, carrier: Any, name: str, kind: str) -> Any:
-        return prims.add_prim(self._scope_of(carrier), self._free_name(carrier, name), kind)
-
-    def _free_name(self, carrier: Any, name: str) -> str:
-        """The name of a prim in the scope of a carrier: the last part of a hull's."""
-        return prims.free_prim_name(
-            name.rsplit("/", 1)[-1], [child.name for child in self._scope_of(carrier).nameChildren]
-        )
+    def _place_of(self, carrier: Any, piece: Geom | Opaque) -> tuple[Any, str]:
+        """The scope below a prim, and the name of a piece in it: the last part of its own."""
+        holder = self._scope_of(carrier)
+        taken = [child.name for child in holder.nameChildren]
+        return holder, prims.free_prim_name(piece.name.rsplit("/", 1)[-1], taken)
 
     def _find_carrier(self, path: str | None) -> Any:
         """The prim that a piece moves with: the nearest animated one at or above where it comes from, else the default

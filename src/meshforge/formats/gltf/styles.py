@@ -1,0 +1,277 @@
+"""How hulls are written where meshes are collision: all of them, or those that Unreal, Godot or Unity know by name;
+into a scene that has some, beside what an unmarked one shows, and into a new one."""
+
+from __future__ import annotations
+
+import copy
+from abc import ABC, abstractmethod
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from meshforge.common import join_names
+from meshforge.formats.engine_names import conventions
+from meshforge.formats.gltf.colliders import nodes_below_colliders
+from meshforge.formats.gltf.document import NodeRecord
+from meshforge.formats.gltf.draft import SceneDraft, material_without_texture, name_of
+from meshforge.formats.meshfile.gltf_document import Json, entries, entry
+from meshforge.geometry import Floats
+from meshforge.symbolic import Geom, Opaque
+
+_FAR = 1e4  # sizes of a mesh away from its node, beyond which single precision would spoil it
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class NewPiece:
+    """A hull or a non-convex piece that is to collide; own: its name without the body.
+
+    holder: the node below which it goes, None for the root of the scene; source: the node that it comes from or takes
+    after; part: which piece of the mesh of that node it is, None where an edit made it.
+    """
+
+    what: Geom | Opaque
+    own: str
+    holder: int | None
+    source: NodeRecord | None = None
+    part: int | None = None
+
+
+class Style(ABC):
+    """Writes into one draft.
+
+    renames: whether a node may be given the name that its hull should have; holds: the shapes that come back as they
+    are, or, as a box does in a mesh, just as exactly; lacks: why others do not.
+    """
+
+    renames = False
+    holds: tuple[str, ...] = ("polytope", "box")
+    lacks = "meshes have no"
+
+    def __init__(self, draft: SceneDraft) -> None:
+        self.draft = draft
+
+    @property
+    def notes(self) -> list[str]:
+        """What a user should know of what was added."""
+        return []
+
+    @abstractmethod
+    def remove(self, element: NodeRecord) -> None:
+        """Take the collision of a node away, all else of it stays."""
+
+    @abstractmethod
+    def keep_pieces(self, element: NodeRecord, kept: Sequence[int]) -> None:
+        """Leave some pieces of a node only."""
+
+    @abstractmethod
+    def add(self, piece: NewPiece) -> None:
+        """Add a hull or a non-convex piece that has triangles."""
+
+
+class PlainStyle(Style):
+    """A hull is a node with a mesh, and is seen."""
+
+    renames = True
+
+    def remove(self, element: NodeRecord) -> None:
+        self.draft.empty_node(element.node)
+
+    def keep_pieces(self, element: NodeRecord, kept: Sequence[int]) -> None:
+        """The pieces stay in the node where they keep their names; else each goes to a node of its own below it."""
+        draft, mesh = self.draft, self.draft.node(element.node)["mesh"]
+        names = tuple(element.names[k] for k in kept)
+        if len(kept) > 1 and list(kept) == list(range(len(kept))):
+            assert element.owner is not None  # only meshes have several pieces
+            part = draft.extract_pieces(mesh, element.owner, kept, strokes=True)
+            draft.node(element.node)["mesh"] = draft.add_mesh(part, mesh)
+            draft.expected[element.node] = names
+        else:
+            node = draft.node(element.node)
+            if conventions.holds_colliders(node.get("name")):  # else what lies below would be all that collides
+                node["name"] += "_"
+            self._split_node(element, kept, mesh)
+
+    def _split_node(self, element: NodeRecord, kept: Sequence[int], mesh: int) -> None:
+        """Take the mesh from a node, and give it a child for each kept piece of that, ahead of others."""
+        draft, gone = self.draft, self.draft.remove_mesh(element.node)
+        assert element.owner is not None  # only meshes have several pieces
+        for at, k in enumerate(kept):
+            part = draft.add_mesh(draft.extract_pieces(mesh, element.owner, [k]), mesh)
+            node = draft.add_node({"name": element.names[k], **gone, "mesh": part}, element.node, at)
+            draft.expected[node] = (element.names[k],)
+
+    def add(self, piece: NewPiece) -> None:
+        draft = self.draft
+        source = draft.scene.placements[piece.source.node].node if piece.source else {}
+        material = material_without_texture(draft.scene.tree, source["mesh"]) if "mesh" in source else None
+        points, faces = draft.triangles_in(piece.what, piece.holder)
+        mesh, middle = draft.add_surface_mesh(points, faces, piece.own, material)
+        node = {"name": piece.own, "mesh": mesh, "translation": middle.tolist()}
+        draft.expected[draft.add_node(node, piece.holder)] = (piece.what.name,)
+
+
+class EngineStyle(PlainStyle):
+    """A hull is a node with a mesh, by whose name, or that of a node above it, an engine takes it for collision.
+
+    stem: of the file, after which a body without a name is called.
+    """
+
+    names: conventions.CollisionNames
+
+    def __init__(self, draft: SceneDraft, stem: str) -> None:
+        super().__init__(draft)
+        self.stem = stem
+        self.taken = {name_of(thing).lower() for key in ("nodes", "meshes") for thing in entries(draft.tree, key)}
+
+    def add(self, piece: NewPiece) -> None:
+        """The mesh lies about its own middle, so that single precision is fine, unless the engine wants otherwise."""
+        draft, holder, space = self.draft, self.holder_of(piece), self.space_of(piece)
+        points, faces = draft.triangles_in(piece.what, space)
+        middle, reach = (points.min(axis=0) + points.max(axis=0)) / 2, np.ptp(points, axis=0).max()
+        if not self.names.centred and np.abs(middle).max() < _FAR * reach:
+            middle = np.zeros(3)
+        name = self.name_piece(piece)
+        mesh = draft.add_mesh({"name": name, "primitives": [draft.build_primitive(points - middle, faces)]})
+        node = {"name": name, "mesh": mesh, **self._place_of(space, piece.holder, middle)}
+        draft.expected[draft.add_node(node, holder)] = (piece.what.name,)
+
+    def holder_of(self, piece: NewPiece) -> int | None:
+        """The node below which the node of a piece goes."""
+        return piece.holder
+
+    def space_of(self, piece: NewPiece) -> int | None:
+        """The node in whose space the mesh of a piece is."""
+        return piece.holder
+
+    def name_piece(self, piece: NewPiece) -> str:
+        """A name for a piece that nothing else in the file has."""
+        what, names = piece.what, self.names
+        if isinstance(what, Opaque):
+            return conventions.claim_name(names.opaque, piece.own, self.taken)
+        return conventions.claim_name(lambda own: names.hull("", what, 0, own), piece.own, self.taken)
+
+    def _place_of(self, space: int | None, holder: int | None, middle: Floats) -> Json:
+        """Where a node is whose mesh is about a middle (3,) in the space of another node than its holder."""
+        if space == holder:
+            return {"translation": middle.tolist()} if middle.any() else {}
+        matrix = self.draft.matrix_below(space, holder)
+        matrix = np.column_stack([matrix[:, :3], matrix @ [*middle, 1.0]])
+        return {} if np.array_equal(matrix, np.eye(4)) else {"matrix": matrix.T.ravel().tolist()}
+
+
+class UnityStyle(EngineStyle):
+    """A hull is below a node called `table_colliders`."""
+
+    names: conventions.UnityNames = conventions.UnityNames()
+
+    def __init__(self, draft: SceneDraft, stem: str) -> None:
+        super().__init__(draft, stem)
+        self.colliding, self.holders = nodes_below_colliders(draft.scene), dict[int | None, int]()
+
+    def holder_of(self, piece: NewPiece) -> int | None:
+        node, names = piece.holder, self.names
+        above = "" if node is None else name_of(self.draft.node(node))
+        if node in self.colliding or conventions.holds_colliders(above):
+            return node
+        if node not in self.holders:
+            name = conventions.claim_name(lambda own: names.holder(names.body(own)), above or self.stem, self.taken)
+            self.holders[node] = self.draft.add_node({"name": name}, node)
+        return self.holders[node]
+
+
+class GodotStyle(EngineStyle):
+    """A hull is called `table-convcolonly`; `-col` and `-convcol` nodes are seen as well."""
+
+    renames = False
+    names = conventions.GodotNames()
+
+    def remove(self, element: NodeRecord) -> None:
+        if self._is_visible(element):
+            self._strip_suffix(element)
+        else:
+            self.draft.empty_node(element.node)
+
+    def keep_pieces(self, element: NodeRecord, kept: Sequence[int]) -> None:
+        """The pieces that are left stay in one mesh; where the whole is seen, they get a node of their own."""
+        draft, mesh = self.draft, self.draft.node(element.node)["mesh"]
+        assert element.owner is not None  # only meshes have several pieces
+        names = tuple(element.names[k] for k in kept)
+        if self._is_visible(element):
+            base = self._strip_suffix(element)
+            skinned = {key: draft.node(element.node)[key] for key in ("skin",) if key in draft.node(element.node)}
+            part = draft.add_mesh({**draft.extract_pieces(mesh, element.owner, kept), "name": f"{base}-colonly"})
+            node = draft.add_node({"name": f"{base}-colonly", "mesh": part, **skinned}, element.node)
+            draft.expected[node] = names
+        else:
+            left = draft.extract_pieces(mesh, element.owner, kept, strokes=True)
+            draft.node(element.node)["mesh"] = draft.add_mesh(left, mesh)
+            draft.expected[element.node] = names
+
+    def _is_visible(self, element: NodeRecord) -> bool:
+        node = self.draft.scene.placements[element.node].node
+        names = (node.get("name"), entry(self.draft.scene.tree, "meshes", node["mesh"]).get("name"))
+        return next((kind for kind in map(conventions.godot_kind, names) if kind), None) in ("col", "convcol")
+
+    def _strip_suffix(self, element: NodeRecord) -> str:
+        """Take the suffix from the name of a node, or of its mesh; the name without it."""
+        node = self.draft.node(element.node)
+        if conventions.godot_kind(node.get("name")):
+            node["name"] = conventions.strip_godot_suffix(node["name"])
+        mesh = entry(self.draft.tree, "meshes", node["mesh"])
+        if conventions.godot_kind(mesh.get("name")):
+            renamed = {**copy.deepcopy(mesh), "name": conventions.strip_godot_suffix(mesh["name"])}
+            node["mesh"] = self.draft.add_mesh(renamed, node["mesh"])
+        return str(node.get("name") or entry(self.draft.tree, "meshes", node["mesh"]).get("name") or "collision")
+
+
+class UnrealStyle(EngineStyle):
+    """A hull is called after the mesh it stands for: `UCX_table_02`; Unreal takes no notice of where its node is."""
+
+    renames = False
+    holds = ("polytope", *conventions.NATIVE_SHAPES)
+    lacks = "Unreal has no"
+    names = conventions.UnrealNames()
+
+    def __init__(self, draft: SceneDraft, stem: str) -> None:
+        super().__init__(draft, stem)
+        shown = [name_of(node) for node in entries(draft.tree, "nodes") if "mesh" in node]
+        self.rendered = [name for name in shown if name and not conventions.unreal_kind(name)]
+        self.seen = {name for name in self.taken if not conventions.unreal_kind(name)}
+        self.numbers = dict[str, Iterator[int]]()
+        self.stood_for = dict[str, set[int]]()
+
+    @property
+    def notes(self) -> list[str]:
+        many = [name or "without a name" for name, nodes in self.stood_for.items() if len(nodes) > 1 or not name]
+        what = "Unreal finds the mesh of a hull by its name"
+        return [f"{what}: rename those that have none, or share one ({join_names(many, 3)})"] if many else []
+
+    def space_of(self, piece: NewPiece) -> int | None:
+        """The space of the mesh that it stands for, but of a skinned one."""
+        if piece.source is None or not self.draft.keeps_volume(piece.source.node):
+            return piece.holder
+        return piece.holder if "skin" in self.draft.scene.placements[piece.source.node].node else piece.source.node
+
+    def name_piece(self, piece: NewPiece) -> str:
+        assert isinstance(piece.what, Geom)  # Unreal takes no others
+        base = self._mesh_seen(piece)
+        if base not in self.numbers:
+            self.numbers[base] = conventions.number_hulls(base, self.taken)
+        names = (self.names.hull(base, piece.what, number, piece.own) for number in self.numbers[base])
+        name = next(n for n in names if n.lower() not in self.taken and n.partition("_")[2].lower() not in self.seen)
+        self.taken.add(name.lower())
+        return name
+
+    def _mesh_seen(self, piece: NewPiece) -> str:
+        if piece.source is None:
+            holder = {} if piece.holder is None else self.draft.node(piece.holder)
+            others = self.names.body(self.stem), *self.rendered[:1]
+            return name_of(holder) if "mesh" in holder else others[-1]
+        node, tree = self.draft.scene.placements[piece.source.node].node, self.draft.scene.tree
+        own = [name_of(entry(tree, "meshes", node["mesh"])), name_of(node)]
+        if mark := next(filter(conventions.unreal_kind, own), ""):
+            return conventions.visible_mesh_of(mark, self.rendered)
+        name = own[0] or own[1]
+        self.stood_for.setdefault(name, set()).add(piece.source.node)
+        return name or self.names.body(self.stem)

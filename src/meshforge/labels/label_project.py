@@ -1,0 +1,157 @@
+"""The hulls of a project labelled by a labeler, or its labels only shown."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import closing
+from dataclasses import dataclass, replace
+
+from meshforge.batch import IN_PROCESS, ExecutionOptions
+from meshforge.common import AssetError
+from meshforge.labels.family_comparison import Stage, WriteBlock, ignore_stage
+from meshforge.labels.label_sources import keep_label_source
+from meshforge.labels.labeler import NO_REASON, AssetLabels, Labeler, LabelFamily
+from meshforge.labels.merge import LabelMerge, LabelOutcome, LabelWriter, OutcomeCallback
+from meshforge.labels.registry import make_labeler
+from meshforge.labels.summary import LabelEvidence, Proposals, group_evidence
+from meshforge.store import Store
+from meshforge.symbolic import HUMAN_SOURCES
+
+
+@dataclass(frozen=True, slots=True)
+class LabelChange:
+    """Hulls that had one label, None for none, and have another one, None for none, now; in how many assets."""
+
+    was: str | None
+    label: str | None
+    hulls: int
+    assets: int
+
+
+@dataclass(frozen=True, slots=True)
+class LabelResult:
+    """What became of the labels of a labeler, or what would have.
+
+    outcomes: of each asset, in their order; proposals: what a dry run would take; changes: the most frequent first;
+    next: the asset that would help most if it were labelled, None: all are, or the labeler does not know; alike: pairs
+    of labels that may be two names of one part; free: hulls whose label no person gave.
+    """
+
+    outcomes: tuple[LabelOutcome, ...]
+    proposals: Proposals
+    changes: tuple[LabelChange, ...] = ()
+    next: str | None = None
+    alike: tuple[tuple[str, str], ...] = ()
+    free: int = 0
+
+
+def label_project(
+    store: Store,
+    by: Labeler | str,
+    *,
+    vocabulary: Sequence[str] | None = None,
+    dry_run: bool = False,
+    execution: ExecutionOptions = IN_PROCESS,
+    stage: Stage = ignore_stage,
+    report: OutcomeCallback = lambda outcome: None,
+    write_block: WriteBlock | None = None,
+) -> LabelResult:
+    """Give hulls the labels of a labeler; a label of a person stays, and of others what the labeler may not replace.
+
+    by: a labeler, or its name for one without options. vocabulary: to be set first, None for that of the project.
+    dry_run: write nothing. stage: entered for each part of the work. report: called with the outcome of each asset, as
+    soon as its labels are written. write_block: the block in which all labels are written, given the asset that would
+    help most; without it those of an asset are written as soon as they are known.
+    Raises what `Labeler.propose` raises, and UsageError for a name of no labeler.
+    """
+    labeler = make_labeler(by) if isinstance(by, str) else by
+    if vocabulary is not None and not dry_run:
+        store.set_vocabulary(vocabulary)
+    words = store.vocabulary if vocabulary is None else tuple(vocabulary)
+    proposal = labeler.propose(LabelFamily(store, words, execution, stage))
+    run = _LabelRun(store, labeler, None if not dry_run else words or proposal.vocabulary)
+    with closing(proposal.assets) as assets:
+        found = _count(assets, len(store.assets()), labeler.work, stage)
+        if write_block and not dry_run:
+            known = list(found)
+            with write_block(proposal.next):
+                run.take(_count(known, len(known), "writing labels", stage), report)
+        else:
+            if not (words or dry_run):
+                store.set_vocabulary(proposal.vocabulary)
+            run.take(found, report)
+    if not dry_run:
+        keep_label_source(store, run.outcomes.values(), labeler)
+    return replace(run.result(), next=proposal.next, alike=proposal.alike)
+
+
+def _count(assets: Iterable[AssetLabels], total: int, what: str, stage: Stage) -> Iterator[AssetLabels]:
+    """The same assets, each counted when it is done with."""
+    with stage(total, what) as advance:
+        for one in assets:
+            yield one
+            advance()
+
+
+class _LabelRun:
+    """Takes the labels of one asset after the other. vocabulary: that of a dry run, None to write."""
+
+    def __init__(self, store: Store, labeler: Labeler, vocabulary: Sequence[str] | None) -> None:
+        self.outcomes: dict[str, LabelOutcome] = {}
+        self._store, self._labeler, self._vocabulary = store, labeler, vocabulary
+        self._writer = LabelWriter(store)
+        self._hulls, self._changes = Counter[tuple[str | None, str | None]](), Counter[tuple[str | None, str | None]]()
+        self._evidence, self._labelled, self._free = list[LabelEvidence](), 0, 0
+
+    def take(self, assets: Iterable[AssetLabels], report: OutcomeCallback) -> None:
+        for found in assets:
+            outcome = self.outcomes[found.asset] = self._take_asset(found)
+            report(outcome)
+
+    def _take_asset(self, found: AssetLabels) -> LabelOutcome:
+        if found.error:
+            return LabelOutcome(found.asset, problems=(found.error,))
+        arguments = found.asset, found.hulls, found.given, self._labeler.can_replace
+        try:
+            if self._vocabulary is None:
+                merged = self._writer.write(*arguments)
+            else:
+                merged = self._writer.merge(*arguments, self._vocabulary)
+                self._add_evidence(found, merged)
+        except AssetError as error:
+            return LabelOutcome(found.asset, problems=(error.message,))
+        self._count(merged)
+        self._free += len(found.hulls) - sum(label.source in HUMAN_SOURCES for label in merged.before.values())
+        return replace(merged.outcome, problems=(*merged.outcome.problems, *found.problems))
+
+    def _count(self, merged: LabelMerge) -> None:
+        pairs = Counter(_iterate_renames(merged))
+        self._hulls += pairs
+        self._changes.update(pairs.keys())
+
+    def _add_evidence(self, found: AssetLabels, merged: LabelMerge) -> None:
+        for hull in found.hulls:
+            label = merged.after.get(hull)
+            if label is not None and label == merged.before.get(hull):
+                self._labelled += 1
+                continue
+            is_meant = label is not None or found.given.get(hull) is None
+            kind, name = found.reasons.get(hull, (NO_REASON, hull)) if is_meant else (NO_REASON, hull)
+            self._evidence.append(LabelEvidence(found.asset, label, kind, name))
+
+    def result(self) -> LabelResult:
+        changes = [LabelChange(*pair, count, self._changes[pair]) for pair, count in self._hulls.items()]
+        changes.sort(key=lambda one: (-one.hulls, one.was or "", one.label or ""))
+        outcomes = tuple(self.outcomes[asset] for asset in self._store.assets() if asset in self.outcomes)
+        problems = [f"{outcome.asset}: {problem}" for outcome in outcomes for problem in outcome.problems]
+        shown = group_evidence(self._evidence, self._vocabulary or (), self._labelled, problems)
+        return LabelResult(outcomes, shown, tuple(changes), free=self._free)
+
+
+def _iterate_renames(merged: LabelMerge) -> Iterator[tuple[str | None, str | None]]:
+    for hull in merged.before.keys() | merged.after.keys():
+        before, after = merged.before.get(hull), merged.after.get(hull)
+        names = before.name if before else None, after.name if after else None
+        if names[0] != names[1]:
+            yield names

@@ -1,0 +1,1 @@
+"""The extractors: one base, one file for each leaf, one line each in the registry."""

@@ -1,0 +1,114 @@
+"""Actions and leaf extractors by name, those of plug-ins among them; how these go to another process, where their
+package may be missing."""
+
+from __future__ import annotations
+
+import copyreg
+import pickle
+import re
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import fields, is_dataclass
+from inspect import isabstract
+from typing import Any, TypeVar
+
+from meshforge.common import Plugin, PluginError, PluginKind, Registry, blame
+from meshforge.language.actions.base import Action, MissingAction
+from meshforge.language.actions.basic import Add, Delete, Each, Merge, Scale, Shrink
+from meshforge.language.actions.replace import Replace
+from meshforge.language.arguments import ArgumentType, MissingOperation, Operation
+from meshforge.language.extractors.attach import Attach
+from meshforge.language.extractors.base import Leaf, MissingExtractor
+from meshforge.language.extractors.bases import All, Is
+from meshforge.language.extractors.geo import Geo
+from meshforge.language.words import RESERVED
+
+_WORD = re.compile(r"[^\W\d]\w*")
+T = TypeVar("T", bound=Operation)
+Rebuild = Callable[[Plugin, str, bytes], Operation]
+
+
+class OperationRegistry(Registry[type[T]]):
+    """The operations of one kind by name.
+
+    base: what their classes are derived from; missing: the class that stands for one whose package is missing;
+    rebuild: `self.rebuild` as a function of a module, which pickles can name.
+    """
+
+    def __init__(
+        self,
+        kind: PluginKind,
+        base: type[T],
+        built_in: Iterable[type[T]],
+        missing: type[T],
+        rebuild: Rebuild,
+    ) -> None:
+        super().__init__(kind, {one.__name__: one for one in built_in}, self._adopt_kind, RESERVED)
+        self._base, self._missing, self._rebuild = base, missing, rebuild
+
+    def _adopt_kind(self, plugin: Plugin, kind: Any) -> type[T]:
+        """The class of a plug-in's operation. Raises PluginError where it does not fit."""
+        if problem := self._find_misfit(plugin.name, kind):
+            raise plugin.error(f"does not fit: {problem}")
+        copyreg.pickle(kind, self._reduce)
+        kind.owner = plugin
+        found: type[T] = kind
+        return found
+
+    def _find_misfit(self, name: str, kind: Any) -> str | None:
+        if not (isinstance(kind, type) and issubclass(kind, self._base)):
+            return f"it is no subclass of meshforge.language.{self._base.__name__}"
+        if isabstract(kind):
+            lacking = sorted(getattr(kind, "__abstractmethods__"))  # noqa: B009 (mypy knows no such)
+            return f"it has no method {lacking[0]}"
+        if not is_dataclass(kind) or not getattr(kind, "__dataclass_params__").frozen:  # noqa: B009 (as above)
+            return "it is no frozen dataclass"
+        if kind.__name__ != name or not _WORD.fullmatch(name):
+            return f"its class is called {kind.__name__}; both names must be the same word"
+        bare = [one.name for one in fields(kind) if not isinstance(one.metadata.get("argument"), ArgumentType)]
+        return f'its field {bare[0]} lacks metadata={{"argument": ...}}, the kind of argument' if bare else None
+
+    def _reduce(self, made: T) -> tuple[Rebuild, tuple[Plugin, str, bytes]]:
+        """An operation for another process: its values are unpickled there only once its class is found."""
+        assert made.plugin
+        values = {name: getattr(made, name) for name in made.arguments()}
+        return self._rebuild, (made.plugin, str(made), pickle.dumps(values))
+
+    def rebuild(self, plugin: Plugin, text: str, values: bytes) -> Operation:
+        """An operation that another process sent."""
+        try:
+            kind = self.load(plugin)
+            with blame(plugin):
+                return make_operation(kind, pickle.loads(values))
+        except PluginError as error:
+            assert issubclass(self._missing, MissingOperation)
+            return self._missing(plugin, text, error)
+
+
+def make_operation(kind: type[T], values: Mapping[str, Any]) -> T:
+    """An operation of its arguments by name. Raises ProgramError where they do not go together."""
+    with blame(kind.owner):
+        return kind(**values)
+
+
+def _rebuild_action(plugin: Plugin, text: str, values: bytes) -> Operation:
+    return ACTIONS.rebuild(plugin, text, values)
+
+
+def _rebuild_leaf(plugin: Plugin, text: str, values: bytes) -> Operation:
+    return EXTRACTORS.rebuild(plugin, text, values)
+
+
+ACTIONS: OperationRegistry[Action] = OperationRegistry(
+    "actions",
+    Action,  # type: ignore[type-abstract]  # it is the base, and never made
+    (Delete, Replace, Add, Merge, Scale, Shrink, Each),
+    MissingAction,
+    _rebuild_action,
+)
+EXTRACTORS: OperationRegistry[Leaf] = OperationRegistry(
+    "extractors",
+    Leaf,  # type: ignore[type-abstract]  # as above
+    (All, Is, Attach, Geo),
+    MissingExtractor,
+    _rebuild_leaf,
+)
