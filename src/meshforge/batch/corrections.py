@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
-from meshforge import language
+from meshforge import language, symbolic
 from meshforge.batch.provenance import text_digest
 from meshforge.geometry import digest
-from meshforge.symbolic import SymbolicMesh
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,7 +59,7 @@ class Correction:
         names = ", ".join(f"{name} ({known})" for name, known in self.hulls)
         return f"{names} => {self.action}" + (f" as {language.show_label(self.label)}" if self.label else "")
 
-    def find_problem(self, mesh: SymbolicMesh) -> str | None:
+    def find_problem(self, mesh: symbolic.SymbolicMesh) -> str | None:
         """Why this edit cannot be replayed on a mesh, None where it can."""
         for name, known in self.hulls:
             if name not in mesh.index:
@@ -72,11 +71,11 @@ class Correction:
 
 def replay_corrections(
     corrections: Iterable[Correction],
-    source: SymbolicMesh,
-    edited: SymbolicMesh,
+    source: symbolic.SymbolicMesh,
+    edited: symbolic.SymbolicMesh,
     program: language.Program,
     templates: Mapping[str, language.Template],
-) -> tuple[SymbolicMesh, tuple[str, ...]]:
+) -> tuple[symbolic.SymbolicMesh, tuple[str, ...]]:
     """The mesh that a program made of `source`, after edits by hand; and a sentence for each that was left out.
 
     The edits see the mesh in the program's canonical frame, as its rules do.
@@ -101,7 +100,7 @@ def replay_corrections(
     return _restore_program_hulls(replay.edited, edited), tuple(flags)
 
 
-def _restore_program_hulls(mesh: SymbolicMesh, edited: SymbolicMesh) -> SymbolicMesh:
+def _restore_program_hulls(mesh: symbolic.SymbolicMesh, edited: symbolic.SymbolicMesh) -> symbolic.SymbolicMesh:
     """The mesh with the program's own hulls where they stayed, so that turning there and back leaves no rounding."""
     hulls = (edited.hull_of(h.name).with_label(h.annotation) if h.name in edited.index else h for h in mesh.hulls)
     return replace(mesh, hulls=tuple(hulls))

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from meshforge import language
 from meshforge.batch import provenance
 from meshforge.batch.corrections import corrections_digest, selections_digest
 from meshforge.batch.jobs import ApplyTask, AssetJob
 from meshforge.batch.preparation.storage import record_digest
 from meshforge.common import Plugin
 from meshforge.formats import plugin_of_suffix
-from meshforge.language import leaves_of
 
 
 def inputs_of(task: ApplyTask, job: AssetJob, files: dict[str, str]) -> provenance.OutputInputs:
@@ -39,5 +39,5 @@ def _plugins_of(task: ApplyTask, job: AssetJob) -> Iterator[Plugin | None]:
     pairs = task.program.orient.pairs if task.program.orient else ()
     yield from (base.plugin for pair in pairs for base in (pair.start, pair.end))
     for rule in task.program.rules:
-        yield from (one.plugin for leaf in leaves_of(rule.extractor) for one in (leaf, *leaf.bases))
+        yield from (one.plugin for leaf in language.leaves_of(rule.extractor) for one in (leaf, *leaf.bases))
         yield rule.action.plugin

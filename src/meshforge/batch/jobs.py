@@ -8,15 +8,17 @@ from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
+from meshforge import formats, language
 from meshforge.batch.corrections import Correction, RuleSelection
 from meshforge.batch.discovery import AssetSet, asset_id
-from meshforge.batch.preparation.decompose import Concave
 from meshforge.batch.provenance import stamp_path
 from meshforge.batch.workers import GIB, MIB
 from meshforge.common import ProgramError, UsageError, pluralize
-from meshforge.formats import Collision, MarkName, Mass, labels_beside, read
-from meshforge.language import Program, Template
+
+if TYPE_CHECKING:
+    from meshforge.batch.preparation.decompose import Concave
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,13 +53,13 @@ class ApplyOptions:
     see `replace_concave`.
     """
 
-    mass: Mass = "keep"
+    mass: formats.Mass = "keep"
     link: bool = False
     dry_run: bool = False
     resume: bool = True
     to: str | None = None
-    names: MarkName | None = None
-    collision: Collision | None = "beside"
+    names: formats.MarkName | None = None
+    collision: formats.Collision | None = "beside"
     concave: Concave = "keep"
     urdf_capsules: bool = False
 
@@ -69,8 +71,8 @@ APPLY_DEFAULTS = ApplyOptions()
 class ApplyTask:
     """What is done to every asset of a batch. out: the folder that is written."""
 
-    program: Program
-    templates: Mapping[str, Template]
+    program: language.Program
+    templates: Mapping[str, language.Template]
     out: Path
     options: ApplyOptions = APPLY_DEFAULTS
 
@@ -94,14 +96,14 @@ def make_jobs(found: AssetSet, labels: Path | None = None) -> tuple[AssetJob, ..
 def find_labels_file(path: Path, labels: Path | None, base: Path) -> Path | None:
     """The labels file of one asset, None where it has none; the arguments are those of `make_jobs`."""
     if labels is None:
-        beside = labels_beside(path)
+        beside = formats.labels_beside(path)
         return beside if beside.is_file() else None
     if labels.is_file():
         return labels
     if not labels.is_dir():
         raise UsageError("there is no such labels file or folder", where=str(labels))
     mirrored = labels / asset_id(path, base)
-    candidates = (mirrored.with_name(mirrored.name + ".json"), labels_beside(mirrored))
+    candidates = (mirrored.with_name(mirrored.name + ".json"), formats.labels_beside(mirrored))
     return next((place for place in candidates if place.is_file()), None)
 
 
@@ -110,7 +112,7 @@ def template_folders(program: Path) -> tuple[Path, ...]:
     return program.parent, program.parent / "templates"
 
 
-def load_templates(program: Program, folders: Sequence[Path]) -> dict[str, Template]:
+def load_templates(program: language.Program, folders: Sequence[Path]) -> dict[str, language.Template]:
     """The templates that a program names, by the path it writes, from the first folder that has each.
 
     Raises ProgramError: a template is in none of the folders, holds no hull, or is not convex.
@@ -118,14 +120,14 @@ def load_templates(program: Program, folders: Sequence[Path]) -> dict[str, Templ
     return load_named_templates(program.templates, folders)
 
 
-def load_named_templates(names: Iterable[str], folders: Sequence[Path]) -> dict[str, Template]:
+def load_named_templates(names: Iterable[str], folders: Sequence[Path]) -> dict[str, language.Template]:
     """The templates of these names; from the first folder that has each."""
     return {name: read_template(_find_template(name, folders), name) for name in names}
 
 
-def read_template(path: Path, name: str) -> Template:
+def read_template(path: Path, name: str) -> language.Template:
     """The template in a file. Raises ProgramError, naming it, where it holds no hull or is not convex."""
-    asset = read(path)
+    asset = formats.read(path)
     if asset.opaque:
         out = path.with_name(f"{path.stem}_hulls{path.suffix}")
         problem = f'the template "{name}" is no convex hull: {asset.opaque[0].reason}'
@@ -133,7 +135,7 @@ def read_template(path: Path, name: str) -> Template:
         raise ProgramError(problem, where=str(path), remedy=remedy)
     if not asset.geoms:
         raise ProgramError(f'the template "{name}" holds no hull', where=str(path))
-    return Template(tuple(geom.shape for geom in asset.geoms), name)
+    return language.Template(tuple(geom.shape for geom in asset.geoms), name)
 
 
 def _find_template(name: str, folders: Sequence[Path]) -> Path:

@@ -8,9 +8,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal, assert_never
 
+from meshforge import language, signoff
 from meshforge.common import pluralize, suggest_aside
-from meshforge.language import Program
-from meshforge.signoff import EditMeasures, describe_odd_results
 
 StatusWord = Literal["edited", "unchanged", "failed", "skipped"]
 
@@ -51,7 +50,7 @@ class RunOutcome:
     seconds: float
     notes: tuple[str, ...] = ()
     flags: tuple[str, ...] = ()
-    measures: EditMeasures | None = None
+    measures: signoff.EditMeasures | None = None
     labels: tuple[str, ...] | None = None
 
 
@@ -161,10 +160,10 @@ class RunSummary:
     after: int = 0
     failed: list[Failed] = field(default_factory=list)
     ran: list[Edited | Unchanged | Skipped] = field(default_factory=list)
-    measures: dict[str, EditMeasures] = field(default_factory=dict)
+    measures: dict[str, signoff.EditMeasures] = field(default_factory=dict)
     labels: set[str] | None = field(default_factory=set)
     held: Sequence[Held] = ()
-    shown: Sequence[EditMeasures] = ()
+    shown: Sequence[signoff.EditMeasures] = ()
 
     def add(self, outcome: AssetOutcome) -> None:
         """Count one more."""
@@ -189,9 +188,9 @@ class RunSummary:
 
     def find_alarms(self) -> dict[str, tuple[str, ...]]:
         """Sentences about the results that stand out of all so far, the weightiest first, by asset."""
-        return describe_odd_results(self.measures, self.shown)
+        return signoff.describe_odd_results(self.measures, self.shown)
 
-    def describe_absent_labels(self, program: Program) -> list[str]:
+    def describe_absent_labels(self, program: language.Program) -> list[str]:
         """A sentence on each label that a program asks for, no rule gives and no asset that ran has.
 
         None is absent where no asset that ran has any label, nor where labels are not known of all of them.

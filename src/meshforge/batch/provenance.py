@@ -15,12 +15,11 @@ from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
+from meshforge import formats, language
 from meshforge.batch.discovery import STATE
 from meshforge.batch.outcome import Edited, Failed, RuleEffect, Skipped, Unchanged
 from meshforge.common import Plugin, file_digest, relative_name, write_atomically
-from meshforge.formats import MESH_SUFFIXES
 from meshforge.geometry import digest as shape_digest
-from meshforge.language import Comments, HeaderComments, Program, Template
 from meshforge.signoff import EditMeasures
 
 _LOOKS = (".mtl", ".png", ".jpg", ".jpeg", ".bmp", ".tga", ".tif", ".tiff", ".webp", ".dds", ".ktx2", ".hdr", ".exr")
@@ -170,13 +169,13 @@ def content_digest(path: Path) -> str:
         return file_digest(path)
 
 
-def program_digest(program: Program) -> str:
+def program_digest(program: language.Program) -> str:
     """The digest of what a program does: its canonical form without comments and without labels that are not used."""
-    rules = tuple(replace(rule, comments=Comments()) for rule in program.rules)
-    return text_digest(str(replace(program, labels=(), rules=rules, comments=HeaderComments())))
+    rules = tuple(replace(rule, comments=language.Comments()) for rule in program.rules)
+    return text_digest(str(replace(program, labels=(), rules=rules, comments=language.HeaderComments())))
 
 
-def template_digests(templates: Mapping[str, Template]) -> dict[str, str]:
+def template_digests(templates: Mapping[str, language.Template]) -> dict[str, str]:
     """The digest of the shapes of each template."""
     return {name: text_digest(" ".join(map(shape_digest, templates[name].shapes))) for name in sorted(templates)}
 
@@ -203,7 +202,7 @@ def source_files(path: Path) -> list[Path]:
     if not path.is_dir():
         return [path]
     files = (file for file in path.iterdir() if not file.name.startswith("."))
-    return sorted(file for file in files if file.suffix.lower() in MESH_SUFFIXES)
+    return sorted(file for file in files if file.suffix.lower() in formats.MESH_SUFFIXES)
 
 
 def software_version(plugins: Iterable[Plugin | None] = ()) -> str:

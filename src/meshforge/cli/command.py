@@ -7,6 +7,7 @@ from typing import Any
 from typer import BadParameter
 from typer.core import TyperCommand
 
+from meshforge.cli.parameters import read_plainly
 from meshforge.common import UsageError
 
 OTHER_SPELLINGS = {
@@ -29,6 +30,9 @@ _MOVED = {
 
 class Command(TyperCommand):
     """Raises UsageError for another spelling of an option that the command has."""
+
+    def get_params(self, ctx: Any) -> list[Any]:  # ctx: Typer hides its type
+        return read_plainly(super().get_params(ctx))
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:  # ctx: Typer hides its type
         known = {spelling for parameter in self.params for spelling in parameter.opts}

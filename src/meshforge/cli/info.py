@@ -7,12 +7,12 @@ from typing import Annotated, Any
 
 import typer
 
+from meshforge import symbolic
 from meshforge.cli.notes import fold_notes
 from meshforge.cli.options import AssetFile, InProject, Json, LabelsPath, asset_id, open_asset
 from meshforge.cli.terminal import print_json
 from meshforge.common import escape_name, pluralize
 from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Shape, Sphere
-from meshforge.symbolic import Hull, SymbolicMesh
 
 
 def info(
@@ -42,7 +42,7 @@ def _describe_standing(asset: Path, folder: Path | None) -> dict[str, Any]:
     return found.confidence_to_json()
 
 
-def describe_asset(mesh: SymbolicMesh, asset: str, *, geometry: bool = False) -> dict[str, Any]:
+def describe_asset(mesh: symbolic.SymbolicMesh, asset: str, *, geometry: bool = False) -> dict[str, Any]:
     """The JSON shape of `info`."""
     names = [hull.name for hull in mesh.hulls]
     source = mesh.asset
@@ -58,7 +58,7 @@ def describe_asset(mesh: SymbolicMesh, asset: str, *, geometry: bool = False) ->
     }
 
 
-def _describe_hull(hull: Hull, geometry: bool) -> dict[str, Any]:
+def _describe_hull(hull: symbolic.Hull, geometry: bool) -> dict[str, Any]:
     bounds = hull.aabb
     row = {
         "name": hull.name,
@@ -91,7 +91,7 @@ def _describe_primitive(shape: Shape | None) -> dict[str, Any] | None:
     return {"kind": shape.kind, **size, **pose}
 
 
-def _print_asset(mesh: SymbolicMesh, asset: str) -> None:
+def _print_asset(mesh: symbolic.SymbolicMesh, asset: str) -> None:
     source = mesh.asset
     opaque = source.opaque if source else ()
     bodies = len({h.body for h in mesh.hulls} | {o.body for o in opaque})

@@ -12,7 +12,7 @@ from typing import Any
 
 import typer
 
-from meshforge.batch import MOST_PICTURED, LabelStatus, ReportAsset, ReportHeader, ReportOptions, RunFigures, read_again
+from meshforge import batch
 from meshforge.cli.console import print_table, progress
 from meshforge.cli.report import write_report_page
 from meshforge.cli.terminal import print_json, remark
@@ -22,7 +22,7 @@ from meshforge.project import Project
 
 _DOUBTFUL = "Doubtful assets have hulls without a label, or with an unsure one."
 _MAX_PROBLEMS = 20  # of one asset that are shown
-_RANKS: tuple[LabelStatus, ...] = ("problems", "doubtful", "labelled")
+_RANKS: tuple[batch.LabelStatus, ...] = ("problems", "doubtful", "labelled")
 
 _MAX_ON_SHEET = 24
 """Assets on the sheet that is made without being asked for: those with most that is in doubt."""
@@ -68,9 +68,11 @@ class LabelReport:
                 self._problems[asset] = (why,)
         doubtful = dict(tally.doubtful)
         status = {asset: self._status(asset, doubtful) for asset in project.assets()}
-        order = sorted(status, key=lambda asset: (_RANKS.index(status[asset]), -doubtful.get(asset, 0)))[:MOST_PICTURED]
+        order = sorted(status, key=lambda asset: (_RANKS.index(status[asset]), -doubtful.get(asset, 0)))[
+            : batch.MOST_PICTURED
+        ]
         assets = [
-            ReportAsset(
+            batch.ReportAsset(
                 asset,
                 mesh,
                 mesh,
@@ -79,22 +81,22 @@ class LabelReport:
                 self._error(asset),
                 notes=self._notes_on(asset, doubtful) if mesh else (),
             )
-            for asset, mesh in zip(order, read_again(project.readers(order)), strict=True)
+            for asset, mesh in zip(order, batch.read_again(project.readers(order)), strict=True)
         ]
-        header = ReportHeader(
+        header = batch.ReportHeader(
             f"Labels of {project.settings.name}",
             " ".join([*self._about, *([_DOUBTFUL] if doubtful else [])]),
             perf_counter() - self._started,
             self._figures(status, tally),
         )
-        write_report_page(self._path, header, assets, options=ReportOptions(vocabulary=project.vocabulary))
+        write_report_page(self._path, header, assets, options=batch.ReportOptions(vocabulary=project.vocabulary))
 
-    def _status(self, asset: str, doubtful: Mapping[str, int]) -> LabelStatus:
+    def _status(self, asset: str, doubtful: Mapping[str, int]) -> batch.LabelStatus:
         if self._problems.get(asset):
             return "problems"
         return "doubtful" if asset in doubtful else "labelled"
 
-    def _figures(self, status: Mapping[str, LabelStatus], tally: Tally) -> RunFigures:
+    def _figures(self, status: Mapping[str, batch.LabelStatus], tally: Tally) -> batch.RunFigures:
         outcomes, unsure = self._outcomes.values(), sum(share.unsure for share in tally.shares)
         numbers = {
             "hulls": tally.hulls,
@@ -104,7 +106,7 @@ class LabelReport:
             "without a label": tally.unlabelled,
         }
         more = {name: (f"{n:,}", None) for name, n in numbers.items() if n or name in ("hulls", "labels taken")}
-        return RunFigures(Counter(status.values()), more, "those with problems or labels in doubt")
+        return batch.RunFigures(Counter(status.values()), more, "those with problems or labels in doubt")
 
     def _error(self, asset: str) -> str | None:
         problems = self._problems.get(asset, ())

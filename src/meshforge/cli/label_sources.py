@@ -9,8 +9,7 @@ from typing import Any, Literal
 
 import typer
 
-from meshforge import labels
-from meshforge.batch import ExecutionOptions
+from meshforge import batch, labels
 from meshforge.cli.console import print_table, progress
 from meshforge.cli.label_report import LabelPrinter
 from meshforge.cli.terminal import print_json, remark
@@ -72,7 +71,7 @@ def preview(
     project: Project,
     labeler: labels.Labeler,
     vocabulary: Sequence[str] | None,
-    execution: ExecutionOptions,
+    execution: batch.ExecutionOptions,
     *,
     json: bool,
 ) -> None:
@@ -114,7 +113,9 @@ def _cells(row: labels.Proposal) -> tuple[str, str, str, str, str, str]:
     return row.label or "(none)", row.kind, names, f"{row.hulls:,}", f"{row.assets:,}", confidence
 
 
-def label_by(project: Project, labeler: labels.Labeler, execution: ExecutionOptions, printer: LabelPrinter) -> None:
+def label_by(
+    project: Project, labeler: labels.Labeler, execution: batch.ExecutionOptions, printer: LabelPrinter
+) -> None:
     """Label a project, and print what came of it."""
     if len(project.assets()) > 1:
         remark(project.plan_labels())

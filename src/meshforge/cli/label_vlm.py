@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 from pydantic import ValidationError
 
-from meshforge.batch import ExecutionOptions
+from meshforge import batch
 from meshforge.cli.console import progress
 from meshforge.cli.label_report import LabelPrinter
 from meshforge.cli.terminal import catch_interrupt, print_json, remark
@@ -74,7 +74,12 @@ VLM = VlmOptions()
 
 
 def forecast(
-    project: Project, options: VlmOptions, vocabulary: Sequence[str] | None, execution: ExecutionOptions, *, json: bool
+    project: Project,
+    options: VlmOptions,
+    vocabulary: Sequence[str] | None,
+    execution: batch.ExecutionOptions,
+    *,
+    json: bool,
 ) -> None:
     """Print what would be sent and what it may cost; nothing is sent. vocabulary: None for that of the project."""
     settings = options.settings(project)
@@ -88,7 +93,9 @@ def forecast(
         _print_forecast(found)
 
 
-def label_with_vlm(project: Project, options: VlmOptions, execution: ExecutionOptions, printer: LabelPrinter) -> None:
+def label_with_vlm(
+    project: Project, options: VlmOptions, execution: batch.ExecutionOptions, printer: LabelPrinter
+) -> None:
     """Label a project, and print what came of it; an asking that ended early has failed."""
     outcomes, found = _ask_model(project, options, execution)
     for outcome in outcomes:
@@ -102,7 +109,7 @@ def label_with_vlm(project: Project, options: VlmOptions, execution: ExecutionOp
 
 
 def _ask_model(
-    project: Project, options: VlmOptions, execution: ExecutionOptions
+    project: Project, options: VlmOptions, execution: batch.ExecutionOptions
 ) -> tuple[Sequence[LabelOutcome], VlmResult]:
     """Ask for labels; the first Ctrl-C ends the asking, and what is under way is waited for."""
     settings, waiting = options.settings(project), "stopping: waiting for the answers that are under way"

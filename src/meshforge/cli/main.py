@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import io
 import os
 import signal
@@ -15,6 +16,7 @@ import typer
 from typer.core import TyperCommand, TyperGroup
 
 import meshforge
+from meshforge.cli.parameters import read_plainly
 from meshforge.cli.terminal import escape_output
 
 COMMANDS = {
@@ -43,6 +45,7 @@ COMMANDS = {
 """Every command with the line that the list of commands shows: the function of its name in the module of its name."""
 _INTERRUPTED = 130  # the exit code where a person pressed Ctrl-C
 _TERMINATED = 143  # where the system asked for the end
+_MANY_OBJECTS = 50_000  # new ones before cycles are looked for: imports make most, which stay
 _HELP_OPTIONS = {"help_option_names": ["-h", "--help"]}
 
 
@@ -52,6 +55,9 @@ class CommandGroup(TyperGroup):
     def __init__(self, **attributes: Any) -> None:
         super().__init__(**attributes)
         self.commands = dict.fromkeys(COMMANDS)  # type: ignore[assignment]  # only their names count, for suggestions
+
+    def get_params(self, ctx: Any) -> list[Any]:  # ctx: Typer hides its type
+        return read_plainly(super().get_params(ctx))
 
     def list_commands(self, ctx: typer.Context) -> list[str]:  # type: ignore[override]  # Typer hides its types
         return list(COMMANDS)
@@ -108,6 +114,7 @@ def main() -> None:
     """Run the command that the words name; every error becomes one message and an exit code."""
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # with one thread, workers start by a fork
     os.environ["MESHFORGE_WORKERS"] = "1"  # a command is guarded: work on many assets takes all processors
+    gc.set_threshold(_MANY_OBJECTS)
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "1")  # else it looks for them in every installed package
     debug = "--debug" in sys.argv[1:]
     sys.argv[1:] = [word for word in sys.argv[1:] if word != "--debug"]

@@ -11,7 +11,8 @@ from meshforge.cli.console import print_table, progress
 from meshforge.cli.options import Json
 from meshforge.cli.terminal import print_json
 from meshforge.common import escape_name, pluralize
-from meshforge.project import AssetStatus, Project, Status, format_status
+from meshforge.project import AssetStatus, Status, compute_status, format_status
+from meshforge.store import Store
 
 
 def status(
@@ -31,13 +32,13 @@ def status(
 
     How sure each result is, is what `meshforge review` found last, as far as nothing changed since.
     """
-    opened = Project.open(project)
-    with progress(len(opened.assets()), "reading") as advance:
-        found = opened.status(progress=advance, verify=verify)
+    store = Store.open(project)
+    with progress(len(store.assets()), "reading") as advance:
+        found = compute_status(store, progress=advance, verify=verify)
     if json:
         print_json(found.to_json())
     else:
-        _print_status(found, opened.folder)
+        _print_status(found, store.folder)
     if signed_off and not (found.is_signed_off_but_unsolved if allow_excluded else found.is_signed_off):
         raise typer.Exit(1)
 

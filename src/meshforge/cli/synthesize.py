@@ -8,14 +8,13 @@ from typing import Annotated, Literal
 
 import typer
 
+from meshforge import language, synthesis
 from meshforge.cli import synthesize_text
 from meshforge.cli.console import progress
 from meshforge.cli.options import Json, takes
 from meshforge.cli.terminal import catch_interrupt, print_json, remark
 from meshforge.common import UsageError
-from meshforge.language import Program
 from meshforge.project import Project, select_assets
-from meshforge.synthesis import LearningOutcome, Options, outcome_to_json
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,20 +56,20 @@ def synthesize(given: SynthesizeArguments) -> None:
         raise UsageError("--with does not go with --strategy paper, which knows the extractors of the paper only")
     if asked and not given.dry_run:
         project.add_extractors(asked)
-    options = Options(
+    options = synthesis.Options(
         extractors=asked if given.dry_run else (),
         strategy=given.strategy,
         layers=given.layers,
         repair=not given.no_repair,
         budget=given.budget,
-        follow=Program.read(given.follow) if given.follow else None,
+        follow=language.Program.read(given.follow) if given.follow else None,
     )
     meshes = dict(project.meshes_by_id(select_assets(project)))
     with progress(None, "learning"), catch_interrupt() as stop:
         outcome = project.synthesize(accept=not given.dry_run, options=options, stop=stop, meshes=meshes)
         stopped = stop()
     if given.json:
-        print_json(outcome_to_json(outcome))
+        print_json(synthesis.outcome_to_json(outcome))
     else:
         said = project.feedback()
         _print_outcome(
@@ -89,7 +88,7 @@ def synthesize(given: SynthesizeArguments) -> None:
     raise typer.Exit(int(outcome.program is None))
 
 
-def _print_outcome(outcome: LearningOutcome, about: synthesize_text.LearningContext) -> None:
+def _print_outcome(outcome: synthesis.LearningOutcome, about: synthesize_text.LearningContext) -> None:
     """The result to stdout, remarks to stderr."""
     typer.echo(synthesize_text.format_result(outcome, about))
     if outcome.followed:

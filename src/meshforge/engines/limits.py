@@ -8,9 +8,9 @@ from typing import Literal
 
 import numpy as np
 
+from meshforge import symbolic
 from meshforge.common import join_names, pluralize
 from meshforge.geometry import LEVEL, Polytope, measure_extents, neighbour_faces, normals_of, polygon_sizes
-from meshforge.symbolic import Geom, Hull, SymbolicMesh
 
 Severity = Literal["error", "warning"]
 Bound = Literal["most", "least"]
@@ -114,7 +114,7 @@ def make_limit(rule: str, number: float, severity: Severity, problem: str, sourc
     return Limit(rule, measure, number, what, severity, problem, remedy, source, bound)
 
 
-def check_limits(engine: Engine, mesh: SymbolicMesh, faulty: frozenset[str]) -> tuple[Finding, ...]:
+def check_limits(engine: Engine, mesh: symbolic.SymbolicMesh, faulty: frozenset[str]) -> tuple[Finding, ...]:
     """What is beyond the limits of an engine; `faulty` hulls are left out."""
     hulls = [h for h in mesh.hulls if h.name not in faulty]
     return (
@@ -126,13 +126,13 @@ def check_limits(engine: Engine, mesh: SymbolicMesh, faulty: frozenset[str]) -> 
     )
 
 
-def _check_names(engine: Engine, mesh: SymbolicMesh) -> Iterator[Finding]:
+def _check_names(engine: Engine, mesh: symbolic.SymbolicMesh) -> Iterator[Finding]:
     for of, name, problem, remedy, is_hull in mesh.asset.name_problems if mesh.asset else ():
         if of == engine.name and (not is_hull or any(hull.name == name for hull in mesh.hulls)):
             yield Finding(f"{of}-name", "error", (name,) if is_hull else (), f"{name}: {problem}", remedy)
 
 
-def check_limit(engine: Engine, limit: Limit, hulls: Sequence[Hull | Geom]) -> Finding | None:
+def check_limit(engine: Engine, limit: Limit, hulls: Sequence[symbolic.Hull | symbolic.Geom]) -> Finding | None:
     """The hulls that are meshes and beyond a limit; None where there are none."""
     values = {h.name: limit.measure(h.shape) for h in hulls if isinstance(h.shape, Polytope)}
     over = {name: value for name, value in values.items() if limit.is_broken(value)}
@@ -144,7 +144,7 @@ def check_limit(engine: Engine, limit: Limit, hulls: Sequence[Hull | Geom]) -> F
     return Finding(f"{engine.name}-{limit.rule}", limit.severity, tuple(over), message, limit.remedy)
 
 
-def check_primitives(engine: Engine, hulls: Sequence[Hull | Geom]) -> Iterator[Finding]:
+def check_primitives(engine: Engine, hulls: Sequence[symbolic.Hull | symbolic.Geom]) -> Iterator[Finding]:
     """Native shapes that the engine lacks."""
     names = tuple(h.name for h in hulls if h.shape.is_primitive and h.shape.kind not in engine.primitives)
     if names:
@@ -154,7 +154,7 @@ def check_primitives(engine: Engine, hulls: Sequence[Hull | Geom]) -> Iterator[F
         yield Finding(f"{engine.name}-primitives", "warning", names, message, remedy)
 
 
-def _check_hull_counts(engine: Engine, mesh: SymbolicMesh) -> Iterator[Finding]:
+def _check_hull_counts(engine: Engine, mesh: symbolic.SymbolicMesh) -> Iterator[Finding]:
     bodies: dict[str, list[str]] = {}
     for hull in mesh.hulls:
         bodies.setdefault(hull.body, []).append(hull.name)
@@ -166,7 +166,7 @@ def _check_hull_counts(engine: Engine, mesh: SymbolicMesh) -> Iterator[Finding]:
             yield Finding(f"{engine.name}-hulls", "warning", tuple(names), message, "Merge small hulls.")
 
 
-def _check_one_hull_a_file(engine: Engine, mesh: SymbolicMesh) -> Iterator[Finding]:
+def _check_one_hull_a_file(engine: Engine, mesh: symbolic.SymbolicMesh) -> Iterator[Finding]:
     """A mesh file of several hulls: one mesh asset of MuJoCo is one convex hull (XML reference, asset/mesh)."""
     several = engine.name == "mujoco" and mesh.asset is not None and mesh.asset.format in _MESH_FILES
     if not several or len(mesh.hulls) < 2 or (mesh.asset and mesh.asset.path.is_dir()):

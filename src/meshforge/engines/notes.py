@@ -5,19 +5,21 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import replace
 
+from meshforge import symbolic
 from meshforge.engines.limits import Engine, Finding, check_limit, check_primitives
 from meshforge.engines.table import ENGINES
 from meshforge.geometry import Polytope
-from meshforge.symbolic import PRIMITIVE_FEATURES, FeatureKind, Geom
 
 
-def note_limits(geoms: Iterable[Geom], engines: Iterable[str], holds: Collection[FeatureKind]) -> tuple[str, ...]:
+def note_limits(
+    geoms: Iterable[symbolic.Geom], engines: Iterable[str], holds: Collection[symbolic.FeatureKind]
+) -> tuple[str, ...]:
     """A note on each rule that hulls break of the engines a file is for, with the hulls, the engines and the remedy.
 
     engines: by name; holds: what the format holds: a native shape that it does not counts as the mesh that stands for
     it.
     """
-    native = {kind for kind, what in PRIMITIVE_FEATURES.items() if what in holds}
+    native = {kind for kind, what in symbolic.PRIMITIVE_FEATURES.items() if what in holds}
     written = [_as_written(geom, native) for geom in geoms]
     found: dict[str, tuple[Finding, list[str]]] = {}
     for engine in map(ENGINES.__getitem__, engines):
@@ -26,12 +28,12 @@ def note_limits(geoms: Iterable[Geom], engines: Iterable[str], holds: Collection
     return tuple(f"{' and '.join(titles)}: {one.message}. {one.remedy}" for one, titles in found.values())
 
 
-def _as_written(geom: Geom, native: Collection[str]) -> Geom:
+def _as_written(geom: symbolic.Geom, native: Collection[str]) -> symbolic.Geom:
     shape = geom.shape
     return geom if isinstance(shape, Polytope) or shape.kind in native else replace(geom, shape=shape.tessellate())
 
 
-def _find_broken_rules(engine: Engine, geoms: Sequence[Geom]) -> list[Finding]:
+def _find_broken_rules(engine: Engine, geoms: Sequence[symbolic.Geom]) -> list[Finding]:
     limits = (limit for limit in engine.limits if limit.severity == "error")
     broken = [finding for limit in limits if (finding := check_limit(engine, limit, geoms))]
     return [*broken, *check_primitives(engine, geoms)]

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
+from meshforge import symbolic
 from meshforge.common import AssetError, Plugin, PluginError, Registry, UsageError, expand_glob, is_text, nearest_name
 from meshforge.common.messages import join_names
 from meshforge.formats.base import Format, ReadOptions
@@ -28,7 +29,7 @@ from meshforge.formats.urdf.format import UrdfFormat, UrdfWithCapsules
 from meshforge.formats.urdf.xacro import XacroFormat
 from meshforge.formats.usd.format import UsdFormat
 from meshforge.formats.usd.live_stage import StageObject, read_stage
-from meshforge.symbolic import Asset, FileNote, Label, SymbolicMesh, read_labels, transfer_labels
+from meshforge.symbolic import Label
 
 _HEAD = 4096  # bytes by which a format tells its assets from other files of its suffix
 _UNREAD = {".mjb": "is a model compiled for one version of MuJoCo: open the XML it was made from"}
@@ -203,7 +204,7 @@ Source = str | os.PathLike[str] | SpecObject | StageObject
 """What an asset is read from: the path of a file or a folder, the text of an MJCF, a `mujoco.MjSpec`, a `Usd.Stage`."""
 
 
-def read(source: Source, options: ReadOptions | None = None) -> Asset:
+def read(source: Source, options: ReadOptions | None = None) -> symbolic.Asset:
     """The asset in a file, in a folder (of mesh files, or of a Gazebo model), in text or in an object.
 
     options: None takes those of the environment. Raises AssetError; UsageError: nothing that can be read.
@@ -214,11 +215,11 @@ def read(source: Source, options: ReadOptions | None = None) -> Asset:
             raise AssetError("this name is not UTF-8", where=str(file), remedy="Rename the file.")
     refuse_far(asset)
     found = [note_if_odd_size(asset) if asset.geoms or asset.opaque else NO_GEOMETRY, _note_fills(asset)]
-    notes = tuple(FileNote(note) for note in found if note)
+    notes = tuple(symbolic.FileNote(note) for note in found if note)
     return replace(asset, notes=(*asset.notes, *notes)) if notes else asset
 
 
-def _note_fills(asset: Asset) -> str | None:
+def _note_fills(asset: symbolic.Asset) -> str | None:
     """A note on meshes that are not convex and collide as their hulls, None where there are none."""
     fills = [(g.name, g.fill and f"{floor(100 * g.fill)}%") for g in asset.geoms if g.fill is not None]
     shares = [f"{name} fills {share or 'an unknown share'} of its hull" for name, share in fills]
@@ -226,7 +227,7 @@ def _note_fills(asset: Asset) -> str | None:
     return f"not convex: {join_names(shares)}, {advice}" if shares else None
 
 
-def notes_after(before: Asset, written: Asset, hulled: Collection[str] = ()) -> tuple[str, ...]:
+def notes_after(before: symbolic.Asset, written: symbolic.Asset, hulled: Collection[str] = ()) -> tuple[str, ...]:
     """What is to be known about how an asset was read, now that it is written: in its own format, of what is there now,
     since an edit may have dealt with what was to be said of the input; in another one, of what either file is, of the
     one that was written alone. hulled: its hulls of which enough was said."""
@@ -234,11 +235,11 @@ def notes_after(before: Asset, written: Asset, hulled: Collection[str] = ()) -> 
         return written.notes
     known = _note_fills(written)
     fills = _note_fills(replace(written, geoms=tuple(geom for geom in written.geoms if geom.name not in hulled)))
-    now = [note for note in written.notes if isinstance(note, FileNote) and note != known]
-    return (*(note for note in before.notes if not isinstance(note, FileNote)), *now, *filter(None, [fills]))
+    now = [note for note in written.notes if isinstance(note, symbolic.FileNote) and note != known]
+    return (*(note for note in before.notes if not isinstance(note, symbolic.FileNote)), *now, *filter(None, [fills]))
 
 
-def _read_source(source: Source, options: ReadOptions) -> Asset:
+def _read_source(source: Source, options: ReadOptions) -> symbolic.Asset:
     if path := path_of(source):
         return format_of(path).read(path, options)
     if isinstance(source, str):
@@ -251,22 +252,22 @@ def _read_source(source: Source, options: ReadOptions) -> Asset:
     raise UsageError(f"a {type(source).__name__} is nothing that an asset is read from", remedy=remedy)
 
 
-def path_of(source: SymbolicMesh | Source) -> Path | None:
+def path_of(source: symbolic.SymbolicMesh | Source) -> Path | None:
     """The file or folder that is meant, None for text and for objects. Raises AssetError as `resolve_asset_path`."""
     is_text = isinstance(source, str) and source.lstrip().startswith("<")
     return resolve_asset_path(Path(source)) if isinstance(source, str | os.PathLike) and not is_text else None
 
 
-def to_mesh(what: SymbolicMesh | Source) -> SymbolicMesh:
+def to_mesh(what: symbolic.SymbolicMesh | Source) -> symbolic.SymbolicMesh:
     """A mesh as it is, anything else as `load` reads it."""
-    return what if isinstance(what, SymbolicMesh) else load(what)
+    return what if isinstance(what, symbolic.SymbolicMesh) else load(what)
 
 
 Labels = str | os.PathLike[str] | Mapping[str, Label | str]
 """Labels for an asset: the path of a labels file, or the labels by the names of hulls."""
 
 
-def load(source: Source, labels: Labels | None = None) -> SymbolicMesh:
+def load(source: Source, labels: Labels | None = None) -> symbolic.SymbolicMesh:
     """The symbolic mesh of a file or a folder, of the text of an MJCF, of a `mujoco.MjSpec` or a `Usd.Stage`.
 
     labels: a labels file, or labels by the names of hulls; None takes those of the file beside it if present.
@@ -274,23 +275,23 @@ def load(source: Source, labels: Labels | None = None) -> SymbolicMesh:
     Raises AssetError: the asset or the labels cannot be read; HullNotFoundError: a label for a hull that is not there;
     UsageError: nothing that can be read.
     """
-    mesh = SymbolicMesh.of(read(source))
+    mesh = symbolic.SymbolicMesh.of(read(source))
     if isinstance(labels, Mapping):
         return label_hulls(mesh, labels)
     if labels is None and (path := path_of(source)):
         beside = labels_beside(path)
         labels = beside if beside.is_file() else None
-    return mesh if labels is None else transfer_labels(read_labels(Path(labels)), mesh).mesh
+    return mesh if labels is None else symbolic.transfer_labels(symbolic.read_labels(Path(labels)), mesh).mesh
 
 
-def label_hulls(mesh: SymbolicMesh, labels: Mapping[str, Label | str]) -> SymbolicMesh:
+def label_hulls(mesh: symbolic.SymbolicMesh, labels: Mapping[str, Label | str]) -> symbolic.SymbolicMesh:
     """The mesh with some labels set. Raises HullNotFoundError: there is no hull of a name."""
     for name in labels:
         mesh.hull_of(name)
     return mesh.with_labels(labels)
 
 
-def load_many(patterns: str | Path | Iterable[str | Path]) -> Iterator[SymbolicMesh]:
+def load_many(patterns: str | Path | Iterable[str | Path]) -> Iterator[symbolic.SymbolicMesh]:
     """The symbolic meshes of all files that the patterns match (`**` too), sorted, each read when it is asked for.
 
     Raises AssetError at once where a pattern matches no asset.
@@ -319,7 +320,7 @@ def _match_pattern(pattern: str) -> list[Path]:
     return known
 
 
-def refuse_far(asset: Asset) -> None:
+def refuse_far(asset: symbolic.Asset) -> None:
     """Raise AssetError where a piece is not in a place of finite numbers, or so far out that numbers lose it."""
     corners = {geom.name: (geom.shape.aabb.min, geom.shape.aabb.max) for geom in asset.geoms}
     surfaces = {piece.name: piece.surface.vertices for piece in asset.opaque if piece.surface}
@@ -329,7 +330,7 @@ def refuse_far(asset: Asset) -> None:
             raise AssetError(problem, where=str(asset.path), remedy="Fix its place, its size or its scale.")
 
 
-def note_if_odd_size(asset: Asset) -> str | None:
+def note_if_odd_size(asset: symbolic.Asset) -> str | None:
     """A note on the size of an asset, None where that is usual."""
     points = [corner for geom in asset.geoms for box in [geom.shape.aabb] for corner in (box.min, box.max)]
     surfaces = [o.surface.vertices[o.surface.faces].reshape(-1, 3) for o in asset.opaque if o.surface]

@@ -7,7 +7,7 @@ from meshforge.common.exports import export_lazily
 __getattr__, __all__ = export_lazily(
     __name__,
     {
-        "arrays": "Aabb Bools Floats Ints bounds freeze_floats freeze_ints nearest_on_triangles",
+        "arrays": "Aabb Bools Floats Ints bounds distinct freeze_floats freeze_ints nearest_on_triangles",
         "connectivity": "component_roots components_by_vertices weld",
         "convex": "FLATNESS convex_hull measure_extents principal_extents spans_volume",
         "decomposition.by_parts": "decompose_by_parts",

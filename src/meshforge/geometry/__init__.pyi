@@ -4,6 +4,7 @@ from meshforge.geometry.arrays import Bools as Bools
 from meshforge.geometry.arrays import Floats as Floats
 from meshforge.geometry.arrays import Ints as Ints
 from meshforge.geometry.arrays import bounds as bounds
+from meshforge.geometry.arrays import distinct as distinct
 from meshforge.geometry.arrays import freeze_floats as freeze_floats
 from meshforge.geometry.arrays import freeze_ints as freeze_ints
 from meshforge.geometry.arrays import nearest_on_triangles as nearest_on_triangles

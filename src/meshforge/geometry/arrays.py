@@ -33,6 +33,14 @@ def freeze_ints(values: Any, shape: tuple[int, ...]) -> Ints:
     return _freeze(np.array(values, dtype=np.int64, order="C"), shape)
 
 
+def distinct(values: Ints) -> Ints:
+    """The distinct values (m,) of an array, ascending. (numpy's `unique` first loads its masked arrays, 0.01 s.)"""
+    ordered = np.sort(values, axis=None)
+    is_first = np.ones(len(ordered), bool)
+    is_first[1:] = ordered[1:] != ordered[:-1]
+    return ordered[is_first]
+
+
 def _freeze(array: npt.NDArray[Number], shape: tuple[int, ...]) -> npt.NDArray[Number]:
     if array.size == 0 and -1 in shape:
         array = array.reshape([0 if n == -1 else n for n in shape])

@@ -8,7 +8,7 @@ from typing import Any
 import manifold3d
 import numpy as np
 
-from meshforge.geometry.arrays import Aabb, Floats, Ints
+from meshforge.geometry.arrays import Aabb, Floats, Ints, distinct
 from meshforge.geometry.convex import convex_hull, spans_volume
 from meshforge.geometry.shape import Polytope
 from meshforge.geometry.solids import scale_points, to_manifold
@@ -22,7 +22,7 @@ class Interior:
     """What a surface of vertices (n, 3) [m] and faces (m, 3) encloses; everything where it encloses nothing."""
 
     def __init__(self, vertices: Floats, faces: Ints) -> None:
-        self._bounds = Aabb.of_points(vertices[np.unique(faces)])
+        self._bounds = Aabb.of_points(vertices[distinct(faces)])
         solid = _find_solid(vertices, faces, self._bounds)
         self._solid = solid if solid is not None and solid.volume() > 0 else None
 

@@ -11,7 +11,6 @@ import numpy as np
 
 from meshforge.geometry.arrays import Aabb, Ints
 from meshforge.geometry.convex import FLATNESS, convex_hull, measure_hull
-from meshforge.geometry.proximity import close_pairs
 from meshforge.geometry.shape import Polytope
 from meshforge.geometry.solids import overlap_volume, volume_of_union
 
@@ -57,6 +56,8 @@ class _Merger:
         self._kinds = np.asarray(kinds, dtype=np.int64)
         rows = zip(pieces, self._kinds.tolist(), strict=True)
         self.groups = {k: PieceGroup(piece, (k,), kind, (piece,)) for k, (piece, kind) in enumerate(rows)}
+        from meshforge.geometry.proximity import close_pairs  # lazy: 0.04 s for coal, not needed to name what is here
+
         diagonal = Aabb.union(piece.aabb for piece in pieces).diagonal if pieces else 0.0
         self._thickness = FLATNESS * diagonal
         self._touching: dict[int, set[int]] = {k: set() for k in self.groups}

@@ -14,7 +14,7 @@ import numpy as np
 
 from meshforge.common import GeometryError
 from meshforge.geometry import connectivity
-from meshforge.geometry.arrays import Bools, Floats, Ints, sort_rows
+from meshforge.geometry.arrays import Bools, Floats, Ints, distinct, sort_rows
 from meshforge.geometry.convex import convex_hull
 from meshforge.geometry.shape import Polytope, volume_and_centroid
 from meshforge.geometry.solidity import LEAST_FILL, SolidityVerdict, judge_solidity, refuse_dents
@@ -105,7 +105,7 @@ def hull_mesh(vertices: Floats, faces: Ints, corners: Floats | None = None) -> t
 
     Raises GeometryError: they span no volume, a coordinate is not finite.
     """
-    hull = convex_hull(vertices[np.unique(faces)] if corners is None else corners)
+    hull = convex_hull(vertices[distinct(faces)] if corners is None else corners)
     pieces = split_pieces(vertices, faces, name="mesh")
     shapes = [piece.shape for piece in pieces if piece.shape]
     others = [piece.volume for piece in pieces if not piece.shape and piece.volume <= hull.volume]

@@ -9,7 +9,7 @@ from math import floor
 import numpy as np
 
 from meshforge.common import GeometryError
-from meshforge.geometry.arrays import Floats, Ints, cross
+from meshforge.geometry.arrays import Floats, Ints, cross, distinct
 from meshforge.geometry.connectivity import compact, component_roots, components_by_vertices, edges_of, row_ids
 from meshforge.geometry.convex import convex_hull, hull_by_manifold, measure_extents
 from meshforge.geometry.inner_shapes import shrink
@@ -196,9 +196,9 @@ def _volume_of_caps(points: Floats, rim: Ints, weight: Ints, origin: Floats, lev
     local = local.reshape(-1, 2)
     hole = component_roots(local[:, 0], local[:, 1], len(used))
     total = 0.0
-    for k in np.unique(hole):
+    for k in distinct(hole):
         edges = local[hole[local[:, 0]] == k]
-        around = points[used[np.unique(edges)]]
+        around = points[used[distinct(edges)]]
         middle = around.mean(axis=0)
         _, axes = np.linalg.eigh((around - middle).T @ (around - middle))
         if float(np.abs((around - middle) @ axes[:, 0]).max()) > level:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from meshforge.geometry.arrays import Floats, Ints, cross
+from meshforge.geometry.arrays import Floats, Ints, cross, distinct
 from meshforge.geometry.connectivity import edges_of
 from meshforge.geometry.shape import Polytope
 
@@ -59,7 +59,7 @@ def is_convex(vertices: Floats, faces: Ints, tolerance: float = 1e-9) -> bool:
     """
     if len(vertices) * len(faces) <= _MOST_PAIRS_CHECKED or not is_closed(faces):
         return not rises_above(vertices, vertices, faces, tolerance * _size(vertices))
-    is_sphere = len(np.unique(faces)) - len(faces) // 2 == 2
+    is_sphere = len(distinct(faces)) - len(faces) // 2 == 2
     return is_sphere and _highest_neighbour(vertices, faces) <= tolerance * _size(vertices)
 
 

@@ -8,15 +8,15 @@ from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
 from functools import cached_property
 
+from meshforge import label_model, symbolic
 from meshforge.batch import ExecutionOptions, WorkerFailure, raise_if_stopped, run_isolated
 from meshforge.common import AssetError, MeshForgeError, ProjectError
 from meshforge.geometry import Floats, Ints
-from meshforge.label_model import FamilyPosterior, FamilyTable, Observations, correct_upright, find_doubtful_sides
 from meshforge.labels.by_hand import label_command
 from meshforge.labels.descriptor_cache import DescriptorCache
 from meshforge.labels.merge import infer_over
 from meshforge.store import Store, iterate_survey
-from meshforge.symbolic import Label, match_labels
+from meshforge.symbolic import Label
 
 HullLabels = Mapping[str, Label]
 """Labels by hull."""
@@ -48,7 +48,7 @@ class FamilyComparison:
     lost: Mapping[str, str]
     assets: tuple[str, ...]
     said: tuple[Label | None, ...]
-    found: FamilyPosterior
+    found: label_model.FamilyPosterior
 
     @cached_property
     def next(self) -> str | None:
@@ -82,7 +82,9 @@ def compare_assets(
     current = dict[str, HullLabels]()
     for asset, own in facts.items():
         try:
-            current |= {asset: match_labels(store.labels(asset), own.hulls).labels} if asset not in lost else {}
+            current |= (
+                {asset: symbolic.match_labels(store.labels(asset), own.hulls).labels} if asset not in lost else {}
+            )
         except AssetError as error:
             lost[asset] = error.message
     if not vocabulary and any(current.values()):
@@ -92,11 +94,11 @@ def compare_assets(
     cache = DescriptorCache(store, {asset: facts[asset] for asset in current}, execution)
     del facts
     described = _describe(cache, list(current), lost, stage)
-    assets, table = tuple(described), FamilyTable.of([*described.values()])
+    assets, table = tuple(described), label_model.FamilyTable.of([*described.values()])
     del described
     spoken = (speak(current[asset].get(name)) for asset in assets for name in hulls[asset])
     said = tuple(label if label and label.name in vocabulary else None for label in spoken)
-    seen = Observations.of(said)
+    seen = label_model.Observations.of(said)
     table = _set_upright(cache, assets, table, seen, lost, execution.stop, stage)
     compared = FamilyComparison(hulls, current, lost, assets, said, _compute_isolated(table, seen, execution.stop))
     if not compared.found.seen.labels:
@@ -129,28 +131,28 @@ def _describe(
 def _set_upright(
     cache: DescriptorCache,
     assets: Sequence[str],
-    table: FamilyTable,
-    said: Observations,
+    table: label_model.FamilyTable,
+    said: label_model.Observations,
     lost: dict[str, str],
     stop: Callable[[], bool] | None,
     stage: Stage,
-) -> FamilyTable:
+) -> label_model.FamilyTable:
     """The table with fallen assets set upright; why some could not be looked at goes to `lost`."""
     doubtful = list(_find_doubtful(table, said, assets, cache, stop))
     with stage(len(doubtful), "looking at other sides") as advance:
         places = {asset: place for place, asset in enumerate(assets)}
         sides = _collect_sides(cache.describe_sides(doubtful, advance), places, lost)
-        return correct_upright(table, said, sides)
+        return label_model.correct_upright(table, said, sides)
 
 
 def _find_doubtful(
-    table: FamilyTable,
-    said: Observations,
+    table: label_model.FamilyTable,
+    said: label_model.Observations,
     assets: Sequence[str],
     cache: DescriptorCache,
     stop: Callable[[], bool] | None,
 ) -> Iterator[tuple[str, tuple[int, ...]]]:
-    for place, sides in find_doubtful_sides(table, said, lambda place: cache.read_sides(assets[place])):
+    for place, sides in label_model.find_doubtful_sides(table, said, lambda place: cache.read_sides(assets[place])):
         raise_if_stopped(stop)
         if sides:
             yield assets[place], sides
@@ -167,15 +169,17 @@ def _collect_sides(
             yield places[asset], rows
 
 
-def _compute_isolated(table: FamilyTable, said: Observations, stop: Callable[[], bool] | None) -> FamilyPosterior:
+def _compute_isolated(
+    table: label_model.FamilyTable, said: label_model.Observations, stop: Callable[[], bool] | None
+) -> label_model.FamilyPosterior:
     """What labels say, in a process of its own where that may have to be stopped in the midst."""
     (found,) = run_isolated(_compute, [(table, said)], ExecutionOptions(1 if stop else 0, None, stop=stop))
     if isinstance(found, WorkerFailure):
         raise MeshForgeError(f"what labels say could not be computed: {found.why}")
-    return FamilyPosterior(table, said, *found)
+    return label_model.FamilyPosterior(table, said, *found)
 
 
-def _compute(work: tuple[FamilyTable, Observations]) -> tuple[Floats, Floats]:
+def _compute(work: tuple[label_model.FamilyTable, label_model.Observations]) -> tuple[Floats, Floats]:
     """Only what is new goes back to the process that asks."""
-    found = FamilyPosterior.of(*work)
+    found = label_model.FamilyPosterior.of(*work)
     return found.chances, found.by_others

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Generator
 
+from meshforge import label_model, symbolic
 from meshforge.common import AssetError
-from meshforge.label_model import evidence_of
 from meshforge.labels.family_comparison import compare_assets
 from meshforge.labels.label_by_propagation import share_labels
 from meshforge.labels.labeler import AssetLabels, Labeler, LabelFamily, LabelProposal
-from meshforge.symbolic import INFERRED_SOURCES, Label, match_labels
 
 
 class ConsensusLabeler(Labeler):
@@ -25,17 +24,19 @@ class ConsensusLabeler(Labeler):
     replaces = True
 
     def propose(self, family: LabelFamily) -> LabelProposal:
-        compared = compare_assets(family.store, family.vocabulary, evidence_of, family.execution, family.stage)
+        compared = compare_assets(
+            family.store, family.vocabulary, label_model.evidence_of, family.execution, family.stage
+        )
         labels = compared.found.agree(compared.said)
         assets = share_labels(family, compared, labels, _name_kind)
         return LabelProposal(assets, compared.next, compared.found.find_alike_labels())
 
-    def can_replace(self, current: Label | None, given: Label | None) -> bool:
+    def can_replace(self, current: symbolic.Label | None, given: symbolic.Label | None) -> bool:
         """Whether what the label was inferred from is still the evidence on its hull."""
-        return evidence_of(current) == evidence_of(given)
+        return label_model.evidence_of(current) == label_model.evidence_of(given)
 
 
-def _name_kind(current: Label | None, label: Label) -> str:
+def _name_kind(current: symbolic.Label | None, label: symbolic.Label) -> str:
     """What a label follows from, hulls that look alike or its own source; and which label it replaces."""
     by = "consensus" if label.source == "consensus" else "its source"
     return f"{by}, not {current.name}" if current and current.name != label.name else by
@@ -54,8 +55,8 @@ class SourceRestorer(Labeler):
     def propose(self, family: LabelFamily) -> LabelProposal:
         return LabelProposal(_restore(family))
 
-    def can_replace(self, current: Label | None, given: Label | None) -> bool:
-        return evidence_of(current) == given
+    def can_replace(self, current: symbolic.Label | None, given: symbolic.Label | None) -> bool:
+        return label_model.evidence_of(current) == given
 
 
 def _restore(family: LabelFamily) -> Generator[AssetLabels, None, None]:
@@ -64,10 +65,12 @@ def _restore(family: LabelFamily) -> Generator[AssetLabels, None, None]:
             yield AssetLabels(asset, error=facts.error)
             continue
         try:
-            current = match_labels(family.store.labels(asset), facts.hulls).labels
+            current = symbolic.match_labels(family.store.labels(asset), facts.hulls).labels
         except AssetError as error:
             yield AssetLabels(asset, error=error.message)
             continue
-        inferred = {hull: label for hull, label in current.items() if label.source in INFERRED_SOURCES}
+        inferred = {hull: label for hull, label in current.items() if label.source in symbolic.INFERRED_SOURCES}
         reasons = {hull: (f"not {label.name}", hull) for hull, label in inferred.items()}
-        yield AssetLabels(asset, facts.hulls, {hull: evidence_of(label) for hull, label in current.items()}, reasons)
+        yield AssetLabels(
+            asset, facts.hulls, {hull: label_model.evidence_of(label) for hull, label in current.items()}, reasons
+        )

@@ -6,13 +6,11 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from meshforge import symbolic
+from meshforge import label_model, rendering, symbolic
 from meshforge.common import ProjectError, file_state, join_names, suggest_aside
 from meshforge.geometry import Shape, digest, overlap_volume
-from meshforge.label_model import evidence_of
-from meshforge.rendering import UNSURE
 from meshforge.store import Store, hull_digests, iterate_survey
-from meshforge.symbolic import HUMAN_SOURCES, INFERRED_SOURCES, Label, SymbolicMesh
+from meshforge.symbolic import Label
 
 ReplacePolicy = Callable[[Label | None, Label | None], bool]
 """Whether a label, or none, may be replaced by a given one, or none, at all; what people said stays in any case."""
@@ -115,18 +113,22 @@ def merge_labels(
         else:
             labels[name] = label
             taken += 1
-    unsure = sum(label.confidence < UNSURE for label in labels.values())
+    unsure = sum(label.confidence < rendering.UNSURE for label in labels.values())
     return labels, LabelOutcome(asset, taken, same, kept, len(hulls) - len(labels), unsure, tuple(problems))
 
 
 def is_protected(current: Label | None, given: Label) -> bool:
     """Whether a label stays though another one is given: a machine's does not take the place of a person's."""
-    return current is not None and current.source in HUMAN_SOURCES and given.source not in HUMAN_SOURCES
+    return (
+        current is not None and current.source in symbolic.HUMAN_SOURCES and given.source not in symbolic.HUMAN_SOURCES
+    )
 
 
 def infer_over(current: Label | None, given: Label) -> Label:
     """A given label; one that was inferred with the evidence on its hull before that."""
-    return replace(given, given=evidence_of(current)) if given.source in INFERRED_SOURCES else given
+    return (
+        replace(given, given=label_model.evidence_of(current)) if given.source in symbolic.INFERRED_SOURCES else given
+    )
 
 
 def _problem(name: str, label: Label | None, hulls: Collection[str], vocabulary: Sequence[str]) -> str | None:
@@ -214,7 +216,7 @@ class NewHullLabels:
 
     store: Store
     asset: str
-    mesh: SymbolicMesh
+    mesh: symbolic.SymbolicMesh
     gone: tuple[str, ...]
     notes: tuple[str, ...]
 
@@ -228,7 +230,7 @@ def label_new_hulls(
     store: Store,
     asset: str,
     old: Mapping[str, Shape],
-    mesh: SymbolicMesh,
+    mesh: symbolic.SymbolicMesh,
     known: Mapping[str, Label | None] | None = None,
 ) -> NewHullLabels | None:
     """The labels where hulls `old`, by name, become those of a mesh; None where no label is concerned.
@@ -258,7 +260,7 @@ def label_new_hulls(
 
 
 def _choose_label(by_overlap: Label | None, known: Label | None) -> Label | None:
-    is_same = by_overlap and known and by_overlap.name == known.name and by_overlap.source in HUMAN_SOURCES
+    is_same = by_overlap and known and by_overlap.name == known.name and by_overlap.source in symbolic.HUMAN_SOURCES
     return by_overlap if is_same else known
 
 

@@ -7,15 +7,18 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import partial
-from io import BytesIO
 from itertools import islice
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from meshforge.batch import AssetJob, ExecutionOptions, plan_run, run_isolated
+from meshforge import rendering
+from meshforge.batch import AssetJob, ExecutionOptions, WorkerFailure, plan_run, run_isolated
 from meshforge.common import AssetError, MeshForgeError
-from meshforge.rendering import UNLABELLED, UNSURE, encode_png, label_colors, make_contact_sheet, render, write_png
 from meshforge.store import AssetFiles, Store, iterate_survey
 from meshforge.symbolic import HUMAN_SOURCES, LABEL_SOURCES, Label, match_labels
+
+if TYPE_CHECKING:
+    from PIL.Image import Image
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,7 +52,7 @@ class Proposal:
 
     @property
     def is_unsure(self) -> bool:
-        return self.label is not None and self.low < UNSURE
+        return self.label is not None and self.low < rendering.UNSURE
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,7 +74,7 @@ def group_evidence(
     """All evidence, put together by label, kind and whether it is sure; in the order of the vocabulary."""
     groups: dict[tuple[str | None, str, bool], list[LabelEvidence]] = {}
     for one in found:
-        unsure = one.label is not None and one.label.confidence < UNSURE
+        unsure = one.label is not None and one.label.confidence < rendering.UNSURE
         groups.setdefault((one.label.name if one.label else None, one.kind, unsure), []).append(one)
     rows = [_summarize_group(key[0], key[1], group) for key, group in groups.items()]
     order = {label: k for k, label in enumerate(vocabulary)}
@@ -140,7 +143,7 @@ def tally_labels(store: Store, progress: Callable[[], None] | None = None) -> Ta
         except MeshForgeError as error:
             unreadable[asset] = error.message
             continue
-        levels = [(label.confidence < SURE) + (label.confidence < UNSURE) for label in labels]
+        levels = [(label.confidence < SURE) + (label.confidence < rendering.UNSURE) for label in labels]
         for label, level in zip(labels, levels, strict=True):
             counts[label.source][level] += 1
         hulls += len(facts.hulls)
@@ -182,7 +185,8 @@ def write_contact_sheets(
     vocabulary = store.vocabulary
     draw = partial(_draw, vocabulary)
     images = run_isolated(draw, store.asset_files(assets), ExecutionOptions(timeout=_TIMEOUT, progress=progress))
-    cells = iter([(asset, image) for asset, image in zip(assets, images, strict=True) if isinstance(image, bytes)])
+    drawn = zip(assets, images, strict=True)
+    cells = ((asset, image) for asset, image in drawn if image and not isinstance(image, WorkerFailure))
     written = list[Path]()
     while batch := tuple(islice(cells, PER_SHEET)):
         written.append(folder / f"labels-{len(written) + 1:03d}.png")
@@ -193,17 +197,15 @@ def write_contact_sheets(
     return tuple(written)
 
 
-def _draw(vocabulary: tuple[str, ...], place: AssetFiles) -> bytes | None:
+def _draw(vocabulary: tuple[str, ...], place: AssetFiles) -> Image | None:
     try:
         mesh = place.read_mesh()
     except MeshForgeError:
         return None
-    return encode_png(render(mesh, color_by="label", size=_CELL, legend=False, vocabulary=vocabulary))
+    return rendering.render(mesh, color_by="label", size=_CELL, legend=False, vocabulary=vocabulary)
 
 
-def _write_sheet(path: Path, batch: Sequence[tuple[str, bytes]], vocabulary: Sequence[str]) -> None:
-    from PIL import Image  # lazy: 0.05 s, only contact sheets need it
-
-    images = [Image.open(BytesIO(image)) for _, image in batch]
-    colors = label_colors(vocabulary) | {"no label": UNLABELLED}
-    write_png(path, make_contact_sheet(images, _COLUMNS, [asset for asset, _ in batch], colors))
+def _write_sheet(path: Path, batch: Sequence[tuple[str, Image]], vocabulary: Sequence[str]) -> None:
+    images = [image for _, image in batch]
+    colors = rendering.label_colors(vocabulary) | {"no label": rendering.UNLABELLED}
+    rendering.write_png(path, rendering.make_contact_sheet(images, _COLUMNS, [asset for asset, _ in batch], colors))

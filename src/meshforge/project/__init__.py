@@ -10,6 +10,7 @@ __getattr__, __all__ = export_lazily(
         "learn": "ProgramState program_by_hand sees_whole_family select_assets suggest_first_demonstration",
         "new_asset_result": "NewAssetResult assess_new_assets describe_new",
         "new_assets": "NewAsset NewAssetOptions list_new prepare_aside",
+        "overview": "compute_status find_offers",
         "preparation_plan": "REBUILD_DEFAULTS RebuildSettings forget_plan read_piece_engine read_preparation_plan",
         "prepare": "PreparationResult",
         "project": "Project",
@@ -21,7 +22,6 @@ __getattr__, __all__ = export_lazily(
         "sign_off_text": "format_review format_standing format_status",
         "sign_offs": "AssessmentBasis digest_lesson",
         "next_step": "choose_next_step",
-        "overview": "find_offers",
         "status": (
             "AssetStatus FamilyState LastRun LearnStatus NextStep OpenQuestion OutputState PropagationState "
             "SignOffState Status"

@@ -11,6 +11,8 @@ from meshforge.project.new_assets import NewAsset as NewAsset
 from meshforge.project.new_assets import NewAssetOptions as NewAssetOptions
 from meshforge.project.new_assets import list_new as list_new
 from meshforge.project.new_assets import prepare_aside as prepare_aside
+from meshforge.project.overview import compute_status as compute_status
+from meshforge.project.overview import find_offers as find_offers
 from meshforge.project.preparation_plan import REBUILD_DEFAULTS as REBUILD_DEFAULTS
 from meshforge.project.preparation_plan import RebuildSettings as RebuildSettings
 from meshforge.project.preparation_plan import forget_plan as forget_plan
@@ -35,7 +37,6 @@ from meshforge.project.sign_off_text import format_status as format_status
 from meshforge.project.sign_offs import AssessmentBasis as AssessmentBasis
 from meshforge.project.sign_offs import digest_lesson as digest_lesson
 from meshforge.project.next_step import choose_next_step as choose_next_step
-from meshforge.project.overview import find_offers as find_offers
 from meshforge.project.status import AssetStatus as AssetStatus
 from meshforge.project.status import FamilyState as FamilyState
 from meshforge.project.status import LastRun as LastRun

@@ -7,17 +7,15 @@ from __future__ import annotations
 from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 
+from meshforge import batch, symbolic, synthesis
 from meshforge import store as files
-from meshforge.batch import RuleSelection, action_text_without_each
 from meshforge.common import MeshForgeError, ProjectError, UsageError, suggest_among, suggest_name
 from meshforge.labels import merge
 from meshforge.project.hull_mapping import confirm_replaced
 from meshforge.store import NO_ORIGIN, Origin, Store
-from meshforge.symbolic import Label, SymbolicMesh
-from meshforge.synthesis import Answer, Demonstration, LabelCorrection, Step
 
 
-def demonstrate(store: Store, asset: str, steps: Iterable[Step]) -> None:
+def demonstrate(store: Store, asset: str, steps: Iterable[synthesis.Step]) -> None:
     """Set the steps that are demonstrated on an asset; no steps take the demonstration away.
 
     Raises DemonstrationError for steps that are not numbered in order, ProjectError for a hull that cannot be there:
@@ -29,7 +27,7 @@ def demonstrate(store: Store, asset: str, steps: Iterable[Step]) -> None:
         if label and words and label not in words:
             problem = f"rule {rule}: the label {label!r} is not in the vocabulary"
             raise ProjectError(problem, where=asset, remedy=suggest_among(label, words))
-    for rule, name in find_unknown_hulls(Demonstration(mesh, steps, asset).steps, mesh.index):
+    for rule, name in find_unknown_hulls(synthesis.Demonstration(mesh, steps, asset).steps, mesh.index):
         remedy = suggest_name(name, mesh.index)
         raise ProjectError(f"rule {rule}: there is no hull {name!r}", where=asset, remedy=remedy)
     with store.lock():
@@ -43,7 +41,7 @@ def demonstrate(store: Store, asset: str, steps: Iterable[Step]) -> None:
         confirm_replaced(store, asset)
 
 
-def shows(steps: Iterable[Step], done: Iterable[RuleSelection]) -> bool:
+def shows(steps: Iterable[synthesis.Step], done: Iterable[batch.RuleSelection]) -> bool:
     """Whether steps select just what rules did, as far as they are not open."""
     selected = {one.rule: frozenset(one.select) for one in done}
     return bool(selected) and all(step.select is None or selected.get(step.rule) == step.select for step in steps)
@@ -58,15 +56,17 @@ def correct_selection(store: Store, asset: str, rule: int, select: Sequence[str]
         known = feedback.verdict_on(asset)
         if asset not in store.demonstration_ids() and (known or f"{rule}:{asset}" in feedback.answers):
             more = [files.VerdictEvent(asset=asset, **said._asdict())] if known else []
-            store.add_events(check_answer(store, Answer(rule, asset, select)).with_origin(said), *more)
+            store.add_events(check_answer(store, synthesis.Answer(rule, asset, select)).with_origin(said), *more)
             return
         steps = store.steps(asset)
         if rule > len(steps) or steps[rule - 1].open:
             raise ProjectError(f"rule {rule} is not demonstrated here any more", where=asset)
-        demonstrate(store, asset, Demonstration(store.mesh(asset), steps, asset).with_selection(rule, select).steps)
+        demonstrate(
+            store, asset, synthesis.Demonstration(store.mesh(asset), steps, asset).with_selection(rule, select).steps
+        )
 
 
-def find_unknown_hulls(steps: Iterable[Step], hulls: Container[str]) -> Iterator[tuple[int, str]]:
+def find_unknown_hulls(steps: Iterable[synthesis.Step], hulls: Container[str]) -> Iterator[tuple[int, str]]:
     """The rules and names of steps that cannot be meant: no such hull, and none that an edit could have made it of."""
     for step in steps:
         for name in sorted(step.select or ()):
@@ -164,7 +164,7 @@ def _renumber(events: Iterable[files.Event], order: Sequence[int], before: int) 
             yield event.model_copy(update={"rule": places[event.rule]})
 
 
-def add_answer(store: Store, answer: Answer) -> str:
+def add_answer(store: Store, answer: synthesis.Answer) -> str:
     """Answer for a rule by any selection, whether that was asked for or not; give the answer's id `RULE:ASSET`.
 
     It takes the place of an earlier answer to the same question. Raises ProjectError: no such asset or rule.
@@ -174,7 +174,7 @@ def add_answer(store: Store, answer: Answer) -> str:
     return event.id
 
 
-def check_answer(store: Store, given: Answer) -> files.AnswerEvent:
+def check_answer(store: Store, given: synthesis.Answer) -> files.AnswerEvent:
     """An answer as it is kept. Raises ProjectError: no such asset, or no such rule. Its hulls may be made by a rule."""
     store.path(given.asset)
     actions = actions_of(map(store.steps, store.demonstration_ids()))
@@ -188,15 +188,15 @@ def check_answer(store: Store, given: Answer) -> files.AnswerEvent:
     )
 
 
-def actions_of(demonstrations: Iterable[Iterable[Step]]) -> dict[int, str]:
+def actions_of(demonstrations: Iterable[Iterable[synthesis.Step]]) -> dict[int, str]:
     """What each rule does, as the first demonstration that shows it says, without `Each`."""
     found: dict[int, str] = {}
     for step in (step for steps in demonstrations for step in steps if step.shown):
-        found.setdefault(step.rule, action_text_without_each(step.action, step.label))
+        found.setdefault(step.rule, batch.action_text_without_each(step.action, step.label))
     return dict(sorted(found.items()))
 
 
-def confirm(store: Store, right: LabelCorrection, said: Origin = NO_ORIGIN) -> str:
+def confirm(store: Store, right: synthesis.LabelCorrection, said: Origin = NO_ORIGIN) -> str:
     """Repair a label, as a `Repair` proposes it or not, remembering the one before; give the repair's id
     `ASSET#HULL=LABEL`.
 
@@ -217,7 +217,7 @@ def confirm(store: Store, right: LabelCorrection, said: Origin = NO_ORIGIN) -> s
     return event.id
 
 
-def reject(store: Store, wrong: LabelCorrection, said: Origin = NO_ORIGIN) -> str:
+def reject(store: Store, wrong: synthesis.LabelCorrection, said: Origin = NO_ORIGIN) -> str:
     """Refuse a repair, so that it is not proposed again; give its id."""
     store.path(wrong.asset)
     event = files.LabelFixEvent(asset=wrong.asset, hull=wrong.hull, was=wrong.was, to=wrong.to, accepted=False)
@@ -249,11 +249,13 @@ def forget_answers(store: Store) -> tuple[str, ...]:
     return tuple(note for note in notes if note)
 
 
-def _label_of_repair(correction: LabelCorrection) -> Label:
-    return Label(correction.to, 1.0, "repair")
+def _label_of_repair(correction: synthesis.LabelCorrection) -> symbolic.Label:
+    return symbolic.Label(correction.to, 1.0, "repair")
 
 
-def _repair_label(store: Store, mesh: SymbolicMesh, right: LabelCorrection) -> tuple[dict[str, Label], str | None]:
+def _repair_label(
+    store: Store, mesh: symbolic.SymbolicMesh, right: synthesis.LabelCorrection
+) -> tuple[dict[str, symbolic.Label], str | None]:
     given = {right.hull: _label_of_repair(right)}
     labels, report = merge.merge_labels(right.asset, mesh.index, mesh.labels, given, store.vocabulary)
     if report.problems:

@@ -6,13 +6,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
-from meshforge import synthesis
-from meshforge.batch import RuleSelection
-from meshforge.label_model import model_family
+from meshforge import batch, label_model, symbolic, synthesis
 from meshforge.project import demonstrations
 from meshforge.project.run import find_accepted_results
 from meshforge.store import Feedback, Store
-from meshforge.symbolic import SymbolicMesh
 
 TEACHES = 0.8
 """A result that was corrected is learned from where the labels of the hulls that differ are right with this
@@ -41,7 +38,7 @@ def list_accepted(
 
 
 def list_wrong(
-    said: Feedback, demos: Mapping[str, synthesis.Demonstration], meshes: Mapping[str, SymbolicMesh]
+    said: Feedback, demos: Mapping[str, synthesis.Demonstration], meshes: Mapping[str, symbolic.SymbolicMesh]
 ) -> list[synthesis.Answer]:
     """What rules should have selected on results that were called wrong, or that they should not have selected what
     they did where one rule alone did anything there; unsure where labels may be the reason."""
@@ -50,7 +47,7 @@ def list_wrong(
     if not wrong:
         return []
     every = [hull.annotation for mesh in meshes.values() for hull in mesh.hulls]
-    posterior = model_family(list(meshes.values())).infer(every)
+    posterior = label_model.model_family(list(meshes.values())).infer(every)
     columns = {label: column for column, label in enumerate(posterior.seen.labels)}
     found = list[synthesis.Answer]()
     for place, (asset, mesh) in enumerate(meshes.items()):
@@ -81,7 +78,7 @@ def soften(answers: Iterable[synthesis.Answer], price: float = UNSURE_PRICE) -> 
 
 
 def _number(
-    demos: Mapping[str, synthesis.Demonstration], asset: str, selections: Sequence[RuleSelection]
+    demos: Mapping[str, synthesis.Demonstration], asset: str, selections: Sequence[batch.RuleSelection]
 ) -> Iterator[synthesis.Answer]:
     actions = demonstrations.actions_of(demo.steps for demo in demos.values())
     yield from (

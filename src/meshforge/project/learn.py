@@ -7,16 +7,13 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from meshforge import synthesis
-from meshforge.batch import content_digest, program_digest, record_digest, value_digest
+from meshforge import batch, language, symbolic, synthesis
+from meshforge import labels as labelling
 from meshforge.common import MeshForgeError, ProgramError, ProjectError, file_digest, write_atomically
-from meshforge.labels import pick_evenly
-from meshforge.language import Program
 from meshforge.project import demonstrations
 from meshforge.project.evidence import list_accepted, list_rejections, list_wrong, soften, sort_answers
 from meshforge.signoff.question import NOT_OF_FAMILY
 from meshforge.store import ProgramRecord, Settings, Store
-from meshforge.symbolic import SymbolicMesh
 
 MOST_ASSETS = 400
 """Of more assets so many are looked at while a program is learned, besides those of which something was said: they are
@@ -36,7 +33,7 @@ def select_assets(store: Store) -> tuple[str, ...]:
         return every
     known = {line.asset for line in feedback.answers.values()} | feedback.verdicts.keys()
     known.update(store.demonstration_ids())
-    known.update(pick_evenly(every, MOST_ASSETS))
+    known.update(labelling.pick_evenly(every, MOST_ASSETS))
     return tuple(asset for asset in every if asset in known)
 
 
@@ -52,8 +49,8 @@ def suggest_first_demonstration(store: Store, assets: Sequence[str]) -> str | No
     """
     if len(assets) < 2:
         return next(iter(assets), None)
-    meshes: dict[str, SymbolicMesh] = {}
-    for asset in pick_evenly(assets, MOST_COMPARED):
+    meshes: dict[str, symbolic.SymbolicMesh] = {}
+    for asset in labelling.pick_evenly(assets, MOST_COMPARED):
         try:
             meshes[asset] = store.mesh(asset)
         except MeshForgeError:  # the status names it, with the reason
@@ -83,7 +80,7 @@ def accept_outcome(store: Store, outcome: synthesis.Found | synthesis.Ambiguous,
     store.write_program(outcome.program)
     question = outcome.open_rule.id if outcome.open_rule else None
     record = ProgramRecord(
-        program=program_digest(outcome.program), lesson=inputs, status=outcome.status, question=question
+        program=batch.program_digest(outcome.program), lesson=inputs, status=outcome.status, question=question
     )
     store.write_program_record(record)
 
@@ -104,27 +101,29 @@ def read_program_state(store: Store) -> ProgramState:
         return ProgramState(by_hand=True)
 
 
-def program_state_of(store: Store, program: Program | None) -> ProgramState:
+def program_state_of(store: Store, program: language.Program | None) -> ProgramState:
     """The state of a program; one that a person wrote or changed is never outdated."""
     if program is None:
         return ProgramState()
     record = store.program_record()
-    if not record or record.program != program_digest(program):
+    if not record or record.program != batch.program_digest(program):
         return ProgramState(by_hand=True)
     outdated = record.lesson != digest_learning_inputs(store)
     return ProgramState(outdated, None if outdated else record.question)
 
 
-def replace_program(store: Store, old: Program, new: Program, inputs: str, settings: Settings) -> None:
+def replace_program(
+    store: Store, old: language.Program, new: language.Program, inputs: str, settings: Settings
+) -> None:
     """Keep a program in which a label was renamed, in the same state; under the lock that the caller holds.
 
     inputs: the digest of what was learned from, before anything was renamed; settings: what they are going to be.
     What it was learned from is written first: killed in between, it is that of the new program already.
     """
     record = store.program_record()
-    if record and record.program in (program_digest(old), program_digest(new)):
+    if record and record.program in (batch.program_digest(old), batch.program_digest(new)):
         now = digest_learning_inputs(store, settings) if record.lesson == inputs else record.lesson
-        store.write_program_record(record.model_copy(update={"program": program_digest(new), "lesson": now}))
+        store.write_program_record(record.model_copy(update={"program": batch.program_digest(new), "lesson": now}))
     if new != old:
         write_atomically(store.layout.program, str(new))
 
@@ -142,22 +141,22 @@ def digest_learning_inputs(store: Store, settings: Settings | None = None) -> st
     concerned = {line.asset for line in feedback.answers.values()} | shown
     for asset, path in store.found.ids.items():
         if asset in concerned:
-            labels = content_digest(layout.labels(asset)) if layout.labels(asset).exists() else None
+            labels = batch.content_digest(layout.labels(asset)) if layout.labels(asset).exists() else None
             asset_file = file_digest(path) if path.is_file() else None
-            words.append([asset, labels, record_digest(layout.preparation(asset)), asset_file])
-    return value_digest(words)
+            words.append([asset, labels, batch.record_digest(layout.preparation(asset)), asset_file])
+    return batch.value_digest(words)
 
 
 def digest_settings(settings: Settings) -> str:
     """The digest of the settings that decide labels and program."""
     words = [settings.orient, settings.vocabulary, settings.thresholds.model_dump(), *settings.extractors]
-    return value_digest(words)
+    return batch.value_digest(words)
 
 
 def digest_demonstrations(store: Store) -> str:
     """The digest of all steps that people showed."""
-    return value_digest(
-        {asset: content_digest(store.layout.demonstration(asset)) for asset in store.demonstration_ids()}
+    return batch.value_digest(
+        {asset: batch.content_digest(store.layout.demonstration(asset)) for asset in store.demonstration_ids()}
     )
 
 
@@ -171,7 +170,7 @@ def learn_program(
     options: synthesis.Options | None = None,
     confirm: Confirm | None = None,
     stop: Callable[[], bool] | None = None,
-    meshes: Mapping[str, SymbolicMesh] | None = None,
+    meshes: Mapping[str, symbolic.SymbolicMesh] | None = None,
 ) -> synthesis.LearningOutcome:
     """Learn the program from the demonstrations and from what a person said since.
 
@@ -254,7 +253,9 @@ class _RepairAsker:
         return right
 
 
-def _read_demonstrations(store: Store, meshes: Mapping[str, SymbolicMesh]) -> dict[str, synthesis.Demonstration]:
+def _read_demonstrations(
+    store: Store, meshes: Mapping[str, symbolic.SymbolicMesh]
+) -> dict[str, synthesis.Demonstration]:
     ids = store.demonstration_ids()
     if not ids:
         raise ProjectError(

@@ -5,10 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from functools import partial
 
-from meshforge.batch import ApplyTask, AssetJob, ExecutionOptions, OutputInputs, inputs_of
+from meshforge import batch, labels, language, symbolic
 from meshforge.common import MeshForgeError, relative_name
-from meshforge.labels import LabelOffers, OfferCache
-from meshforge.language import Program
 from meshforge.project.demonstrations import find_unknown_hulls
 from meshforge.project.hull_mapping import describe_replaced
 from meshforge.project.learn import ProgramState, program_state_of, suggest_first_demonstration
@@ -28,7 +26,6 @@ from meshforge.store import (
     geometry_digest,
     iterate_survey,
 )
-from meshforge.symbolic import LabelFile, match_labels
 
 
 def compute_status(
@@ -51,15 +48,15 @@ def compute_status(
     for asset in only or ():
         store.path(asset)
     settings, ids, work, said = store.settings, store.found.ids, build_jobs(store, only), store.feedback()
-    execution = ExecutionOptions(workers=workers, stop=stop)
+    execution = batch.ExecutionOptions(workers=workers, stop=stop)
     facts = dict(iterate_survey(store.found, store.layout, only, execution=execution, progress=progress, verify=verify))
     outputs = find_outputs(store.layout, facts, verify=verify)
     program, task, problem = _read_program(store)
     bare = None if program or problem else make_empty_program(store)
     writing = build_task(store, bare) if bare else task
-    edits, rows = dict[str, OutputInputs](), list[AssetStatus]()
+    edits, rows = dict[str, batch.OutputInputs](), list[AssetStatus]()
     for job in work:
-        one, edit = facts[job.id], inputs_of(writing, job, facts[job.id].digests) if writing else None
+        one, edit = facts[job.id], batch.inputs_of(writing, job, facts[job.id].digests) if writing else None
         edits |= {job.id: edit} if edit and task and not one.error else {}
         made = outputs[job.id].stamp
         if edit and bare and made and made.inputs and made.inputs.program != edit.program:
@@ -108,15 +105,17 @@ def _find_question(state: ProgramState, assets: Sequence[AssetStatus]) -> OpenQu
     return OpenQuestion("other", asset, f" about rule {rule} on {asset}, or apply the program as it is")
 
 
-def find_offers(store: Store, cache: OfferCache | None = None, only: Collection[str] | None = None) -> LabelOffers:
+def find_offers(
+    store: Store, cache: labels.OfferCache | None = None, only: Collection[str] | None = None
+) -> labels.LabelOffers:
     """Labels in files and names; none where the settings make no sense, which taking the labels reports."""
     try:
-        return (cache or OfferCache()).of(store, only)
+        return (cache or labels.OfferCache()).of(store, only)
     except MeshForgeError:
-        return LabelOffers()
+        return labels.LabelOffers()
 
 
-def _read_program(store: Store) -> tuple[Program | None, ApplyTask | None, str | None]:
+def _read_program(store: Store) -> tuple[language.Program | None, batch.ApplyTask | None, str | None]:
     program = None
     try:
         program = store.program()
@@ -127,16 +126,16 @@ def _read_program(store: Store) -> tuple[Program | None, ApplyTask | None, str |
 
 def _asset_status(
     store: Store,
-    job: AssetJob,
+    job: batch.AssetJob,
     facts: AssetFacts,
     output: AssetOutput,
-    edit: OutputInputs | None,
+    edit: batch.OutputInputs | None,
     review: VerdictEvent | None,
 ) -> AssetStatus:
     stamp = output.stamp
     failed = stamp.error if stamp and stamp.status == "failed" else None
     file, unreadable = _read_labels(store, job)
-    homes = match_labels(LabelFile() if facts.error else file, facts.hulls)
+    homes = symbolic.match_labels(symbolic.LabelFile() if facts.error else file, facts.hulls)
     is_current = bool(review and (review.output == output_digest(stamp) or review.verdict == "wrong"))
     current_review = review if is_current else None
     return AssetStatus(
@@ -198,14 +197,14 @@ def _describe_interrupted(store: Store, asset: str) -> Iterator[str]:
         yield f"its preparation was cut short, and selections may name hulls that are not there. Finish with: {command}"
 
 
-def _read_labels(store: Store, job: AssetJob) -> tuple[LabelFile, str | None]:
+def _read_labels(store: Store, job: batch.AssetJob) -> tuple[symbolic.LabelFile, str | None]:
     try:
         return store.labels(job.id), None
     except MeshForgeError as error:
-        return LabelFile(), error.message
+        return symbolic.LabelFile(), error.message
 
 
-def _find_changes(output: AssetOutput, edit: OutputInputs | None) -> tuple[str, ...]:
+def _find_changes(output: AssetOutput, edit: batch.OutputInputs | None) -> tuple[str, ...]:
     """What changed since the output was made, and of it. edit: all that decides what it would be now."""
     stamp = output.stamp
     if not stamp:

@@ -23,7 +23,7 @@ from meshforge.project import (
 )
 from meshforge.project.replies import reply_again, reply_to
 from meshforge.project.review import review_project
-from meshforge.store import MeshCache, Store, add_assets, create_folder, find_assets
+from meshforge.store import MeshCache, Store, add_assets, create_folder
 
 
 @dataclass(frozen=True)
@@ -46,12 +46,6 @@ class Project(Store):
         Raises ProjectError where there is a project already, UsageError where an argument matches nothing.
         """
         return Project.open(create_folder(folder, assets, name, vocabulary, orient))
-
-    @staticmethod
-    def open(folder: str | Path) -> Project:
-        """The project in a folder. Raises ProjectError: none there, its settings do not fit, or an asset is gone."""
-        folder = Path(folder).absolute()
-        return Project(folder, find_assets(folder))
 
     def with_cache(self, cache: MeshCache | None = None) -> Self:
         """The same project, whose meshes stay in memory as long as their files do not change."""

@@ -12,17 +12,13 @@ from dataclasses import dataclass, replace
 from itertools import islice
 from types import MappingProxyType
 
-from meshforge import batch
+from meshforge import batch, language, signoff, symbolic, synthesis
+from meshforge import labels as labelling
 from meshforge.common import MeshForgeError, ProjectError, suggest_name
 from meshforge.geometry import digest
-from meshforge.labels import pick_evenly
 from meshforge.labels.merge import set_labels_of
-from meshforge.language import Action, Program, RunResult, Template
-from meshforge.signoff import ReviewReply
 from meshforge.signoff.question import WRONG
 from meshforge.store import NO_ORIGIN, ExclusionEvent, Feedback, Origin, Store, Verdict, VerdictEvent
-from meshforge.symbolic import SymbolicMesh
-from meshforge.synthesis import Demonstration, memoize
 
 
 def build_jobs(store: Store, only: Collection[str] | None = None) -> tuple[batch.AssetJob, ...]:
@@ -42,7 +38,7 @@ def build_jobs(store: Store, only: Collection[str] | None = None) -> tuple[batch
     )
 
 
-def build_task(store: Store, program: Program) -> batch.ApplyTask:
+def build_task(store: Store, program: language.Program) -> batch.ApplyTask:
     """What `apply` does to each asset; the templates are those of the program and of all edits by hand."""
     corrected = store.found.ids.keys() & set(store.layout.corrections.ids)
     edits = (edit for asset in sorted(corrected) for edit in store.corrections(asset))
@@ -54,7 +50,7 @@ def build_task(store: Store, program: Program) -> batch.ApplyTask:
 
 def build_work(
     store: Store, only: Collection[str] | None = None
-) -> tuple[Program, tuple[batch.AssetJob, ...], Mapping[str, Template]]:
+) -> tuple[language.Program, tuple[batch.AssetJob, ...], Mapping[str, language.Template]]:
     """What `apply` runs on all assets that are not excluded, or on some: the program, their jobs, and the templates.
 
     Where there is no program, but something is prepared, it is one without rules, which writes what is prepared.
@@ -71,27 +67,31 @@ def build_work(
     return program, jobs, build_task(store, program).templates
 
 
-def make_empty_program(store: Store) -> Program | None:
+def make_empty_program(store: Store) -> language.Program | None:
     """A program without rules, by which assets are written as they are prepared; None where nothing is."""
-    return Program() if store.found.ids.keys() & set(store.layout.preparation.ids) else None
+    return language.Program() if store.found.ids.keys() & set(store.layout.preparation.ids) else None
 
 
 def mesh_before_rule(
-    store: Store, asset: str, rule: int, program: Program, meshes: Mapping[str, SymbolicMesh] | None = None
-) -> SymbolicMesh:
+    store: Store,
+    asset: str,
+    rule: int,
+    program: language.Program,
+    meshes: Mapping[str, symbolic.SymbolicMesh] | None = None,
+) -> symbolic.SymbolicMesh:
     """An asset as a rule of a program meets it, rules counted from 1: turned, and edited by the rules before.
 
     These are done on the hulls that a demonstration shows for them, if there is one. meshes: assets in memory, by id.
     Raises MeshForgeError where the asset cannot be turned, or an action fails.
     """
     mesh = (meshes or {}).get(asset) or store.mesh(asset)
-    shown, templates = Demonstration(mesh, store.steps(asset)).selections, store.templates(program.templates)
-    replays = program.replay(mesh, templates, name=asset, selections=shown, memo=memoize)
+    shown, templates = synthesis.Demonstration(mesh, store.steps(asset)).selections, store.templates(program.templates)
+    replays = program.replay(mesh, templates, name=asset, selections=shown, memo=synthesis.memoize)
     *_, met = islice(replays, rule)
     return met.mesh
 
 
-def correct(store: Store, asset: str, select: Iterable[str], action: Action, label: str | None = None) -> None:
+def correct(store: Store, asset: str, select: Iterable[str], action: language.Action, label: str | None = None) -> None:
     """Add an edit by hand on hulls of an asset, by the names they have after the program and the edits before; what the
     program made there counts as wrong.
 
@@ -112,17 +112,19 @@ def correct(store: Store, asset: str, select: Iterable[str], action: Action, lab
 class RunWithCorrections:
     """An asset after the program and the edits by hand; flags: a sentence for each of these that was left out."""
 
-    program: Program
-    templates: Mapping[str, Template]
-    run: RunResult
+    program: language.Program
+    templates: Mapping[str, language.Template]
+    run: language.RunResult
     corrections: tuple[batch.Correction, ...]
-    mesh: SymbolicMesh
+    mesh: symbolic.SymbolicMesh
     flags: tuple[str, ...]
 
 
-def run_with_corrections(store: Store, asset: str, mesh: SymbolicMesh, program: Program | None) -> RunWithCorrections:
+def run_with_corrections(
+    store: Store, asset: str, mesh: symbolic.SymbolicMesh, program: language.Program | None
+) -> RunWithCorrections:
     """An asset after a program and its corrections; None changes nothing. Raises MeshForgeError where it cannot run."""
-    plan = program or Program(orient=store.orientation)
+    plan = program or language.Program(orient=store.orientation)
     corrections = store.corrections(asset)
     names = [*plan.templates, *(name for one in corrections for name in one.action.templates)]
     templates = store.templates(dict.fromkeys(names))
@@ -132,7 +134,7 @@ def run_with_corrections(store: Store, asset: str, mesh: SymbolicMesh, program: 
 
 
 def make_correction(
-    mesh: SymbolicMesh, asset: str, select: Sequence[str], action: Action, label: str | None
+    mesh: symbolic.SymbolicMesh, asset: str, select: Sequence[str], action: language.Action, label: str | None
 ) -> batch.Correction:
     """One more edit by hand, on hulls of the mesh. Raises ProjectError for a hull that is not there."""
     for name in select:
@@ -178,7 +180,7 @@ def review_assets(
         store.add_events_before(lambda: set_labels_of(store, given), *events, *more)
 
 
-def revise_verdict(store: Store, before: VerdictEvent, reply: ReviewReply, said: Origin) -> None:
+def revise_verdict(store: Store, before: VerdictEvent, reply: signoff.ReviewReply, said: Origin) -> None:
     """Another verdict on the result that one was given on before; where it is right now, what the rules did there is
     what they should do. Raises ProjectError, with nothing written: no such rule, hull or label."""
     verdict: Verdict = "wrong" if reply.choice == WRONG else "accepted"
@@ -220,7 +222,7 @@ def _run_for_selections(store: Store, asset: str, verdict: Verdict) -> tuple[bat
     if verdict != "wrong" or program is None:
         return ()
     try:
-        trace = program.run(store.mesh(asset), store.templates(program.templates), memo=memoize).trace
+        trace = program.run(store.mesh(asset), store.templates(program.templates), memo=synthesis.memoize).trace
     except MeshForgeError:
         return ()
     return number_selections(program, {line.rule: line.selected for line in trace})
@@ -250,7 +252,7 @@ def find_accepted_results(store: Store) -> dict[str, tuple[batch.RuleSelection, 
     """What the program did by itself on results that were looked at and accepted, by asset; of very many some."""
     verdicts = ((asset, some[-1]) for asset, some in store.feedback().verdicts.items() if asset in store.found.ids)
     rows = [(asset, one) for asset, one in verdicts if one.verdict == "accepted" and one.seen and not one.meant]
-    some = pick_evenly(rows, MOST_ACCEPTED)
+    some = labelling.pick_evenly(rows, MOST_ACCEPTED)
     present = {asset: output_digest(batch.read_stamp(store.layout.edited, asset)) for asset, _ in some}
     return {asset: one.seen for asset, one in some if one.output == present[asset]}
 
@@ -263,7 +265,9 @@ def _read_selections(store: Store, stamp: batch.Stamp | None) -> tuple[batch.Rul
     return number_selections(program, {line.rule: line.selected for line in stamp.rules})
 
 
-def number_selections(program: Program, selected: Mapping[int, Iterable[str]]) -> tuple[batch.RuleSelection, ...]:
+def number_selections(
+    program: language.Program, selected: Mapping[int, Iterable[str]]
+) -> tuple[batch.RuleSelection, ...]:
     """What the rules of a program do to which hulls; selected: names of hulls, by the number of the rule."""
     actions = {
         number: batch.action_text_without_each(rule.action, rule.label) for number, rule in enumerate(program.rules, 1)

@@ -10,22 +10,11 @@ from datetime import UTC, datetime
 from types import MappingProxyType
 from typing import Any, Literal
 
-from meshforge.batch import (
-    EXECUTION_DEFAULTS,
-    ApplyTask,
-    ExecutionOptions,
-    OutputInputs,
-    Stamp,
-    inputs_of,
-    program_digest,
-    template_digests,
-    value_digest,
-)
-from meshforge.language import Program
+from meshforge import batch, language, signoff
+from meshforge.batch import EXECUTION_DEFAULTS
 from meshforge.project import run
 from meshforge.project.hull_mapping import describe_replaced
 from meshforge.project.learn import digest_demonstrations, digest_learning_inputs, digest_settings
-from meshforge.signoff import Assessment, EditMeasures
 from meshforge.signoff.question import NOT_OF_FAMILY
 from meshforge.store import (
     SAID,
@@ -50,16 +39,20 @@ def now_utc() -> datetime:
     return datetime.now(UTC)
 
 
-def find_inputs(store: Store, execution: ExecutionOptions = EXECUTION_DEFAULTS) -> dict[str, OutputInputs]:
+def find_inputs(store: Store, execution: batch.ExecutionOptions = EXECUTION_DEFAULTS) -> dict[str, batch.OutputInputs]:
     """The digests of all that decides the edit of each asset that can be read; none where there is no program."""
     program = store.program()
     return _digest_edits(store, run.build_task(store, program), execution) if program else {}
 
 
-def _digest_edits(store: Store, task: ApplyTask, execution: ExecutionOptions) -> dict[str, OutputInputs]:
+def _digest_edits(
+    store: Store, task: batch.ApplyTask, execution: batch.ExecutionOptions
+) -> dict[str, batch.OutputInputs]:
     facts = dict(iterate_survey(store.found, store.layout, execution=execution))
     return {
-        job.id: inputs_of(task, job, facts[job.id].digests) for job in run.build_jobs(store) if not facts[job.id].error
+        job.id: batch.inputs_of(task, job, facts[job.id].digests)
+        for job in run.build_jobs(store)
+        if not facts[job.id].error
     }
 
 
@@ -67,7 +60,7 @@ def digest_lesson(store: Store) -> str:
     """The digest of all that probabilities rest on beside the assets: what is learned from, what a person said, and
     whether they saw what preparations changed of it."""
     unconfirmed = [text for asset in store.demonstration_ids() for text in describe_replaced(store, asset)]
-    return value_digest([digest_learning_inputs(store), digest_feedback(store), unconfirmed])
+    return batch.value_digest([digest_learning_inputs(store), digest_feedback(store), unconfirmed])
 
 
 def digest_feedback(store: Store) -> str:
@@ -76,16 +69,16 @@ def digest_feedback(store: Store) -> str:
     lines = [*feedback.answers_and_fixes.values(), *(one for some in feedback.verdicts.values() for one in some)]
     said = [one.model_dump(mode="json", exclude={"note", "by", "question"}) for one in lines]
     away = {asset: one.reason for asset, one in feedback.exclusions.items()}
-    return value_digest([said, away, _NO_MARKS])
+    return batch.value_digest([said, away, _NO_MARKS])
 
 
 def find_bases(
-    store: Store, edits: Mapping[str, OutputInputs], outputs: Mapping[str, AssetOutput]
+    store: Store, edits: Mapping[str, batch.OutputInputs], outputs: Mapping[str, AssetOutput]
 ) -> dict[str, SignOffBasis]:
     """What a sign-off of each asset would rest on now. edits: the digests of all that decides its edit."""
     settings, said = (
         digest_settings(store.settings),
-        value_digest([digest_demonstrations(store), digest_feedback(store)]),
+        batch.value_digest([digest_demonstrations(store), digest_feedback(store)]),
     )
     return {asset: SignOffBasis.of(edit, settings, said, outputs[asset].digest) for asset, edit in edits.items()}
 
@@ -97,18 +90,20 @@ class AssessmentBasis:
     """
 
     lesson: str
-    inputs: Mapping[str, OutputInputs]
+    inputs: Mapping[str, batch.OutputInputs]
 
     @staticmethod
-    def take(store: Store, execution: ExecutionOptions = EXECUTION_DEFAULTS) -> AssessmentBasis:
+    def take(store: Store, execution: batch.ExecutionOptions = EXECUTION_DEFAULTS) -> AssessmentBasis:
         """The digests as they are, of edits by an empty program: which it will be is often learned since."""
-        return AssessmentBasis(digest_lesson(store), _digest_edits(store, run.build_task(store, Program()), execution))
+        return AssessmentBasis(
+            digest_lesson(store), _digest_edits(store, run.build_task(store, language.Program()), execution)
+        )
 
-    def under(self, store: Store, program: Program | None) -> AssessmentBasis:
+    def under(self, store: Store, program: language.Program | None) -> AssessmentBasis:
         """The same of edits by a program; without one there are none."""
         if program is None:
             return AssessmentBasis(self.lesson, {})
-        digest, templates = program_digest(program), template_digests(store.templates(program.templates))
+        digest, templates = batch.program_digest(program), batch.template_digests(store.templates(program.templates))
         edits = {
             asset: now.model_copy(update={"program": digest, "templates": {**now.templates, **templates}})
             for asset, now in self.inputs.items()
@@ -118,10 +113,10 @@ class AssessmentBasis:
 
 def keep_assessment(
     store: Store,
-    found: Assessment,
+    found: signoff.Assessment,
     basis: AssessmentBasis,
-    measures: Mapping[str, EditMeasures],
-    execution: ExecutionOptions = EXECUTION_DEFAULTS,
+    measures: Mapping[str, signoff.EditMeasures],
+    execution: batch.ExecutionOptions = EXECUTION_DEFAULTS,
 ) -> bool:
     """Keep how sure each result is, so that a status need not learn anything; nothing where something changed since
     the basis was taken. Says whether it was kept.
@@ -151,7 +146,7 @@ def renew_sign_offs(
     *,
     keep_persons: bool = False,
     clock: Clock = now_utc,
-    execution: ExecutionOptions = EXECUTION_DEFAULTS,
+    execution: batch.ExecutionOptions = EXECUTION_DEFAULTS,
 ) -> dict[str, str]:
     """Sign off what may be by the last review, as far as that holds; take back what may not, and say why, by asset.
 
@@ -200,7 +195,7 @@ def _describe_loss(old: SignOff, line: ConfidenceLine, changes: tuple[str, ...],
     return f"it was {old.probability:.1%} sure, and is {line.probability:.1%} sure{why}"
 
 
-def is_written(stamp: Stamp | None, now: OutputInputs) -> bool:
+def is_written(stamp: batch.Stamp | None, now: batch.OutputInputs) -> bool:
     """Whether an output is what the edit would make."""
     made = stamp.inputs if stamp and stamp.status in ("edited", "unchanged") else None
     return made is not None and not find_changes(now, made)

@@ -7,11 +7,9 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any, Literal
 
-from meshforge.labels import LabelOffers
-from meshforge.rendering import UNSURE
-from meshforge.signoff import BAR, Doubt, ExclusionReason
+from meshforge import labels, rendering, signoff, symbolic
+from meshforge.signoff import BAR
 from meshforge.signoff.question import NOT_OF_FAMILY
-from meshforge.symbolic import GIVEN_SOURCES, Label
 
 SignOffState = Literal["signed off", "sure", "held", "void", "excluded", "unknown"]
 """Sure: sure enough to be signed off, once its output is up to date; void: signed off, but something changed since;
@@ -51,7 +49,7 @@ class AssetStatus:
     prepared: tuple[str, ...] = ()
     sources: int = 0
     names: tuple[str, ...] = ()
-    labels: tuple[Label | None, ...] = ()
+    labels: tuple[symbolic.Label | None, ...] = ()
     geometry: str = ""
     after: int | None = None
     after_labels: tuple[str | None, ...] = ()
@@ -61,21 +59,22 @@ class AssetStatus:
     sign_off: SignOffState = "unknown"
     signed_by: Literal["tool", "person"] | None = None
     void: tuple[str, ...] = ()
-    excluded: ExclusionReason | None = None
+    excluded: signoff.ExclusionReason | None = None
     found_since: tuple[str, ...] = ()
     probability: float | None = None
-    doubts: tuple[Doubt, ...] = ()
+    doubts: tuple[signoff.Doubt, ...] = ()
 
     @property
     def given(self) -> int:
         """How many labels a person or a file gave."""
-        return sum(label is not None and label.source in GIVEN_SOURCES for label in self.labels)
+        return sum(label is not None and label.source in symbolic.GIVEN_SOURCES for label in self.labels)
 
     @property
     def unsure(self) -> tuple[int, ...]:
         """Positions of hulls whose label is not sure, or was given to another geometry."""
         rows = enumerate(zip(self.names, self.labels, strict=True))
-        return tuple(k for k, (name, label) in rows if label and (label.confidence < UNSURE or name in self.doubtful))
+        least = rendering.UNSURE
+        return tuple(k for k, (name, label) in rows if label and (label.confidence < least or name in self.doubtful))
 
     @property
     def needs_review(self) -> bool:
@@ -173,7 +172,7 @@ class FamilyState:
     last_run: LastRun | None = None
     propagation: PropagationState | None = None
     suggest_first: Callable[[Sequence[str]], str | None] = field(default=lambda assets: None)
-    find_offers: Callable[[], LabelOffers] = LabelOffers
+    find_offers: Callable[[], labels.LabelOffers] = field(default=lambda: labels.LabelOffers())
 
     @property
     def is_begun(self) -> bool:

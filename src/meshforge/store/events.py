@@ -8,12 +8,11 @@ from typing import Annotated, Any, Literal, NamedTuple, Self, TypeVar
 
 from pydantic import ConfigDict, Field, SerializerFunctionWrapHandler, TypeAdapter, ValidationError, model_serializer
 
+from meshforge import symbolic, synthesis
 from meshforge.batch import RuleSelection
 from meshforge.common import ProjectError, first_validation_error
 from meshforge.signoff.question import ExclusionReason, QuestionBase, ReviewReply
 from meshforge.store.layout import JsonFile, ReplacedHulls
-from meshforge.symbolic import Label, LabelSource
-from meshforge.synthesis import Answer, LabelCorrection
 
 Line = TypeVar("Line")
 Verdict = Literal["accepted", "wrong"]
@@ -97,8 +96,8 @@ class AnswerEvent(_Withdrawable):
         return f"{self.rule}:{self.asset}"
 
     @property
-    def answer(self) -> Answer:
-        return Answer(self.rule, self.asset, self.select, self.refused)
+    def answer(self) -> synthesis.Answer:
+        return synthesis.Answer(self.rule, self.asset, self.select, self.refused)
 
     def fits(self, actions: Mapping[int, str]) -> bool:
         """Whether its rule still does what it did; actions: what rules do, by number, in the same text."""
@@ -109,7 +108,7 @@ class LabelBefore(JsonFile):
     """The label that a hull had, by whom, and how sure that was; given: see `Label`, left out where there is none."""
 
     label: str
-    source: LabelSource
+    source: symbolic.LabelSource
     confidence: Probability
     given: LabelBefore | None = None
 
@@ -119,15 +118,15 @@ class LabelBefore(JsonFile):
         return {name: value for name, value in found.items() if name != "given" or value is not None}
 
     @staticmethod
-    def of(label: Label | None) -> LabelBefore | None:
+    def of(label: symbolic.Label | None) -> LabelBefore | None:
         if label is None:
             return None
         given = LabelBefore.of(label.given)
         return LabelBefore(label=label.name, source=label.source, confidence=label.confidence, given=given)
 
     @property
-    def annotation(self) -> Label:
-        return Label(self.label, self.confidence, self.source, self.given.annotation if self.given else None)
+    def annotation(self) -> symbolic.Label:
+        return symbolic.Label(self.label, self.confidence, self.source, self.given.annotation if self.given else None)
 
     def rename(self, old: str, new: str) -> LabelBefore:
         """The same where a label has another name."""
@@ -153,8 +152,8 @@ class LabelFixEvent(_Withdrawable):
         return self.fix.id
 
     @property
-    def fix(self) -> LabelCorrection:
-        return LabelCorrection(self.asset, self.hull, self.was, self.to)
+    def fix(self) -> synthesis.LabelCorrection:
+        return synthesis.LabelCorrection(self.asset, self.hull, self.was, self.to)
 
     def rename(self, old: str, new: str) -> LabelFixEvent:
         """The same where a label has another name."""

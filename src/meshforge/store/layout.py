@@ -11,7 +11,8 @@ from typing import Annotated, Literal, Self, TypeVar, overload
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from meshforge.batch import RECORD_FILE, SETTINGS, STATE
+from meshforge import batch
+from meshforge.batch import SETTINGS, STATE
 from meshforge.common import ProjectError, first_validation_error, to_text, write_atomically
 
 ATTRIBUTES = "events.jsonl merge=union\n"
@@ -98,7 +99,7 @@ class AssetPaths:
         """The ids of all assets that have such a file, sorted; of a preparation, one that is complete."""
         root = self.file.path(self.folder)
         if self.file.name.endswith("/"):
-            found = [path.parent.relative_to(root).as_posix() for path in root.rglob(RECORD_FILE)]
+            found = [path.parent.relative_to(root).as_posix() for path in root.rglob(batch.RECORD_FILE)]
         else:
             suffix = self.file.name.rpartition("{asset}")[2]
             names = (path.relative_to(root).as_posix() for path in root.rglob(f"*{suffix}"))

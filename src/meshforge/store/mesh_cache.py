@@ -8,10 +8,10 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from threading import Lock
 
+from meshforge import symbolic
 from meshforge.batch import read_prepared, record_digest, source_files
 from meshforge.common import FileStates, MeshForgeError, file_states
 from meshforge.store.meshes import AssetFiles, read_labels_file
-from meshforge.symbolic import Asset, SymbolicMesh, transfer_labels
 
 MOST_MESHES = 400
 """Meshes in memory; the one that was not asked for longest goes."""
@@ -26,7 +26,7 @@ class _CacheEntry:
     record: str | None
     contact: float | None
     labels: bytes
-    mesh: SymbolicMesh
+    mesh: symbolic.SymbolicMesh
 
 
 class MeshCache:
@@ -35,13 +35,13 @@ class MeshCache:
     read: reads the asset at a path with its preparation, in this process or another; most: meshes in memory.
     """
 
-    def __init__(self, read: Callable[[Path, Path], Asset] = read_prepared, most: int = MOST_MESHES) -> None:
+    def __init__(self, read: Callable[[Path, Path], symbolic.Asset] = read_prepared, most: int = MOST_MESHES) -> None:
         self._read_asset, self._most = read, most
         self._lock = Lock()
         self._busy: dict[Path, Lock] = {}
         self._entries: OrderedDict[Path, _CacheEntry] = OrderedDict()
 
-    def get(self, files: AssetFiles) -> SymbolicMesh:
+    def get(self, files: AssetFiles) -> symbolic.SymbolicMesh:
         """An asset as it is prepared, with the labels it has now. Raises AssetError where it cannot be read."""
         with self._lock:
             busy = self._busy.setdefault(files.path, Lock())
@@ -72,10 +72,10 @@ class MeshCache:
                 source = self._read_asset(files.path, files.preparation)
             except MeshForgeError as error:
                 raise error.at(str(files.path)) from None
-            mesh = SymbolicMesh.of(source)
+            mesh = symbolic.SymbolicMesh.of(source)
             mesh = mesh if files.contact is None else replace(mesh, epsilon=files.contact)
             cached = _CacheEntry(times | file_states(source.files), record, files.contact, b"", mesh)
         if cached.labels == labels:
             return cached
         plain = cached.mesh.with_labels(dict.fromkeys(cached.mesh.index))
-        return replace(cached, labels=labels, mesh=transfer_labels(read_labels_file(files.labels), plain).mesh)
+        return replace(cached, labels=labels, mesh=symbolic.transfer_labels(read_labels_file(files.labels), plain).mesh)

@@ -14,10 +14,8 @@ from typing import Literal
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
-from meshforge import batch, symbolic
+from meshforge import batch, formats, geometry, symbolic
 from meshforge.common import FileState, describe_error, file_digest, file_state, relative_name, write_atomically
-from meshforge.formats import plugin_of_suffix, read
-from meshforge.geometry import digest
 from meshforge.store.layout import Layout
 
 _OFTEN = 20.0  # seconds of reading after which what was read is kept, so that a kill does not lose more
@@ -123,7 +121,7 @@ class _FactsMemory:
 
     def __init__(self, file: Path, found: batch.AssetSet) -> None:
         self._file, self._ids = file, found.ids
-        self._software = batch.software_version(map(plugin_of_suffix, found.suffixes))
+        self._software = batch.software_version(map(formats.plugin_of_suffix, found.suffixes))
         kept = _read_memory(file, self._software)
         self.facts = {key: kept[key] for key in self._ids if key in kept}
         self._has_news = len(self.facts) < len(kept)
@@ -193,13 +191,13 @@ class _AssetPaths:
 def _read_facts(work: _AssetPaths) -> AssetFacts:
     path, base = work.path, work.base
     try:
-        source = read(path)
+        source = formats.read(path)
         names = sorted(relative_name(file, base) for file in {*batch.source_files(path), *source.files})
         preparation = batch.read_preparation(work.preparation) or batch.Preparation()
         asset = batch.apply_preparation(source, preparation)
         entries = [entry for step in preparation.steps for entry in step.replaced]
         return AssetFacts(
-            hulls={geom.name: digest(geom.shape) for geom in asset.geoms},
+            hulls={geom.name: geometry.digest(geom.shape) for geom in asset.geoms},
             bodies=tuple(geom.body for geom in asset.geoms),
             mentions=tuple(geom.mentions for geom in asset.geoms),
             sources=sum(not source.is_hopeless for source in batch.find_sources(asset)),
@@ -235,4 +233,4 @@ def read_labels_file(path: Path) -> symbolic.LabelFile:
 
 def hull_digests(mesh: symbolic.SymbolicMesh) -> dict[str, str]:
     """The digests of all hulls of a mesh by name, in order."""
-    return {hull.name: digest(hull.shape) for hull in mesh.hulls}
+    return {hull.name: geometry.digest(hull.shape) for hull in mesh.hulls}

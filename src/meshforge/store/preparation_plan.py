@@ -7,7 +7,7 @@ from collections.abc import Collection
 
 from pydantic import AliasChoices, Field
 
-from meshforge.geometry import PieceEngine
+from meshforge import geometry
 from meshforge.store.layout import JsonFile, Layout, read_json, write_json
 
 
@@ -21,7 +21,7 @@ class PreparationPlanFile(JsonFile):
     decomposed: tuple[str, ...] | None = None
     rebuilt: tuple[str, ...] | None = Field(default=None, validation_alias=AliasChoices("rebuilt", "split"))
     min_confidence: float | None = Field(default=None, validation_alias=AliasChoices("min_confidence", "sure"))
-    pieces: PieceEngine = "coacd"
+    pieces: geometry.PieceEngine = "coacd"
     only: tuple[str, ...] = ()
 
 

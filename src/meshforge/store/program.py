@@ -11,12 +11,11 @@ from typing import Annotated
 
 from pydantic import Field
 
+from meshforge import language, synthesis
 from meshforge.batch import Correction, action_text, read_template
 from meshforge.common import MeshForgeError, ProjectError, join_names, relative_name, write_atomically
 from meshforge.formats import MESH_SUFFIXES
-from meshforge.language import Action, Program
 from meshforge.store.layout import JsonFile, Layout, ReplacedHulls, read_json, write_json
-from meshforge.synthesis import Step
 
 
 def list_templates(layout: Layout) -> tuple[str, ...]:
@@ -60,7 +59,7 @@ class ProgramRecord(JsonFile):
     question: str | None = None
 
 
-def write_program(layout: Layout, program: Program) -> None:
+def write_program(layout: Layout, program: language.Program) -> None:
     """Write a program; the one that it replaces stays as `program.previous.mf`."""
     path, text = layout.program, str(program)
     old = path.read_text(encoding="utf-8") if path.exists() else text
@@ -100,20 +99,20 @@ class CorrectionsFile(JsonFile):
     steps: tuple[CorrectionLine, ...]
 
 
-def parse_action_text(text: str, where: str | Path) -> tuple[Action, str | None]:
+def parse_action_text(text: str, where: str | Path) -> tuple[language.Action, str | None]:
     """The action and the label it gives. Raises ProjectError, about `where`, where the text is no action."""
     try:
-        (rule,) = Program.parse(f"All => {text}", "action").rules
+        (rule,) = language.Program.parse(f"All => {text}", "action").rules
     except (MeshForgeError, ValueError) as error:
         raise ProjectError(f"{text!r} is no action: {error}", where=str(where)) from error
     return rule.action, rule.label
 
 
-def read_steps(path: Path) -> tuple[Step, ...]:
+def read_steps(path: Path) -> tuple[synthesis.Step, ...]:
     """The steps in a demonstrations file, none where there is no such file. Raises ProjectError for no action."""
     kept = read_json(path, DemonstrationFile)
     lines = kept.steps if kept else ()
-    return tuple(Step(line.rule, line.select, *parse_action_text(line.action, path)) for line in lines)
+    return tuple(synthesis.Step(line.rule, line.select, *parse_action_text(line.action, path)) for line in lines)
 
 
 def read_corrections(path: Path) -> tuple[Correction, ...]:
@@ -123,7 +122,7 @@ def read_corrections(path: Path) -> tuple[Correction, ...]:
     return tuple(Correction(tuple(line.hulls.items()), *parse_action_text(line.action, path)) for line in lines)
 
 
-def write_steps(path: Path, asset: str, steps: Sequence[Step]) -> None:
+def write_steps(path: Path, asset: str, steps: Sequence[synthesis.Step]) -> None:
     """Write the steps of a demonstrations file, names sorted; without any step the file is removed."""
     if not steps:
         path.unlink(missing_ok=True)

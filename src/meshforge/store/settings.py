@@ -12,14 +12,10 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-import tomlkit
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
-from tomlkit.items import InlineTable
 
-from meshforge.batch import SETTINGS, AssetSet, asset_id, expand
+from meshforge import batch, formats, language
 from meshforge.common import MeshForgeError, ProjectError, UsageError, plain_path, write_atomically
-from meshforge.formats import all_suffixes, is_asset
-from meshforge.language import Orient, Program, show
 from meshforge.store.layout import ATTRIBUTES, invalid_file
 
 Price = Annotated[float, Field(ge=0, allow_inf_nan=False)]
@@ -96,7 +92,7 @@ class Settings(BaseModel):
 
 def read_settings(folder: Path) -> Settings:
     """The settings of a project. Raises ProjectError: no project here, no TOML, or a field that does not fit."""
-    path = folder / SETTINGS
+    path = folder / batch.SETTINGS
     text = _read_text(path)
     try:
         return _parse_settings(text)
@@ -128,12 +124,12 @@ vocabulary = {vocabulary}
 # How assets are turned before the program sees them, for example "+Z: Is(leg) -> Is(panel)".
 orient = {toml_value(settings.orient)}
 """
-    write_atomically(folder / SETTINGS, text)
+    write_atomically(folder / batch.SETTINGS, text)
 
 
 def change_setting(folder: Path, key: str, value: TomlValue) -> None:
     """Change one value of meshforge.toml; all else stays as its owner wrote it."""
-    path = folder / SETTINGS
+    path = folder / batch.SETTINGS
     edited = edit_settings(folder, {key: value})
     if edited != _read_text(path):
         write_atomically(path, edited)
@@ -141,7 +137,7 @@ def change_setting(folder: Path, key: str, value: TomlValue) -> None:
 
 def edit_settings(folder: Path, values: Mapping[str, TomlValue]) -> str:
     """The text of meshforge.toml with some values changed."""
-    path = folder / SETTINGS
+    path = folder / batch.SETTINGS
     text = _read_text(path)
     try:
         for key, value in values.items():
@@ -153,6 +149,8 @@ def edit_settings(folder: Path, values: Mapping[str, TomlValue]) -> str:
 
 def toml_value(value: TomlValue) -> str:
     """A value as TOML writes it: a string, a number, or an array of strings."""
+    import tomlkit  # lazy: reading settings needs the standard library only
+
     if isinstance(value, str | int | float):
         return tomlkit.item(value).as_string()
     return f"[{', '.join(map(toml_value, value))}]"
@@ -163,6 +161,9 @@ def set_value(text: str, key: str, value: TomlValue | None, table: str | None = 
 
     Comments and layout stay as their author wrote them. Raises ProjectError for a key inside an inline table.
     """
+    import tomlkit  # lazy: as above
+    from tomlkit.items import InlineTable  # lazy: as above
+
     document = tomlkit.parse(text)
     part: Any = document
     # parsed from its text, as tomlkit takes seconds to make an array of thousands of paths from a list
@@ -180,25 +181,25 @@ def set_value(text: str, key: str, value: TomlValue | None, table: str | None = 
     return tomlkit.dumps(document)
 
 
-def orientation(settings: Settings, folder: Path) -> Orient | None:
+def orientation(settings: Settings, folder: Path) -> language.Orient | None:
     """The orientation directive. Raises ProjectError where its text does not parse."""
-    return parse_orientation(settings.orient, str(folder / SETTINGS))
+    return parse_orientation(settings.orient, str(folder / batch.SETTINGS))
 
 
-def parse_orientation(text: str, where: str = "orient") -> Orient | None:
+def parse_orientation(text: str, where: str = "orient") -> language.Orient | None:
     """The directive in a text, with or without the word `orient`; None for an empty text."""
     text = text.strip()
     if not text:
         return None
     try:
-        return Program.parse(text if text.startswith("orient ") else f"orient {text}", "orient").orient
+        return language.Program.parse(text if text.startswith("orient ") else f"orient {text}", "orient").orient
     except MeshForgeError as error:
         raise ProjectError(f"the orientation does not parse: {error.message}", where=where) from error
 
 
-def orientation_text(orient: Orient | None) -> str:
+def orientation_text(orient: language.Orient | None) -> str:
     """The text of a directive, without the word `orient`."""
-    return show(orient).removeprefix("orient ") if orient else ""
+    return language.show(orient).removeprefix("orient ") if orient else ""
 
 
 def _read_text(path: Path) -> str:
@@ -227,15 +228,15 @@ def create_folder(
     assets: Sequence[str | Path],
     name: str | None,
     vocabulary: Sequence[str],
-    orient: Orient | str | None,
+    orient: language.Orient | str | None,
 ) -> Path:
     """Make a project folder, and give its absolute path. Raises as `Project.create` does."""
     if not str(folder):
         raise UsageError("the folder to make has no name", remedy="Name it; . is the one you are in.")
     folder = Path(folder).absolute()
-    if (folder / SETTINGS).exists():
+    if (folder / batch.SETTINGS).exists():
         raise ProjectError("there is a project here already", where=str(folder), remedy="Choose another folder.")
-    found = expand(assets)
+    found = batch.expand(assets)
     text = orient if isinstance(orient, str) else orientation_text(orient)
     parse_orientation(text)
     settings = Settings(
@@ -256,26 +257,26 @@ def _merge_events_by_lines(path: Path) -> None:
         write_atomically(path, text + "\n" * (bool(text) and not text.endswith("\n")) + ATTRIBUTES)
 
 
-def find_assets(folder: Path) -> AssetSet:
+def find_assets(folder: Path) -> batch.AssetSet:
     """The assets that the settings of a project name. Raises ProjectError where one is gone or lies elsewhere."""
     settings = read_settings(folder)
     base = Path(os.path.normpath(folder / settings.base))
     try:
-        paths = expand(settings.assets, folder).paths
+        paths = batch.expand(settings.assets, folder).paths
     except UsageError as error:
-        raise ProjectError(f"assets: {error.message}", where=str(folder / SETTINGS)) from None
-    found = AssetSet(base, paths, None if base.is_relative_to(folder) else folder)
+        raise ProjectError(f"assets: {error.message}", where=str(folder / batch.SETTINGS)) from None
+    found = batch.AssetSet(base, paths, None if base.is_relative_to(folder) else folder)
     for key in found.ids:
         if key.startswith("../"):
             raise ProjectError(
                 f"the asset {key} lies outside of {base}, the folder that ids count from",
-                where=str(folder / SETTINGS),
+                where=str(folder / batch.SETTINGS),
                 remedy="Make another project for it, or move it there.",
             )
     return _without_left_out(folder, settings, found)
 
 
-def _without_left_out(folder: Path, settings: Settings, found: AssetSet) -> AssetSet:
+def _without_left_out(folder: Path, settings: Settings, found: batch.AssetSet) -> batch.AssetSet:
     """The family. Raises ProjectError where nothing is left of it."""
     away = {*settings.left_out, *settings.removed}
     if not away:
@@ -283,7 +284,7 @@ def _without_left_out(folder: Path, settings: Settings, found: AssetSet) -> Asse
     kept = tuple(path for key, path in found.ids.items() if key not in away)
     if not kept:
         remedy = "Take an id out of left_out or removed."
-        raise ProjectError("every asset is left out of the family", where=str(folder / SETTINGS), remedy=remedy)
+        raise ProjectError("every asset is left out of the family", where=str(folder / batch.SETTINGS), remedy=remedy)
     left_out = tuple(key for key in found.ids if key in settings.left_out and key not in settings.removed)
     return replace(found, paths=kept, left_out=left_out)
 
@@ -296,14 +297,14 @@ def take_back(folder: Path, assets: Iterable[str]) -> None:
             change_setting(folder, key, tuple(one for one in ids if one not in wanted))
 
 
-def add_assets(folder: Path, found: AssetSet, paths: Iterable[str | Path]) -> None:
+def add_assets(folder: Path, found: batch.AssetSet, paths: Iterable[str | Path]) -> None:
     """Name files among the assets of the settings, as far as these do not mean them already; the caller holds the lock.
 
     Assets that a pattern would pass over because of the new files, such as mesh files in a folder that gets a URDF,
     are named as well. Raises ProjectError for a file that is no asset, or lies outside of the folder of the ids.
     """
     wanted = [_check_path(found, plain_path(Path(path))) for path in paths]
-    take_back(folder, (asset_id(path, found.base_of(path)) for path in wanted))
+    take_back(folder, (batch.asset_id(path, found.base_of(path)) for path in wanted))
     present = set(find_assets(folder).paths)
     had = (path for path in found if path.exists())
     more = [path for path in dict.fromkeys([*had, *wanted]) if path not in present]
@@ -312,13 +313,13 @@ def add_assets(folder: Path, found: AssetSet, paths: Iterable[str | Path]) -> No
         change_setting(folder, "assets", (*read_settings(folder).assets, *names))
 
 
-def _check_path(found: AssetSet, path: Path) -> Path:
+def _check_path(found: batch.AssetSet, path: Path) -> Path:
     if not path.is_relative_to(found.base_of(path)):
         remedy = "Put it there, or make another project for it."
         raise ProjectError(
             f"it lies outside of {found.base}, the folder that ids count from", where=str(path), remedy=remedy
         )
-    if not is_asset(path):
-        remedy = f"Known suffixes: {', '.join(all_suffixes())}."
+    if not formats.is_asset(path):
+        remedy = f"Known suffixes: {', '.join(formats.all_suffixes())}."
         raise ProjectError("this is no asset that can be read", where=str(path), remedy=remedy)
     return path

@@ -8,8 +8,8 @@ from typing import Literal
 
 from pydantic import Field
 
+from meshforge import signoff
 from meshforge.batch import OutputInputs
-from meshforge.signoff import AssetConfidence, Doubt, DoubtKind, EditMeasures
 from meshforge.store.events import Probability, list_lines, parse_line
 from meshforge.store.layout import JsonFile
 
@@ -63,7 +63,7 @@ def parse_sign_offs(text: str, where: str) -> dict[str, SignOff]:
 class DoubtLine(JsonFile):
     """One doubt about an edit, as `signoff.Doubt` has it."""
 
-    kind: DoubtKind
+    kind: signoff.DoubtKind
     text: str
     hulls: tuple[str, ...] = ()
     rule: int | None = None
@@ -80,7 +80,7 @@ class ConfidenceLine(JsonFile):
     rests_on: OutputInputs
     looked_at: bool = False
     stands_out: bool = False
-    measures: EditMeasures | None = None
+    measures: signoff.EditMeasures | None = None
 
     def passes(self, bar: float) -> bool:
         """Whether it may be signed off."""
@@ -97,7 +97,10 @@ class ConfidenceLine(JsonFile):
 
     @staticmethod
     def of(
-        found: AssetConfidence, rests_on: OutputInputs, looked_at: bool, measures: EditMeasures | None = None
+        found: signoff.AssetConfidence,
+        rests_on: OutputInputs,
+        looked_at: bool,
+        measures: signoff.EditMeasures | None = None,
     ) -> ConfidenceLine:
         doubts = tuple(
             DoubtLine(kind=one.kind, text=one.text, hulls=one.hulls, rule=one.rule, share=one.share)
@@ -107,9 +110,9 @@ class ConfidenceLine(JsonFile):
             probability=found.probability, doubts=doubts, rests_on=rests_on, looked_at=looked_at, measures=measures
         )
 
-    def to_confidence(self, asset: str) -> AssetConfidence:
-        doubts = tuple(Doubt(one.kind, one.text, one.hulls, one.rule, one.share) for one in self.doubts)
-        return AssetConfidence(asset, self.probability, doubts)
+    def to_confidence(self, asset: str) -> signoff.AssetConfidence:
+        doubts = tuple(signoff.Doubt(one.kind, one.text, one.hulls, one.rule, one.share) for one in self.doubts)
+        return signoff.AssetConfidence(asset, self.probability, doubts)
 
 
 class AssessmentFile(JsonFile):

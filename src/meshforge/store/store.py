@@ -7,19 +7,10 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, S
 from contextlib import AbstractContextManager
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Self
 
-from meshforge.batch import (
-    AssetSet,
-    Correction,
-    Preparation,
-    hold_lock,
-    load_named_templates,
-    read_preparation,
-    write_preparation,
-)
+from meshforge import batch, language, signoff, symbolic, synthesis
 from meshforge.common import MeshForgeError, ProjectError, nearest_name, write_all_atomically, write_atomically
-from meshforge.language import EXTRACTORS, Orient, Program, Template
-from meshforge.signoff import EditMeasures
 from meshforge.store import membership
 from meshforge.store import program as program_files
 from meshforge.store import settings as settings_file
@@ -31,8 +22,6 @@ from meshforge.store.mesh_cache import MeshCache
 from meshforge.store.meshes import AssetFiles, read_labels_file
 from meshforge.store.preparation_plan import forget_assets
 from meshforge.store.sign_off import AssessmentFile, SignOff
-from meshforge.symbolic import Label, LabelFile, SymbolicMesh, format_labels, match_labels
-from meshforge.synthesis import Demonstration, Step
 
 
 @dataclass(frozen=True)
@@ -43,8 +32,14 @@ class Store:
     """
 
     folder: Path
-    found: AssetSet = field(repr=False)
+    found: batch.AssetSet = field(repr=False)
     cache: MeshCache | None = field(default=None, repr=False, compare=False)
+
+    @classmethod
+    def open(cls, folder: str | Path) -> Self:
+        """The project in a folder. Raises ProjectError: none there, its settings do not fit, or an asset is gone."""
+        folder = Path(folder).absolute()
+        return cls(folder, settings_file.find_assets(folder))
 
     @property
     def layout(self) -> Layout:
@@ -53,7 +48,7 @@ class Store:
 
     def lock(self) -> AbstractContextManager[None]:
         """The project's lock, under which files are read, changed and written; a thread may take it again and again."""
-        return hold_lock(self.layout.lock, str(self.folder), again=True)
+        return batch.hold_lock(self.layout.lock, str(self.folder), again=True)
 
     # Settings
 
@@ -70,16 +65,16 @@ class Store:
         return self.settings.vocabulary
 
     @property
-    def orientation(self) -> Orient | None:
+    def orientation(self) -> language.Orient | None:
         return settings_file.orientation(self.settings, self.folder)
 
     def set_vocabulary(self, labels: Sequence[str]) -> None:
         """Set the labels that hulls can have. Raises ProgramError for one that no program could write."""
-        Program(labels=tuple(labels))  # raises ProgramError
+        language.Program(labels=tuple(labels))  # raises ProgramError
         with self.lock():
             settings_file.change_setting(self.folder, "vocabulary", tuple(labels))
 
-    def set_orientation(self, orient: Orient | str | None) -> None:
+    def set_orientation(self, orient: language.Orient | str | None) -> None:
         """Set the orientation directive; a text has the form it has in a program. Raises ProjectError for another."""
         directive = settings_file.parse_orientation(orient) if isinstance(orient, str) else orient
         with self.lock():
@@ -89,7 +84,7 @@ class Store:
         """Let rules use leaf extractors of plug-ins, from now on. Raises UsageError where there is none of a name,
         PluginError where one cannot be loaded."""
         for name in names:
-            EXTRACTORS.require(name)
+            language.EXTRACTORS.require(name)
         with self.lock():
             wanted = dict.fromkeys((*self.settings.extractors, *names))
             settings_file.change_setting(self.folder, "extractors", tuple(wanted))
@@ -115,12 +110,12 @@ class Store:
         layout, contact = self.layout, self.settings.thresholds.contact
         return tuple(AssetFiles(self.path(a), layout.preparation(a), layout.labels(a), contact) for a in assets)
 
-    def mesh(self, asset: str) -> SymbolicMesh:
+    def mesh(self, asset: str) -> symbolic.SymbolicMesh:
         """An asset as it is prepared, with its labels. Raises AssetError where it cannot be read."""
         (files,) = self.asset_files([asset])
         return self.cache.get(files) if self.cache else files.read_mesh()
 
-    def meshes_by_id(self, assets: Iterable[str] | None = None) -> Iterator[tuple[str, SymbolicMesh]]:
+    def meshes_by_id(self, assets: Iterable[str] | None = None) -> Iterator[tuple[str, symbolic.SymbolicMesh]]:
         """All assets, or some, with their ids and labels; those that cannot be read are left out."""
         for asset in self.assets() if assets is None else assets:
             try:
@@ -128,14 +123,14 @@ class Store:
             except MeshForgeError:
                 continue
 
-    def readers(self, assets: Iterable[str]) -> tuple[Callable[[], SymbolicMesh], ...]:
+    def readers(self, assets: Iterable[str]) -> tuple[Callable[[], symbolic.SymbolicMesh], ...]:
         """Functions that read each of some assets as `mesh` does, in this process or another."""
         return tuple(files.read_mesh for files in self.asset_files(assets))
 
-    def preparation(self, asset: str) -> Preparation:
+    def preparation(self, asset: str) -> batch.Preparation:
         """What is done to an asset before the program. Raises AssetError where its files are damaged."""
         self.path(asset)
-        return read_preparation(self.layout.preparation(asset)) or Preparation()
+        return batch.read_preparation(self.layout.preparation(asset)) or batch.Preparation()
 
     def leave_out(self, assets: Collection[str]) -> None:
         """Leave assets out of the family; their files stay, and what is kept for them. Raises ProjectError for the last
@@ -154,7 +149,7 @@ class Store:
         with self.lock():
             membership.remove_from_settings(self.folder, self.found, assets)
             for asset in assets:
-                write_preparation(self.layout.preparation(asset), Preparation())
+                batch.write_preparation(self.layout.preparation(asset), batch.Preparation())
                 for path in self.layout.list_kept(asset):
                     if path.is_file():
                         path.unlink()
@@ -167,7 +162,7 @@ class Store:
 
     # Labels
 
-    def labels(self, asset: str) -> LabelFile:
+    def labels(self, asset: str) -> symbolic.LabelFile:
         """The labels file of an asset; an empty one where there is none."""
         return read_labels_file(self.layout.labels(asset))
 
@@ -175,7 +170,7 @@ class Store:
         self,
         asset: str,
         hulls: Mapping[str, str],
-        labels: Mapping[str, Label],
+        labels: Mapping[str, symbolic.Label],
         vocabulary: Sequence[str],
         away: Collection[str] = (),
     ) -> None:
@@ -190,14 +185,14 @@ class Store:
         self,
         asset: str,
         hulls: Mapping[str, str],
-        labels: Mapping[str, Label],
+        labels: Mapping[str, symbolic.Label],
         vocabulary: Sequence[str],
         away: Collection[str] = (),
     ) -> str | None:
         """What `write_labels` writes; None where the file is to be removed."""
         path, present = self.layout.labels(asset), {name: labels[name] for name in hulls if name in labels}
-        text = format_labels(LabelFile(tuple(vocabulary), present, hulls))
-        if gone := [name for name in match_labels(self.labels(asset), hulls).gone if name not in away]:
+        text = symbolic.format_labels(symbolic.LabelFile(tuple(vocabulary), present, hulls))
+        if gone := [name for name in symbolic.match_labels(self.labels(asset), hulls).gone if name not in away]:
             old, new = json.loads(path.read_text(encoding="utf-8")), json.loads(text)
             new["hulls"] |= {name: old["hulls"][name] for name in gone}
             new["vocabulary"] = list(dict.fromkeys([*new["vocabulary"], *old.get("vocabulary", [])]))
@@ -218,24 +213,27 @@ class Store:
         shown = set(self.layout.demonstration.ids)
         return tuple(asset for asset in self.assets() if asset in shown)
 
-    def demonstrations(self) -> dict[str, Demonstration]:
+    def demonstrations(self) -> dict[str, synthesis.Demonstration]:
         """All demonstrations, by asset."""
-        return {asset: Demonstration(self.mesh(asset), self.steps(asset), asset) for asset in self.demonstration_ids()}
+        return {
+            asset: synthesis.Demonstration(self.mesh(asset), self.steps(asset), asset)
+            for asset in self.demonstration_ids()
+        }
 
-    def steps(self, asset: str) -> tuple[Step, ...]:
+    def steps(self, asset: str) -> tuple[synthesis.Step, ...]:
         """The steps that were demonstrated on an asset; none where nothing was."""
         return program_files.read_steps(self.layout.demonstration(asset))
 
-    def write_steps(self, asset: str, steps: Sequence[Step]) -> None:
+    def write_steps(self, asset: str, steps: Sequence[synthesis.Step]) -> None:
         """Write the steps that are demonstrated on an asset; without any step its file is removed."""
         with self.lock():
             program_files.write_steps(self.layout.demonstration(asset), asset, steps)
 
-    def corrections(self, asset: str) -> tuple[Correction, ...]:
+    def corrections(self, asset: str) -> tuple[batch.Correction, ...]:
         """The edits by hand that are replayed on an asset after the program."""
         return program_files.read_corrections(self.layout.corrections(asset))
 
-    def write_corrections(self, asset: str, corrections: Sequence[Correction]) -> None:
+    def write_corrections(self, asset: str, corrections: Sequence[batch.Correction]) -> None:
         """Write the edits by hand of an asset."""
         with self.lock():
             program_files.write_corrections(self.layout.corrections(asset), asset, corrections)
@@ -247,11 +245,11 @@ class Store:
 
     # The program
 
-    def program(self) -> Program | None:
+    def program(self) -> language.Program | None:
         """The accepted program, None where there is none yet. Raises ProgramError where it does not parse."""
-        return Program.read(self.layout.program) if self.layout.program.exists() else None
+        return language.Program.read(self.layout.program) if self.layout.program.exists() else None
 
-    def write_program(self, program: Program) -> None:
+    def write_program(self, program: language.Program) -> None:
         """Write the accepted program; the one before stays as `program.previous.mf`."""
         with self.lock():
             program_files.write_program(self.layout, program)
@@ -267,9 +265,9 @@ class Store:
             write_json(self.layout.learned, record)
             self.layout.learned_before.unlink(missing_ok=True)
 
-    def templates(self, names: Iterable[str]) -> dict[str, Template]:
+    def templates(self, names: Iterable[str]) -> dict[str, language.Template]:
         """Hull templates by the names that programs write. Raises ProgramError where one is not there or not convex."""
-        return load_named_templates(names, self.layout.templates)
+        return batch.load_named_templates(names, self.layout.templates)
 
     def template_names(self) -> tuple[str, ...]:
         """The names of all templates in the project's folder of them, as actions write them."""
@@ -340,7 +338,7 @@ class Store:
         """How the family stood when it was looked at last; None where that is not kept, or damaged."""
         return read_derived(self.layout.assessment, AssessmentFile)
 
-    def reference_measures(self) -> list[EditMeasures]:
+    def reference_measures(self) -> list[signoff.EditMeasures]:
         """The measures of edits that a person showed, accepted or corrected, as the last review found them."""
         last = self.assessment()
         return [one.measures for one in last.assets.values() if one.looked_at and one.measures] if last else []

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
+from meshforge import symbolic
 from meshforge.common import DemonstrationError
 from meshforge.language import Action, Each
-from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis.questions import LabelCorrection
 
 
@@ -55,11 +55,11 @@ class Demonstration:
     Raises DemonstrationError where the rules are not numbered 1, 2, 3, ...
     """
 
-    mesh: SymbolicMesh
+    mesh: symbolic.SymbolicMesh
     steps: tuple[Step, ...]
     name: str | None = None
 
-    def __init__(self, mesh: SymbolicMesh, steps: Iterable[Step], name: str | None = None) -> None:
+    def __init__(self, mesh: symbolic.SymbolicMesh, steps: Iterable[Step], name: str | None = None) -> None:
         object.__setattr__(self, "mesh", mesh)
         object.__setattr__(self, "steps", tuple(steps))
         object.__setattr__(self, "name", name or (str(mesh.asset.path) if mesh.asset else None))
@@ -106,7 +106,7 @@ class Example:
     """
 
     name: str
-    mesh: SymbolicMesh
+    mesh: symbolic.SymbolicMesh
     selection: int
 
 

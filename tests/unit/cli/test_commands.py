@@ -15,7 +15,7 @@ from PIL import Image
 
 import meshforge
 from meshforge.cli.main import COMMANDS, load_command
-from meshforge.project import Project
+from meshforge.store import Store
 from tests.unit.batch.families import write_table, write_tables
 from tests.unit.cli.in_process import Run, runner
 
@@ -69,7 +69,9 @@ def test_help_loads_no_command(run: Run) -> None:
     )
     code += "print(*(name for name in sys.modules if name.startswith('meshforge.')))"
     shown = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
-    assert set(shown.splitlines()[-1].split()) == {"meshforge.cli", "meshforge.cli.main", "meshforge.cli.terminal"}
+    assert set(shown.splitlines()[-1].split()) == {
+        *("meshforge.cli", "meshforge.cli.main", "meshforge.cli.parameters", "meshforge.cli.terminal")
+    }
 
 
 @pytest.mark.parametrize("words", [["meshforge", "--version"], [sys.executable, "-m", "meshforge", "--version"]])
@@ -104,10 +106,10 @@ def test_no_command_shows_the_commands(run: Run) -> None:
 
 
 def test_a_command_that_is_interrupted_says_so(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    def press_control_c(folder: Path) -> Project:
+    def press_control_c(folder: Path) -> Store:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(Project, "open", press_control_c)
+    monkeypatch.setattr(Store, "open", press_control_c)
     left = run("status", "p")
     assert (left.code, left.out, left.err) == (130, "", "stopped\n")
 

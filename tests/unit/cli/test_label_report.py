@@ -89,7 +89,7 @@ def test_labels_of_names_give_the_same_page(run: Run) -> None:
 
 @pytest.mark.slow
 def test_of_very_many_assets_the_page_shows_some_and_says_so(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("meshforge.cli.label_report.MOST_PICTURED", 2)
+    monkeypatch.setattr("meshforge.batch.MOST_PICTURED", 2)
     run("label", "p", "--report", "r.html")
     page = opened("r.html")
     assert kinds(page) == ["problems", "problems"] and figures(page)["assets"] == "4"

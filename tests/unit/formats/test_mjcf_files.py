@@ -11,8 +11,8 @@ import pytest
 
 from meshforge.common import AssetError
 from meshforge.formats import read as read_any
+from meshforge.formats.mjcf.compiler import compile_model
 from meshforge.formats.mjcf.document import MjcfDocument, read_tree
-from meshforge.formats.mjcf.engine import compile_model
 from meshforge.symbolic import Asset
 from tests.mjcf_engines import TETRAHEDRON, assert_as_in_mujoco, model, put, read
 

@@ -60,6 +60,6 @@ def test_assets_are_not_read_again(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     def read(*_: object) -> SymbolicMesh:
         raise AssertionError("an asset was read")
 
-    monkeypatch.setattr("meshforge.store.meshes.read", read)
+    monkeypatch.setattr("meshforge.formats.read", read)
     monkeypatch.setattr("meshforge.batch.read_prepared", read)
     assert OfferCache().of(made) == before

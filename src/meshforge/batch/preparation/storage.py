@@ -13,12 +13,10 @@ from typing import Any
 
 import numpy as np
 
+from meshforge import formats, geometry, symbolic
 from meshforge.batch.preparation.record import Preparation, PreparationStep, apply_preparation, hull_digest
 from meshforge.batch.provenance import content_digest
 from meshforge.common import AssetError, first_validation_error, write_atomically
-from meshforge.formats import MeshPart, format_obj, read, read_triangles
-from meshforge.geometry import Polytope
-from meshforge.symbolic import Asset, Surface
 
 RECORD_FILE = "preparation.json"
 """The file in a preparation's folder that says what was done."""
@@ -33,16 +31,16 @@ class _Record:
     steps: tuple[PreparationStep, ...]
 
 
-def read_prepared(path: Path, folder: Path | None) -> Asset:
+def read_prepared(path: Path, folder: Path | None) -> symbolic.Asset:
     """The asset in a file, after the preparation in a folder where there is one.
 
     Raises AssetError: the asset cannot be read, or its preparation is damaged or out of date.
     """
-    asset = read(path)
+    asset = formats.read(path)
     return prepare_from_folder(asset, folder) if folder else asset
 
 
-def prepare_from_folder(asset: Asset, folder: Path) -> Asset:
+def prepare_from_folder(asset: symbolic.Asset, folder: Path) -> symbolic.Asset:
     """An asset as it was read, after the preparation in a folder. Raises AssetError: that is damaged or out of date."""
     preparation = read_preparation(folder)
     return apply_preparation(asset, preparation) if preparation else asset
@@ -130,21 +128,23 @@ def _read_record(path: Path) -> tuple[PreparationStep, ...]:
         raise _damage_error(path, first_validation_error(error)) from error
 
 
-def _read_hulls(path: Path) -> dict[str, Polytope]:
+def _read_hulls(path: Path) -> dict[str, geometry.Polytope]:
     try:
-        surfaces = read_triangles(path)
+        surfaces = formats.read_triangles(path)
     except AssetError as error:
         raise _damage_error(path, error.problem) from error
     found = {}
     for surface in surfaces:
         used, local = np.unique(surface.faces, return_inverse=True)
-        hull = Polytope(surface.vertices[used], local.reshape(-1, 3))
+        hull = geometry.Polytope(surface.vertices[used], local.reshape(-1, 3))
         found[hull_digest(hull)] = hull
     return found
 
 
-def _format_hulls(hulls: Iterable[tuple[str, Polytope]]) -> bytes:
-    return format_obj([MeshPart(name, Surface(hull.vertices, hull.faces)) for name, hull in hulls])
+def _format_hulls(hulls: Iterable[tuple[str, geometry.Polytope]]) -> bytes:
+    return formats.format_obj(
+        [formats.MeshPart(name, symbolic.Surface(hull.vertices, hull.faces)) for name, hull in hulls]
+    )
 
 
 def _damage_error(path: Path, problem: Any) -> AssetError:

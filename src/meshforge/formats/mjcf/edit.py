@@ -9,11 +9,11 @@ from pathlib import Path
 from meshforge.common import AssetError, join_names
 from meshforge.formats.base import Mass, Output
 from meshforge.formats.mjcf import edit_check, elements, references
+from meshforge.formats.mjcf.collision_edit import MjcfPlan, NewGeom, OldGeom, is_edited
+from meshforge.formats.mjcf.collision_only import strip_to_collision
 from meshforge.formats.mjcf.document import MjcfDocument, MjcfNode, MjcfTree, read_tree
 from meshforge.formats.mjcf.edit_geoms import ElementContext, HullGeomMaker, HullMeshes
-from meshforge.formats.mjcf.edit_plan import MjcfPlan, NewGeom, OldGeom, is_edited
-from meshforge.formats.mjcf.model import MjcfModel
-from meshforge.formats.mjcf.reduce import read_model, read_partial_model, read_unscaled_model, read_whole_model
+from meshforge.formats.mjcf.model import MjcfModel, compile_tree, compile_unscaled
 from meshforge.formats.references import note_absolute
 from meshforge.formats.slots import Slot, append_elements, child_indent_of
 from meshforge.formats.xml import Splice, XmlText, apply_splices, newline_of, parse_xml
@@ -33,14 +33,12 @@ def write_mjcf(asset: Asset, document: MjcfDocument, name: str, mass: Mass) -> O
     copies, notes = references.list_copies(asset, tree)
     if not is_edited(asset, document):
         return _build_output(tree, [source.raw for source in tree.sources], {}, copies, notes, {})
-    before = read_whole_model(tree) if document.refusal else read_model(tree, is_whole=True)
-    is_whole = before is not None
-    before = before or read_partial_model(tree)
-    authored = read_unscaled_model(tree, before) if is_whole else before
+    before = _compile(tree, can_strip=bool(document.refusal))
+    authored = compile_unscaled(before)
     context = ElementContext(tree)
     meshes = HullMeshes(asset, context, Path(name).stem)
     plan = MjcfPlan(asset, document, before, authored, HullGeomMaker(context, meshes))
-    edit = MjcfEdit(plan, meshes, authored, is_whole)
+    edit = MjcfEdit(plan, meshes, authored)
     if mass == "keep":
         edit.keep_masses()
         if edit.weighs and elements.is_inertial_ignored(tree):
@@ -48,6 +46,21 @@ def write_mjcf(asset: Asset, document: MjcfDocument, name: str, mass: Mass) -> O
             notes.append(f"inertiafromgeom is 'auto' now, so that <inertial> keeps the masses of {bodies}")
     names = _check(edit, before, mass)
     return _build_output(tree, edit.build_texts(), meshes.files.made, copies, notes, names)
+
+
+def _compile(tree: MjcfTree, can_strip: bool) -> MjcfModel:
+    """The model of a tree, of its collision geometry alone where MuJoCo refuses the whole and `can_strip`."""
+    try:
+        return compile_tree(tree)
+    except AssetError:
+        if not can_strip:
+            raise
+        return _strip(tree)
+
+
+def _strip(tree: MjcfTree) -> MjcfModel:
+    refusal = AssetError("MuJoCo refuses its collision geometry", where=str(tree.main.path))
+    return strip_to_collision(tree, refusal, masses="fixed")
 
 
 def _check(edit: MjcfEdit, before: MjcfModel, mass: Mass) -> dict[str, str]:
@@ -64,7 +77,7 @@ def _check(edit: MjcfEdit, before: MjcfModel, mass: Mass) -> dict[str, str]:
         raise AssetError(
             f"of the edited file: {error.problem}", where=str(edit.tree.main.path), remedy=remedy
         ) from None
-    wrong = next(edit_check.find_differences(before, after, edit.expected, mass == "keep", edit.is_whole), None)
+    wrong = next(edit_check.find_differences(before, after, edit.expected, mass == "keep"), None)
     if wrong is not None:
         raise AssetError(
             f"the edited file would differ from the authored one in more than the edit says: {wrong}",
@@ -94,13 +107,13 @@ def _build_output(
 
 
 class MjcfEdit:
-    """An edited document. authored: the unedited one with plain masses; is_whole: whether MuJoCo takes all of it.
+    """An edited document. authored: the unedited one with plain masses.
 
     weighs: the numbers of the bodies that say their masses, which they did not.
     """
 
-    def __init__(self, plan: MjcfPlan, meshes: HullMeshes, authored: MjcfModel, is_whole: bool) -> None:
-        self.plan, self.meshes, self.authored, self.is_whole = plan, meshes, authored, is_whole
+    def __init__(self, plan: MjcfPlan, meshes: HullMeshes, authored: MjcfModel) -> None:
+        self.plan, self.meshes, self.authored = plan, meshes, authored
         self.tree = plan.tree
         self.weighs: list[int] = []
         self.expected = plan.predict_geoms()
@@ -127,9 +140,7 @@ class MjcfEdit:
 
     def read_back_unscaled(self) -> MjcfModel:
         """What MuJoCo makes of the texts with plain masses."""
-        tree = self._build_tree()
-        reading = read_model(tree, self.is_whole)
-        return read_unscaled_model(tree, reading) if self.is_whole else reading
+        return compile_unscaled(self._compile_edited())
 
     def keep_masses(self) -> None:
         """Let each body say its mass that would have another one. Raises AssetError where one cannot."""
@@ -146,7 +157,7 @@ class MjcfEdit:
         Returns what MuJoCo makes of them, and the names that cannot be had, with what they read back as.
         """
         for _ in range(_ROUNDS):
-            after = read_model(self._build_tree(), self.is_whole)
+            after = self._compile_edited()
             misread = list(self._find_misread(after))
             taken = {geom.name for geom in after.spec_geoms} | self._names_of_kept()
             named = [_name_slot(slot, wanted, taken) for slot, wanted, _ in misread if slot is not None]
@@ -157,13 +168,14 @@ class MjcfEdit:
     def _names_of_kept(self) -> set[str]:
         return {self.authored.spec_geoms[e.number].name for e in self.expected if isinstance(e, OldGeom)}
 
-    def _build_tree(self) -> MjcfTree:
+    def _compile_edited(self) -> MjcfModel:
+        """What MuJoCo makes of the texts, of as much as was read before. Raises AssetError where it refuses them."""
         main = self.tree.main.path
         files = dict(zip((source.path for source in self.tree.sources), self.build_texts(), strict=True))
         tree = read_tree(main, files | {main.parent / place: data for place, data in self.meshes.files.made.items()})
         if amiss := [fault for fault in tree.faults if fault not in self.tree.faults]:
             raise AssetError(amiss[0], where=str(main))
-        return tree
+        return compile_tree(tree) if self.authored.is_whole else _strip(tree)
 
     def _find_reweighed(self) -> list[int]:
         try:

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from meshforge.formats.libraries import mujoco
-from meshforge.formats.mjcf.edit_plan import NewGeom, OldGeom
+from meshforge.formats.mjcf.collision_edit import NewGeom, OldGeom
 from meshforge.formats.mjcf.model import MjcfModel
 from meshforge.formats.mjcf.shapes import MjcfShapes
 from meshforge.geometry import Floats, Shape
@@ -57,18 +57,17 @@ MASS_FIELDS = ("body_mass", "body_inertia", "body_ipos", "body_iquat")
 
 
 def find_differences(
-    before: MjcfModel, after: MjcfModel, expected: Sequence[OldGeom | NewGeom], masses: bool, is_whole: bool
+    before: MjcfModel, after: MjcfModel, expected: Sequence[OldGeom | NewGeom], masses: bool
 ) -> Iterator[str]:
     """What an edited file says otherwise than it should.
 
-    expected: the geoms of the edited model; masses: whether masses are to be as before; is_whole: whether both are
-    of all that the file says, so that meshes stay which no geom uses any more.
+    expected: the geoms of the edited model; masses: whether masses are to be as before.
     """
     if after.model.ngeom != len(expected):
         yield f"{after.model.ngeom} geoms where {len(expected)} were expected"
         return
     yield from _compare_fields(before.model, after.model, masses)
-    yield from _compare_meshes(before.model, after.model, is_whole)
+    yield from _compare_meshes(before.model, after.model, before.is_whole)
     number = {entry.number: k for k, entry in enumerate(expected) if isinstance(entry, OldGeom)}
     yield from _compare_kept(before, after, number)
     made = {k: entry for k, entry in enumerate(expected) if isinstance(entry, NewGeom)}
@@ -86,6 +85,7 @@ def _compare_fields(one: mujoco.MjModel, other: mujoco.MjModel, masses: bool) ->
 
 
 def _compare_meshes(one: mujoco.MjModel, other: mujoco.MjModel, is_whole: bool) -> Iterator[str]:
+    """The meshes that differ; is_whole: whether both models are, where meshes stay that no geom uses any more."""
     there = {other.mesh(k).name for k in range(other.nmesh)}
     for k in range(one.nmesh):
         name = one.mesh(k).name

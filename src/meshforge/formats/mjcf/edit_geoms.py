@@ -13,7 +13,8 @@ import numpy as np
 
 from meshforge.common import AssetError, relative_name
 from meshforge.formats import mesh_output, xml
-from meshforge.formats.mjcf import engine, references
+from meshforge.formats.mjcf import references
+from meshforge.formats.mjcf.compiler import compile_model
 from meshforge.formats.mjcf.document import MjcfNode, MjcfTree
 from meshforge.formats.mjcf.elements import MjcfShape, geom_attributes, mesh_geom_attributes, tag
 from meshforge.formats.slots import Slot
@@ -280,7 +281,7 @@ class ElementContext:
         inside = tag("compiler", units), opened, b"</frame>" * len(attributes)
         main = Path("frames.xml")
         text = b"<mujoco>%s<worldbody>%s<geom size='1'/>%s</worldbody></mujoco>" % inside
-        model = engine.compile_model(main, {main: text})
+        model = compile_model(main, {main: text})
         return Pose(rotation_of_quaternion(model.geom_quat[0]), model.geom_pos[0])
 
     def _add_classes(self, default: MjcfNode, chain: tuple[MjcfNode, ...] = ()) -> None:

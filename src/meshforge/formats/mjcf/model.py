@@ -11,8 +11,8 @@ import numpy as np
 
 from meshforge.formats.collision_pieces import ShapeNames, collect_mentions
 from meshforge.formats.libraries import mujoco
+from meshforge.formats.mjcf.compiler import Compilation, compile_spec, compile_text, flatten, parse_text
 from meshforge.formats.mjcf.document import GeomRecord, MjcfBody, MjcfTree, body_names, geom_names
-from meshforge.formats.mjcf.engine import EngineModel, FlatText
 from meshforge.formats.mjcf.shapes import MjcfShapes, body_poses, geom_poses
 from meshforge.formats.xml import parse_numbers
 from meshforge.geometry import Pose, rotation_of_quaternion
@@ -37,19 +37,27 @@ _UNNAMED = "main"  # the class of all that have none
 class MjcfModel:
     """The compiled model and the elements it was made of.
 
+    is_whole: whether it is of all that the files say, not of the collision geometry alone. stand_ins: the numbers of
+    spheres in the place of visual geoms that cannot be had; unweighed: of bodies of which some mass is not known.
     elements: of each geom, None for one out of another model. collides: whether each geom takes part in collisions, by
-    its contact bits or by a `<pair>`. unweighed: the numbers of bodies of which some mass is not known.
+    its contact bits or by a `<pair>`.
     """
 
     def __init__(
-        self, tree: MjcfTree, flat: FlatText, made: EngineModel, unweighed: frozenset[int] = frozenset()
+        self,
+        tree: MjcfTree,
+        made: Compilation,
+        is_whole: bool = True,
+        stand_ins: frozenset[int] = frozenset(),
+        unweighed: frozenset[int] = frozenset(),
     ) -> None:
-        self.tree, self.flat, self.model, self.unweighed = tree, flat, made.model, unweighed
+        self.tree, self.flat, self.spec, self.model = tree, made.flat, made.spec, made.model
+        self.is_whole, self.stand_ins, self.unweighed, self.warnings = is_whole, stand_ins, unweighed, made.warnings
         self.spec_bodies, self.spec_geoms = made.bodies, made.geoms
         self.body_names = body_names([body.name for body in made.bodies])
         self.body_of = [self.body_names[k] for k in self.model.geom_bodyid]
         self.names = geom_names([(b, geom.name) for b, geom in zip(self.body_of, made.geoms, strict=True)])
-        self.elements = [flat.node_at(geom.info) for geom in made.geoms]
+        self.elements = [self.flat.node_at(geom.info) for geom in made.geoms]
         touching = (self.model.geom_contype != 0) | (self.model.geom_conaffinity != 0)
         touching[np.concatenate([self.model.pair_geom1, self.model.pair_geom2])] = True
         self.collides: list[bool] = touching.tolist()
@@ -121,6 +129,27 @@ class MjcfModel:
             collides=any(self.collides[k] for k in copies),
             fixed=fixed,
         )
+
+
+def compile_tree(tree: MjcfTree) -> MjcfModel:
+    """The model of all that a tree says. Raises AssetError with MuJoCo's message."""
+    return MjcfModel(tree, compile_text(tree, flatten(tree)))
+
+
+def compile_unscaled(reading: MjcfModel) -> MjcfModel:
+    """A whole model with masses before they are scaled to a total, and free bodies in their authored frames."""
+    tree = reading.tree
+    changing = {"compiler": {"settotalmass", "alignfree"}} | {tag: {"align"} for tag in ("freejoint", "joint")}
+    if not reading.is_whole or not any(
+        changing.get(node.tag, set()) & node.attributes.keys() for node in tree.root.walk()
+    ):
+        return reading
+    spec = parse_text(tree, reading.flat)
+    spec.compiler.settotalmass = -1
+    spec.compiler.alignfree = False
+    for joint in spec.joints:
+        joint.align = 0
+    return MjcfModel(tree, compile_spec(tree, reading.flat, spec))
 
 
 def read_mechanism(reading: MjcfModel) -> Mechanism:

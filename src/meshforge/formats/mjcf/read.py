@@ -13,10 +13,10 @@ import numpy as np
 from meshforge.common import AssetError, MeshForgeError, join_names, plain_path, pluralize
 from meshforge.formats.libraries import mujoco
 from meshforge.formats.mesh_reader import READABLE_MESH_SUFFIXES, read_content
-from meshforge.formats.mjcf import reduce, references
+from meshforge.formats.mjcf import references
+from meshforge.formats.mjcf.collision_only import strip_to_collision
 from meshforge.formats.mjcf.document import MjcfDocument, MjcfNode, MjcfTree, read_tree
-from meshforge.formats.mjcf.engine import EngineModel, FlatText, compile_text, flatten
-from meshforge.formats.mjcf.model import MjcfModel, read_mechanism
+from meshforge.formats.mjcf.model import MjcfModel, compile_tree, read_mechanism
 from meshforge.formats.mjcf.shapes import MjcfShapes, mesh_frame, mesh_surface
 from meshforge.formats.visuals import Visual, VisualSurfaces
 from meshforge.formats.xml import Element, XmlText, parse_xml
@@ -47,8 +47,7 @@ def read_mjcf(path: Path, files: Mapping[Path, bytes] | None = None) -> Asset:
     """
     tree = gather_model(path, files)
     refuse_excess(tree)
-    flat, made, stand_ins, refusal = _compile_or_reduce(tree)
-    reading = MjcfModel(tree, flat, made)
+    reading, refusal = _compile_or_strip(tree)
     geoms, opaque = reading.read_pieces()
     found, missing = references.find_files(tree)
     return Asset(
@@ -58,32 +57,29 @@ def read_mjcf(path: Path, files: Mapping[Path, bytes] | None = None) -> Asset:
         geoms=geoms,
         document=MjcfDocument(tree.sources, reading.geom_records(), reading.bodies, refusal),
         opaque=opaque,
-        visuals=read_visuals(reading, made.spec, stand_ins),
+        visuals=read_visuals(reading),
         files=found,
         missing=missing,
-        notes=_collect_notes(tree, made, refusal),
+        notes=_collect_notes(reading, refusal),
         mechanism=read_mechanism(reading),
     )
 
 
-def _compile_or_reduce(tree: MjcfTree) -> tuple[FlatText, EngineModel, frozenset[int], str]:
-    """The text and what MuJoCo makes of it, of the collision geometry alone where it refuses the whole, and why."""
-    flat = flatten(tree)
+def _compile_or_strip(tree: MjcfTree) -> tuple[MjcfModel, str]:
+    """The model, of the collision geometry alone where MuJoCo refuses the whole, and why it does."""
     try:
-        made = compile_text(tree, flat)
+        return compile_tree(tree), ""
     except AssetError as error:
-        part = reduce.reduce_model(tree, error)
         place = Path(error.where or "").name
         refusal = f"{error.problem} ({place})" if ":" in place else error.problem
-        return part.flat, part.made, part.stand_ins, refusal
-    return flat, made, frozenset(), ""
+        return strip_to_collision(tree, error), refusal
 
 
-def _collect_notes(tree: MjcfTree, made: EngineModel, refusal: str) -> tuple[str, ...]:
+def _collect_notes(reading: MjcfModel, refusal: str) -> tuple[str, ...]:
     notes = [FileNote(f"{refusal}; read for its collision geometry only")] if refusal else []
-    notes += [FileNote(f"MuJoCo refuses this file: {fault}") for fault in tree.faults]
-    notes += [FileNote(f"MuJoCo warns: {warning}") for warning in made.warnings]
-    if flexible := int(made.model.nflex):
+    notes += [FileNote(f"MuJoCo refuses this file: {fault}") for fault in reading.tree.faults]
+    notes += [FileNote(f"MuJoCo warns: {warning}") for warning in reading.warnings]
+    if flexible := int(reading.model.nflex):
         bodies = pluralize(flexible, "flexible body", "flexible bodies")
         notes.append(FileNote(f"{bodies}: no hulls, left as authored"))
     return tuple(notes)
@@ -175,18 +171,18 @@ def _read_numbers(node: MjcfNode, names: tuple[str, ...]) -> list[float]:
     return found
 
 
-def read_visuals(reading: MjcfModel, spec: mujoco.MjSpec, hidden: frozenset[int] = frozenset()) -> VisualSurfaces:
-    """The visuals of all bodies; hidden: geoms that only stand for others."""
-    seen = _Visuals(reading, spec)
-    found = (seen.of(k) for k in range(reading.model.ngeom) if k not in hidden)
+def read_visuals(reading: MjcfModel) -> VisualSurfaces:
+    """The visuals of all bodies."""
+    seen = _Visuals(reading)
+    found = (seen.of(k) for k in range(reading.model.ngeom) if k not in reading.stand_ins)
     return VisualSurfaces(tuple(visual for visual in found if visual))
 
 
 class _Visuals:
-    def __init__(self, reading: MjcfModel, spec: mujoco.MjSpec) -> None:
+    def __init__(self, reading: MjcfModel) -> None:
         self.reading, self.model = reading, reading.model
         self.shapes = MjcfShapes(reading.model)
-        self.meshes = {mesh.id: mesh for mesh in spec.meshes}
+        self.meshes = {mesh.id: mesh for mesh in reading.spec.meshes}
         self.folders = references.AssetFolders.of(reading.tree)
         self.field = mujoco.mjtGeom.mjGEOM_HFIELD
 

@@ -34,7 +34,7 @@ from meshforge.formats.plain.parts import (
     to_parts,
 )
 from meshforge.formats.surface_parts import parts_of_groups
-from meshforge.geometry import Ints, Piece, Pose, Shape, hull_mesh, split_pieces
+from meshforge.geometry import Ints, Piece, Pose, Shape, distinct, hull_mesh, split_pieces
 from meshforge.symbolic import PRIMITIVE_FEATURES, Asset, Body, FeatureKind, Geom, Mentions, Opaque, Surface
 
 BODY = "body"
@@ -139,7 +139,7 @@ class PlainFormat(Format):
         owner = np.full(len(soup.faces), -1)
         for k, piece in enumerate(found):
             owner[piece.face_indices] = k
-        groups = len(np.unique(soup.group[soup.group >= 0]))
+        groups = len(set(soup.group[soup.group >= 0].tolist()))
         names = tuple(name_file_pieces(found, soup.names))
         return PlainDocument(data, names, owner, groups, soup.marked), found, soup
 
@@ -199,7 +199,7 @@ class PlainFormat(Format):
 
 def _mentions_of(soup: Soup, piece: Piece) -> Mentions:
     return collision_pieces.drop_repeats(
-        (kind, names[k]) for kind, owner, names in soup.mentions for k in np.unique(owner[piece.face_indices]).tolist()
+        (kind, names[k]) for kind, owner, names in soup.mentions for k in distinct(owner[piece.face_indices]).tolist()
     )
 
 

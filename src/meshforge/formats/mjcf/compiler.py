@@ -1,5 +1,5 @@
-"""MuJoCo as a reader: one text of all files, compiled to a model, with messages about the authored lines and nothing
-printed."""
+"""MuJoCo as a compiler: one text of all files, made into a model, with messages about the authored lines and nothing
+printed; and its own answer to a file as it is."""
 
 from __future__ import annotations
 
@@ -34,10 +34,40 @@ KeepAttributes = Callable[[MjcfNode], Mapping[str, str] | None]
 _FUSING = {"compiler": ("fusestatic", "discardvisual"), "body": ("fuse",)}
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class EngineModel:
-    """A model, the spec it was compiled from, its bodies and geoms in the model's order, and what MuJoCo warned of."""
+@dataclass(frozen=True, slots=True)
+class MujocoTrial:
+    """What MuJoCo answers of a file as it is. version: of MuJoCo; refusal: why, None where it compiles the file."""
 
+    version: str
+    refusal: str | None
+    warnings: tuple[str, ...] = ()
+
+
+def try_in_mujoco(path: Path) -> MujocoTrial:
+    """Compile an MJCF or a URDF with MuJoCo, with all files that it names.
+
+    Its warnings are collected, and no log is written. Raises ImportError where MuJoCo is not installed.
+    """
+    version, refusal = str(mujoco.__version__), None
+    warnings: list[str] = []
+    with collect_warnings(warnings):
+        try:
+            mujoco.MjModel.from_xml_path(str(path))
+        except failure_types() as error:
+            refusal = _join_lines(str(error)) or "it does not say why"
+    return MujocoTrial(version, refusal, tuple(dict.fromkeys(map(_join_lines, warnings))))
+
+
+def _join_lines(message: str) -> str:
+    lines = [line.strip() for line in message.replace("XML Error: ", "").splitlines() if line.strip()]
+    return "; ".join(line.removeprefix("Error: ") for line in lines)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Compilation:
+    """A text, what MuJoCo made of it, its warnings, and its bodies and geoms in the order of the model."""
+
+    flat: FlatText
     spec: mujoco.MjSpec
     model: mujoco.MjModel
     bodies: tuple[mujoco.MjsBody, ...]
@@ -55,8 +85,8 @@ def compile_model(main: Path, files: Mapping[Path, bytes] | None = None) -> mujo
     return compile_text(tree, flatten(tree)).model
 
 
-def compile_text(tree: MjcfTree, flat: FlatText) -> EngineModel:
-    """The model of a tree's text. Raises AssetError with MuJoCo's message."""
+def compile_text(tree: MjcfTree, flat: FlatText) -> Compilation:
+    """What MuJoCo makes of a tree's text. Raises AssetError with MuJoCo's message."""
     warnings: list[str] = []
     return compile_spec(tree, flat, parse_text(tree, flat, warnings), warnings)
 
@@ -70,20 +100,20 @@ def parse_text(tree: MjcfTree, flat: FlatText, warnings: list[str] | None = None
             raise _error_of(str(error), tree, flat) from None
 
 
-def compile_spec(tree: MjcfTree, flat: FlatText, spec: mujoco.MjSpec, warnings: Sequence[str] = ()) -> EngineModel:
+def compile_spec(tree: MjcfTree, flat: FlatText, spec: mujoco.MjSpec, warnings: Sequence[str] = ()) -> Compilation:
     """The model of a spec; warnings: those that MuJoCo gave before. Raises AssetError with MuJoCo's message."""
     bodies = tuple(spec.bodies)
     geoms = geoms_of(bodies)
     _refuse_bad_poses(tree, flat, bodies, geoms)
-    heard = list(warnings)
-    with collect_warnings(heard), _provide_files(tree, flat) as vfs:
+    every = list(warnings)
+    with collect_warnings(every), _provide_files(tree, flat) as vfs:
         try:
             model = spec.compile(vfs=vfs)
         except failure_types() as error:
             raise _error_of(str(error), tree, flat) from None
-    messages = tuple(dict.fromkeys(_clean_message(warning) for warning in heard))
+    messages = tuple(dict.fromkeys(_clean_message(warning) for warning in every))
     in_order = tuple(sorted(bodies, key=lambda body: body.id)), tuple(sorted(geoms, key=lambda geom: geom.id))
-    return EngineModel(spec, model, *in_order, messages)
+    return Compilation(flat, spec, model, *in_order, messages)
 
 
 def geoms_of(bodies: Iterable[mujoco.MjsBody]) -> tuple[mujoco.MjsGeom, ...]:
@@ -213,33 +243,3 @@ def _start_tag(
             value = os.fspath(path)
         parts.append(b' %s="%s"' % (name.encode(), escape(value)))
     return b"".join([*parts, b">"])
-
-
-@dataclass(frozen=True, slots=True)
-class MujocoTrial:
-    """What MuJoCo says of a file. version: of MuJoCo; refusal: its words, None where it compiles the file."""
-
-    version: str
-    refusal: str | None
-    warnings: tuple[str, ...] = ()
-
-
-def try_in_mujoco(path: Path) -> MujocoTrial:
-    """Compile an MJCF or a URDF with MuJoCo, with all files that it names.
-
-    Its warnings are collected, and no log is written. Raises ImportError where MuJoCo is not installed.
-    """
-    version, refusal = str(mujoco.__version__), None
-    heard: list[str] = []
-    with collect_warnings(heard):
-        try:
-            mujoco.MjModel.from_xml_path(str(path))
-        except failure_types() as error:
-            refusal = _in_one_line(str(error)) or "it does not say why"
-    return MujocoTrial(version, refusal, tuple(dict.fromkeys(map(_in_one_line, heard))))
-
-
-def _in_one_line(message: str) -> str:
-    """The words of MuJoCo, in one line and without the `Error:` that it begins with."""
-    lines = [line.strip() for line in message.replace("XML Error: ", "").splitlines() if line.strip()]
-    return "; ".join(line.removeprefix("Error: ") for line in lines)

@@ -1,4 +1,4 @@
-"""Files that MuJoCo refuses, read for their collision geometry: what that does not need is left out of the text."""
+"""Files that MuJoCo refuses, stripped to their collision geometry: what that does not need is left out of the text."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from typing import Literal
 from meshforge.common import AssetError, is_file
 from meshforge.formats import mesh_reader, references
 from meshforge.formats.libraries import mujoco
-from meshforge.formats.mjcf import engine
+from meshforge.formats.mjcf import compiler
 from meshforge.formats.mjcf.document import MjcfNode, MjcfTree
 from meshforge.formats.mjcf.model import MjcfModel
 from meshforge.formats.mjcf.references import AssetFolders
@@ -44,21 +44,6 @@ _NEEDED = {
 _WHOLE = ("extension", "plugin", "instance", "config")  # of signed distance fields
 _FIXED = {"pos": "0 0 0", "mass": "1", "diaginertia": "1 1 1"}
 _LEAST_MASS, _LEAST_INERTIA = 1e-9, 1e-12  # [kg], [kg m^2] above what MuJoCo asks of moving bodies
-_FREE = ("freejoint", "joint")
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class PartialModel:
-    """What was read of a refused file.
-
-    stand_ins: geoms in the place of visual ones that cannot be had; unweighed: bodies, by number, that have some of
-    their mass from one of those.
-    """
-
-    flat: engine.FlatText
-    made: engine.EngineModel
-    stand_ins: frozenset[int]
-    unweighed: frozenset[int]
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,37 +68,37 @@ class _Attempt:
 _ATTEMPTS = (_Attempt(False, "authored"), _Attempt(True, "authored"))
 
 
-def reduce_model(tree: MjcfTree, refusal: AssetError, masses: Literal["fixed", "none"] = "none") -> PartialModel:
-    """The collision geometry of a tree that MuJoCo refuses as a whole.
+def strip_to_collision(tree: MjcfTree, refusal: AssetError, masses: Literal["fixed", "none"] = "none") -> MjcfModel:
+    """The model of the collision geometry of a tree that MuJoCo refuses as a whole.
 
     masses: what stands for authored masses that are refused: ones that no geom changes, or those of the geoms.
     Raises AssetError: a collision mesh that is not there; else `refusal`, where the collision geometry is refused too.
     """
-    last, tree = refusal, _repair_defaults(tree)
+    last, repaired = refusal, _repair_defaults(tree)
     for attempt in (*_ATTEMPTS, _Attempt(True, masses)):
-        flat = engine.flatten(tree, attempt.keep)
+        flat = compiler.flatten(repaired, attempt.keep)
         try:
-            spec = engine.parse_text(tree, flat)
+            spec = compiler.parse_text(repaired, flat)
         except AssetError as error:
             last = error
             continue
-        _refuse_missing(tree, flat, spec)
-        _refuse_lookalikes(tree, flat, spec)
-        names = {geom.name for geom in engine.geoms_of(spec.bodies)}
+        _refuse_missing(repaired, flat, spec)
+        _refuse_lookalikes(repaired, flat, spec)
+        names = {geom.name for geom in compiler.geoms_of(spec.bodies)}
         for pair in [pair for pair in spec.pairs if not names >= {pair.geomname1, pair.geomname2}]:
             spec.delete(pair)
-        infos = _replace_visuals(tree, flat, spec, attempt.all_visuals)
+        infos = _replace_visuals(repaired, flat, spec, attempt.all_visuals)
         spec.compiler.boundmass = max(spec.compiler.boundmass, _LEAST_MASS)
         spec.compiler.boundinertia = max(spec.compiler.boundinertia, _LEAST_INERTIA)
         spec.compiler.balanceinertia = True
         try:
-            made = engine.compile_spec(tree, flat, spec)
+            made = compiler.compile_spec(repaired, flat, spec)
         except AssetError as error:
             last = error
             continue
         stand_ins = frozenset(geom.id for geom in made.geoms if geom.info in infos)
         weighing = [geom.id for geom in made.geoms if infos.get(geom.info)]
-        return PartialModel(flat, made, stand_ins, frozenset(made.model.geom_bodyid[weighing].tolist()))
+        return MjcfModel(tree, made, False, stand_ins, frozenset(made.model.geom_bodyid[weighing].tolist()))
     if last.message != refusal.message:
         remedy = f"Once that is fixed, the next problem is: {last.message}"
         refusal = AssetError(refusal.problem, where=refusal.where, remedy=remedy)
@@ -159,11 +144,11 @@ def _add_setting(target: MjcfNode, child: MjcfNode) -> None:
     target.children.append(child)
 
 
-def _refuse_missing(tree: MjcfTree, flat: engine.FlatText, spec: mujoco.MjSpec) -> None:
+def _refuse_missing(tree: MjcfTree, flat: compiler.FlatText, spec: mujoco.MjSpec) -> None:
     lost = _find_missing_meshes(tree, flat, spec)
     geoms = [
         geom
-        for geom in engine.geoms_of(spec.bodies)
+        for geom in compiler.geoms_of(spec.bodies)
         if geom.meshname in lost and flat.node_at(geom.info) and _can_collide(geom, spec)
     ]
     if geoms:
@@ -178,33 +163,35 @@ def _refuse_missing(tree: MjcfTree, flat: engine.FlatText, spec: mujoco.MjSpec) 
         )
 
 
-def _refuse_lookalikes(tree: MjcfTree, flat: engine.FlatText, spec: mujoco.MjSpec) -> None:
+def _refuse_lookalikes(tree: MjcfTree, flat: compiler.FlatText, spec: mujoco.MjSpec) -> None:
     """Raise AssetError where the mesh of a collision geom plainly is a file of another kind, such as a pointer."""
     meshes = _locate_meshes(tree, flat, spec)
-    for name in dict.fromkeys(geom.meshname for geom in engine.geoms_of(spec.bodies) if _can_collide(geom, spec)):
+    for name in dict.fromkeys(geom.meshname for geom in compiler.geoms_of(spec.bodies) if _can_collide(geom, spec)):
         if name in meshes and is_file(meshes[name][1]):
             mesh_reader.read_content(meshes[name][1])
 
 
-def _locate_meshes(tree: MjcfTree, flat: engine.FlatText, spec: mujoco.MjSpec) -> dict[str, tuple[MjcfNode, Path]]:
+def _locate_meshes(tree: MjcfTree, flat: compiler.FlatText, spec: mujoco.MjSpec) -> dict[str, tuple[MjcfNode, Path]]:
     folders, nodes = AssetFolders.of(tree), {mesh.name: flat.node_at(mesh.info) for mesh in spec.meshes}
     return {
         name: (node, folders.find(tree, node)) for name, node in nodes.items() if node and node.attributes.get("file")
     }
 
 
-def _find_missing_meshes(tree: MjcfTree, flat: engine.FlatText, spec: mujoco.MjSpec) -> dict[str, MjcfNode]:
+def _find_missing_meshes(tree: MjcfTree, flat: compiler.FlatText, spec: mujoco.MjSpec) -> dict[str, MjcfNode]:
     return {name: node for name, (node, path) in _locate_meshes(tree, flat, spec).items() if not tree.has(path)}
 
 
-def _replace_visuals(tree: MjcfTree, flat: engine.FlatText, spec: mujoco.MjSpec, all_visuals: bool) -> dict[str, bool]:
+def _replace_visuals(
+    tree: MjcfTree, flat: compiler.FlatText, spec: mujoco.MjSpec, all_visuals: bool
+) -> dict[str, bool]:
     """Put massless spheres in the place of visual mesh geoms, so that the other geoms of a body keep their numbers.
 
     Returns the lines of these geoms, and whether they had a mass. Meshes that no geom is left to use go.
     """
     lost = _find_missing_meshes(tree, flat, spec)
     infos = {}
-    geoms = engine.geoms_of(spec.bodies)
+    geoms = compiler.geoms_of(spec.bodies)
     for geom in geoms:
         if geom.meshname and not _can_collide(geom, spec) and (all_visuals or geom.meshname in lost):
             infos[geom.info] = _has_mass(geom, spec)
@@ -225,41 +212,3 @@ def _can_collide(geom: mujoco.MjsGeom, spec: mujoco.MjSpec) -> bool:
     if geom.contype or geom.conaffinity:
         return True
     return bool(geom.name) and any(geom.name in (pair.geomname1, pair.geomname2) for pair in spec.pairs)
-
-
-def read_whole_model(tree: MjcfTree) -> MjcfModel | None:
-    """The model of a tree, None where MuJoCo refuses it."""
-    flat = engine.flatten(tree)
-    try:
-        return MjcfModel(tree, flat, engine.compile_text(tree, flat))
-    except AssetError:
-        return None
-
-
-def read_partial_model(tree: MjcfTree) -> MjcfModel:
-    """The model of the collision geometry of a tree that MuJoCo refuses. Raises AssetError."""
-    refusal = AssetError("MuJoCo refuses its collision geometry", where=str(tree.main.path))
-    found = reduce_model(tree, refusal, masses="fixed")
-    return MjcfModel(tree, found.flat, found.made, found.unweighed)
-
-
-def read_model(tree: MjcfTree, is_whole: bool) -> MjcfModel:
-    """The model of an edited tree, compiled as it was before. Raises AssetError with MuJoCo's message."""
-    if not is_whole:
-        return read_partial_model(tree)
-    flat = engine.flatten(tree)
-    return MjcfModel(tree, flat, engine.compile_text(tree, flat))
-
-
-def read_unscaled_model(tree: MjcfTree, reading: MjcfModel) -> MjcfModel:
-    """A whole reading with masses before they are scaled to a total, and free bodies in their authored frames."""
-    changing = {"compiler": {"settotalmass", "alignfree"}} | {tag: {"align"} for tag in _FREE}
-    if not any(changing.get(node.tag, set()) & node.attributes.keys() for node in tree.root.walk()):
-        return reading
-    flat = engine.flatten(tree)
-    spec = engine.parse_text(tree, flat)
-    spec.compiler.settotalmass = -1
-    spec.compiler.alignfree = False
-    for joint in spec.joints:
-        joint.align = 0
-    return MjcfModel(tree, flat, engine.compile_spec(tree, flat, spec))
