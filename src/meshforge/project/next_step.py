@@ -69,7 +69,10 @@ def _label_by_hand(state: FamilyState, asset: AssetStatus, text: str, kind: Step
 
 
 def _explain_names(state: FamilyState, asset: str) -> str:
-    return f"Names of hulls: meshforge info {quote_path(Path(asset))} --project {quote_path(state.folder)}"
+    note = f"Names of hulls: meshforge info {quote_path(Path(asset))} --project {quote_path(state.folder)}"
+    if not state.has_program and any(one.prepared and not one.is_done for one in state.assets):
+        note += f"\nOr write what is prepared, without a program: meshforge apply {quote_path(state.folder)}"
+    return note
 
 
 def _complete_labels(state: FamilyState) -> NextStep | None:
@@ -127,8 +130,6 @@ def _demonstrate(state: FamilyState) -> NextStep:
     example = best or next(iter(labelled or [asset.id for asset in state.assets]))
     text = f"Show the steps of the edit on an asset or two{f', best first on {best}' if best else ''}."
     note = _explain_names(state, example)
-    if any(asset.prepared and not asset.is_done for asset in state.assets):
-        note += f"\nOr write what is prepared, without a program: meshforge apply {quote_path(state.folder)}"
     return _step(
         state, "demonstrate", text, f"demonstrate {quote_path(Path(example))} 'HULLS => ACTION' ...", example, note
     )

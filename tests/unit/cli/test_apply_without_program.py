@@ -39,7 +39,7 @@ def test_nothing_is_prepared_so_there_is_nothing_to_write(run: Run) -> None:
 def test_what_is_prepared_is_written_and_said_to_be_without_a_program(run: Run) -> None:
     told = run("prepare", "p", "stand.urdf", *HULL)
     assert "Next: meshforge apply p writes what is prepared, also without a program" in told.err
-    assert "Or write what is prepared, without a program (meshforge apply p)." in run("status", "p").out
+    assert "Or write what is prepared, without a program: meshforge apply p" in run("status", "p").out
     told = run("apply", "p")
     assert told.code == 0 and SAID in told.err
     assert names("p/edited/stand.urdf") == ["cover/geom0#0", "frame/body#0", "frame/foot"]

@@ -158,7 +158,7 @@ def test_status_proposes_the_command_where_nothing_is_labelled(run: Run) -> None
     Project.open("p").set_vocabulary(("panel", "leg"))
     advised = json.loads(run("status", "p", "--json").out)["next"]
     assert advised["command"] == f"meshforge label p {FIRST} 'top=LABEL'"
-    assert f"best first {FIRST}" in advised["say"]
+    assert advised["text"].endswith(f"label those of {FIRST}.")
 
 
 @pytest.mark.slow
