@@ -37,7 +37,7 @@ def test_hello_tells_everything(studio: Studio) -> None:
     assert hello["program"]["text"] == hello["outcome"]["program"]
     assert not hello["program"]["by_hand"]
     assert hello["history"] == {"undo": None, "redo": None, "undoable": 0, "redoable": 0}
-    assert hello["project"]["next"]["kind"] == "review"
+    assert studio.until(lambda hello: hello["project"]["next"]["kind"] == "apply")
 
 
 def test_hello_or_an_event_tells_the_reach_of_the_program(studio: Studio) -> None:

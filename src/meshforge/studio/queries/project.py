@@ -35,13 +35,14 @@ from meshforge.studio.wire.family import (
     VocabularyLabel,
 )
 from meshforge.studio.wire.jobs import Model
-from meshforge.studio.wire.program import OutcomeView
+from meshforge.studio.wire.program import OutcomeView, ProgramView
 from meshforge.studio.wire.signoff import AssessmentView, ConfidenceView
 from meshforge.synthesis import Step
 
 
 def add_session(
     family: FamilyState,
+    program: ProgramView,
     outcome: OutcomeView | None,
     assessment: AssessmentView | None,
     propagation: PropagationState | None,
@@ -52,6 +53,7 @@ def add_session(
     return replace(
         family,
         assets=[_add_confidence(asset, rows.get(asset.id)) for asset in family.assets],
+        has_program=bool(program.text) and not program.error,
         outdated=False,
         problem=problem,
         question=_find_question(assessment),

@@ -100,7 +100,8 @@ class Refresher:
         problem = status.problem or damage
         offers = partial(find_offers, project, self._offers, self._pages.readable)
         family = replace(status.family, find_offers=offers)
-        family = add_session(family, self._pages.outcome, self._pages.assessment, propagation, problem)
+        known = self._pages.program, self._pages.outcome, self._pages.assessment
+        family = add_session(family, *known, propagation, problem)
         return build_project_view(project, cards, choose_next_step(family), problem, status.lost, propagation, new)
 
     def _count_read(self) -> None:
