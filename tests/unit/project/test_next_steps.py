@@ -114,12 +114,19 @@ def signed_off(folder: Path) -> Project:
     return project
 
 
+def open_rule(folder: Path) -> Project:
+    """Racks of which learning leaves open what a rule means."""
+    project = ambiguous(folder)
+    project.synthesize()
+    return project
+
+
 STATES: dict[str, tuple[Callable[[Path], Project], str, tuple[int, ...]]] = {
     "labels files beside the assets": (fresh, "label tables --with file", (0,)),
     "names that say labels": (one_named, "label tables --with names", (0,)),
     "one asset labelled": (one_labelled, "label tables --with propagate", (0,)),
     "demonstrated": (demonstrated, "synthesize tables", (0,)),
-    "an open question": (ambiguous, "review {0}", (0, 1)),
+    "an open question": (open_rule, "review {0}", (0, 1)),
     "learned": (learned, "apply tables", (0,)),
     "demonstrated anew": (demonstrated_anew, "synthesize tables", (0, 1)),
     "applied": (applied, "review tables", (0, 1)),
