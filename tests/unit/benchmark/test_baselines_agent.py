@@ -57,7 +57,7 @@ def test_the_model_is_told_the_language_as_it_is_documented_and_all_that_was_sho
     system, user = agent.opening
     told = str(system.parts[0])
     assert all(f"| `{name}" in told for name in ACTIONS)
-    assert all(f"\n{rule}: " in told for rule in ("program", "_extractor", "attach", "geo", "action"))
+    assert all(f"\n{rule}: " in told for rule in ("program", "_extractor", "union", "rule", "action"))
     assert "From Python" not in told
     words = "\n".join(part for part in user.parts if isinstance(part, str))
     orient = bench.task.program.orient

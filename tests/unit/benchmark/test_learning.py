@@ -24,7 +24,6 @@ from benchmark.learning.rule_courses import learn_rule
 from benchmark.learning.tables import DEMONSTRATED, read_tables, stretch_tables
 from benchmark.report import Result, as_text
 from meshforge.language import size_of
-from meshforge.synthesis.readings import belief
 
 
 def silent(_: str) -> None:
@@ -117,5 +116,5 @@ def test_features_are_what_the_weights_multiply() -> None:
     case = next(cases([0], 1, ("table",)))
     rule = calibrate._rule(case)
     assert rule is not None
-    used = np.array([float(getattr(belief, name)) for name in WEIGHTS])
+    used = np.array([float(getattr(module, name)) for name, module in WEIGHTS.items()])
     assert sorted(rule.shares(used)) == pytest.approx(sorted(learn(case.search()).beliefs))
