@@ -85,8 +85,8 @@ def test_engines_load_the_edited_cabinets(folder: Path, name: str) -> None:
     assert sum(int(kind) == 6 for kind in model.geom_type) == boxes
 
 
-def test_the_split_and_the_undo_of_the_page_leave_nothing_behind(folder: Path) -> None:
-    assert "sektion/sektion_collision#0: 2 hulls" in (folder / "split.txt").read_text()
+def test_the_cut_and_the_undo_of_the_page_leave_nothing_behind(folder: Path) -> None:
+    assert "sektion/sektion_collision#0: 2 hulls" in (folder / "cut.txt").read_text()
     assert not (folder / "cabinets/prepared" / CABINETS[0]).exists()
     steps = Project.open(folder / "cabinets").preparation(CABINETS[1]).steps
     assert [step.settings["method"] for step in steps] == ["coacd", "vhacd"]
