@@ -59,14 +59,14 @@ def row(item: tuple[str, str]) -> Row:
 
 def _asset(path: Path, name: str, root: str) -> Row:
     asset = read(path)
-    bodies = {geom.body for geom in asset.geoms} | {piece.body for piece in asset.opaque}
+    bodies = {geom.body for geom in asset.geoms} | {piece.body for piece in asset.non_convex}
     return Row(
         name,
         asset.format,
         len(asset.geoms),
         len(bodies),
-        len(asset.opaque),
-        _count(piece.reason for piece in asset.opaque),
+        len(asset.non_convex),
+        _count(piece.reason for piece in asset.non_convex),
         _short("; ".join(asset.notes), root),
     )
 

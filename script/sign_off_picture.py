@@ -14,7 +14,7 @@ from PIL.Image import Image
 
 from meshforge.batch import IN_PROCESS, load_templates
 from meshforge.language import Program, Template, select, to_canonical_frame
-from meshforge.project import Project, ProjectReview, run_with_corrections
+from meshforge.project import Project, ProjectReview, run_with_manual_edits
 from meshforge.rendering import make_contact_sheet, render, write_png
 from meshforge.samples import TABLES
 from meshforge.signoff import DemonstrationQuestion, ResultQuestion, ReviewQuestion, ReviewReply
@@ -33,7 +33,7 @@ def draw_sign_off(path: Path) -> None:
         family = _Family(Path(scratch))
         family.demonstrate(SHOWN_FIRST)
         found = family.review()
-        names = [*found.assessment.held][:_COLUMNS]
+        names = [*found.assessment.need_review][:_COLUMNS]
         rows = [family.draw(name) for name in names]
         titles = [f"{Path(name).stem}: {found.assessment.assets[name].probability:.0%} sure" for name in names]
         for _ in range(_MOST_QUESTIONS):
@@ -95,7 +95,7 @@ class _Family:
     def draw(self, asset: str) -> Image:
         """The table as it is edited now, upright."""
         program, mesh = self.project.program(), self.project.mesh(asset)
-        edited = run_with_corrections(self.project, asset, mesh, program).mesh
+        edited = run_with_manual_edits(self.project, asset, mesh, program).mesh
         _, pose = to_canonical_frame(mesh, self.meant.orient)
         upright = replace(edited, hulls=tuple(hull.move(pose) for hull in edited.hulls))
         return render(upright, size=_SIZE, up="Z", legend=False, color_by="hull")

@@ -9,14 +9,14 @@ import numpy as np
 
 from meshforge.formats.visuals import Visual, VisualSurfaces
 from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Pose, Shape, Sphere, convex_hull
-from meshforge.symbolic import Asset, Body, Document, Geom, Inertial, Joint, Mechanism, Opaque, Surface
+from meshforge.symbolic import Asset, Body, Document, Geom, Inertial, Joint, Mechanism, NonConvexPiece, Surface
 from tests.soups import angle
 
 TURNED = Pose.from_rpy([1, 2, 3], [0.4, -1.1, 2.0])
 NEAR = Pose.of_translation([0.2, 0.5, 0.25])
 
 
-def foreign(bodies: dict[str, Pose], geoms: list[tuple[str, str, Shape]], *opaque: Opaque) -> Asset:
+def foreign(bodies: dict[str, Pose], geoms: list[tuple[str, str, Shape]], *opaque: NonConvexPiece) -> Asset:
     """An asset of no format that is known; geoms as name, body and shape."""
     made = tuple(Geom(name, body, shape) for name, body, shape in geoms)
     return Asset(Path("x.foo"), "foo", tuple(Body(n, p) for n, p in bodies.items()), made, Document(), opaque)
@@ -106,8 +106,8 @@ def opaque() -> Asset:
     return foreign(
         {"room": Pose.identity()},
         [("room/stool", "room", block(0, 0, 8))],
-        Opaque("room/walls", "room", "not convex", Surface(vertices, faces)),
-        Opaque("room/floor", "room", "a plane has no end", plane=Pose.of_translation([0, 0, -1])),
+        NonConvexPiece("room/walls", "room", "not convex", Surface(vertices, faces)),
+        NonConvexPiece("room/floor", "room", "a plane has no end", plane=Pose.of_translation([0, 0, -1])),
     )
 
 

@@ -35,7 +35,7 @@ class Edited:
                 assert is_same_shape(geom.shape, told[geom.name].shape, 1e-9)
                 assert geom.body == told[geom.name].body
         assert told.keys() <= {geom.name for geom in after.geoms}
-        assert sorted(o.reason for o in after.opaque) == sorted(o.reason for o in self.before.opaque)
+        assert sorted(o.reason for o in after.non_convex) == sorted(o.reason for o in self.before.non_convex)
         now, then = errors([self.out, self.source])
         assert now <= then
         return after

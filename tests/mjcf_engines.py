@@ -11,7 +11,7 @@ import numpy as np
 from meshforge.formats.base import ReadOptions
 from meshforge.formats.mjcf.format import MjcfFormat
 from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Floats, Pose, Shape, Sphere
-from meshforge.symbolic import Asset, Geom, Opaque
+from meshforge.symbolic import Asset, Geom, NonConvexPiece
 
 KINDS = {
     mujoco.mjtGeom.mjGEOM_BOX: "box",
@@ -59,9 +59,9 @@ def assert_as_in_mujoco(asset: Asset, path: Path) -> None:
     data = mujoco.MjData(compiled)
     mujoco.mj_kinematics(compiled, data)
     colliding = np.flatnonzero((compiled.geom_contype != 0) | (compiled.geom_conaffinity != 0)).tolist()
-    assert len(asset.geoms) + len(asset.opaque) == len(colliding)
-    hulls: Iterator[Geom | Opaque] = iter(asset.geoms)
-    others: Iterator[Geom | Opaque] = iter(asset.opaque)
+    assert len(asset.geoms) + len(asset.non_convex) == len(colliding)
+    hulls: Iterator[Geom | NonConvexPiece] = iter(asset.geoms)
+    others: Iterator[Geom | NonConvexPiece] = iter(asset.non_convex)
     read = [next(hulls if mujoco.mjtGeom(int(compiled.geom_type[k])) in KINDS else others) for k in colliding]
     for piece, k in zip(read, colliding, strict=True):
         place = Pose(data.geom_xmat[k].reshape(3, 3), data.geom_xpos[k])
@@ -69,7 +69,7 @@ def assert_as_in_mujoco(asset: Asset, path: Path) -> None:
         own = compiled.geom(k).name
         assert f"/{piece.name}".endswith(f"/{own}") if own else piece.name.split("/")[-1].startswith("geom")
         assert piece.body == (compiled.body(int(compiled.geom_bodyid[k])).name or piece.body)
-        if isinstance(piece, Opaque):
+        if isinstance(piece, NonConvexPiece):
             assert kind is None
             continue
         assert piece.shape.kind == kind, piece.name

@@ -125,7 +125,7 @@ def put(output: Output, path: Path) -> Path:
 def assert_reads_back(edit: Asset, again: Asset) -> None:
     """The pieces of an edited asset have their names, places and sizes after it was written and read."""
     assert [g.name for g in again.geoms] == [g.name for g in edit.geoms]
-    assert [o.name for o in again.opaque] == [o.name for o in edit.opaque]
+    assert [o.name for o in again.non_convex] == [o.name for o in edit.non_convex]
     for old, new in zip(edit.geoms, again.geoms, strict=True):
         assert abs(old.shape.aabb.min - new.shape.aabb.min).max() < 1e-9
         assert abs(old.shape.volume - new.shape.volume) <= 1e-9 * old.shape.volume

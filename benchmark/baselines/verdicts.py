@@ -16,7 +16,7 @@ from meshforge.symbolic import SymbolicMesh
 
 _PATIENCE = 3
 """Meshes in a row that a script spoils by taking too long or breaking Blender, after which it is tried on no more."""
-_TOLD = 200  # characters
+_REPORTED = 200  # characters
 _SPOILT = ("it took longer", "Blender broke down")
 
 
@@ -66,7 +66,7 @@ def _judge(bench: Bench, log: Session, edit: Callable[[str], EditResult]) -> Non
     for name in rest:
         if why := bench.failure(name, edit(name)):
             lines = why.splitlines()
-            log.failures[name] = lines[-1 if lines[0].startswith("Traceback") else 0][:_TOLD]
+            log.failures[name] = lines[-1 if lines[0].startswith("Traceback") else 0][:_REPORTED]
             log.failed_pure += name in bench.pure
 
 

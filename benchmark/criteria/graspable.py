@@ -28,13 +28,13 @@ def failure(case: Case, site: str, pull: str = "back") -> str | None:
     if sites and not case.mesh.hulls:
         return f"{site}: no hull is left"
     for number, where in enumerate(sites, 1):
-        why = _hold(case, where, pull)
+        why = _to_line(case, where, pull)
         if why:
             return f"{site} {number}: {why}"
     return None
 
 
-def _hold(case: Case, site: Site, pull: str) -> str | None:
+def _to_line(case: Case, site: Site, pull: str) -> str | None:
     axes = axes_of(site)
     way = np.array([0.0, 0.0, 1.0]) if pull == "up" else -axes[:, 0]
     model = _scene(case, site, way)

@@ -26,7 +26,7 @@ EPSILONS = (0.0005, 0.001, 0.002, 0.004, 0.008)
 DELTAS = (0.01, 0.02, 0.05, 0.1, 0.2)
 _FACE = 0.01  # of a label's extent: what lies in this outermost slice is at the boundary
 _JOINT = 0.001  # m: parts that the generators join are no farther apart
-_HELD = 0.02  # of a hull's volume: less of a part than this is not held by it
+_COVERED = 0.02  # of a hull's volume: less of a part than this is not held by it
 
 
 def measure(tell: Tell, quick: bool) -> Result:
@@ -105,7 +105,7 @@ def _holders(sample: Sample, mesh: SymbolicMesh) -> list[list[int]]:
     for k, hull in enumerate(mesh.hulls):
         solid = Manifold.hull_points(hull.vertices)
         shares = [float((solid ^ part.solid).volume()) for part in sample.asset.parts]
-        own = [place for place, share in enumerate(shares) if share > _HELD * hull.volume]
+        own = [place for place, share in enumerate(shares) if share > _COVERED * hull.volume]
         if len(own) == 1:
             found[own[0]].append(k)
     return found

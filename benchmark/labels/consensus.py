@@ -90,7 +90,9 @@ def fit_weights(families: Sequence[FamilyCase]) -> Floats:
     for _ in range(ROUNDS):
         evidence = [one.context.collect_evidence(some) for one, some in zip(families, chances, strict=True)]
         rounds.append(_fit_round(families, evidence))
-        chances = [one.context.hold(softmax(some @ rounds[-1])) for one, some in zip(families, evidence, strict=True)]
+        chances = [
+            one.context.fix_known(softmax(some @ rounds[-1])) for one, some in zip(families, evidence, strict=True)
+        ]
     return np.array(rounds)
 
 

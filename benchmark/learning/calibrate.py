@@ -22,9 +22,9 @@ from benchmark.learning.task_cases import QUICK, task_cases
 from benchmark.report import Cell, Result, Table, Tell
 from meshforge.geometry import Floats
 from meshforge.language.extractors import attach, bases, geo
-from meshforge.synthesis.readings import belief
-from meshforge.synthesis.readings.belief import count_idle, measure_evidence
-from meshforge.synthesis.readings.rank import enumerate_consistent
+from meshforge.synthesis.candidates import belief
+from meshforge.synthesis.candidates.belief import count_idle, measure_evidence
+from meshforge.synthesis.candidates.rank import enumerate_consistent
 from meshforge.synthesis.search.smallest import Hit
 from meshforge.synthesis.search.terms import Term
 
@@ -148,7 +148,7 @@ def _fit(rules: Sequence[Rule], columns: Sequence[int] | None = None) -> Floats:
 
 def _judge(name: str, weights: Floats, fitting: Sequence[Rule], judging: Sequence[Rule]) -> tuple[Cell, ...]:
     believed = [int(rule.shares(weights).argmax()) == rule.right for rule in judging]
-    taken = [belief.choose_reading(rule.terms, rule.shares(weights).tolist()) == rule.right for rule in judging]
+    taken = [belief.choose_candidate(rule.terms, rule.shares(weights).tolist()) == rule.right for rule in judging]
     return (name, _surprise(weights, fitting), _surprise(weights, judging), percent(believed), percent(taken))
 
 
@@ -157,7 +157,7 @@ def _reliability(title: str, rules: Sequence[Rule], weights: Floats) -> Table:
     shares = np.concatenate([rule.shares(weights) for rule in rules])
     right = np.concatenate([np.arange(len(rule.terms)) == rule.right for rule in rules])
     return Table(
-        title, ("belief, from", "to", "readings", "believed, mean", "right, share"), tuple(_bins(shares, right))
+        title, ("belief, from", "to", "candidates", "believed, mean", "right, share"), tuple(_bins(shares, right))
     )
 
 

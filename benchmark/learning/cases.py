@@ -11,9 +11,9 @@ from benchmark.learning.families import FAMILIES, VOCABULARIES, family
 from benchmark.learning.targets import extractors_of
 from meshforge.language import Extractor, select_mask, show
 from meshforge.symbolic import SymbolicMesh
+from meshforge.synthesis.candidates.rank import RankedCandidates, enumerate_consistent
 from meshforge.synthesis.demonstration import Example
 from meshforge.synthesis.options import Options, TimeBudget
-from meshforge.synthesis.readings.rank import RankedReadings, enumerate_consistent
 from meshforge.synthesis.search.smallest import Hit, Search
 
 FAMILY = 30
@@ -52,11 +52,11 @@ def name_of(place: int) -> str:
     return f"mesh {place:04}"
 
 
-def learn(search: Search) -> RankedReadings:
+def learn(search: Search) -> RankedCandidates:
     """The readings of a rule, as learning makes them."""
     found = search.run()
     assert isinstance(found, Hit), "there is an extractor: the hidden one"
-    return RankedReadings(search, enumerate_consistent(search, found.extractor, search.options.above))
+    return RankedCandidates(search, enumerate_consistent(search, found.extractor, search.options.above))
 
 
 @cache

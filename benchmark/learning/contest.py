@@ -15,11 +15,11 @@ from benchmark.learning.ratios import Row
 from benchmark.learning.sygus import cvc5_problem
 from meshforge.label_model.odds import LabelBeliefs
 from meshforge.language import Extractor, show, size_of
+from meshforge.synthesis.candidates.rank import RankedCandidates, enumerate_consistent
 from meshforge.synthesis.options import Options, TimeBudget
 from meshforge.synthesis.paper.search import PaperSearch
-from meshforge.synthesis.questions import LabelCorrection
-from meshforge.synthesis.readings.rank import RankedReadings, enumerate_consistent
-from meshforge.synthesis.repair.explain import CorrectionSearch, Explanation
+from meshforge.synthesis.questions import LabelFix
+from meshforge.synthesis.repair.explain import Explanation, FixSearch
 from meshforge.synthesis.search.smallest import Hit
 
 ALONE, READINGS, REPAIR = "MeshForge, search alone", "MeshForge, search and readings", "MeshForge, repair on"
@@ -79,13 +79,13 @@ class Contest:
         found = search.run()
         assert isinstance(found, Hit)
         self.alarms = bool(self._explain(found.extractor))
-        return _smallest(RankedReadings(search, enumerate_consistent(search, found.extractor, search.options.above)))
+        return _smallest(RankedCandidates(search, enumerate_consistent(search, found.extractor, search.options.above)))
 
     def _explain(self, exact: Extractor) -> Explanation | None:
         case = self.case
         known, rest = ({name_of(k): case.meshes[k] for k in some} for some in (case.shown, case.rest()))
         labels = LabelBeliefs(known, rest, case.vocabulary)
-        return CorrectionSearch(
+        return FixSearch(
             case.examples(), case.vocabulary, labels, Options(), TimeBudget(Options().budget), exact=exact
         ).run()
 
@@ -116,9 +116,9 @@ def limit_of(quick: bool) -> float:
     return QUICK_LIMIT if quick else LIMIT
 
 
-def _smallest(weighed: RankedReadings) -> Extractor:
+def _smallest(weighed: RankedCandidates) -> Extractor:
     return weighed.consistent.terms[0].extractor
 
 
-def _no(_: LabelCorrection) -> bool:
+def _no(_: LabelFix) -> bool:
     return False

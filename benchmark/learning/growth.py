@@ -12,12 +12,12 @@ import numpy as np
 from benchmark.clock import in_turns
 from benchmark.learning.boxes import SIZED, boxes_case
 from benchmark.report import Cell, Goal, Result, Table, Tell
-from meshforge.synthesis.readings.rank import RankedReadings, enumerate_consistent
+from meshforge.synthesis.candidates.rank import RankedCandidates, enumerate_consistent
 from meshforge.synthesis.search.smallest import Hit, Search
 
 _ROUNDS = 3
 _SLOW = 0.5  # seconds of a turn that is not taken again
-_COLUMNS = ("nodes found", "groups", "readings", "all of them", "search, ms", "readings, ms")
+_COLUMNS = ("nodes found", "groups", "candidates", "all of them", "search, ms", "readings, ms")
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,7 +101,7 @@ def _largest(tell: Tell, quick: bool) -> Iterator[Point]:
 
 def _point(setting: Setting, rounds: int) -> Point:
     case = boxes_case(setting.nodes, setting.meshes, setting.demonstrated, setting.hulls, setting.labels)
-    found: list[RankedReadings] = []
+    found: list[RankedCandidates] = []
     searches: list[tuple[Search, Hit]] = []
 
     def search() -> None:
@@ -113,10 +113,10 @@ def _point(setting: Setting, rounds: int) -> Point:
     def weigh() -> None:
         searching, answer = searches[-1]
         found.append(
-            RankedReadings(searching, enumerate_consistent(searching, answer.extractor, searching.options.above))
+            RankedCandidates(searching, enumerate_consistent(searching, answer.extractor, searching.options.above))
         )
 
-    times = in_turns({"search": lambda: search, "readings": lambda: weigh}, rounds, slow=_SLOW)
+    times = in_turns({"search": lambda: search, "candidates": lambda: weigh}, rounds, slow=_SLOW)
     field, consistent = found[-1].field, found[-1].consistent
     return Point(
         setting,
@@ -125,7 +125,7 @@ def _point(setting: Setting, rounds: int) -> Point:
         len(consistent.terms),
         consistent.complete,
         median(times["search"]),
-        median(times["readings"]),
+        median(times["candidates"]),
     )
 
 

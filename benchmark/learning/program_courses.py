@@ -86,7 +86,7 @@ def _teach(task: TargetProgram, seed: int, demos: Sequence[Demonstration]) -> Pr
         done.neither,
         done.refused,
         _wrong(task, done.last.program),
-        done.last.settled,
+        done.last.unambiguous,
     )
 
 

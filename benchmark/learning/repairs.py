@@ -18,8 +18,8 @@ from meshforge.language import Extractor, select_mask, size_of
 from meshforge.symbolic import Label, LabelSource, SymbolicMesh, descriptors
 from meshforge.synthesis.demonstration import Example
 from meshforge.synthesis.options import Options, TimeBudget
-from meshforge.synthesis.questions import LabelCorrection
-from meshforge.synthesis.repair.explain import CorrectionSearch
+from meshforge.synthesis.questions import LabelFix
+from meshforge.synthesis.repair.explain import FixSearch
 from meshforge.synthesis.search.smallest import Hit, Search
 
 OPTIONS = Options(max_size=9)
@@ -126,20 +126,20 @@ def _learn(case: Case, tally: Tally) -> None:
     spoiled = any(hull.label != truth[one.name, hull.name] for one in examples for hull in one.mesh.hulls)
     needed = spoiled and (exact is None or size_of(exact) > size_of(best))
     rest = {f"m{k}": mesh for k, mesh in enumerate(case.noisy) if k not in case.chosen}
-    rejected, spent = set[LabelCorrection](), Counter[str]()
+    rejected, spent = set[LabelFix](), Counter[str]()
     for _ in range(ROUNDS):
         labels = LabelBeliefs({one.name: one.mesh for one in examples}, rest, case.vocabulary)
         start = perf_counter()
-        said = CorrectionSearch(
+        said = FixSearch(
             examples, case.vocabulary, labels, OPTIONS, TimeBudget(60.0), exact=exact, spent=spent, rejected=rejected
         ).run()
         tally.seconds.append(perf_counter() - start)
         if said is None:
             break
-        agreed = [c for c in said.corrections if truth[c.asset, c.hull] == c.to]
-        tally.counts["asked"] += len(said.corrections)
+        agreed = [c for c in said.fixes if truth[c.asset, c.hull] == c.to]
+        tally.counts["asked"] += len(said.fixes)
         tally.counts["right"] += len(agreed)
-        rejected |= set(said.corrections) - set(agreed)
+        rejected |= set(said.fixes) - set(agreed)
         spent.update(c.asset for c in agreed)
         examples = [_correct(one, agreed) for one in examples]
         exact = find_extractor(examples, case.vocabulary)
@@ -147,7 +147,7 @@ def _learn(case: Case, tally: Tally) -> None:
     tally.counts.update(rules=1, needed=needed, recovered=needed and same)
 
 
-def _correct(example: Example, rows: Sequence[LabelCorrection]) -> Example:
+def _correct(example: Example, rows: Sequence[LabelFix]) -> Example:
     labels = {row.hull: Label(row.to, 1.0, "repair") for row in rows if row.asset == example.name}
     return Example(example.name, example.mesh.with_labels(labels), example.selection)
 

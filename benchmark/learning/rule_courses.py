@@ -62,7 +62,7 @@ def learn_rule(case: Case, count: int) -> RuleCourse:
         done.neither,
         not wrong,
         wrong,
-        done.last.settled,
+        done.last.unambiguous,
     )
 
 

@@ -43,7 +43,7 @@ def talk(task: TargetProgram, demos: Sequence[Demonstration], options: Options) 
     while isinstance(last, Ambiguous) and len(answers) < _MOST:
         answers.append(_answer(task, last))
         last = learn()
-    return Talk(first, last, tuple(answers), len({repair.correction for repair in refused}))
+    return Talk(first, last, tuple(answers), len({repair.fix for repair in refused}))
 
 
 def _answer(task: TargetProgram, outcome: Ambiguous) -> Answer:

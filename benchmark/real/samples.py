@@ -103,7 +103,7 @@ def label_hulls(asset: Asset, setting: str, hulls: Sequence[Hull]) -> Sample:
 def why_absent(source: Source) -> str | None:
     """Why an asset has no mesh as it comes; None where it has one."""
     asset = source.read()
-    concave = [o.name for o in asset.opaque if o.plane is None and not matches(o.name, source.without)]
+    concave = [o.name for o in asset.non_convex if o.plane is None and not matches(o.name, source.without)]
     if concave:
         return f"{pluralize(len(concave), 'non-convex piece')}, such as {concave[0]}"
     count = len(_as_is(source))

@@ -110,7 +110,7 @@ def _surfaces(asset: Asset, wanted: str | None) -> Iterator[tuple[str, str, Floa
     for geom in asset.geoms:
         if geom.body not in shown:
             yield geom.name, geom.body, geom.shape.vertices, geom.shape.faces
-    for opaque in asset.opaque:
+    for opaque in asset.non_convex:
         if opaque.body not in shown and opaque.surface is not None and opaque.plane is None:
             yield opaque.name, opaque.body, opaque.surface.vertices, opaque.surface.faces
 

@@ -11,7 +11,7 @@ from benchmark.tasks import EditResult
 from meshforge.batch import IN_PROCESS
 from meshforge.common import MeshForgeError
 from meshforge.language import Program
-from meshforge.project import Project, ProjectReview, run_with_corrections
+from meshforge.project import Project, ProjectReview, run_with_manual_edits
 from meshforge.signoff import Assessment, ReviewQuestion, ReviewReply
 from meshforge.synthesis import Nearest, NoProgram
 
@@ -76,7 +76,7 @@ class Client(TaskClient):
         program, project = self.program, self.project
         if program is None:
             return None
-        by_hand, meant = project.corrections(asset), project.feedback().verdict_on(asset)
+        by_hand, meant = project.manual_edits(asset), project.feedback().verdict_on(asset)
         key = (asset, str(program), str(project.labels(asset)), f"{by_hand} {meant and meant.meant}")
         if key not in self._outputs:
             self._outputs[key] = Output(self._edit(asset, program), bool(by_hand))
@@ -84,16 +84,18 @@ class Client(TaskClient):
 
     def _edit(self, asset: str, program: Program) -> EditResult:
         try:
-            done = run_with_corrections(self.project, asset, self.read_meshes()[asset], program)
+            done = run_with_manual_edits(self.project, asset, self.read_meshes()[asset], program)
         except MeshForgeError as error:
             return EditResult(None, error=str(error))
         rules = zip(program.rules, done.run.trace, strict=True)
         named = {name for rule, line in rules if rule.label for name in line.made}
-        if any(one.label for one in done.corrections):
+        if any(one.label for one in done.manual_edits):
             named |= done.mesh.index.keys() - done.run.mesh.index.keys()
         return EditResult(done.mesh, done.run.trace, frozenset(named))
 
 
 def _build_status(found: Assessment, has_program: bool, nearest: Nearest | None) -> FamilyStatus:
     shares = {name: one.probability for name, one in found.assets.items()}
-    return FamilyStatus(found.question, has_program, found.signed_off, found.held, found.excluded, shares, nearest)
+    return FamilyStatus(
+        found.question, has_program, found.signed_off, found.need_review, found.excluded, shares, nearest
+    )

@@ -28,7 +28,7 @@ from meshforge.geometry import Floats
 from meshforge.label_model import model_family
 from meshforge.project import Project, ProjectReview
 from meshforge.signoff import confidence
-from meshforge.signoff.family import FamilyTrial
+from meshforge.signoff.family import FamilyRun
 from meshforge.synthesis import Ambiguous, Found
 
 LABELS = (FLAT, NONE, ERRS, SYSTEMATIC, PROPAGATED[2])
@@ -79,11 +79,11 @@ class _Observer(Client):
         family = model_family(list(state.meshes.values()))
         said = [hull.annotation for mesh in state.meshes.values() for hull in mesh.hulls]
         posterior = family.infer(said, state.frame.labels)
-        trial = FamilyTrial.of(state, outcome.program, outcome.readings, posterior, {})
+        trial = FamilyRun.of(state, outcome.program, outcome.candidates, posterior, {})
         trust, right = trial.trust_in_program(), len(trial.results[0])
         against = known.program + known.result * right - float(np.log(trust / (1 - trust)))
-        for one, evidence in zip(trial.trials, trial.evidence, strict=True):
-            alarms = any(doubt.kind == "alarm" for doubt in found.assessment.assets[one.asset].doubts)
+        for one, evidence in zip(trial.runs, trial.evidence, strict=True):
+            alarms = any(doubt.kind == "alarm" for doubt in found.assessment.assets[one.asset].reasons)
             if not (one.error or alarms or one.asset in state.reviewed_assets) and one.asset in self._judge.possible:
                 is_right = self._judge.is_right(one.asset, self.read_output(one.asset))
                 yield [*evidence.features.tolist(), right, against, float(one.asset in state.wrong), float(is_right)]

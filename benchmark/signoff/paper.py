@@ -39,7 +39,7 @@ def count_shown(row: Review) -> int:
 
 def count_replies(row: Review) -> int:
     """The same, and answers about the program."""
-    return count_shown(row) + row.acts.get("reading", 0) + row.acts.get("selection", 0)
+    return count_shown(row) + row.acts.get("candidate", 0) + row.acts.get("selection", 0)
 
 
 def share_of_tasks(

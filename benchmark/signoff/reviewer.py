@@ -14,14 +14,14 @@ from benchmark.study.person import Person
 from benchmark.study.propagation import HandLabels
 from meshforge.language import Program
 from meshforge.signoff import (
+    CandidateQuestion,
     GroupQuestion,
     HullPlace,
+    MistakeQuestion,
     OrientationQuestion,
-    ReadingQuestion,
     ResultQuestion,
     ReviewQuestion,
     ReviewReply,
-    SlipQuestion,
 )
 from meshforge.signoff.question import NO, RIGHT, WRONG
 from meshforge.synthesis import Demonstration, Step
@@ -46,9 +46,9 @@ class Reviewer:
         match question:
             case GroupQuestion():
                 return self._name_group(question)
-            case ReadingQuestion():
+            case CandidateQuestion():
                 return self._pick(question, desk, program)
-            case SlipQuestion():
+            case MistakeQuestion():
                 return self._check_selection(question)
             case ResultQuestion():
                 return self._look(question, output)

@@ -123,7 +123,7 @@ def _format_step(step: Step) -> str:
 
 def _read_status(told: Mapping[str, Any], assets: Iterable[str]) -> FamilyStatus:
     """How the family stands by what the command printed."""
-    held = {one["asset"]: float(one["probability"]) for one in told["held"]}
+    held = {one["asset"]: float(one["probability"]) for one in told["needs_review"]}
     excluded = frozenset(told["excluded"])
     signed = [name for name in assets if name not in held and name not in excluded]
     assert len(signed) == told["signed_off"]

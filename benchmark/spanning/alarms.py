@@ -38,7 +38,7 @@ class AlarmCase:
         named = set[tuple[str, str]]()
         for result in self.project.rebuild_spanning(how=how, dry_run=True, execution=IN_PROCESS):
             assert not result.problems, result.problems
-            named |= {(result.asset, entry.what) for entry in result.planned if entry.told.startswith(entry.what)}
+            named |= {(result.asset, entry.what) for entry in result.planned if entry.remark.startswith(entry.what)}
         right = named & set(self.spanning.items())
         return len(right), len(named) - len(right)
 

@@ -164,7 +164,7 @@ class Course:
             return outcome
         if outcome.program and not self.log.known_among:
             self.log.known_among = self._find_right_readings(outcome)
-        self._note(outcome.status, outcome.program, outcome.settled, {**seconds, **outcome.seconds})
+        self._note(outcome.status, outcome.program, outcome.unambiguous, {**seconds, **outcome.seconds})
         return outcome
 
     def _note(self, status: str, program: Program | None, settled: bool, seconds: dict[str, float]) -> None:
@@ -188,7 +188,7 @@ class Course:
 
     def _find_right_readings(self, outcome: LearningOutcome) -> list[bool]:
         """For each rule, whether one of its readings behaves as the reference does on every mesh."""
-        rules, readings = range(len(self.bench.task.program.rules)), outcome.readings
+        rules, readings = range(len(self.bench.task.program.rules)), outcome.candidates
         able = [name for name in self.able if self.desk.reference[name] is not None]
         return [
             any(self.desk.behaves(r.extractor, place, able) for r in readings if r.rule == place + 1) for place in rules
@@ -196,7 +196,7 @@ class Course:
 
     def _confirm(self, repair: Repair) -> bool:
         said, log = self.person.confirms(repair), self.log
-        log.rightly += said == self.person.knows(repair.correction)
+        log.rightly += said == self.person.knows(repair.fix)
         log.confirmed += said
         log.refused += not said
         return said

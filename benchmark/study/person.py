@@ -9,7 +9,7 @@ from dataclasses import replace
 from benchmark.study.condition import SEEN, Condition
 from benchmark.study.desk import Desk, Selections
 from meshforge.language import Program
-from meshforge.synthesis import Answer, Demonstration, LabelCorrection, OpenRule, Repair, Step
+from meshforge.synthesis import Answer, Demonstration, LabelFix, OpenRule, Repair, Step
 
 
 class Person:
@@ -130,9 +130,9 @@ class Person:
 
     def confirms(self, repair: Repair) -> bool:
         """Whether a label is to be corrected so."""
-        right = self.knows(repair.correction)
+        right = self.knows(repair.fix)
         return right != self.errs_now()
 
-    def knows(self, correction: LabelCorrection) -> bool:
+    def knows(self, correction: LabelFix) -> bool:
         """Whether a correction is right."""
         return self._truth.meshes[correction.asset].hull_of(correction.hull).label == correction.to

@@ -107,7 +107,7 @@ def test_an_edit_is_on_disk_and_undone_and_redone_to_the_byte(studio: Studio, ki
 
 FOLLOWING: dict[str, tuple[str, Fields]] = {
     "unprepare": ("cut", lambda _: {"asset": FIRST}),
-    "drop-corrections": ("correct", lambda _: {"asset": THIRD}),
+    "drop-manual-edits": ("correct", lambda _: {"asset": THIRD}),
     "take-back": ("answer", lambda _: {"id": f"1:{THIRD}"}),
 }
 

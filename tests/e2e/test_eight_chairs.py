@@ -69,5 +69,5 @@ def test_eight_chairs_go_from_a_dropped_folder_to_an_export(tmp_path: Path) -> N
 
 def _is_honest(person: Hand, hello: dict[str, Any]) -> None:
     """Nothing is green while something is held."""
-    if hello["assessment"] and hello["assessment"]["held"]:
+    if hello["assessment"] and hello["assessment"]["needs review"]:
         assert not person.page.locator("[data-mood=good]").count()

@@ -92,9 +92,9 @@ def _is_assessed(hello: dict[str, Any]) -> bool:
 def _sees_what_is_held(person: Hand, studio: Studio) -> None:
     """Nothing reassures: tables that would become solid blocks are held, and nothing is green."""
     found = _assessed(studio)
-    solid = {row["asset"] for row in found["assets"] if any("solid block" in doubt["text"] for doubt in row["doubts"])}
+    solid = {row["asset"] for row in found["assets"] if any("solid block" in doubt["text"] for doubt in row["reasons"])}
     assert len(solid) >= 4
-    assert all(row["state"] == "held" for row in found["assets"] if row["asset"] in solid)
+    assert all(row["state"] == "needs review" for row in found["assets"] if row["asset"] in solid)
     person.sees(f"Signed off {found['signed_off']} of 14")
     assert not person.page.locator("[data-mood=good]").count()
 

@@ -100,7 +100,7 @@ def test_an_edit_leaves_what_is_seen_and_marks_its_hulls_beside_it(folder: Path,
     }
     after = read(out)
     assert sorted(shapes(after)) == ["Table/leg", "drop", "top"]
-    assert [piece.name for piece in after.opaque] == ["ring"] and len(after.visuals) == 4
+    assert [piece.name for piece in after.non_convex] == ["ring"] and len(after.visuals) == 4
     assert shapes(after)["Table/leg"].kind == "capsule"
     falls = [place(out, "/World/drop", 1.0), place(out, "/World/collision_2", 1.0)]
     assert falls[0] == falls[1] == (9, 0, 0)
@@ -164,7 +164,7 @@ def test_replace_marks_every_prim_that_is_a_hull(folder: Path) -> None:
         "/World/top_2": (None, "default"),
     }
     after = read(folder / "out" / "scene.usda")
-    assert sorted(shapes(after)) == ["Table/leg", "drop", "top_2"] and len(after.opaque) == 1
+    assert sorted(shapes(after)) == ["Table/leg", "drop", "top_2"] and len(after.non_convex) == 1
 
 
 def test_a_stage_becomes_a_glb_that_shows_it_and_has_its_hulls_beside(folder: Path) -> None:

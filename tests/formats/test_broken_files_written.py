@@ -24,7 +24,7 @@ READABLE = readable()
 
 
 def names(asset: Asset) -> list[str]:
-    return [geom.name for geom in asset.geoms] + [piece.name for piece in asset.opaque]
+    return [geom.name for geom in asset.geoms] + [piece.name for piece in asset.non_convex]
 
 
 @pytest.mark.parametrize("case", READABLE, ids=[case.name for case in READABLE])

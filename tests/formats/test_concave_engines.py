@@ -178,4 +178,4 @@ def test_where_nothing_is_there_to_collide_the_input_is_what_is_wrong(run: Run) 
 def test_visuals_stay_what_they_are(tmp_path: Path) -> None:
     after = read(convert(write_arm(tmp_path), tmp_path / "out" / "arm.xml").path)
     assert isinstance(after.visuals, VisualSurfaces) and len(after.visuals) == 2
-    assert len(SymbolicMesh.of(after).hulls) == 2 and after.opaque == ()
+    assert len(SymbolicMesh.of(after).hulls) == 2 and after.non_convex == ()

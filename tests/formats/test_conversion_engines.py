@@ -79,8 +79,8 @@ def test_mujoco_has_the_geoms_of_a_made_mjcf_where_the_hulls_are(sample: str, tm
     assert_as_in_mujoco(after, path)
     model, _ = at_rest(path)
     colliding = (model.geom_contype != 0) | (model.geom_conaffinity != 0)
-    planes = sum(piece.plane is not None for piece in after.opaque)
-    surfaces = sum(piece.surface is not None for piece in SAMPLES[sample]().opaque)
+    planes = sum(piece.plane is not None for piece in after.non_convex)
+    surfaces = sum(piece.surface is not None for piece in SAMPLES[sample]().non_convex)
     assert int(colliding.sum()) == len(SAMPLES[sample]().geoms) + planes + surfaces
 
 
@@ -283,7 +283,7 @@ def test_the_sektion_cabinet_opens_in_mujoco_as_its_urdf_does(tmp_path: Path) ->
     np.testing.assert_allclose(data.body("drawer_top").xpos - shut, [0.4, 0, 0], atol=1e-9)
     hulls = [geom for geom in before.geoms if not geom.shape.is_primitive]
     assert isinstance(before.visuals, VisualSurfaces)
-    assert model.nmesh == len(hulls) + len(before.opaque) + len({visual.what for visual in before.visuals.visuals})
+    assert model.nmesh == len(hulls) + len(before.non_convex) + len({visual.what for visual in before.visuals.visuals})
 
 
 def test_a_real_table_in_mjcf_loads_in_bullet_with_its_masses(tmp_path: Path) -> None:

@@ -138,7 +138,7 @@ def test_what_cannot_be_coupled_is_named(tmp_path: Path, mimics: tuple[str, ...]
         assert not any(joint.coupling for joint in read(saved.path).mechanism.joints)
         return
     assert said in saved.notes
-    assert FeatureKind.MIMICS not in {feature.kind for feature in saved.report.held}
+    assert FeatureKind.MIMICS not in {feature.kind for feature in saved.report.kept}
     assert not any(joint.coupling for joint in read(saved.path).mechanism.joints)
 
 

@@ -89,7 +89,7 @@ def test_all_are_read_but_those_without_a_mesh(files: dict[str, Path], assets: d
         with pytest.raises(AssetError, match="there is no mesh and no collider in its scene"):
             read(files[key])
     for key, (hulls, opaque) in COUNTS.items():
-        assert (len(assets[key].geoms), len(assets[key].opaque)) == (hulls, opaque), key
+        assert (len(assets[key].geoms), len(assets[key].non_convex)) == (hulls, opaque), key
 
 
 def test_an_unedited_write_back_is_the_same_files(assets: dict[str, Asset], tmp_path: Path) -> None:
@@ -134,7 +134,7 @@ def test_an_edit_leaves_the_rest_of_the_scene_as_it_was(assets: dict[str, Asset]
         assert [g.name for g in again.geoms if "~" not in g.name] == [g.name for g in asset.geoms[1:-1]], key
         for now, before in zip((g for g in again.geoms if "~" not in g.name), asset.geoms[1:-1], strict=True):
             assert is_same_shape(now.shape, before.shape, 1e-9), key
-        assert [o.name for o in again.opaque] == [o.name for o in asset.opaque], key
+        assert [o.name for o in again.non_convex] == [o.name for o in asset.non_convex], key
         _assert_rest_is_drawn(asset, saved.path, touched, less, key)
         sources.append(asset.path)
         outs.append(saved.path)

@@ -13,7 +13,7 @@ import pytest
 
 from meshforge.formats import read, save
 from meshforge.geometry import inertia
-from meshforge.symbolic import Asset, Opaque, Surface
+from meshforge.symbolic import Asset, NonConvexPiece, Surface
 from tests.conversion_samples import SAMPLES
 from tests.gltf_validation import errors
 
@@ -121,6 +121,8 @@ def test_a_surface_that_is_no_hull_does_not_move_and_is_named(tmp_path: Path) ->
     (tmp_path / "a.xml").write_text(CRATE)
     asset = read(tmp_path / "a.xml")
     flat = Surface(np.array([[0, 0, 2.0], [1, 0, 2], [0, 1, 2]]), np.array([[0, 1, 2]]))
-    bodies, notes, _ = for_godot(replace(asset, opaque=(Opaque("crate/rag", "crate", "flat", flat),)), tmp_path)
+    bodies, notes, _ = for_godot(
+        replace(asset, non_convex=(NonConvexPiece("crate/rag", "crate", "flat", flat),)), tmp_path
+    )
     assert bodies["crate"].shapes == ["convex", "convex"]
     assert "1 opaque piece (crate/rag) is left out: in Godot a mesh that is no hull cannot move" in notes

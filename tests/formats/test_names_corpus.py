@@ -12,7 +12,7 @@ from tests.corpus_path import corpus
 
 VOCABULARY = ("door", "drawer", "handle", "knob", "top", "back", "trim", "shelf", "window", "lid", "leg", "blade")
 CABINETS = "doors_cabinets"
-SAID: dict[str, dict[tuple[str, str], int]] = {
+ANSWERS: dict[str, dict[tuple[str, str], int]] = {
     # a body and a collision element are called after a drawer, and only the mesh says that it is its handle
     f"{CABINETS}/IsaacGymEnvs/sektion_cabinet_model/urdf/sektion_cabinet.urdf": {
         ("door", "hull"): 12,
@@ -33,10 +33,10 @@ SAID: dict[str, dict[tuple[str, str], int]] = {
 }
 
 
-@pytest.mark.parametrize("path", SAID)
+@pytest.mark.parametrize("path", ANSWERS)
 def test_names_say_what_hulls_are_and_by_which_kind_of_name(path: str) -> None:
     found = Counter[tuple[str, str]]()
     for geom in read(corpus(path)).geoms:
         one = match_names(HullNames(geom.name, geom.body, geom.mentions), VOCABULARY)
         found[(one.label or "", one.kind) if one else ("", "")] += 1
-    assert found == SAID[path]
+    assert found == ANSWERS[path]

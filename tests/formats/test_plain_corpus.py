@@ -37,7 +37,7 @@ KNOWN = {
 @pytest.mark.parametrize("name", KNOWN)
 def test_real_files_have_the_hulls_they_should(name: str) -> None:
     asset = read(corpus(*name.split("/")))
-    assert (len(asset.geoms), len(asset.opaque)) == KNOWN[name]
+    assert (len(asset.geoms), len(asset.non_convex)) == KNOWN[name]
 
 
 def test_hulls_of_real_files_are_named_after_their_objects() -> None:
@@ -90,14 +90,14 @@ def _assert_edit_reads_back(asset: Asset, out: Path) -> None:
     for geom in edit.geoms:
         found = back[saved.names.get(geom.name, geom.name)].shape
         np.testing.assert_allclose(found.aabb.corners, geom.shape.aabb.corners, atol=1e-6, err_msg=out.name)
-    points = [g.shape.vertices for g in edit.geoms] + [o.surface.vertices for o in asset.opaque if o.surface]
+    points = [g.shape.vertices for g in edit.geoms] + [o.surface.vertices for o in asset.non_convex if o.surface]
     low, high = (f([f(p, axis=0) for p in points], axis=0) for f in (np.min, np.max))
     np.testing.assert_allclose(bounds(out), [low, high], atol=1e-5, err_msg=out.name)
 
 
 def test_a_folder_of_real_hulls_is_one_asset(tmp_path: Path) -> None:
     asset = read(corpus("cups_mugs", "dexmv-sim", "collision", "025_mug", "v1"))
-    assert (len(asset.geoms), len(asset.opaque)) == (16, 0)
+    assert (len(asset.geoms), len(asset.non_convex)) == (16, 0)
     saved = save(asset.with_geoms(asset.geoms[1:]), tmp_path / "mug")
     assert len(saved.files) == 15
     assert [g.name for g in read(tmp_path / "mug").geoms] == [g.name for g in asset.geoms[1:]]

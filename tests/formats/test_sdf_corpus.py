@@ -41,7 +41,7 @@ def test_every_real_file_is_read_or_refused_for_its_own_fault(tmp_path: Path) ->
             continue
         asset = read(path)
         if key in KNOWN:
-            assert (len(asset.geoms), len(asset.opaque)) == KNOWN[key], key
+            assert (len(asset.geoms), len(asset.non_convex)) == KNOWN[key], key
         assert write(asset, path.name).main == path.read_bytes(), key
         if key not in WORLDS:
             edit = without(asset, *(geom.name for geom in asset.geoms[::3]))

@@ -106,7 +106,7 @@ def test_mujoco_finds_each_hull_of_an_edited_file_in_its_place_and_the_masses_as
     before, after = mujoco_model(asset.path), mujoco_model(path)
     for field in MASSES:
         np.testing.assert_array_equal(getattr(after, field), getattr(before, field), err_msg=field)
-    assert after.ngeom == len(edit.geoms) + len(edit.opaque)
+    assert after.ngeom == len(edit.geoms) + len(edit.non_convex)
     assert assert_mujoco_agrees(path, read(path)) > 0
 
 
@@ -118,4 +118,4 @@ def test_yourdfpy_reads_the_same_tree_and_every_hull(asset: Asset, tmp_path: Pat
         found = robot.get_transform(body.name, collision_geometry=True)
         np.testing.assert_allclose(found[:3, :3], body.pose.rotation, atol=1e-9)
         np.testing.assert_allclose(found[:3, 3], body.pose.translation, atol=1e-9)
-    assert sum(len(link.collisions) for link in robot.robot.links) == len(edit.geoms) + len(edit.opaque)
+    assert sum(len(link.collisions) for link in robot.robot.links) == len(edit.geoms) + len(edit.non_convex)

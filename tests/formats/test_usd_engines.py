@@ -41,7 +41,7 @@ def agrees(path: Path) -> Asset:
     """The asset in a stage, which USD's reader and its validators agree with."""
     asset, told = read(path), physics_shapes(path)
     assert complaints(path) == []
-    assert len(told) == len(asset.geoms) + len(asset.opaque)
+    assert len(told) == len(asset.geoms) + len(asset.non_convex)
     poses = asset.body_poses
     for geom in asset.geoms:
         (found,) = [shape for at, shape in told.items() if at.endswith(f"/{geom.name.removeprefix('body/')}")]

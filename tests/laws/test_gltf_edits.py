@@ -134,7 +134,7 @@ def test_an_edit_changes_what_it_says_and_nothing_else(scene: SceneFile, suffix:
         save(before, Path(folder) / "same" / source.name)
         assert (Path(folder) / "same" / source.name).read_bytes() == source.read_bytes()
         wanted = edited(draw, before)
-        assume(wanted.geoms or wanted.opaque)
+        assume(wanted.geoms or wanted.non_convex)
         saved = save(wanted, Path(folder) / "out" / source.name, collision="replace")
         after = read(saved.path)
         _assert_has(after, wanted, saved.names)
@@ -170,12 +170,12 @@ def _assert_has(after: Asset, wanted: Asset, names: object, *, baked: bool = Fal
             size = geom.shape.aabb.diagonal
             np.testing.assert_allclose(now.shape.aabb.min, geom.shape.aabb.min, atol=0.02 * size)
             np.testing.assert_allclose(now.shape.centroid, geom.shape.centroid, atol=0.02 * size)
-    assert sorted(o.reason for o in after.opaque) == sorted(o.reason for o in wanted.opaque)
+    assert sorted(o.reason for o in after.non_convex) == sorted(o.reason for o in wanted.non_convex)
 
 
 def _assert_rest_is_same(before: Asset, wanted: Asset, then: Tree, now: Tree) -> None:
     """Nodes, meshes, views and all else that no edit concerns are there, under the numbers that they had."""
-    kept = {geom.name for geom in wanted.geoms} | {piece.name for piece in wanted.opaque}
+    kept = {geom.name for geom in wanted.geoms} | {piece.name for piece in wanted.non_convex}
     assert isinstance(before.document, GltfDocument)
     touched = {e.node for e in before.document.authored if not set(e.names) <= kept}
     for k, node in enumerate(then["nodes"]):

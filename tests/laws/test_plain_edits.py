@@ -43,7 +43,7 @@ def edit(draw: Callable[..., Any], asset: Asset) -> Asset:
     kept = [g for g in asset.geoms if draw(st.booleans())]
     made = [
         Geom(f"{asset.geoms[0].name}~{k}", "body", convex_hull(box((3 * k, 5, 0))[0]), asset.geoms[0].name)
-        for k in range(1, 1 + draw(st.integers(0 if kept or asset.opaque else 1, 2)))
+        for k in range(1, 1 + draw(st.integers(0 if kept or asset.non_convex else 1, 2)))
     ]
     return asset.with_geoms([*kept, *made])
 
@@ -66,7 +66,7 @@ def test_an_edited_obj_reads_back_as_the_edit_under_the_same_names(text: str, da
         back = read(saved.path)
         assert saved.names == {}
         assert summary(back, {}) == summary(wanted, {})
-        assert sorted(o.name for o in back.opaque) == sorted(o.name for o in asset.opaque)
+        assert sorted(o.name for o in back.non_convex) == sorted(o.name for o in asset.non_convex)
         again = save(back, Path(folder) / "c.obj")
         assert again.path.read_bytes() == saved.path.read_bytes()
 

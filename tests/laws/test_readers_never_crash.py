@@ -93,10 +93,10 @@ def told_or_read(path: Path) -> bool:
         assert str(path.parent) in error.message
         return False
     mesh = SymbolicMesh.of(asset)
-    names = [geom.name for geom in asset.geoms] + [piece.name for piece in asset.opaque]
+    names = [geom.name for geom in asset.geoms] + [piece.name for piece in asset.non_convex]
     assert len(set(names)) == len(names)
     for hull in mesh.hulls:
         assert np.isfinite(hull.vertices).all() and hull.volume > 0
-    assert all(piece.reason for piece in asset.opaque)
+    assert all(piece.reason for piece in asset.non_convex)
     assert len(mesh.contacts) >= 0  # the graph can be made
     return True

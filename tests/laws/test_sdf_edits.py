@@ -110,7 +110,7 @@ def test_an_edit_changes_what_it_says_and_nothing_else(data: st.DataObject) -> N
         again = read(put(output, folder / "out" / "model.sdf"))
         was, now = ({geom.name: geom for geom in one.geoms} for one in (edit, again))
         assert was.keys() == now.keys()
-        assert [piece.name for piece in again.opaque] == [piece.name for piece in edit.opaque]
+        assert [piece.name for piece in again.non_convex] == [piece.name for piece in edit.non_convex]
         for key, geom in was.items():
             native = geom.shape.kind == now[key].shape.kind
             box = (geom.shape if native else geom.shape.tessellate()).aabb

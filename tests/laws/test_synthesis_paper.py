@@ -41,8 +41,8 @@ from meshforge.synthesis.paper.partial import (
     make_attach,
     make_operator,
 )
-from meshforge.synthesis.paper.search import Abduction, HitWithCorrections, PaperSearch
-from meshforge.synthesis.questions import LabelCorrection
+from meshforge.synthesis.paper.search import Abduction, HitWithFixes, PaperSearch
+from meshforge.synthesis.questions import LabelFix
 from meshforge.synthesis.search.smallest import Hit, Miss, Search
 from tests.examples import examples
 from tests.strategies import extractors, grid_boxes, meshes
@@ -146,7 +146,7 @@ def test_one_way_leads_to_every_extractor_and_what_it_selects_never_cuts_it(
     assert partial == hidden
 
 
-def corrected(example: Example, corrections: Sequence[LabelCorrection]) -> Example:
+def corrected(example: Example, corrections: Sequence[LabelFix]) -> Example:
     example.mesh.contacts  # noqa: B018 (measured now, and taken over by the relabelled mesh)
     labels = {c.hull: Label(c.to, 1.0, "repair") for c in corrections if c.asset == example.name}
     return Example(example.name, example.mesh.with_labels(labels), example.selection)
@@ -156,7 +156,7 @@ def matches(extractor: Extractor, examples: Sequence[Example]) -> bool:
     return all(select_mask(extractor, example.mesh) == example.selection for example in examples)
 
 
-def naive_repairs(extractor: Extractor, examples: Sequence[Example], eta: int) -> Iterator[tuple[LabelCorrection, ...]]:
+def naive_repairs(extractor: Extractor, examples: Sequence[Example], eta: int) -> Iterator[tuple[LabelFix, ...]]:
     """All relabelings of at most eta suspects a mesh by labels relevant to the extractor, over all meshes at once."""
     mentioned = labels_of(extractor)
     labels = [hull.label for example in examples for hull in example.mesh.hulls]
@@ -166,9 +166,7 @@ def naive_repairs(extractor: Extractor, examples: Sequence[Example], eta: int) -
     for example in examples:
         wrong = bits_of(select_mask(extractor, example.mesh) ^ example.selection)
         suspects = [example.mesh.hulls[index] for index in sorted(wrong)]
-        one = [
-            [LabelCorrection(example.name, h.name, h.label, to) for to in relevant if to != h.label] for h in suspects
-        ]
+        one = [[LabelFix(example.name, h.name, h.label, to) for to in relevant if to != h.label] for h in suspects]
         ways.append([way for k in range(eta + 1) for chosen in combinations(one, k) for way in product(*chosen)])
     for parts in product(*ways):
         yield tuple(correction for part in parts for correction in part)
@@ -201,8 +199,8 @@ def test_what_is_explained_matches_once_corrected_and_keeps_the_allowance(
 ) -> None:
     examples = examples_of(batch, [(selections >> 8 * k) % (1 << len(mesh.hulls)) for k, mesh in enumerate(batch)])
     answer = PaperSearch(examples, LABELS, TimeBudget(600), Options(max_size=3, eta=eta)).run()
-    assume(isinstance(answer, HitWithCorrections))
-    assert isinstance(answer, HitWithCorrections)
-    assert matches(answer.extractor, [corrected(example, answer.corrections) for example in examples])
+    assume(isinstance(answer, HitWithFixes))
+    assert isinstance(answer, HitWithFixes)
+    assert matches(answer.extractor, [corrected(example, answer.fixes) for example in examples])
     for example in examples:
-        assert sum(correction.asset == example.name for correction in answer.corrections) <= eta
+        assert sum(correction.asset == example.name for correction in answer.fixes) <= eta

@@ -138,11 +138,11 @@ def test_a_wrong_label_is_found_out_confirmed_and_forgotten(name: str, text: str
 
         def confirm(repair: Repair, asked: list[Repair] = asked, name: str = mislabelled.name) -> bool:
             asked.append(repair)
-            return (repair.correction.hull, repair.correction.to) == (name, hull)
+            return (repair.fix.hull, repair.fix.to) == (name, hull)
 
         planted = [Demonstration(mesh, demos[0].steps, names[0]), *demos[1:]]
         outcome = synthesize(planted, {**meshes, names[0]: mesh}, vocabulary=VOCABULARIES[name], confirm=confirm)
-        assert len(asked) == len({repair.correction for repair in asked}), "asked twice"
+        assert len(asked) == len({repair.fix for repair in asked}), "asked twice"
         clean = synthesize(demos, meshes, vocabulary=VOCABULARIES[name])
         if any(confirm(repair) for repair in list(asked)):
             assert outcome.program == clean.program

@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 
 from meshforge.language import Extractor, select_mask, size_of
 from meshforge.symbolic import SymbolicMesh
+from meshforge.synthesis.candidates.rank import ConsistentTerms, RankedCandidates, enumerate_consistent
 from meshforge.synthesis.demonstration import Example
 from meshforge.synthesis.options import Options, Shortcuts, TimeBudget
-from meshforge.synthesis.readings.rank import ConsistentTerms, RankedReadings, enumerate_consistent
 from meshforge.synthesis.search.smallest import Hit, Search
 from tests.examples import examples
 from tests.strategies import extractors, grid_boxes, meshes
@@ -70,7 +70,7 @@ def test_every_reading_selects_what_was_shown_and_what_it_says(
     batch: list[SymbolicMesh], shown: int, hidden: Extractor
 ) -> None:
     search, answer = searched(batch, shown, hidden, LABELS, Options())
-    weighed = RankedReadings(search, enumerate_consistent(search, answer, 2))
+    weighed = RankedCandidates(search, enumerate_consistent(search, answer, 2))
     seen = set()
     for term in weighed.terms:
         chosen = tuple(select_mask(term.extractor, mesh) for mesh in batch)
@@ -112,9 +112,9 @@ def test_every_shortcut_can_be_switched_off_and_the_readings_stay(
 @given(batches, shown_on, extractors(LABELS, max_leaves=3))
 def test_without_a_batch_the_smallest_is_taken(batch: list[SymbolicMesh], shown: int, hidden: Extractor) -> None:
     search, answer = searched(batch[:shown], shown, hidden, LABELS, Options())
-    weighed = RankedReadings(search, enumerate_consistent(search, answer, 2))
+    weighed = RankedCandidates(search, enumerate_consistent(search, answer, 2))
     assert weighed.extractor == answer
-    assert weighed.settled
+    assert weighed.unambiguous
 
 
 @examples(40)

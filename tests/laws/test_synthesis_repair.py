@@ -19,8 +19,8 @@ from meshforge.language import Extractor, HullTable, select_mask, size_of
 from meshforge.symbolic import Label, SymbolicMesh
 from meshforge.synthesis.demonstration import Example
 from meshforge.synthesis.options import Options, TimeBudget
-from meshforge.synthesis.questions import LabelCorrection
-from meshforge.synthesis.repair.explain import CorrectionSearch, Explanation
+from meshforge.synthesis.questions import LabelFix
+from meshforge.synthesis.repair.explain import Explanation, FixSearch
 from meshforge.synthesis.repair.relabelings import Relabeling, build_hull_table, relabel
 from meshforge.synthesis.search.observation_table import select_all
 from meshforge.synthesis.search.smallest import Hit, Search
@@ -53,19 +53,19 @@ def proposed(
     shown: Shown,
     exact: Extractor | None = None,
     spent: dict[str, int] | None = None,
-    rejected: frozenset[LabelCorrection] = frozenset(),
+    rejected: frozenset[LabelFix] = frozenset(),
 ) -> Explanation | None:
     examples, labels = shown
-    return CorrectionSearch(
+    return FixSearch(
         examples, LABELS, labels, OPTIONS, TimeBudget(600), exact=exact, spent=spent or {}, rejected=rejected
     ).run()
 
 
-def corrected(example: Example, rows: list[LabelCorrection]) -> SymbolicMesh:
+def corrected(example: Example, rows: list[LabelFix]) -> SymbolicMesh:
     return example.mesh.with_labels({row.hull: Label(row.to) for row in rows if row.asset == example.name})
 
 
-def matches(extractor: Extractor, examples: list[Example], rows: list[LabelCorrection]) -> bool:
+def matches(extractor: Extractor, examples: list[Example], rows: list[LabelFix]) -> bool:
     return all(select_mask(extractor, corrected(example, rows)) == example.selection for example in examples)
 
 
@@ -75,7 +75,7 @@ def test_the_extractor_selects_what_was_shown_on_the_corrected_meshes(shown: Sho
     said = proposed(shown)
     if said is None:
         return
-    rows = list(said.corrections)
+    rows = list(said.fixes)
     assert rows
     assert matches(said.extractor, shown[0], rows)
     for row in rows:
@@ -89,13 +89,13 @@ def test_a_proposal_is_in_order_and_within_its_limits(shown: Shown, before: int)
     said = proposed(shown, spent=spent)
     if said is None:
         return
-    counts = Counter(row.asset for row in said.corrections)
+    counts = Counter(row.asset for row in said.fixes)
     assert all(count <= OPTIONS.eta - spent.get(asset, 0) for asset, count in counts.items())
-    assert list(said.corrections) == sorted(said.corrections, key=lambda row: (row.asset, row.hull))
-    assert len(said.corrections) == len(said.beliefs) == len(said.whys)
+    assert list(said.fixes) == sorted(said.fixes, key=lambda row: (row.asset, row.hull))
+    assert len(said.fixes) == len(said.beliefs) == len(said.whys)
     assert all(0 < belief <= 1 for belief in said.beliefs)
     by_name = {example.name: example for example in shown[0]}
-    for row in said.corrections:
+    for row in said.fixes:
         assert by_name[row.asset].mesh.hull_of(row.hull).label == row.was != row.to
         assert row.to in LABELS
 
@@ -103,13 +103,13 @@ def test_a_proposal_is_in_order_and_within_its_limits(shown: Shown, before: int)
 @examples(60)
 @given(spoilt())
 def test_what_was_rejected_is_never_proposed_again(shown: Shown) -> None:
-    rejected: frozenset[LabelCorrection] = frozenset()
+    rejected: frozenset[LabelFix] = frozenset()
     for _ in range(4):
         said = proposed(shown, rejected=rejected)
         if said is None:
             return
-        assert not rejected & set(said.corrections)
-        rejected |= set(said.corrections)
+        assert not rejected & set(said.fixes)
+        rejected |= set(said.fixes)
 
 
 @examples(60)

@@ -11,10 +11,10 @@ from meshforge.formats import load
 from meshforge.language import Extractor, Program, select_mask, size_of, to_canonical_frame
 from meshforge.samples import TABLES
 from meshforge.symbolic import SymbolicMesh
+from meshforge.synthesis.candidates.rank import enumerate_consistent
 from meshforge.synthesis.demonstration import Example
 from meshforge.synthesis.options import Options, TimeBudget
 from meshforge.synthesis.paper.search import PaperSearch
-from meshforge.synthesis.readings.rank import enumerate_consistent
 from meshforge.synthesis.search.smallest import Hit, Search
 from tests.examples import examples
 from tests.strategies import extractors

@@ -21,7 +21,7 @@ def shapes_of(asset: Asset, *, opaque: bool = True) -> list[Seen]:
     hulls = [
         Seen(geom.shape.kind, tuple(float(geom.shape.support(way) @ way) for way in DIRECTIONS)) for geom in asset.geoms
     ]
-    surfaces = [piece.surface for piece in asset.opaque if opaque and piece.surface is not None]
+    surfaces = [piece.surface for piece in asset.non_convex if opaque and piece.surface is not None]
     return hulls + [Seen("opaque", tuple((s.vertices @ DIRECTIONS.T).max(axis=0).tolist())) for s in surfaces]
 
 

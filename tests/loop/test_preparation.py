@@ -61,12 +61,12 @@ def test_the_commands_of_the_page_teach_what_becomes_of_knobs(folder: Path) -> N
 @pytest.mark.parametrize("name", CABINETS)
 def test_the_edited_cabinet_has_a_box_for_each_knob_and_all_else_as_it_was(folder: Path, name: str) -> None:
     before, after = load(folder / "assets/urdf" / name), load(folder / "applied/edited/urdf" / name)
-    assert before.asset and len(before.asset.opaque) == 2
-    assert after.asset and after.asset.opaque == ()
+    assert before.asset and len(before.asset.non_convex) == 2
+    assert after.asset and after.asset.non_convex == ()
     made = [hull for hull in after.hulls if hull.label == "knob"]
     assert len(made) == 2 and {hull.shape.kind for hull in made} == {"box"}
     for hull in made:
-        piece = next(p for p in before.asset.opaque if hull.name.startswith(p.name))
+        piece = next(p for p in before.asset.non_convex if hull.name.startswith(p.name))
         assert piece.surface is not None
         corners = np.array([hull.aabb.min, hull.aabb.max])
         np.testing.assert_allclose(corners, _bounds(piece.surface.vertices), atol=2e-3)

@@ -12,7 +12,7 @@ import pytest
 from meshforge.cli.demo import create_tables
 from meshforge.formats import load
 from meshforge.samples import TABLES
-from meshforge.signoff import BAR
+from meshforge.signoff import THRESHOLD
 from tests.loop.mistaken_tables import MEANT, OTHERS, SHOWN, create_project, reply_to
 from tests.unit.cli.in_process import Run, runner
 
@@ -36,9 +36,9 @@ def sign_off(run: Run, folder: str, reply: Callable[[dict[str, Any]], dict[str, 
         said = reply(question)
         Path("said.json").write_text(json.dumps([{"id": question["id"], **said}] if said else []))
         done = run("review", folder, "--json", "--answers", "said.json")
-    assert done.code == 0 and done.json["held"] == [], done.json
+    assert done.code == 0 and done.json["needs review"] == [], done.json
     assert run("status", folder, "--signed-off").code == 1  # sure, but not written yet
-    assert run("apply", folder, "--min-confidence", str(BAR), "--workers", "1").code == 0
+    assert run("apply", folder, "--min-confidence", str(THRESHOLD), "--workers", "1").code == 0
     status = run("status", folder, "--json", "--signed-off")
     assert status.code == 0
     return int(status.json["signed_off"])
@@ -48,7 +48,7 @@ def sign_off(run: Run, folder: str, reply: Callable[[dict[str, Any]], dict[str, 
 def test_tables_with_right_labels_are_signed_off_by_the_first_choice_of_each_question(run: Run) -> None:
     folder = str(create_tables(Path("demo")).folder)
     assert sign_off(run, folder, lambda question: {"choice": 0}) == 14
-    assert run("info", "table_01.obj", "--project", folder, "--json").json["probability"] >= BAR
+    assert run("info", "table_01.obj", "--project", folder, "--json").json["probability"] >= THRESHOLD
 
 
 @pytest.mark.slow

@@ -21,7 +21,7 @@ export type AnyEdit =
   | ReviewAssets
   | ExcludeAssets
   | CorrectByHand
-  | DropCorrections
+  | DropManualEdits
   | LeaveOut
   | RemoveAssets;
 export type Event =
@@ -59,6 +59,7 @@ export interface Everything {
   AssetsChanged: AssetsChanged;
   AssetsFound: AssetsFound;
   AxisLandmarks: AxisLandmarks;
+  CandidateView: CandidateView;
   Card: Card;
   CardsChanged: CardsChanged;
   CheckFinding: CheckFinding;
@@ -68,16 +69,14 @@ export interface Everything {
   CheckResult: CheckResult;
   ConfidenceView: ConfidenceView;
   CorrectByHand: CorrectByHand;
-  CorrectionView: CorrectionView;
   CoverageView: CoverageView;
   CutHull: CutHull;
   DecomposeJob: DecomposeJob;
   DeleteRule: DeleteRule;
-  DoubtView: DoubtView;
   DownloadJob: DownloadJob;
   DownloadRequest: DownloadRequest;
   DownloadTicket: DownloadTicket;
-  DropCorrections: DropCorrections;
+  DropManualEdits: DropManualEdits;
   EditHeader: EditHeader;
   EditReceipt: EditReceipt;
   EngineView: EngineView;
@@ -118,6 +117,7 @@ export interface Everything {
   LabelUpdateChanged: LabelUpdateChanged;
   LanguageView: LanguageView;
   LeaveOut: LeaveOut;
+  ManualEditView: ManualEditView;
   Mark: Mark;
   Model: Model;
   MoveRule: MoveRule;
@@ -126,7 +126,7 @@ export interface Everything {
   NewAssetsView: NewAssetsView;
   NewProject: NewProject;
   NextStep: NextStep;
-  OpaqueView: OpaqueView;
+  NonConvexView: NonConvexView;
   OpenReceipt: OpenReceipt;
   Operator: Operator;
   OrientView: OrientView;
@@ -146,7 +146,7 @@ export interface Everything {
   PropagationState: PropagationState;
   Reach: Reach;
   ReachChanged: ReachChanged;
-  ReadingView: ReadingView;
+  ReasonView: ReasonView;
   RebuildJob: RebuildJob;
   RecentProject: RecentProject;
   RemoveAssets: RemoveAssets;
@@ -409,7 +409,7 @@ export interface ReplyToQuestion {
  */
 export interface ReviewQuestionView {
   id: string;
-  kind: "group" | "repair" | "reading" | "label" | "selection" | "orientation" | "result" | "demonstrate";
+  kind: "group" | "repair" | "candidate" | "label" | "selection" | "orientation" | "result" | "demonstrate";
   text: string;
   seconds: number;
   gain: number;
@@ -524,9 +524,9 @@ export interface CorrectByHand {
 /**
  * Take all edits by hand away from an asset, so that it is what the program makes of it.
  */
-export interface DropCorrections {
+export interface DropManualEdits {
   asset: string;
-  kind: "drop-corrections";
+  kind: "drop-manual-edits";
 }
 /**
  * Leave assets out of the family, or put them back; what is kept for them stays.
@@ -577,9 +577,9 @@ export interface AssessmentChanged {
  */
 export interface AssessmentView {
   number: number;
-  bar: number;
+  threshold: number;
   signed_off: number;
-  held: number;
+  need_review: number;
   excluded: number;
   unseen: number;
   assets: ConfidenceView[];
@@ -592,15 +592,15 @@ export interface AssessmentView {
 export interface ConfidenceView {
   asset: string;
   probability: number;
-  doubts: DoubtView[];
-  state: "signed" | "held" | "excluded";
-  told: boolean;
+  reasons: ReasonView[];
+  state: "signed" | "needs review" | "excluded";
+  remarks: boolean;
 }
 /**
  * Why an edit may be wrong. hulls: names of those concerned; rule: its number, null where it is about none.
  */
-export interface DoubtView {
-  kind: "reading" | "label" | "orientation" | "unlike" | "alarm";
+export interface ReasonView {
+  kind: "candidate" | "label" | "orientation" | "outlier" | "alarm";
   text: string;
   hulls: string[];
   rule: number | null;
@@ -629,7 +629,7 @@ export interface AssetView {
   up: "y" | "z";
   bodies: string[];
   hulls: HullView[];
-  opaque: OpaqueView[];
+  non_convex: NonConvexView[];
   has_visual: boolean;
   contacts: [string, string][];
   near_misses: NearMiss[];
@@ -639,7 +639,7 @@ export interface AssetView {
   unturned: string | null;
   steps: StepView[];
   version: string;
-  corrections: CorrectionView[];
+  manual_edits: ManualEditView[];
   prepared: string[];
   missing: string[];
   notes: string[];
@@ -663,7 +663,7 @@ export interface HullView {
 /**
  * A non-convex piece of collision geometry. reason: why it is no hull; surface: whether the packet has it.
  */
-export interface OpaqueView {
+export interface NonConvexView {
   name: string;
   body: string;
   reason: string;
@@ -693,7 +693,7 @@ export interface StepView {
 /**
  * An edit by hand that is replayed after the program.
  */
-export interface CorrectionView {
+export interface ManualEditView {
   select: string[];
   action: ActionView;
 }
@@ -729,6 +729,19 @@ export interface AssetsFound {
   project: string;
 }
 /**
+ * An extractor that agrees with all demonstrations of a rule; belief: its share in 0..1; differs_on: assets where
+ * it selects something else than the program's.
+ */
+export interface CandidateView {
+  id: string;
+  rule: number;
+  extractor: string;
+  sentence: string;
+  size: number;
+  belief: number;
+  differs_on: string[];
+}
+/**
  * One asset in the gallery.
  *
  * hulls: how many, null until the asset is read or where it cannot be read. labels: for each hull, in order, its
@@ -757,7 +770,7 @@ export interface Card {
   review: ("accepted" | "wrong") | null;
   note: string | null;
   excluded: ("not of this family" | "not solved") | null;
-  corrections: number;
+  manual_edits: number;
   sources: number;
   prepared: string[];
   picture: string | null;
@@ -930,7 +943,7 @@ export interface FindingView {
  * An edit is on disk. said: what was done, in words; nothing: whether there was nothing to do.
  */
 export interface EditReceipt {
-  said: string;
+  message: string;
   nothing?: boolean;
 }
 /**
@@ -1014,7 +1027,7 @@ export interface ProjectView {
   contact: number | null;
   extremity: number | null;
   rules: RuleLine[];
-  said: AnswerView[];
+  answers: AnswerView[];
   templates: string[];
   carried: PropagationState | null;
   next: NextStep;
@@ -1113,7 +1126,7 @@ export interface LabelUpdate {
   entry: number;
   way: "propagate" | "label-files" | "label-names" | "label-vlm";
   assets: AssetLabelUpdate[];
-  settled: number;
+  newly_sure: number;
 }
 /**
  * The accepted program. by_hand: a person wrote or changed it; outdated: what it was learned from changed since;
@@ -1136,7 +1149,7 @@ export interface RuleView {
   rule: number;
   text: string;
   sentence: string;
-  readings: number;
+  candidates: number;
 }
 /**
  * The language: actions (without Each, a switch in the page), operators, directions.
@@ -1171,8 +1184,8 @@ export interface OutcomeView {
   program: string | null;
   looked_at: number;
   rules: RuleView[];
-  settled: boolean;
-  readings: ReadingView[];
+  unambiguous: boolean;
+  candidates: CandidateView[];
   repairs: number;
   nearest: NearestView | null;
   hint: HintView | null;
@@ -1183,19 +1196,6 @@ export interface OutcomeView {
   overruled: string[];
   error: string | null;
   seconds: number;
-}
-/**
- * An extractor that agrees with all demonstrations of a rule; belief: its share in 0..1; differs_on: assets where
- * it selects something else than the program's.
- */
-export interface ReadingView {
-  id: string;
-  rule: number;
-  extractor: string;
-  sentence: string;
-  size: number;
-  belief: number;
-  differs_on: string[];
 }
 /**
  * The extractor that comes nearest, for a rule without any that fits, and how it differs on one asset.
@@ -1278,7 +1278,7 @@ export interface HistoryChanged {
   kind: "history";
   history: HistoryView;
   did: "edit" | "undo" | "redo";
-  said: string;
+  message: string;
   by: string | null;
 }
 /**

@@ -10,10 +10,12 @@ __getattr__, __all__ = export_lazily(
     {
         "archive": "write_archive",
         "check": "CheckJournal CheckOutcome CheckTask check_asset check_assets open_journal",
-        "corrections": "Correction RuleSelection action_text action_text_without_each replay_corrections selections_of",
+        "manual_edits": (
+            "ManualEdit RuleSelection action_text action_text_without_each replay_manual_edits selections_of"
+        ),
         "discovery": "ADDED OWN_FOLDERS SETTINGS STATE AssetSet asset_id expand find_assets_in",
         "edit": "apply",
-        "engine_trial": "ENGINES_TO_ASK examine_file",
+        "engine_load": "ENGINES_TO_ASK examine_file",
         "execution": "execute",
         "inputs": "inputs_of",
         "jobs": (
@@ -22,7 +24,8 @@ __getattr__, __all__ = export_lazily(
         ),
         "lock": "hold_lock",
         "outcome": (
-            "MOST_SHOWN AssetOutcome Failed Held RuleEffect RunSummary Skipped describe_alarms status_of to_json_line"
+            "MOST_SHOWN AssetOutcome Failed NeedsReview RuleEffect RunSummary Skipped describe_alarms status_of "
+            "to_json_line"
         ),
         "preparation.cut": "HullParts cut_hull replace_hulls",
         "preparation.decompose": "Concave DecompositionResult decompose_asset replace_concave",
@@ -36,8 +39,8 @@ __getattr__, __all__ = export_lazily(
             "software_version source_files stamp_path template_digests text_digest value_digest"
         ),
         "report.contents": (
-            "AssetStanding EarlierExamination LabelStatus MeshReader ReportAsset ReportStatus RunFigures "
-            "StandingWord TopItems read_again read_job"
+            "ResultStatus EarlierExamination LabelStatus MeshReader ReportAsset ReportStatus RunFigures "
+            "ResultStatusWord TopItems read_again read_job"
         ),
         "report.outcomes": "choose_outcomes compare_outcomes",
         "report.page": "MOST_PICTURED REPORT_DEFAULTS ReportHeader ReportOptions write_report",

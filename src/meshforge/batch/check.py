@@ -14,7 +14,7 @@ from types import MappingProxyType
 from typing import Any, BinaryIO
 
 from meshforge.batch.discovery import asset_id
-from meshforge.batch.engine_trial import engine_version, examine_file
+from meshforge.batch.engine_load import engine_version, examine_file
 from meshforge.batch.execution import execute
 from meshforge.batch.jobs import AssetJob
 from meshforge.batch.lock import hold_lock
@@ -171,7 +171,7 @@ def check_asset(path: Path, base: Path, labels: Path | None, task: CheckTask) ->
         files = {file for asset in read for file in (*source_files(asset.path), *asset.files)}
         files |= {file for file in (labels, written, *drawn) if file}
         # what an engine does not take may be for want of a file, so it is asked again
-        kept = not (found.trial and (found.trial.refusal or found.trial.untried))
+        kept = not (found.loaded and (found.loaded.refusal or found.loaded.untried))
         inputs = CheckInputs.of(sorted(files), _describe_task(task, path)) if kept else None
         return CheckOutcome(path, None, found, fixed, written, drawn, inputs)
     except MeshForgeError as problem:

@@ -199,4 +199,4 @@ def _is_one_hull(path: Path) -> bool:
         asset = read(path)
     except MeshForgeError:
         return False
-    return len(asset.geoms) == 1 and not asset.opaque
+    return len(asset.geoms) == 1 and not asset.non_convex

@@ -12,12 +12,12 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from meshforge.batch import outputs, provenance
-from meshforge.batch.corrections import replay_corrections, selections_of
 from meshforge.batch.discovery import STATE
 from meshforge.batch.execution import execute
 from meshforge.batch.inputs import inputs_of
 from meshforge.batch.jobs import APPLY_DEFAULTS, ApplyOptions, ApplyTask, AssetJob
 from meshforge.batch.lock import hold_lock
+from meshforge.batch.manual_edits import replay_manual_edits, selections_of
 from meshforge.batch.outcome import AssetOutcome, Edited, Failed, RuleEffect, Unchanged
 from meshforge.batch.preparation.decompose import replace_concave
 from meshforge.batch.preparation.storage import prepare_from_folder
@@ -145,9 +145,9 @@ def _run_program(
     followed = transfer_labels(labels, SymbolicMesh.of(asset))
     source = followed.mesh
     result = task.program.run(source, task.templates, selections=selections_of(job.selections, task.program))
-    mesh, flags = replay_corrections(job.corrections, source, result.mesh, task.program, task.templates)
-    with TemporaryDirectory() if task.options.dry_run else nullcontext() as aside:
-        draft = outputs.plan_draft(task, job, asset, Path(aside) if aside else None)
+    mesh, flags = replay_manual_edits(job.manual_edits, source, result.mesh, task.program, task.templates)
+    with TemporaryDirectory() if task.options.dry_run else nullcontext() as draft_folder:
+        draft = outputs.plan_draft(task, job, asset, Path(draft_folder) if draft_folder else None)
         draft = outputs.write_draft(draft, mesh, labels.vocabulary or task.program.labels, task.options)
     outcome = (Unchanged if _has_same_hulls(source, mesh) and not job.preparation else Edited)(
         asset=job.id,
@@ -156,7 +156,7 @@ def _run_program(
         before=len(source.hulls),
         after=len(mesh.hulls),
         seconds=time.perf_counter() - started,
-        notes=(*job.notes, *draft.reading, *_label_notes(followed), *draft.notes),
+        notes=(*job.notes, *draft.read_notes, *_label_notes(followed), *draft.notes),
         flags=flags,
         measures=measure_edit(source, mesh),
         labels=tuple(sorted({hull.label for hull in source.hulls if hull.label})),

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 from meshforge import language
 from meshforge.batch import provenance
-from meshforge.batch.corrections import corrections_digest, selections_digest
 from meshforge.batch.jobs import ApplyTask, AssetJob
+from meshforge.batch.manual_edits import manual_edits_digest, selections_digest
 from meshforge.batch.preparation.storage import record_digest
 from meshforge.common import Plugin
 from meshforge.formats import plugin_of_suffix
@@ -15,7 +15,7 @@ from meshforge.formats import plugin_of_suffix
 
 def inputs_of(task: ApplyTask, job: AssetJob, files: dict[str, str]) -> provenance.OutputInputs:
     """The digests of all that decides the output of a job; files: those of the asset."""
-    options, edits = task.options, (one.action for one in job.corrections)
+    options, edits = task.options, (one.action for one in job.manual_edits)
     names = {*task.program.templates, *(name for action in edits for name in action.templates)}
     written = {"to": options.to, "names": options.names, "collision": options.collision}
     written |= {} if options.concave == "keep" else {"concave": options.concave}
@@ -26,7 +26,7 @@ def inputs_of(task: ApplyTask, job: AssetJob, files: dict[str, str]) -> provenan
         labels=provenance.content_digest(job.labels) if job.labels else None,
         program=provenance.program_digest(task.program),
         templates=provenance.template_digests({name: one for name, one in task.templates.items() if name in names}),
-        corrections=corrections_digest(job.corrections),
+        manual_edits=manual_edits_digest(job.manual_edits),
         selections=selections_digest(job.selections),
         settings=" ".join([f"mass={options.mass}", *(f"{key}={value}" for key, value in written.items() if value)]),
         software=provenance.software_version(_plugins_of(task, job)),

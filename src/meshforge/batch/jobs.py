@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from meshforge import formats, language
-from meshforge.batch.corrections import Correction, RuleSelection
 from meshforge.batch.discovery import AssetSet, asset_id
+from meshforge.batch.manual_edits import ManualEdit, RuleSelection
 from meshforge.batch.provenance import stamp_path
 from meshforge.batch.workers import GIB, MIB
 from meshforge.common import ProgramError, UsageError, pluralize
@@ -35,7 +35,7 @@ class AssetJob:
     path: Path
     base: Path
     labels: Path | None = None
-    corrections: tuple[Correction, ...] = ()
+    manual_edits: tuple[ManualEdit, ...] = ()
     preparation: Path | None = None
     selections: tuple[RuleSelection, ...] = ()
     notes: tuple[str, ...] = ()
@@ -128,9 +128,9 @@ def load_named_templates(names: Iterable[str], folders: Sequence[Path]) -> dict[
 def read_template(path: Path, name: str) -> language.Template:
     """The template in a file. Raises ProgramError, naming it, where it holds no hull or is not convex."""
     asset = formats.read(path)
-    if asset.opaque:
+    if asset.non_convex:
         out = path.with_name(f"{path.stem}_hulls{path.suffix}")
-        problem = f'the template "{name}" is no convex hull: {asset.opaque[0].reason}'
+        problem = f'the template "{name}" is no convex hull: {asset.non_convex[0].reason}'
         remedy = f"Split it into convex hulls first: meshforge decompose {path} -o {out}"
         raise ProgramError(problem, where=str(path), remedy=remedy)
     if not asset.geoms:

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from typing import Any, Literal, assert_never
 
 from meshforge import language, signoff
-from meshforge.common import pluralize, suggest_aside
+from meshforge.common import pluralize, suggest_match
 
 StatusWord = Literal["edited", "unchanged", "failed", "skipped"]
 
@@ -82,16 +82,16 @@ AssetOutcome = Edited | Unchanged | Failed | Skipped
 
 
 @dataclass(frozen=True, slots=True)
-class Held:
-    """An asset that was held back from a run, since its edit is less sure than was asked for.
+class NeedsReview:
+    """An asset that was not written in a run, since its edit is less sure than was asked for.
 
-    probability: that it is right; doubts: why it may not be, as JSON; why: one sentence; out: an output of an earlier
+    probability: that it is right; reasons: why it may not be, as JSON; why: one sentence; out: an output of an earlier
     run, which stays as it is.
     """
 
     asset: str
     probability: float
-    doubts: tuple[dict[str, Any], ...]
+    reasons: tuple[dict[str, Any], ...]
     why: str
     out: str | None = None
 
@@ -99,14 +99,14 @@ class Held:
         """The line of `apply --json` for it."""
         return {
             "asset": self.asset,
-            "status": "held",
+            "status": "needs review",
             "out": self.out,
             "error": None,
             "rules": [],
             "hulls": {"before": None, "after": None},
             "seconds": 0.0,
             "probability": round(self.probability, 4),
-            "doubts": list(self.doubts),
+            "reasons": list(self.reasons),
         }
 
 
@@ -152,7 +152,7 @@ def _rule_to_json(line: RuleEffect) -> dict[str, Any]:
 class RunSummary:
     """counts: by status; before, after: hulls of all that ran; failed, ran: the first outcomes of either kind;
     measures: of all edits, by asset; labels: all that hulls had before, None where that is not known of some asset that
-    ran; held: those that were held back; shown: measures of edits by this program that a person saw.
+    ran; need_review: those that were not written for it; shown: measures of edits by this program that a person saw.
     """
 
     counts: Counter[StatusWord] = field(default_factory=Counter)
@@ -162,7 +162,7 @@ class RunSummary:
     ran: list[Edited | Unchanged | Skipped] = field(default_factory=list)
     measures: dict[str, signoff.EditMeasures] = field(default_factory=dict)
     labels: set[str] | None = field(default_factory=set)
-    held: Sequence[Held] = ()
+    need_review: Sequence[NeedsReview] = ()
     shown: Sequence[signoff.EditMeasures] = ()
 
     def add(self, outcome: AssetOutcome) -> None:
@@ -188,7 +188,7 @@ class RunSummary:
 
     def find_alarms(self) -> dict[str, tuple[str, ...]]:
         """Sentences about the results that stand out of all so far, the weightiest first, by asset."""
-        return signoff.describe_odd_results(self.measures, self.shown)
+        return signoff.describe_outliers(self.measures, self.shown)
 
     def describe_absent_labels(self, program: language.Program) -> list[str]:
         """A sentence on each label that a program asks for, no rule gives and no asset that ran has.
@@ -197,9 +197,9 @@ class RunSummary:
         """
         made, present = {rule.label for rule in program.rules}, self.labels or set()
         absent = [label for label in program.labels_asked if present and label not in present | made]
-        those = " that was edited" if self.counts["failed"] or self.held else ""
+        those = " that was edited" if self.counts["failed"] or self.need_review else ""
         problem = f"a label that no asset{those} has"
-        return [f"the program asks for {one!r}, {problem}{suggest_aside(one, present)}" for one in absent]
+        return [f"the program asks for {one!r}, {problem}{suggest_match(one, present)}" for one in absent]
 
     @property
     def outcomes_to_show(self) -> tuple[AssetOutcome, ...]:
@@ -208,8 +208,8 @@ class RunSummary:
 
     def __str__(self) -> str:
         counts = ", ".join(f"{n:,} {word}" for word, n in self.counts.items()) or "nothing to do"
-        counts += f", {len(self.held):,} held" if self.held else ""
-        total = pluralize(self.total + len(self.held), "asset")
+        counts += f", {len(self.need_review):,} need review" if self.need_review else ""
+        total = pluralize(self.total + len(self.need_review), "asset")
         text = f"{total}: {counts}; hulls {self.before:,} -> {self.after:,}"
         more = self.counts["failed"] - len(self.failed[:_MOST_NAMED])
         names = [outcome.asset for outcome in self.failed[:_MOST_NAMED]]

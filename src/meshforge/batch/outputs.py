@@ -50,10 +50,10 @@ def drafts_folder(out: Path) -> Path:
     return out / STATE / "drafts"
 
 
-def plan_draft(task: ApplyTask, job: AssetJob, asset: Asset, aside: Path | None) -> provenance.OutputDraft:
+def plan_draft(task: ApplyTask, job: AssetJob, asset: Asset, draft_folder: Path | None) -> provenance.OutputDraft:
     """Where the output of an asset would be; aside: a folder that goes, where it is not to be kept."""
     attempt = secrets.token_hex(8)  # two nodes may be at it, when one that was given up for dead lives on
-    folder = (aside or drafts_folder(task.out)) / f"{provenance.text_digest(job.id)}-{attempt}" / DRAFT_FILES
+    folder = (draft_folder or drafts_folder(task.out)) / f"{provenance.text_digest(job.id)}-{attempt}" / DRAFT_FILES
     to = task.options.to
     if to is None:
         return provenance.OutputDraft(folder, output_path_of(asset, job.base, folder).relative_to(folder).as_posix())
@@ -88,14 +88,16 @@ def write_draft(
     files = sorted(path for path in plan.folder.rglob("*") if path.is_file())
     digests = {path.relative_to(plan.folder).as_posix(): file_digest(path) for path in files}
     labels = tuple(written.hull_of(name).label if name in written.index else None for name in order)
-    reading = (*notes_after(mesh.asset, back, saved.hulled), *_note_opaque(mesh.asset, saved)) if mesh.asset else ()
-    here = tuple(note.replace(f"{plan.folder}{os.sep}", "") for note in reading)
+    read_notes = (
+        (*notes_after(mesh.asset, back, saved.hulled), *_note_non_convex(mesh.asset, saved)) if mesh.asset else ()
+    )
+    here = tuple(note.replace(f"{plan.folder}{os.sep}", "") for note in read_notes)
     return provenance.OutputDraft(plan.folder, plan.main, digests, saved.notes, labels, here)
 
 
-def _note_opaque(asset: Asset, saved: SaveResult) -> tuple[str, ...]:
+def _note_non_convex(asset: Asset, saved: SaveResult) -> tuple[str, ...]:
     """What the program cannot have seen, but for what the file says more of."""
-    pieces = [piece for piece in asset.opaque if saved.names.get(piece.name, piece.name) not in saved.hulled]
+    pieces = [piece for piece in asset.non_convex if saved.names.get(piece.name, piece.name) not in saved.hulled]
     names = join_names([piece.name for piece in pieces])
     return (f"no convex hulls, so left as they are: {names} ({pieces[0].reason})",) if pieces else ()
 
@@ -108,9 +110,9 @@ def _check_hulls(written: Asset, mesh: SymbolicMesh, hulled: tuple[str, ...]) ->
     back = [geom.name for geom in written.geoms]
     wanted = [*(hull.name for hull in mesh.hulls), *hulled]
     if sorted(back) != sorted(wanted):
-        odd = ", ".join(sorted(set(back) ^ set(wanted))[:5])
+        differing = ", ".join(sorted(set(back) ^ set(wanted))[:5])
         remedy = "This is a fault of MeshForge; nothing was written. Please report the asset."
-        raise AssetError(f"the edited file reads back with other hulls than it should have: {odd}", remedy=remedy)
+        raise AssetError(f"the edited file reads back with other hulls than it should have: {differing}", remedy=remedy)
     return back
 
 

@@ -13,7 +13,7 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any, Literal
 
-from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic import AliasChoices, BaseModel, ConfigDict, Field, ValidationError
 
 from meshforge import formats, language
 from meshforge.batch.discovery import STATE
@@ -29,21 +29,22 @@ _LOOKS = (".mtl", ".png", ".jpg", ".jpeg", ".bmp", ".tga", ".tif", ".tiff", ".we
 class OutputInputs(BaseModel):
     """Digests of all that decides what an output is; asset: of each file, by its path relative to the common folder."""
 
-    model_config = ConfigDict(frozen=True)
+    model_config = ConfigDict(frozen=True, populate_by_name=True)
 
     asset: dict[str, str]
     preparation: str | None = None
     labels: str | None
     program: str
     templates: dict[str, str]
-    corrections: str | None
+    manual_edits: str | None = Field(validation_alias=AliasChoices("manual_edits", "corrections"))  # as it was called
     selections: str | None = None
     settings: str
     software: str
 
     def changes(self, other: OutputInputs) -> tuple[str, ...]:
-        """What differs between the two: `asset`, `labels`, `program`, ..."""
-        return tuple(name for name in type(self).model_fields if getattr(self, name) != getattr(other, name))
+        """What differs between the two, in words: `asset`, `labels`, `program`, `manual edits`, ..."""
+        names = type(self).model_fields
+        return tuple(name.replace("_", " ") for name in names if getattr(self, name) != getattr(other, name))
 
 
 class Stamp(BaseModel):
@@ -230,7 +231,7 @@ class OutputDraft:
     files: Mapping[str, str] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
     labels: tuple[str | None, ...] = ()
-    reading: tuple[str, ...] = ()
+    read_notes: tuple[str, ...] = ()
 
     @property
     def root(self) -> Path:

@@ -10,7 +10,7 @@ __getattr__, __all__ = export_lazily(
     {
         "base": "Check CheckFindings CheckSubject Measure",
         "clearance": "OF_EDIT Clearance measure_kept_space",
-        "engine_trial": "EngineTrial",
+        "engine_load": "EngineLoad",
         "examination": "CheckOptions Examination check draw_examination examine_mesh",
         "fit": "MeshFit",
         "physics.simulation": "BEFORE Physics",

@@ -8,7 +8,7 @@ from meshforge.checks.base import Measure as Measure
 from meshforge.checks.clearance import OF_EDIT as OF_EDIT
 from meshforge.checks.clearance import Clearance as Clearance
 from meshforge.checks.clearance import measure_kept_space as measure_kept_space
-from meshforge.checks.engine_trial import EngineTrial as EngineTrial
+from meshforge.checks.engine_load import EngineLoad as EngineLoad
 from meshforge.checks.examination import CheckOptions as CheckOptions
 from meshforge.checks.examination import Examination as Examination
 from meshforge.checks.examination import check as check

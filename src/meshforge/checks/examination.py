@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from meshforge.checks.base import Check, CheckSubject, Measure
-from meshforge.checks.engine_trial import EngineTrial
+from meshforge.checks.engine_load import EngineLoad
 from meshforge.checks.legality import check_legality
 from meshforge.checks.registry import CHECKS, run_checks
 from meshforge.common import UsageError, suggest_among
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 REFUSED = "MuJoCo refuses this file"
 """How a note begins on an MJCF that was read for its collision geometry only."""
-TRIAL = "engine"
+ENGINE_LOAD = "engine"
 """The key of what an engine itself said."""
 
 MeasureKind = TypeVar("MeasureKind", bound=Measure)
@@ -77,17 +77,19 @@ class Examination:
         return found if isinstance(found, kind) else None
 
     @property
-    def trial(self) -> EngineTrial | None:
+    def loaded(self) -> EngineLoad | None:
         """What the hulls were held against, where the limits of an engine were asked for."""
-        return self.get(TRIAL, EngineTrial)
+        return self.get(ENGINE_LOAD, EngineLoad)
 
-    def add_trial(self, trial: EngineTrial) -> Examination:
+    def add_engine_load(self, loaded: EngineLoad) -> Examination:
         """The same with what an engine itself said."""
-        return replace(self, findings=(*trial.findings, *self.findings), measures={**self.measures, TRIAL: trial})
+        return replace(
+            self, findings=(*loaded.findings, *self.findings), measures={**self.measures, ENGINE_LOAD: loaded}
+        )
 
     def add_notes(self, notes: Iterable[str]) -> Examination:
         """The same with more notes, but for what its trial has said in a finding."""
-        refused = self.trial is not None and self.trial.refusal is not None
+        refused = self.loaded is not None and self.loaded.refusal is not None
         more = (note for note in notes if not (refused and note.startswith(REFUSED)))
         return replace(self, notes=(*self.notes, *more))
 
@@ -99,8 +101,8 @@ class Examination:
     def __str__(self) -> str:
         """What was measured and what is wrong, line by line; `legal` where there is nothing else to say."""
         lines = [*self.descriptions, *map(str, self.findings)]
-        if not self.findings and len(lines) == bool(self.trial):
-            return f"legal{f' ({self.trial.description})' if self.trial else ''}"
+        if not self.findings and len(lines) == bool(self.loaded):
+            return f"legal{f' ({self.loaded.description})' if self.loaded else ''}"
         return "\n".join(lines)
 
     @property

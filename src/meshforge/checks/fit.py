@@ -44,7 +44,7 @@ class HullFit:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class FitGroup:
-    """The hulls of a body, or of all, with the visual mesh that they are held against.
+    """The hulls of a body, or of all, with the visual mesh that they are compared with.
 
     visual_surface, hull_surface: their triangles; owner: the hull of each triangle of `hull_surface`; outside: the
     cells of `grid` that a path leads to from outside without crossing the visual mesh.
@@ -162,7 +162,7 @@ class FitCheck(MeasureCheck):
 def measure_fit(mesh: SymbolicMesh, *, cell: float | None = None) -> MeshFit:
     """How the hulls of a mesh fit what their bodies show, at rest pose.
 
-    A hull is held against the visual mesh of its own body; where the file does not tell what shows what, all against
+    A hull is compared with the visual mesh of its own body; where the file does not tell what shows what, all against
     all. A point of a hull sticks out where a path leads to it from outside without crossing the visual mesh, on a grid
     of cells of side `cell` [m] (by default the diagonal by 112): so holes and wrong windings of a visual mesh do no
     harm unless they are wider than a cell, and what sticks out by less than a cell may not be seen.

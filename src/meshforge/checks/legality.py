@@ -54,7 +54,7 @@ def check_legality(mesh: SymbolicMesh) -> tuple[frozenset[str], tuple[Finding, .
         *_check_names(mesh),
         *_check_bodies(mesh),
         *_check_duplicates([hull for hull in mesh.hulls if hull.name not in faulty]),
-        *_report_opaque(mesh),
+        *_report_non_convex(mesh),
     )
 
 
@@ -84,10 +84,10 @@ def _check_duplicates(hulls: list[Hull]) -> Iterator[Finding]:
             yield Finding("duplicate", "warning", tuple(names), message, "Delete all but one.")
 
 
-def _report_opaque(mesh: SymbolicMesh) -> Iterator[Finding]:
-    for piece in mesh.asset.opaque if mesh.asset else ():
+def _report_non_convex(mesh: SymbolicMesh) -> Iterator[Finding]:
+    for piece in mesh.asset.non_convex if mesh.asset else ():
         remedy = "A mesh can be decomposed into hulls; anything else is left as it is."
-        yield Finding("opaque", "warning", (piece.name,), f"{piece.name}: no convex hull ({piece.reason})", remedy)
+        yield Finding("non_convex", "warning", (piece.name,), f"{piece.name}: no convex hull ({piece.reason})", remedy)
 
 
 SLIVER = 0.02

@@ -81,18 +81,18 @@ def _run(given: ApplyArguments, work: ApplyWork, measures: CheckOptions | None) 
     if not given.dry_run:
         for asset, why in work.finish(alarms).items():
             remark(f"{escape_name(asset)} is no longer signed off: {why}")
-    _print_lines(done, alarms, work.describe_standings() if done else {})
+    _print_lines(done, alarms, work.describe_result_statuses() if done else {})
     if work.new:
         from meshforge.project import describe_new  # lazy: 170 modules that a program file does not need
 
         if text := describe_new(list(work.new.values())):
             remark(text)
-    summary.held = work.held
-    for held in work.held:
+    summary.need_review = work.need_review
+    for need_review in work.need_review:
         if given.json:
-            print_json({**held.to_json(), **work.describe_new(held.asset)}, compact=True)
+            print_json({**need_review.to_json(), **work.describe_new(need_review.asset)}, compact=True)
         else:
-            typer.echo(f"{'held':10} {escape_name(held.asset)}: {held.why}")
+            typer.echo(f"needs review {escape_name(need_review.asset)}: {need_review.why}")
     if not given.json:
         log.print_repeated()
         typer.echo(f"{summary}{NOTHING_WRITTEN if given.dry_run else ''}")
@@ -105,15 +105,15 @@ def _run(given: ApplyArguments, work: ApplyWork, measures: CheckOptions | None) 
     outliers = work.find_outliers(alarms) if given.program.is_dir() and not given.accept_outliers else []
     if outliers:
         remark(f"Look at {join_names(outliers)}, then: {'meshforge review, or ' * bool(work.project)}--accept-outliers")
-    return int(summary.counts["failed"] > 0 or bool(work.held) or bool(outliers))
+    return int(summary.counts["failed"] > 0 or bool(work.need_review) or bool(outliers))
 
 
 def _print_lines(
-    done: Iterable[batch.AssetOutcome], alarms: Alarms, standings: Mapping[str, Mapping[str, Any]]
+    done: Iterable[batch.AssetOutcome], alarms: Alarms, result_statuses: Mapping[str, Mapping[str, Any]]
 ) -> None:
     for outcome in done:
         line = batch.to_json_line(outcome, alarms.get(outcome.asset, ()))
-        print_json({**line, **standings.get(outcome.asset, {})}, compact=True)
+        print_json({**line, **result_statuses.get(outcome.asset, {})}, compact=True)
 
 
 def _describe_outcome(outcome: batch.AssetOutcome, log: NoteLog) -> str:

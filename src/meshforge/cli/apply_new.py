@@ -61,7 +61,7 @@ def prepare_given(
 
     One that is the project's own is taken as the project has it.
     """
-    from meshforge.project import NewAsset, prepare_aside, read_preparation_plan  # lazy: 170 modules
+    from meshforge.project import NewAsset, prepare_new_assets, read_preparation_plan  # lazy: 170 modules
 
     plan = read_preparation_plan(project)
     if plan.unclear:
@@ -71,7 +71,7 @@ def prepare_given(
     ours = {job.path: job for job in project.jobs({known[job.path] for job in given if job.path in known})}
     jobs = [replace(ours[job.path], id=job.id, base=job.base) if job.path in ours else job for job in given]
     new = [NewAsset(job.id, job.path, plan, job.labels) for job in given if job.path not in ours]
-    found = NewAssets.aside(prepare_aside(project, new, folder, _with_stage(options)))
+    found = NewAssets.aside(prepare_new_assets(project, new, folder, _with_stage(options)))
     return found.update(jobs), found
 
 
@@ -80,7 +80,7 @@ def prepare_later(project: Project, folder: Path | None, options: NewAssetOption
 
     folder: where what is done is kept; None for in the project.
     """
-    from meshforge.project import list_new, prepare_aside  # lazy: 170 modules that a program file does not need
+    from meshforge.project import list_new, prepare_new_assets  # lazy: 170 modules that a program file does not need
 
     new, unclear = list_new(project)
     if unclear:
@@ -89,7 +89,7 @@ def prepare_later(project: Project, folder: Path | None, options: NewAssetOption
     options = replace(_with_stage(options), guess=program is None or bool(program.labels_asked))
     if folder is None:
         return NewAssets.of({result.asset: result for result in project.prepare_new(options)}, {})
-    return NewAssets.aside(prepare_aside(project, new, folder, options))
+    return NewAssets.aside(prepare_new_assets(project, new, folder, options))
 
 
 def _with_stage(options: NewAssetOptions) -> NewAssetOptions:
@@ -99,21 +99,25 @@ def _with_stage(options: NewAssetOptions) -> NewAssetOptions:
     return replace(options, execution=execution, stage=progress)
 
 
-def hold_new(confidences: Mapping[str, AssetConfidence], bar: float, out: Path) -> tuple[batch.Held, ...]:
+def list_unsure_new(
+    confidences: Mapping[str, AssetConfidence], threshold: float, out: Path
+) -> tuple[batch.NeedsReview, ...]:
     """The new assets whose edits are less sure than a bar, the least sure first."""
-    unsure = sorted((one for one in confidences.values() if one.probability < bar), key=lambda one: one.probability)
-    return tuple(hold(one.asset, one, out) for one in unsure)
+    unsure = sorted(
+        (one for one in confidences.values() if one.probability < threshold), key=lambda one: one.probability
+    )
+    return tuple(to_needs_review(one.asset, one, out) for one in unsure)
 
 
-def hold(asset: str, found: AssetConfidence | None, out: Path, why: str | None = None) -> batch.Held:
-    """An asset that is held back, since its edit is not sure enough; why: another reason."""
+def to_needs_review(asset: str, found: AssetConfidence | None, out: Path, why: str | None = None) -> batch.NeedsReview:
+    """An asset that is not written, since its edit is not sure enough; why: another reason."""
     written = batch.read_stamp(out, asset)
     kept = str(out / written.out) if written and written.out else None
     if found and not why:
-        doubt = found.doubts[0].text if found.doubts else "no single doubt stands out"
-        why = f"{format_share(found.probability)} sure; {doubt}"
+        reason = found.reasons[0].text if found.reasons else "no single doubt stands out"
+        why = f"{format_share(found.probability)} sure; {reason}"
     why = why or ""
     if kept:
         why += "; the output of an earlier run stays as it is"
-    doubts = tuple(doubt.to_json() for doubt in found.doubts) if found else ()
-    return batch.Held(asset, found.probability if found else 0.0, doubts, why, kept)
+    reasons = tuple(reason.to_json() for reason in found.reasons) if found else ()
+    return batch.NeedsReview(asset, found.probability if found else 0.0, reasons, why, kept)

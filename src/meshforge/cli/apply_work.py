@@ -14,7 +14,7 @@ import typer
 
 from meshforge import batch
 from meshforge.cli import options
-from meshforge.cli.apply_new import hold, hold_new, prepare_given, prepare_later
+from meshforge.cli.apply_new import list_unsure_new, prepare_given, prepare_later, to_needs_review
 from meshforge.cli.console import progress
 from meshforge.cli.terminal import remark
 from meshforge.common import UsageError, join_names, suggest_name
@@ -88,7 +88,7 @@ def _sign_nothing_off(alarms: Alarms) -> Mapping[str, str]:
 
 @dataclass(frozen=True, slots=True)
 class ApplyWork:
-    """What is to be run on what. readers: of assets before the run, by id; held: those that are held back;
+    """What is to be run on what. readers: of assets before the run, by id; need_review: those that are not written;
     finish: called with all alarms when all is written, says what is no longer signed off, and why, by asset; project:
     None where its own assets are not meant; new: what was done to new assets before, by id; failed: those of them that
     could not be prepared; confidences: how sure the edits of assets are that are not the project's, as far as asked."""
@@ -98,7 +98,7 @@ class ApplyWork:
     out: Path
     templates: Mapping[str, Template]
     readers: Callable[[Iterable[str]], Sequence[batch.MeshReader]]
-    held: Sequence[batch.Held] = ()
+    need_review: Sequence[batch.NeedsReview] = ()
     finish: Callable[[Alarms], Mapping[str, str]] = _sign_nothing_off
     project: Project | None = None
     new: Mapping[str, NewAssetResult] = field(default_factory=dict)
@@ -110,15 +110,17 @@ class ApplyWork:
         """What was asked for; stack: keeps a folder for as long as the run takes."""
         return _work_of_project(given, stack) if given.program.is_dir() else _work_of_program(given)
 
-    def describe_standings(self) -> dict[str, dict[str, Any]]:
+    def describe_result_statuses(self) -> dict[str, dict[str, Any]]:
         """How sure each edit of a project is, as far as its last review holds, by asset."""
         rows = self.project.status().assets if self.project else ()
-        standings = {one.id: one.confidence_to_json() for one in rows}
-        standings |= {
-            asset: {"probability": round(one.probability, 4), "doubts": [doubt.to_json() for doubt in one.doubts]}
+        result_statuses = {one.id: one.confidence_to_json() for one in rows}
+        result_statuses |= {
+            asset: {"probability": round(one.probability, 4), "reasons": [reason.to_json() for reason in one.reasons]}
             for asset, one in self.confidences.items()
         }
-        return standings | {asset: {**standings.get(asset, {}), **self.describe_new(asset)} for asset in self.new}
+        return result_statuses | {
+            asset: {**result_statuses.get(asset, {}), **self.describe_new(asset)} for asset in self.new
+        }
 
     def find_outliers(self, alarms: Alarms) -> list[str]:
         """The assets whose results stand out, and are neither demonstrated, accepted nor signed off."""
@@ -146,14 +148,16 @@ def _work_of_project(given: ApplyArguments, stack: ExitStack) -> ApplyWork:
     out = given.out or project.layout.edited
     folder = Path(stack.enter_context(TemporaryDirectory())) if given.dry_run else None
     new = prepare_later(project, folder, new_options)
-    held = _hold_back(project, out, given.min_confidence) if given.min_confidence is not None else ()
+    need_review = _list_unsure(project, out, given.min_confidence) if given.min_confidence is not None else ()
     program, jobs, templates = project.work()
     if away := [f"{asset} ({one.reason})" for asset, one in project.feedback().exclusions.items()]:
         remark(f"excluded, and not edited: {join_names(away)}")
-    names = {one.asset for one in held}
+    names = {one.asset for one in need_review}
     rest = [job for job in new.update(jobs) if job.id not in names]
     finish = project.renew_sign_offs if out.absolute() == project.layout.edited else _sign_nothing_off
-    return ApplyWork(program, rest, out, templates, project.readers, held, finish, project, new.results, new.failed)
+    return ApplyWork(
+        program, rest, out, templates, project.readers, need_review, finish, project, new.results, new.failed
+    )
 
 
 def _work_of_others(
@@ -172,11 +176,11 @@ def _work_of_others(
     new_options = replace(new_options, guess=bool(program.labels_asked))
     jobs, new = prepare_given(project, given.assets or (), given.labels, folder, new_options)
     found: dict[str, AssetConfidence] = {}
-    held: tuple[batch.Held, ...] = ()
+    need_review: tuple[batch.NeedsReview, ...] = ()
     if review and given.min_confidence is not None:
         found = assess_new_assets(project, review, jobs, new.results, new_options.execution)
-        held = hold_new(found, given.min_confidence, out)
-    names = {one.asset for one in held}
+        need_review = list_unsure_new(found, given.min_confidence, out)
+    names = {one.asset for one in need_review}
     by_id = {job.id: job for job in jobs}
     return ApplyWork(
         program,
@@ -184,26 +188,26 @@ def _work_of_others(
         out,
         templates,
         lambda assets: [partial(batch.read_job, by_id[asset]) for asset in assets],
-        held,
+        need_review,
         new=new.results,
         failed=new.failed,
         confidences=found,
     )
 
 
-def _review(project: Project, bar: float) -> ProjectReview:
+def _review(project: Project, threshold: float) -> ProjectReview:
     program = project.program()
     with progress(None, "looking at the family"):
-        found = project.review(bar)
+        found = project.review(threshold)
     if program != project.program():
         remark("The program was learned again from what was said since.")
     return found
 
 
-def _hold_back(project: Project, out: Path, bar: float) -> tuple[batch.Held, ...]:
+def _list_unsure(project: Project, out: Path, threshold: float) -> tuple[batch.NeedsReview, ...]:
     """The assets of a project whose edits are less sure than a bar, the least sure first."""
-    assessment = _review(project, bar).assessment
-    return tuple(hold(name, assessment.assets.get(name), out) for name in assessment.held)
+    assessment = _review(project, threshold).assessment
+    return tuple(to_needs_review(name, assessment.assets.get(name), out) for name in assessment.need_review)
 
 
 def _work_of_program(given: ApplyArguments) -> ApplyWork:

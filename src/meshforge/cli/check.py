@@ -125,7 +125,7 @@ def check(given: CheckArguments) -> None:
             if given.json:
                 print_json(row["found"], compact=True)
             else:
-                typer.echo(_number_notes(log, job.id, row["said"]))
+                typer.echo(_number_notes(log, job.id, row["text"]))
     log.print_repeated()
     if not given.json and len(jobs) > _FEW:
         typer.echo(f"{pluralize(len(jobs), 'asset')}, {failed:,} with errors")
@@ -163,17 +163,17 @@ def _to_row(journal: batch.CheckJournal | None, asset: str, outcome: batch.Check
     row = {
         "failed": outcome.has_failed,
         "found": outcome.to_json(),
-        "said": _describe_check(outcome),
-        "told": list(_describe_work(outcome)),
+        "text": _describe_check(outcome),
+        "lines": list(_describe_work(outcome)),
     }
     if journal and outcome.inputs:
         journal.add(asset, outcome.inputs, row)
     return row
 
 
-def _number_notes(log: NoteLog, asset: str, said: str) -> str:
+def _number_notes(log: NoteLog, asset: str, text: str) -> str:
     """What is printed about an asset, without the notes that were printed on another one."""
-    head, *lines = said.split("\n")
+    head, *lines = text.split("\n")
     notes = [line for line in lines if line.startswith(("  note: ", "  engine: "))]
     return "\n".join([log.describe(asset, head, notes, start=""), *(line for line in lines if line not in notes)])
 
@@ -183,8 +183,8 @@ def _describe_check(outcome: batch.CheckOutcome) -> str:
     if found is None:
         return f"{path}: cannot be read\n  " + (outcome.error or "").replace("\n", "\n  ")
     lines = [*_describe_work(outcome)]
-    if not found.findings and len(lines) == bool(found.trial):  # nothing else to say
-        return f"{path}: legal{f' ({found.trial.description})' if found.trial else ''}"
+    if not found.findings and len(lines) == bool(found.loaded):  # nothing else to say
+        return f"{path}: legal{f' ({found.loaded.description})' if found.loaded else ''}"
     lines += [line for finding in found.findings for line in str(finding).split("\n")]
     return "\n  ".join([f"{path}:", *lines])
 

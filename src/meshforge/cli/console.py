@@ -77,9 +77,9 @@ class Progress:
     def __call__(self) -> None:
         """Count one more."""
         self._done += 1
-        self.say(self._words)
+        self.show(self._words)
 
-    def say(self, words: str) -> None:
+    def show(self, words: str) -> None:
         """What the work is at; of `part 3 of 12` two parts are done."""
         self._words, found = words, _COUNT.search(words)
         self._share = (int(found[1]) - 1) / int(found[2]) if found else self._share

@@ -130,8 +130,8 @@ def _convert_one(source: Path, out: Path, given: ConvertArguments) -> None:
     else:
         for note in fold_notes((*read_notes, *saved.notes)):
             remark(f"note: {note}")
-        held = [pluralize(feature.count, feature.kind.one, feature.kind.many) for feature in saved.report.held]
-        remark(f"wrote {escape_name(str(saved.path))}: {', '.join([pluralize(len(mesh.hulls), 'hull'), *held])}")
+        kept = [pluralize(feature.count, feature.kind.one, feature.kind.many) for feature in saved.report.kept]
+        remark(f"wrote {escape_name(str(saved.path))}: {', '.join([pluralize(len(mesh.hulls), 'hull'), *kept])}")
     saved.report.refuse_lost_collision(str(source), "Make a hull of each: --concave hull.")
 
 
@@ -141,7 +141,7 @@ def _to_json(source: Path, saved: SaveResult, hulls: int, notes: Sequence[str]) 
         "asset": str(source),
         "out": str(saved.path),
         "hulls": hulls,
-        "held": [_to_row(feature) for feature in report.held],
+        "kept": [_to_row(feature) for feature in report.kept],
         "lost": [{**_to_row(loss), "why": loss.why, "instead": loss.instead} for loss in report.lost],
         "notes": [*notes, *report.remarks],
     }

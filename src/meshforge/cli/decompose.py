@@ -96,7 +96,7 @@ def decompose(given: DecomposeArguments) -> None:
             hollow=given.hollow,
             timeout=given.timeout,
             cache=given.cache,
-            progress=shown.say,
+            progress=shown.show,
         )
     saved = formats.save(made, given.out, overwrite=given.overwrite)
     for note in fold_notes((*(made.asset.notes if made.asset else ()), *saved.notes)):
@@ -116,7 +116,7 @@ def _advise(given: DecomposeArguments, settings: DecomposeSettings) -> None:
             labels=_segmentation_of(given),
             timeout=given.timeout,
             cache=given.cache,
-            progress=shown.say,
+            progress=shown.show,
         )
     if given.json:
         print_json(advice.to_json())

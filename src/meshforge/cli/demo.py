@@ -17,7 +17,7 @@ from meshforge.cli.console import progress
 from meshforge.cli.options import Browser, Port, Workers
 from meshforge.cli.terminal import remark
 from meshforge.common import UsageError
-from meshforge.project import Project, add_standings, format_status
+from meshforge.project import Project, add_result_status, format_status
 from meshforge.samples import TABLES, family_of, write_family
 
 _OUT, _STUDIO = Path("meshforge-demo"), Path("meshforge-demo-studio")
@@ -73,11 +73,11 @@ def _run_all(out: Path, workers: int | None) -> None:
     project.review()
     found = project.status()
     pairs = compare_outcomes(outcomes, program, project.readers(o.asset for o in outcomes), shown)
-    assets = add_standings(pairs, found)
+    assets = add_result_status(pairs, found)
     with progress(len(assets), "drawing") as advance:
         report = out / "report.html"
         about = "Pictures show every table upright, as the program sees it; the files keep the frame they came in."
-        header = ReportHeader("Tables", about, seconds, standing=format_status(found))
+        header = ReportHeader("Tables", about, seconds, result_status=format_status(found))
         write_report(report, header, assets, program=program, options=ReportOptions(progress=advance))
     _print_result(assets, seconds, project, report, format_status(found))
     raise typer.Exit(int(any(asset.status == "failed" for asset in assets)))

@@ -49,7 +49,7 @@ def demonstrate(
         recorded = _record_steps(opened, asset, steps or ())
     if steps:
         opened.demonstrate(asset, [step for step, _ in recorded])
-    results = {step.rule: said for step, said in recorded}
+    results = {step.rule: line for step, line in recorded}
     for step in opened.steps(asset):
         typer.echo(
             f"{step.rule}. {_format_selection(step)} => {step.action}{f' as {step.label}' if step.label else ''}"
@@ -82,10 +82,10 @@ def _record_steps(project: Project, asset: str, texts: Sequence[str]) -> list[tu
 def _describe_result(done: RuleTrace) -> str:
     """What a step did: `5 hulls -> 1, of which a~1 joins a, b and 3 more`."""
     joined = next((name for name, of in zip(done.made, done.sources, strict=True) if len(of) > 1), None)
-    said = f"{pluralize(len(done.selected), 'hull')} -> {len(done.made)}"
+    line = f"{pluralize(len(done.selected), 'hull')} -> {len(done.made)}"
     if joined is not None:
-        said += f", of which {escape_name(joined)} joins {join_names(done.sources[done.made.index(joined)])}"
-    return said + (f"; {done.note}" if done.note else "")
+        line += f", of which {escape_name(joined)} joins {join_names(done.sources[done.made.index(joined)])}"
+    return line + (f"; {done.note}" if done.note else "")
 
 
 def _parse_hulls(

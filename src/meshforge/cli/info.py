@@ -25,12 +25,12 @@ def info(
     """Show hulls, labels, bodies, contacts and near misses of an asset, in the frame it comes in."""
     mesh = open_asset(asset, labels, project)
     if json:
-        print_json(describe_asset(mesh, str(asset), geometry=geometry) | (_describe_standing(asset, project)))
+        print_json(describe_asset(mesh, str(asset), geometry=geometry) | (_describe_result_status(asset, project)))
     else:
         _print_asset(mesh, str(asset))
 
 
-def _describe_standing(asset: Path, folder: Path | None) -> dict[str, Any]:
+def _describe_result_status(asset: Path, folder: Path | None) -> dict[str, Any]:
     """How sure the edit of a project's asset is; nothing without a project."""
     if folder is None:
         return {}
@@ -52,7 +52,9 @@ def describe_asset(mesh: symbolic.SymbolicMesh, asset: str, *, geometry: bool = 
         "diagonal": mesh.diagonal,
         "notes": list(source.notes) if source else [],
         "hulls": [_describe_hull(hull, geometry) for hull in mesh.hulls],
-        "opaque": [{"name": o.name, "body": o.body, "reason": o.reason} for o in (source.opaque if source else ())],
+        "non_convex": [
+            {"name": o.name, "body": o.body, "reason": o.reason} for o in (source.non_convex if source else ())
+        ],
         "contacts": [[names[i], names[j]] for i, j in sorted(mesh.contacts)],
         "near_misses": [[names[i], names[j], gap] for i, j, gap in mesh.near_misses],
     }
@@ -93,10 +95,10 @@ def _describe_primitive(shape: Shape | None) -> dict[str, Any] | None:
 
 def _print_asset(mesh: symbolic.SymbolicMesh, asset: str) -> None:
     source = mesh.asset
-    opaque = source.opaque if source else ()
-    bodies = len({h.body for h in mesh.hulls} | {o.body for o in opaque})
+    non_convex = source.non_convex if source else ()
+    bodies = len({h.body for h in mesh.hulls} | {o.body for o in non_convex})
     head = [source.format if source else "", pluralize(len(mesh.hulls), "hull"), pluralize(bodies, "body", "bodies")]
-    head += [pluralize(len(opaque), "non-convex piece")] if opaque else []
+    head += [pluralize(len(non_convex), "non-convex piece")] if non_convex else []
     head += [pluralize(len(mesh.contacts), "contact")]
     head += [f"diagonal {mesh.diagonal:.4g} m"] if mesh.hulls else []  # it is that of the hulls
     typer.echo(f"{escape_name(asset)}: {', '.join(head)}")
@@ -112,9 +114,9 @@ def _print_asset(mesh: symbolic.SymbolicMesh, asset: str) -> None:
 
         columns = ("#", "hull", "body", "label", "kind", "vertices", "volume", "touches")
         print_table(columns, rows, right=("#", "vertices", "volume", "touches"))
-    if opaque:
+    if non_convex:
         typer.echo("\nNon-convex (never selected, written back untouched; `meshforge prepare` makes hulls of it):")
-        for piece in opaque:
+        for piece in non_convex:
             typer.echo(f"  {escape_name(piece.name)}: {piece.reason}")
     if mesh.near_misses:
         typer.echo(f"\nNear misses (apart, yet within three times the contact distance {mesh.contact_distance:.3g} m):")

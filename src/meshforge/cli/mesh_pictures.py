@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from meshforge.language import Orient, Program, to_canonical_frame
-from meshforge.project import Project, run_with_corrections
+from meshforge.project import Project, run_with_manual_edits
 from meshforge.rendering import Up, draw_before_after, make_contact_sheet, render, write_png
 from meshforge.symbolic import SymbolicMesh
 
@@ -56,7 +56,7 @@ class MeshPictures:
         run."""
         mesh = self._meshes()[asset]
         before, pose = to_canonical_frame(mesh, program.orient, program.contact)
-        after = run_with_corrections(self._project, asset, mesh, program).mesh
+        after = run_with_manual_edits(self._project, asset, mesh, program).mesh
         turned = after.with_hulls(hull.move(pose) for hull in after.hulls)
         words, up = self._project.vocabulary, self._up(program.orient)
         return self._write(name, draw_before_after(before, turned, size=_SMALL_SIZE, vocabulary=words, up=up))

@@ -183,10 +183,10 @@ def _print_one(result: PreparationResult) -> None:
     for step in result.undone:
         typer.echo(f"    {step}")
     entries = result.made or result.planned
-    for entry in (entry for entry in entries if entry.told != MADE_ANEW):
-        is_named = entry.told.startswith(f"{entry.what} ")
-        typer.echo(f"    {entry.told}" if is_named else f"    {entry.what}: {entry.told}")
-    if anew := sum(entry.told == MADE_ANEW for entry in entries):
+    for entry in (entry for entry in entries if entry.remark != MADE_ANEW):
+        is_named = entry.remark.startswith(f"{entry.what} ")
+        typer.echo(f"    {entry.remark}" if is_named else f"    {entry.what}: {entry.remark}")
+    if anew := sum(entry.remark == MADE_ANEW for entry in entries):
         typer.echo(f"    {pluralize(anew, 'other')} {MADE_ANEW}")
     for note in result.notes:
         typer.echo(f"    note: {note}")
@@ -200,8 +200,8 @@ def _describe_change(result: PreparationResult) -> str:
     if not entries:
         return "taken back" if result.undone else "nothing new"
     hulls = sum(len(entry.made) for entry in entries)
-    told = f"{pluralize(len(entries), 'piece')} into {pluralize(hulls, 'hull')}"
-    return told if result.made else f"nothing written; would turn {told}"
+    remark = f"{pluralize(len(entries), 'piece')} into {pluralize(hulls, 'hull')}"
+    return remark if result.made else f"nothing written; would turn {remark}"
 
 
 def _select_assets(project: Project, assets: list[str] | None) -> tuple[str, ...]:

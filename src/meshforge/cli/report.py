@@ -88,7 +88,7 @@ def _line_of_journal(job: batch.AssetJob, row: Mapping[str, Any]) -> _ReportLine
     found = row["found"]
     findings = tuple(Finding(**{**finding, "hulls": tuple(finding["hulls"])}) for finding in found["findings"])
     fix = found.get("fixed")
-    kept = batch.EarlierExamination(findings, tuple(row.get("told", ())))
+    kept = batch.EarlierExamination(findings, tuple(row.get("lines", ())))
     fixed = Path(fix["out"]) if fix and fix["changes"] else None
     return _ReportLine(job, _status(finding.severity for finding in findings), None, (_FROM_JOURNAL,), kept, fixed)
 

@@ -19,7 +19,7 @@ from meshforge.cli.review_text import format_question, format_reply_help
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import escape_name, join_names, pluralize
 from meshforge.project import Project, ProjectReview, format_review
-from meshforge.signoff import BAR
+from meshforge.signoff import THRESHOLD
 from meshforge.store import AnswerEvent, LabelFixEvent
 
 
@@ -33,12 +33,12 @@ class ReviewArguments:
         typer.Option(
             "--min-confidence", help="The probability from which on a result is signed off.", min=0.5, max=1.0
         ),
-    ] = BAR
+    ] = THRESHOLD
     answers: Annotated[
         Path | None, typer.Option("--answers", help="A JSON file of replies to questions that are asked, in any order.")
     ] = None
     by: Annotated[str | None, typer.Option("--by", help="Your name, kept with what you say.")] = None
-    again: Annotated[bool, typer.Option("--again", help="Ask again what was put off.")] = False
+    again: Annotated[bool, typer.Option("--again", help="Ask snoozed questions again.")] = False
     list_answers: Annotated[
         bool, typer.Option("--list-answers", help="Only list what was said of rules and labels so far, with ids.")
     ] = False
@@ -79,7 +79,7 @@ def review(given: ReviewArguments) -> None:
         _print_review(project, found, shlex.quote(str(given.project)), asked=asks)
     for asset, why in session.taken_back.items():
         remark(f"{escape_name(asset)} is no longer signed off: {why}")
-    raise typer.Exit(int(bool(found.assessment.held or missed)))
+    raise typer.Exit(int(bool(found.assessment.need_review or missed)))
 
 
 def _print_review(project: Project, found: ProjectReview, word: str, *, asked: bool) -> None:
@@ -88,8 +88,8 @@ def _print_review(project: Project, found: ProjectReview, word: str, *, asked: b
     if question and not asked:
         typer.echo(f"\n{format_question(question, draw_question(project, found, question))}")
         remark(f"\n{format_reply_help(question, word)}")
-    if question is None and found.assessment.held and project.feedback().snoozed:
-        remark(f"Some questions were put off: meshforge review {word} --again asks them.")
+    if question is None and found.assessment.need_review and project.feedback().snoozed:
+        remark(f"Some questions are snoozed: meshforge review {word} --again asks them.")
     if found.assessment.is_done and project.program() and not _is_written(project):
         remark(f"Next: meshforge apply {word}")
 
@@ -105,7 +105,7 @@ def to_json(project: Project, found: ProjectReview) -> dict[str, Any]:
     pictures: Sequence[Path] = draw_question(project, found, question) if question else ()
     return {
         "signed_off": len(assessment.signed_off),
-        "held": [{"asset": name, **assessment.assets[name].to_json()} for name in assessment.held],
+        "needs_review": [{"asset": name, **assessment.assets[name].to_json()} for name in assessment.need_review],
         "excluded": dict(sorted(assessment.excluded.items())),
         "question": {**question.to_json(), "pictures": list(map(str, pictures))} if question else None,
         "lost": dict(found.lost),
@@ -113,22 +113,22 @@ def to_json(project: Project, found: ProjectReview) -> dict[str, Any]:
 
 
 def _print_answers(project: Project, folder: Path, json: bool) -> None:
-    said = project.feedback().answers_and_fixes
+    events = project.feedback().answers_and_fixes
     if json:
-        print_json(_to_json(said))
+        print_json(_to_json(events))
         return
-    for name, event in said.items():
+    for name, event in events.items():
         typer.echo(f"{name}  {_describe(event)}")
-    if said:
-        command = f"meshforge review {shlex.quote(str(folder))} --forget {shlex.quote(next(iter(said)))}"
+    if events:
+        command = f"meshforge review {shlex.quote(str(folder))} --forget {shlex.quote(next(iter(events)))}"
         remark(f"To take one back: {command}")
     else:
         remark("nothing was answered, repaired or refused yet")
 
 
-def _to_json(said: Mapping[str, AnswerEvent | LabelFixEvent]) -> dict[str, list[dict[str, Any]]]:
+def _to_json(events: Mapping[str, AnswerEvent | LabelFixEvent]) -> dict[str, list[dict[str, Any]]]:
     found: dict[str, list[dict[str, Any]]] = {"answers": [], "confirmed": [], "rejected": []}
-    for name, event in said.items():
+    for name, event in events.items():
         line = event.model_dump(mode="json", by_alias=True, exclude={"event", "accepted"})
         if isinstance(event, LabelFixEvent):
             found["confirmed" if event.accepted else "rejected"].append({"id": name, "from": None, **line})

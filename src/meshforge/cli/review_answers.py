@@ -70,8 +70,8 @@ def _to_reply(number: int, row: Any) -> ScriptReply:
     """One entry, of this number in the file. Raises ValueError that says what of it is wrong."""
     if not isinstance(row, dict) or "id" not in row:
         raise ValueError(f"reply {number} has no id")
-    if odd := row.keys() - {"id", "choice", "exceptions", "selections", "labels", "later"}:
-        raise ValueError(f"reply {number} has a field {min(odd)!r}, which is none of a reply")
+    if unknown := row.keys() - {"id", "choice", "exceptions", "selections", "labels", "later"}:
+        raise ValueError(f"reply {number} has a field {min(unknown)!r}, which is none of a reply")
     choice, later = row.get("choice"), row.get("later", False)
     if choice is not None and (isinstance(choice, bool) or not isinstance(choice, int | str)):
         raise ValueError(f"reply {number}: the choice {choice!r} is no id, and no number from 0")
@@ -110,7 +110,7 @@ def parse_reply(line: str, question: ReviewQuestion) -> ReviewReply:
         _parse_choice(words.pop(0), question) if words and not set(words[0]) & set("=:") else question.choices[0].id
     )
     if isinstance(question, ResultQuestion):
-        return _parse_correction(words, question, chosen)
+        return _parse_manual_edit(words, question, chosen)
     letters = {letter_of(place): hull for place, hull in enumerate(question.hulls)}
     exceptions = {}
     for word in " ".join(words).replace(",", " ").split():
@@ -137,7 +137,7 @@ def _parse_choice(word: str, question: ReviewQuestion) -> str | None:
     return ids[int(word) - 1]
 
 
-def _parse_correction(words: Sequence[str], question: ResultQuestion, chosen: str | None) -> ReviewReply:
+def _parse_manual_edit(words: Sequence[str], question: ResultQuestion, chosen: str | None) -> ReviewReply:
     selections, labels = dict[int, frozenset[str]](), dict[str, str]()
     for word in words:
         rule, colon, names = word.partition(":")
@@ -155,8 +155,8 @@ def find_contradictions(state: ReviewState, question: ReviewQuestion, reply: Rev
     """A sentence for each label of a person that the reply of a person changes: the last word counts."""
     choice = question.choice(reply.choice)
     given = dict.fromkeys(question.hulls, choice.label) if choice and not reply.later else {}
-    said = {HullPlace(question.asset, hull): label for hull, label in reply.labels.items()}
-    for place, label in {**given, **reply.exceptions, **said}.items():
+    given_before = {HullPlace(question.asset, hull): label for hull, label in reply.labels.items()}
+    for place, label in {**given, **reply.exceptions, **given_before}.items():
         was = state.meshes[place.asset].hull_of(place.hull).annotation
         if label and was and was.source in HUMAN_SOURCES and was.name != label:
             yield (

@@ -10,7 +10,7 @@ from meshforge.cli.console import progress
 from meshforge.cli.mesh_pictures import MeshPictures
 from meshforge.common import MeshForgeError
 from meshforge.project import Project, ProjectReview
-from meshforge.signoff import OrientationQuestion, ReadingQuestion, ResultQuestion, ReviewQuestion
+from meshforge.signoff import CandidateQuestion, OrientationQuestion, ResultQuestion, ReviewQuestion
 from meshforge.signoff.question import RIGHT
 
 
@@ -30,7 +30,7 @@ def _draw(pictures: MeshPictures, found: ProjectReview, question: ReviewQuestion
         return [pictures.draw_sheet(_hulls_by_asset(question), name)]
     if question.asset not in found.state.meshes:
         return []
-    if isinstance(question, ReadingQuestion) and program and question.rule:
+    if isinstance(question, CandidateQuestion) and program and question.rule:
         mesh = pictures.mesh_before_rule(question.asset, question.rule, program)
         return [
             pictures.draw(mesh, frozenset(choice.select or ()), f"{name}-choice-{number}", f"choice {number}")

@@ -19,15 +19,15 @@ from meshforge.project import Project, ProjectReview, format_review
 from meshforge.signoff import ResultQuestion, ReviewQuestion, ReviewReply, question_of
 from meshforge.signoff.question import WRONG
 
-_FEW_HELD = 3  # assets that need review and are named beside a question
+_FEW_LISTED = 3  # assets that need review and are named beside a question
 
 
 class ReviewSession:
     """Replies one after the other. found: the family as it stands; taken_back: why some assets are no longer signed
     off."""
 
-    def __init__(self, project: Project, bar: float) -> None:
-        self._project, self._bar = project, bar
+    def __init__(self, project: Project, threshold: float) -> None:
+        self._project, self._threshold = project, threshold
         self.taken_back = dict[str, str]()
         self.found = self._look()
 
@@ -52,10 +52,10 @@ class ReviewSession:
         if before is None:
             remark(f"{one.question}: this question is not asked any more, so the reply is skipped")
             return False
-        said = before.said
-        question = question_of(said.asked) if said else None
+        origin = before.origin
+        question = question_of(origin.asked) if origin else None
         reply = one.to_reply(question) if question else None
-        if not (said and question and reply) or reply.later or reply.to_json() == said.reply:
+        if not (origin and question and reply) or reply.later or reply.to_json() == origin.reply:
             remark(f"{one.question}: it was replied to before")
             return True
         try:
@@ -63,7 +63,7 @@ class ReviewSession:
         except MeshForgeError as error:
             remark(f"{one.question}: {error.message}")
             return False
-        was, now = (json.dumps(row, ensure_ascii=False) for row in (said.reply, reply.to_json()))
+        was, now = (json.dumps(row, ensure_ascii=False) for row in (origin.reply, reply.to_json()))
         remark(f"{one.question}: {before.by or 'somebody'} said {was} before, now it is {now}: the last word counts")
         self.found = self._look()
         return True
@@ -71,7 +71,7 @@ class ReviewSession:
     def converse(self, by: str | None = None) -> None:
         """Ask at the terminal until nothing is left, or the person has enough; what is said is kept at once."""
         while question := self.found.assessment.question:
-            typer.echo(format_review(self.found, held=_FEW_HELD))
+            typer.echo(format_review(self.found, need_review=_FEW_LISTED))
             typer.echo(f"\n{format_question(question, draw_question(self._project, self.found, question))}")
             if not question.choices:
                 typer.echo(format_reply_help(question, shlex.quote(str(self._project.folder))))
@@ -85,7 +85,7 @@ class ReviewSession:
 
     def _look(self) -> ProjectReview:
         with progress(None, "looking at the family"):
-            found = self._project.review(self._bar)
+            found = self._project.review(self._threshold)
         self.taken_back |= found.taken_back
         return found
 

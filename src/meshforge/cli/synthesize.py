@@ -71,7 +71,7 @@ def synthesize(given: SynthesizeArguments) -> None:
     if given.json:
         print_json(synthesis.outcome_to_json(outcome))
     else:
-        said = project.feedback()
+        feedback = project.feedback()
         _print_outcome(
             outcome,
             synthesize_text.LearningContext(
@@ -79,8 +79,8 @@ def synthesize(given: SynthesizeArguments) -> None:
                 assets=len(project.assets()),
                 in_use=len(select_assets(project)),
                 readable=len(meshes),
-                answers=len(said.answers) - len(outcome.stale),
-                repairs=sum(fix.accepted for fix in said.fixes.values()),
+                answers=len(feedback.answers) - len(outcome.stale),
+                repairs=sum(fix.accepted for fix in feedback.fixes.values()),
                 kept=not given.dry_run,
                 stopped=stopped,
             ),

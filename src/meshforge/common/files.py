@@ -130,7 +130,7 @@ _REACH: ContextVar[Path | None] = ContextVar("reach", default=None)
 
 
 @contextmanager
-def confine_reading(folder: Path) -> Iterator[None]:
+def confine_reads(folder: Path) -> Iterator[None]:
     """Within the block, what files refer to outside of a folder is not there.
 
     For files of strangers: no message then tells whether a file of that name is on the disk.
@@ -142,7 +142,7 @@ def confine_reading(folder: Path) -> Iterator[None]:
         _REACH.reset(before)
 
 
-def reading_folder() -> Path | None:
+def reads_folder() -> Path | None:
     """The folder to which reading is confined, None where it is not."""
     return _REACH.get()
 

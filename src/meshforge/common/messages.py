@@ -75,7 +75,7 @@ def suggest_name(name: str, available: Iterable[str], otherwise: str | None = No
     return f"Did you mean {like!r}?" if like else otherwise
 
 
-def suggest_aside(name: str, available: Iterable[str]) -> str:
+def suggest_match(name: str, available: Iterable[str]) -> str:
     """The end of a sentence on a name that is not available: the nearest one that is, or nothing."""
     like = nearest_name(name, available)
     return f"; did you mean {like!r}?" if like else ""

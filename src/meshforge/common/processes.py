@@ -19,7 +19,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, TypeVar, cast
 
-from meshforge.common.files import confine_reading, reading_folder
+from meshforge.common.files import confine_reads, reads_folder
 from meshforge.common.messages import AssetError
 
 Result = TypeVar("Result")
@@ -60,7 +60,7 @@ def call_isolated(function: Callable[..., Result], *args: Any, where: str) -> Re
     with _LOCK:
         try:
             _worker = _worker or _Worker()
-            is_done, result = _worker.call((Path.cwd(), reading_folder(), function, args))
+            is_done, result = _worker.call((Path.cwd(), reads_folder(), function, args))
         except (EOFError, ConnectionError):
             problem = f"the process that read it died ({describe_exit(_stop_worker(wait=1.0))})"
             raise AssetError(problem, where=where, remedy=_REMEDY) from None
@@ -142,7 +142,7 @@ def _serve(connection: Any) -> None:
             if share := memory_share(2):
                 limit_memory(share)
             try:
-                with confine_reading(reach) if reach else nullcontext():
+                with confine_reads(reach) if reach else nullcontext():
                     reply = True, function(*args)
             except Exception as error:
                 error.add_note(traceback.format_exc())

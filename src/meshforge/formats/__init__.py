@@ -13,7 +13,7 @@ __getattr__, __all__ = export_lazily(
         "engine_names.conventions": "EngineName MarkName",
         "mesh_reader": "read_triangles split_into_pieces",
         "meshfile.surface": "RawSurface",
-        "mjcf.compiler": "MujocoTrial try_in_mujoco",
+        "mjcf.compiler": "MujocoLoad try_in_mujoco",
         "output_tree": "SaveResult output_path_of save",
         "plain.obj_text": "format_obj",
         "plain.parts": "MeshPart",

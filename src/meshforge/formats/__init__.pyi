@@ -16,7 +16,7 @@ from meshforge.formats.engine_names.conventions import MarkName as MarkName
 from meshforge.formats.mesh_reader import read_triangles as read_triangles
 from meshforge.formats.mesh_reader import split_into_pieces as split_into_pieces
 from meshforge.formats.meshfile.surface import RawSurface as RawSurface
-from meshforge.formats.mjcf.compiler import MujocoTrial as MujocoTrial
+from meshforge.formats.mjcf.compiler import MujocoLoad as MujocoLoad
 from meshforge.formats.mjcf.compiler import try_in_mujoco as try_in_mujoco
 from meshforge.formats.output_tree import SaveResult as SaveResult
 from meshforge.formats.output_tree import output_path_of as output_path_of

@@ -235,9 +235,9 @@ def note_shapes_as_hulls(kinds: Iterable[str], why: str) -> list[str]:
 def nothing_collides_error(asset: Asset) -> AssetError:
     """The error on an asset of which nothing that collides can be written."""
     problem, where = "there is no hull to write", str(asset.path)
-    if not asset.opaque:
+    if not asset.non_convex:
         return AssetError(problem, where=where)
     remedy = "Make hulls of each: convert --concave decompose, or hull for one; or prepare PROJECT --decompose."
-    names = join_names([piece.name for piece in asset.opaque], 3)
+    names = join_names([piece.name for piece in asset.non_convex], 3)
     problem = f"{problem}: {names} cannot collide there without being convex"
-    return CollisionLossError(problem, where=where, remedy=remedy if any(p.surface for p in asset.opaque) else None)
+    return CollisionLossError(problem, where=where, remedy=remedy if any(p.surface for p in asset.non_convex) else None)

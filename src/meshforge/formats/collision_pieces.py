@@ -19,7 +19,7 @@ from meshforge.formats.references import Resolver
 from meshforge.formats.surface_parts import parts_of_surfaces
 from meshforge.formats.xml import format_numbers
 from meshforge.geometry import FLATNESS, Floats, Ints, Piece, Pose, Shape, Sphere, principal_extents
-from meshforge.symbolic import Asset, Geom, Mentions, Opaque, Surface, unique_names
+from meshforge.symbolic import Asset, Geom, Mentions, NonConvexPiece, Surface, unique_names
 
 _LEAST_SCALE = 1e-12  # a factor that is taken for zero
 _NO_LENGTH = 1e-9  # of the radius, for a capsule
@@ -198,12 +198,12 @@ def geoms_of(authored: Sequence[CollisionElement], parts: ElementPieces, mention
     )
 
 
-def opaque_of(
+def non_convex_of(
     authored: Sequence[CollisionElement], parts: ElementPieces, mentions: ElementMentions
-) -> tuple[Opaque, ...]:
+) -> tuple[NonConvexPiece, ...]:
     """The pieces that are no hulls."""
     return tuple(
-        Opaque(name, one.link, part.reason, part.surface, part.plane, own, one.element)
+        NonConvexPiece(name, one.link, part.reason, part.surface, part.plane, own, one.element)
         for name, one, part, own in _iterate_pieces(authored, parts, mentions)
         if part.shape is None
     )
@@ -213,8 +213,8 @@ def _iterate_pieces(
     authored: Sequence[CollisionElement], parts: ElementPieces, mentions: ElementMentions
 ) -> Iterator[tuple[str, CollisionElement, CollisionPiece, Mentions]]:
     for element, own, words in zip(authored, parts, mentions, strict=True):
-        for name, part, said in zip(element.names, own, words, strict=True):
-            yield name, element, part, said
+        for name, part, mention_of in zip(element.names, own, words, strict=True):
+            yield name, element, part, mention_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -242,16 +242,16 @@ def collect_mentions(
     shown = [named for named in found if named]
     twins = [other for other in shown if other.shape == own.shape]
     alone = shown[0] if len(shown) == 1 and not twins else None
-    said = [("visual", twin.name) for twin in twins]
-    said += [("mesh", own.mesh), *more]
-    said += [("shown", alone.name), ("shown", alone.mesh)] if alone else []
-    said += [("material", named.material) for named in (own, *twins, *([alone] if alone else []))]
-    return drop_repeats(said)
+    mention_of = [("visual", twin.name) for twin in twins]
+    mention_of += [("mesh", own.mesh), *more]
+    mention_of += [("shown", alone.name), ("shown", alone.mesh)] if alone else []
+    mention_of += [("material", named.material) for named in (own, *twins, *([alone] if alone else []))]
+    return drop_repeats(mention_of)
 
 
 def names_to_keep(asset: Asset) -> set[str]:
     """The names of the pieces that an edit leaves as they were: hulls without a parent, and all non-convex pieces."""
-    return {geom.name for geom in asset.geoms if geom.parent is None} | {piece.name for piece in asset.opaque}
+    return {geom.name for geom in asset.geoms if geom.parent is None} | {piece.name for piece in asset.non_convex}
 
 
 def new_hulls(asset: Asset, known: Container[str]) -> list[Geom]:

@@ -13,7 +13,7 @@ from meshforge.formats.base import Format, Loss, Output, SceneFormat
 from meshforge.formats.references import find_companions
 from meshforge.formats.visuals import Visual, VisualSurfaces
 from meshforge.geometry import Pose, convex_hull, volume_inside
-from meshforge.symbolic import Asset, Body, Coupling, Feature, FeatureKind, Joint, Opaque, Surface, features_of
+from meshforge.symbolic import Asset, Body, Coupling, Feature, FeatureKind, Joint, NonConvexPiece, Surface, features_of
 
 _WITH_MATERIALS = (".dae", ".glb", ".gltf", ".mtl")
 
@@ -27,7 +27,7 @@ class ConversionReport:
     marked: whether the source says what collides.
     """
 
-    held: tuple[Feature, ...] = ()
+    kept: tuple[Feature, ...] = ()
     lost: tuple[Loss, ...] = ()
     remarks: tuple[str, ...] = ()
     marked: bool = True
@@ -38,7 +38,7 @@ class ConversionReport:
 
     def refuse_lost_collision(self, where: str, remedy: str) -> None:
         """Raise CollisionLossError where non-convex pieces, which collided, do not any more."""
-        if lost := [loss for loss in self.lost if loss.kind is FeatureKind.OPAQUE and self.marked]:
+        if lost := [loss for loss in self.lost if loss.kind is FeatureKind.NON_CONVEX and self.marked]:
             names = join_names([name for loss in lost for name in loss.names], 3)
             raise CollisionLossError(f"{names} would collide no more: {lost[0].why}", where=where, remedy=remedy)
 
@@ -53,7 +53,7 @@ def report_conversion(
     beyond = [feature for feature in (source.features(asset) if source else ()) if feature.count]
     lost = [f for f in features if f.count and f.kind not in target.holds]
     return ConversionReport(
-        held=tuple(f for f in features if f.count and f.kind in target.holds),
+        kept=tuple(f for f in features if f.count and f.kind in target.holds),
         lost=(*(_explain_loss(f, target) for f in (*lost, *beyond) if f.count), *_merge_losses(own)),
         remarks=(*remarks, *output.notes),
         marked=not (isinstance(source, SceneFormat) and source.is_unmarked(asset)),
@@ -136,7 +136,7 @@ def turn_upright(asset: Asset, source: Format | None, target: Format) -> tuple[A
     return turn_asset(asset, turn), (remark,)
 
 
-def _turn_opaque(piece: Opaque, turn: Pose) -> Opaque:
+def _turn_non_convex(piece: NonConvexPiece, turn: Pose) -> NonConvexPiece:
     surface = _turn_surface(piece.surface, turn) if piece.surface else None
     return replace(piece, surface=surface, plane=turn @ piece.plane if piece.plane else None)
 
@@ -148,7 +148,7 @@ def turn_asset(asset: Asset, turn: Pose) -> Asset:
         asset,
         bodies=tuple(Body(body.name, turn @ body.pose @ back) for body in asset.bodies),
         geoms=tuple(replace(geom, shape=geom.shape.move(turn)) for geom in asset.geoms),
-        opaque=tuple(_turn_opaque(piece, turn) for piece in asset.opaque),
+        non_convex=tuple(_turn_non_convex(piece, turn) for piece in asset.non_convex),
         visuals=_turn_visuals(asset.visuals, turn),
         mechanism=asset.mechanism.move(turn),
     )
@@ -164,7 +164,7 @@ def _turn_surface(surface: Surface, turn: Pose) -> Surface:
     return replace(surface, vertices=turn.apply(surface.vertices))
 
 
-def note_hulled(pieces: Sequence[Opaque], engines: str) -> list[str]:
+def note_hulled(pieces: Sequence[NonConvexPiece], engines: str) -> list[str]:
     """A note on pieces of which engines make hulls: which, and the share of its hull that each fills."""
     if not pieces:
         return []

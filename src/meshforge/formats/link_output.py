@@ -10,7 +10,7 @@ from meshforge.formats.conversion import plan_couplings
 from meshforge.formats.slots import ElementMaker, Slot
 from meshforge.formats.visuals import unreadable_visuals, visuals_of
 from meshforge.geometry import Pose, Shape
-from meshforge.symbolic import Asset, Inertial, Opaque
+from meshforge.symbolic import Asset, Inertial, NonConvexPiece
 
 
 class LinkCreator(ABC):
@@ -33,7 +33,7 @@ class LinkCreator(ABC):
         self.lost: list[base.Loss] = []
         visuals = visuals_of(asset)
         self.visuals.gather(visuals)
-        used = {g.body for g in asset.geoms} | {o.body for o in asset.opaque} | {body for body, _ in visuals}
+        used = {g.body for g in asset.geoms} | {o.body for o in asset.non_convex} | {body for body, _ in visuals}
         bare = {body.name for body in asset.bodies} - used - set(self.inertials)
         self.chain = kinematic_tree.build_chain(asset, bare, self.rules)
         self.couplings = plan_couplings(asset.mechanism.joints, self.title)
@@ -46,7 +46,7 @@ class LinkCreator(ABC):
         return {link: link for link in self.chain.frames}
 
     @abstractmethod
-    def build_opaque(self, piece: Opaque, root_t_link: Pose) -> list[Slot]:
+    def build_non_convex(self, piece: NonConvexPiece, root_t_link: Pose) -> list[Slot]:
         """The collision of a non-convex piece; none where it has no surface."""
 
     def inertial_of(self, link: str) -> tuple[Inertial | None, Pose]:
@@ -65,9 +65,9 @@ class LinkCreator(ABC):
         for geom in self.asset.geoms:
             link = self.chain.of_body[geom.body]
             slots[link].append(self.maker.make_slot(geom, self.chain.frames[link], None, self.lead))
-        for piece in self.asset.opaque:
+        for piece in self.asset.non_convex:
             link = self.chain.of_body[piece.body]
-            slots[link] += self.build_opaque(piece, self.chain.frames[link])
+            slots[link] += self.build_non_convex(piece, self.chain.frames[link])
         return slots
 
     def _build_visuals(self, link: str) -> list[tuple[mesh_output.LinkVisual, str | None]]:

@@ -84,7 +84,7 @@ def save(
     _refuse_outside(plan, out if known.is_folder else out.parent)
     _refuse_overwrite(plan, asset, overwrite)
     extra = _find_extra_files(plan, out, overwrite) if known.is_folder else []
-    with _build_aside(out) if known.is_folder and not out.exists() else nullcontext(out) as place:
+    with _build_in_draft(out) if known.is_folder and not out.exists() else nullcontext(out) as place:
         for target, content in plan.items():
             _put_file(place / target.relative_to(out) if target.is_relative_to(out) else target, content, link)
     for path in extra:
@@ -216,7 +216,7 @@ def _find_extra_files(plan: Mapping[Path, Content], out: Path, overwrite: bool) 
 
 
 @contextmanager
-def _build_aside(out: Path) -> Iterator[Path]:
+def _build_in_draft(out: Path) -> Iterator[Path]:
     try:
         out.parent.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryDirectory(prefix=f".{out.name}.", suffix=".tmp", dir=out.parent) as holder:

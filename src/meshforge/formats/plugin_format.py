@@ -11,7 +11,7 @@ from typing import Any
 from meshforge.common import Plugin, PluginError, blame, join_names
 from meshforge.formats.base import Format, Mass, Output, ReadOptions
 from meshforge.geometry import describe_fault, find_fault
-from meshforge.symbolic import Asset, Feature, Geom, Opaque
+from meshforge.symbolic import Asset, Feature, Geom, NonConvexPiece
 
 
 def guard_format(plugin: Plugin, kind: Any, taken: Iterable[str]) -> Format:
@@ -86,7 +86,7 @@ def _check_asset(plugin: Plugin, name: str, asset: Any, path: Path) -> Asset:
 def _find_bad_asset(name: str, asset: Asset) -> str | None:
     if asset.format != name:
         return f"read an asset of the format {asset.format!r}, not {name!r}"
-    pieces: list[Geom | Opaque] = [*asset.geoms, *asset.opaque]
+    pieces: list[Geom | NonConvexPiece] = [*asset.geoms, *asset.non_convex]
     counts = Counter(piece.name for piece in pieces)
     twice = [one for one, count in counts.items() if count > 1]
     if twice:

@@ -85,8 +85,8 @@ class Resolver:
                 f"No folder {package[1]!r} is in {self.folder} or above it{roots}. "
                 f"Put the folder that holds it on {'GZ_SIM_RESOURCE_PATH' if is_model else 'ROS_PACKAGE_PATH'}."
             )
-        if odd := next((path for path in looked if os.path.lexists(path)), None):
-            return f"{odd} is no file, or a link that leads nowhere."
+        if unusual := next((path for path in looked if os.path.lexists(path)), None):
+            return f"{unusual} is no file, or a link that leads nowhere."
         parts = [[name if len(name) <= _LONG else f"{name[:_LONG]}..." for name in path.parts] for path in looked]
         places = " and ".join(str(Path(*names)) for names in parts)
         return f"Looked for {places}.{hint} Put it there, or correct the reference."

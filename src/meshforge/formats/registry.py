@@ -214,7 +214,7 @@ def read(source: Source, options: ReadOptions | None = None) -> symbolic.Asset:
         if not is_text(str(file)):
             raise AssetError("this name is not UTF-8", where=str(file), remedy="Rename the file.")
     refuse_far(asset)
-    found = [note_if_odd_size(asset) if asset.geoms or asset.opaque else NO_GEOMETRY, _note_fills(asset)]
+    found = [note_unusual_size(asset) if asset.geoms or asset.non_convex else NO_GEOMETRY, _note_fills(asset)]
     notes = tuple(symbolic.FileNote(note) for note in found if note)
     return replace(asset, notes=(*asset.notes, *notes)) if notes else asset
 
@@ -323,17 +323,17 @@ def _match_pattern(pattern: str) -> list[Path]:
 def refuse_far(asset: symbolic.Asset) -> None:
     """Raise AssetError where a piece is not in a place of finite numbers, or so far out that numbers lose it."""
     corners = {geom.name: (geom.shape.aabb.min, geom.shape.aabb.max) for geom in asset.geoms}
-    surfaces = {piece.name: piece.surface.vertices for piece in asset.opaque if piece.surface}
+    surfaces = {piece.name: piece.surface.vertices for piece in asset.non_convex if piece.surface}
     for name, points in (corners | surfaces).items():
         if not (np.abs(points) <= FARTHEST).all():  # true of NaN as well
             problem = f"{name} reaches beyond all numbers that are read, {FARTHEST:g} m"
             raise AssetError(problem, where=str(asset.path), remedy="Fix its place, its size or its scale.")
 
 
-def note_if_odd_size(asset: symbolic.Asset) -> str | None:
+def note_unusual_size(asset: symbolic.Asset) -> str | None:
     """A note on the size of an asset, None where that is usual."""
     points = [corner for geom in asset.geoms for box in [geom.shape.aabb] for corner in (box.min, box.max)]
-    surfaces = [o.surface.vertices[o.surface.faces].reshape(-1, 3) for o in asset.opaque if o.surface]
+    surfaces = [o.surface.vertices[o.surface.faces].reshape(-1, 3) for o in asset.non_convex if o.surface]
     corners = np.concatenate([*(p[None] for p in points), *surfaces]) if points or surfaces else np.zeros((0, 3))
     if len(corners) == 0:
         return None

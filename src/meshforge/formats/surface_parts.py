@@ -18,9 +18,9 @@ _MATERIALS = tuple[Ints, tuple[str, ...]]
 def parts_of_surfaces(surfaces: Sequence[RawSurface], name: str = "") -> SurfaceParts:
     """The parts of surfaces one after the other; name: what one is called that has no name."""
     group = np.repeat(np.arange(len(surfaces)), [len(surface.faces) for surface in surfaces])
-    said = [surface.materials or (np.zeros(len(surface.faces), dtype=np.int64), ("",)) for surface in surfaces]
-    known = tuple(dict.fromkeys(name for _, names in said for name in names))
-    owners = [np.array([known.index(name) for name in names])[owner] for owner, names in said]
+    own_materials = [surface.materials or (np.zeros(len(surface.faces), dtype=np.int64), ("",)) for surface in surfaces]
+    known = tuple(dict.fromkeys(name for _, names in own_materials for name in names))
+    owners = [np.array([known.index(name) for name in names])[owner] for owner, names in own_materials]
     materials = (np.concatenate(owners), known) if owners else None
     return parts_of_groups(group, [surface.name or name for surface in surfaces], materials)
 

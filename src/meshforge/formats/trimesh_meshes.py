@@ -15,7 +15,7 @@ from meshforge.formats.plain.base import BODY
 from meshforge.formats.plain.parts import name_file_pieces
 from meshforge.formats.registry import label_hulls
 from meshforge.geometry import Pose
-from meshforge.symbolic import Asset, Body, Document, Geom, Label, Opaque, Surface, SymbolicMesh
+from meshforge.symbolic import Asset, Body, Document, Geom, Label, NonConvexPiece, Surface, SymbolicMesh
 
 WHERE = "trimesh"
 _REMEDY = "Give a trimesh.Trimesh, a trimesh.Scene, a list of these, or a dict with names for them."
@@ -73,8 +73,8 @@ def from_trimesh(
         bodies=(Body(BODY, Pose.identity()),),
         geoms=tuple(Geom(own, BODY, piece.shape) for own, piece in named if piece.shape),
         document=Document(),
-        opaque=tuple(
-            Opaque(own, BODY, piece.reason or "", Surface(piece.vertices, piece.faces))
+        non_convex=tuple(
+            NonConvexPiece(own, BODY, piece.reason or "", Surface(piece.vertices, piece.faces))
             for own, piece in named
             if not piece.shape
         ),

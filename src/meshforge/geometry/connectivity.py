@@ -81,9 +81,9 @@ def find_closed_components(corners: Ints, component: Ints) -> Ints:
     edges, _ = edges_of(corners[distinct])
     part = np.tile(component[distinct], 3)
     ids, first = row_ids(part, *edges.T)
-    odd = np.bincount(ids, minlength=len(first)) % 2 == 1
+    unpaired = np.bincount(ids, minlength=len(first)) % 2 == 1
     closed = np.bincount(component[distinct], minlength=total) >= 4
-    closed[part[first[odd]]] = False
+    closed[part[first[unpaired]]] = False
     return np.flatnonzero(closed)
 
 

@@ -22,7 +22,7 @@ def distance(a: Shape, b: Shape) -> float:
 
 
 def close_pairs(
-    shapes: Sequence[Shape], reach: float, settled: frozenset[int] = frozenset()
+    shapes: Sequence[Shape], reach: float, unchanged: frozenset[int] = frozenset()
 ) -> dict[tuple[int, int], float]:
     """Distance of each pair (i, j), i < j, of shapes at most `reach` [m] apart, in order of (i, j).
 
@@ -32,20 +32,20 @@ def close_pairs(
         return {}
     owned = [(k, part) for k, shape in enumerate(shapes) for part in _engine.split_shape(shape)]
     if len(owned) > len(shapes):
-        return _merge_by_owner(owned, reach, settled)
+        return _merge_by_owner(owned, reach, unchanged)
     low, high = bounds([shape.aabb for shape in shapes])
     near = near_boxes(low, high, reach)
-    if settled:
-        near = [(i, j) for i, j in near if i not in settled or j not in settled]
+    if unchanged:
+        near = [(i, j) for i, j in near if i not in unchanged or j not in unchanged]
     gaps = _engine.measure_gaps(shapes, near, low.min(axis=0), high.max(axis=0))
     return {pair: gap for pair, gap in zip(near, gaps, strict=True) if gap <= reach}
 
 
 def _merge_by_owner(
-    owned: Sequence[tuple[int, Shape]], reach: float, settled: frozenset[int]
+    owned: Sequence[tuple[int, Shape]], reach: float, unchanged: frozenset[int]
 ) -> dict[tuple[int, int], float]:
     """Close pairs of shapes from their parts, each with the index of the shape it belongs to."""
-    done = frozenset(part for part, (owner, _) in enumerate(owned) if owner in settled)
+    done = frozenset(part for part, (owner, _) in enumerate(owned) if owner in unchanged)
     found: dict[tuple[int, int], float] = {}
     for (i, j), gap in close_pairs([part for _, part in owned], reach, done).items():
         pair = owned[i][0], owned[j][0]

@@ -54,7 +54,7 @@ def is_convex(vertices: Floats, faces: Ints, tolerance: float = 1e-9) -> bool:
     """Whether no vertex lies outside any face plane by more than `tolerance` times the size.
 
     The plane of a needle, which is noise, is left out: its neighbours bound the shape there. Of a surface with very
-    many faces each is held against its neighbours only: a closed surface like a sphere that bends outward at every
+    many faces each is compared with its neighbours only: a closed surface like a sphere that bends outward at every
     edge is convex (Tietze, Nakajima), and all pairs would take minutes.
     """
     if len(vertices) * len(faces) <= _MOST_PAIRS_CHECKED or not is_closed(faces):

@@ -34,7 +34,7 @@ _CELL = (480, 400)  # [px] of a picture
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class DecompositionTrial:
+class DecompositionResult:
     """One setting and what it came to. setting: `threshold 0.05`; spanning: how many hulls hold more than one part,
     None where that was not judged; kept: the share of the free space that stays free, None for hardly any."""
 
@@ -46,9 +46,9 @@ class DecompositionTrial:
 
     def to_json(self) -> dict[str, Any]:
         """Without the mesh."""
-        told = {"setting": self.setting, "by": self.by, "hulls": len(self.mesh.hulls)}
+        described = {"setting": self.setting, "by": self.by, "hulls": len(self.mesh.hulls)}
         notes = list(self.mesh.asset.notes) if self.mesh.asset else []
-        return {**told, "spanning": self.spanning, "free_space": self.kept, "notes": notes}
+        return {**described, "spanning": self.spanning, "free_space": self.kept, "notes": notes}
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -56,20 +56,20 @@ class DecompositionAdvice:
     """judged: by what it was judged which hulls span parts, or why not; up: the axis that points up in pictures."""
 
     judged: str
-    trials: tuple[DecompositionTrial, ...]
+    results: tuple[DecompositionResult, ...]
     up: Literal["Y", "Z"] = "Z"
 
     def to_json(self) -> dict[str, Any]:
         """For scripts: `judged`, and `trials` in the order of the table."""
-        return {"judged": self.judged, "trials": [trial.to_json() for trial in self.trials]}
+        return {"judged": self.judged, "results": [result.to_json() for result in self.results]}
 
     def describe(self) -> list[str]:
         """A table as lines of text, and by what it was judged."""
         rows = [("setting", "by", "hulls", "span parts", "free space kept")]
-        for trial in self.trials:
-            spanning = "-" if trial.spanning is None else str(trial.spanning)
-            kept = "-" if trial.kept is None else f"{floor(100 * trial.kept)}%"
-            rows.append((trial.setting, trial.by, str(len(trial.mesh.hulls)), spanning, kept))
+        for result in self.results:
+            spanning = "-" if result.spanning is None else str(result.spanning)
+            kept = "-" if result.kept is None else f"{floor(100 * result.kept)}%"
+            rows.append((result.setting, result.by, str(len(result.mesh.hulls)), spanning, kept))
         widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
         lines = ["  ".join(text.ljust(width) for text, width in zip(row, widths, strict=True)).rstrip() for row in rows]
         return [*lines, f"span parts: {self.judged}"]
@@ -78,10 +78,10 @@ class DecompositionAdvice:
         """A picture of each, three in a row, under one camera."""
         from meshforge.rendering import make_contact_sheet, render  # lazy: a table needs no pictures
 
-        boxes = [trial.mesh.aabb for trial in self.trials if trial.mesh.aabb]
+        boxes = [result.mesh.aabb for result in self.results if result.mesh.aabb]
         box = geometry.Aabb.union(boxes) if boxes else None
-        pictures = [render(trial.mesh, size=_CELL, legend=False, bounds=box, up=self.up) for trial in self.trials]
-        titles = [f"{one.setting} by {one.by}: {pluralize(len(one.mesh.hulls), 'hull')}" for one in self.trials]
+        pictures = [render(result.mesh, size=_CELL, legend=False, bounds=box, up=self.up) for result in self.results]
+        titles = [f"{one.setting} by {one.by}: {pluralize(len(one.mesh.hulls), 'hull')}" for one in self.results]
         return make_contact_sheet(pictures, columns=len(THRESHOLDS), titles=titles)
 
 
@@ -107,7 +107,7 @@ def advise_decomposition(
     regions, judged = find_regions(surface)
     by_parts: DecomposeBy = "labels" if labels else "parts"
     ways: list[DecomposeBy] = ["whole", by_parts] if surface.parts and surface.parts.is_divided else ["whole"]
-    trials = []
+    results = []
     rows = list(itertools.product(ways, _list_settings(settings or CoacdSettings())))
     for number, (by, (title, own)) in enumerate(rows, 1):
         head = f"setting {number} of {len(rows)}, {title} by {by}"
@@ -121,9 +121,9 @@ def advise_decomposition(
         spanning = None if regions is None else 0  # by parts, each hull is made of the surface of one
         if regions is not None and by == "whole":
             spanning = int(find_spanning(surface, regions, hulls).sum())
-        trials.append(DecompositionTrial(title, by, made, spanning, measure_kept_space(surface, hulls)))
+        results.append(DecompositionResult(title, by, made, spanning, measure_kept_space(surface, hulls)))
     up: Literal["Y", "Z"] = "Y" if Path(mesh).suffix.lower() in (".glb", ".gltf") else "Z"
-    return DecompositionAdvice("; ".join([judged, *notes]), tuple(trials), up)
+    return DecompositionAdvice("; ".join([judged, *notes]), tuple(results), up)
 
 
 def _list_settings(settings: DecomposeSettings) -> list[tuple[str, DecomposeSettings]]:
@@ -157,6 +157,6 @@ def find_spanning(surface: Surface, regions: Ints, hulls: Sequence[Polytope]) ->
         lowest[closer], owner[closer] = heights[closer], k
     _, places = np.unique(regions, return_inverse=True)
     counts = np.zeros((len(hulls), int(places.max()) + 1), dtype=np.int64)
-    held = owner >= 0
-    np.add.at(counts, (owner[held], places.reshape(-1)[face[held]]), 1)
+    owned = owner >= 0
+    np.add.at(counts, (owner[owned], places.reshape(-1)[face[owned]]), 1)
     return counts.max(axis=1) < PURE * counts.sum(axis=1)

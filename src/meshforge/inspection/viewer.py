@@ -25,7 +25,7 @@ def show(mesh: SymbolicMesh, *, port: int | None = None, browser: bool = True, w
         paint = tuple(round(255 * float(share)) for share in color)
         handle = _add(server, f"hulls/{hull.name}", hull.vertices, hull.faces, color=paint)
         handle.on_click(_describe_on_click(text, hull))
-    for piece in mesh.asset.opaque if mesh.asset else ():
+    for piece in mesh.asset.non_convex if mesh.asset else ():
         if piece.surface is not None:
             _add(server, f"non-convex/{piece.name}", piece.surface.vertices, piece.surface.faces, opacity=0.3)
     address = f"http://127.0.0.1:{server.get_port()}"

@@ -93,10 +93,10 @@ class AssetPieces:
     @cached_property
     def solids_alone(self) -> Bools:
         """Which solids (hulls, solids) each hull alone has nearly all of, where they are no sliver of it."""
-        held = sum_groups(self.solid_of, self.common.T).T
-        shares = held / np.maximum(sum_groups(self.solid_of, self.volumes), 1e-300)
+        contained = sum_groups(self.solid_of, self.common.T).T
+        shares = contained / np.maximum(sum_groups(self.solid_of, self.volumes), 1e-300)
         is_alone = (shares >= _ALL) & (shares.sum(axis=0) - shares < WITHIN)
-        found: Bools = is_alone & (held >= _SLIVER * held.sum(axis=1, keepdims=True))
+        found: Bools = is_alone & (contained >= _SLIVER * contained.sum(axis=1, keepdims=True))
         return found
 
     def collect_labels(self, labels: Sequence[Label | None]) -> list[Label | None]:
@@ -104,12 +104,12 @@ class AssetPieces:
         found = list[Label | None]()
         for number in range(len(self.regions.hulls)):
             own = self.region_of == number
-            said: dict[str, float] = {}
+            votes: dict[str, float] = {}
             for place in np.flatnonzero(own).tolist():
                 if label := labels[place]:
-                    said[label.name] = said.get(label.name, 0.0) + label.confidence * float(self.volumes[place])
-            best = max(said, key=lambda name: said[name], default=None)
-            share = said[best] / float(self.volumes[own].sum()) if best else 0.0
+                    votes[label.name] = votes.get(label.name, 0.0) + label.confidence * float(self.volumes[place])
+            best = max(votes, key=lambda name: votes[name], default=None)
+            share = votes[best] / float(self.volumes[own].sum()) if best else 0.0
             found.append(Label(best, min(share, 1.0), "file") if best and share > 0.5 else None)
         return found
 
@@ -119,8 +119,8 @@ class AssetPieces:
         found = list[Label | None]()
         for piece, hull in zip(self.pieces.hulls, best.tolist(), strict=True):
             label = labels[hull] if labels else None
-            held = label and self.common[hull, len(found)] >= WITHIN * piece.shape.volume
-            found.append(Label(label.name, min(label.confidence, _MOST), "file") if label and held else None)
+            contained = label and self.common[hull, len(found)] >= WITHIN * piece.shape.volume
+            found.append(Label(label.name, min(label.confidence, _MOST), "file") if label and contained else None)
         return found
 
 

@@ -79,7 +79,7 @@ def infer_chances(
         scores = context.collect_evidence(chances)
         scores *= row
         by_others = softmax(scores[:, :, _OF_OTHERS].sum(axis=2))
-        chances = context.hold(softmax(scores.sum(axis=2) + more))
+        chances = context.fix_known(softmax(scores.sum(axis=2) + more))
     return chances, by_others
 
 
@@ -118,9 +118,9 @@ class FamilyContext:
 
     def start(self) -> Floats:
         """What the sources say, each believed alike."""
-        return self.hold(softmax(self._own(np.full(len(self.seen.codes), _START), self.seen.known)))
+        return self.fix_known(softmax(self._own(np.full(len(self.seen.codes), _START), self.seen.known)))
 
-    def hold(self, chances: Floats) -> Floats:
+    def fix_known(self, chances: Floats) -> Floats:
         """The same with what people said."""
         fixed = self.seen.fixed
         chances[fixed] = (1 - PERSON) / max(self.count - 1, 1)
@@ -145,9 +145,9 @@ class FamilyContext:
         nearest = np.log(self._share_nearest(heard, informed, prior))
         distinct, together = self._share_distinct(heard, informed, prior)
         own_mesh = np.log(self._share_own(chances, informed, prior))
-        said = np.maximum(seen.codes, 0)
-        by_others = softmax(nearest + 0.5 * together)[rows, said]
-        reliability = estimate_reliability(seen, self.free, chances[rows, said])
+        observed = np.maximum(seen.codes, 0)
+        by_others = softmax(nearest + 0.5 * together)[rows, observed]
+        reliability = estimate_reliability(seen, self.free, chances[rows, observed])
         kinds = np.zeros_like(chances)
         kinds[self.free, seen.codes[self.free]] = find_wrong_kinds(seen, self.table.owner, self.free, by_others)[
             self.free

@@ -18,7 +18,7 @@ from meshforge.label_model.lookalikes import PER_MESH
 from meshforge.label_model.posterior import FamilyPosterior, model_family
 from meshforge.symbolic import GIVEN_SOURCES, HUMAN_SOURCES, Hull, SymbolicMesh
 
-MAX_ODDS_FOR_CORRECTION = 5.0
+MAX_ODDS_FOR_FIX = 5.0
 """What may speak for a correction at most; look-alikes err too."""
 
 PERSON_ODDS, FILE_ODDS = 1.5, 2.0
@@ -30,7 +30,7 @@ OTHERS_ON_PERSON = (2.0, 3.0)
 NO_LABEL_COST = 1.5
 """Filling in a label where the hull has none, before look-alikes are asked."""
 
-CORRECTION_COST = 0.5
+FIX_COST = 0.5
 """A correction, besides its improbability: so those are proposed that serve."""
 
 SURE_ENOUGH = 0.2
@@ -81,8 +81,8 @@ class LabelBeliefs:
         """Of all meshes, by name."""
         meshes = list(self._meshes.values())
         words = set(self._vocabulary)
-        said = [hull.annotation for mesh in meshes for hull in mesh.hulls]
-        return model_family(meshes).infer([label if label and label.name in words else None for label in said])
+        observed = [hull.annotation for mesh in meshes for hull in mesh.hulls]
+        return model_family(meshes).infer([label if label and label.name in words else None for label in observed])
 
     @cached_property
     def errors(self) -> Mapping[str, float]:
@@ -118,7 +118,7 @@ class LabelBeliefs:
     def cost(self, asset: str, hull: Hull, to: str) -> float:
         """The cost of the hypothesis that the hull is to be labelled `to` [nats], never below 0."""
         odds = self.odds(asset, hull, to)
-        return odds if odds > 30 else math.log1p(math.exp(odds)) + CORRECTION_COST
+        return odds if odds > 30 else math.log1p(math.exp(odds)) + FIX_COST
 
     def _over_vocabulary(self, asset: str, chances: Floats) -> Floats:
         """Probabilities of the hulls of an asset over the vocabulary (hulls, labels), none of which is 0."""
@@ -140,7 +140,7 @@ class LabelBeliefs:
         own = by_label.get(hull.label or "", min(by_label.values(), default=1.0))
         others = [label for label in self._vocabulary if label != hull.label]
         log_odds = {label: _log_odds(hull, own / by_label[label], len(others)) for label in others}
-        odds = {label: max(-MAX_ODDS_FOR_CORRECTION, one) for label, one in log_odds.items()}
+        odds = {label: max(-MAX_ODDS_FOR_FIX, one) for label, one in log_odds.items()}
         return LabelOdds(hull, odds, self._similar(asset, row))
 
     def _similar(self, asset: str, row: int) -> tuple[str, ...]:

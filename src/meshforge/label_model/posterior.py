@@ -48,7 +48,7 @@ class FamilyPosterior:
             return FamilyPosterior(table, seen, nothing, nothing)
         return FamilyPosterior(table, seen, *infer_chances(table, seen))
 
-    def doubt_splits(self) -> FamilyPosterior:
+    def discount_splits(self) -> FamilyPosterior:
         """The same, with the label of a part of a split hull no surer than the split was, or than what is said of other
         hulls makes it.
 
@@ -86,14 +86,14 @@ class FamilyPosterior:
         right = float(self.chances[np.flatnonzero(free), self.seen.codes[free]].mean())
         return max(0.0, math.log(right / max(1 - right, 1e-9)) - _FREE_ODDS)
 
-    def agree(self, said: Sequence[Label | None]) -> list[Label | None]:
+    def agree(self, observed: Sequence[Label | None]) -> list[Label | None]:
         """The labels of all hulls by all that is known: what was said, but where another label is surer, and where
         nothing was said. What a person said stays, and a label of a file that no other mesh has.
 
         said: the annotations of all hulls, as `seen` was made from.
         """
-        best = first_greatest(self.chances) if self.seen.labels else np.zeros(len(said), dtype=np.int64)
-        rows = zip(best.tolist(), said, strict=True)
+        best = first_greatest(self.chances) if self.seen.labels else np.zeros(len(observed), dtype=np.int64)
+        rows = zip(best.tolist(), observed, strict=True)
         return [self._agree_on(hull, place, label) for hull, (place, label) in enumerate(rows)]
 
     @cached_property
@@ -106,21 +106,21 @@ class FamilyPosterior:
         return found
 
     @cached_property
-    def _is_held(self) -> Bools:
+    def _is_fixed(self) -> Bools:
         """Whether what was said of each hull stays whatever others say (n,): a person's label; and of those in files
         one that a single mesh has, since hulls of other meshes cannot speak for it."""
         alone = self._presence.sum(axis=0) == 1
-        held: Bools = self.seen.fixed | (self.seen.given & alone[self.seen.codes])
-        return held
+        fixed_hulls: Bools = self.seen.fixed | (self.seen.given & alone[self.seen.codes])
+        return fixed_hulls
 
-    def _agree_on(self, hull: int, best: int, said: Label | None) -> Label | None:
+    def _agree_on(self, hull: int, best: int, observed: Label | None) -> Label | None:
         code = int(self.seen.codes[hull])
-        given = evidence_of(said) if code != NO_LABEL else None
-        if not self.seen.labels or best == code or self._is_held[hull]:
-            return given or said
+        given = evidence_of(observed) if code != NO_LABEL else None
+        if not self.seen.labels or best == code or self._is_fixed[hull]:
+            return given or observed
         chance = float(self.chances[hull, best])
         if code != NO_LABEL and math.log(chance / max(float(self.chances[hull, code]), 1e-12)) < self.margin:
-            return given or said
+            return given or observed
         return Label(self.seen.labels[best], round(chance, _DIGITS), "consensus", given)
 
     def find_alike_labels(self) -> tuple[tuple[str, str], ...]:
@@ -145,7 +145,7 @@ class FamilyPosterior:
         open_meshes = pick_evenly(np.unique(table.owner[~seen.given]), _MESHES)
         rows = table.rows[:, SHAPE_COLUMNS]
         compared = pick_evenly(np.arange(len(rows)), _HULLS)
-        some, doubt = rows[compared], 1 + _AT_LEAST - self.chances[compared].max(axis=1, initial=0.0)
+        some, reason = rows[compared], 1 + _AT_LEAST - self.chances[compared].max(axis=1, initial=0.0)
         if not len(open_meshes):
             return []
         near = max(float(np.median(cdist(some, some))) * _NEAR, 1e-9)
@@ -159,7 +159,7 @@ class FamilyPosterior:
         stands = np.stack([alike(table.spans[mesh]) for mesh in open_meshes.tolist()])
         found: list[int] = []
         for _ in range(min(count, len(open_meshes))):
-            gains = (np.maximum(stands - covered, 0.0) * doubt).sum(axis=1)
+            gains = (np.maximum(stands - covered, 0.0) * reason).sum(axis=1)
             gains[found] = -1.0
             found.append(int(first_greatest(gains)))
             covered = np.maximum(covered, stands[found[-1]])
@@ -170,10 +170,10 @@ def _bound_splits(seen: Observations, chances: Floats, others: Floats) -> Floats
     """Chances (n, labels) with those of what splits said at most what splits had, or others (n, labels) have."""
     bounded, rows = chances.copy(), np.flatnonzero(seen.split)
     codes = seen.codes[rows]
-    said, most = chances[rows, codes], np.maximum(seen.confidence[rows], others[rows, codes])
-    less = said > most
-    rows, codes, said, most = rows[less], codes[less], said[less], most[less]
-    bounded[rows] *= ((1 - most) / np.maximum(1 - said, _TINY))[:, None]
+    observed, most = chances[rows, codes], np.maximum(seen.confidence[rows], others[rows, codes])
+    less = observed > most
+    rows, codes, observed, most = rows[less], codes[less], observed[less], most[less]
+    bounded[rows] *= ((1 - most) / np.maximum(1 - observed, _TINY))[:, None]
     bounded[rows, codes] = most
     return bounded
 

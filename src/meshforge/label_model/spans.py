@@ -67,16 +67,18 @@ class SpanModel:
         """What labels say: of the hulls of all meshes in order, None for an unlabelled one; piece_labels: of all pieces
         in order, where they are known."""
         rows = _deal(labels, [len(asset.mesh.hulls) for asset in self.assets])
-        said = [asset.take_labels(own) for asset, own in zip(self.assets, rows, strict=True)]
+        observed = [asset.take_labels(own) for asset, own in zip(self.assets, rows, strict=True)]
         if piece_labels is not None:
-            known = _deal(piece_labels, list(map(len, said)))
-            said = [[one or other for one, other in zip(*both, strict=True)] for both in zip(known, said, strict=True)]
-        of_pieces = self._pieces.infer([label for own in said for label in own])
+            known = _deal(piece_labels, list(map(len, observed)))
+            observed = [
+                [one or other for one, other in zip(*both, strict=True)] for both in zip(known, observed, strict=True)
+            ]
+        of_pieces = self._pieces.infer([label for own in observed for label in own])
         of_regions = self._regions.infer(
-            [label for asset, own in zip(self.assets, said, strict=True) for label in asset.collect_labels(own)]
+            [label for asset, own in zip(self.assets, observed, strict=True) for label in asset.collect_labels(own)]
         )
         chances = [self._weigh(mesh, of_pieces, of_regions) for mesh in range(len(self.assets))]
-        whole = _estimate_whole(self.assets, said)
+        whole = _estimate_whole(self.assets, observed)
         solids = [weigh_solids(*both, whole) for both in zip(self.assets, chances, strict=True)]
         return SpanPosterior(self.assets, of_pieces.seen.labels, chances, span_weights(), solids)
 
@@ -178,17 +180,17 @@ def _deal(items: Sequence[Label | None], counts: Sequence[int]) -> list[list[Lab
     return [list(islice(rest, count)) for count in counts]
 
 
-def _estimate_whole(assets: Sequence[AssetPieces], said: Sequence[Sequence[Label | None]]) -> float:
+def _estimate_whole(assets: Sequence[AssetPieces], observed: Sequence[Sequence[Label | None]]) -> float:
     """The probability that a small solid is one part, by those of which most is labelled."""
     one, all_ = _WHOLE_SOLIDS
-    for asset, labels in zip(assets, said, strict=True):
+    for asset, labels in zip(assets, observed, strict=True):
         names = [label.name if label else "" for label in labels]
         _, codes = np.unique(["", *names], return_inverse=True)
         volumes = np.zeros((asset.solid_of.max(initial=-1) + 1, codes.max() + 1))
         np.add.at(volumes, (asset.solid_of, codes[1:]), asset.volumes)
         total = volumes.sum(axis=1)
-        told = volumes[:, 0] <= (1 - WHOLE + EQUAL) * total
-        counted = told & (np.bincount(asset.solids_of_regions, minlength=len(total)) > 1)
+        has_parts = volumes[:, 0] <= (1 - WHOLE + EQUAL) * total
+        counted = has_parts & (np.bincount(asset.solids_of_regions, minlength=len(total)) > 1)
         all_ += float(counted.sum())
         one += float((volumes[counted, 1:].max(axis=1, initial=0.0) >= (WHOLE - EQUAL) * total[counted]).sum())
     return one / all_

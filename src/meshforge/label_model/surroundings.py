@@ -16,7 +16,7 @@ _SAME = 0.01  # of their sum: lengths that differ by less count as mostly the sa
 _PLASTIC = np.array([0.7548776662466927, 0.5698402909980532])
 """Steps of the two-dimensional sequence that fills a square most evenly (Roberts 2018)."""
 _FAVOUR = 1e-3  # of the square of a hull's size, by which a vertex may be nearer and still come first
-_ASIDE_WORTH = 0.5  # what being far from the upright axis is worth beside being high
+_SIDE_WORTH = 0.5  # what being far from the upright axis is worth beside being high
 
 SEEN_FROM = 8
 """Points of a hull from which its surroundings are looked at."""
@@ -55,7 +55,7 @@ def points_inside(vertices: Floats, axis: Floats, count: int) -> Floats:
     offsets = vertices - middle
     reach = (offsets**2).sum(axis=1)
     size = float(reach.max()) or 1.0
-    favour = _FAVOUR * np.sqrt(size) * (offsets[:, 2] + _ASIDE_WORTH * np.linalg.norm(vertices[:, :2] - axis, axis=1))
+    favour = _FAVOUR * np.sqrt(size) * (offsets[:, 2] + _SIDE_WORTH * np.linalg.norm(vertices[:, :2] - axis, axis=1))
     chosen = [int(first_greatest(reach + favour, EQUAL * size))]
     gap = ((offsets - offsets[chosen[0]]) ** 2).sum(axis=1)
     while len(chosen) < count - 1:

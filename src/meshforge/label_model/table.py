@@ -134,14 +134,14 @@ class Observations:
     given: Bools
 
     @staticmethod
-    def of(said: Sequence[Label | None], vocabulary: Sequence[str] = ()) -> Observations:
+    def of(observed: Sequence[Label | None], vocabulary: Sequence[str] = ()) -> Observations:
         """What annotations of hulls say; a label that was inferred says nothing but what it was inferred over.
 
         vocabulary: labels that hulls may have though nothing says so yet.
         """
-        evidence = [evidence_of(label) for label in said]
+        evidence = [evidence_of(label) for label in observed]
         if not any(evidence):
-            evidence = list(said)
+            evidence = list(observed)
         given = {one.name for one in evidence if one}
         labels = tuple(sorted(given.union(vocabulary) if given else given))
         places = {label: place for place, label in enumerate(labels)}

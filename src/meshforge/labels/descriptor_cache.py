@@ -20,7 +20,7 @@ from meshforge import batch
 from meshforge.common import AssetError, describe_error, replace_atomically
 from meshforge.geometry import Floats, Ints
 from meshforge.label_model import MeshDescriber, ShapeDescriptor, remember_descriptor
-from meshforge.store import AssetFacts, Store, iterate_survey
+from meshforge.store import AssetFacts, Store, iterate_asset_index
 from meshforge.symbolic import EPSILON, SymbolicMesh
 
 Arrays = Mapping[str, NDArray[Any]]
@@ -128,7 +128,7 @@ class DescriptorCache:
 
 def recall_descriptors(store: Store, meshes: Mapping[str, SymbolicMesh], execution: batch.ExecutionOptions) -> None:
     """Have `describe_mesh` know the meshes of some assets, by id, so that only those that changed are described."""
-    facts = dict(iterate_survey(store.found, store.layout, meshes, execution=execution))
+    facts = dict(iterate_asset_index(store.found, store.layout, meshes, execution=execution))
     few = len(meshes) <= _FEW
     known = {asset: own for asset, own in facts.items() if not own.error}
     cache = DescriptorCache(store, known, batch.IN_PROCESS if few else execution)

@@ -15,7 +15,7 @@ from meshforge.geometry import Floats, Ints
 from meshforge.labels.by_hand import label_command
 from meshforge.labels.descriptor_cache import DescriptorCache
 from meshforge.labels.merge import infer_over
-from meshforge.store import Store, iterate_survey
+from meshforge.store import Store, iterate_asset_index
 from meshforge.symbolic import Label
 
 HullLabels = Mapping[str, Label]
@@ -47,7 +47,7 @@ class FamilyComparison:
     current: Mapping[str, HullLabels]
     lost: Mapping[str, str]
     assets: tuple[str, ...]
-    said: tuple[Label | None, ...]
+    observed: tuple[Label | None, ...]
     found: label_model.FamilyPosterior
 
     @cached_property
@@ -77,7 +77,7 @@ def compare_assets(
     Raises ProjectError: no vocabulary, or nothing is said at all.
     """
     with stage(len(store.assets()), "reading") as advance:
-        facts = dict(iterate_survey(store.found, store.layout, execution=execution, progress=advance))
+        facts = dict(iterate_asset_index(store.found, store.layout, execution=execution, progress=advance))
     lost = {asset: own.error for asset, own in facts.items() if own.error}
     current = dict[str, HullLabels]()
     for asset, own in facts.items():
@@ -97,10 +97,10 @@ def compare_assets(
     assets, table = tuple(described), label_model.FamilyTable.of([*described.values()])
     del described
     spoken = (speak(current[asset].get(name)) for asset in assets for name in hulls[asset])
-    said = tuple(label if label and label.name in vocabulary else None for label in spoken)
-    seen = label_model.Observations.of(said)
+    observed = tuple(label if label and label.name in vocabulary else None for label in spoken)
+    seen = label_model.Observations.of(observed)
     table = _set_upright(cache, assets, table, seen, lost, execution.stop, stage)
-    compared = FamilyComparison(hulls, current, lost, assets, said, _compute_isolated(table, seen, execution.stop))
+    compared = FamilyComparison(hulls, current, lost, assets, observed, _compute_isolated(table, seen, execution.stop))
     if not compared.found.seen.labels:
         best, remedy = compared.next, "Decompose the assets first." if any(current) else _describe_lost(lost)
         if best:
@@ -132,27 +132,27 @@ def _set_upright(
     cache: DescriptorCache,
     assets: Sequence[str],
     table: label_model.FamilyTable,
-    said: label_model.Observations,
+    observed: label_model.Observations,
     lost: dict[str, str],
     stop: Callable[[], bool] | None,
     stage: Stage,
 ) -> label_model.FamilyTable:
     """The table with fallen assets set upright; why some could not be looked at goes to `lost`."""
-    doubtful = list(_find_doubtful(table, said, assets, cache, stop))
+    doubtful = list(_find_doubtful(table, observed, assets, cache, stop))
     with stage(len(doubtful), "looking at other sides") as advance:
         places = {asset: place for place, asset in enumerate(assets)}
         sides = _collect_sides(cache.describe_sides(doubtful, advance), places, lost)
-        return label_model.correct_upright(table, said, sides)
+        return label_model.correct_upright(table, observed, sides)
 
 
 def _find_doubtful(
     table: label_model.FamilyTable,
-    said: label_model.Observations,
+    observed: label_model.Observations,
     assets: Sequence[str],
     cache: DescriptorCache,
     stop: Callable[[], bool] | None,
 ) -> Iterator[tuple[str, tuple[int, ...]]]:
-    for place, sides in label_model.find_doubtful_sides(table, said, lambda place: cache.read_sides(assets[place])):
+    for place, sides in label_model.find_doubtful_sides(table, observed, lambda place: cache.read_sides(assets[place])):
         raise_if_stopped(stop)
         if sides:
             yield assets[place], sides
@@ -170,13 +170,13 @@ def _collect_sides(
 
 
 def _compute_isolated(
-    table: label_model.FamilyTable, said: label_model.Observations, stop: Callable[[], bool] | None
+    table: label_model.FamilyTable, observed: label_model.Observations, stop: Callable[[], bool] | None
 ) -> label_model.FamilyPosterior:
     """What labels say, in a process of its own where that may have to be stopped in the midst."""
-    (found,) = run_isolated(_compute, [(table, said)], ExecutionOptions(1 if stop else 0, None, stop=stop))
+    (found,) = run_isolated(_compute, [(table, observed)], ExecutionOptions(1 if stop else 0, None, stop=stop))
     if isinstance(found, WorkerFailure):
         raise MeshForgeError(f"what labels say could not be computed: {found.why}")
-    return label_model.FamilyPosterior(table, said, *found)
+    return label_model.FamilyPosterior(table, observed, *found)
 
 
 def _compute(work: tuple[label_model.FamilyTable, label_model.Observations]) -> tuple[Floats, Floats]:

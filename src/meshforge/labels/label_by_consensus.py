@@ -27,7 +27,7 @@ class ConsensusLabeler(Labeler):
         compared = compare_assets(
             family.store, family.vocabulary, label_model.evidence_of, family.execution, family.stage
         )
-        labels = compared.found.agree(compared.said)
+        labels = compared.found.agree(compared.observed)
         assets = share_labels(family, compared, labels, _name_kind)
         return LabelProposal(assets, compared.next, compared.found.find_alike_labels())
 

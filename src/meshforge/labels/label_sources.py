@@ -107,8 +107,8 @@ class FamilyLabelSources:
         words, hulls = self.settings.vocabulary, [hull.name for hull in mesh.hulls]
         for line in self.lines if words else ():
             may = can_fill_gap if line.source in _OF_LABELS else can_replace_less_certain
-            said = self._ask(line, asset, path, mesh).items()
-            given = {name: one for name, one in said if name not in mesh.labels and may(found.get(name), one)}
+            observed = self._ask(line, asset, path, mesh).items()
+            given = {name: one for name, one in observed if name not in mesh.labels and may(found.get(name), one)}
             found, outcome = merge_labels(asset, hulls, found, given, words)
             problems += outcome.problems
         return found, problems

@@ -10,7 +10,7 @@ from meshforge.batch import ExecutionOptions
 from meshforge.common import ProjectError
 from meshforge.labels.family_comparison import Stage
 from meshforge.labels.merge import can_replace_less_certain
-from meshforge.store import AssetFacts, Store, iterate_survey
+from meshforge.store import AssetFacts, Store, iterate_asset_index
 from meshforge.symbolic import Label
 
 LabelReason = tuple[str, str]
@@ -67,7 +67,7 @@ class LabelFamily:
 
     def iterate_facts(self) -> Iterator[tuple[str, AssetFacts]]:
         """Names and digests of the hulls of each asset, in the order of the project."""
-        return iterate_survey(self.store.found, self.store.layout, execution=self.execution)
+        return iterate_asset_index(self.store.found, self.store.layout, execution=self.execution)
 
 
 class Labeler(ABC):

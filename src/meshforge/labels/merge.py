@@ -7,9 +7,9 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from meshforge import label_model, rendering, symbolic
-from meshforge.common import ProjectError, file_state, join_names, suggest_aside
+from meshforge.common import ProjectError, file_state, join_names, suggest_match
 from meshforge.geometry import Shape, digest, overlap_volume
-from meshforge.store import Store, hull_digests, iterate_survey
+from meshforge.store import Store, hull_digests, iterate_asset_index
 from meshforge.symbolic import Label
 
 ReplacePolicy = Callable[[Label | None, Label | None], bool]
@@ -83,7 +83,7 @@ def _read_digests(store: Store, assets: Collection[str]) -> dict[str, Mapping[st
 
     Raises AssetError where one cannot be read.
     """
-    facts = dict(iterate_survey(store.found, store.layout, assets)) if len(assets) > 1 else {}
+    facts = dict(iterate_asset_index(store.found, store.layout, assets)) if len(assets) > 1 else {}
     known = {asset: one.hulls for asset, one in facts.items() if not one.error}
     return {asset: known[asset] if asset in known else hull_digests(store.mesh(asset)) for asset in assets}
 
@@ -133,9 +133,9 @@ def infer_over(current: Label | None, given: Label) -> Label:
 
 def _problem(name: str, label: Label | None, hulls: Collection[str], vocabulary: Sequence[str]) -> str | None:
     if name not in hulls:
-        return f"there is no hull {name!r}{suggest_aside(name, hulls)}"
+        return f"there is no hull {name!r}{suggest_match(name, hulls)}"
     if label and label.name not in vocabulary:
-        return f"{name}: the label {label.name!r} is not in the vocabulary{suggest_aside(label.name, vocabulary)}"
+        return f"{name}: the label {label.name!r} is not in the vocabulary{suggest_match(label.name, vocabulary)}"
     return None
 
 
@@ -252,8 +252,8 @@ def label_new_hulls(
     followed = symbolic.transfer_labels(rest, mesh).mesh
     taken = {name: label for name, label in fresh.items() if label and not followed.hull_of(name).annotation}
     notes = [f"labels of {join_names([*gone])} went to {join_names([*taken])}"] if taken and gone else []
-    owed = {label.name for label in labels.values() if label.source != "split"}  # those follow from the split
-    lost = sorted(owed - {label.name for label in taken.values()})
+    needed = {label.name for label in labels.values() if label.source != "split"}  # those follow from the split
+    lost = sorted(needed - {label.name for label in taken.values()})
     notes += [f"no hull takes over the label {join_names(lost)}"] if lost else []
     away = tuple(name for name in gone if name not in taken)
     return NewHullLabels(store, asset, followed.with_labels(taken), away, tuple(notes))
@@ -276,6 +276,10 @@ def _label_by_overlap(hull: symbolic.Hull, gone: Mapping[str, Shape], labels: Ma
     best = max(shares, key=lambda label: shares[label])
     if shares[best] <= _MOST_OVERLAP:
         return None
-    heir = labels[max((n for n in gone if labels[n].name == best), key=lambda n: common[n])]
+    main_source = labels[max((n for n in gone if labels[n].name == best), key=lambda n: common[n])]
     certain = shares[best] >= _WHOLE_OVERLAP
-    return heir if certain else replace(heir, confidence=heir.confidence * min(shares[best], 1.0), source="propagated")
+    return (
+        main_source
+        if certain
+        else replace(main_source, confidence=main_source.confidence * min(shares[best], 1.0), source="propagated")
+    )

@@ -9,7 +9,7 @@ from meshforge.common import MeshForgeError, file_state
 from meshforge.labels.from_files.read import kind_of, label_file_beside
 from meshforge.labels.merge import is_protected
 from meshforge.labels.names.label_by_names import NamePattern, match_names, name_patterns, names_of_facts, to_label
-from meshforge.store import AssetFacts, Store, iterate_survey
+from meshforge.store import AssetFacts, Store, iterate_asset_index
 from meshforge.symbolic import HUMAN_SOURCES, Label, match_labels, read_labels
 
 
@@ -43,7 +43,7 @@ class OfferCache:
         settings, rows = store.settings, dict[str, _AssetOffer]()
         vocabulary, meanings = settings.vocabulary, tuple(settings.names.items())
         patterns = name_patterns(store.folder, settings, vocabulary) if vocabulary else ()
-        for asset, facts in iterate_survey(store.found, store.layout, only):
+        for asset, facts in iterate_asset_index(store.found, store.layout, only):
             file, labels = label_file_beside(store.path(asset)), store.layout.labels(asset)
             times = (file_state(labels), file, file_state(file) if file else None)
             state = (vocabulary, meanings, facts.files, facts.preparation, *times)
@@ -69,8 +69,8 @@ def _find_offer(
     except MeshForgeError:
         return _AssetOffer()
     bare = (names for names in names_of_facts(facts) if names.hull not in present)
-    said = ((names.hull, match_names(names, vocabulary, patterns)) for names in bare)
-    names = {hull: label.name for hull, one in said if one and (label := to_label(one))}
+    observed = ((names.hull, match_names(names, vocabulary, patterns)) for names in bare)
+    names = {hull: label.name for hull, one in observed if one and (label := to_label(one))}
     return _AssetOffer(not facts.error and _has_news(store, asset, facts, present, vocabulary), names)
 
 

@@ -120,12 +120,12 @@ def pick_evenly(items: Sequence[Item], most: int) -> Sequence[Item]:
 
 def choose_labelled(files: Mapping[str, LabelFile], most: int = MOST_COMPARED) -> list[str]:
     """The assets that new ones are compared with, in the order of the project."""
-    said = {
+    observed = {
         asset: [label for own in file.labels.values() if (label := evidence_beside_splits(own))]
         for asset, file in files.items()
     }
-    by_people = [asset for asset, labels in said.items() if any(one.source in HUMAN_SOURCES for one in labels)]
-    others = [asset for asset, labels in said.items() if labels and asset not in set(by_people)]
+    by_people = [asset for asset, labels in observed.items() if any(one.source in HUMAN_SOURCES for one in labels)]
+    others = [asset for asset, labels in observed.items() if labels and asset not in set(by_people)]
     chosen = {*pick_evenly(by_people, most)}
     chosen |= {*pick_evenly(others, most - len(chosen))}
     return [asset for asset in files if asset in chosen]

@@ -97,8 +97,8 @@ class SpanReport:
     def _bare(self) -> frozenset[str]:
         """The hulls that stand for nothing of the surface of their body, of which nothing can be known."""
         hulls = self.mesh.hulls
-        held = self.posterior.assets[0].common.sum(axis=1) if self.posterior else np.zeros(len(hulls))
-        return frozenset(hull.name for hull, own in zip(hulls, held.tolist(), strict=True) if not own > 0)
+        covered = self.posterior.assets[0].common.sum(axis=1) if self.posterior else np.zeros(len(hulls))
+        return frozenset(hull.name for hull, own in zip(hulls, covered.tolist(), strict=True) if not own > 0)
 
 
 def is_given(hull: Hull) -> bool:
@@ -124,18 +124,20 @@ class FinePieces:
     def of(found: SurfacePieces, mesh: SymbolicMesh, notes: Iterable[str] = ()) -> FinePieces:
         """Those found by body, of all bodies that have a surface; one of quite another size than its hulls says nothing
         of them, and does not count."""
-        told, kept = list(notes), dict(found)
+        remarks, kept = list(notes), dict(found)
         for body, pieces in found.items():
             hulls = [hull.vertices for hull in mesh.hulls if hull.body == body]
             if not hulls or not pieces:
                 continue
             ratio = _diagonal([piece.shape.vertices for piece in pieces]) / max(_diagonal(hulls), _TINY)
             if not 1 / _ALIKE < ratio < _ALIKE:
-                told.append(
+                remarks.append(
                     f"{body}: its surface is {ratio:.3g} times the size of its hulls (another unit?): it does not count"
                 )
                 del kept[body]
-        return FinePieces(piece_mesh(kept, mesh), frozenset(hull.body for hull in mesh.hulls) - kept.keys(), (*told,))
+        return FinePieces(
+            piece_mesh(kept, mesh), frozenset(hull.body for hull in mesh.hulls) - kept.keys(), (*remarks,)
+        )
 
 
 def _diagonal(points: Sequence[Floats]) -> float:

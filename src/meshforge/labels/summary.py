@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 from meshforge import rendering
 from meshforge.batch import AssetJob, ExecutionOptions, WorkerFailure, plan_run, run_isolated
 from meshforge.common import AssetError, MeshForgeError
-from meshforge.store import AssetFiles, Store, iterate_survey
+from meshforge.store import AssetFiles, Store, iterate_asset_index
 from meshforge.symbolic import HUMAN_SOURCES, LABEL_SOURCES, Label, match_labels
 
 if TYPE_CHECKING:
@@ -134,7 +134,7 @@ def tally_labels(store: Store, progress: Callable[[], None] | None = None) -> Ta
     hulls = unlabelled = 0
     doubtful: dict[str, int] = {}
     unreadable: dict[str, str] = {}
-    for asset, facts in iterate_survey(store.found, store.layout, progress=progress):
+    for asset, facts in iterate_asset_index(store.found, store.layout, progress=progress):
         if facts.error:
             unreadable[asset] = facts.error
             continue

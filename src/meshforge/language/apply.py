@@ -90,7 +90,9 @@ def _verify_edits(plugin: Plugin, groups: list[HullGroup], edits: list[GroupEdit
             if fault:
                 what = f"made a hull of {join_names([hull.name for hull in made.sources], 3)} that"
                 raise plugin.error(f"{what} {geometry.describe_fault(fault)}")
-            if not {made.heir.name, *(hull.name for hull in made.sources)} <= {hull.name for hull in group.hulls}:
+            if not {made.main_source.name, *(hull.name for hull in made.sources)} <= {
+                hull.name for hull in group.hulls
+            }:
                 raise plugin.error("named hulls that it was not given as the sources of one that it made")
 
 
@@ -102,22 +104,29 @@ def names_in_use(mesh: SymbolicMesh) -> frozenset[str]:
 
 def _make_hull(made: NewShape, label: str | None, taken: set[str], reference: float, *, is_alone: bool) -> Hull:
     """The hull of a made shape, verified and named; its name is added to those taken."""
-    heir = made.heir
-    shape = ensure_valid(made.shape, heir.name, geometry.FLATNESS * reference)
-    stem = heir.name if heir.parent is None else _NEW_SUFFIX.sub("", heir.name)
+    main_source = made.main_source
+    shape = ensure_valid(made.shape, main_source.name, geometry.FLATNESS * reference)
+    stem = main_source.name if main_source.parent is None else _NEW_SUFFIX.sub("", main_source.name)
     count = 1
     while f"{stem}~{count}" in taken:
         count += 1
     taken.add(f"{stem}~{count}")
-    keeps_name = is_alone and (heir.parent is None or heir.keeps_name)
-    return Hull(f"{stem}~{count}", heir.body, shape, _label_of_new(heir, label), heir.parent or heir.name, keeps_name)
+    keeps_name = is_alone and (main_source.parent is None or main_source.keeps_name)
+    return Hull(
+        f"{stem}~{count}",
+        main_source.body,
+        shape,
+        _label_of_new(main_source, label),
+        main_source.parent or main_source.name,
+        keeps_name,
+    )
 
 
-def _label_of_new(heir: Hull, label: str | None) -> Label | None:
+def _label_of_new(main_source: Hull, label: str | None) -> Label | None:
     """The label of a made hull; one that the program sets is as sure as the program."""
     if label is not None:
         return Label(label, source="edit")
-    known = heir.annotation
+    known = main_source.annotation
     return Label(known.name, known.confidence, "edit") if known else None
 
 
@@ -141,7 +150,7 @@ def _inheritance_note(made: NewShape, known: dict[str, dict[str, str]]) -> str |
     differing = [name for name in names if len({each.get(name) for each in values}) > 1]
     if not differing:
         return None
-    return f"{join_names(differing)} as {made.heir.name} has it; the hulls beside it have another"
+    return f"{join_names(differing)} as {made.main_source.name} has it; the hulls beside it have another"
 
 
 def describe_lost_gaps(mesh: SymbolicMesh, selected_mask: int, made: Iterable[tuple[Hull, NewShape]]) -> str | None:

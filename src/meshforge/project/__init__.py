@@ -9,7 +9,7 @@ __getattr__, __all__ = export_lazily(
     {
         "learn": "ProgramState program_by_hand sees_whole_family select_assets suggest_first_demonstration",
         "new_asset_result": "NewAssetResult assess_new_assets describe_new",
-        "new_assets": "NewAsset NewAssetOptions list_new prepare_aside",
+        "new_assets": "NewAsset NewAssetOptions list_new prepare_new_assets",
         "overview": "compute_status find_offers",
         "preparation_plan": "REBUILD_DEFAULTS RebuildSettings forget_plan read_piece_engine read_preparation_plan",
         "prepare": "PreparationResult",
@@ -17,10 +17,10 @@ __getattr__, __all__ = export_lazily(
         "rebuild": "MADE_ANEW",
         "replies": "has_agreed_labels",
         "review": "FamilyAssessment ProjectReview assess_family",
-        "run": "make_correction output_digest run_with_corrections",
-        "run_report": "add_standings build_run_report summarize_outputs",
-        "sign_off_text": "format_review format_standing format_status",
-        "sign_offs": "AssessmentBasis digest_lesson",
+        "run": "make_manual_edit output_digest run_with_manual_edits",
+        "run_report": "add_result_status build_run_report summarize_outputs",
+        "sign_off_text": "format_review format_result_status format_status",
+        "sign_offs": "AssessmentBasis digest_inputs",
         "next_step": "choose_next_step",
         "status": (
             "AssetStatus FamilyState LastRun LearnStatus NextStep OpenQuestion OutputState PropagationState "

@@ -10,7 +10,7 @@ from meshforge.batch import (
     OutputInputs,
     program_digest,
     read_stamp,
-    replay_corrections,
+    replay_manual_edits,
     selections_of,
     template_digests,
 )
@@ -78,11 +78,11 @@ class _Plan:
 
     def measure(self, asset: str, mesh: SymbolicMesh) -> EditMeasures:
         """The measures of an edit with what was done by hand after it; cached with the mesh."""
-        corrections, meant = self.store.corrections(asset), run.find_selections(self.feedback, asset)
+        manual_edits, meant = self.store.manual_edits(asset), run.find_selections(self.feedback, asset)
         program, templates = self.task.program, self.task.templates
 
         def make() -> EditMeasures:
             after = program.run(mesh, templates, selections=selections_of(meant, program), memo=memoize).mesh
-            return measure_edit(mesh, replay_corrections(corrections, mesh, after, program, templates)[0])
+            return measure_edit(mesh, replay_manual_edits(manual_edits, mesh, after, program, templates)[0])
 
-        return memoize(mesh, ("measures", self.key, *map(str, (*corrections, *meant))), EditMeasures, make)
+        return memoize(mesh, ("measures", self.key, *map(str, (*manual_edits, *meant))), EditMeasures, make)

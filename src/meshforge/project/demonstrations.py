@@ -31,12 +31,12 @@ def demonstrate(store: Store, asset: str, steps: Iterable[synthesis.Step]) -> No
         remedy = suggest_name(name, mesh.index)
         raise ProjectError(f"rule {rule}: there is no hull {name!r}", where=asset, remedy=remedy)
     with store.lock():
-        said = store.feedback().verdict_on(asset)
-        if steps and said:  # what is shown now counts, no more what was said of a result before
-            if said.verdict == "wrong" and shows(steps, said.seen):
+        verdict = store.feedback().verdict_on(asset)
+        if steps and verdict:  # what is shown now counts, no more what was said of a result before
+            if verdict.verdict == "wrong" and shows(steps, verdict.seen):
                 store.add_events(files.VerdictEvent(asset=asset))
-            elif said.meant:
-                store.add_events(said.model_copy(update={"meant": ()}))
+            elif verdict.meant:
+                store.add_events(verdict.model_copy(update={"meant": ()}))
         store.write_steps(asset, steps)
         confirm_replaced(store, asset)
 
@@ -47,16 +47,16 @@ def shows(steps: Iterable[synthesis.Step], done: Iterable[batch.RuleSelection]) 
     return bool(selected) and all(step.select is None or selected.get(step.rule) == step.select for step in steps)
 
 
-def correct_selection(store: Store, asset: str, rule: int, select: Sequence[str], said: Origin = NO_ORIGIN) -> None:
-    """Select other hulls in a step of a demonstration after a slip; on an asset that is not demonstrated by an answer,
-    and what was accepted there counts no more. Raises ProjectError where there is no such step, and as `demonstrate`
-    and `add_answer` do."""
+def correct_selection(store: Store, asset: str, rule: int, select: Sequence[str], origin: Origin = NO_ORIGIN) -> None:
+    """Select other hulls in a step of a demonstration after a mistake; on an asset that is not demonstrated by an
+    answer, and what was accepted there counts no more. Raises ProjectError where there is no such step, and as
+    `demonstrate` and `add_answer` do."""
     with store.lock():
         feedback = store.feedback()
         known = feedback.verdict_on(asset)
         if asset not in store.demonstration_ids() and (known or f"{rule}:{asset}" in feedback.answers):
-            more = [files.VerdictEvent(asset=asset, **said._asdict())] if known else []
-            store.add_events(check_answer(store, synthesis.Answer(rule, asset, select)).with_origin(said), *more)
+            more = [files.VerdictEvent(asset=asset, **origin._asdict())] if known else []
+            store.add_events(check_answer(store, synthesis.Answer(rule, asset, select)).with_origin(origin), *more)
             return
         steps = store.steps(asset)
         if rule > len(steps) or steps[rule - 1].open:
@@ -196,7 +196,7 @@ def actions_of(demonstrations: Iterable[Iterable[synthesis.Step]]) -> dict[int, 
     return dict(sorted(found.items()))
 
 
-def confirm(store: Store, right: synthesis.LabelCorrection, said: Origin = NO_ORIGIN) -> str:
+def confirm(store: Store, right: synthesis.LabelFix, origin: Origin = NO_ORIGIN) -> str:
     """Repair a label, as a `Repair` proposes it or not, remembering the one before; give the repair's id
     `ASSET#HULL=LABEL`.
 
@@ -212,20 +212,20 @@ def confirm(store: Store, right: synthesis.LabelCorrection, said: Origin = NO_OR
         is_repeated = known and known.accepted and current == _label_of_repair(right)
         before = known.before if known and is_repeated else files.LabelBefore.of(current)
         # the record first: killed in between, the repair is merely proposed again
-        store.add_events(event.model_copy(update={"before": before}).with_origin(said))
+        store.add_events(event.model_copy(update={"before": before}).with_origin(origin))
         store.write_labels(right.asset, files.hull_digests(mesh), labels, store.vocabulary)
     return event.id
 
 
-def reject(store: Store, wrong: synthesis.LabelCorrection, said: Origin = NO_ORIGIN) -> str:
+def reject(store: Store, wrong: synthesis.LabelFix, origin: Origin = NO_ORIGIN) -> str:
     """Refuse a repair, so that it is not proposed again; give its id."""
     store.path(wrong.asset)
     event = files.LabelFixEvent(asset=wrong.asset, hull=wrong.hull, was=wrong.was, to=wrong.to, accepted=False)
-    store.add_events(event.with_origin(said))
+    store.add_events(event.with_origin(origin))
     return event.id
 
 
-def take_back(store: Store, said: str) -> str | None:
+def take_back(store: Store, answer: str) -> str | None:
     """Take back an answer or a repair by its id; the hull of a confirmed repair gets the label it had before.
 
     Gives a sentence where that label was changed since, and is left alone. Raises ProjectError, naming the nearest id,
@@ -233,13 +233,13 @@ def take_back(store: Store, said: str) -> str | None:
     """
     with store.lock():
         kept = store.feedback().answers_and_fixes
-        if said not in kept:
+        if answer not in kept:
             listing = f"See what was said: meshforge review {store.folder} --list-answers"
-            remedy = suggest_name(said, kept, listing)
-            raise ProjectError(f"there is no answer or repair {said!r}", where=str(store.folder), remedy=remedy)
-        event = kept[said]
+            remedy = suggest_name(answer, kept, listing)
+            raise ProjectError(f"there is no answer or repair {answer!r}", where=str(store.folder), remedy=remedy)
+        event = kept[answer]
         note = _restore_label(store, event) if isinstance(event, files.LabelFixEvent) and event.accepted else None
-        store.add_events(files.WithdrawalEvent(id=said))
+        store.add_events(files.WithdrawalEvent(id=answer))
     return note
 
 
@@ -249,12 +249,12 @@ def forget_answers(store: Store) -> tuple[str, ...]:
     return tuple(note for note in notes if note)
 
 
-def _label_of_repair(correction: synthesis.LabelCorrection) -> symbolic.Label:
-    return symbolic.Label(correction.to, 1.0, "repair")
+def _label_of_repair(fix: synthesis.LabelFix) -> symbolic.Label:
+    return symbolic.Label(fix.to, 1.0, "repair")
 
 
 def _repair_label(
-    store: Store, mesh: symbolic.SymbolicMesh, right: synthesis.LabelCorrection
+    store: Store, mesh: symbolic.SymbolicMesh, right: synthesis.LabelFix
 ) -> tuple[dict[str, symbolic.Label], str | None]:
     given = {right.hull: _label_of_repair(right)}
     labels, report = merge.merge_labels(right.asset, mesh.index, mesh.labels, given, store.vocabulary)

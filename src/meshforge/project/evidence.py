@@ -16,33 +16,33 @@ TEACHES = 0.8
 probability; elsewhere the labels may be at fault, and no rule."""
 UNSURE_PRICE = 1.6
 """Of a reading that does otherwise than a result which nothing fits [nats]: what labels cost that are right at 80%."""
-_LEAST_DOUBT = 0.05  # that labels on an asset are at fault
+_LEAST_CHANCE = 0.05  # that labels on an asset are at fault
 
 
 def sort_answers(
-    said: Feedback, demos: Mapping[str, synthesis.Demonstration]
+    feedback: Feedback, demos: Mapping[str, synthesis.Demonstration]
 ) -> tuple[list[synthesis.Answer], list[synthesis.Answer]]:
     """The answers to learn from, and those to a rule that does something else by now."""
     actions = demonstrations.actions_of(demo.steps for demo in demos.values())
-    fitting = [line.answer for line in said.answers.values() if line.fits(actions)]
-    return fitting, [line.answer for line in said.answers.values() if not line.fits(actions)]
+    fitting = [line.answer for line in feedback.answers.values() if line.fits(actions)]
+    return fitting, [line.answer for line in feedback.answers.values() if not line.fits(actions)]
 
 
 def list_accepted(
-    store: Store, demos: Mapping[str, synthesis.Demonstration], said: Sequence[synthesis.Answer]
+    store: Store, demos: Mapping[str, synthesis.Demonstration], feedback: Sequence[synthesis.Answer]
 ) -> list[synthesis.Answer]:
     """What rules select on results that were accepted, but for what was said otherwise, or of rules that are others."""
-    known = {(answer.rule, answer.asset) for answer in said}
+    known = {(answer.rule, answer.asset) for answer in feedback}
     every = (one for asset, seen in find_accepted_results(store).items() for one in _number(demos, asset, seen))
     return [one for one in every if (one.rule, one.asset) not in known]
 
 
 def list_wrong(
-    said: Feedback, demos: Mapping[str, synthesis.Demonstration], meshes: Mapping[str, symbolic.SymbolicMesh]
+    feedback: Feedback, demos: Mapping[str, synthesis.Demonstration], meshes: Mapping[str, symbolic.SymbolicMesh]
 ) -> list[synthesis.Answer]:
     """What rules should have selected on results that were called wrong, or that they should not have selected what
     they did where one rule alone did anything there; unsure where labels may be the reason."""
-    last = {asset: some[-1] for asset, some in said.verdicts.items() if asset in meshes and asset not in demos}
+    last = {asset: some[-1] for asset, some in feedback.verdicts.items() if asset in meshes and asset not in demos}
     wrong = {asset: one for asset, one in last.items() if one.meant or one.verdict == "wrong"}
     if not wrong:
         return []
@@ -60,7 +60,7 @@ def list_wrong(
                 for hull, row in rows
                 if hull.name in differing or not differing
             )
-            price = -math.log(max(1 - share, _LEAST_DOUBT))
+            price = -math.log(max(1 - share, _LEAST_CHANCE))
             answers = list(_number(demos, asset, one.meant or one.seen))
             if one.meant:
                 found += answers if share >= TEACHES else soften(answers, price)
@@ -86,8 +86,8 @@ def _number(
     )
 
 
-def list_rejections(said: Feedback) -> list[synthesis.LabelCorrection]:
+def list_rejections(feedback: Feedback) -> list[synthesis.LabelFix]:
     """What is not to be proposed: what was refused, and what would undo a fix that was made."""
-    undone = (line.fix.reverse for line in said.fixes.values() if line.accepted)
-    refused = (line.fix for line in said.fixes.values() if not line.accepted)
+    undone = (line.fix.reverse for line in feedback.fixes.values() if line.accepted)
+    refused = (line.fix for line in feedback.fixes.values() if not line.accepted)
     return [*refused, *(reverse for reverse in undone if reverse)]

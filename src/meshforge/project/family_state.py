@@ -70,7 +70,7 @@ class FamilyStateReader:
             ),
             corrected=found.list_corrected(program) | shown.list_corrected(program),
             wrong=found.list_wrong(program),
-            edited=frozenset(self.meshes.keys() & store.layout.corrections.ids),
+            edited=frozenset(self.meshes.keys() & store.layout.manual_edits.ids),
             excluded=given_up,
             snoozed=frozenset(feedback.snoozed),
         )

@@ -11,11 +11,11 @@ from typing import Any, TypeVar
 from meshforge import store as files
 from meshforge.batch import Preparation
 from meshforge.common import join_names
-from meshforge.store import AnswerEvent, CorrectionsFile, DemonstrationFile, Event, LabelFixEvent, StepLine, Store
-from meshforge.store.program import CorrectionLine
+from meshforge.store import AnswerEvent, DemonstrationFile, Event, LabelFixEvent, ManualEditsFile, StepLine, Store
+from meshforge.store.program import ManualEditLine
 
 _FIX = "whose label was repaired"
-Line = TypeVar("Line", StepLine, CorrectionLine, AnswerEvent, LabelFixEvent)
+Line = TypeVar("Line", StepLine, ManualEditLine, AnswerEvent, LabelFixEvent)
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,14 +52,14 @@ class HullMapping:
             store.migrate()
         return [
             *_map_steps(layout.demonstration(asset), DemonstrationFile, self._map_step),
-            *_map_steps(layout.corrections(asset), CorrectionsFile, self._map_edit),
+            *_map_steps(layout.manual_edits(asset), ManualEditsFile, self._map_edit),
             *([(layout.events, files.format_lines(after).encode())] if after != events else []),
         ]
 
     def _map_step(self, line: StepLine) -> StepLine:
         return self._map_line(line, line.select or (), {"select": line.select and self.map_names(line.select)})
 
-    def _map_edit(self, line: CorrectionLine) -> CorrectionLine:
+    def _map_edit(self, line: ManualEditLine) -> ManualEditLine:
         """An edit by hand of hulls that are as it knows them."""
         meant = [name for name, value in line.hulls.items() if self.digests.get(name) == value]
         pairs = [(name, self.parts.get(name, (name,)) if name in meant else (name,)) for name in line.hulls]
@@ -91,7 +91,7 @@ class HullMapping:
 
 
 def _map_steps(
-    path: Path, kind: type[DemonstrationFile | CorrectionsFile], change: Callable[[Any], Any]
+    path: Path, kind: type[DemonstrationFile | ManualEditsFile], change: Callable[[Any], Any]
 ) -> Iterator[tuple[Path, bytes]]:
     file = files.read_json(path, kind)
     steps = tuple(map(change, file.steps)) if file else ()
@@ -112,7 +112,7 @@ def describe_replaced(store: Store, asset: str) -> Iterator[str]:
 def _list_uses(store: Store, asset: str) -> Iterator[tuple[str, Mapping[str, tuple[str, ...]]]]:
     if steps := files.read_json(store.layout.demonstration(asset), DemonstrationFile):
         yield from ((f"which is demonstrated for rule {line.rule}", line.replaced) for line in steps.steps)
-    if edits := files.read_json(store.layout.corrections(asset), CorrectionsFile):
+    if edits := files.read_json(store.layout.manual_edits(asset), ManualEditsFile):
         yield from (("which is edited by hand", line.replaced) for line in edits.steps)
     for event in store.feedback().answers_and_fixes.values():
         if event.asset == asset:
@@ -123,8 +123,8 @@ def _list_uses(store: Store, asset: str) -> Iterator[tuple[str, Mapping[str, tup
 def confirm_replaced(store: Store, asset: str) -> None:
     """Note that a person has seen what edits by hand and answers on an asset name in the place of hulls, under the lock
     that the caller holds."""
-    path = store.layout.corrections(asset)
-    edits = files.read_json(path, CorrectionsFile)
+    path = store.layout.manual_edits(asset)
+    edits = files.read_json(path, ManualEditsFile)
     if edits and any(line.replaced for line in edits.steps):
         lines = tuple(line.model_copy(update={"replaced": {}}) for line in edits.steps)
         files.write_json(path, edits.model_copy(update={"steps": lines}))

@@ -27,8 +27,8 @@ MOST_COMPARED = 100
 def select_assets(store: Store) -> tuple[str, ...]:
     """The assets to learn from: all, or of very many those that a person said something about, and some evenly."""
     feedback = store.feedback()
-    foreign = {asset for asset, one in feedback.exclusions.items() if one.reason == NOT_OF_FAMILY}
-    every = tuple(asset for asset in store.assets() if asset not in foreign)
+    others = {asset for asset, one in feedback.exclusions.items() if one.reason == NOT_OF_FAMILY}
+    every = tuple(asset for asset in store.assets() if asset not in others)
     if len(every) <= MOST_ASSETS:
         return every
     known = {line.asset for line in feedback.answers.values()} | feedback.verdicts.keys()
@@ -80,7 +80,7 @@ def accept_outcome(store: Store, outcome: synthesis.Found | synthesis.Ambiguous,
     store.write_program(outcome.program)
     question = outcome.open_rule.id if outcome.open_rule else None
     record = ProgramRecord(
-        program=batch.program_digest(outcome.program), lesson=inputs, status=outcome.status, question=question
+        program=batch.program_digest(outcome.program), inputs_digest=inputs, status=outcome.status, question=question
     )
     store.write_program_record(record)
 
@@ -90,7 +90,7 @@ def program_by_hand(store: Store) -> synthesis.Found | None:
     program = store.program()
     if program is None or not program_state_of(store, program).by_hand:
         return None
-    return synthesis.Found(rules=program.rules, readings=(), tried=(), seconds={}, program=program)
+    return synthesis.Found(rules=program.rules, candidates=(), tried=(), seconds={}, program=program)
 
 
 def read_program_state(store: Store) -> ProgramState:
@@ -108,7 +108,7 @@ def program_state_of(store: Store, program: language.Program | None) -> ProgramS
     record = store.program_record()
     if not record or record.program != batch.program_digest(program):
         return ProgramState(by_hand=True)
-    outdated = record.lesson != digest_learning_inputs(store)
+    outdated = record.inputs_digest != digest_learning_inputs(store)
     return ProgramState(outdated, None if outdated else record.question)
 
 
@@ -122,8 +122,10 @@ def replace_program(
     """
     record = store.program_record()
     if record and record.program in (batch.program_digest(old), batch.program_digest(new)):
-        now = digest_learning_inputs(store, settings) if record.lesson == inputs else record.lesson
-        store.write_program_record(record.model_copy(update={"program": batch.program_digest(new), "lesson": now}))
+        now = digest_learning_inputs(store, settings) if record.inputs_digest == inputs else record.inputs_digest
+        store.write_program_record(
+            record.model_copy(update={"program": batch.program_digest(new), "inputs_digest": now})
+        )
     if new != old:
         write_atomically(store.layout.program, str(new))
 
@@ -182,9 +184,9 @@ def learn_program(
     meshes = dict(store.meshes_by_id(select_assets(store))) if meshes is None else meshes
     demos = _read_demonstrations(store, meshes)
     inputs = digest_learning_inputs(store)
-    said = store.feedback()
-    fitting, unfit = sort_answers(said, demos)
-    accepted, wrong = list_accepted(store, demos, fitting), list_wrong(said, demos, meshes)
+    feedback = store.feedback()
+    fitting, unfit = sort_answers(feedback, demos)
+    accepted, wrong = list_accepted(store, demos, fitting), list_wrong(feedback, demos, meshes)
     asker = _RepairAsker(store, confirm) if accept and confirm else None
     settings = store.settings
     names = dict.fromkeys(name for demo in demos.values() for step in demo.steps for name in step.action.templates)
@@ -197,14 +199,14 @@ def learn_program(
         extractors=wanted,
         contact=settings.thresholds.contact,
         extremity=settings.thresholds.extremity,
-        rejected=tuple(list_rejections(said)),
+        rejected=tuple(list_rejections(feedback)),
         stop=stop,
     )
 
     def learn(answers: Sequence[synthesis.Answer]) -> synthesis.LearningOutcome:
         return synthesis.synthesize(
             tuple(demos.values()),
-            batch=meshes,
+            family=meshes,
             orient=store.orientation,
             templates=templates,
             vocabulary=settings.vocabulary or None,
@@ -229,12 +231,12 @@ def learn_program(
 
 def _ask_once(confirm: Confirm) -> Confirm:
     """Asks about each correction once, however often something is learned."""
-    answers: dict[synthesis.LabelCorrection, bool] = {}
+    answers: dict[synthesis.LabelFix, bool] = {}
 
     def ask(repair: synthesis.Repair) -> bool:
-        if repair.correction not in answers:
-            answers[repair.correction] = confirm(repair)
-        return answers[repair.correction]
+        if repair.fix not in answers:
+            answers[repair.fix] = confirm(repair)
+        return answers[repair.fix]
 
     return ask
 
@@ -248,7 +250,7 @@ class _RepairAsker:
 
     def __call__(self, repair: synthesis.Repair) -> bool:
         right = self._confirm(repair)
-        (demonstrations.confirm if right else demonstrations.reject)(self._store, repair.correction)
+        (demonstrations.confirm if right else demonstrations.reject)(self._store, repair.fix)
         self.inputs = digest_learning_inputs(self._store)
         return right
 

@@ -16,7 +16,7 @@ from meshforge.labels import HullSpan, pick_evenly
 from meshforge.labels.reference_family import MOST_COMPARED, choose_labelled
 from meshforge.project.rebuild import MOST_SHOWN, RebuiltBody
 from meshforge.project.review import ProjectReview
-from meshforge.signoff import AssetConfidence, Doubt, ReviewState, assess_asset
+from meshforge.signoff import AssetConfidence, Reason, ReviewState, assess_asset
 from meshforge.store import Store
 from meshforge.symbolic import Label, LabelFile
 from meshforge.synthesis import LearningOutcome
@@ -49,24 +49,24 @@ class NewAssetResult:
         return {name: label for one in self.rebuilt for name, label in one.labels.items()}
 
     @property
-    def doubts(self) -> tuple[Doubt, ...]:
+    def reasons(self) -> tuple[Reason, ...]:
         """All that was guessed, with the probability that it is wrong, the least sure first."""
         words = [(f"{name} is called {one.name} by the rebuild", one, name) for name, one in self.new_labels.items()]
         words += [(f"{name} is called {one.name} by its likeness", one, name) for name, one in self.guesses.items()]
-        labels = [Doubt("label", text, (name,), share=1 - one.confidence) for text, one, name in words]
-        return tuple(sorted([*self.span_doubts, *labels], key=lambda one: -one.share))
+        labels = [Reason("label", text, (name,), share=1 - one.confidence) for text, one, name in words]
+        return tuple(sorted([*self.span_reasons, *labels], key=lambda one: -one.share))
 
     @property
-    def span_doubts(self) -> tuple[Doubt, ...]:
+    def span_reasons(self) -> tuple[Reason, ...]:
         """Those about which hulls span parts: whether none of a body that was rebuilt does, or one that was left."""
-        rebuilt = (Doubt("label", str(one), tuple(one.labels), share=1 - one.chance) for one in self.rebuilt)
-        left = (Doubt("label", f"{one}: left as it is", (one.hull,), share=one.chance) for one in self.spanning)
+        rebuilt = (Reason("label", str(one), tuple(one.labels), share=1 - one.chance) for one in self.rebuilt)
+        left = (Reason("label", f"{one}: left as it is", (one.hull,), share=one.chance) for one in self.spanning)
         return (*rebuilt, *left)
 
     @property
     def probability(self) -> float:
         """That all of it is right, at most: that of the least sure guess, 1 where nothing was guessed."""
-        return 1 - max((one.share for one in self.doubts), default=0.0)
+        return 1 - max((one.share for one in self.reasons), default=0.0)
 
     def describe(self) -> tuple[str, ...]:
         """A sentence on each body that was rebuilt, each hull that was left, and on the labels."""
@@ -148,7 +148,7 @@ def assess_new_assets(
     for job, one in zip(new, batch.execute(partial(_assess, task), new, execution), strict=True):
         if isinstance(one, batch.WorkerFailure):
             one = _describe_failure(one.why)
-        found[job.id] = replace(one.with_doubts(results[job.id].span_doubts), asset=job.id)
+        found[job.id] = replace(one.with_reasons(results[job.id].span_reasons), asset=job.id)
     return found
 
 
@@ -172,4 +172,4 @@ def _assess(task: _Task, job: batch.AssetJob) -> AssetConfidence:
 
 
 def _describe_failure(why: str) -> AssetConfidence:
-    return AssetConfidence(_NEW, 0.0, (Doubt("alarm", f"it could not be looked at: {why}", share=1.0),))
+    return AssetConfidence(_NEW, 0.0, (Reason("alarm", f"it could not be looked at: {why}", share=1.0),))

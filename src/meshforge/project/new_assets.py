@@ -146,7 +146,7 @@ def _keep_in_project(store: Store, asset: str, found: _WorkerOutcome) -> list[st
     return notes
 
 
-def prepare_aside(
+def prepare_new_assets(
     store: Store, assets: Sequence[NewAsset], folder: Path, options: NewAssetOptions = NEW_ASSET_DEFAULTS
 ) -> Iterator[tuple[NewAsset, NewAssetResult]]:
     """Prepare assets with what is done kept in a folder, and neither in the project nor beside them: each as it is to
@@ -157,9 +157,9 @@ def prepare_aside(
     shared = [task.family.digest if task.family else None, task.rebuild, task.guess, task.contact]
     homes = {one.id: NewAssetFolder(folder, one.id, one.path) for one in assets}
     basis = {
-        one.id: digest_basis(one.plan, one.labels, one.preparation, [*shared, said])
+        one.id: digest_basis(one.plan, one.labels, one.preparation, [*shared, sources_digest])
         for one in assets
-        for said in [task.sources.digest(one.id, one.path) if task.sources else None]
+        for sources_digest in [task.sources.digest(one.id, one.path) if task.sources else None]
     }
     known = {one.id: result for one in assets if (result := homes[one.id].read(basis[one.id]))}
     fresh = _prepare_all(task, [one for one in assets if one.id not in known], options)
@@ -170,13 +170,13 @@ def prepare_aside(
             if isinstance(found, str):
                 yield work, NewAssetResult(work.id, problem=found)
                 continue
-            result = _keep_aside(home, basis[work.id], found)
+            result = _keep_result(home, basis[work.id], found)
         labels = home.labels if home.labels.exists() else None
         preparation = home.preparation if batch.record_digest(home.preparation) else None
         yield replace(work, labels=labels, preparation=preparation), result
 
 
-def _keep_aside(home: NewAssetFolder, basis: str, found: _WorkerOutcome) -> NewAssetResult:
+def _keep_result(home: NewAssetFolder, basis: str, found: _WorkerOutcome) -> NewAssetResult:
     """Write what was done to an asset, and last what became of it."""
     home.forget()
     batch.write_preparation(home.preparation, found.preparation)
@@ -216,7 +216,7 @@ def _prepare(task: _Task, work: NewAsset) -> _WorkerOutcome | str:
         source = read(work.path)
         after, notes = _decompose(source, before, work.plan)
         labels = read_labels(work.labels) if work.labels and work.labels.exists() else LabelFile()
-        mesh, taken, odd = _take_labels(task, work, _build_mesh(source, after, labels, task.contact))
+        mesh, taken, notes_of_labels = _take_labels(task, work, _build_mesh(source, after, labels, task.contact))
         found = Rebuild(after)
         if work.plan.rebuild and mesh.hulls:
             found = _rebuild(task, source, after, mesh, work.plan.rebuild)
@@ -224,7 +224,7 @@ def _prepare(task: _Task, work: NewAsset) -> _WorkerOutcome | str:
                 mesh = _build_mesh(source, found.after, labels, task.contact).with_labels(found.labels)
                 mesh, taken, _ = _take_labels(task, work, mesh)  # what is odd of hulls that are gone was said
         guesses = task.family.infer_labels(mesh) if task.guess and task.family and mesh.hulls else {}
-        notes = (*found.notes, *notes, *odd)
+        notes = (*found.notes, *notes, *notes_of_labels)
         result = NewAssetResult(work.id, found.bodies, found.left, guesses, notes, taken=taken)
         words = labels.vocabulary or (task.family.words if task.family else ())
         files = batch.asset_digests(work.path, source.files, work.path.parent)
@@ -244,8 +244,8 @@ def _take_labels(
     task: _Task, work: NewAsset, mesh: SymbolicMesh
 ) -> tuple[SymbolicMesh, Mapping[str, Label], Sequence[str]]:
     """A mesh with the labels that files, names and plug-ins give to its hulls without one; these labels, and notes."""
-    taken, odd = task.sources.label(work.id, work.path, mesh) if task.sources else ({}, ())
-    return mesh.with_labels(taken), taken, odd
+    taken, notes_of_labels = task.sources.label(work.id, work.path, mesh) if task.sources else ({}, ())
+    return mesh.with_labels(taken), taken, notes_of_labels
 
 
 def _decompose(
@@ -257,7 +257,7 @@ def _decompose(
             source, before, one.settings, only=one.only, hollow=one.hollow, by=one.by, cache=cache_folder()
         )
         before = done.preparation
-        notes += [f"{entry.what} decomposed by {one.settings.engine}: {entry.told}" for entry in done.made]
+        notes += [f"{entry.what} decomposed by {one.settings.engine}: {entry.remark}" for entry in done.made]
         notes += [f"{lost.what} could not be decomposed: {lost.why}" for lost in done.failed]
     return before, tuple(notes)
 

@@ -11,11 +11,11 @@ from meshforge.project.demonstrations import find_unknown_hulls
 from meshforge.project.hull_mapping import describe_replaced
 from meshforge.project.learn import ProgramState, program_state_of, suggest_first_demonstration
 from meshforge.project.next_step import choose_next_step
+from meshforge.project.result_status import ResultStatuses
 from meshforge.project.run import build_jobs, build_task, make_empty_program, output_digest
-from meshforge.project.sign_offs import digest_lesson, find_bases
-from meshforge.project.standings import Standings
+from meshforge.project.sign_offs import digest_inputs, find_bases
 from meshforge.project.status import AssetStatus, FamilyState, OpenQuestion, Status
-from meshforge.signoff import BAR
+from meshforge.signoff import THRESHOLD
 from meshforge.store import (
     AssetFacts,
     AssetOutput,
@@ -24,7 +24,7 @@ from meshforge.store import (
     VerdictEvent,
     find_outputs,
     geometry_digest,
-    iterate_survey,
+    iterate_asset_index,
 )
 
 
@@ -47,9 +47,11 @@ def compute_status(
     """
     for asset in only or ():
         store.path(asset)
-    settings, ids, work, said = store.settings, store.found.ids, build_jobs(store, only), store.feedback()
+    settings, ids, work, feedback = store.settings, store.found.ids, build_jobs(store, only), store.feedback()
     execution = batch.ExecutionOptions(workers=workers, stop=stop)
-    facts = dict(iterate_survey(store.found, store.layout, only, execution=execution, progress=progress, verify=verify))
+    facts = dict(
+        iterate_asset_index(store.found, store.layout, only, execution=execution, progress=progress, verify=verify)
+    )
     outputs = find_outputs(store.layout, facts, verify=verify)
     program, task, problem = _read_program(store)
     bare = None if program or problem else make_empty_program(store)
@@ -61,11 +63,11 @@ def compute_status(
         made = outputs[job.id].stamp
         if edit and bare and made and made.inputs and made.inputs.program != edit.program:
             edit = None  # the output is of a program that is gone, and is not out of date without it
-        rows.append(_asset_status(store, job, one, outputs[job.id], edit, said.verdict_on(job.id)))
+        rows.append(_asset_status(store, job, one, outputs[job.id], edit, feedback.verdict_on(job.id)))
     last, lacks = store.assessment(), "asset" if task else "templates" if program else "program"
-    current = last if last and last.holds(digest_lesson(store), edits) else None
-    standings = Standings(find_bases(store, edits, outputs), lacks, said, store.sign_offs(), current)
-    assets = tuple(map(standings.add_to, rows))
+    current = last if last and last.holds(digest_inputs(store), edits) else None
+    result_statuses = ResultStatuses(find_bases(store, edits, outputs), lacks, feedback, store.sign_offs(), current)
+    assets = tuple(map(result_statuses.add_to, rows))
     state = program_state_of(store, program)
     rules = len(program.rules) if program else None
     known = {asset.id: asset for asset in (*others, *assets)}
@@ -93,7 +95,7 @@ def compute_status(
         choose_next_step(family),
         family,
         state.question,
-        last.bar if last else BAR,
+        last.threshold if last else THRESHOLD,
     )
 
 
@@ -165,7 +167,7 @@ def _asset_status(
         after=stamp.after if stamp and output_digest(stamp) else None,
         after_labels=stamp.labels if stamp and output_digest(stamp) else (),
         output_digest=output_digest(stamp),
-        corrections=len(job.corrections),
+        manual_edits=len(job.manual_edits),
         review_note=current_review.note if current_review else None,
     )
 
@@ -217,6 +219,6 @@ def _find_changes(output: AssetOutput, edit: batch.OutputInputs | None) -> tuple
 
 def _find_lost_ids(store: Store) -> tuple[str, ...]:
     layout = store.layout
-    kinds = (layout.labels, layout.demonstration, layout.corrections, layout.preparation)
+    kinds = (layout.labels, layout.demonstration, layout.manual_edits, layout.preparation)
     kept = {asset for kind in kinds for asset in kind.ids}
     return tuple(sorted(kept - {*store.assets(), *store.found.left_out}))

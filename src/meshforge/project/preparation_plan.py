@@ -93,8 +93,8 @@ def _describe_way(way: str) -> str:
         settings = json.loads(line)
         plan = _parse_plan(settings)
         usual = type(plan.settings)().as_dict() | {"hollow": False, "by": "whole"} if plan else {}
-        odd = {k: v for k, v in settings.items() if k != "method" and (k not in usual or usual[k] != v)}
-        shown = (f"{k}={','.join(v) if isinstance(v, list) else v}" for k, v in odd.items())
+        unusual = {k: v for k, v in settings.items() if k != "method" and (k not in usual or usual[k] != v)}
+        shown = (f"{k}={','.join(v) if isinstance(v, list) else v}" for k, v in unusual.items())
         texts.append(" ".join([settings.get("method", "?"), *shown]))
     return " then ".join(texts)
 

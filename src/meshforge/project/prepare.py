@@ -96,7 +96,7 @@ def exchange_preparation(
 def check_selections(store: Store, asset: str) -> None:
     """Raises ProjectError, naming the file, where a demonstration, edits by hand or the events cannot be read."""
     store.steps(asset)
-    store.corrections(asset)
+    store.manual_edits(asset)
     store.feedback()
 
 
@@ -191,7 +191,7 @@ class _DecomposeWork:
     options: Mapping[str, Any]
     pieces: Path | None
 
-    def tell(self, done: int, known: int) -> None:
+    def report(self, done: int, known: int) -> None:
         """Write how many pieces are done, of how many."""
         if self.pieces:
             write_atomically(self.pieces, f"{done} {known}")
@@ -244,7 +244,7 @@ def _decompose_one(work: _DecomposeWork) -> tuple[batch.DecompositionResult, str
         seen = batch.record_digest(work.folder)
         before = batch.read_preparation(work.folder) or batch.Preparation()
         asset = read(work.path)
-        options = {**work.options, "cache": cache_folder(), "progress": work.tell}
+        options = {**work.options, "cache": cache_folder(), "progress": work.report}
         return batch.decompose_asset(asset, before, work.settings, **options), seen
     except Exception as error:  # one asset never stops the others
         return describe_error(error, str(work.path))

@@ -70,8 +70,8 @@ def _rewrite_files(store: Store, old: str, new: str) -> Iterator[tuple[Path, str
             yield path, format_labels(_rename_in_labels(file, old, new))
     for path in map(layout.demonstration, layout.demonstration.ids):
         yield from _rename_in_steps(path, files.read_json(path, files.DemonstrationFile), old, new)
-    for path in map(layout.corrections, layout.corrections.ids):
-        yield from _rename_in_steps(path, files.read_json(path, files.CorrectionsFile), old, new)
+    for path in map(layout.manual_edits, layout.manual_edits.ids):
+        yield from _rename_in_steps(path, files.read_json(path, files.ManualEditsFile), old, new)
     kept = files.read_json(layout.label_sources, LabelSourcesFile) or LabelSourcesFile()
     if (after := files.json_text(rename_in_label_sources(kept, old, new))) != files.json_text(kept):
         yield layout.label_sources, after
@@ -87,7 +87,7 @@ def _rename_in_labels(file: LabelFile, old: str, new: str) -> LabelFile:
 
 
 def _rename_in_steps(
-    path: Path, kept: files.DemonstrationFile | files.CorrectionsFile | None, old: str, new: str
+    path: Path, kept: files.DemonstrationFile | files.ManualEditsFile | None, old: str, new: str
 ) -> Iterator[tuple[Path, str]]:
     steps = kept.steps if kept else ()
     lines = tuple(line.model_copy(update={"action": _rename_in_action(line.action, path, old, new)}) for line in steps)

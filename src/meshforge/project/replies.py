@@ -13,7 +13,7 @@ from meshforge.project import demonstrations, run
 from meshforge.signoff import ReviewChoice, ReviewQuestion, ReviewReply
 from meshforge.signoff.question import EXCLUDE, NO, RIGHT, WRONG
 from meshforge.store import ExclusionEvent, LabelsEvent, Origin, ReplyEvent, SnoozeEvent, Store, VerdictEvent
-from meshforge.synthesis import Answer, LabelCorrection
+from meshforge.synthesis import Answer, LabelFix
 
 
 def reply_to(store: Store, question: ReviewQuestion, reply: ReviewReply) -> None:
@@ -21,38 +21,38 @@ def reply_to(store: Store, question: ReviewQuestion, reply: ReviewReply) -> None
 
     Raises ProjectError, with nothing kept, where the reply does not fit.
     """
-    choice, said = find_choice(question, reply), Origin.of(question, reply)
+    choice, origin = find_choice(question, reply), Origin.of(question, reply)
     if reply.later:
-        _snooze(store, said)
+        _snooze(store, origin)
         return
     match question:
-        case signoff.ReadingQuestion():
+        case signoff.CandidateQuestion():
             refused = [one.select or () for one in question.choices] if choice is None else []
             select = None if choice is None else choice.select
             answer = Answer(question.rule or 1, question.asset, select, refused)
-            store.add_events(demonstrations.check_answer(store, answer).with_origin(said))
+            store.add_events(demonstrations.check_answer(store, answer).with_origin(origin))
         case signoff.GroupQuestion():
             _label(store, question, choice, reply)
         case signoff.RepairQuestion():
             _repair(store, question, choice, reply)
         case signoff.ResultQuestion():
             _judge(store, question, choice, reply)
-        case signoff.SlipQuestion():
+        case signoff.MistakeQuestion():
             if choice is None or choice.id == NO:
-                _snooze(store, said)
+                _snooze(store, origin)
             elif choice.label:
                 _label(store, question, choice, reply)
             else:
                 place, select = (question.asset, question.rule or 1), choice.select or ()
-                _do(store, said, lambda: demonstrations.correct_selection(store, *place, select, said))
+                _do(store, origin, lambda: demonstrations.correct_selection(store, *place, select, origin))
         case signoff.OrientationQuestion():
             if choice is None or choice.orient is None:
-                _snooze(store, said)
+                _snooze(store, origin)
             else:
                 turned = choice.orient
-                _do(store, said, lambda: store.set_orientation(turned))
+                _do(store, origin, lambda: store.set_orientation(turned))
         case signoff.DemonstrationQuestion():
-            _snooze(store, said)
+            _snooze(store, origin)
         case _:
             assert_never(question)
 
@@ -64,21 +64,21 @@ def reply_again(store: Store, question: ReviewQuestion, reply: ReviewReply) -> N
     Raises ProjectError, with nothing kept, where what followed from the reply before is not undone by a reply.
     """
     before = store.feedback().replied.get(question.id)
-    choice, said = find_choice(question, reply), Origin.of(question, reply)
+    choice, origin = find_choice(question, reply), Origin.of(question, reply)
     match question, before:
-        case (_, SnoozeEvent()) | (signoff.ReadingQuestion(), _):
+        case (_, SnoozeEvent()) | (signoff.CandidateQuestion(), _):
             reply_to(store, question, reply)
         case ((signoff.GroupQuestion() | signoff.RepairQuestion()), _) if reply.exceptions or (choice and choice.label):
             reply_to(store, question, reply)
         case signoff.ResultQuestion(), _ if choice and choice.id in EXCLUDE:
-            excluded = ExclusionEvent(asset=question.asset, reason=EXCLUDE[choice.id], **said._asdict())
+            excluded = ExclusionEvent(asset=question.asset, reason=EXCLUDE[choice.id], **origin._asdict())
             store.add_events(VerdictEvent(asset=question.asset), excluded)
         case signoff.ResultQuestion(), VerdictEvent() if choice:
-            run.revise_verdict(store, before, reply, said)
+            run.revise_verdict(store, before, reply, origin)
             if reply.labels:
                 _agree_again(store)
         case signoff.ResultQuestion(), ExclusionEvent() if choice:  # its result may be another one by now
-            store.add_events(ExclusionEvent(asset=question.asset, **said._asdict()))
+            store.add_events(ExclusionEvent(asset=question.asset, **origin._asdict()))
         case _:
             problem = f"question {question.id} was replied to before, and what followed from that stays"
             raise ProjectError(problem, remedy="Change it by hand: its demonstration, its labels, or its hulls.")
@@ -96,36 +96,36 @@ def find_choice(question: ReviewQuestion, reply: ReviewReply) -> ReviewChoice | 
     if (reply.selections or reply.labels) and not is_wrong:
         remedy = f'They go with the choice "{WRONG}" of a question whether a result is right.'
         raise ProjectError(f"question {question.id} takes no selections and labels with that reply", remedy=remedy)
-    if odd := [place for place in reply.exceptions if place not in question.hulls]:
-        raise ProjectError(f"question {question.id} is not about {odd[0].hull} of {odd[0].asset}")
+    if unknown := [place for place in reply.exceptions if place not in question.hulls]:
+        raise ProjectError(f"question {question.id} is not about {unknown[0].hull} of {unknown[0].asset}")
     return choice
 
 
-def _snooze(store: Store, said: Origin) -> None:
-    store.add_events(SnoozeEvent(**said._asdict()))
+def _snooze(store: Store, origin: Origin) -> None:
+    store.add_events(SnoozeEvent(**origin._asdict()))
 
 
-def _do(store: Store, said: Origin, effect: Callable[[], object]) -> None:
-    store.add_events_before(effect, ReplyEvent(**said._asdict()))
+def _do(store: Store, origin: Origin, effect: Callable[[], object]) -> None:
+    store.add_events_before(effect, ReplyEvent(**origin._asdict()))
 
 
 def _judge(store: Store, question: signoff.ResultQuestion, choice: ReviewChoice | None, reply: ReviewReply) -> None:
     """Keep a verdict on the result as the program makes it now, or why an asset is given up."""
-    asset, said = question.asset, Origin.of(question, reply)
+    asset, origin = question.asset, Origin.of(question, reply)
     if choice is None:
-        _snooze(store, said)
+        _snooze(store, origin)
     elif choice.id in EXCLUDE:
         reason = EXCLUDE[choice.id]
-        store.add_events(ExclusionEvent(asset=asset, reason=reason, **said._asdict()))
+        store.add_events(ExclusionEvent(asset=asset, reason=reason, **origin._asdict()))
     elif choice.id == RIGHT:
         _make_output(store, asset)
-        run.review_assets(store, asset, "accepted", said=said)
+        run.review_assets(store, asset, "accepted", origin=origin)
     else:
-        run.review_assets(store, asset, "wrong", selections=reply.selections, labels=reply.labels, said=said)
+        run.review_assets(store, asset, "wrong", selections=reply.selections, labels=reply.labels, origin=origin)
         if reply.labels:
             _agree_again(store)
         if not (reply.selections or reply.labels) and question.choice(RIGHT) is None:
-            _snooze(store, said)  # it was called wrong before, and nothing more was said
+            _snooze(store, origin)  # it was called wrong before, and nothing more was said
 
 
 def _make_output(store: Store, asset: str) -> None:
@@ -138,7 +138,7 @@ def _make_output(store: Store, asset: str) -> None:
 
 def _label(
     store: Store,
-    question: signoff.GroupQuestion | signoff.SlipQuestion,
+    question: signoff.GroupQuestion | signoff.MistakeQuestion,
     choice: ReviewChoice | None,
     reply: ReviewReply,
 ) -> None:
@@ -146,27 +146,27 @@ def _label(
     labels = dict[str, dict[str, str]]()
     for place, label in sorted({**given, **reply.exceptions}.items()):
         labels.setdefault(place.asset, {})[place.hull] = str(label)
-    said = Origin.of(question, reply)
+    origin = Origin.of(question, reply)
     if not labels:
-        _snooze(store, said)
+        _snooze(store, origin)
         return
-    event = LabelsEvent(labels=labels, **said._asdict())
+    event = LabelsEvent(labels=labels, **origin._asdict())
     store.add_events_before(lambda: set_labels_of(store, labels), event)
     _agree_again(store)
 
 
 def _repair(store: Store, question: signoff.RepairQuestion, choice: ReviewChoice | None, reply: ReviewReply) -> None:
     """Fix the label of a hull, so that it can be withdrawn, or keep it; what was refused is not proposed again."""
-    (place,), said = question.hulls, Origin.of(question, reply)
+    (place,), origin = question.hulls, Origin.of(question, reply)
     label = reply.exceptions.get(place) or (choice.label if choice else None)
     if label is None:
-        _snooze(store, said)
+        _snooze(store, origin)
         return
     proposed, was = question.choices[0].label, store.mesh(place.asset).hull_of(place.hull).label
     if label != was:
-        demonstrations.confirm(store, LabelCorrection(place.asset, place.hull, was, label), said)
+        demonstrations.confirm(store, LabelFix(place.asset, place.hull, was, label), origin)
     elif proposed:
-        demonstrations.reject(store, LabelCorrection(place.asset, place.hull, was, proposed), said)
+        demonstrations.reject(store, LabelFix(place.asset, place.hull, was, proposed), origin)
         set_labels_of(store, {place.asset: {place.hull: label}})
     _agree_again(store)
 

@@ -19,8 +19,8 @@ from meshforge.project.alarms import measure_results
 from meshforge.project.family_state import FamilyStateReader
 from meshforge.project.hull_mapping import describe_replaced
 from meshforge.project.sign_offs import AssessmentBasis, Clock, keep_assessment, now_utc, renew_sign_offs
-from meshforge.signoff import BAR, Assessment, AssetConfidence, Doubt, EditMeasures, ResultQuestion, ReviewState
-from meshforge.signoff.outliers import describe_odd_results
+from meshforge.signoff import THRESHOLD, Assessment, AssetConfidence, EditMeasures, Reason, ResultQuestion, ReviewState
+from meshforge.signoff.outliers import describe_outliers
 from meshforge.signoff.question import NOT_OF_FAMILY, YES_OR_NO, identify
 from meshforge.signoff.review import EXCLUDE_CHOICES, review_family
 from meshforge.store import Store
@@ -43,7 +43,11 @@ class ProjectReview:
 
 
 def review_project(
-    store: Store, bar: float = BAR, *, clock: Clock = now_utc, execution: ExecutionOptions = EXECUTION_DEFAULTS
+    store: Store,
+    threshold: float = THRESHOLD,
+    *,
+    clock: Clock = now_utc,
+    execution: ExecutionOptions = EXECUTION_DEFAULTS,
 ) -> ProjectReview:
     """Learn the program from all that is known, unless a person wrote it, and look how the family stands under it.
 
@@ -58,7 +62,7 @@ def review_project(
         raise ProjectError("there is no asset that can be read", where=str(store.folder))
     recall_descriptors(store, meshes, execution)
     outcome, by_hand = _learn(store, meshes)
-    made = assess_family(store, meshes, outcome, before, bar, by_hand=by_hand, lost=lost)
+    made = assess_family(store, meshes, outcome, before, threshold, by_hand=by_hand, lost=lost)
     assert made, "nobody stops it"
     made.keep(store, execution)
     taken_back = renew_sign_offs(store, clock=clock, execution=execution)
@@ -86,7 +90,7 @@ def assess_family(
     meshes: Mapping[str, SymbolicMesh],
     outcome: LearningOutcome | None,
     before: AssessmentBasis,
-    bar: float,
+    threshold: float,
     *,
     by_hand: bool = False,
     lost: Mapping[str, str] = MappingProxyType({}),
@@ -105,10 +109,10 @@ def assess_family(
     if stop():
         return None
     shown = [measures[asset] for asset in (*state.demos, *state.accepted) if asset in measures]
-    found = review_family(state, outcome, family, bar, describe_odd_results(measures, shown))
+    found = review_family(state, outcome, family, threshold, describe_outliers(measures, shown))
     found = _add_unreadable(store, found, state, lost)
     if not by_hand:
-        found = _add_demonstration_doubts(store, found, state.accepted | state.corrected)
+        found = _add_demonstration_reasons(store, found, state.accepted | state.corrected)
     return FamilyAssessment(found, state, program, basis, measures)
 
 
@@ -143,16 +147,16 @@ def _learn(store: Store, meshes: Mapping[str, SymbolicMesh]) -> tuple[LearningOu
 def _add_unreadable(store: Store, found: Assessment, state: ReviewState, lost: Mapping[str, str]) -> Assessment:
     """The same with assets that cannot be read, which need review until a person excludes them."""
     unknown = {
-        name: AssetConfidence(name, 0.0, (Doubt("alarm", f"it cannot be read: {why}", share=1.0),))
+        name: AssetConfidence(name, 0.0, (Reason("alarm", f"it cannot be read: {why}", share=1.0),))
         for name, why in lost.items()
     }
     every = {**found.assets, **unknown}
     found = replace(found, assets={name: every[name] for name in store.assets() if name in every})
-    asked = [_ask_to_exclude(name, lost[name]) for name in found.held if name in lost]
+    asked = [_ask_to_exclude(name, lost[name]) for name in found.need_review if name in lost]
     return replace(found, questions=(*found.questions, *(one for one in asked if one.id not in state.snoozed)))
 
 
-def _add_demonstration_doubts(store: Store, found: Assessment, looked_at: Collection[str]) -> Assessment:
+def _add_demonstration_reasons(store: Store, found: Assessment, looked_at: Collection[str]) -> Assessment:
     """The same, where a program is learned from a demonstration that names hulls which others replaced since, and
     nobody has looked whether all of these are meant.
 
@@ -163,8 +167,8 @@ def _add_demonstration_doubts(store: Store, found: Assessment, looked_at: Collec
         return found
     assets = dict(found.assets)
     for asset in assets.keys() - set(looked_at):
-        told = (text if one == asset else f"{one}: {text}" for one, own in texts.items() for text in own)
-        assets[asset] = assets[asset].with_doubts(Doubt("reading", text, share=_NOT_MEANT) for text in told)
+        texts_of = (text if one == asset else f"{one}: {text}" for one, own in texts.items() for text in own)
+        assets[asset] = assets[asset].with_reasons(Reason("candidate", text, share=_NOT_MEANT) for text in texts_of)
     unseen = {asset for asset, own in texts.items() if own} - set(looked_at)
     return replace(found, assets=assets, looked_at=found.looked_at - unseen)
 

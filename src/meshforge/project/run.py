@@ -30,7 +30,7 @@ def build_jobs(store: Store, only: Collection[str] | None = None) -> tuple[batch
             path,
             store.found.base_of(path),
             layout.labels(asset) if layout.labels(asset).exists() else None,
-            store.corrections(asset),
+            store.manual_edits(asset),
             layout.preparation(asset) if (layout.preparation(asset) / batch.RECORD_FILE).exists() else None,
             find_selections(feedback, asset),
         )
@@ -40,8 +40,8 @@ def build_jobs(store: Store, only: Collection[str] | None = None) -> tuple[batch
 
 def build_task(store: Store, program: language.Program) -> batch.ApplyTask:
     """What `apply` does to each asset; the templates are those of the program and of all edits by hand."""
-    corrected = store.found.ids.keys() & set(store.layout.corrections.ids)
-    edits = (edit for asset in sorted(corrected) for edit in store.corrections(asset))
+    corrected = store.found.ids.keys() & set(store.layout.manual_edits.ids)
+    edits = (edit for asset in sorted(corrected) for edit in store.manual_edits(asset))
     by_hand = (name for edit in edits for name in edit.action.templates)
     templates = store.templates(dict.fromkeys([*program.templates, *by_hand]))
     options = batch.ApplyOptions(urdf_capsules=store.settings.urdf_capsules)
@@ -99,49 +99,49 @@ def correct(store: Store, asset: str, select: Iterable[str], action: language.Ac
     """
     with store.lock():
         store.templates(action.templates)  # raises ProgramError
-        before = run_with_corrections(store, asset, store.mesh(asset), store.program())
-        added = make_correction(before.mesh, asset, sorted(set(select)), action, label)
-        if not before.corrections:
+        before = run_with_manual_edits(store, asset, store.mesh(asset), store.program())
+        added = make_manual_edit(before.mesh, asset, sorted(set(select)), action, label)
+        if not before.manual_edits:
             seen = number_selections(before.program, {line.rule: line.selected for line in before.run.trace})
             meant = find_selections(store.feedback(), asset)  # what was edited by hand was made with these
             store.add_events(VerdictEvent(asset=asset, verdict="wrong", note="edited by hand", seen=seen, meant=meant))
-        store.write_corrections(asset, (*before.corrections, added))
+        store.write_manual_edits(asset, (*before.manual_edits, added))
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class RunWithCorrections:
+class RunWithManualEdits:
     """An asset after the program and the edits by hand; flags: a sentence for each of these that was left out."""
 
     program: language.Program
     templates: Mapping[str, language.Template]
     run: language.RunResult
-    corrections: tuple[batch.Correction, ...]
+    manual_edits: tuple[batch.ManualEdit, ...]
     mesh: symbolic.SymbolicMesh
     flags: tuple[str, ...]
 
 
-def run_with_corrections(
+def run_with_manual_edits(
     store: Store, asset: str, mesh: symbolic.SymbolicMesh, program: language.Program | None
-) -> RunWithCorrections:
+) -> RunWithManualEdits:
     """An asset after a program and its corrections; None changes nothing. Raises MeshForgeError where it cannot run."""
     plan = program or language.Program(orient=store.orientation)
-    corrections = store.corrections(asset)
-    names = [*plan.templates, *(name for one in corrections for name in one.action.templates)]
+    manual_edits = store.manual_edits(asset)
+    names = [*plan.templates, *(name for one in manual_edits for name in one.action.templates)]
     templates = store.templates(dict.fromkeys(names))
     run = plan.run(mesh, templates, selections=batch.selections_of(find_selections(store.feedback(), asset), plan))
-    after, flags = batch.replay_corrections(corrections, mesh, run.mesh, plan, templates)
-    return RunWithCorrections(plan, templates, run, corrections, after, flags)
+    after, flags = batch.replay_manual_edits(manual_edits, mesh, run.mesh, plan, templates)
+    return RunWithManualEdits(plan, templates, run, manual_edits, after, flags)
 
 
-def make_correction(
+def make_manual_edit(
     mesh: symbolic.SymbolicMesh, asset: str, select: Sequence[str], action: language.Action, label: str | None
-) -> batch.Correction:
+) -> batch.ManualEdit:
     """One more edit by hand, on hulls of the mesh. Raises ProjectError for a hull that is not there."""
     for name in select:
         if name not in mesh.index:
             remedy = suggest_name(name, mesh.index)
             raise ProjectError(f"after the program there is no hull {name!r}", where=asset, remedy=remedy)
-    return batch.Correction(tuple((name, digest(mesh.hull_of(name).shape)) for name in select), action, label)
+    return batch.ManualEdit(tuple((name, digest(mesh.hull_of(name).shape)) for name in select), action, label)
 
 
 MOST_ACCEPTED = 100
@@ -162,7 +162,7 @@ def review_assets(
     *,
     selections: Mapping[int, Collection[str]] = MappingProxyType({}),
     labels: Mapping[str, str] = MappingProxyType({}),
-    said: Origin = NO_ORIGIN,
+    origin: Origin = NO_ORIGIN,
 ) -> None:
     """Accept the result of one or several assets, or call it wrong; None takes back what was said, an exclusion too.
 
@@ -173,21 +173,21 @@ def review_assets(
     """
     names = (assets,) if isinstance(assets, str) else tuple(assets)
     with store.lock():
-        events = [_judge(store, asset, verdict, note, selections, said, alone=len(names) == 1) for asset in names]
+        events = [_judge(store, asset, verdict, note, selections, origin, alone=len(names) == 1) for asset in names]
         away = store.feedback().exclusions
         more = [ExclusionEvent(asset=asset) for asset in names if asset in away]
         given = dict.fromkeys(names, labels) if labels else {}
         store.add_events_before(lambda: set_labels_of(store, given), *events, *more)
 
 
-def revise_verdict(store: Store, before: VerdictEvent, reply: signoff.ReviewReply, said: Origin) -> None:
+def revise_verdict(store: Store, before: VerdictEvent, reply: signoff.ReviewReply, origin: Origin) -> None:
     """Another verdict on the result that one was given on before; where it is right now, what the rules did there is
     what they should do. Raises ProjectError, with nothing written: no such rule, hull or label."""
     verdict: Verdict = "wrong" if reply.choice == WRONG else "accepted"
     meant = before.seen if verdict == "accepted" else ()
     if reply.selections:
         meant = _replace_selections(store, before.asset, before.seen, reply.selections)
-    event = before.model_copy(update={"verdict": verdict, "note": None, "meant": meant, **said._asdict()})
+    event = before.model_copy(update={"verdict": verdict, "note": None, "meant": meant, **origin._asdict()})
     given = {before.asset: reply.labels} if reply.labels else {}
     store.add_events_before(lambda: set_labels_of(store, given), event)
 
@@ -198,7 +198,7 @@ def _judge(
     verdict: Verdict | None,
     note: str | None,
     selections: Mapping[int, Collection[str]],
-    said: Origin,
+    origin: Origin,
     *,
     alone: bool,
 ) -> VerdictEvent:
@@ -212,7 +212,7 @@ def _judge(
     before = find_selections(store.feedback(), asset) if verdict == "accepted" else ()  # it is made with these
     meant = _replace_selections(store, asset, seen, selections) if selections else before
     return VerdictEvent(
-        asset=asset, verdict=verdict, note=note, output=output, seen=seen, meant=meant, **said._asdict()
+        asset=asset, verdict=verdict, note=note, output=output, seen=seen, meant=meant, **origin._asdict()
     )
 
 
@@ -260,7 +260,7 @@ def find_accepted_results(store: Store) -> dict[str, tuple[batch.RuleSelection, 
 def _read_selections(store: Store, stamp: batch.Stamp | None) -> tuple[batch.RuleSelection, ...]:
     """What the rules selected on an asset; nothing where another program did that, or it was edited by hand."""
     made, program = stamp and stamp.inputs, store.program()
-    if not stamp or not made or not program or made.corrections or made.program != batch.program_digest(program):
+    if not stamp or not made or not program or made.manual_edits or made.program != batch.program_digest(program):
         return ()
     return number_selections(program, {line.rule: line.selected for line in stamp.rules})
 

@@ -14,30 +14,33 @@ from meshforge.signoff.question import NOT_OF_FAMILY, NOT_SOLVED
 if TYPE_CHECKING:
     from meshforge.project.review import ProjectReview
 
-MOST_HELD = 12
-"""Lines on assets that are held, one for each reason."""
+MOST_LISTED = 12
+"""Lines on assets that need review, one for each reason."""
 
 
-def format_counts(signed_off: int, total: int, held: int, excluded: Sequence[ExclusionReason], bar: float) -> str:
+def format_counts(
+    signed_off: int, total: int, need_review: int, excluded: Sequence[ExclusionReason], threshold: float
+) -> str:
     """The sentence that says how far a family is signed off; total: assets, but for those not of the family."""
-    foreign = excluded.count(NOT_OF_FAMILY)
+    others = excluded.count(NOT_OF_FAMILY)
     if not total:
-        return f"Nothing is signed off: all {foreign} assets are excluded." if foreign else "There is no asset."
+        return f"Nothing is signed off: all {others} assets are excluded." if others else "There is no asset."
     are, were = ("is", "was") if signed_off == 1 else ("are", "were")
-    some = f"{signed_off} of {total} {are} at least {100 * bar:g}% sure, or {were} looked at"
+    some = f"{signed_off} of {total} {are} at least {100 * threshold:g}% sure, or {were} looked at"
     counts = ((reason, excluded.count(reason)) for reason in (NOT_SOLVED, NOT_OF_FAMILY))
     away = "".join(f", {count} excluded: {reason}" for reason, count in counts if count)
-    if held:
-        return f"{some}{away}; look at {'this one' if held == 1 else f'these {held}'}:"
+    if need_review:
+        return f"{some}{away}; look at {'this one' if need_review == 1 else f'these {need_review}'}:"
     return f"{some}{away}." if signed_off else f"Nothing is signed off{away}."
 
 
-def format_review(found: ProjectReview, held: int = MOST_HELD) -> str:
-    """How the family stands: the counts, then why assets are held, the least probable first; held: lines at most."""
+def format_review(found: ProjectReview, need_review: int = MOST_LISTED) -> str:
+    """How the family stands: the counts, then why assets need review, the least probable first; need_review: lines at
+    most."""
     one = found.assessment
-    names = one.held
-    lines = [format_counts(len(one.signed_off), len(one.assets), len(names), [*one.excluded.values()], one.bar)]
-    lines += _format_held([_hold(one.assets[name]) for name in names], held, " (all with --json)")
+    names = one.need_review
+    lines = [format_counts(len(one.signed_off), len(one.assets), len(names), [*one.excluded.values()], one.threshold)]
+    lines += _format_assets([_to_line(one.assets[name]) for name in names], need_review, " (all with --json)")
     if names and one.question is None:
         lines.append(
             "Nothing is left to ask: show the edit on one of these (meshforge demonstrate), or say what is right there."
@@ -51,37 +54,38 @@ def format_status(found: Status) -> str:
     done = waits + found.count(lambda asset: asset.sign_off == "signed off")
     excluded = [asset.excluded for asset in found.assets if asset.excluded]
     total = len(found.assets) - excluded.count(NOT_OF_FAMILY)
-    lines = [format_counts(done, total, len(found.open_assets), excluded, found.bar)]
+    lines = [format_counts(done, total, len(found.open_assets), excluded, found.threshold)]
     if waits:
         lines.append(f"  {waits} of them will be signed off when their outputs are up to date (meshforge apply)")
-    lines += _format_held([_hold_of_status(asset) for asset in found.open_assets], MOST_HELD)
-    doubted = [_AssetDoubt(one.id, None, format_standing(one)) for one in found.assets if one.found_since]
-    return "\n".join([*lines, *_format_held(doubted, MOST_HELD)])
+    lines += _format_assets([_status_to_line(asset) for asset in found.open_assets], MOST_LISTED)
+    doubtful = [_AssetReason(one.id, None, format_result_status(one)) for one in found.assets if one.found_since]
+    return "\n".join([*lines, *_format_assets(doubtful, MOST_LISTED)])
 
 
 @dataclass(frozen=True, slots=True)
-class _AssetDoubt:
-    """An asset that is held, and its weightiest doubt; probability: that its edit is right, None where not known."""
+class _AssetReason:
+    """An asset that needs review, and its weightiest reason; probability: that its edit is right, None where not
+    known."""
 
     name: str
     probability: float | None
     reason: str
 
 
-def _hold(one: AssetConfidence) -> _AssetDoubt:
-    return _AssetDoubt(one.asset, one.probability, one.doubts[0].text if one.doubts else "")
+def _to_line(one: AssetConfidence) -> _AssetReason:
+    return _AssetReason(one.asset, one.probability, one.reasons[0].text if one.reasons else "")
 
 
-def _hold_of_status(asset: AssetStatus) -> _AssetDoubt:
+def _status_to_line(asset: AssetStatus) -> _AssetReason:
     if asset.probability is None or asset.void:
-        return _AssetDoubt(asset.id, None, format_standing(asset))
-    return _hold(AssetConfidence(asset.id, asset.probability, asset.doubts))
+        return _AssetReason(asset.id, None, format_result_status(asset))
+    return _to_line(AssetConfidence(asset.id, asset.probability, asset.reasons))
 
 
-def _format_held(held: Sequence[_AssetDoubt], most: int, rest: str = "") -> Iterator[str]:
+def _format_assets(need_review: Sequence[_AssetReason], most: int, rest: str = "") -> Iterator[str]:
     """A line for each reason with the assets held for it, in the order given; most: lines; rest: after the others."""
-    reasons: dict[str, list[_AssetDoubt]] = {}
-    for one in held:
+    reasons: dict[str, list[_AssetReason]] = {}
+    for one in need_review:
         reasons.setdefault(one.reason, []).append(one)
     for reason, some in list(reasons.items())[:most]:
         shares = [one.probability for one in some if one.probability is not None]
@@ -96,7 +100,7 @@ def _format_range(shares: Sequence[float]) -> str:
     return " to ".join(dict.fromkeys(map(format_share, (min(shares), max(shares)))))
 
 
-def format_standing(asset: AssetStatus) -> str:
+def format_result_status(asset: AssetStatus) -> str:
     """How one asset stands: how sure its result is, and whether it is signed off, and by whom."""
     if asset.sign_off == "void":
         return f"void, {join_names(asset.void)} changed since it was signed off"

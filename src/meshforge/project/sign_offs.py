@@ -17,7 +17,7 @@ from meshforge.project.hull_mapping import describe_replaced
 from meshforge.project.learn import digest_demonstrations, digest_learning_inputs, digest_settings
 from meshforge.signoff.question import NOT_OF_FAMILY
 from meshforge.store import (
-    SAID,
+    ANSWERS,
     AssessmentFile,
     AssetOutput,
     ConfidenceLine,
@@ -26,7 +26,7 @@ from meshforge.store import (
     Store,
     find_changes,
     find_outputs,
-    iterate_survey,
+    iterate_asset_index,
 )
 
 _NO_MARKS: Mapping[str, Any] = {"assets": {}}
@@ -48,7 +48,7 @@ def find_inputs(store: Store, execution: batch.ExecutionOptions = EXECUTION_DEFA
 def _digest_edits(
     store: Store, task: batch.ApplyTask, execution: batch.ExecutionOptions
 ) -> dict[str, batch.OutputInputs]:
-    facts = dict(iterate_survey(store.found, store.layout, execution=execution))
+    facts = dict(iterate_asset_index(store.found, store.layout, execution=execution))
     return {
         job.id: batch.inputs_of(task, job, facts[job.id].digests)
         for job in run.build_jobs(store)
@@ -56,7 +56,7 @@ def _digest_edits(
     }
 
 
-def digest_lesson(store: Store) -> str:
+def digest_inputs(store: Store) -> str:
     """The digest of all that probabilities rest on beside the assets: what is learned from, what a person said, and
     whether they saw what preparations changed of it."""
     unconfirmed = [text for asset in store.demonstration_ids() for text in describe_replaced(store, asset)]
@@ -67,48 +67,48 @@ def digest_feedback(store: Store) -> str:
     """The digest of what people said: answers and fixes, verdicts without notes, and exclusions."""
     feedback = store.feedback()
     lines = [*feedback.answers_and_fixes.values(), *(one for some in feedback.verdicts.values() for one in some)]
-    said = [one.model_dump(mode="json", exclude={"note", "by", "question"}) for one in lines]
+    answers = [one.model_dump(mode="json", exclude={"note", "by", "question"}) for one in lines]
     away = {asset: one.reason for asset, one in feedback.exclusions.items()}
-    return batch.value_digest([said, away, _NO_MARKS])
+    return batch.value_digest([answers, away, _NO_MARKS])
 
 
 def find_bases(
     store: Store, edits: Mapping[str, batch.OutputInputs], outputs: Mapping[str, AssetOutput]
 ) -> dict[str, SignOffBasis]:
     """What a sign-off of each asset would rest on now. edits: the digests of all that decides its edit."""
-    settings, said = (
+    settings, answers = (
         digest_settings(store.settings),
         batch.value_digest([digest_demonstrations(store), digest_feedback(store)]),
     )
-    return {asset: SignOffBasis.of(edit, settings, said, outputs[asset].digest) for asset, edit in edits.items()}
+    return {asset: SignOffBasis.of(edit, settings, answers, outputs[asset].digest) for asset, edit in edits.items()}
 
 
 @dataclass(frozen=True)
 class AssessmentBasis:
-    """What an assessment is computed from, as digests, taken before any of it is read. lesson: of what is learned from
-    and what a person said; inputs: of the edit of each asset that can be read.
+    """What an assessment is computed from, as digests, taken before any of it is read. inputs_digest: of what is
+    learned from and what a person said; inputs: of the edit of each asset that can be read.
     """
 
-    lesson: str
+    inputs_digest: str
     inputs: Mapping[str, batch.OutputInputs]
 
     @staticmethod
     def take(store: Store, execution: batch.ExecutionOptions = EXECUTION_DEFAULTS) -> AssessmentBasis:
         """The digests as they are, of edits by an empty program: which it will be is often learned since."""
         return AssessmentBasis(
-            digest_lesson(store), _digest_edits(store, run.build_task(store, language.Program()), execution)
+            digest_inputs(store), _digest_edits(store, run.build_task(store, language.Program()), execution)
         )
 
     def under(self, store: Store, program: language.Program | None) -> AssessmentBasis:
         """The same of edits by a program; without one there are none."""
         if program is None:
-            return AssessmentBasis(self.lesson, {})
+            return AssessmentBasis(self.inputs_digest, {})
         digest, templates = batch.program_digest(program), batch.template_digests(store.templates(program.templates))
         edits = {
             asset: now.model_copy(update={"program": digest, "templates": {**now.templates, **templates}})
             for asset, now in self.inputs.items()
         }
-        return AssessmentBasis(self.lesson, edits)
+        return AssessmentBasis(self.inputs_digest, edits)
 
 
 def keep_assessment(
@@ -123,7 +123,7 @@ def keep_assessment(
 
     measures: of edits, by asset, so that the next review need not make them again.
     """
-    if basis != AssessmentBasis(digest_lesson(store), find_inputs(store, execution)):
+    if basis != AssessmentBasis(digest_inputs(store), find_inputs(store, execution)):
         return False
     lines = {
         name: ConfidenceLine.of(one, basis.inputs[name], name in found.looked_at, measures.get(name))
@@ -131,8 +131,14 @@ def keep_assessment(
         if name in basis.inputs
     }
     wrong = tuple(sorted(found.wrong))
-    foreign = tuple(sorted(name for name, why in found.excluded.items() if why == NOT_OF_FAMILY))
-    kept = AssessmentFile(bar=found.bar, lesson=basis.lesson, wrong=wrong, foreign=foreign, assets=lines)
+    not_of_family = tuple(sorted(name for name, why in found.excluded.items() if why == NOT_OF_FAMILY))
+    kept = AssessmentFile(
+        threshold=found.threshold,
+        inputs_digest=basis.inputs_digest,
+        wrong=wrong,
+        not_of_family=not_of_family,
+        assets=lines,
+    )
     store.write_assessment(kept)
     return True
 
@@ -155,7 +161,7 @@ def renew_sign_offs(
     keep_persons: those of a person stay where something but what was said changed; they are void then, and named so.
     """
     last, edits = store.assessment(), find_inputs(store, execution)
-    if last is None or not last.holds(digest_lesson(store), edits):
+    if last is None or not last.holds(digest_inputs(store), edits):
         return {}
     when = clock().astimezone(UTC).isoformat(timespec="seconds")
     outputs = find_outputs(store.layout, edits)
@@ -172,13 +178,13 @@ def renew_sign_offs(
                 kept |= {name: old} if old else {}
                 continue
             changes, is_away = now.changes(old.rests_on) if old else (), name in away
-            good = line.passes(last.bar) and not is_away
-            if old and not changes and old.meets(last.bar) and not is_away:
+            good = line.passes(last.threshold) and not is_away
+            if old and not changes and old.meets(last.threshold) and not is_away:
                 kept[name] = old
             elif good and outputs[name].is_whole and is_written(outputs[name].stamp, edits[name]):
                 by: Literal["person", "tool"] = "person" if line.looked_at else "tool"
                 kept[name] = SignOff(asset=name, by=by, when=when, probability=line.probability, rests_on=now)
-            elif old and (good or (keep_persons and old.by == "person" and {*changes} - {SAID})):
+            elif old and (good or (keep_persons and old.by == "person" and {*changes} - {ANSWERS})):
                 kept[name] = old  # where something changed void, and named so, until its output is there again
             elif old:
                 lost[name] = _describe_loss(old, line, changes, is_away)
@@ -189,8 +195,8 @@ def renew_sign_offs(
 def _describe_loss(old: SignOff, line: ConfidenceLine, changes: tuple[str, ...], away: bool) -> str:
     if away:
         return "a person called it wrong, or excluded it"
-    if line.stands_out:
-        return f"its output stands out: {line.doubts[0].text}"
+    if line.is_outlier:
+        return f"its output stands out: {line.reasons[0].text}"
     why = f", {' and '.join(changes)} changed" if changes else ", and more is asked for now"
     return f"it was {old.probability:.1%} sure, and is {line.probability:.1%} sure{why}"
 

@@ -8,10 +8,10 @@ from pathlib import Path
 from typing import Any, Literal
 
 from meshforge import labels, rendering, signoff, symbolic
-from meshforge.signoff import BAR
+from meshforge.signoff import THRESHOLD
 from meshforge.signoff.question import NOT_OF_FAMILY
 
-SignOffState = Literal["signed off", "sure", "held", "void", "excluded", "unknown"]
+SignOffState = Literal["signed off", "sure", "needs review", "void", "excluded", "unknown"]
 """Sure: sure enough to be signed off, once its output is up to date; void: signed off, but something changed since;
 unknown: not reviewed as it is now."""
 OutputState = Literal["none", "edited", "unchanged", "failed"]
@@ -54,7 +54,7 @@ class AssetStatus:
     after: int | None = None
     after_labels: tuple[str | None, ...] = ()
     output_digest: str | None = None
-    corrections: int = 0
+    manual_edits: int = 0
     review_note: str | None = None
     sign_off: SignOffState = "unknown"
     signed_by: Literal["tool", "person"] | None = None
@@ -62,7 +62,7 @@ class AssetStatus:
     excluded: signoff.ExclusionReason | None = None
     found_since: tuple[str, ...] = ()
     probability: float | None = None
-    doubts: tuple[signoff.Doubt, ...] = ()
+    reasons: tuple[signoff.Reason, ...] = ()
 
     @property
     def given(self) -> int:
@@ -79,7 +79,7 @@ class AssetStatus:
     @property
     def needs_review(self) -> bool:
         """Whether it is to be looked at: neither sure enough nor excluded."""
-        return self.sign_off in ("held", "void", "unknown")
+        return self.sign_off in ("needs review", "void", "unknown")
 
     @property
     def is_done(self) -> bool:
@@ -89,7 +89,7 @@ class AssetStatus:
     def confidence_to_json(self) -> dict[str, Any]:
         """How sure its edit is, as `status`, `apply` and `info` say it in JSON."""
         share = None if self.probability is None else round(self.probability, 4)
-        return {"probability": share, "doubts": [doubt.to_json() for doubt in self.doubts]}
+        return {"probability": share, "reasons": [reason.to_json() for reason in self.reasons]}
 
 
 StepKind = Literal[
@@ -201,7 +201,7 @@ class Status:
     next: NextStep
     family: FamilyState = field(compare=False)
     question: str | None = None
-    bar: float = BAR
+    threshold: float = THRESHOLD
 
     @property
     def open_assets(self) -> tuple[AssetStatus, ...]:

@@ -151,10 +151,10 @@ def _restore(store: Store, asset: str, history: History, snapshot: _Snapshot) ->
         history.write(title, edit_of("unprepare", asset), [*writes, *snapshot.files.items()])
         stay = layout.labels(asset) not in snapshot.files and layout.labels(asset).exists()
         return (*notes, *([f"its labels stay as they are: {error.problem}"] if stay else []))
-    known, doubts = _find_labels(change, snapshot.labels)
+    known, reasons = _find_labels(change, snapshot.labels)
     follow = label_new_hulls(store, asset, change.old, change.mesh, known)
     change.write(title, "unprepare", follow, tuple(snapshot.files.items()))
-    return (*notes, *(follow.notes if follow else ()), *doubts, *change.describe_gone())
+    return (*notes, *(follow.notes if follow else ()), *reasons, *change.describe_gone())
 
 
 def _find_labels(change: HullChange, labels: tuple[bytes, bytes] | None) -> tuple[dict[str, Label | None], list[str]]:

@@ -141,8 +141,8 @@ def color_hulls(
     """
     match color_by:
         case "hull":
-            settled = {mesh.index[name]: color for name, color in (known or {}).items() if name in mesh.index}
-            return HullColors(pick_distinct_colors(mesh, range(len(mesh.hulls)), settled))
+            assigned = {mesh.index[name]: color for name, color in (known or {}).items() if name in mesh.index}
+            return HullColors(pick_distinct_colors(mesh, range(len(mesh.hulls)), assigned))
         case "label":
             found = {h.label for h in mesh.hulls if h.label} - set(vocabulary)
             coloring = _color_by_group(mesh, [*vocabulary, *sorted(found)], lambda hull: hull.label)
@@ -196,15 +196,15 @@ def pick_distinct_colors(
     gap_to: dict[int, Floats] = {}
     uses = np.zeros(len(pool))
     nearest = np.full(len(pool), 0.5)
-    settled = dict(known or {})
+    assigned = dict(known or {})
     order = list(picked)
-    for k in sorted(order, key=lambda k: k not in settled):
-        if k not in settled:
+    for k in sorted(order, key=lambda k: k not in assigned):
+        if k not in assigned:
             near = np.array([gap_to[j] for j in sorted(mesh.neighbours(k) & gap_to.keys())])
             wanted = np.minimum(near.min(axis=0, initial=0.5) / _NEIGHBOUR, 0.06) if len(near) else 0.06
             pick = int(np.argmax((wanted + nearest) * _WORTH**uses))
-            settled[k] = pool[pick] * _DIMMER ** uses[pick]
+            assigned[k] = pool[pick] * _DIMMER ** uses[pick]
             uses[pick] += 1
-        gap_to[k] = color_distance(seen, perceive_colors(settled[k][None]))
+        gap_to[k] = color_distance(seen, perceive_colors(assigned[k][None]))
         nearest = np.minimum(nearest, gap_to[k])
-    return np.array([settled[k] for k in order]).reshape(-1, 3)
+    return np.array([assigned[k] for k in order]).reshape(-1, 3)

@@ -39,9 +39,9 @@ def render_thumbnail(
     by two pixels, two show them.
     """
     shown = Pose.identity() if pose is None else pose
-    opaque = [piece.surface for piece in mesh.asset.opaque if piece.surface] if mesh.asset else []
+    non_convex = [piece.surface for piece in mesh.asset.non_convex if piece.surface] if mesh.asset else []
     hulls = [turn_render_mesh(one, shown) for one in render_meshes_of(mesh.hulls)]
-    others = [turn_render_mesh(one, shown) for one in map(to_render_mesh, opaque) if len(one.faces)]
+    others = [turn_render_mesh(one, shown) for one in map(to_render_mesh, non_convex) if len(one.faces)]
     points = points_to_frame(hulls, others)
     if not len(points):
         return np.zeros((size[1], size[0], 4), np.uint8)

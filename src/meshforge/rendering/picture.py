@@ -61,8 +61,8 @@ def render(
     """
     _check_arguments(views, color_by, size)
     coloring = color_hulls(mesh, color_by, vocabulary) if highlight is None else highlight_hulls(mesh, highlight)
-    opaque = tuple(o.surface for o in mesh.asset.opaque if o.surface) if mesh.asset else ()
-    what = build_subject(mesh, coloring, opaque if ghost is None else ghost, highlight or frozenset(), up)
+    non_convex = tuple(o.surface for o in mesh.asset.non_convex if o.surface) if mesh.asset else ()
+    what = build_subject(mesh, coloring, non_convex if ghost is None else ghost, highlight or frozenset(), up)
     if caption is None and legend:
         caption = _describe_count(mesh, highlight)
     canvas = Canvas(size, background, title, caption, coloring if legend else HullColors(coloring.colors))
@@ -121,8 +121,8 @@ def _describe_count(mesh: SymbolicMesh, highlight: frozenset[str] | None) -> str
     count = pluralize(len(mesh.hulls), "hull")
     if highlight is not None:
         return f"{sum(h.name in highlight for h in mesh.hulls)} of {count} selected"
-    opaque = len(mesh.asset.opaque) if mesh.asset else 0
-    return f"{count}, {pluralize(opaque, 'piece')} that cannot be edited" if opaque else count
+    non_convex = len(mesh.asset.non_convex) if mesh.asset else 0
+    return f"{count}, {pluralize(non_convex, 'piece')} that cannot be edited" if non_convex else count
 
 
 def _split_room(room: tuple[int, int, int, int], count: int) -> list[tuple[int, int, int, int]]:
@@ -196,11 +196,11 @@ def points_to_frame(render_meshes: Sequence[RenderMesh], shells: Sequence[Render
 
 def draw_subject(what: Subject, bounds: Aabb | None, view: View, size: tuple[int, int]) -> Raster:
     """The subject, framed on `bounds`, or on all of its points."""
-    held = bounds or what.bounds
-    if held is None:
+    extent = bounds or what.bounds
+    if extent is None:
         width, height = size
         return Raster(np.zeros((height, width, 4), np.float32), np.full((height, width), -1))
-    frame = ViewFrame(held, up_vector(what.up))
+    frame = ViewFrame(extent, up_vector(what.up))
     points = frame.to_unit(what.points if bounds is None else bounds.corners)
     fine = 2 if size[0] * size[1] > 250_000 else 3
     return paint(what.layers, frame, aim_camera(view, what.up, size, points), fine)

@@ -7,11 +7,11 @@ from meshforge.common.exports import export_lazily
 __getattr__, __all__ = export_lazily(
     __name__,
     {
-        "assessment": "BAR Assessment AssetConfidence Doubt DoubtKind ReviewState",
-        "outliers": "EditMeasures describe_odd_results measure_edit",
+        "assessment": "THRESHOLD Assessment AssetConfidence Reason ReasonKind ReviewState",
+        "outliers": "EditMeasures describe_outliers measure_edit",
         "question": (
-            "DemonstrationQuestion ExclusionReason GroupQuestion HullPlace OrientationQuestion ReadingQuestion "
-            "RepairQuestion ResultQuestion ReviewChoice ReviewQuestion ReviewReply SlipQuestion "
+            "DemonstrationQuestion ExclusionReason GroupQuestion HullPlace OrientationQuestion CandidateQuestion "
+            "RepairQuestion ResultQuestion ReviewChoice ReviewQuestion ReviewReply MistakeQuestion "
             "question_of"
         ),
         "review": "assess_asset review_family",

@@ -47,7 +47,7 @@ class ReviewState:
         return frozenset((*self.demos, *self.accepted, *self.corrected))
 
 
-BAR = read_calibration().threshold
+THRESHOLD = read_calibration().threshold
 """The probability from which on an asset is signed off without being looked at, unless a person chooses another."""
 CALLED_WRONG = "a person said that this result is wrong"
 CALLED_WRONG_BEFORE = "a person said that a result here was wrong, and nobody has looked at it since"
@@ -55,23 +55,23 @@ EDITED_SINCE = "it was edited by hand, and nobody has accepted that"
 CONTRADICTED = "the program does something else than was shown here"
 """The doubts of such an asset."""
 
-MOST_DOUBTS = 6
+MOST_REASONS = 6
 """Doubts of an asset that are named."""
 
 _DIGITS = 4
 
-DoubtKind = Literal["reading", "label", "orientation", "unlike", "alarm"]
+ReasonKind = Literal["candidate", "label", "orientation", "outlier", "alarm"]
 
 
 @dataclass(frozen=True, slots=True)
-class Doubt:
+class Reason:
     """Why an edit may be wrong.
 
     text: one sentence; hulls: names of those concerned, on the asset; rule: its number, from 1, where it is about one;
     share: the probability, in 0..1, that the edit is wrong for this alone.
     """
 
-    kind: DoubtKind
+    kind: ReasonKind
     text: str
     hulls: tuple[str, ...] = ()
     rule: int | None = None
@@ -87,17 +87,20 @@ class AssetConfidence:
 
     asset: str
     probability: float
-    doubts: tuple[Doubt, ...] = ()
+    reasons: tuple[Reason, ...] = ()
 
-    def with_doubts(self, more: Iterable[Doubt]) -> AssetConfidence:
+    def with_reasons(self, more: Iterable[Reason]) -> AssetConfidence:
         """The same with further doubts: it is at most as probable as that the weightiest of them is none."""
         more = list(more)
         probability = min([self.probability, *(1 - one.share for one in more)])
-        doubts = sorted([*self.doubts, *more], key=lambda one: -one.share)[:MOST_DOUBTS]
-        return AssetConfidence(self.asset, probability, tuple(doubts))
+        reasons = sorted([*self.reasons, *more], key=lambda one: -one.share)[:MOST_REASONS]
+        return AssetConfidence(self.asset, probability, tuple(reasons))
 
     def to_json(self) -> dict[str, Any]:
-        return {"probability": round(self.probability, _DIGITS), "doubts": [doubt.to_json() for doubt in self.doubts]}
+        return {
+            "probability": round(self.probability, _DIGITS),
+            "reasons": [reason.to_json() for reason in self.reasons],
+        }
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,7 +111,7 @@ class Assessment:
     """
 
     assets: Mapping[str, AssetConfidence]
-    bar: float = BAR
+    threshold: float = THRESHOLD
     looked_at: frozenset[str] = frozenset()
     wrong: frozenset[str] = frozenset()
     excluded: Mapping[str, ExclusionReason] = field(default_factory=dict)
@@ -126,11 +129,11 @@ class Assessment:
         return tuple(
             name
             for name, one in self.assets.items()
-            if name not in away and (name in self.looked_at or one.probability >= self.bar)
+            if name not in away and (name in self.looked_at or one.probability >= self.threshold)
         )
 
     @property
-    def held(self) -> tuple[str, ...]:
+    def need_review(self) -> tuple[str, ...]:
         """The assets that need a person's review, the least probable first."""
         done = {*self.signed_off, *self.excluded}
         return tuple(sorted((name for name in self.assets if name not in done), key=self._probability_of))
@@ -141,4 +144,4 @@ class Assessment:
     @property
     def is_done(self) -> bool:
         """Whether no asset needs review."""
-        return not self.held
+        return not self.need_review

@@ -18,7 +18,7 @@ from meshforge.geometry import Floats
 WEIGHTS_FILE = "confidence.json"
 WEIGHTS = (
     "readings, always",
-    "readings",
+    "candidates",
     "labels, always",
     "labels",
     "labels not demonstrated",
@@ -66,9 +66,9 @@ def combine(features: Floats, weights: Floats) -> Floats:
 
     features: (n, 5), of edits; weights: (len(WEIGHTS),).
     """
-    readings = weights[0] + weights[1] * features[..., 0]
+    candidates = weights[0] + weights[1] * features[..., 0]
     labels = weights[2] + features[..., 1:] @ weights[3:]
-    found: Floats = 1 / (1 + np.exp(-readings)) / (1 + np.exp(-labels))
+    found: Floats = 1 / (1 + np.exp(-candidates)) / (1 + np.exp(-labels))
     return found
 
 
@@ -82,17 +82,19 @@ class AssetEvidence:
     probability that the program is not wrong nearly everywhere.
     """
 
-    readings: float
+    candidates: float
     labels: float
-    foreign: float = 0.0
-    unlike: float = 0.0
+    unseen_labels: float = 0.0
+    outlier_score: float = 0.0
     alarms: float = 0.0
     program: float = 1.0
 
     @property
     def features(self) -> Floats:
         """The log odds of readings and labels, then what is odd (5,)."""
-        return np.array([_log_odds(self.readings), _log_odds(self.labels), self.foreign, self.unlike, self.alarms])
+        return np.array(
+            [_log_odds(self.candidates), _log_odds(self.labels), self.unseen_labels, self.outlier_score, self.alarms]
+        )
 
     @property
     def probability(self) -> float:
@@ -100,16 +102,16 @@ class AssetEvidence:
         found = self.program * float(combine(self.features, read_calibration().weights))
         return min(found, STANDS_OUT) if self.alarms else found
 
-    def credit(self, *, readings: float = 1.0, labels: float = 1.0, program: float = 1.0) -> float:
+    def credit(self, *, candidates: float = 1.0, labels: float = 1.0, program: float = 1.0) -> float:
         """What it is worth to tell some of it, in edits that are right: the probability that this one is wrong, times
         the share of the doubt [nats] that is gone. What decides an edit is a conjunction: the last doubt of many alone
         makes it right, and yet each has to go.
 
         readings, labels, program: by which these probabilities grow, as factors.
         """
-        doubt = -_log_of(self.readings) - _log_of(self.labels) - _log_of(self.program)
-        gone = math.log(readings * labels * program)
-        return (1 - self.probability) * min(1.0, gone / doubt) if doubt > 0 else 0.0
+        reason = -_log_of(self.candidates) - _log_of(self.labels) - _log_of(self.program)
+        gone = math.log(candidates * labels * program)
+        return (1 - self.probability) * min(1.0, gone / reason) if reason > 0 else 0.0
 
 
 def _log_of(share: float) -> float:

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from meshforge.signoff.confidence import LEAST
-from meshforge.signoff.family import ALIKE, FamilyTrial, flip_shares
+from meshforge.signoff.family import ALIKE, FamilyRun, alternative_shares
 from meshforge.signoff.question import HullPlace, price_group
 
 MOST_HULLS = 24
@@ -41,7 +41,7 @@ class LookalikeGroup:
     seconds: float
 
 
-def find_groups(family: FamilyTrial, open_assets: Sequence[int]) -> Iterator[LookalikeGroup]:
+def find_groups(family: FamilyRun, open_assets: Sequence[int]) -> Iterator[LookalikeGroup]:
     """Groups about the hulls that matter most, each as large as is worth its seconds."""
     from scipy.spatial.distance import cdist  # lazy: 0.5 s, half of all imports
 
@@ -57,40 +57,40 @@ def find_groups(family: FamilyTrial, open_assets: Sequence[int]) -> Iterator[Loo
             yield _best_of(family, label, [seed, *(one for one in alike if one is not seed)])
 
 
-def _suspects(family: FamilyTrial, open_assets: Sequence[int]) -> Iterator[_Suspect]:
+def _suspects(family: FamilyRun, open_assets: Sequence[int]) -> Iterator[_Suspect]:
     posterior = family.posterior
     for mesh in open_assets:
-        trial = family.trials[mesh]
+        run = family.runs[mesh]
         span = posterior.table.spans.get(mesh, slice(0, 0))
-        index = family.state.meshes[trial.asset].index
-        for hull, share in flip_shares(trial.flips).items():
+        index = family.state.meshes[run.asset].index
+        for hull, share in alternative_shares(run.alternatives).items():
             row = span.start + index[hull]
             if share < _LEAST_SHARE or posterior.seen.fixed[row]:
                 continue
             chances = posterior.chances[row]
             best = int(np.argmax(chances))
             yield _Suspect(
-                HullPlace(trial.asset, hull), mesh, row, posterior.seen.labels[best], share, float(1 - chances[best])
+                HullPlace(run.asset, hull), mesh, row, posterior.seen.labels[best], share, float(1 - chances[best])
             )
 
 
-def _gain(family: FamilyTrial, some: Sequence[_Suspect]) -> float:
+def _gain(family: FamilyRun, some: Sequence[_Suspect]) -> float:
     """How many assets more are right, as far as can be expected, when the labels of some hulls are told."""
     by_mesh = defaultdict[int, list[_Suspect]](list)
     for one in some:
         by_mesh[one.mesh].append(one)
     found = 0.0
-    for mesh, told in by_mesh.items():
-        if family.trials[mesh].error:  # the labels with which it could be edited
-            found += max(one.share for one in told)
+    for mesh, group_places in by_mesh.items():
+        if family.runs[mesh].error:  # the labels with which it could be edited
+            found += max(one.share for one in group_places)
             continue
         evidence = family.evidence[mesh]
-        labels = family.labels_right(mesh, {one.place.hull for one in told})
+        labels = family.labels_right(mesh, {one.place.hull for one in group_places})
         found += evidence.credit(labels=labels / max(evidence.labels, LEAST))
     return found
 
 
-def _best_of(family: FamilyTrial, label: str, some: Sequence[_Suspect]) -> LookalikeGroup:
+def _best_of(family: FamilyRun, label: str, some: Sequence[_Suspect]) -> LookalikeGroup:
     best: LookalikeGroup | None = None
     for count in range(1, min(len(some), MOST_HULLS) + 1):
         part = some[:count]
@@ -102,7 +102,7 @@ def _best_of(family: FamilyTrial, label: str, some: Sequence[_Suspect]) -> Looka
     return best
 
 
-def labels_of_group(family: FamilyTrial, group: LookalikeGroup) -> Mapping[str, int]:
+def labels_of_group(family: FamilyRun, group: LookalikeGroup) -> Mapping[str, int]:
     """How many of the hulls are called what, the commonest first."""
     counts = defaultdict[str, int](int)
     for asset, hull in group.hulls:
@@ -110,7 +110,7 @@ def labels_of_group(family: FamilyTrial, group: LookalikeGroup) -> Mapping[str, 
     return dict(sorted(counts.items(), key=lambda one: (-one[1], one[0])))
 
 
-def find_other_label(family: FamilyTrial, group: LookalikeGroup) -> str | None:
+def find_other_label(family: FamilyRun, group: LookalikeGroup) -> str | None:
     """What the hulls most probably are if not what they are asked about; None where no other label is known."""
     posterior, places = family.posterior, family.places
     rows = [

@@ -184,7 +184,7 @@ def find_alarms(
     return {name: tuple(sorted(alarms, key=lambda alarm: -alarm.excess)) for name, alarms in found.items() if alarms}
 
 
-def describe_odd_results(
+def describe_outliers(
     measures: Mapping[str, EditMeasures], shown: Iterable[EditMeasures] = ()
 ) -> dict[str, tuple[str, ...]]:
     """Sentences on those edits of a family that stand out, the farthest out first, by asset."""

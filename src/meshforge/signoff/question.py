@@ -11,7 +11,7 @@ from typing import Any, ClassVar, Literal, NamedTuple, TypeVar, get_args
 from meshforge.language import Orient, Program, show
 from meshforge.synthesis import Demonstration
 
-QuestionKind = Literal["group", "repair", "reading", "label", "selection", "orientation", "result", "demonstrate"]
+QuestionKind = Literal["group", "repair", "candidate", "label", "selection", "orientation", "result", "demonstrate"]
 ExclusionReason = Literal["not of this family", "not solved"]
 """Why an asset is given up: it is not edited, not counted and never asked about; or it is counted, and not written."""
 NOT_OF_FAMILY: ExclusionReason = "not of this family"
@@ -109,19 +109,19 @@ class RepairQuestion(QuestionBase):
     kind: ClassVar[QuestionKind] = "repair"
 
 
-class ReadingQuestion(QuestionBase):
+class CandidateQuestion(QuestionBase):
     """What a rule means on an asset."""
 
-    kind: ClassVar[QuestionKind] = "reading"
+    kind: ClassVar[QuestionKind] = "candidate"
 
 
-class UnseenLabelQuestion(ReadingQuestion):
+class UnseenLabelQuestion(CandidateQuestion):
     """What a rule means on an asset with a label that no demonstration shows."""
 
     kind: ClassVar[QuestionKind] = "label"
 
 
-class SlipQuestion(QuestionBase):
+class MistakeQuestion(QuestionBase):
     """Whether hulls were selected, or left out, by mistake where a rule was shown or answered."""
 
     kind: ClassVar[QuestionKind] = "selection"
@@ -148,8 +148,8 @@ class DemonstrationQuestion(QuestionBase):
 ReviewQuestion = (
     GroupQuestion
     | RepairQuestion
-    | ReadingQuestion
-    | SlipQuestion
+    | CandidateQuestion
+    | MistakeQuestion
     | OrientationQuestion
     | ResultQuestion
     | DemonstrationQuestion
@@ -210,13 +210,13 @@ class ReviewReply:
         """As an entry of a file of replies, without its id; what is empty is left out."""
         exceptions = {f"{place.asset}#{place.hull}": label for place, label in sorted(self.exceptions.items())}
         selections = {str(rule): sorted(hulls) for rule, hulls in sorted(self.selections.items())}
-        said = {"exceptions": exceptions, "selections": selections, "labels": dict(sorted(self.labels.items()))}
+        parts = {"exceptions": exceptions, "selections": selections, "labels": dict(sorted(self.labels.items()))}
         more = {"later": True} if self.later else {}
-        return {"choice": self.choice, **{name: row for name, row in said.items() if row}, **more}
+        return {"choice": self.choice, **{name: row for name, row in parts.items() if row}, **more}
 
 
 _THINK, _CLICK = 1.35, 1.3
-READING = 2 * _THINK + _CLICK
+CANDIDATE = 2 * _THINK + _CLICK
 """Pictures compared, and one taken."""
 YES_OR_NO = _THINK + _CLICK
 """A result or a label looked at, and one click."""

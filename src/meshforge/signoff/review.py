@@ -13,13 +13,16 @@ from meshforge.geometry import Floats
 from meshforge.label_model import FamilyModel, FamilyPosterior
 from meshforge.language import show
 from meshforge.signoff import question as kinds
-from meshforge.signoff.assessment import BAR, Assessment, AssetConfidence, Doubt, ReviewState
-from meshforge.signoff.family import FamilyTrial
+from meshforge.signoff.assessment import THRESHOLD, Assessment, AssetConfidence, Reason, ReviewState
+from meshforge.signoff.candidates import CandidateSplit, split_candidates
+from meshforge.signoff.family import FamilyRun
 from meshforge.signoff.groups import LookalikeGroup, find_groups, find_other_label, labels_of_group
+from meshforge.signoff.likely_mistakes import ask_about_kept_label, ask_about_mistake, ask_about_nearest, offer_label
+from meshforge.signoff.program_run import ProgramRun
 from meshforge.signoff.question import (
+    CANDIDATE,
     EXCLUDE,
     NO,
-    READING,
     RIGHT,
     WRONG,
     YES,
@@ -30,9 +33,6 @@ from meshforge.signoff.question import (
     identify,
     price_demonstration,
 )
-from meshforge.signoff.readings import ReadingSplit, split_readings
-from meshforge.signoff.slips import ask_about_kept_label, ask_about_nearest, ask_about_slip, offer_label
-from meshforge.signoff.trial import Trial
 from meshforge.signoff.turns import find_turned_asset
 from meshforge.synthesis import (
     Ambiguous,
@@ -59,7 +59,7 @@ def review_family(
     state: ReviewState,
     outcome: LearningOutcome | None,
     family: FamilyModel,
-    bar: float = BAR,
+    threshold: float = THRESHOLD,
     alarms: Mapping[str, Sequence[str]] = _NO_ALARMS,
 ) -> Assessment:
     """How the family stands.
@@ -69,27 +69,32 @@ def review_family(
     """
     seen = state.accepted | state.corrected
     if not isinstance(outcome, Found | Ambiguous):  # what was demonstrated is not what any program does
-        unknown = {name: AssetConfidence(name, 0.0, (_doubt_of(outcome),)) for name in state.meshes}
+        unknown = {name: AssetConfidence(name, 0.0, (_reason_of(outcome),)) for name in state.meshes}
         return Assessment(
-            unknown, bar, seen, state.wrong, state.excluded, _sort(_questions_before(state, outcome, family), state)
+            unknown,
+            threshold,
+            seen,
+            state.wrong,
+            state.excluded,
+            _sort(_questions_before(state, outcome, family), state),
         )
-    trial = _try_family(state, outcome, family, alarms)
-    assets = {one.asset: trial.confidence_of(place) for place, one in enumerate(trial.trials)}
-    stopped = {one.asset for one in trial.trials if one.error} - state.accepted
-    looked_at = (seen | state.demos.keys()) - stopped - trial.contradicted - state.wrong
-    found = Assessment(assets, bar, looked_at, state.wrong, state.excluded)
+    run = _run_family(state, outcome, family, alarms)
+    assets = {one.asset: run.confidence_of(place) for place, one in enumerate(run.runs)}
+    stopped = {one.asset for one in run.runs if one.error} - state.accepted
+    looked_at = (seen | state.demos.keys()) - stopped - run.contradicted - state.wrong
+    found = Assessment(assets, threshold, looked_at, state.wrong, state.excluded)
     if outcome.suggested and _sort(_ask_orientation(outcome.suggested, state, 1.0), state):
-        doubt = Doubt(
+        uncertainty = Reason(
             "orientation", "it may have to be turned first, and would be edited otherwise then", share=_SUGGESTION_RIGHT
         )
         unseen = [name for name in outcome.suggested.differs_on if name in assets and name not in looked_at]
-        found = replace(found, assets={**assets, **{name: assets[name].with_doubts([doubt]) for name in unseen}})
+        found = replace(found, assets={**assets, **{name: assets[name].with_reasons([uncertainty]) for name in unseen}})
     if found.is_done:
-        looks = [*_ask_last_looks(trial), *_ask_clusters(trial)]
+        looks = [*_ask_last_looks(run), *_ask_clusters(run)]
         if any(one.id in state.snoozed for one in looks):  # who snoozes one wants no other
             return found
         return replace(found, questions=_sort(looks, state))
-    return replace(found, questions=_sort(_questions(trial, found, outcome.suggested), state))
+    return replace(found, questions=_sort(_questions(run, found, outcome.suggested), state))
 
 
 def assess_asset(
@@ -97,28 +102,28 @@ def assess_asset(
 ) -> AssetConfidence:
     """How probable the edit of one asset of a family is; the arguments are those of `review_family`."""
     if not isinstance(outcome, Found | Ambiguous):
-        return AssetConfidence(asset, 0.0, (_doubt_of(outcome),))
-    trial = _try_family(state, outcome, family, _NO_ALARMS)
-    return trial.confidence_of(trial.places[asset])
+        return AssetConfidence(asset, 0.0, (_reason_of(outcome),))
+    run = _run_family(state, outcome, family, _NO_ALARMS)
+    return run.confidence_of(run.places[asset])
 
 
-def _try_family(
+def _run_family(
     state: ReviewState, outcome: Found | Ambiguous, family: FamilyModel, alarms: Mapping[str, Sequence[str]]
-) -> FamilyTrial:
-    return FamilyTrial.of(state, outcome.program, outcome.readings, _infer(state, family), alarms)
+) -> FamilyRun:
+    return FamilyRun.of(state, outcome.program, outcome.candidates, _infer(state, family), alarms)
 
 
 def _infer(state: ReviewState, family: FamilyModel) -> FamilyPosterior:
-    said = [hull.annotation for mesh in state.meshes.values() for hull in mesh.hulls]
-    return family.infer(said, state.frame.labels)
+    annotations = [hull.annotation for mesh in state.meshes.values() for hull in mesh.hulls]
+    return family.infer(annotations, state.frame.labels)
 
 
-def _doubt_of(outcome: LearningOutcome | None) -> Doubt:
+def _reason_of(outcome: LearningOutcome | None) -> Reason:
     if outcome is None:
-        return Doubt("reading", "nothing is demonstrated yet", share=1.0)
+        return Reason("candidate", "nothing is demonstrated yet", share=1.0)
     if isinstance(outcome, NeedsRepair):
-        return Doubt("label", "labels of demonstrated assets are probably wrong", share=1.0)
-    return Doubt("reading", getattr(outcome, "why", "no program was found"), share=1.0)
+        return Reason("label", "labels of demonstrated assets are probably wrong", share=1.0)
+    return Reason("candidate", getattr(outcome, "why", "no program was found"), share=1.0)
 
 
 def _questions_before(
@@ -136,15 +141,15 @@ def _questions_before(
         case NeedsRepair():
             asked: list[ReviewQuestion] = list(_ask_repairs(state, outcome, everyone))
             kept = (ask_about_kept_label(state, repair, everyone) for repair in outcome.repairs)
-            asked = asked or [slip for slip in kept if slip and slip.id not in state.snoozed]
+            asked = asked or [mistake for mistake in kept if mistake and mistake.id not in state.snoozed]
             yield from asked
             if not asked:  # all was refused: what was shown there may be otherwise
                 text = "Nothing fits what was shown on {} with the labels there: show it again, or correct a label."
-                yield _ask_demonstration(state, outcome.repairs[0].correction.asset, everyone, text)
+                yield _ask_demonstration(state, outcome.repairs[0].fix.asset, everyone, text)
         case NoProgram():
             yield from _ask_orientation(outcome.suggested, state, everyone)
-            if slip := ask_about_nearest(state, outcome.nearest, everyone):
-                yield offer_label(state, _infer(state, family), slip)
+            if mistake := ask_about_nearest(state, outcome.nearest, everyone):
+                yield offer_label(state, _infer(state, family), mistake)
             text = f"Nothing fits what was shown on {{}}: {outcome.why}."
             yield _ask_demonstration(state, outcome.nearest.asset, everyone, text)
         case _:
@@ -153,7 +158,7 @@ def _questions_before(
 
 def _ask_repairs(state: ReviewState, outcome: NeedsRepair, everyone: float) -> Iterator[kinds.RepairQuestion]:
     for repair in outcome.repairs:
-        wrong, place = repair.correction, HullPlace(repair.correction.asset, repair.correction.hull)
+        wrong, place = repair.fix, HullPlace(repair.fix.asset, repair.fix.hull)
         text = f"{wrong.hull} of {wrong.asset} is called {wrong.was or 'nothing'}: is it {wrong.to}? {repair.why}."
         choices = tuple(map(ReviewChoice.of_label, [wrong.to, *([wrong.was] if wrong.was else [])]))
         gain = everyone * repair.belief
@@ -174,19 +179,19 @@ def _ask_orientation(
 
 
 def _questions(
-    family: FamilyTrial, found: Assessment, suggested: OrientationSuggestion | None
+    family: FamilyRun, found: Assessment, suggested: OrientationSuggestion | None
 ) -> Iterator[ReviewQuestion]:
-    """What a person said is not asked again as a slip, unless a result or a long rule speaks against it."""
-    state, held = family.state, set(found.held)
-    open_assets = [place for place, one in enumerate(family.trials) if one.asset in held]
+    """What a person said is not asked again as a mistake, unless a result or a long rule speaks against it."""
+    state, need_review = family.state, set(found.need_review)
+    open_assets = [place for place, one in enumerate(family.runs) if one.asset in need_review]
     yield from (_ask_group(family, group) for group in find_groups(family, open_assets))
-    yield from _ask_readings(family, found)
-    told = [one for one in family.slips if one.slip.asset in state.demos or one.slip.share > _LIKELY]
-    asked = family.slips if family.results[1] else told
-    yield from (offer_label(state, family.posterior, ask_about_slip(state, slip)) for slip in asked)
+    yield from _ask_candidates(family, found)
+    answered = [one for one in family.mistakes if one.mistake.asset in state.demos or one.mistake.share > _LIKELY]
+    asked = family.mistakes if family.results[1] else answered
+    yield from (offer_label(state, family.posterior, ask_about_mistake(state, mistake)) for mistake in asked)
     yield from _ask_results(family, found)
     if suggested:
-        gain = _SUGGESTION_RIGHT * len(held.intersection(suggested.differs_on))
+        gain = _SUGGESTION_RIGHT * len(need_review.intersection(suggested.differs_on))
         yield from _ask_orientation(suggested, family.state, gain)
 
 
@@ -199,7 +204,7 @@ def _sort(questions: Iterable[ReviewQuestion], state: ReviewState) -> tuple[Revi
     return tuple(sorted(left, key=lambda one: (-one.worth, one.id)))
 
 
-def _ask_group(family: FamilyTrial, group: LookalikeGroup) -> kinds.GroupQuestion:
+def _ask_group(family: FamilyRun, group: LookalikeGroup) -> kinds.GroupQuestion:
     counts = labels_of_group(family, group)
     called = ", ".join(f"{count} {'is' if count == 1 else 'are'} called {name}" for name, count in counts.items())
     labels = list(dict.fromkeys([group.label, *(name for name in counts if name != "nothing")]))
@@ -214,73 +219,77 @@ def _ask_group(family: FamilyTrial, group: LookalikeGroup) -> kinds.GroupQuestio
     return replace(question, choices=(*choices, ReviewChoice.of_label(other))) if other else question
 
 
-def _ask_readings(family: FamilyTrial, found: Assessment) -> Iterator[ReviewQuestion]:
+def _ask_candidates(family: FamilyRun, found: Assessment) -> Iterator[ReviewQuestion]:
     names = list(found.assets)
     known = {(answer.rule, answer.asset) for answer in family.state.answers}
-    settled = {*found.looked_at, *found.excluded}
-    for rule in family.readings:
-        doubt = 1 - rule.agreement
-        places = [k for k in np.argsort(-doubt, kind="stable").tolist() if doubt[k] > 0 and names[k] not in settled]
+    decided = {*found.looked_at, *found.excluded}
+    for rule in family.candidates:
+        uncertainty = 1 - rule.agreement
+        places = [
+            k
+            for k in np.argsort(-uncertainty, kind="stable").tolist()
+            if uncertainty[k] > 0 and names[k] not in decided
+        ]
         open_places = [
             k
             for k in places
             if (rule.rule, names[k]) not in known
-            and not family.trials[k].error
+            and not family.runs[k].error
             and family.evidence[k].labels >= _LEAST_TRUST
         ]
-        for split in split_readings(rule, open_places[:_MOST_SPLITS]):
-            yield _ask_reading(family, rule.rule, split)
+        for split in split_candidates(rule, open_places[:_MOST_SPLITS]):
+            yield _ask_candidate(family, rule.rule, split)
 
 
-def _ask_reading(family: FamilyTrial, rule: int, split: ReadingSplit) -> kinds.ReadingQuestion:
-    known, trial = family.readings[rule - 1], family.trials[split.asset]
+def _ask_candidate(family: FamilyRun, rule: int, split: CandidateSplit) -> kinds.CandidateQuestion:
+    known, run = family.candidates[rule - 1], family.runs[split.asset]
     choices = []
     for letter, head in zip("abc", split.heads, strict=False):
-        selected = trial.names(rule, family.select(known, head, split.asset))
+        selected = run.names(rule, family.select(known, head, split.asset))
         choices.append(ReviewChoice(letter, show(known.extractors[head]), select=selected))
     gain = float(_gains_of(family, [split]).sum()) * family.evidence[split.asset].labels ** _TRUST
-    kind = kinds.UnseenLabelQuestion if trial.asset in family.foreign else kinds.ReadingQuestion
-    text = f"What does rule {rule} mean on {trial.asset}?"
-    return identify(kind(text, READING, gain, trial.asset, rule, (), tuple(choices)))
+    kind = kinds.UnseenLabelQuestion if run.asset in family.unseen_labels else kinds.CandidateQuestion
+    text = f"What does rule {rule} mean on {run.asset}?"
+    return identify(kind(text, CANDIDATE, gain, run.asset, rule, (), tuple(choices)))
 
 
-def _gains_of(family: FamilyTrial, splits: Sequence[ReadingSplit], looks: int = 0) -> Floats:
+def _gains_of(family: FamilyRun, splits: Sequence[CandidateSplit], looks: int = 0) -> Floats:
     """What it is worth for each edit (assets,) when some rules are told apart, and as many results more are found
     right; nothing for those that a person saw."""
-    shares, program = np.ones(len(family.trials)), family.trust_in_program(looks) / family.trust_in_program()
+    shares, program = np.ones(len(family.runs)), family.trust_in_program(looks) / family.trust_in_program()
     for split in splits:
-        agreement = family.readings[split.rule - 1].agreement
+        agreement = family.candidates[split.rule - 1].agreement
         shares *= np.minimum(1.0, agreement + split.gains) / np.maximum(agreement, 1e-9)
     seen = family.state.reviewed_assets
-    rows = zip(family.trials, family.evidence, shares.tolist(), strict=True)
+    rows = zip(family.runs, family.evidence, shares.tolist(), strict=True)
     return np.array(
         [
-            0.0 if trial.asset in seen else one.credit(readings=max(share, 1.0), program=program)
-            for trial, one, share in rows
+            0.0 if run.asset in seen else one.credit(candidates=max(share, 1.0), program=program)
+            for run, one, share in rows
         ]
     )
 
 
-def _ask_results(family: FamilyTrial, found: Assessment) -> Iterator[ReviewQuestion]:
-    mend = price_demonstration(family.state.demos.values())
-    for name in found.held:
-        doubt = 1 - found.assets[name].probability
+def _ask_results(family: FamilyRun, found: Assessment) -> Iterator[ReviewQuestion]:
+    correcting = price_demonstration(family.state.demos.values())
+    for name in found.need_review:
+        uncertainty = 1 - found.assets[name].probability
         place = family.places[name]
-        trial, trust = family.trials[place], family.evidence[place].labels ** _TRUST
-        splits = [split for rule in family.readings for split in split_readings(rule, [place])]
+        run, trust = family.runs[place], family.evidence[place].labels ** _TRUST
+        splits = [split for rule in family.candidates for split in split_candidates(rule, [place])]
         others = _gains_of(family, splits, looks=1)
         others[place] = 0.0
-        gain = doubt + float(others.sum()) * trust
-        seconds = YES_OR_NO + doubt * mend
-        is_same = trial.selected == family.state.failed.get(name) and name not in family.state.edited
+        gain = uncertainty + float(others.sum()) * trust
+        seconds = YES_OR_NO + uncertainty * correcting
+        is_same = run.selected == family.state.failed.get(name) and name not in family.state.edited
         if name in found.wrong and is_same:
             text = f"The result of {name} was called wrong: what is right there?"
-            yield _ask_result(trial, 1.0, YES_OR_NO + mend, text, _GIVE_UP)
+            yield _ask_result(run, 1.0, YES_OR_NO + correcting, text, _GIVE_UP)
         else:
-            yield _ask_result(trial, gain, seconds)
+            yield _ask_result(run, gain, seconds)
 
 
-def _ask_last_looks(family: FamilyTrial) -> Iterator[ReviewQuestion]:
+def _ask_last_looks(family: FamilyRun) -> Iterator[ReviewQuestion]:
     """A person may have slipped in an answer, and many edits rest on it: one look at a result of each rule that answers
     have shaped, where nobody has seen any; and one at each asset that has an answer and labels that no demonstration
     shows, as the results of others tell little of it."""
@@ -289,23 +298,23 @@ def _ask_last_looks(family: FamilyTrial) -> Iterator[ReviewQuestion]:
     answers = [one for one in state.answers if one.select is not None]
     unseen = {one.rule for one in answers if not any(len(done) >= one.rule and done[one.rule - 1] for done in seen)}
     known = state.reviewed_assets | state.excluded.keys()
-    for trial, evidence in zip(family.trials, family.evidence, strict=True):
-        told = {one.rule for one in answers if one.asset == trial.asset}
-        if trial.asset in known or (told and trial.asset not in family.foreign):
+    for run, evidence in zip(family.runs, family.evidence, strict=True):
+        answered = {one.rule for one in answers if one.asset == run.asset}
+        if run.asset in known or (answered and run.asset not in family.unseen_labels):
             continue
-        looked = told | {rule for rule in unseen if rule <= len(trial.selections) and trial.selections[rule - 1]}
+        looked = answered | {rule for rule in unseen if rule <= len(run.selections) and run.selections[rule - 1]}
         if looked:
             gain = len(looked) + 1 - evidence.probability
-            yield _ask_result(trial, gain, YES_OR_NO, f"One last look: is the result of {trial.asset} right?")
+            yield _ask_result(run, gain, YES_OR_NO, f"One last look: is the result of {run.asset} right?")
 
 
-def _ask_clusters(family: FamilyTrial) -> Iterator[ReviewQuestion]:
+def _ask_clusters(family: FamilyRun) -> Iterator[ReviewQuestion]:
     """Look-alikes of several assets err together: those whose labels decide edits that nobody looked at are asked about
     once, however sure each edit is by itself."""
     state = family.state
     unseen = [
         place
-        for place, one in enumerate(family.trials)
+        for place, one in enumerate(family.runs)
         if one.asset not in state.reviewed_assets and one.asset not in state.excluded
     ]
     for group in find_groups(family, unseen):
@@ -321,17 +330,17 @@ JUDGE_CHOICES = (ReviewChoice(RIGHT, "right"), ReviewChoice(WRONG, "wrong"), *EX
 
 
 def _ask_result(
-    trial: Trial, gain: float, seconds: float, text: str = "", choices: tuple[ReviewChoice, ...] = JUDGE_CHOICES
+    run: ProgramRun, gain: float, seconds: float, text: str = "", choices: tuple[ReviewChoice, ...] = JUDGE_CHOICES
 ) -> kinds.ResultQuestion:
     """Whether a result is right; where the program cannot run there is none that could be. What is right where it was
     called wrong is the same question, so that a reply which was given before is known."""
-    if trial.error:
-        text, choices = f"The program cannot run on {trial.asset}: {trial.error}. Correct it, or exclude it?", _CORRECT
-    text = text or f"Is the result of {trial.asset} right?"
+    if run.error:
+        text, choices = f"The program cannot run on {run.asset}: {run.error}. Correct it, or exclude it?", _CORRECT
+    text = text or f"Is the result of {run.asset} right?"
     draft = kinds.ResultQuestion(
-        text, seconds, gain, trial.asset, choices=JUDGE_CHOICES if choices is _GIVE_UP else choices
+        text, seconds, gain, run.asset, choices=JUDGE_CHOICES if choices is _GIVE_UP else choices
     )
-    return replace(identify(draft, [f"{bits:x}" for bits in trial.selections]), choices=choices)
+    return replace(identify(draft, [f"{bits:x}" for bits in run.selections]), choices=choices)
 
 
 def _ask_demonstration(state: ReviewState, asset: str, gain: float, text: str) -> kinds.DemonstrationQuestion:

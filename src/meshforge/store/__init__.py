@@ -18,15 +18,15 @@ __getattr__, __all__ = export_lazily(
         "history_entries": "HistoryEntry",
         "layout": "Effect JsonFile Layout ProjectFile identify_file json_text list_files read_json write_json",
         "mesh_cache": "MeshCache",
-        "meshes": "AssetFacts AssetFiles geometry_digest hull_digests iterate_survey",
+        "meshes": "AssetFacts AssetFiles geometry_digest hull_digests iterate_asset_index",
         "outputs": "AssetOutput find_outputs",
         "preparation_plan": "PreparationPlanFile",
-        "program": "CorrectionsFile DemonstrationFile ProgramRecord StepLine parse_action_text",
+        "program": "ManualEditsFile DemonstrationFile ProgramRecord StepLine parse_action_text",
         "settings": (
             "Settings VlmSettings add_assets create_folder edit_settings find_assets orientation orientation_text "
             "set_value toml_value"
         ),
-        "sign_off": "SAID AssessmentFile ConfidenceLine SignOff SignOffBasis find_changes",
+        "sign_off": "ANSWERS AssessmentFile ConfidenceLine SignOff SignOffBasis find_changes",
         "store": "Store",
     },
 )

@@ -33,11 +33,11 @@ from meshforge.store.meshes import AssetFacts as AssetFacts
 from meshforge.store.meshes import AssetFiles as AssetFiles
 from meshforge.store.meshes import geometry_digest as geometry_digest
 from meshforge.store.meshes import hull_digests as hull_digests
-from meshforge.store.meshes import iterate_survey as iterate_survey
+from meshforge.store.meshes import iterate_asset_index as iterate_asset_index
 from meshforge.store.outputs import AssetOutput as AssetOutput
 from meshforge.store.outputs import find_outputs as find_outputs
 from meshforge.store.preparation_plan import PreparationPlanFile as PreparationPlanFile
-from meshforge.store.program import CorrectionsFile as CorrectionsFile
+from meshforge.store.program import ManualEditsFile as ManualEditsFile
 from meshforge.store.program import DemonstrationFile as DemonstrationFile
 from meshforge.store.program import ProgramRecord as ProgramRecord
 from meshforge.store.program import StepLine as StepLine
@@ -52,7 +52,7 @@ from meshforge.store.settings import orientation as orientation
 from meshforge.store.settings import orientation_text as orientation_text
 from meshforge.store.settings import set_value as set_value
 from meshforge.store.settings import toml_value as toml_value
-from meshforge.store.sign_off import SAID as SAID
+from meshforge.store.sign_off import ANSWERS as ANSWERS
 from meshforge.store.sign_off import AssessmentFile as AssessmentFile
 from meshforge.store.sign_off import ConfidenceLine as ConfidenceLine
 from meshforge.store.sign_off import SignOff as SignOff

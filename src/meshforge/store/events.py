@@ -6,7 +6,15 @@ from abc import abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Annotated, Any, Literal, NamedTuple, Self, TypeVar
 
-from pydantic import ConfigDict, Field, SerializerFunctionWrapHandler, TypeAdapter, ValidationError, model_serializer
+from pydantic import (
+    AliasChoices,
+    ConfigDict,
+    Field,
+    SerializerFunctionWrapHandler,
+    TypeAdapter,
+    ValidationError,
+    model_serializer,
+)
 
 from meshforge import symbolic, synthesis
 from meshforge.batch import RuleSelection
@@ -32,7 +40,7 @@ class Origin(NamedTuple):
 
     question: str | None = None
     by: str | None = None
-    said: QuestionAndReply | None = None
+    origin: QuestionAndReply | None = None
 
     @staticmethod
     def of(question: QuestionBase, reply: ReviewReply) -> Origin:
@@ -43,13 +51,13 @@ NO_ORIGIN = Origin()
 
 
 class _Line(JsonFile):
-    """One event. by, question, said: see `Origin`."""
+    """One event. by, question, origin: see `Origin`; origin is called said in files of earlier versions."""
 
     model_config = ConfigDict(populate_by_name=True)
 
     by: str | None = None
     question: str | None = None
-    said: QuestionAndReply | None = None
+    origin: QuestionAndReply | None = Field(default=None, validation_alias=AliasChoices("origin", "said"))
 
     @model_serializer(mode="wrap")
     def _leave_out_defaults(self, write: SerializerFunctionWrapHandler) -> dict[str, Any]:
@@ -70,9 +78,9 @@ class _Withdrawable(_Line):
     def id(self) -> str:
         """Follows from the other fields; of one id only the last event counts."""
 
-    def with_origin(self, said: Origin) -> Self:
+    def with_origin(self, origin: Origin) -> Self:
         """The same as the reply to a question."""
-        return self.model_copy(update=said._asdict())
+        return self.model_copy(update=origin._asdict())
 
 
 class AnswerEvent(_Withdrawable):
@@ -152,8 +160,8 @@ class LabelFixEvent(_Withdrawable):
         return self.fix.id
 
     @property
-    def fix(self) -> synthesis.LabelCorrection:
-        return synthesis.LabelCorrection(self.asset, self.hull, self.was, self.to)
+    def fix(self) -> synthesis.LabelFix:
+        return synthesis.LabelFix(self.asset, self.hull, self.was, self.to)
 
     def rename(self, old: str, new: str) -> LabelFixEvent:
         """The same where a label has another name."""

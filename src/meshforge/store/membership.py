@@ -21,7 +21,7 @@ def leave_out(folder: Path, found: AssetSet, assets: Collection[str]) -> None:
     write_atomically(folder / SETTINGS, edit_settings(folder, {"left_out": names}))
 
 
-def put_back(folder: Path, assets: Iterable[str]) -> None:
+def include_again(folder: Path, assets: Iterable[str]) -> None:
     """Let assets be part of the family again, under the lock that the caller holds."""
     take_back(folder, assets)
 

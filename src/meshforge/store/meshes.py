@@ -72,7 +72,7 @@ class AssetFacts(BaseModel):
         return {name: file.digest for name, file in self.files.items()}
 
 
-class _SurveyFile(BaseModel):
+class _AssetIndexFile(BaseModel):
     """form: counts the forms that this file had, as facts were added."""
 
     form: Literal[4]
@@ -80,7 +80,7 @@ class _SurveyFile(BaseModel):
     assets: dict[str, AssetFacts]
 
 
-def iterate_survey(
+def iterate_asset_index(
     found: batch.AssetSet,
     layout: Layout,
     only: Collection[str] | None = None,
@@ -94,7 +94,7 @@ def iterate_survey(
     Those whose files changed since are read; what was read is kept now and then, and at the end. layout: where the
     project keeps preparations, and these facts; progress: called for each that had to be read; verify: hash every file.
     """
-    known = _FactsMemory(layout.survey, found)
+    known = _FactsMemory(layout.asset_index, found)
     wanted = found.choose(only).items()
     work = {key: _AssetPaths(path, found.base_of(path), layout.preparation(key)) for key, path in wanted}
     fresh = {key for key, own in work.items() if key in known.facts and known.confirm(key, own, verify)}
@@ -155,7 +155,9 @@ class _FactsMemory:
         began = monotonic()
         every = {key: self.facts[key] for key in self._ids if key in self.facts and not self.facts[key].error}
         with suppress(OSError):  # on a full disk all is read again, and what a command has to write says so
-            write_atomically(self._file, _SurveyFile(form=4, software=self._software, assets=every).model_dump_json())
+            write_atomically(
+                self._file, _AssetIndexFile(form=4, software=self._software, assets=every).model_dump_json()
+            )
         self._has_news, self._kept_at = False, monotonic()
         self._pause = max(_OFTEN, (self._kept_at - began) * _SHARE)
 
@@ -174,9 +176,9 @@ def _read_memory(memory: Path, software: str) -> Mapping[str, AssetFacts]:
 
 
 @lru_cache(maxsize=1)
-def _parse_memory(memory: Path, state: FileState | None) -> _SurveyFile:
+def _parse_memory(memory: Path, state: FileState | None) -> _AssetIndexFile:
     """The file as it was at that time: the studio looks at the same one for each portion of a large family."""
-    return _SurveyFile.model_validate_json(memory.read_bytes())
+    return _AssetIndexFile.model_validate_json(memory.read_bytes())
 
 
 @dataclass(frozen=True, slots=True)

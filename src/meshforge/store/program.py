@@ -9,10 +9,10 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Annotated
 
-from pydantic import Field
+from pydantic import AliasChoices, ConfigDict, Field
 
 from meshforge import language, synthesis
-from meshforge.batch import Correction, action_text, read_template
+from meshforge.batch import ManualEdit, action_text, read_template
 from meshforge.common import MeshForgeError, ProjectError, join_names, relative_name, write_atomically
 from meshforge.formats import MESH_SUFFIXES
 from meshforge.store.layout import JsonFile, Layout, ReplacedHulls, read_json, write_json
@@ -53,8 +53,10 @@ def _check_name(name: str) -> None:
 class ProgramRecord(JsonFile):
     """What a program was learned from, and the outcome of learning; question: the id of the one that stayed open."""
 
+    model_config = ConfigDict(populate_by_name=True)
+
     program: str
-    lesson: str
+    inputs_digest: str = Field(validation_alias=AliasChoices("inputs_digest", "lesson"))
     status: str = "found"
     question: str | None = None
 
@@ -84,7 +86,7 @@ class DemonstrationFile(JsonFile):
     steps: tuple[StepLine, ...]
 
 
-class CorrectionLine(JsonFile):
+class ManualEditLine(JsonFile):
     """One edit by hand; hulls: the digest of each by its name, so that a hull that changed is noticed."""
 
     hulls: dict[str, str]
@@ -92,11 +94,11 @@ class CorrectionLine(JsonFile):
     replaced: ReplacedHulls = Field(default_factory=dict)
 
 
-class CorrectionsFile(JsonFile):
+class ManualEditsFile(JsonFile):
     """corrections/ID.json."""
 
     asset: str
-    steps: tuple[CorrectionLine, ...]
+    steps: tuple[ManualEditLine, ...]
 
 
 def parse_action_text(text: str, where: str | Path) -> tuple[language.Action, str | None]:
@@ -115,11 +117,11 @@ def read_steps(path: Path) -> tuple[synthesis.Step, ...]:
     return tuple(synthesis.Step(line.rule, line.select, *parse_action_text(line.action, path)) for line in lines)
 
 
-def read_corrections(path: Path) -> tuple[Correction, ...]:
+def read_manual_edits(path: Path) -> tuple[ManualEdit, ...]:
     """The edits by hand in a file, none where there is no such file. Raises ProjectError for no action."""
-    kept = read_json(path, CorrectionsFile)
+    kept = read_json(path, ManualEditsFile)
     lines = kept.steps if kept else ()
-    return tuple(Correction(tuple(line.hulls.items()), *parse_action_text(line.action, path)) for line in lines)
+    return tuple(ManualEdit(tuple(line.hulls.items()), *parse_action_text(line.action, path)) for line in lines)
 
 
 def write_steps(path: Path, asset: str, steps: Sequence[synthesis.Step]) -> None:
@@ -139,8 +141,8 @@ def write_steps(path: Path, asset: str, steps: Sequence[synthesis.Step]) -> None
     write_json(path, kept.model_copy(update={"asset": asset, "steps": lines}))
 
 
-def write_corrections(path: Path, asset: str, corrections: Sequence[Correction]) -> None:
+def write_manual_edits(path: Path, asset: str, manual_edits: Sequence[ManualEdit]) -> None:
     """Write the edits by hand of a corrections file."""
-    kept = read_json(path, CorrectionsFile) or CorrectionsFile(asset=asset, steps=())
-    lines = [CorrectionLine(hulls=dict(c.hulls), action=action_text(c.action, c.label)) for c in corrections]
+    kept = read_json(path, ManualEditsFile) or ManualEditsFile(asset=asset, steps=())
+    lines = [ManualEditLine(hulls=dict(c.hulls), action=action_text(c.action, c.label)) for c in manual_edits]
     write_json(path, kept.model_copy(update={"steps": tuple(lines)}))

@@ -6,14 +6,14 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Literal
 
-from pydantic import Field
+from pydantic import AliasChoices, Field
 
 from meshforge import signoff
 from meshforge.batch import OutputInputs
 from meshforge.store.events import Probability, list_lines, parse_line
 from meshforge.store.layout import JsonFile
 
-SAID = "what people showed and said"
+ANSWERS = "what people showed and said"
 """How demonstrations, answers and verdicts are called where they changed."""
 
 
@@ -21,23 +21,23 @@ class SignOffBasis(OutputInputs):
     """Digests of all that a sign-off rests on: of all that decides the edit, where `settings` are those of the project
     that decide labels and program.
 
-    said: what people showed and said, None in sign-offs of earlier versions; output: the files that were written, None
-    where they are not there as they were.
+    answers: of what people showed and answered (`said` in files of earlier versions), None where it was not kept;
+    output: of the files that were written, None where they are not there as they were.
     """
 
-    said: str | None = None
+    answers: str | None = Field(default=None, validation_alias=AliasChoices("answers", "said"))
     output: str | None = None
 
     @staticmethod
-    def of(edit: OutputInputs, settings: str, said: str, output: str | None) -> SignOffBasis:
-        fields = dict(edit) | {"settings": settings, "software": "", "said": said, "output": output}
+    def of(edit: OutputInputs, settings: str, answers: str, output: str | None) -> SignOffBasis:
+        fields = dict(edit) | {"settings": settings, "software": "", "answers": answers, "output": output}
         return SignOffBasis.model_construct(**fields)
 
     def changes(self, other: OutputInputs) -> tuple[str, ...]:
         """What differs between the two, in words."""
-        if isinstance(other, SignOffBasis) and other.said is None:
+        if isinstance(other, SignOffBasis) and other.answers is None:
             return ("how sign-offs are kept",)
-        return tuple(SAID if one == "said" else one for one in super().changes(other))
+        return tuple(ANSWERS if one == "answers" else one for one in super().changes(other))
 
 
 class SignOff(JsonFile):
@@ -49,9 +49,9 @@ class SignOff(JsonFile):
     probability: Probability
     rests_on: SignOffBasis
 
-    def meets(self, bar: float) -> bool:
+    def meets(self, threshold: float) -> bool:
         """Whether a person signed it off, or the tool at this probability at least."""
-        return self.by == "person" or self.probability >= bar
+        return self.by == "person" or self.probability >= threshold
 
 
 def parse_sign_offs(text: str, where: str) -> dict[str, SignOff]:
@@ -60,10 +60,10 @@ def parse_sign_offs(text: str, where: str) -> dict[str, SignOff]:
     return {one.asset: one for one in found}
 
 
-class DoubtLine(JsonFile):
-    """One doubt about an edit, as `signoff.Doubt` has it."""
+class ReasonLine(JsonFile):
+    """One reason to doubt an edit, as `signoff.Reason` has it."""
 
-    kind: signoff.DoubtKind
+    kind: signoff.ReasonKind
     text: str
     hulls: tuple[str, ...] = ()
     rule: int | None = None
@@ -72,28 +72,28 @@ class DoubtLine(JsonFile):
 
 class ConfidenceLine(JsonFile):
     """How an asset stood when the family was looked at last; rests_on: digests of all that decides its edit; looked_at:
-    whether a person showed its edit, or accepted it; stands_out: whether its output has alarms that the probability
+    whether a person showed its edit, or accepted it; is_outlier: whether its output has alarms that the probability
     does not know; measures: of its edit, None where it has none."""
 
     probability: Probability
-    doubts: tuple[DoubtLine, ...] = ()
+    reasons: tuple[ReasonLine, ...] = ()
     rests_on: OutputInputs
     looked_at: bool = False
-    stands_out: bool = False
+    is_outlier: bool = False
     measures: signoff.EditMeasures | None = None
 
-    def passes(self, bar: float) -> bool:
+    def passes(self, threshold: float) -> bool:
         """Whether it may be signed off."""
-        return self.looked_at or (self.probability >= bar and not self.stands_out)
+        return self.looked_at or (self.probability >= threshold and not self.is_outlier)
 
     def with_alarms(self, alarms: Sequence[str]) -> ConfidenceLine:
-        """The same where these alarms are not more than those it knows, or a person looked at it; else that it stands
-        out, and by what."""
-        if self.looked_at or len(alarms) <= sum(doubt.kind == "alarm" for doubt in self.doubts):
+        """The same where these alarms are not more than those it knows, or a person looked at it; else an outlier,
+        and by what."""
+        if self.looked_at or len(alarms) <= sum(reason.kind == "alarm" for reason in self.reasons):
             return self
-        others = tuple(doubt for doubt in self.doubts if doubt.kind != "alarm")
-        doubts = tuple(DoubtLine(kind="alarm", text=text) for text in alarms)
-        return self.model_copy(update={"doubts": (*doubts, *others), "stands_out": True})
+        others = tuple(reason for reason in self.reasons if reason.kind != "alarm")
+        reasons = tuple(ReasonLine(kind="alarm", text=text) for text in alarms)
+        return self.model_copy(update={"reasons": (*reasons, *others), "is_outlier": True})
 
     @staticmethod
     def of(
@@ -102,29 +102,29 @@ class ConfidenceLine(JsonFile):
         looked_at: bool,
         measures: signoff.EditMeasures | None = None,
     ) -> ConfidenceLine:
-        doubts = tuple(
-            DoubtLine(kind=one.kind, text=one.text, hulls=one.hulls, rule=one.rule, share=one.share)
-            for one in found.doubts
+        reasons = tuple(
+            ReasonLine(kind=one.kind, text=one.text, hulls=one.hulls, rule=one.rule, share=one.share)
+            for one in found.reasons
         )
         return ConfidenceLine(
-            probability=found.probability, doubts=doubts, rests_on=rests_on, looked_at=looked_at, measures=measures
+            probability=found.probability, reasons=reasons, rests_on=rests_on, looked_at=looked_at, measures=measures
         )
 
     def to_confidence(self, asset: str) -> signoff.AssetConfidence:
-        doubts = tuple(signoff.Doubt(one.kind, one.text, one.hulls, one.rule, one.share) for one in self.doubts)
-        return signoff.AssetConfidence(asset, self.probability, doubts)
+        reasons = tuple(signoff.Reason(one.kind, one.text, one.hulls, one.rule, one.share) for one in self.reasons)
+        return signoff.AssetConfidence(asset, self.probability, reasons)
 
 
 class AssessmentFile(JsonFile):
-    """What was found last. bar: the probability from which on an asset is signed off; lesson: the digest of what was
-    learned from and of all verdicts; wrong: assets of which a person said that the result is wrong; foreign: those of
-    which they said that they are not of the family.
+    """What was found last. threshold: the probability from which on an asset is signed off; inputs_digest: of what was
+    learned from and of all verdicts; wrong: assets of which a person said that the result is wrong; not_of_family:
+    those of which they said so.
     """
 
-    bar: float
-    lesson: str
+    threshold: float
+    inputs_digest: str
     wrong: tuple[str, ...] = ()
-    foreign: tuple[str, ...] = ()
+    not_of_family: tuple[str, ...] = ()
     assets: dict[str, ConfidenceLine] = Field(default_factory=dict)
 
     def with_alarms(self, alarms: Mapping[str, Sequence[str]]) -> AssessmentFile:
@@ -132,12 +132,12 @@ class AssessmentFile(JsonFile):
         lines = {name: line.with_alarms(alarms.get(name, ())) for name, line in self.assets.items()}
         return self.model_copy(update={"assets": lines})
 
-    def holds(self, lesson: str, inputs: Mapping[str, OutputInputs]) -> bool:
+    def holds(self, inputs_digest: str, inputs: Mapping[str, OutputInputs]) -> bool:
         """Whether nothing changed since; inputs: of the edits of all assets that can be read, or of some."""
-        return lesson == self.lesson and all(
+        return inputs_digest == self.inputs_digest and all(
             name in self.assets and not find_changes(now, self.assets[name].rests_on)
             for name, now in inputs.items()
-            if name not in self.foreign
+            if name not in self.not_of_family
         )
 
 

@@ -138,10 +138,10 @@ class Store:
         with self.lock():
             membership.leave_out(self.folder, self.found, assets)
 
-    def put_back(self, assets: Collection[str]) -> None:
+    def include_again(self, assets: Collection[str]) -> None:
         """Let assets that were left out be part of the family again."""
         with self.lock():
-            membership.put_back(self.folder, assets)
+            membership.include_again(self.folder, assets)
 
     def remove_assets(self, assets: Collection[str]) -> None:
         """Remove assets from the project, with what it keeps for them; their own files stay. Raises ProjectError for
@@ -153,9 +153,9 @@ class Store:
                 for path in self.layout.list_kept(asset):
                     if path.is_file():
                         path.unlink()
-            said = self.feedback()
-            verdicts = [VerdictEvent(asset=asset) for asset in assets if said.verdict_on(asset)]
-            exclusions = [ExclusionEvent(asset=asset) for asset in assets if asset in said.exclusions]
+            feedback = self.feedback()
+            verdicts = [VerdictEvent(asset=asset) for asset in assets if feedback.verdict_on(asset)]
+            exclusions = [ExclusionEvent(asset=asset) for asset in assets if asset in feedback.exclusions]
             if verdicts or exclusions:
                 self.add_events(*verdicts, *exclusions)
             forget_assets(self.layout, assets)
@@ -229,19 +229,19 @@ class Store:
         with self.lock():
             program_files.write_steps(self.layout.demonstration(asset), asset, steps)
 
-    def corrections(self, asset: str) -> tuple[batch.Correction, ...]:
+    def manual_edits(self, asset: str) -> tuple[batch.ManualEdit, ...]:
         """The edits by hand that are replayed on an asset after the program."""
-        return program_files.read_corrections(self.layout.corrections(asset))
+        return program_files.read_manual_edits(self.layout.manual_edits(asset))
 
-    def write_corrections(self, asset: str, corrections: Sequence[batch.Correction]) -> None:
+    def write_manual_edits(self, asset: str, manual_edits: Sequence[batch.ManualEdit]) -> None:
         """Write the edits by hand of an asset."""
         with self.lock():
-            program_files.write_corrections(self.layout.corrections(asset), asset, corrections)
+            program_files.write_manual_edits(self.layout.manual_edits(asset), asset, manual_edits)
 
-    def drop_corrections(self, asset: str) -> None:
+    def drop_manual_edits(self, asset: str) -> None:
         """Remove all edits by hand of an asset."""
         with self.lock():
-            self.layout.corrections(asset).unlink(missing_ok=True)
+            self.layout.manual_edits(asset).unlink(missing_ok=True)
 
     # The program
 

@@ -73,7 +73,7 @@ class LabelChanges:
             entry=number,
             way=entry.edit["kind"],
             assets=tuple(filter(None, assets)),
-            settled=sum(count_newly_sure(before, after) for _, before, after in states),
+            newly_sure=sum(count_newly_sure(before, after) for _, before, after in states),
         )
 
     def _last_propagation(self, done: tuple[HistoryEntry, ...]) -> _Propagation | None:

@@ -10,7 +10,7 @@ from threading import Lock
 from uuid import uuid4
 
 from meshforge.batch import find_assets_in
-from meshforge.common import MeshForgeError, ProjectError, UsageError, confine_reading, join_names, replace_atomically
+from meshforge.common import MeshForgeError, ProjectError, UsageError, confine_reads, join_names, replace_atomically
 from meshforge.formats import read
 from meshforge.studio.errors import TooLargeError
 from meshforge.studio.workers import Workers
@@ -94,8 +94,8 @@ def confine_path(path: str) -> PurePosixPath:
     """A relative path without tricks. Raises UsageError for any other."""
     pure = PurePosixPath(path)
     parts = path.split("/")
-    odd = any(part in ("", ".", "..") or part.startswith(".") or not part.isprintable() for part in parts)
-    if odd or pure.is_absolute() or set(path) & set('\\:*?"<>|') or len(path.encode()) > _LONGEST_PATH:
+    unknown = any(part in ("", ".", "..") or part.startswith(".") or not part.isprintable() for part in parts)
+    if unknown or pure.is_absolute() or set(path) & set('\\:*?"<>|') or len(path.encode()) > _LONGEST_PATH:
         raise UsageError(f"{path!r} is no path for a file of an asset", remedy="Give plain names, with / between them.")
     return pure
 
@@ -115,7 +115,7 @@ class _Readable:
 
 def find_assets(workers: Workers, home: Path) -> _Readable:
     """The assets among uploaded files. Raises ProjectError: there are none, or none can be read."""
-    with confine_reading(home):
+    with confine_reads(home):
         found = find_assets_in(home) if home.is_dir() else []
     if not found:
         raise ProjectError("there is no asset among these files", remedy="Send URDF, MJCF, SDF, glTF or mesh files.")
@@ -142,5 +142,5 @@ def _find_problem(workers: Workers, path: Path, home: Path) -> str | None:
 
 
 def _files_of(path: Path, home: Path) -> tuple[Path, ...]:
-    with confine_reading(home):  # else a page could ask which files are on the disk
+    with confine_reads(home):  # else a page could ask which files are on the disk
         return read(path).files

@@ -9,7 +9,7 @@ __getattr__, __all__ = export_lazily(
     {
         "asset": (
             "Asset Body Coupling Document FileNote Geom Inertial Joint JointKind Mechanism Mentions NameProblem "
-            "Opaque Rgba Surface Texture unique_names unit_vector"
+            "NonConvexPiece Rgba Surface Texture unique_names unit_vector"
         ),
         "descriptor": "DESCRIPTOR_NAMES descriptors",
         "features": "PRIMITIVE_FEATURES Feature FeatureKind features_of",

@@ -11,7 +11,7 @@ from meshforge.symbolic.asset import JointKind as JointKind
 from meshforge.symbolic.asset import Mechanism as Mechanism
 from meshforge.symbolic.asset import Mentions as Mentions
 from meshforge.symbolic.asset import NameProblem as NameProblem
-from meshforge.symbolic.asset import Opaque as Opaque
+from meshforge.symbolic.asset import NonConvexPiece as NonConvexPiece
 from meshforge.symbolic.asset import Rgba as Rgba
 from meshforge.symbolic.asset import Surface as Surface
 from meshforge.symbolic.asset import Texture as Texture

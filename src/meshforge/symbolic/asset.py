@@ -80,7 +80,7 @@ class Surface:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Opaque:
+class NonConvexPiece:
     """Collision geometry that is no convex hull: shown with its reason, never selected, written back untouched.
 
     plane: root_T_plane of one that is an endless plane, whose normal is Z; mentions, element: see `Geom`.
@@ -224,7 +224,7 @@ class Asset:
     bodies: tuple[Body, ...]
     geoms: tuple[Geom, ...]
     document: Document
-    opaque: tuple[Opaque, ...] = ()
+    non_convex: tuple[NonConvexPiece, ...] = ()
     visuals: Sequence[Surface] = ()
     files: tuple[Path, ...] = ()
     missing: tuple[str, ...] = ()

@@ -23,7 +23,7 @@ class FeatureKind(Enum):
     CYLINDERS = "cylinder", "cylinders"
     CAPSULES = "capsule", "capsules"
     ELLIPSOIDS = "ellipsoid", "ellipsoids"
-    OPAQUE = "opaque piece", "opaque pieces"
+    NON_CONVEX = "opaque piece", "opaque pieces"
     PLANES = "endless plane", "endless planes"
     SHAPELESS = "piece without a surface", "pieces without a surface"
     JOINTS = "joint", "joints"
@@ -81,9 +81,9 @@ def _features_of_geoms(asset: Asset) -> Iterator[Feature]:
         yield Feature(FeatureKind.BODIES, tuple(body.name for body in asset.bodies))
     for kind, what in PRIMITIVE_FEATURES.items():
         yield Feature(what, tuple(g.name for g in asset.geoms if g.shape.kind == kind))
-    yield Feature(FeatureKind.OPAQUE, tuple(o.name for o in asset.opaque if o.surface and not o.plane))
-    yield Feature(FeatureKind.PLANES, tuple(o.name for o in asset.opaque if o.plane))
-    bare = [o for o in asset.opaque if not o.surface and not o.plane]
+    yield Feature(FeatureKind.NON_CONVEX, tuple(o.name for o in asset.non_convex if o.surface and not o.plane))
+    yield Feature(FeatureKind.PLANES, tuple(o.name for o in asset.non_convex if o.plane))
+    bare = [o for o in asset.non_convex if not o.surface and not o.plane]
     for reason in dict.fromkeys(o.reason for o in bare):
         yield Feature(FeatureKind.SHAPELESS, tuple(o.name for o in bare if o.reason == reason), reason=reason)
 

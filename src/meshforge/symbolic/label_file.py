@@ -89,8 +89,8 @@ def _parse(content: bytes, path: Path) -> LabelFile:
     if not isinstance(data, dict) or not isinstance(data.get("hulls"), dict):
         raise AssetError("this is no labels file", where=str(path), remedy=_REMEDY)
     if not data.keys() <= known:
-        odd = next(key for key in data if key not in known)
-        raise AssetError(f"the field {odd!r} is not one of a labels file", where=str(path), remedy=_REMEDY)
+        unknown = next(key for key in data if key not in known)
+        raise AssetError(f"the field {unknown!r} is not one of a labels file", where=str(path), remedy=_REMEDY)
     vocabulary = data.get("vocabulary", [])
     if not isinstance(vocabulary, list) or not all(isinstance(word, str) and word for word in vocabulary):
         raise AssetError("its vocabulary is not a list of labels", where=str(path), remedy=_REMEDY)

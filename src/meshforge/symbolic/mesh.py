@@ -56,10 +56,12 @@ class SymbolicMesh:
         labels = ", ".join(f"{count} {label}" for label, count in sorted(counts.items()))
         bare = len(self.hulls) - counts.total()
         labels += f"{', ' if counts else ''}{bare} without label" if bare else ""
-        opaque = (
-            f"; {pluralize(len(self.asset.opaque), 'non-convex piece')}" if self.asset and self.asset.opaque else ""
+        non_convex = (
+            f"; {pluralize(len(self.asset.non_convex), 'non-convex piece')}"
+            if self.asset and self.asset.non_convex
+            else ""
         )
-        return f"<SymbolicMesh {name}: {pluralize(len(self.hulls), 'hull')}, {bodies}: {labels or 'empty'}{opaque}>"
+        return f"<SymbolicMesh {name}: {pluralize(len(self.hulls), 'hull')}, {bodies}: {labels or 'empty'}{non_convex}>"
 
     def _repr_html_(self) -> str:
         """A picture and a table of the hulls, which notebooks show."""
@@ -267,7 +269,7 @@ def contact_graph(
         (min(back[i], back[j]), max(back[i], back[j])): gap for (i, j), gap in known.items() if i in back and j in back
     }
     if len(kept) < len(shapes):
-        found.update(geometry.close_pairs(shapes, reach, settled=frozenset(kept)))
+        found.update(geometry.close_pairs(shapes, reach, unchanged=frozenset(kept)))
     return dict(sorted(found.items()))
 
 

@@ -12,10 +12,12 @@ __getattr__, __all__ = export_lazily(
         "learn": "synthesize",
         "options": "LAYERS Layers Options",
         "orientation.suggest": "OrientationSuggestion",
-        "outcome": "Ambiguous Found LearningOutcome Nearest NeedsRepair NoProgram Reading TimedOut outcome_to_json",
-        "questions": "Answer Hint LabelCorrection OpenRule Repair",
-        "readings.rank": "BELIEVABLE",
-        "slips": "Slip find_slip",
+        "outcome": (
+            "Ambiguous CandidateProgram Found LearningOutcome Nearest NeedsRepair NoProgram TimedOut outcome_to_json"
+        ),
+        "questions": "Answer Hint LabelFix OpenRule Repair",
+        "candidates.rank": "BELIEVABLE",
+        "likely_mistakes": "LikelyMistake find_mistake",
         "task": "begin_replay memoize",
     },
 )

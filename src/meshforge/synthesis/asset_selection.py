@@ -13,8 +13,8 @@ from meshforge import language
 from meshforge.common import MeshForgeError, pluralize
 from meshforge.label_model import LabelBeliefs
 from meshforge.symbolic import SymbolicMesh
+from meshforge.synthesis.candidates.rank import RankedCandidates
 from meshforge.synthesis.questions import Hint, OpenRule
-from meshforge.synthesis.readings.rank import RankedReadings
 from meshforge.synthesis.task import memoize
 
 MAX_NEITHER_ANSWERS = 4
@@ -26,7 +26,7 @@ SAMPLE_SIZE = 12
 
 _NOTHING = 1e-12  # belief that is none
 
-FieldReadings = tuple[RankedReadings, Sequence[str]]
+FieldCandidates = tuple[RankedCandidates, Sequence[str]]
 """The readings of a rule, and the names of the meshes of their field."""
 
 COST_OF_HULL, COST_OF_WRONG_LABEL = 0.15, 8.0
@@ -36,7 +36,7 @@ right as without, with noisy ones a third of the corrections are spared."""
 
 
 def find_open_rule(
-    rule: int, ranked: RankedReadings, names: Sequence[str], trust: Mapping[str, float], declined: Collection[str]
+    rule: int, ranked: RankedCandidates, names: Sequence[str], trust: Mapping[str, float], declined: Collection[str]
 ) -> OpenRule | None:
     """The asset on which an answer about a rule is worth a person's time, None where there is none.
 
@@ -48,11 +48,11 @@ def find_open_rule(
     split = ranked.best_question({k: trust[name] for k, name in enumerate(names) if name not in declined})
     if not split or not split.is_worth_asking:
         return None
-    selections = (_hull_names(ranked, reading, split.asset) for reading in split.choices)
+    selections = (_hull_names(ranked, candidate, split.asset) for candidate in split.choices)
     return OpenRule(rule, names[split.asset], tuple(map(frozenset, selections)))
 
 
-def suggest_demonstration(learned: Sequence[tuple[RankedReadings, Sequence[str]]]) -> Hint | None:
+def suggest_demonstration(learned: Sequence[tuple[RankedCandidates, Sequence[str]]]) -> Hint | None:
     """The asset on which the readings of all rules differ most; else the one with most hulls unlike those shown.
 
     learned: for each rule its readings, and the names of the meshes of their field.
@@ -66,7 +66,7 @@ def suggest_demonstration(learned: Sequence[tuple[RankedReadings, Sequence[str]]
     return _suggest_strangest(*learned[0]) if learned else None
 
 
-def _suggest_strangest(ranked: RankedReadings, names: Sequence[str]) -> Hint | None:
+def _suggest_strangest(ranked: RankedCandidates, names: Sequence[str]) -> Hint | None:
     field, count = ranked.field, len(ranked.examples)
     shown = (1 << field.width_of(count)) - 1
     fresh = {
@@ -79,11 +79,11 @@ def _suggest_strangest(ranked: RankedReadings, names: Sequence[str]) -> Hint | N
     return Hint(asset, f"it has {pluralize(fresh[asset], 'hull')} unlike any that was demonstrated")
 
 
-def _hull_names(ranked: RankedReadings, reading: int, mesh: int) -> tuple[str, ...]:
-    return ranked.field.meshes[mesh].names_of(ranked.field.on(ranked.terms[reading].bits, mesh))
+def _hull_names(ranked: RankedCandidates, candidate: int, mesh: int) -> tuple[str, ...]:
+    return ranked.field.meshes[mesh].names_of(ranked.field.on(ranked.terms[candidate].bits, mesh))
 
 
-def select_sample(learned: Sequence[FieldReadings], trust: Mapping[str, float]) -> tuple[str, ...]:
+def select_sample(learned: Sequence[FieldCandidates], trust: Mapping[str, float]) -> tuple[str, ...]:
     """The assets whose results to look at, the most revealing first; none of which every rule is known.
 
     First each time the asset on which most belief is in readings that none before it would refute, then the one that
@@ -104,7 +104,7 @@ def select_sample(learned: Sequence[FieldReadings], trust: Mapping[str, float]) 
 
 
 def _rank_by_difference(
-    learned: Sequence[FieldReadings], names: Sequence[str], trust: Mapping[str, float]
+    learned: Sequence[FieldCandidates], names: Sequence[str], trust: Mapping[str, float]
 ) -> Iterator[str]:
     """Assets one by one, each the one on which most belief is in readings that do as the program on all before it."""
     if not learned or not names:
@@ -113,9 +113,9 @@ def _rank_by_difference(
     tables = []
     for ranked, called in learned:
         table = np.zeros((len(ranked.compared), len(names)))
-        for row, reading in enumerate(ranked.compared):
-            others = [place[called[k]] for k in ranked.differences(reading) if called[k] in place]
-            table[row, others] = ranked.beliefs[reading]
+        for row, candidate in enumerate(ranked.compared):
+            others = [place[called[k]] for k in ranked.differences(candidate) if called[k] in place]
+            table[row, others] = ranked.beliefs[candidate]
         tables.append(table)
     at_stake = np.concatenate(tables)
     weights = np.array([trust[name] for name in names])
@@ -129,7 +129,7 @@ def _rank_by_difference(
 
 
 def _rank_by_novelty(
-    ranked: RankedReadings,
+    ranked: RankedCandidates,
     called: Sequence[str],
     names: Sequence[str],
     before: Sequence[str],

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from meshforge import symbolic
 from meshforge.common import DemonstrationError
 from meshforge.language import Action, Each
-from meshforge.synthesis.questions import LabelCorrection
+from meshforge.synthesis.questions import LabelFix
 
 
 @dataclass(frozen=True, slots=True, init=False)
@@ -114,10 +114,10 @@ LabelChange = tuple[int, str]
 """A hull by its index, and the label it gets."""
 
 
-def to_correction(example: Example, change: LabelChange) -> LabelCorrection:
+def to_fix(example: Example, change: LabelChange) -> LabelFix:
     """A change as it is called outside."""
     hull = example.mesh.hulls[change[0]]
-    return LabelCorrection(example.name, hull.name, hull.label, change[1])
+    return LabelFix(example.name, hull.name, hull.label, change[1])
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,10 +8,10 @@ from collections.abc import Iterator, Sequence
 from meshforge import language
 from meshforge.common import join_names, pluralize
 from meshforge.language import Extractor, leaves_of, show, show_label, size_of
+from meshforge.synthesis.candidates.rank import RankedCandidates
 from meshforge.synthesis.demonstration import Example, RuleSpec
 from meshforge.synthesis.options import Options
-from meshforge.synthesis.outcome import reading_id
-from meshforge.synthesis.readings.rank import RankedReadings
+from meshforge.synthesis.outcome import candidate_id
 from meshforge.synthesis.search.smallest import NearestExtractor
 from meshforge.synthesis.search.terms import enumerate_leaves
 from meshforge.synthesis.task import LearningTask
@@ -30,8 +30,8 @@ def give_advice(miss: NearestExtractor, examples: Sequence[Example], answered: S
             f"{'it' if one else 'they'} can be taken back"
         )
     lines += [
-        *_advise_on_odd_labels(example, miss.missing, left_out=True),
-        *_advise_on_odd_labels(example, miss.extra, left_out=False),
+        *_advise_on_unknown_labels(example, miss.missing, left_out=True),
+        *_advise_on_unknown_labels(example, miss.extra, left_out=False),
     ]
     if len([*miss.extra, *miss.missing]) == 1 and len(example.mesh.hulls) > 1:
         (name,) = [*miss.extra, *miss.missing]
@@ -47,7 +47,7 @@ def _advise_on_missing_labels(miss: NearestExtractor, example: Example) -> Itera
         yield f"{_describe_hulls(bare, example)} {'has' if len(bare) == 1 else 'have'} no label"
 
 
-def _advise_on_odd_labels(example: Example, names: Sequence[str], left_out: bool) -> Iterator[str]:
+def _advise_on_unknown_labels(example: Example, names: Sequence[str], left_out: bool) -> Iterator[str]:
     """Hulls that are left out, or are too much, by their labels; left out though what is right has another one."""
     right = {hull.label for k, hull in enumerate(example.mesh.hulls) if example.selection >> k & 1}
     by_label: dict[str | None, list[str]] = {}
@@ -102,7 +102,7 @@ def find_obstacles(task: LearningTask, wanted: language.Program) -> tuple[str, .
 def follow_rule(
     rule: RuleSpec,
     wanted: Extractor,
-    ranked: RankedReadings | None,
+    ranked: RankedCandidates | None,
     names: Sequence[str],
     examples: Sequence[Example],
     task: LearningTask,
@@ -146,7 +146,7 @@ def _find_difference(wanted: Extractor, examples: Sequence[Example], extremity: 
             yield f"on {example.name} it {' and '.join(parts)}"
 
 
-def _find_place(rule: int, wanted: Extractor, ranked: RankedReadings, names: Sequence[str], options: Options) -> str:
+def _find_place(rule: int, wanted: Extractor, ranked: RankedCandidates, names: Sequence[str], options: Options) -> str:
     does = ranked.field.bits(wanted)
     place = next((k for k, term in enumerate(ranked.terms) if term.bits == does), None)
     if place is None and options.strategy == "paper":
@@ -157,14 +157,14 @@ def _find_place(rule: int, wanted: Extractor, ranked: RankedReadings, names: Seq
             enough = f"{smallest} suffice{'s' if smallest == 1 else ''}"
             return f"it selects what was shown, but has {size_of(wanted)} nodes where {enough}"
         return "it selects what was shown, but there were too many readings to get that far"
-    reading = ranked.terms[place].extractor
-    same = "" if reading == wanted else f" as {show(reading)}, which selects the same on every asset"
+    candidate = ranked.terms[place].extractor
+    same = "" if candidate == wanted else f" as {show(candidate)}, which selects the same on every asset"
     if place == 0:
         return f"learned{same}"
-    return f"reading {reading_id(rule, place)}{same}; {_explain_preference(ranked, place, names)}"
+    return f"reading {candidate_id(rule, place)}{same}; {_explain_preference(ranked, place, names)}"
 
 
-def _explain_preference(ranked: RankedReadings, place: int, names: Sequence[str]) -> str:
+def _explain_preference(ranked: RankedCandidates, place: int, names: Sequence[str]) -> str:
     differs = [names[k] for k in ranked.differences(place)]
     first, second = ranked.beliefs[0], ranked.beliefs[place]
     better = "more believable" if first >= second else "smaller, though less believable"

@@ -12,16 +12,16 @@ from meshforge.synthesis.demonstration import Demonstration, collect_rule_specs,
 from meshforge.synthesis.learning_run import LearningRun
 from meshforge.synthesis.options import Options, TimeBudget
 from meshforge.synthesis.outcome import LearningOutcome, NeedsRepair
-from meshforge.synthesis.questions import Answer, LabelCorrection, Repair
+from meshforge.synthesis.questions import Answer, LabelFix, Repair
 from meshforge.synthesis.search.terms import enumerate_more_leaves
-from meshforge.synthesis.task import Batch, LearningTask, apply_corrections, name_batch
+from meshforge.synthesis.task import Family, LearningTask, apply_fixes, name_family
 
 DEFAULTS = Options()
 
 
 def synthesize(
     demos: Sequence[Demonstration],
-    batch: Iterable[SymbolicMesh] | Batch = (),
+    family: Iterable[SymbolicMesh] | Family = (),
     orient: Orient | None = None,
     templates: Mapping[str, Template] | None = None,
     vocabulary: Sequence[str] | None = None,
@@ -38,7 +38,7 @@ def synthesize(
     Raises DemonstrationError for demonstrations that contradict each other or name what is not there, ProgramError
     where the orientation fails on one of them, PluginError for a leaf extractor of a plug-in that fails.
     """
-    meshes = name_batch(batch, demos)
+    meshes = name_family(family, demos)
     rules = collect_rule_specs(demos)
     labels = choose_vocabulary(demos, meshes.values(), orient, vocabulary)
     family = [*(demo.mesh for demo in demos), *meshes.values()]
@@ -46,15 +46,15 @@ def synthesize(
     frame = Program(labels, orient, (), options.contact, options.extremity)
     budget = TimeBudget(options.budget, options.clock, options.stop)
     confirmer = _RepairConfirmer(confirm, options.rejected, budget)
-    confirmed: tuple[LabelCorrection, ...] = ()
+    confirmed: tuple[LabelFix, ...] = ()
     while True:
         shown = tuple(
-            Demonstration(apply_corrections(demo.mesh, name, confirmed), demo.steps, demo.name)
+            Demonstration(apply_fixes(demo.mesh, name, confirmed), demo.steps, demo.name)
             for name, demo in name_demonstrations(demos)
         )
-        batch = {name: apply_corrections(mesh, name, confirmed) for name, mesh in meshes.items()}
+        family = {name: apply_fixes(mesh, name, confirmed) for name, mesh in meshes.items()}
         task = LearningTask(
-            rules, shown, batch, frame, templates or {}, tuple(answers), confirmer.rejected, options, confirmed
+            rules, shown, family, frame, templates or {}, tuple(answers), confirmer.rejected, options, confirmed
         )
         outcome = LearningRun(task, budget, confirmer.confirm if confirm else None).run()
         if not confirm or not isinstance(outcome, NeedsRepair):
@@ -66,28 +66,28 @@ class _RepairConfirmer:
     """Asks a person about each correction once; what was confirmed is not to be undone by another one."""
 
     def __init__(
-        self, confirm: Callable[[Repair], bool] | None, rejected: Iterable[LabelCorrection], budget: TimeBudget
+        self, confirm: Callable[[Repair], bool] | None, rejected: Iterable[LabelFix], budget: TimeBudget
     ) -> None:
         self._confirm, self._budget = confirm, budget
         self._decisions = dict.fromkeys(rejected, False)
 
     @property
-    def rejected(self) -> frozenset[LabelCorrection]:
+    def rejected(self) -> frozenset[LabelFix]:
         """What is not to be proposed: what was refused, and the reverse of what was confirmed."""
-        refused = {correction for correction, right in self._decisions.items() if not right}
+        refused = {fix for fix, right in self._decisions.items() if not right}
         return frozenset(refused.union(c.reverse for c, right in self._decisions.items() if right and c.reverse))
 
-    def confirm_all(self, repairs: Iterable[Repair]) -> tuple[LabelCorrection, ...]:
+    def confirm_all(self, repairs: Iterable[Repair]) -> tuple[LabelFix, ...]:
         """Those that are confirmed; of a rule's repairs none is asked about after one that is refused.
 
         They explain the rule together, so without one the others may be pointless; if not, they are proposed again.
         """
-        right, refused = list[LabelCorrection](), set[int]()
+        right, refused = list[LabelFix](), set[int]()
         for repair in repairs:
             if repair.rule in refused:
                 continue
             if self.confirm(repair):
-                right.append(repair.correction)
+                right.append(repair.fix)
             else:
                 refused.add(repair.rule)
         return tuple(right)
@@ -95,15 +95,15 @@ class _RepairConfirmer:
     def confirm(self, repair: Repair) -> bool:
         """Whether a repair is confirmed."""
         assert self._confirm
-        if repair.correction not in self._decisions:
+        if repair.fix not in self._decisions:
             with self._budget.pause():
-                self._decisions[repair.correction] = self._confirm(repair)
-        return self._decisions[repair.correction]
+                self._decisions[repair.fix] = self._confirm(repair)
+        return self._decisions[repair.fix]
 
 
 def choose_vocabulary(
     demos: Sequence[Demonstration],
-    batch: Iterable[SymbolicMesh],
+    family: Iterable[SymbolicMesh],
     orient: Orient | None,
     vocabulary: Sequence[str] | None,
 ) -> tuple[str, ...]:
@@ -113,7 +113,7 @@ def choose_vocabulary(
     """
     landmarks = Program(orient=orient).labels_in_use
     if vocabulary is None:
-        meshes = [*(demo.mesh for demo in demos), *batch]
+        meshes = [*(demo.mesh for demo in demos), *family]
         on_hulls = {hull.label for mesh in meshes for hull in mesh.hulls if hull.label}
         return tuple(sorted({*on_hulls, *landmarks, *(label for demo in demos for label in _labels_in_steps(demo))}))
     for name, demo in name_demonstrations(demos):

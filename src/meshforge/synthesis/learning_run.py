@@ -12,6 +12,7 @@ from meshforge.language import Orient, Program, Rule
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import outcome
 from meshforge.synthesis.asset_selection import find_open_rule, select_sample, suggest_demonstration
+from meshforge.synthesis.candidates.rank import RankedCandidates, enumerate_consistent
 from meshforge.synthesis.demonstration import Example, RuleSpec
 from meshforge.synthesis.diagnosis import find_obstacles, follow_rule, give_advice
 from meshforge.synthesis.options import OutOfTime, TimeBudget
@@ -22,11 +23,10 @@ from meshforge.synthesis.orientation.suggest import (
     explain_orientation,
     suggest_orientation,
 )
-from meshforge.synthesis.paper.search import HitWithCorrections, PaperSearch
-from meshforge.synthesis.questions import Answer, LabelCorrection, OpenRule, Repair
-from meshforge.synthesis.readings.rank import RankedReadings, enumerate_consistent
+from meshforge.synthesis.paper.search import HitWithFixes, PaperSearch
+from meshforge.synthesis.questions import Answer, LabelFix, OpenRule, Repair
 from meshforge.synthesis.repair.explain import RepairCollector, make_confirmer
-from meshforge.synthesis.rule_outcome import RuleOutcome, list_readings, to_nearest, verify
+from meshforge.synthesis.rule_outcome import RuleOutcome, list_candidates, to_nearest, verify
 from meshforge.synthesis.search.smallest import Hit, Miss, Search, SearchEffort, Unfinished
 from meshforge.synthesis.task import LearningTask, ReplaySet, correct_demonstrations
 
@@ -36,7 +36,7 @@ PLAIN_SIZE = 7
 
 class _OutcomeFields(TypedDict):
     rules: tuple[Rule, ...]
-    readings: tuple[outcome.Reading, ...]
+    candidates: tuple[outcome.CandidateProgram, ...]
     tried: tuple[SearchEffort, ...]
     seconds: Mapping[str, float]
     stale: tuple[Answer, ...]
@@ -60,7 +60,7 @@ class LearningRun:
     def run(self) -> outcome.LearningOutcome:
         """What comes of it."""
         failed = next((failure for spec in self._task.rules if (failure := self._learn(spec))), None)
-        if self._doubt_landmarks(failed):
+        if self._question_landmarks(failed):
             return outcome.NeedsRepair(
                 repairs=self._repairs.repairs, proposed=self._learn_with_repairs(), **self._common_fields()
             )
@@ -70,21 +70,21 @@ class LearningRun:
             return outcome.NeedsRepair(repairs=self._repairs.repairs, proposed=self._program(), **self._common_fields())
         return self._finish()
 
-    def _doubt_landmarks(self, failed: outcome.LearningOutcome | None) -> bool:
+    def _question_landmarks(self, failed: outcome.LearningOutcome | None) -> bool:
         """Whether labels of landmarks are rather wrong than the rules as they are; the repairs are theirs then."""
         if isinstance(failed, outcome.TimedOut):
             return False
         try:
             learned = [one.rule.extractor for one in self._learned]
-            return self._repairs.find_landmark_corrections(learned, failed is not None)
+            return self._repairs.find_landmark_fixes(learned, failed is not None)
         except OutOfTime:
             return False
 
     def _learn_with_repairs(self) -> Program | None:
         """The program once the labels are corrected, None where there is none."""
-        corrections, task = [repair.correction for repair in self._repairs.repairs], self._task
+        fixes, task = [repair.fix for repair in self._repairs.repairs], self._task
         options = replace(task.options, repair=False, suggest_orientation=False, follow=None)
-        corrected = replace(task, demos=correct_demonstrations(task.demos, corrections), options=options)
+        corrected = replace(task, demos=correct_demonstrations(task.demos, fixes), options=options)
         return LearningRun(corrected, self._budget).run().program
 
     def _learn(self, spec: RuleSpec) -> outcome.LearningOutcome | None:
@@ -93,12 +93,12 @@ class LearningRun:
             examples, rest = self._replays.examples(spec)
             names = (*(example.name for example in examples), *(replay.name for replay in rest))
             start = self._budget.elapsed
-            found = self._find_readings(spec, examples, [replay.mesh for replay in rest])
+            found = self._find_candidates(spec, examples, [replay.mesh for replay in rest])
             self._searching += self._budget.elapsed - start
             if not isinstance(found, tuple):
-                self._follow(spec, found if isinstance(found, RankedReadings) else None, names, examples)
+                self._follow(spec, found if isinstance(found, RankedCandidates) else None, names, examples)
             match found:
-                case RankedReadings():
+                case RankedCandidates():
                     self._accept(spec, found, names)
                     return None
                 case Miss():
@@ -111,9 +111,9 @@ class LearningRun:
                 case _:
                     assert_never(found)
 
-    def _find_readings(
+    def _find_candidates(
         self, spec: RuleSpec, examples: Sequence[Example], rest: Sequence[SymbolicMesh]
-    ) -> RankedReadings | Miss | Unfinished | tuple[LabelCorrection, ...]:
+    ) -> RankedCandidates | Miss | Unfinished | tuple[LabelFix, ...]:
         """The readings of a rule; or corrections of labels, with which it is to be looked at again."""
         task, budget = self._task, self._budget
         if task.options.strategy == "paper":
@@ -124,41 +124,41 @@ class LearningRun:
         if isinstance(found, Unfinished):
             return found
         try:
-            corrections = self._repairs.find_corrections(spec.number, examples, found)
+            fixes = self._repairs.find_fixes(spec.number, examples, found)
         except OutOfTime:
-            corrections = ()
-        if corrections:
-            return corrections
+            fixes = ()
+        if fixes:
+            return fixes
         if isinstance(found, Miss):
             return found
         preferences = self._replays.preferences(spec.number, search.field.meshes)
-        return RankedReadings(search, enumerate_consistent(search, found.extractor, task.options.above), preferences)
+        return RankedCandidates(search, enumerate_consistent(search, found.extractor, task.options.above), preferences)
 
     def _find_by_paper(
         self, spec: RuleSpec, examples: Sequence[Example], rest: Sequence[SymbolicMesh]
-    ) -> RankedReadings | Miss | Unfinished | tuple[LabelCorrection, ...]:
+    ) -> RankedCandidates | Miss | Unfinished | tuple[LabelFix, ...]:
         task = self._task
         confirm = make_confirmer(spec.number, self._confirm) if self._confirm else None
         found = PaperSearch(
             examples, task.frame.labels, self._budget, task.options, confirm, task.rejected, self._repairs.counts
         ).run()
         self._record_effort(spec, found.tried)
-        if isinstance(found, HitWithCorrections):
+        if isinstance(found, HitWithFixes):
             return self._repairs.record_inferred(spec.number, found)
         if not isinstance(found, Hit):
             return found
         search = Search(examples, task.frame.labels, self._budget, task.options, rest)
-        return RankedReadings.of_single(search, found.extractor)
+        return RankedCandidates.of_single(search, found.extractor)
 
     def _follow(
-        self, spec: RuleSpec, ranked: RankedReadings | None, names: Sequence[str], examples: Sequence[Example]
+        self, spec: RuleSpec, ranked: RankedCandidates | None, names: Sequence[str], examples: Sequence[Example]
     ) -> None:
         wanted = self._task.options.follow
         if wanted and spec.number <= len(wanted.rules):
             extractor = wanted.rules[spec.number - 1].extractor
             self._followed.append(follow_rule(spec, extractor, ranked, names, examples, self._task))
 
-    def _accept(self, spec: RuleSpec, ranked: RankedReadings, names: tuple[str, ...]) -> None:
+    def _accept(self, spec: RuleSpec, ranked: RankedCandidates, names: tuple[str, ...]) -> None:
         rule = Rule(ranked.extractor, spec.action, spec.label)
         self._learned.append(RuleOutcome(rule, ranked, names))
         if not self._open_rule:
@@ -169,15 +169,17 @@ class LearningRun:
     def _finish(self) -> outcome.LearningOutcome:
         task, program = self._task, self._program()
         verify(program, task.demos, task.templates)
-        known = [(learned.readings, learned.names) for learned in self._learned]
+        known = [(learned.candidates, learned.names) for learned in self._learned]
         hint, sample = suggest_demonstration(known), select_sample(known, self._repairs.trust)
         suggested, common = self._suggest_alternative(), self._common_fields()
         if self._open_rule:
             return outcome.Ambiguous(
                 program=program, open_rule=self._open_rule, hint=hint, sample=sample, suggested=suggested, **common
             )
-        settled = bool(self._replays.others) and all(learned.readings.settled for learned in self._learned)
-        return outcome.Found(program=program, settled=settled, hint=hint, sample=sample, suggested=suggested, **common)
+        unambiguous = bool(self._replays.others) and all(learned.candidates.unambiguous for learned in self._learned)
+        return outcome.Found(
+            program=program, unambiguous=unambiguous, hint=hint, sample=sample, suggested=suggested, **common
+        )
 
     def _fail(self, spec: RuleSpec, miss: Miss, examples: Sequence[Example]) -> outcome.LearningOutcome:
         nearest, repairs = to_nearest(spec.number, miss.nearest), self._repairs.repairs
@@ -250,10 +252,10 @@ class LearningRun:
     def _common_fields(self) -> _OutcomeFields:
         return {
             "rules": tuple(learned.rule for learned in self._learned),
-            "readings": tuple(
-                reading
+            "candidates": tuple(
+                candidate
                 for number, learned in enumerate(self._learned, 1)
-                for reading in list_readings(number, learned.readings, learned.names)
+                for candidate in list_candidates(number, learned.candidates, learned.names)
             ),
             "tried": tuple(self._tried),
             "seconds": {"search": self._searching, "replay": self._budget.elapsed - self._searching},

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Literal, get_args
 
 from meshforge.language import EXTREMITY, Leaf, Program
-from meshforge.synthesis.questions import LabelCorrection
+from meshforge.synthesis.questions import LabelFix
 
 Layers = Literal["S", "S+T", "S+G", "S+T+G"]
 
@@ -80,7 +80,7 @@ class Options:
     contact: float | None = None
     extremity: float | None = None
     suggest_orientation: bool = True
-    rejected: Collection[LabelCorrection] = ()
+    rejected: Collection[LabelFix] = ()
     follow: Program | None = None
     extractors: tuple[str, ...] = ()
     leaves: tuple[Leaf, ...] = ()

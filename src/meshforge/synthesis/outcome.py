@@ -13,7 +13,7 @@ from meshforge.synthesis.search.smallest import SearchEffort
 
 
 @dataclass(frozen=True, slots=True)
-class Reading:
+class CandidateProgram:
     """One extractor that agrees with all demonstrations of a rule.
 
     belief: its share, in 0..1, of the belief in all readings of the rule; differs_on: names of the assets where it
@@ -60,10 +60,10 @@ class _OutcomeBase:
     """
 
     rules: tuple[Rule, ...]
-    readings: tuple[Reading, ...]
+    candidates: tuple[CandidateProgram, ...]
     tried: tuple[SearchEffort, ...]
     seconds: Mapping[str, float]
-    settled: bool = False
+    unambiguous: bool = False
     stale: tuple[Answer, ...] = ()
     hint: Hint | None = None
     sample: tuple[str, ...] = ()
@@ -129,8 +129,8 @@ def outcome_to_json(outcome: LearningOutcome) -> dict[str, Any]:
     return {
         "status": outcome.status,
         "program": str(outcome.program) if outcome.program else None,
-        "settled": outcome.settled,
-        "readings": [_reading_json(reading) for reading in outcome.readings],
+        "unambiguous": outcome.unambiguous,
+        "candidates": [_candidate_json(candidate) for candidate in outcome.candidates],
         "repairs": [_repair_json(repair) for repair in outcome.repairs],
         "open_rule": _open_rule_json(outcome.open_rule) if outcome.open_rule else None,
         "nearest": _nearest_json(outcome.nearest) if outcome.nearest else None,
@@ -164,19 +164,19 @@ def _suggestion_json(suggested: OrientationSuggestion | None) -> dict[str, Any]:
     }
 
 
-def _reading_json(reading: Reading) -> dict[str, Any]:
+def _candidate_json(candidate: CandidateProgram) -> dict[str, Any]:
     return {
-        "id": reading.id,
-        "rule": reading.rule,
-        "extractor": show(reading.extractor),
-        "size": reading.size,
-        "belief": round(reading.belief, 6),
-        "differs_on": list(reading.differs_on),
+        "id": candidate.id,
+        "rule": candidate.rule,
+        "extractor": show(candidate.extractor),
+        "size": candidate.size,
+        "belief": round(candidate.belief, 6),
+        "differs_on": list(candidate.differs_on),
     }
 
 
 def _repair_json(repair: Repair) -> dict[str, Any]:
-    wrong = repair.correction
+    wrong = repair.fix
     return {
         "rule": repair.rule,
         "asset": wrong.asset,
@@ -202,6 +202,6 @@ def _nearest_json(nearest: Nearest) -> dict[str, Any]:
     }
 
 
-def reading_id(rule: int, place: int) -> str:
+def candidate_id(rule: int, place: int) -> str:
     """The id of a reading by its place among those of its rule, from 0."""
     return f"{rule}.{place + 1}"

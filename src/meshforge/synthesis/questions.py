@@ -9,7 +9,7 @@ from meshforge.common import DemonstrationError
 
 
 @dataclass(frozen=True, slots=True, order=True)
-class LabelCorrection:
+class LabelFix:
     """One hull of a demonstrated mesh gets another label; was: None where it has none.
 
     asset: how messages call the mesh.
@@ -26,9 +26,9 @@ class LabelCorrection:
         return f"{self.asset}#{self.hull}={self.to}"
 
     @property
-    def reverse(self) -> LabelCorrection | None:
+    def reverse(self) -> LabelFix | None:
         """The correction that undoes this one, None where the hull had no label."""
-        return None if self.was is None else LabelCorrection(self.asset, self.hull, self.to, self.was)
+        return None if self.was is None else LabelFix(self.asset, self.hull, self.to, self.was)
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,7 +86,7 @@ class Repair:
     rule: the first one that needs it; belief: that it is right, in 0..1; why: one sentence.
     """
 
-    correction: LabelCorrection
+    fix: LabelFix
     rule: int
     belief: float
     why: str

@@ -9,8 +9,8 @@ from functools import partial
 from meshforge.common import MeshForgeError
 from meshforge.language import Program, Rule, Template
 from meshforge.synthesis import outcome
+from meshforge.synthesis.candidates.rank import RankedCandidates
 from meshforge.synthesis.demonstration import Demonstration, name_demonstrations
-from meshforge.synthesis.readings.rank import RankedReadings
 from meshforge.synthesis.search.smallest import NearestExtractor
 from meshforge.synthesis.task import memoize
 
@@ -20,26 +20,26 @@ class RuleOutcome:
     """One rule, its readings, and the names of the meshes in their field."""
 
     rule: Rule
-    readings: RankedReadings
+    candidates: RankedCandidates
     names: tuple[str, ...]
 
     @property
     def size(self) -> int:
         """Nodes of the extractor."""
-        return self.readings.terms[0].size
+        return self.candidates.terms[0].size
 
     def select(self) -> dict[str, frozenset[str]]:
         """The names of the hulls that the rule selects on each mesh of the field."""
-        field, bits = self.readings.field, self.readings.terms[0].bits
+        field, bits = self.candidates.field, self.candidates.terms[0].bits
         rows = zip(self.names, field.meshes, strict=True)
         return {name: frozenset(mesh.names_of(field.on(bits, place))) for place, (name, mesh) in enumerate(rows)}
 
 
-def list_readings(rule: int, ranked: RankedReadings, names: Sequence[str]) -> Iterator[outcome.Reading]:
+def list_candidates(rule: int, ranked: RankedCandidates, names: Sequence[str]) -> Iterator[outcome.CandidateProgram]:
     """The readings of a rule, the most believable first; names: of the meshes of their field."""
     for place, (term, belief) in enumerate(zip(ranked.terms, ranked.beliefs, strict=True)):
         differs = tuple(names[k] for k in ranked.differences(place))
-        yield outcome.Reading(outcome.reading_id(rule, place), rule, term.extractor, belief, differs)
+        yield outcome.CandidateProgram(outcome.candidate_id(rule, place), rule, term.extractor, belief, differs)
 
 
 def to_nearest(rule: int, miss: NearestExtractor) -> outcome.Nearest:

@@ -12,13 +12,13 @@ from meshforge import language
 from meshforge.common import DemonstrationError, MeshForgeError
 from meshforge.language import Replay
 from meshforge.symbolic import Label, SymbolicMesh, mask_of, split_by_contact
+from meshforge.synthesis.candidates.belief import NEITHER
+from meshforge.synthesis.candidates.rank import Preference
 from meshforge.synthesis.demonstration import Demonstration, Example, RuleSpec, Step, name_demonstrations
 from meshforge.synthesis.options import Options
-from meshforge.synthesis.questions import Answer, LabelCorrection
-from meshforge.synthesis.readings.belief import NEITHER
-from meshforge.synthesis.readings.rank import Preference
+from meshforge.synthesis.questions import Answer, LabelFix
 
-Batch = Mapping[str, SymbolicMesh]
+Family = Mapping[str, SymbolicMesh]
 """Meshes by the names that questions and readings call them."""
 
 
@@ -32,16 +32,16 @@ class LearningTask:
 
     rules: tuple[RuleSpec, ...]
     demos: tuple[Demonstration, ...]
-    batch: Batch
+    batch: Family
     frame: language.Program
     templates: Mapping[str, language.Template]
     answers: tuple[Answer, ...]
-    rejected: frozenset[LabelCorrection]
+    rejected: frozenset[LabelFix]
     options: Options
-    confirmed: tuple[LabelCorrection, ...] = ()
+    confirmed: tuple[LabelFix, ...] = ()
 
 
-def name_batch(batch: Iterable[SymbolicMesh] | Batch, demos: Sequence[Demonstration]) -> dict[str, SymbolicMesh]:
+def name_family(batch: Iterable[SymbolicMesh] | Family, demos: Sequence[Demonstration]) -> dict[str, SymbolicMesh]:
     """The meshes of a batch in the order of their names, without those that are demonstrated.
 
     By default the name is the file's path.
@@ -56,20 +56,16 @@ def _pair_with_names(batch: Iterable[SymbolicMesh]) -> Iterable[tuple[str, Symbo
         yield str(mesh.asset.path) if mesh.asset else f"mesh {number}", mesh
 
 
-def apply_corrections(mesh: SymbolicMesh, name: str, corrections: Iterable[LabelCorrection]) -> SymbolicMesh:
+def apply_fixes(mesh: SymbolicMesh, name: str, fixes: Iterable[LabelFix]) -> SymbolicMesh:
     """A mesh with the labels that corrections give to its hulls, as far as they are there."""
-    given: dict[str, Label | None] = {c.hull: Label(c.to, 1.0, "repair") for c in corrections if c.asset == name}
+    given: dict[str, Label | None] = {c.hull: Label(c.to, 1.0, "repair") for c in fixes if c.asset == name}
     return mesh.with_labels(given) if given else mesh
 
 
-def correct_demonstrations(
-    demos: Sequence[Demonstration], corrections: Sequence[LabelCorrection]
-) -> tuple[Demonstration, ...]:
+def correct_demonstrations(demos: Sequence[Demonstration], fixes: Sequence[LabelFix]) -> tuple[Demonstration, ...]:
     """Demonstrations with their names, on meshes with corrected labels."""
     rows = name_demonstrations(demos)
-    return tuple(
-        Demonstration(apply_corrections(demo.mesh, name, corrections), demo.steps, name) for name, demo in rows
-    )
+    return tuple(Demonstration(apply_fixes(demo.mesh, name, fixes), demo.steps, name) for name, demo in rows)
 
 
 class ReplaySet:
@@ -82,7 +78,7 @@ class ReplaySet:
     def __init__(
         self,
         demos: Sequence[Demonstration],
-        batch: Batch,
+        batch: Family,
         frame: language.Program,
         templates: Mapping[str, language.Template],
         answers: Sequence[Answer],
@@ -165,10 +161,10 @@ class ReplaySet:
         except MeshForgeError:
             return None
 
-    def correct(self, corrections: Sequence[LabelCorrection]) -> None:
+    def correct(self, fixes: Sequence[LabelFix]) -> None:
         """Go on as if labels were corrected."""
-        self.shown = [_correct_replay(replay, corrections) for replay in self.shown]
-        self.others = [_correct_replay(replay, corrections) for replay in self.others]
+        self.shown = [_correct_replay(replay, fixes) for replay in self.shown]
+        self.others = [_correct_replay(replay, fixes) for replay in self.others]
 
 
 def _list_preferred(answer: Answer) -> Iterator[tuple[frozenset[str], bool]]:
@@ -186,8 +182,8 @@ def _example_of_answer(replay: Replay, answer: Answer) -> Example | None:
     return Example(replay.name, replay.mesh, sum(1 << index[name] for name in names))
 
 
-def _correct_replay(replay: Replay, corrections: Sequence[LabelCorrection]) -> Replay:
-    mesh = apply_corrections(replay.mesh, replay.name, corrections)
+def _correct_replay(replay: Replay, fixes: Sequence[LabelFix]) -> Replay:
+    mesh = apply_fixes(replay.mesh, replay.name, fixes)
     return replay if mesh is replay.mesh else replace(replay, mesh=mesh)
 
 

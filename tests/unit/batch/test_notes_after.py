@@ -13,7 +13,7 @@ from tests.urdf_sample import boxes_obj, corner_obj
 
 CUT = '<mesh optimization="convex_decomposition"><uri>{}.obj</uri></mesh>'
 MODEL = '<sdf version="1.11"><model name="m"><link name="l">{}</link></model></sdf>'
-SAID = "{} to be decomposed by Gazebo when loaded, shown as authored"
+ANSWERS = "{} to be decomposed by Gazebo when loaded, shown as authored"
 
 
 def write_model(folder: Path, *meshes: str) -> Path:
@@ -42,27 +42,27 @@ def test_a_note_that_the_edit_has_dealt_with_is_not_repeated(
     run: Run, meshes: list[str], before: str, after: str | None
 ) -> None:
     write_model(Path("in"), *meshes)
-    assert SAID.format(before) in run("info", "in/m.sdf").out
+    assert ANSWERS.format(before) in run("info", "in/m.sdf").out
     assert run("new", "p", "in/m.sdf", "--decompose", "hull", "--workers", "1").code == 0
     Path("p/program.mf").write_text("labels x\n")
     told = run("apply", "p").out
     assert "optimization" not in Path("p/edited/m.sdf").read_text().partition("far")[0]
     assert [line.strip() for line in told.splitlines() if "Gazebo" in line] == (
-        [f"note: {SAID.format(after)}"] if after else []
+        [f"note: {ANSWERS.format(after)}"] if after else []
     )
 
 
 def test_convert_says_of_its_own_format_what_is_true_of_the_output(run: Run) -> None:
     write_model(Path("in"), "corner")
     assert "Gazebo" not in run("convert", "in/m.sdf", "a/m.sdf", "--concave", "hull").err
-    assert SAID.format("1 mesh") in run("convert", "in/m.sdf", "b/m.sdf").err
+    assert ANSWERS.format("1 mesh") in run("convert", "in/m.sdf", "b/m.sdf").err
 
 
 def test_what_is_true_still_is_said_and_no_folder_of_drafts(tmp_path: Path) -> None:
     write_model(tmp_path / "in", "corner")
     (outcome,) = apply(Program(), make_jobs(expand([str(tmp_path / "in")])), tmp_path / "out")
     assert not hasattr(outcome, "error")
-    assert SAID.format("1 mesh") in outcome.notes and "drafts" not in " ".join(outcome.notes)
+    assert ANSWERS.format("1 mesh") in outcome.notes and "drafts" not in " ".join(outcome.notes)
 
 
 @pytest.mark.parametrize("words", [("out.xml",), ("out", "--to", "xml")], ids=["one", "many"])

@@ -14,15 +14,15 @@ import pytest
 from PIL import Image
 
 from meshforge.batch import (
-    AssetStanding,
     EarlierExamination,
     Failed,
     ReportAsset,
     ReportHeader,
     ReportOptions,
+    ResultStatus,
+    ResultStatusWord,
     RunFigures,
     RunSummary,
-    StandingWord,
     write_report,
 )
 from meshforge.batch.outcome import Unchanged
@@ -153,21 +153,21 @@ def test_a_result_that_stands_out_says_why_and_can_be_found(tmp_path: Path) -> N
 
 
 def test_of_a_project_what_is_held_or_failed_comes_first_then_alarms_the_least_sure_first(tmp_path: Path) -> None:
-    def asset(name: str, word: StandingWord, probability: float | None, **more: Any) -> ReportAsset:
-        standing = AssetStanding(word, f"{word} <now>", probability, ("rule 1 may mean <b>",))
-        return ReportAsset(name, table(), table(), standing=standing, **more)
+    def asset(name: str, word: ResultStatusWord, probability: float | None, **more: Any) -> ReportAsset:
+        standing = ResultStatus(word, f"{word} <now>", probability, ("rule 1 may mean <b>",))
+        return ReportAsset(name, table(), table(), result_status=standing, **more)
 
     shown = [
         asset("surest", "signed off", 0.99),
         asset("given up", "excluded", 0.2),
         asset("odd", "signed off", 0.98, alarms=("volume +480%",)),
-        asset("held", "held", 0.94),
+        asset("needs review", "needs review", 0.94),
         asset("unwritten", "sure", 0.97, error="no room on the disk", status="failed"),
-        asset("least", "held", 0.3),
-        asset("unknown", "held", None),
+        asset("least", "needs review", 0.3),
+        asset("unknown", "needs review", None),
     ]
     page: Any = lxml.html.document_fromstring(written(tmp_path, shown, pictured=0))
-    names = ["unknown", "least", "held", "unwritten", "odd", "given up", "surest"]
+    names = ["unknown", "least", "needs review", "unwritten", "odd", "given up", "surest"]
     assert texts(page, "//article//bdi") == names
     assert page.xpath("//article/@data-kind")[3:] == [
         "failed sure",
@@ -175,9 +175,9 @@ def test_of_a_project_what_is_held_or_failed_comes_first_then_alarms_the_least_s
         "edited excluded",
         "edited signed-off",
     ]
-    assert texts(page, "//article/p[@class='standing held']") == ["held <now>"] * 3
-    assert texts(page, "//ul[@class='doubts']/li") == ["rule 1 may mean <b>"] * 7
-    assert page.xpath("//div[@class='bar']/i/@class") == ["held", "sure", "signed-off", "excluded"]
+    assert texts(page, "//article/p[@class='result-status needs-review']") == ["needs review <now>"] * 3
+    assert texts(page, "//ul[@class='reasons']/li") == ["rule 1 may mean <b>"] * 7
+    assert page.xpath("//div[@class='bar']/i/@class") == ["needs-review", "sure", "signed-off", "excluded"]
 
 
 def test_without_labels_the_legend_says_so(tmp_path: Path) -> None:

@@ -12,7 +12,7 @@ from tests.synthesis_boxes import table
 
 
 def test_prices_of_questions_are_those_of_the_keystroke_model() -> None:
-    assert pytest.approx(keystrokes.ANSWER) == prices.READING
+    assert pytest.approx(keystrokes.ANSWER) == prices.CANDIDATE
     assert pytest.approx(keystrokes.CONFIRMATION) == prices.YES_OR_NO
     assert prices.price_group(7, 2) == pytest.approx(keystrokes.price_group(7, 2))
 

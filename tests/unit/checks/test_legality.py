@@ -7,7 +7,7 @@ import pytest
 
 from meshforge.checks import Finding, check
 from meshforge.geometry import Aabb, Box, Capsule, Cylinder, Ellipsoid, Polytope, Pose, Shape, Sphere, convex_hull
-from meshforge.symbolic import Asset, Body, Document, Geom, Hull, Opaque, SymbolicMesh
+from meshforge.symbolic import Asset, Body, Document, Geom, Hull, NonConvexPiece, SymbolicMesh
 
 CUBE = Box.of_bounds(Aabb([0, 0, 0], [1, 1, 1])).tessellate()
 
@@ -93,7 +93,7 @@ def test_a_hull_without_a_body_is_an_error() -> None:
     assert [f.rule for f in check(SymbolicMesh((Hull("a", "", CUBE),)))] == ["body"]
 
 
-def from_file(body: str, *opaque: Opaque) -> SymbolicMesh:
+def from_file(body: str, *opaque: NonConvexPiece) -> SymbolicMesh:
     bodies = (Body("base", Pose.identity()),)
     return SymbolicMesh.of(Asset(Path("x.urdf"), "urdf", bodies, (Geom("a", body, CUBE),), Document(), opaque))
 
@@ -104,8 +104,8 @@ def test_a_hull_of_a_body_that_the_asset_lacks_is_an_error() -> None:
 
 
 def test_geometry_that_is_no_hull_is_told_with_its_reason() -> None:
-    (finding,) = check(from_file("base", Opaque("base/floor", "base", "a plane")))
-    expected = Finding("opaque", "warning", ("base/floor",), "base/floor: no convex hull (a plane)", finding.remedy)
+    (finding,) = check(from_file("base", NonConvexPiece("base/floor", "base", "a plane")))
+    expected = Finding("non_convex", "warning", ("base/floor",), "base/floor: no convex hull (a plane)", finding.remedy)
     assert finding == expected
 
 

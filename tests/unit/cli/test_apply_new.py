@@ -133,7 +133,7 @@ def test_what_is_less_sure_than_asked_is_held_and_reported(run: Run) -> None:
     assert 0.5 <= line["probability"] <= line["rebuilt"][0]["spanning"][0]["chance"] + 0.001, (
         "the chance has three digits"
     )
-    assert any("%: base rebuilt into " in doubt["text"] for doubt in line["doubts"])
+    assert any("%: base rebuilt into " in doubt["text"] for doubt in line["reasons"])
     assert "%: base rebuilt into " in Path("r.html").read_text()
 
 

@@ -8,13 +8,13 @@ from pathlib import Path
 import pytest
 
 from meshforge.project import Project
-from meshforge.signoff import BAR
+from meshforge.signoff import THRESHOLD
 from tests.unit.batch.families import write_tables
 from tests.unit.batch.pages import figures, kinds, names, opened, texts
 from tests.unit.cli.in_process import Run, runner
 from tests.unit.project.tables import FIRST, SECOND, THIRD, applied
 
-HELD = f"2 of 3 are at least {100 * BAR:g}% sure, or were looked at; look at this one:"
+HELD = f"2 of 3 are at least {100 * THRESHOLD:g}% sure, or were looked at; look at this one:"
 
 
 @pytest.fixture
@@ -40,19 +40,21 @@ def test_what_is_held_comes_first_with_its_doubts_and_nothing_is_green(run_doubt
     run_doubtful("apply", "tables", "--report", "r.html")
     page = opened("r.html")
     assert names(page) == [THIRD, FIRST, SECOND] and texts(page, "//h1") == ["tables"]
-    assert page.xpath("//article/@data-kind")[0] == "edited held"
-    assert re.fullmatch(r"\d+% sure, held", texts(page, "//article[1]/p[@class='standing held']")[0])
-    doubts = [doubt.text for doubt in Project.open("tables").status().open_assets[0].doubts]
-    assert doubts and texts(page, "//article[1]/ul[@class='doubts']/li") == doubts
+    assert page.xpath("//article/@data-kind")[0] == "edited needs-review"
+    assert re.fullmatch(
+        r"\d+% sure, needs review", texts(page, "//article[1]/p[@class='result-status needs-review']")[0]
+    )
+    doubts = [doubt.text for doubt in Project.open("tables").status().open_assets[0].reasons]
+    assert doubts and texts(page, "//article[1]/ul[@class='reasons']/li") == doubts
     assert figures(page) == {
         "assets": "3",
         "edited": "1",
         "skipped": "2",
-        "held": "1",
+        "needs review": "1",
         "signed off": "2",
         "hulls": "18 → 9 −50 %",
     }
-    assert page.xpath("//div[@class='bar']/i/@class") == ["held", "signed-off"]
+    assert page.xpath("//div[@class='bar']/i/@class") == ["needs-review", "signed-off"]
     green = re.findall(r"([^{}\n]+)\{[^{}]*var\(--good\)", page.xpath("//style")[0].text)
     assert [selector.strip() for selector in green] == [".bar .clean"]
     assert page.xpath("//*[contains(@class, 'clean')]") == []
@@ -60,7 +62,7 @@ def test_what_is_held_comes_first_with_its_doubts_and_nothing_is_green(run_doubt
         "all",
         "edited",
         "skipped",
-        "held",
+        "needs review",
         "signed off",
         "demonstrated",
     ]
@@ -70,7 +72,7 @@ def test_what_is_held_comes_first_with_its_doubts_and_nothing_is_green(run_doubt
 def test_the_head_says_what_status_says(run_doubtful: Run) -> None:
     run_doubtful("review", "tables", "--json")
     run_doubtful("apply", "tables", "--report", "r.html")
-    head = texts(opened("r.html"), "//div[@class='standings']/p")
+    head = texts(opened("r.html"), "//div[@class='result-statuses']/p")
     assert head[0] == HELD and re.match(rf"{THIRD} \(\d+%\): left_low, crumb are called misc, and may be leg", head[1])
     assert "\n  ".join(head) in run_doubtful("status", "tables").out
 
@@ -80,23 +82,25 @@ def test_what_is_signed_off_says_by_whom(run: Run) -> None:
     run("review", "tables", "--min-confidence", "0.5")
     run("apply", "tables", "--report", "r.html")
     page = opened("r.html")
-    told = dict(zip(names(page), texts(page, "//article/p[@class='standing signed-off']"), strict=True))
+    told = dict(zip(names(page), texts(page, "//article/p[@class='result-status signed-off']"), strict=True))
     assert told[THIRD].endswith("% sure, signed off by MeshForge")
     assert told[FIRST] == told[SECOND] == "99% sure, signed off by a person"
     Project.open("tables").set_verdict(THIRD, "accepted")
     Project.open("tables").set_verdict(SECOND, "wrong")
     run("apply", "tables", "--report", "r.html")
     page = opened("r.html")
-    told = dict(zip(names(page), texts(page, "//article/p[contains(@class, 'standing')]"), strict=True))
-    assert told[THIRD].endswith("signed off by a person") and told[SECOND].endswith("held")
+    told = dict(zip(names(page), texts(page, "//article/p[contains(@class, 'result-status')]"), strict=True))
+    assert told[THIRD].endswith("signed off by a person") and told[SECOND].endswith("needs review")
 
 
 @pytest.mark.slow
 def test_what_was_not_reviewed_is_held(run: Run) -> None:
     run("apply", "tables", "--report", "r.html")
     page = opened("r.html")
-    assert texts(page, "//p[@class='standing held']") == ["not looked at as it is now (meshforge review)"] * 3
-    assert figures(page)["held"] == "3" and "signed off" not in figures(page)
+    assert (
+        texts(page, "//p[@class='result-status needs-review']") == ["not looked at as it is now (meshforge review)"] * 3
+    )
+    assert figures(page)["needs review"] == "3" and "signed off" not in figures(page)
 
 
 @pytest.mark.slow
@@ -104,12 +108,12 @@ def test_what_was_held_back_is_shown_as_it_would_be(run: Run) -> None:
     Path("tables/edited", THIRD).unlink()
     run("apply", "tables", "--min-confidence", "1", "--report", "r.html")
     page = opened("r.html")
-    assert (names(page), kinds(page)) == ([THIRD, FIRST, SECOND], ["held-back", "skipped", "skipped"])
+    assert (names(page), kinds(page)) == ([THIRD, FIRST, SECOND], ["not-written", "skipped", "skipped"])
     assert figures(page) | {"hulls": ""} == {
         "assets": "3",
         "skipped": "2",
-        "held back": "1",
-        "held": "1",
+        "not written": "1",
+        "needs review": "1",
         "signed off": "2",
         "hulls": "",
     }
@@ -126,7 +130,7 @@ def test_of_very_many_what_is_held_is_shown_though_it_came_last(run: Run, monkey
     run("apply", "tables", "--report", "r.html")
     page = opened("r.html")
     assert names(page) == [THIRD]
-    assert "1 of 3 assets are shown, those that failed or are held first." in texts(page, "//p")
+    assert "1 of 3 assets are shown, those that failed or need review first." in texts(page, "//p")
 
 
 @pytest.mark.slow
@@ -145,6 +149,6 @@ def test_without_a_project_nothing_is_said_of_how_sure_it_is_but_alarms_are(
     alarms = texts(page, "//p[@class='alarm']")
     assert [alarm.split(":")[:2] for alarm in alarms] == [["This result stands out", " nearly one solid block"]]
     assert page.xpath("//article/@data-kind") == ["unchanged", "edited doubtful"]
-    assert page.xpath("//*[contains(@class, 'standing')]") == []
+    assert page.xpath("//*[contains(@class, 'result-status')]") == []
     assert figures(page) == {"assets": "2", "edited": "1", "unchanged": "1", "hulls": "12 → 7 −42 %"}
     assert " sure" not in page.text_content().replace("unsure", "")

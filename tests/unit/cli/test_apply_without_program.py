@@ -12,7 +12,7 @@ from tests.unit.batch.preparation.samples import write_boxes, write_stand
 from tests.unit.cli.in_process import Run, runner
 
 HULL = ("--decompose", "hull", "--workers", "1")
-SAID = "There is no program yet: assets are written as they are prepared, and nothing else is edited."
+ANSWERS = "There is no program yet: assets are written as they are prepared, and nothing else is edited."
 
 
 @pytest.fixture
@@ -41,7 +41,7 @@ def test_what_is_prepared_is_written_and_said_to_be_without_a_program(run: Run) 
     assert "Next: meshforge apply p writes what is prepared, also without a program" in told.err
     assert "Or write what is prepared, without a program: meshforge apply p" in run("status", "p").out
     told = run("apply", "p")
-    assert told.code == 0 and SAID in told.err
+    assert told.code == 0 and ANSWERS in told.err
     assert names("p/edited/stand.urdf") == ["cover/geom0#0", "frame/body#0", "frame/foot"]
     assert Path("p/edited/row.obj").read_bytes() == Path("in/row.obj").read_bytes()
     assert not Path("p/program.mf").exists()
@@ -66,7 +66,7 @@ def test_new_assets_beside_the_project_are_prepared_and_written(run: Run) -> Non
     assert run("prepare", "p", "stand.urdf", *HULL).code == 0
     write_stand(Path("more"), "later.urdf")
     told = run("apply", "p", "more/later.urdf", "--out", "out", "--workers", "1")
-    assert told.code == 0 and SAID in told.err
+    assert told.code == 0 and ANSWERS in told.err
     assert names("out/later.urdf") == ["cover/geom0#0", "frame/body#0", "frame/foot"]
 
 

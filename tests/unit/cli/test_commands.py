@@ -120,7 +120,7 @@ def test_an_unknown_command_is_wrong_usage(run: Run) -> None:
 
 def test_info_as_json_has_the_documented_shape(run: Run) -> None:
     told = run("info", "row.obj", "--json", "--geometry").json
-    assert list(told) == ["asset", "format", "diagonal", "notes", "hulls", "opaque", "contacts", "near_misses"]
+    assert list(told) == ["asset", "format", "diagonal", "notes", "hulls", "non_convex", "contacts", "near_misses"]
     hull = told["hulls"][0]
     assert list(hull) == [
         *("name", "body", "label", "confidence", "source", "aabb", "volume", "vertices", "faces", "primitive", "points")
@@ -310,7 +310,7 @@ def test_convert_reports_what_is_held_and_lost_as_json(run: Run) -> None:
         "asset": "t.urdf",
         "out": "t.obj",
         "hulls": 1,
-        "held": [{"what": "hull names", "count": 1, "names": ["a/pin"]}],
+        "kept": [{"what": "hull names", "count": 1, "names": ["a/pin"]}],
         "lost": [
             {
                 "what": "bodies",
@@ -556,7 +556,7 @@ def test_the_loop_of_a_project_from_the_command_line(run: Run) -> None:
     assert run("demonstrate", "rows", "row.obj").out == "1. far, left => Delete\n2. middle => Replace(sphere)\n"
     learned = run("synthesize", "rows", "--json").json
     assert learned["status"] == "found"
-    assert [reading["extractor"] for reading in learned["readings"]] == ["Is(leg)", "Is(panel)"]
+    assert [reading["extractor"] for reading in learned["candidates"]] == ["Is(leg)", "Is(panel)"]
     assert run("apply", "rows", "--workers", "1").code == 0
     assert json.loads(Path("rows/edited/row.labels.json").read_text())["hulls"]["middle"]["label"] == "panel"
     assert run("status", "rows", "--json").json["assets"][0]["output"] == "edited"

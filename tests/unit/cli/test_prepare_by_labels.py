@@ -30,7 +30,7 @@ def put(name: str, **arrays: object) -> None:
         np.savez(f"in/{name}.points.npz", **arrays)  # type: ignore[arg-type]
 
 
-SAID = {"points": MIDDLES, "labels": np.repeat(KINDS, 5), "names": NAMES}
+ANSWERS = {"points": MIDDLES, "labels": np.repeat(KINDS, 5), "names": NAMES}
 
 
 @pytest.fixture
@@ -46,7 +46,7 @@ def names_of(asset: str) -> set[str]:
 
 @pytest.mark.slow
 def test_hulls_are_called_by_their_parts_labelled_by_the_same_file_and_new_assets_go_the_same_way(run: Run) -> None:
-    put("a", **SAID)
+    put("a", **ANSWERS)
     told = run("new", "p", "in/a.urdf", "--vocabulary", "panel,leg", *VOXELS, "--workers", "1")
     assert told.code == 0, told.out + told.err
     assert names_of("a.urdf") == {"base/panel", "base/leg", "base/foot"}
@@ -55,7 +55,7 @@ def test_hulls_are_called_by_their_parts_labelled_by_the_same_file_and_new_asset
     assert run("label", "p", "--with", "file", "--workers", "1").code == 0
     mesh = Project.open("p").mesh("a.urdf")
     assert all(hull.label == hull.name[5:].partition("#")[0] for hull in mesh.hulls if "foot" not in hull.name)
-    put("b", **SAID)
+    put("b", **ANSWERS)
     project = Project.open("p").add_assets(["in/b.urdf"])
     (result,) = project.prepare_new(NewAssetOptions(execution=IN_PROCESS))
     assert result.problem is None and names_of("b.urdf") == names_of("a.urdf")
@@ -71,7 +71,7 @@ def test_an_asset_without_labels_is_decomposed_as_a_whole_and_that_is_told(run: 
 
 
 def test_labels_that_do_not_fit_fail_the_asset_by_name_and_nothing_is_written(run: Run) -> None:
-    put("a", **{**SAID, "labels": KINDS})
+    put("a", **{**ANSWERS, "labels": KINDS})
     told = run("new", "p", "in/a.urdf", *VOXELS, "--workers", "1")
     assert told.code == 1
     assert "a.points.npz: it has " in told.out and f", but {len(KINDS):,} classes\n" in told.out

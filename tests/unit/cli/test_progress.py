@@ -45,7 +45,7 @@ def test_quick_work_says_nothing_in_a_pipe(capsys: Capture) -> None:
 
 def test_silent_work_says_how_long_it_takes_more_and_more_seldom(capsys: Capture) -> None:
     with progress(None, "decomposing") as shown:
-        shown.say("round 2")
+        shown.show("round 2")
         time.sleep(1.1)
     told = capsys.readouterr().err
     lines = told.splitlines()
@@ -73,7 +73,7 @@ def test_pieces_of_one_asset_are_its_share_and_words_say_theirs(monkeypatch: pyt
     parts = Progress(None, "coacd on mug.obj", None)
     now[0] = 20.0
     assert pieces.describe() == "decomposing: 0 of 1, 2 of 8 pieces, 20 s, about 60 s left"
-    parts.say("part 3 of 4, handle")
+    parts.show("part 3 of 4, handle")
     assert parts.describe() == "coacd on mug.obj: part 3 of 4, handle, 20 s, about 20 s left"
 
 

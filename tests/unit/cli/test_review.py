@@ -9,7 +9,7 @@ import pytest
 
 from meshforge.common import format_share
 from meshforge.project import Project
-from meshforge.signoff import BAR
+from meshforge.signoff import THRESHOLD
 from tests.unit.cli.in_process import Run, runner
 from tests.unit.project.racks import BLOCK, PLAIN, find_right, shown_racks
 from tests.unit.project.tables import SECOND, THIRD, applied
@@ -42,8 +42,8 @@ def test_what_is_held_is_named_with_a_question_and_a_picture(run: Run) -> None:
 def test_json_has_the_contract_and_a_reply_signs_off(run: Run) -> None:
     found = json.loads(run("review", "tables", "--min-confidence", "1", "--json").out)
     assert found["signed_off"] == 2
-    assert [one["asset"] for one in found["held"]] == [THIRD]
-    assert set(found["held"][0]) == {"asset", "probability", "doubts"}
+    assert [one["asset"] for one in found["needs_review"]] == [THIRD]
+    assert set(found["needs_review"][0]) == {"asset", "probability", "reasons"}
     question = found["question"]
     assert set(question) >= {"id", "kind", "seconds", "gain", "asset", "rule", "hulls", "choices", "pictures"}
     for _ in range(12):
@@ -53,7 +53,7 @@ def test_json_has_the_contract_and_a_reply_signs_off(run: Run) -> None:
         if question is None:
             break
     assert told.code == 0
-    assert json.loads(told.out)["held"] == []
+    assert json.loads(told.out)["needs_review"] == []
 
 
 def test_a_reply_to_a_question_that_does_not_stand_is_named_and_skipped(run: Run) -> None:
@@ -85,13 +85,13 @@ def test_apply_writes_what_is_sure_and_names_what_is_held(run: Run) -> None:
     told = run("apply", "tables", "--min-confidence", "1", "--json")
     rows = [json.loads(line) for line in told.out.splitlines()]
     assert told.code == 1
-    assert {row["asset"]: row["status"] for row in rows}[THIRD] == "held"
-    held = next(row for row in rows if row["status"] == "held")
+    assert {row["asset"]: row["status"] for row in rows}[THIRD] == "needs review"
+    held = next(row for row in rows if row["status"] == "needs review")
     assert 0 < held["probability"] < 1
     sure = {one.id: one.probability for one in Project.open("tables").status().assets}
     assert all(row["probability"] == pytest.approx(sure[row["asset"]], abs=1e-4) for row in rows)
     assert held["out"].endswith("model.obj")
-    assert "held" in run("apply", "tables", "--min-confidence", "1").out
+    assert "needs review" in run("apply", "tables", "--min-confidence", "1").out
     assert run("apply", "tables", "--min-confidence", "0.5").code == 0
 
 
@@ -111,7 +111,7 @@ def test_an_option_by_its_old_name_is_an_error_that_names_the_new(run: Run) -> N
 def test_a_wrong_result_is_held(run: Run) -> None:
     Project.open("tables").set_verdict(SECOND, "wrong")
     rows = [json.loads(line) for line in run("apply", "tables", "--min-confidence", "0.5", "--json").out.splitlines()]
-    assert {row["asset"]: row["status"] for row in rows}[SECOND] == "held"
+    assert {row["asset"]: row["status"] for row in rows}[SECOND] == "needs review"
 
 
 def test_outputs_in_another_folder_sign_nothing_off(run: Run) -> None:
@@ -160,9 +160,9 @@ def racks(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], t
 def test_a_result_that_would_be_a_block_is_held_though_nothing_was_written_before(racks: Run) -> None:
     find_right(Project.open("racks"), PLAIN[2])
     assert f"{BLOCK} (49%): nearly one solid block" in racks("review", "racks").out
-    told = racks("apply", "racks", "--min-confidence", str(BAR), "--workers", "1")
+    told = racks("apply", "racks", "--min-confidence", str(THRESHOLD), "--workers", "1")
     assert told.code == 1
-    assert f"held       {BLOCK}: 49% sure; nearly one solid block" in told.out
+    assert f"needs review {BLOCK}: 49% sure; nearly one solid block" in told.out
     project = Project.open("racks")
     assert not (project.layout.edited / BLOCK).exists()
     assert set(project.sign_offs()) == set(PLAIN)
@@ -180,7 +180,7 @@ def test_a_result_that_stands_out_in_a_run_alone_is_not_signed_off_by_it(
     assert set(Project.open("racks").sign_offs()) == set(PLAIN)
     told = racks("status", "racks", "--signed-off")
     (block,) = (one for one in Project.open("racks").status().assets if one.id == BLOCK)
-    assert block.probability is not None and block.probability >= BAR, "that is how sure the review was"
+    assert block.probability is not None and block.probability >= THRESHOLD, "that is how sure the review was"
     assert told.code == 1 and f"{BLOCK} ({format_share(block.probability)}): nearly one solid block" in told.out
 
 

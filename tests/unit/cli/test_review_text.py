@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import cast
 
 from meshforge.project import ProjectReview, format_review
-from meshforge.signoff import Assessment, AssetConfidence, Doubt
+from meshforge.signoff import Assessment, AssetConfidence, Reason
 
 
 def text_of(reasons: dict[str, tuple[float, str]], held: int = 12) -> list[str]:
     assets = {
-        name: AssetConfidence(name, p, (Doubt("reading", why),) if why else ()) for name, (p, why) in reasons.items()
+        name: AssetConfidence(name, p, (Reason("candidate", why),) if why else ()) for name, (p, why) in reasons.items()
     }
 
     class Found:
@@ -20,10 +20,10 @@ def text_of(reasons: dict[str, tuple[float, str]], held: int = 12) -> list[str]:
 
 
 def test_assets_of_one_reason_share_a_line_with_the_range_of_their_probabilities() -> None:
-    reasons = {f"t{k}": (0.9 + 0.004 * k, "unlike") for k in range(9)} | {"odd": (0.5, "a solid block")}
+    reasons = {f"t{k}": (0.9 + 0.004 * k, "outlier") for k in range(9)} | {"odd": (0.5, "a solid block")}
     assert text_of(reasons) == [
         "  odd (50%): a solid block",
-        "  t0, t1, t2, t3, t4 and 4 more (90% to 93%): unlike",
+        "  t0, t1, t2, t3, t4 and 4 more (90% to 93%): outlier",
     ]
 
 

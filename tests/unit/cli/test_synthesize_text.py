@@ -9,25 +9,25 @@ import pytest
 
 from meshforge.cli.synthesize_text import LearningContext, format_remarks
 from meshforge.language import All, Is, Program
-from meshforge.synthesis import Ambiguous, Found, Hint, OpenRule, Reading
+from meshforge.synthesis import Ambiguous, CandidateProgram, Found, Hint, OpenRule
 
 ABOUT = LearningContext(Path("p"), assets=9, in_use=9, readable=9)
 READINGS = (
-    Reading("a", 1, Is("leg"), 0.9),
-    Reading("b", 1, All(), 0.1, ("a.obj", "b.obj", "c.obj")),
-    Reading("c", 2, All(), 0.1, ("b.obj",)),
-    Reading("d", 2, All(), 1e-9, ("z.obj",)),
+    CandidateProgram("a", 1, Is("leg"), 0.9),
+    CandidateProgram("b", 1, All(), 0.1, ("a.obj", "b.obj", "c.obj")),
+    CandidateProgram("c", 2, All(), 0.1, ("b.obj",)),
+    CandidateProgram("d", 2, All(), 1e-9, ("z.obj",)),
 )
 HINT = Hint("c.obj", "it has 2 hulls unlike any that was demonstrated")
 
 
 FOUND = Found(
     rules=(),
-    readings=READINGS,
+    candidates=READINGS,
     tried=(),
     seconds={},
     program=Program(),
-    settled=False,
+    unambiguous=False,
     hint=HINT,
     sample=("b.obj", "d.obj", "e.obj"),
     overruled=("f.obj", "a.obj"),
@@ -51,7 +51,7 @@ Next: meshforge apply p"""  # noqa: E501
 
 @pytest.mark.parametrize("overruled", [(), ("f.obj",)])
 def test_where_all_readings_agree_only_accepted_results_that_are_not_kept_are_named(overruled: tuple[str, ...]) -> None:
-    text = format_remarks(replace(FOUND, settled=True, overruled=overruled), ABOUT)
+    text = format_remarks(replace(FOUND, unambiguous=True, overruled=overruled), ABOUT)
     assert "all believable readings of the rules agree on your 9 assets" in text
     assert ("Look first at:\n  f.obj: its result was accepted" in text) == bool(overruled)
     assert "might mean" not in text and "demonstrate p" not in text and "d.obj" not in text
@@ -60,7 +60,7 @@ def test_where_all_readings_agree_only_accepted_results_that_are_not_kept_are_na
 def test_where_a_question_is_open_the_asset_to_demonstrate_alone_is_named() -> None:
     open_rule = OpenRule(1, "b.obj", (frozenset({"x"}), frozenset()))
     asked = Ambiguous(
-        rules=(), readings=READINGS, tried=(), seconds={}, program=Program(), open_rule=open_rule, hint=HINT
+        rules=(), candidates=READINGS, tried=(), seconds={}, program=Program(), open_rule=open_rule, hint=HINT
     )
     assert format_remarks(asked, ABOUT).splitlines()[1:-1] == [
         "ambiguous: it is open what rule 1 does on b.obj",

@@ -34,7 +34,7 @@ def assert_same_hulls(
 ) -> None:
     """The hulls of two assets have the same places and sizes; hulled: those that an engine makes besides."""
     assert set(hulled) <= {geom.name for geom in after.geoms} and (
-        not hulled or len(hulled) == sum(piece.surface is not None for piece in before.opaque)
+        not hulled or len(hulled) == sum(piece.surface is not None for piece in before.non_convex)
     )
     by_name = {geom.name: geom.shape for geom in after.geoms if geom.name not in hulled}
     assert len(by_name) == len(before.geoms)
@@ -77,7 +77,7 @@ def test_native_shapes_stay_native_where_the_format_has_them(target: str, tmp_pa
 def test_opaque_pieces_with_a_surface_come_back_as_such(target: str, tmp_path: Path) -> None:
     asset = SAMPLES["opaque"]()
     after = read(save(asset, tmp_path / f"thing{target}").path)
-    assert [piece.reason for piece in after.opaque if piece.surface] == ["not convex: fills 71% of its convex hull"]
+    assert [piece.reason for piece in after.non_convex if piece.surface] == ["not convex: fills 71% of its convex hull"]
     assert len(after.geoms) == 1
 
 
@@ -86,8 +86,8 @@ def test_mujoco_collides_with_the_convex_hull_of_an_opaque_piece(tmp_path: Path)
     saved = save(before, tmp_path / "thing.xml")
     after = read(saved.path)
     assert [geom.name for geom in after.geoms] == ["room/stool", "room/walls"] and saved.hulled == ("room/walls",)
-    assert [(piece.name, piece.plane is not None) for piece in after.opaque] == [("room/floor", True)]
-    (walls,) = (piece.surface for piece in before.opaque if piece.surface)
+    assert [(piece.name, piece.plane is not None) for piece in after.non_convex] == [("room/floor", True)]
+    (walls,) = (piece.surface for piece in before.non_convex if piece.surface)
     assert after.geoms[1].shape.volume == pytest.approx(convex_hull(walls.vertices).volume, rel=1e-6)
     assert any(note.endswith("MuJoCo will collide with its hull (71% full)") for note in saved.notes)
 

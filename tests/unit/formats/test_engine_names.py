@@ -13,7 +13,7 @@ from meshforge.checks import check
 from meshforge.common import AssetError, UsageError
 from meshforge.formats import EngineName, MarkName, read, save
 from meshforge.geometry import Box, Pose, Sphere, convex_hull
-from meshforge.symbolic import Asset, Geom, Opaque, Surface, SymbolicMesh
+from meshforge.symbolic import Asset, Geom, NonConvexPiece, Surface, SymbolicMesh
 from tests.conversion_samples import SAMPLES, block, foreign, wedge
 from tests.gltf_files import SceneFile, tree_of
 from tests.gltf_validation import errors
@@ -56,7 +56,7 @@ def test_of_an_obj_of_unreal_only_what_is_named_so_collides(tmp_path: Path) -> N
         ("UCX_SM_crate_00", "polytope"),
         ("UBX_SM_crate_01", "box"),
     ]
-    assert not asset.opaque
+    assert not asset.non_convex
     assert [len(surface.faces) for surface in asset.visuals] == [len(angle()[1])]
     np.testing.assert_array_equal(asset.visuals[0].vertices, angle()[0])
 
@@ -82,7 +82,7 @@ def test_a_mesh_that_is_not_what_its_prefix_says_is_a_hull_and_told(tmp_path: Pa
 def test_a_flat_group_of_unreal_is_opaque(tmp_path: Path) -> None:
     flat: Soup = (np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0.0]]), np.array([[0, 1, 2]]))
     asset = read(crate(tmp_path, SEEN + HULLS + group(flat, 28, "o UCX_SM_crate_02")))
-    assert len(asset.geoms) == 2 and [piece.name for piece in asset.opaque] == ["UCX_SM_crate_02"]
+    assert len(asset.geoms) == 2 and [piece.name for piece in asset.non_convex] == ["UCX_SM_crate_02"]
 
 
 # Editing one
@@ -177,11 +177,11 @@ def test_what_is_no_hull_never_becomes_one_for_unreal(tmp_path: Path) -> None:
     ]
     for saved in (bare, seen):
         assert names(read(saved.path)) == ["UBX_room_00"]
-    walls = Opaque("walls", "body", "not convex", Surface(*angle()))
+    walls = NonConvexPiece("walls", "body", "not convex", Surface(*angle()))
     only = foreign({"body": Pose.identity()}, [], walls)
     with pytest.raises(AssetError, match="there is no hull to write"):
         save(only, tmp_path / "only.glb", names="unreal")
-    assert [piece.name for piece in read(save(only, tmp_path / "g.glb", names="godot").path).opaque] == [
+    assert [piece.name for piece in read(save(only, tmp_path / "g.glb", names="godot").path).non_convex] == [
         "walls-colonly"
     ]
 

@@ -8,7 +8,7 @@ import trimesh
 
 from meshforge.formats import read, save
 from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Pose, Sphere, convex_hull, is_same_shape
-from meshforge.symbolic import Asset, Body, Document, Geom, Inertial, Joint, Mechanism, Opaque, Surface
+from meshforge.symbolic import Asset, Body, Document, Geom, Inertial, Joint, Mechanism, NonConvexPiece, Surface
 from tests.gltf_files import KHR, tree_of
 from tests.gltf_validation import errors
 from tests.soups import angle, box
@@ -29,11 +29,11 @@ def brick(name: str, body: str = "body") -> Geom:
 @pytest.mark.parametrize("suffix", SUFFIXES)
 def test_hulls_of_one_body_become_plain_nodes_of_their_names(tmp_path: Path, suffix: str) -> None:
     hulls = [Geom(f"part {k}", "body", convex_hull(box((2 * k, 0, 0))[0])) for k in range(3)]
-    corner = Opaque("corner", "body", "not convex", Surface(*angle()))
+    corner = NonConvexPiece("corner", "body", "not convex", Surface(*angle()))
     saved = save(made(*hulls, opaque=(corner,)), tmp_path / f"a{suffix}")
     after = read(saved.path)
     assert [geom.name for geom in after.geoms] == ["part 0", "part 1", "part 2"]
-    assert [piece.name for piece in after.opaque] == ["corner"]
+    assert [piece.name for piece in after.non_convex] == ["corner"]
     assert "extensionsUsed" not in tree_of(saved.path.read_bytes())
     assert errors([saved.path]) == [{}]
     scene = trimesh.load_scene(saved.path)
@@ -128,9 +128,9 @@ def test_a_mass_comes_back_though_its_inertia_is_not_told(tmp_path: Path) -> Non
 
 
 def test_endless_planes_come_back(tmp_path: Path) -> None:
-    floor = Opaque("a/floor", "a", "a plane has no end", plane=TURN)
+    floor = NonConvexPiece("a/floor", "a", "a plane has no end", plane=TURN)
     path = save(made(brick("a/x", "a"), bodies=(Body("a", TURN @ TURN),), opaque=(floor,)), tmp_path / "a.glb").path
-    (piece,) = read(path).opaque
+    (piece,) = read(path).non_convex
     assert piece.name == "a/floor" and piece.plane is not None
     np.testing.assert_allclose(piece.plane.rotation[:, 2], TURN.rotation[:, 2], atol=1e-12)
     np.testing.assert_allclose(piece.plane.translation, TURN.translation, atol=1e-12)

@@ -82,7 +82,7 @@ def test_planes_and_shapes_without_volume_are_opaque(tmp_path: Path) -> None:
     scene.collider("odd", {"type": "torus"})
     asset = asset_of(scene, tmp_path)
     assert not asset.geoms
-    floor, thin, odd = asset.opaque
+    floor, thin, odd = asset.non_convex
     assert floor.plane is not None
     assert floor.plane.rotation[:, 2].tolist() == [0, 1, 0] and floor.plane.translation.tolist() == [0, 1, 0]
     assert thin.reason == "a box without volume: 1, 0, 1 m"
@@ -102,7 +102,7 @@ def test_meshes_collide_as_their_hull_or_as_they_are(tmp_path: Path, form: str) 
     asset = asset_of(scene, tmp_path)
     assert [geom.name for geom in asset.geoms] == ["hull", "pieces#0", "pieces#1"]
     assert asset.geoms[1].shape.volume == pytest.approx(2)
-    assert [piece.name for piece in asset.opaque] == ["corner"]
+    assert [piece.name for piece in asset.non_convex] == ["corner"]
 
 
 def test_nodes_in_motion_are_bodies_and_what_is_below_belongs_to_the_nearest(tmp_path: Path) -> None:
@@ -255,7 +255,7 @@ def test_shapes_of_omi_have_other_sizes_where_these_are_left_out(tmp_path: Path)
         [1, 2, 1],
         [3, 3, 1],
     ]
-    assert [(o.name, o.reason) for o in asset.opaque] == [("none", "its collider names no mesh")]
+    assert [(o.name, o.reason) for o in asset.non_convex] == [("none", "its collider names no mesh")]
 
 
 def test_a_capsule_of_one_radius_tells_its_whole_height_one_of_two_that_of_its_straight_part(tmp_path: Path) -> None:

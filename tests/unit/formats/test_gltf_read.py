@@ -47,7 +47,7 @@ def test_without_any_mark_each_convex_piece_of_each_node_is_a_hull(tmp_path: Pat
     scene.node("corner", angle())
     asset = asset_of(scene, tmp_path)
     assert names(asset) == ["legs#0", "legs#1", "top"]
-    assert [(o.name, o.reason[:10]) for o in asset.opaque] == [("corner", "not convex")]
+    assert [(o.name, o.reason[:10]) for o in asset.non_convex] == [("corner", "not convex")]
     assert [body.name for body in asset.bodies] == ["body"]
     assert not len(asset.visuals)
     assert not asset.notes
@@ -96,7 +96,7 @@ def test_a_node_scaled_to_nothing_is_opaque(tmp_path: Path) -> None:
     scene.node("gone", box(), scale=[1, 0, 1])
     asset = asset_of(scene, tmp_path)
     assert names(asset) == ["there"]
-    assert [(o.name, o.reason) for o in asset.opaque] == [("gone", "it is scaled to nothing")]
+    assert [(o.name, o.reason) for o in asset.non_convex] == [("gone", "it is scaled to nothing")]
 
 
 def test_only_the_default_scene_is_read_and_the_rest_is_told(tmp_path: Path) -> None:
@@ -252,7 +252,7 @@ def test_unreal_names_are_hulls_boxes_spheres_and_capsules(tmp_path: Path) -> No
         ("UCP_table", "capsule"),
         ("UCX_table_03", "polytope"),
     ]
-    assert not asset.opaque
+    assert not asset.non_convex
     assert shape_of(asset, "UCX_table_01").volume == pytest.approx(3)  # one hull around both boxes
     sphere = shape_of(asset, "USP_table")
     assert isinstance(sphere, Sphere) and sphere.radius == pytest.approx(2, abs=1e-6)
@@ -284,7 +284,7 @@ def test_a_flat_ucx_is_opaque(tmp_path: Path) -> None:
     scene.node("UCX_a", box())
     points, faces = box()
     scene.node("UCX_b", (points * [1, 1, 0], faces))
-    assert [o.name for o in asset_of(scene, tmp_path).opaque] == ["UCX_b"]
+    assert [o.name for o in asset_of(scene, tmp_path).non_convex] == ["UCX_b"]
 
 
 # Godot's names
@@ -312,7 +312,7 @@ def test_godot_names_are_hulls_and_pieces(tmp_path: Path) -> None:
         "f$colonly_x",
         "g-col",
     ]
-    assert [o.name for o in asset.opaque] == ["e_COL 2"]
+    assert [o.name for o in asset.non_convex] == ["e_COL 2"]
     assert len(asset.visuals) == 6  # a, b, e, seen, collar and g
 
 

@@ -194,7 +194,7 @@ def test_points_and_lines_of_a_removed_hull_stay_in_the_scene(tmp_path: Path, na
     scene.node(name.replace("legs", "top"), box((5, 0, 0)))
     case = Edited(scene, tmp_path)
     after = case.edit(gone=[name])
-    assert names(after) == [name.replace("legs", "top")] and not after.opaque
+    assert names(after) == [name.replace("legs", "top")] and not after.non_convex
     assert modes(case.trees[1]) == {name: [1], name.replace("legs", "top"): [4]}
 
 

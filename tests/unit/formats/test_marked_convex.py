@@ -98,7 +98,7 @@ def notes_of(path: Path) -> list[str]:
 def test_a_mesh_that_is_marked_convex_and_is_not_says_how_full_it_is(write: Writer, tmp_path: Path) -> None:
     path = write(tmp_path, angle())
     asset = read(path)
-    assert (len(asset.geoms), len(asset.opaque)) == (1, 0)
+    assert (len(asset.geoms), len(asset.non_convex)) == (1, 0)
     assert asset.geoms[0].shape.volume == pytest.approx(7)
     assert asset.geoms[0].fill == pytest.approx(5 / 7, abs=1e-5)
     (note,) = notes_of(path)

@@ -14,7 +14,7 @@ from meshforge.common import AssetError
 from meshforge.formats import SaveResult, read, save
 from meshforge.formats.visuals import Visual, VisualSurfaces
 from meshforge.geometry import Aabb, Box, Pose, Sphere, convex_hull
-from meshforge.symbolic import Asset, Body, Inertial, Joint, Mechanism, Opaque, Surface
+from meshforge.symbolic import Asset, Body, Inertial, Joint, Mechanism, NonConvexPiece, Surface
 from tests.conversion_samples import TURNED, block, foreign, wedge
 from tests.soups import angle
 from tests.urdf_sample import boxes_obj
@@ -157,10 +157,10 @@ def test_a_moving_body_of_nothing_gets_a_little_mass(tmp_path: Path) -> None:
 
 def test_a_plane_stands_still_or_is_left_out(tmp_path: Path) -> None:
     asset = pair()
-    planes = tuple(Opaque(f"{b}/floor", b, "a plane has no end", plane=TURNED) for b in ("base", "arm"))
-    after, model, saved = made(replace(asset, opaque=planes), tmp_path)
-    assert [piece.name for piece in after.opaque] == ["base/floor"]
-    place = after.opaque[0].plane
+    planes = tuple(NonConvexPiece(f"{b}/floor", b, "a plane has no end", plane=TURNED) for b in ("base", "arm"))
+    after, model, saved = made(replace(asset, non_convex=planes), tmp_path)
+    assert [piece.name for piece in after.non_convex] == ["base/floor"]
+    place = after.non_convex[0].plane
     assert place is not None
     np.testing.assert_allclose(place.rotation, TURNED.rotation, atol=1e-7)
     assert (model.geom_type == mujoco.mjtGeom.mjGEOM_PLANE).sum() == 1
@@ -269,8 +269,11 @@ def test_a_visual_that_is_sheared_is_written_as_it_looks(tmp_path: Path) -> None
 
 def test_an_opaque_piece_is_the_mesh_that_mujoco_hulls_whatever_its_body_shows(tmp_path: Path) -> None:
     surface = Surface(*angle())
-    pieces = (Opaque("base/shell", "base", "not convex", surface), Opaque("arm/shell", "arm", "not convex", surface))
-    asset = replace(shown(tmp_path, "box.obj", ONE), opaque=pieces)
+    pieces = (
+        NonConvexPiece("base/shell", "base", "not convex", surface),
+        NonConvexPiece("arm/shell", "arm", "not convex", surface),
+    )
+    asset = replace(shown(tmp_path, "box.obj", ONE), non_convex=pieces)
     after, model, saved = made(asset, tmp_path)
     assert [visual.body for visual in after.visuals] == ["base"]
     assert int((model.geom_contype != 0).sum()) == 4
@@ -284,8 +287,8 @@ def test_an_opaque_piece_is_the_mesh_that_mujoco_hulls_whatever_its_body_shows(t
 
 def test_a_flat_opaque_piece_which_mujoco_refuses_is_lost_and_said_to_be(tmp_path: Path) -> None:
     points = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0.9, 0.1, 0]], dtype=float)
-    flat = Opaque("arm/sheet", "arm", "flat", Surface(points, np.array([[0, 1, 3], [1, 2, 3]])))
-    after, _, saved = made(replace(pair(), opaque=(flat,)), tmp_path)
+    flat = NonConvexPiece("arm/sheet", "arm", "flat", Surface(points, np.array([[0, 1, 3], [1, 2, 3]])))
+    after, _, saved = made(replace(pair(), non_convex=(flat,)), tmp_path)
     assert [geom.name for geom in after.geoms] == ["base/foot", "arm/bone"] and saved.hulled == ()
     assert "1 opaque piece (arm/sheet) is left out: MuJoCo refuses a mesh that is flat" in saved.notes
     with pytest.raises(AssetError, match="arm/sheet would collide no more: MuJoCo refuses a mesh that is flat"):
@@ -294,7 +297,7 @@ def test_a_flat_opaque_piece_which_mujoco_refuses_is_lost_and_said_to_be(tmp_pat
 
 def test_a_body_of_a_mesh_alone_has_the_mass_of_its_hull(tmp_path: Path) -> None:
     surface = Surface(*angle())
-    asset = replace(pair(), opaque=(Opaque("arm/shell", "arm", "not convex", surface),))
+    asset = replace(pair(), non_convex=(NonConvexPiece("arm/shell", "arm", "not convex", surface),))
     asset = replace(asset, geoms=asset.geoms[:1])
     _, model, saved = made(asset, tmp_path)
     assert model.body("arm").mass[0] == pytest.approx(1000 * convex_hull(surface.vertices).volume)

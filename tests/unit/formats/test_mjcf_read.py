@@ -188,7 +188,7 @@ def test_what_is_invisible_is_no_visual(tmp_path: Path) -> None:
 def test_planes_and_height_fields_are_opaque(tmp_path: Path) -> None:
     field = '<asset><hfield name="h" nrow="3" ncol="2" size="1 2 3 4" elevation="0 1 2 3 4 5"/></asset>'
     inside = '<geom name="floor" type="plane" size="0 0 1" zaxis="1 0 0"/><geom type="hfield" hfield="h" pos="0 0 1"/>'
-    plane, hills = asset(tmp_path, inside, field).opaque
+    plane, hills = asset(tmp_path, inside, field).non_convex
     assert (plane.name, plane.reason, plane.surface) == ("world/floor", "a plane has no end", None)
     assert plane.plane is not None
     np.testing.assert_allclose(plane.plane.rotation[:, 2], [1, 0, 0], atol=1e-12)
@@ -207,7 +207,7 @@ def test_signed_distance_fields_are_opaque_and_shown(tmp_path: Path) -> None:
         '<asset><mesh name="torus"><plugin instance="t"/></mesh></asset>'
     )
     geom = '<geom type="sdf" mesh="torus"><plugin instance="t"/></geom>'
-    (ring,) = asset(tmp_path, f'<body name="b">{geom}</body>', torus).opaque
+    (ring,) = asset(tmp_path, f'<body name="b">{geom}</body>', torus).non_convex
     assert (ring.name, ring.reason) == ("b/geom0", "a signed distance field is no convex hull")
     assert ring.surface is not None
     np.testing.assert_allclose(np.ptp(ring.surface.vertices, axis=0), [1, 1, 0.3], atol=0.05)
@@ -216,7 +216,7 @@ def test_signed_distance_fields_are_opaque_and_shown(tmp_path: Path) -> None:
 def test_a_height_field_rises_where_mujoco_has_it_rise(tmp_path: Path) -> None:
     field = '<asset><hfield name="h" nrow="3" ncol="4" size="1 2 3 4" elevation="0 0 0 1 0 0 0 0 0 0 0 0"/></asset>'
     path = put(tmp_path, {"main.xml": model('<geom type="hfield" hfield="h"/>', field)})
-    surface = read(path).opaque[0].surface
+    surface = read(path).non_convex[0].surface
     assert surface is not None
     compiled = mujoco.MjModel.from_xml_path(str(path))
     data = mujoco.MjData(compiled)

@@ -216,7 +216,7 @@ def test_opaque_pieces_stay_as_they_are(tmp_path: Path) -> None:
     flat = "o lid\nv 0 0 9\nv 1 0 9\nv 1 1 9\nf 17 18 19\n"
     source = written(tmp_path / "a.obj", two_legs() + flat)
     asset, text = edited(source, tmp_path / "b.obj", drop={"left leg"})
-    assert [(o.name, o.reason) for o in asset.opaque] == [("lid", "flat")]
+    assert [(o.name, o.reason) for o in asset.non_convex] == [("lid", "flat")]
     assert text.endswith("o lid\nv 0 0 9\nv 1 0 9\nv 1 1 9\nf 9 10 11\n")
 
 

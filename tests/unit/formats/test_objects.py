@@ -77,7 +77,7 @@ def test_a_scene_is_read_where_its_nodes_put_it() -> None:
 
 def test_what_is_not_convex_is_an_opaque_piece() -> None:
     mesh = mf.from_trimesh(trimesh.creation.torus(1, 0.2))
-    assert mesh.hulls == () and mesh.asset and len(mesh.asset.opaque) == 1 and mesh.asset.opaque[0].reason
+    assert mesh.hulls == () and mesh.asset and len(mesh.asset.non_convex) == 1 and mesh.asset.non_convex[0].reason
 
 
 @pytest.mark.parametrize("thing", [3, "table.obj", None])

@@ -14,7 +14,7 @@ from meshforge.common import AssetError
 from meshforge.formats import read, save
 from meshforge.formats.plain.stl import StlFormat
 from meshforge.geometry import Capsule, Pose, convex_hull
-from meshforge.symbolic import Asset, Geom, Opaque, Surface
+from meshforge.symbolic import Asset, Geom, NonConvexPiece, Surface
 from tests.mesh_files import KINDS, ply, stl_ascii, stl_binary, wrl
 from tests.soups import Soup, box, together
 
@@ -220,13 +220,16 @@ def test_other_formats_are_converted_with_what_is_opaque(tmp_path: Path, suffix:
     sheet = Surface(np.array([[0, 0, 9], [1, 0, 9], [1, 1, 9.0]]), np.array([[0, 1, 2]]))
     asset = replace(
         read(put(tmp_path, ".wrl", wrl(LEGS))),
-        opaque=(Opaque("sheet", "body", "flat", sheet), Opaque("floor", "body", "an endless plane")),
+        non_convex=(
+            NonConvexPiece("sheet", "body", "flat", sheet),
+            NonConvexPiece("floor", "body", "an endless plane"),
+        ),
     )
     capsule = Geom("pin", "body", Capsule(Pose.of_translation([0, 8, 0]), 0.5, 1.0))
     saved = save(asset.with_geoms([*asset.geoms, capsule]), tmp_path / f"b{suffix}")
     back = read(saved.path)
     assert len(back.geoms) == 4
-    assert [o.reason for o in back.opaque] == ["flat"]
+    assert [o.reason for o in back.non_convex] == ["flat"]
     assert [n for n in saved.notes if "capsule" in n or "floor" in n] == [
         f"1 capsule (pin) is written as triangles: {suffix[1:].upper()} has no capsules",
         "1 piece without a surface (floor) is left out: an endless plane",

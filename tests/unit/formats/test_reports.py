@@ -156,7 +156,7 @@ def said(source: str, folder: Path) -> str:
     parts = []
     for suffix in SUFFIXES:
         saved = save(asset, folder / "out" / suffix.removeprefix(".") / f"thing{suffix}")
-        held = ", ".join(pluralize(f.count, f.kind.one, f.kind.many) for f in saved.report.held)
+        held = ", ".join(pluralize(f.count, f.kind.one, f.kind.many) for f in saved.report.kept)
         parts.append("\n".join([f"== to {suffix or 'a folder'}, which holds: {held or 'hulls'}", *saved.notes]))
     return "\n\n".join(parts) + "\n"
 
@@ -176,7 +176,7 @@ def test_what_only_the_document_tells_is_never_told_to_be_held(tmp_path: Path) -
     told = save(SOURCES["busy_mjcf"](tmp_path), tmp_path / "out" / "m.urdf").report
     (others,) = [loss.names for loss in told.lost if loss.kind is FeatureKind.OTHERS]
     assert {"sensor", "material", "actuator", "contact setting", "comment"} <= set(others)
-    assert not {feature.kind for feature in told.held} & {loss.kind for loss in told.lost}
+    assert not {feature.kind for feature in told.kept} & {loss.kind for loss in told.lost}
 
 
 def test_a_loss_is_a_sentence_with_a_count_and_names() -> None:
@@ -190,17 +190,17 @@ def test_a_loss_is_a_sentence_with_a_count_and_names() -> None:
 
 def test_things_that_a_creator_left_out_do_not_count_as_held() -> None:
     asset, urdf = SAMPLES["opaque"](), next(known for known in FORMATS if known.name == "urdf")
-    lost = tuple(Loss(FeatureKind.OPAQUE, (name,), "flat") for name in ("room/walls", "room/other"))
+    lost = tuple(Loss(FeatureKind.NON_CONVEX, (name,), "flat") for name in ("room/walls", "room/other"))
     told = report_conversion(asset, None, urdf, Output(b"", lost=lost))
-    assert FeatureKind.OPAQUE not in {feature.kind for feature in told.held}
-    assert [str(loss) for loss in told.lost if loss.kind is FeatureKind.OPAQUE] == [
+    assert FeatureKind.NON_CONVEX not in {feature.kind for feature in told.kept}
+    assert [str(loss) for loss in told.lost if loss.kind is FeatureKind.NON_CONVEX] == [
         "2 opaque pieces (room/walls, room/other) are left out: flat"
     ]
 
 
 def test_names_count_where_an_author_gave_them_only() -> None:
     obj = next(known for known in FORMATS if known.name == "obj")
-    held = {feature.kind: feature.names for feature in report_conversion(crowd(), None, obj, Output(b"")).held}
+    held = {feature.kind: feature.names for feature in report_conversion(crowd(), None, obj, Output(b"")).kept}
     assert held[FeatureKind.NAMES] == ("left/part", "right/part")
 
 
@@ -225,4 +225,4 @@ def test_what_the_vertices_of_a_gltf_have_besides_their_places_is_told(tmp_path:
 
 def test_within_a_format_nothing_is_lost(tmp_path: Path) -> None:
     saved = save(SOURCES["busy_urdf"](tmp_path), tmp_path / "out" / "m.urdf")
-    assert (saved.notes, saved.report.lost, saved.report.held) == ((), (), ())
+    assert (saved.notes, saved.report.lost, saved.report.kept) == ((), (), ())

@@ -37,9 +37,9 @@ def test_native_shapes_stay_native_planes_and_opaque_pieces_too(tmp_path: Path) 
     kinds = ["box", "sphere", "cylinder", "capsule", "ellipsoid", "polytope"]
     assert [geom.shape.kind for geom in found.geoms] == kinds
     found = read(save(SAMPLES["opaque"](), tmp_path / "o.sdf").path)
-    planes = [piece.plane for piece in found.opaque if piece.plane]
+    planes = [piece.plane for piece in found.non_convex if piece.plane]
     assert [plane.translation.tolist() for plane in planes] == [[0, 0, -1]]
-    assert [piece.reason[:10] for piece in found.opaque if piece.surface] == ["not convex"]
+    assert [piece.reason[:10] for piece in found.non_convex if piece.surface] == ["not convex"]
 
 
 def test_model_sdf_gets_a_model_config_and_is_read_as_a_folder(tmp_path: Path) -> None:

@@ -59,7 +59,7 @@ def test_primitives_have_their_sizes(geometry: str, kind: str, size: list[float]
 
 def test_a_plane_is_opaque_and_knows_where_it_is(tmp_path: Path) -> None:
     plane = "<plane><normal>0 1 0</normal></plane>"
-    (piece,) = read(put_text(tmp_path, model(link(plane, more="<pose>0 0 7 0 0 0</pose>")))).opaque
+    (piece,) = read(put_text(tmp_path, model(link(plane, more="<pose>0 0 7 0 0 0</pose>")))).non_convex
     assert piece.plane is not None
     np.testing.assert_allclose(piece.plane.rotation[:, 2], [0, 1, 0], atol=1e-12)
     assert piece.plane.translation.tolist() == [0, 0, 7]

@@ -56,7 +56,7 @@ def test_an_edit_changes_collisions_and_no_other_byte(tmp_path: Path) -> None:
     assert outside(text) == outside(SAMPLE)
     assert "<mu>0.7</mu>" in text  # inherited
     assert text.count("<max_contacts>4</max_contacts>") == 2
-    assert again(edit, tmp_path / "out").opaque == ()
+    assert again(edit, tmp_path / "out").non_convex == ()
 
 
 def test_line_ends_and_encoding_stay(tmp_path: Path) -> None:

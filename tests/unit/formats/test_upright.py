@@ -54,12 +54,12 @@ def test_all_of_an_asset_turns_together(tmp_path: Path) -> None:
     file = tmp_path / "box.obj"
     file.write_text(boxes_obj(((0, 0, 0), (1, 2, 3))))
     visuals = VisualSurfaces((Visual("door", file, TURNED.rotation, TURNED.translation, (1, 0, 0, 1)),))
-    asset = replace(doors(), visuals=visuals, opaque=opaque().opaque)
+    asset = replace(doors(), visuals=visuals, non_convex=opaque().non_convex)
     after = turn_asset(asset, TURNED)
-    walls, floor = after.opaque
+    walls, floor = after.non_convex
     assert walls.surface is not None
-    assert asset.opaque[0].surface is not None
-    np.testing.assert_allclose(walls.surface.vertices, TURNED.apply(asset.opaque[0].surface.vertices))
+    assert asset.non_convex[0].surface is not None
+    np.testing.assert_allclose(walls.surface.vertices, TURNED.apply(asset.non_convex[0].surface.vertices))
     assert floor.plane is not None
     np.testing.assert_allclose(floor.plane.translation, TURNED.apply(np.array([[0, 0, -1.0]]))[0])
     np.testing.assert_allclose(after.visuals[0].vertices, TURNED.apply(asset.visuals[0].vertices), atol=1e-12)

@@ -16,7 +16,7 @@ from meshforge.formats.urdf.edit import CAPSULE_READERS
 from meshforge.formats.urdf.format import UrdfFormat
 from meshforge.formats.visuals import Visual, VisualSurfaces
 from meshforge.geometry import Aabb, Box, Capsule, Cylinder, Pose, Shape, Sphere
-from meshforge.symbolic import Asset, Body, Document, Geom, Inertial, Joint, Mechanism, Opaque, Surface
+from meshforge.symbolic import Asset, Body, Document, Geom, Inertial, Joint, Mechanism, NonConvexPiece, Surface
 from tests.urdf_engines import assert_mujoco_agrees, bullet, mujoco_model, yourdf
 from tests.urdf_sample import boxes_obj, put, read
 
@@ -25,7 +25,7 @@ BLOCK = Box.of_bounds(Aabb((0, 0, 0), (1, 2, 3)))
 BLOCK_OBJ = boxes_obj(((0, 0, 0), (1, 2, 3)))
 
 
-def foreign(bodies: dict[str, Pose], geoms: list[tuple[str, str, Shape]], *opaque: Opaque) -> Asset:
+def foreign(bodies: dict[str, Pose], geoms: list[tuple[str, str, Shape]], *opaque: NonConvexPiece) -> Asset:
     made = tuple(Geom(name, body, shape) for name, body, shape in geoms)
     return Asset(Path("x.foo"), "foo", tuple(Body(n, p) for n, p in bodies.items()), made, Document(), opaque)
 
@@ -99,9 +99,12 @@ def test_bodies_that_are_all_elsewhere_get_a_root_of_their_own(tmp_path: Path) -
 def test_opaque_pieces_are_meshes_as_they_are_unless_they_are_flat(flat: bool, tmp_path: Path) -> None:
     points = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 0 if flat else 1]], dtype=float)
     surface = Surface(points, np.array([[0, 2, 1], [0, 1, 3]]))
-    opaque = [Opaque("lid/open", "lid", "open", surface), Opaque("lid/floor", "lid", "a plane has no end")]
+    opaque = [
+        NonConvexPiece("lid/open", "lid", "open", surface),
+        NonConvexPiece("lid/floor", "lid", "a plane has no end"),
+    ]
     again, _, output = created(foreign({"lid": Pose.identity()}, [("lid/a", "lid", BLOCK)], *opaque), tmp_path)
-    assert [o.name for o in again.opaque] == ([] if flat else ["lid/open"])
+    assert [o.name for o in again.non_convex] == ([] if flat else ["lid/open"])
     said = told(foreign({"lid": Pose.identity()}, [("lid/a", "lid", BLOCK)], *opaque), output)
     assert "1 piece without a surface (lid/floor) is left out: a plane has no end" in said
     assert [n for n in said if "lid/open" in n] == [

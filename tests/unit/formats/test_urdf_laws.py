@@ -88,7 +88,7 @@ def test_an_edit_reads_back_as_it_was_meant_and_changes_only_collisions(data: st
     assert wanted.keys() == found.keys() and len(found) == len(edit.geoms)
     for key, geom in wanted.items():
         _same(geom, found[key])
-    assert len(again.opaque) == len(edit.opaque)
+    assert len(again.non_convex) == len(edit.non_convex)
 
 
 def _same(wanted: Geom, found: Geom) -> None:

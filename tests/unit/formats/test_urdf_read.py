@@ -18,7 +18,7 @@ def test_every_collision_of_the_sample_is_a_hull_of_its_kind(tmp_path: Path) -> 
     assert [g.name for g in asset.geoms] == HULLS
     assert [g.shape.kind for g in asset.geoms] == ["box", "polytope", "polytope", "polytope", "sphere", "cylinder"]
     assert [b.name for b in asset.bodies] == ["base", "wheel"]
-    assert not asset.opaque and not asset.missing and not asset.notes
+    assert not asset.non_convex and not asset.missing and not asset.notes
     assert asset.files == (tmp_path / "meshes" / "three.obj",)
 
 
@@ -71,9 +71,9 @@ def test_what_is_no_hull_is_opaque_with_its_reason(kind: str, reason: str, tmp_p
     (tmp_path / "meshes" / "corner.obj").write_text(corner_obj())
     asset = read(path)
     assert [g.name for g in asset.geoms] == ["a/geom1"]
-    assert [(o.name, o.body) for o in asset.opaque] == [("a/geom0", "a")]
-    assert reason in asset.opaque[0].reason
-    assert (asset.opaque[0].surface is not None) == ("mesh" in kind)
+    assert [(o.name, o.body) for o in asset.non_convex] == [("a/geom0", "a")]
+    assert reason in asset.non_convex[0].reason
+    assert (asset.non_convex[0].surface is not None) == ("mesh" in kind)
 
 
 def test_an_opaque_piece_counts_among_the_pieces_and_is_shown_where_it_is(tmp_path: Path) -> None:
@@ -82,9 +82,9 @@ def test_an_opaque_piece_counts_among_the_pieces_and_is_shown_where_it_is(tmp_pa
     flat = "v 5 0 2\nv 6 0 2\nv 5 1 2\n"
     (tmp_path / "meshes" / "mixed.obj").write_text(flat + "f 1 2 3\n" + _shifted(THREE, 3))
     asset = read(path)
-    assert [o.name for o in asset.opaque] == ["a/geom0#0"]
+    assert [o.name for o in asset.non_convex] == ["a/geom0#0"]
     assert [g.name for g in asset.geoms] == ["a/geom0#1", "a/geom0#2", "a/geom0#3"]
-    surface = asset.opaque[0].surface
+    surface = asset.non_convex[0].surface
     assert surface is not None and np.unique(surface.vertices[:, 2]).tolist() == [-2]
     a, b, c = surface.vertices[surface.faces[0]]
     assert np.cross(b - a, c - a)[2] < 0  # what looked up looks down in the mirror

@@ -176,16 +176,16 @@ def test_opaque_pieces_stay_and_go_only_when_they_are_replaced(tmp_path: Path) -
     faces = "\nf 13 15 14\nf 13 14 16\nf 13 16 15\nf 14 15 16\n"
     (tmp_path / "meshes" / "mixed.obj").write_text(corner_obj() + moved + faces)
     asset = read(path)
-    assert [o.name for o in asset.opaque] == ["a/geom0#0", "a/geom1"]
+    assert [o.name for o in asset.non_convex] == ["a/geom0#0", "a/geom1"]
     assert [g.name for g in asset.geoms] == ["a/geom0#1"]
 
     emptied = rewritten(asset.with_geoms([]), tmp_path)
-    assert [o.name for o in emptied.opaque] == ["a/geom0#0", "a/geom1"] and not emptied.geoms
+    assert [o.name for o in emptied.non_convex] == ["a/geom0#0", "a/geom1"] and not emptied.geoms
 
     box = Geom("a/geom1~1", "a", Box(TURNED, np.array(HALF)), "a/geom1")
-    prepared = dataclasses.replace(asset.with_geoms([*asset.geoms, box]), opaque=asset.opaque[:1])
+    prepared = dataclasses.replace(asset.with_geoms([*asset.geoms, box]), non_convex=asset.non_convex[:1])
     again = rewritten(prepared, tmp_path / "b")
-    assert [o.name for o in again.opaque] == ["a/geom0#0"]
+    assert [o.name for o in again.non_convex] == ["a/geom0#0"]
     assert [g.name for g in again.geoms] == ["a/geom0#1", "a/geom1~1"]
     assert "meshes/corner.obj" not in write(prepared).copies
 
@@ -200,7 +200,7 @@ def test_a_flat_piece_that_stays_behind_alone_is_noted(tmp_path: Path) -> None:
     expected = "flat piece 'a/geom0#3' stays, now in a file of its own, which MuJoCo refuses"
     assert write(edited).notes == (expected,)
     again = rewritten(edited, tmp_path)
-    assert [o.name for o in again.opaque] == ["a/geom0#3"]
+    assert [o.name for o in again.non_convex] == ["a/geom0#3"]
 
 
 def test_repeated_names_stay_what_they_were_read_as(tmp_path: Path) -> None:

@@ -34,7 +34,7 @@ def test_a_made_stage_holds_the_asset_and_is_valid(tmp_path: Path, sample: str, 
         wanted = geom.shape.tessellate() if geom.shape.kind == "ellipsoid" else geom.shape
         assert np.allclose(made.shape.aabb.min, wanted.aabb.min, atol=1e-6)
         assert np.allclose(made.shape.aabb.max, wanted.aabb.max, atol=1e-6)
-    assert len(after.opaque) == len(asset.opaque) and after.up == "z"
+    assert len(after.non_convex) == len(asset.non_convex) and after.up == "z"
 
 
 def test_the_same_asset_makes_the_same_bytes(tmp_path: Path) -> None:
@@ -75,7 +75,7 @@ def test_masses_come_back_and_joints_are_named(tmp_path: Path) -> None:
 
 def test_a_plane_stands_fast_outside_of_bodies(tmp_path: Path) -> None:
     after = read(save(SAMPLES["opaque"](), tmp_path / "a.usda").path)
-    (plane,) = [piece for piece in after.opaque if piece.plane is not None]
+    (plane,) = [piece for piece in after.non_convex if piece.plane is not None]
     assert plane.body == BODY and plane.plane is not None and np.allclose(plane.plane.translation, [0, 0, -1])
 
 

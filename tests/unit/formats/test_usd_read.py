@@ -66,7 +66,7 @@ def test_round_shapes_that_are_scaled_unevenly_are_what_the_library_tells_engine
 
 def test_planes_are_opaque_and_endless(tmp_path: Path) -> None:
     asset = of(tmp_path, primitive("Plane", 'uniform token axis = "Y"'))
-    (plane,) = asset.opaque
+    (plane,) = asset.non_convex
     assert plane.plane is not None and np.allclose(plane.plane.rotation[:, 2], [0, 1, 0])
 
 
@@ -82,10 +82,10 @@ def test_an_approximation_makes_one_shape_or_leaves_the_mesh(
 ) -> None:
     said = f'uniform token physics:approximation = "{approximation}"'
     asset = of(tmp_path, mesh("angle", api=COLLIDES, more=said, points=L_SHAPE))
-    assert (len(asset.geoms), len(asset.opaque)) == (hulls, opaque)
+    assert (len(asset.geoms), len(asset.non_convex)) == (hulls, opaque)
     kinds = {"convexHull": "polytope", "boundingCube": "box", "boundingSphere": "sphere"}
     assert [geom.shape.kind for geom in asset.geoms] == [kinds[approximation] for _ in range(hulls)]
-    assert all(piece.surface is not None for piece in asset.opaque)
+    assert all(piece.surface is not None for piece in asset.non_convex)
 
 
 def test_a_mesh_of_convex_pieces_that_is_not_hulled_is_so_many_hulls(tmp_path: Path) -> None:
@@ -145,7 +145,7 @@ def test_what_point_instancers_show_is_not_read_and_that_is_said(tmp_path: Path)
         {mesh("one", api=COLLIDES, more=CONVEX)}
     }}"""
     asset = of(tmp_path, many + "\n" + mesh("two", api=COLLIDES, more=CONVEX))
-    assert [geom.name for geom in asset.geoms] == ["two"] and not asset.opaque
+    assert [geom.name for geom in asset.geoms] == ["two"] and not asset.non_convex
     assert "what is shown many times by 1 point instancer (many) is not read, and left as it is" in asset.notes
 
 

@@ -34,10 +34,10 @@ def test_check_says_what_is_beyond_an_engine(path: Path) -> None:
 
 
 def test_an_engine_that_is_here_is_asked_itself(path: Path) -> None:
-    asked = mf.check(path, "mujoco").trial
+    asked = mf.check(path, "mujoco").loaded
     assert asked and asked.given == "file" and asked.refusal is None
     edited = mf.Program.parse("Is(leg) => Merge").run(mf.load(path), {}).mesh
-    asked = mf.check(edited, "mujoco").trial  # what no file is of yet is written for it
+    asked = mf.check(edited, "mujoco").loaded  # what no file is of yet is written for it
     assert asked and asked.given == "conversion" and asked.refusal is None
     path.write_text(path.read_text().replace("</robot>", '<joint name="j" type="fixed"/></robot>'))
     with pytest.raises(mf.MeshForgeError, match="table"):

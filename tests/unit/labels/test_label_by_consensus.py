@@ -211,7 +211,7 @@ def test_what_is_foretold_is_what_is_done_then(tmp_path: Path) -> None:
     assert project.label("sources", dry_run=True).proposals.rows == ()
 
 
-SAID = st.lists(
+ANSWERS = st.lists(
     st.tuples(
         st.sampled_from(["user", "vlm", "name", "file"]),
         st.sampled_from(["t0.obj", "t1.obj", "t2.obj"]),
@@ -225,7 +225,7 @@ SAID = st.lists(
 
 
 @examples(25)
-@given(said=SAID)
+@given(said=ANSWERS)
 def test_whatever_is_said_people_stay_again_changes_nothing_and_sources_come_back(
     tmp_path_factory: pytest.TempPathFactory, said: list[tuple[str, str, str, str, float]]
 ) -> None:

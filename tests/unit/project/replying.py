@@ -131,9 +131,9 @@ CASES = {
     "one of a group is something else": Case(
         "group", ASKED, {"choice": "rail", "exceptions": {f"{LAST}#rail": "leg"}}, "any", "up"
     ),
-    "the reading that stands out": Case("reading", SHELVED, {"choice": "a"}, "any", "any", "ambiguous"),
-    "another reading": Case("reading", SHELVED, {"choice": "b"}, "any", "up", "ambiguous"),
-    "none of the readings": Case("reading", SHELVED, {"choice": None}, "any", "any", "ambiguous"),
+    "the reading that stands out": Case("candidate", SHELVED, {"choice": "a"}, "any", "any", "ambiguous"),
+    "another reading": Case("candidate", SHELVED, {"choice": "b"}, "any", "up", "ambiguous"),
+    "none of the readings": Case("candidate", SHELVED, {"choice": None}, "any", "any", "ambiguous"),
     "a label is repaired": Case("repair", MISLABELLED, {"choice": "knob"}, "up", "up", "mislabelled"),
     "a label is right": Case("repair", MISLABELLED, {"choice": "leg"}, "any", "any", "mislabelled"),
     "a slip": Case("selection", SHOWN, {"choice": "yes"}, "up", "any", "slip"),

@@ -40,7 +40,7 @@ def test_what_was_accepted_by_itself_settles_what_was_open(tmp_path: Path) -> No
     (seen,) = json.loads(project.layout.events.read_text())["seen"]
     assert seen == {"rule": 1, "action": "Delete", "select": ["shelf", "top"]}
     outcome = project.synthesize()
-    assert isinstance(outcome, Found) and outcome.settled
+    assert isinstance(outcome, Found) and outcome.unambiguous
     assert BOARDS in str(outcome.program)
     assert not outcome.stale and not outcome.overruled
     project.set_verdict(SHELVED, None)

@@ -11,7 +11,7 @@ from meshforge.language import Delete, Program
 from meshforge.project import Project
 from meshforge.project.alarms import measure_results
 from meshforge.project.sign_offs import find_inputs
-from meshforge.signoff import BAR, EditMeasures, describe_odd_results, measure_edit
+from meshforge.signoff import THRESHOLD, EditMeasures, describe_outliers, measure_edit
 from meshforge.symbolic import SymbolicMesh
 from tests.unit.project.racks import BLOCK, PLAIN, find_right, shown_racks
 
@@ -29,7 +29,7 @@ def find_all(project: Project, meshes: dict[str, SymbolicMesh] | None = None) ->
     program = project.program()
     assert program
     meshes = meshes or dict(project.meshes_by_id())
-    return describe_odd_results(measure_results(project, program, meshes, find_inputs(project, IN_PROCESS)))
+    return describe_outliers(measure_results(project, program, meshes, find_inputs(project, IN_PROCESS)))
 
 
 def test_a_solid_block_stands_out_before_it_is_written_as_it_does_after(racks: Project) -> None:
@@ -82,15 +82,15 @@ def test_what_is_written_is_read_from_its_stamp_and_the_rest_is_measured_once(
 def test_a_review_before_anything_is_written_holds_the_block(racks: Project) -> None:
     find_right(racks, PLAIN[2])
     found = racks.review(execution=IN_PROCESS).assessment
-    assert found.held == (BLOCK,)
-    assert found.assets[BLOCK].doubts[0].kind == "alarm"
+    assert found.need_review == (BLOCK,)
+    assert found.assets[BLOCK].reasons[0].kind == "alarm"
 
 
 def test_what_stands_out_is_held_before_anybody_looked_at_a_result_and_the_rest_is_signed_off(racks: Project) -> None:
     found = racks.review(0.9, execution=IN_PROCESS).assessment
-    assert found.held == (BLOCK,)
-    assert found.assets[BLOCK].doubts[0].kind == "alarm"
-    assert found.assets[PLAIN[2]].probability >= BAR, "its labels are clear, and there is one reading"
+    assert found.need_review == (BLOCK,)
+    assert found.assets[BLOCK].reasons[0].kind == "alarm"
+    assert found.assets[PLAIN[2]].probability >= THRESHOLD, "its labels are clear, and there is one reading"
     assert found.question is not None and (found.question.kind, found.question.asset) == ("result", BLOCK)
 
 

@@ -10,11 +10,11 @@ import pytest
 from meshforge.common import ProjectError
 from meshforge.project import Project, demonstrations, learn, select_assets
 from meshforge.symbolic import Label
-from meshforge.synthesis import Answer, LabelCorrection, OpenRule
+from meshforge.synthesis import Answer, LabelFix, OpenRule
 from tests.open_rules import choose
 from tests.unit.project.shelves import OTHER, PLAIN, SHELVED, ambiguous, mislabelled
 
-WRONG = LabelCorrection(PLAIN, "knob", "leg", "knob")
+WRONG = LabelFix(PLAIN, "knob", "leg", "knob")
 OPEN = OpenRule(1, SHELVED, (frozenset({"top", "shelf"}), frozenset({"top"})))
 MACHINE = Label("leg", 0.75, "vlm")
 
@@ -117,7 +117,7 @@ def test_a_confirmed_repair_becomes_the_label_and_remembers_the_one_before(tmp_p
 def test_a_missing_label_that_was_filled_in_is_missing_again(tmp_path: Path) -> None:
     project = mislabelled(tmp_path)
     project.set_labels(PLAIN, {"knob": None})
-    said = project.confirm(LabelCorrection(PLAIN, "knob", None, "knob"))
+    said = project.confirm(LabelFix(PLAIN, "knob", None, "knob"))
     assert knob(project) == Label("knob", 1.0, "repair")
     project.take_back(said)
     assert knob(project) is None
@@ -144,9 +144,9 @@ def test_a_repair_of_an_asset_that_is_gone_can_be_taken_back(tmp_path: Path) -> 
 def test_a_repair_that_no_longer_fits_is_refused(tmp_path: Path) -> None:
     project = mislabelled(tmp_path)
     with pytest.raises(ProjectError, match="no hull 'nob'; did you mean 'knob'"):
-        project.confirm(LabelCorrection(PLAIN, "nob", "leg", "knob"))
+        project.confirm(LabelFix(PLAIN, "nob", "leg", "knob"))
     with pytest.raises(ProjectError, match="not in the vocabulary"):
-        project.confirm(LabelCorrection(PLAIN, "knob", "leg", "handle"))
+        project.confirm(LabelFix(PLAIN, "knob", "leg", "handle"))
     project.set_labels(PLAIN, {"knob": "board"})
     with pytest.raises(ProjectError, match="knob is labelled board now, no longer leg"):
         project.confirm(WRONG)
@@ -174,6 +174,6 @@ def test_everything_can_be_forgotten(tmp_path: Path) -> None:
     project = mislabelled(tmp_path)
     project.add_answer(choose(OPEN, 0))
     project.confirm(WRONG)
-    demonstrations.reject(project, LabelCorrection(OTHER, "left", "leg", "knob"))
+    demonstrations.reject(project, LabelFix(OTHER, "left", "leg", "knob"))
     assert project.forget_answers() == ()
     assert not project.feedback().answers_and_fixes and knob(project) == MACHINE

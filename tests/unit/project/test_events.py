@@ -16,8 +16,10 @@ from meshforge.project import Project
 from meshforge.store import SnoozeEvent
 from meshforge.store.events import parse_events
 from meshforge.store.feedback import Feedback
+from meshforge.store.program import ProgramRecord
+from meshforge.store.sign_off import SignOffBasis
 from meshforge.symbolic import Label
-from meshforge.synthesis import Answer, LabelCorrection
+from meshforge.synthesis import Answer, LabelFix
 from tests.unit.batch.families import tree
 from tests.unit.deaths import deaths, needs_fork
 from tests.unit.project.tables import FIRST, LEGS, SECOND, THIRD, applied, learned
@@ -67,8 +69,8 @@ def check_all_is_understood(project: Project) -> None:
         Answer(2, THIRD, None, [["top"], []]),
     ]
     assert {line.fix: line.accepted for line in said.fixes.values()} == {
-        LabelCorrection(THIRD, "crumb", "misc", "leg"): True,
-        LabelCorrection(THIRD, "crumb", "misc", "top"): False,
+        LabelFix(THIRD, "crumb", "misc", "leg"): True,
+        LabelFix(THIRD, "crumb", "misc", "top"): False,
     }
     before = said.fixes[f"{THIRD}#crumb=leg"].before
     assert before is not None and before.annotation == Label("misc", 1.0, "file")
@@ -100,7 +102,7 @@ def test_a_project_of_before_is_understood_and_reading_it_changes_nothing(tmp_pa
     before = tree(project.folder)
     check_all_is_understood(project)
     states = {one.id: one.sign_off for one in project.status(workers=0).assets}
-    assert states == {FIRST: "signed off", SECOND: "held", THIRD: "excluded"}
+    assert states == {FIRST: "signed off", SECOND: "needs review", THIRD: "excluded"}
     assert tree(project.folder) == before
 
 
@@ -239,3 +241,26 @@ def test_what_is_taken_back_is_as_if_it_had_never_been_said(tmp_path: Path) -> N
     said = project.feedback()
     assert not said.verdicts and not said.snoozed
     assert len(project.layout.events.read_text().splitlines()) == 4, "but all of it stays in the file"
+
+
+def test_keys_of_earlier_versions_are_read() -> None:
+    line = {
+        "event": "verdict",
+        "asset": FIRST,
+        "verdict": "accepted",
+        "said": {"asked": {"id": "q"}, "reply": {"id": "q"}},
+    }
+    (event,) = parse_events(json.dumps(line) + "\n", "events.jsonl")
+    assert event.origin and event.origin.asked == {"id": "q"}
+    assert "said" not in event.model_dump(mode="json") and "origin" in event.model_dump(mode="json")
+    assert ProgramRecord.model_validate({"program": "p", "lesson": "digest"}).inputs_digest == "digest"
+    basis: dict[str, Any] = {
+        "asset": {},
+        "labels": None,
+        "program": "p",
+        "templates": {},
+        "settings": "s",
+        "software": "",
+    }
+    earlier = SignOffBasis.model_validate({**basis, "corrections": "edits", "said": "answers"})
+    assert (earlier.manual_edits, earlier.answers) == ("edits", "answers")

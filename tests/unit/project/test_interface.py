@@ -81,10 +81,10 @@ def test_the_whole_loop_in_python(tmp_path: Path) -> None:
     assert [h.name for h in mf.load(tmp_path / "out/table.urdf").hulls] == ["body/top", "body/left", "body/right"]
 
     demos = [mf.Demonstration(table, [mf.Step(rule=1, select={"body/crumb"}, action=mf.Delete())])]
-    learned = mf.synthesize(demos, batch=family, orient=None, confirm=lambda _: False)
+    learned = mf.synthesize(demos, family=family, orient=None, confirm=lambda _: False)
     assert learned.status == "found" and learned.program
     assert str(learned.program.rules[0]) == "Is(misc) => Delete"
-    assert (len(learned.readings), learned.repairs, learned.open_rule) == (1, (), None)
+    assert (len(learned.candidates), learned.repairs, learned.open_rule) == (1, (), None)
 
 
 def test_errors_are_one_family_and_name_the_file(tmp_path: Path) -> None:

@@ -25,7 +25,7 @@ def outcome(project: Project) -> object:
     found = project.review(STRICT, execution=IN_PROCESS)
     files = {name: data for name, data in tree(project.folder).items() if name.startswith(SAME)}
     outputs = {name: data for name, data in files.items() if "/.meshforge" not in name and not name.endswith(".tmp")}
-    return found.assessment.assets, found.assessment.held, found.assessment.excluded, outputs
+    return found.assessment.assets, found.assessment.need_review, found.assessment.excluded, outputs
 
 
 @needs_fork

@@ -10,12 +10,12 @@ import pytest
 
 from meshforge.language import Delete, Merge, Program
 from meshforge.project import Project, demonstrations
-from meshforge.synthesis import Answer, LabelCorrection, Step
+from meshforge.synthesis import Answer, LabelFix, Step
 from tests.unit.batch.families import tree
 from tests.unit.deaths import deaths, needs_fork
 from tests.unit.project.tables import FIRST, THIRD, applied, fresh
 
-REPAIR = LabelCorrection(FIRST, "crumb", "misc", "leg")
+REPAIR = LabelFix(FIRST, "crumb", "misc", "leg")
 CHANGES: dict[str, Callable[[Project], object]] = {
     "vocabulary": lambda p: p.set_vocabulary(["top", "leg", "misc", "more"]),
     "labels": lambda p: p.set_labels(FIRST, {"crumb": "leg"}),
@@ -96,4 +96,4 @@ def test_edits_by_hand_at_one_time_are_all_kept(tmp_path: Path) -> None:
         thread.start()
     for thread in threads:
         thread.join()
-    assert len(project.corrections(FIRST)) == 3
+    assert len(project.manual_edits(FIRST)) == 3

@@ -124,7 +124,7 @@ def test_a_result_that_was_called_wrong_is_right_after_all(place: Callable[[Case
 def test_wrong_and_no_more_gives_way_to_right(place: Callable[[Case], Place]) -> None:
     both = place(CASES["wrong"])
     both.say(CASES["wrong"].reply, "Ada")
-    assert ASKED in look(both.project).assessment.held
+    assert ASKED in look(both.project).assessment.need_review
     told = both.say(CASES["right"].reply, "Bob")
     assert f'{both.question}: Ada said {{"choice": "wrong"}} before, now it is {{"choice": "right"}}' in told.err
     assert ASKED in look(both.project).assessment.signed_off
@@ -136,7 +136,7 @@ def test_who_includes_an_asset_again_is_asked_about_it(place: Callable[[Case], P
     assert look(both.project).assessment.excluded == {ASKED: "not solved"}
     both.say(CASES["right"].reply, "Bob")
     found = look(both.project)
-    assert not found.assessment.excluded and ASKED in found.assessment.held
+    assert not found.assessment.excluded and ASKED in found.assessment.need_review
 
 
 def test_a_choice_that_never_was_is_no_last_word(place: Callable[[Case], Place]) -> None:
@@ -147,4 +147,4 @@ def test_a_choice_that_never_was_is_no_last_word(place: Callable[[Case], Place])
 
 
 def sums(found: ProjectReview) -> object:
-    return probabilities(found), found.assessment.held, found.assessment.excluded, found.assessment.looked_at
+    return probabilities(found), found.assessment.need_review, found.assessment.excluded, found.assessment.looked_at

@@ -29,7 +29,7 @@ def test_a_question_stays_open_until_it_is_answered(tmp_path: Path) -> None:
     project.add_answer(choose(outcome.open_rule, choice))
     assert project.status(workers=0).outdated
     outcome = project.synthesize()
-    assert isinstance(outcome, Found) and outcome.settled
+    assert isinstance(outcome, Found) and outcome.unambiguous
     assert str(project.program()) == HIGHEST
     status = project.status(workers=0)
     assert (status.outdated, status.question) == (False, None)

@@ -20,7 +20,7 @@ from meshforge.project import (
     Project,
     RebuildSettings,
     new_assets,
-    prepare_aside,
+    prepare_new_assets,
     read_preparation_plan,
 )
 from meshforge.symbolic import Label, LabelFile, read_labels
@@ -63,7 +63,7 @@ def prepare(
     plan = read_preparation_plan(project)
     new = [NewAsset(name, folder / "new" / name, plan) for name in names]
     given = NewAssetOptions(**{"execution": IN_PROCESS, **options})  # type: ignore[arg-type]
-    return {work.id: result for work, result in prepare_aside(project, new, folder / to, given)}
+    return {work.id: result for work, result in prepare_new_assets(project, new, folder / to, given)}
 
 
 def test_a_new_body_with_a_hull_that_spans_parts_is_rebuilt_and_labelled(folder: Path) -> None:
@@ -153,7 +153,7 @@ def test_labels_that_a_new_asset_has_stay(folder: Path) -> None:
     path.write_text('{"vocabulary": ["seat", "leg"], "hulls": {"base/h1": "seat"}}')
     new = NewAsset("c.urdf", folder / "new/c.urdf", read_preparation_plan(project), path)
     options = NewAssetOptions(rebuild=False, execution=IN_PROCESS)
-    ((work, found),) = prepare_aside(project, [new], folder / "aside", options)
+    ((work, found),) = prepare_new_assets(project, [new], folder / "aside", options)
     assert "base/h1" not in found.guesses and work.labels is not None
     assert read_labels(work.labels).labels["base/h1"] == Label("seat", 1.0, "file")
 

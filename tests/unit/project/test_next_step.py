@@ -171,7 +171,7 @@ def test_who_has_begun_to_demonstrate_is_not_asked_to_label() -> None:
 
 def rows(*probabilities: float) -> list[AssetStatus]:
     return [
-        replace(SURE, id=name, sign_off="sure" if p >= 0.95 else "held", probability=p)
+        replace(SURE, id=name, sign_off="sure" if p >= 0.95 else "needs review", probability=p)
         for name, p in zip("abcd", probabilities, strict=False)
     ]
 

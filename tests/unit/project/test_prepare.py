@@ -142,7 +142,7 @@ def test_the_program_runs_on_what_is_prepared(tmp_path: Path) -> None:
         "frame/foot": "foot",
         "cover/geom0#0~1": "cover",
     }
-    assert edited.asset and edited.asset.opaque == ()
+    assert edited.asset and edited.asset.non_convex == ()
     assert all(asset.is_done for asset in project.status(workers=0).assets)
     assert [word(o) for o in project.apply(execution=IN_PROCESS)] == ["skipped"] * 2
 

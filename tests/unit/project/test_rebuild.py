@@ -204,8 +204,8 @@ def test_a_dry_run_names_what_would_be_rebuilt_and_writes_nothing(project: Proje
     before = {path: path.read_bytes() for path in project.folder.rglob("*") if path.is_file()}
     (_, _, result) = rebuild(project, dry_run=True)
     assert (len(result.planned), sum(len(entry.made) for entry in result.planned)) == (4, 5)
-    assert result.planned[0].told.startswith("base/h0 holds seat and leg, ")
-    assert {entry.told for entry in result.planned[1:]} == {"made anew with its body"}
+    assert result.planned[0].remark.startswith("base/h0 holds seat and leg, ")
+    assert {entry.remark for entry in result.planned[1:]} == {"made anew with its body"}
     assert {path: path.read_bytes() for path in project.folder.rglob("*") if path.is_file()} == before
 
 

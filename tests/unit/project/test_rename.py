@@ -9,7 +9,7 @@ from meshforge.common import MeshForgeError, ProjectError
 from meshforge.language import Delete, Merge, Program
 from meshforge.project import Project, demonstrations
 from meshforge.symbolic import Label
-from meshforge.synthesis import Answer, LabelCorrection, Step
+from meshforge.synthesis import Answer, LabelFix, Step
 from tests.unit.batch.families import tree
 from tests.unit.deaths import deaths, needs_fork
 from tests.unit.project.tables import FIRST, LEGS, SECOND, THIRD, applied, demonstrated, labelled, learned
@@ -24,8 +24,8 @@ def saying(folder: Path) -> Project:
     project.accept(Program.parse(text))
     project.correct(SECOND, ["top"], Merge(), "leg")
     project.add_answer(Answer(2, THIRD, LEGS))
-    project.confirm(LabelCorrection(FIRST, "crumb", "misc", "leg"))
-    demonstrations.reject(project, LabelCorrection(SECOND, "top", "top", "leg"))
+    project.confirm(LabelFix(FIRST, "crumb", "misc", "leg"))
+    demonstrations.reject(project, LabelFix(SECOND, "top", "top", "leg"))
     return project
 
 
@@ -54,7 +54,7 @@ def test_what_was_said_means_the_same_by_the_other_name(tmp_path: Path) -> None:
     assert str(project.orientation and project.orientation.pairs[0].start) == "Is(foot)"
     assert {hull.label for hull in project.mesh(THIRD).hulls} == {"top", "foot", "misc"}
     assert [step.label for step in project.steps(FIRST)] == [None, "foot"]
-    assert [edit.label for edit in project.corrections(SECOND)] == ["foot"]
+    assert [edit.label for edit in project.manual_edits(SECOND)] == ["foot"]
     said = project.feedback()
     assert said.answers[f"2:{THIRD}"].action == "Merge as foot"
     assert tuple(said.answers_and_fixes) == (f"2:{THIRD}", f"{FIRST}#crumb=foot", f"{SECOND}#top=foot")
@@ -92,7 +92,7 @@ def test_what_an_inferred_label_replaced_is_renamed_too(tmp_path: Path) -> None:
         project.set_labels(asset, {"crumb": None})
         project.set_labels(asset, {"crumb": "leg"}, source="vlm", confidence=0.5)
         project.set_labels(asset, {"crumb": "misc"}, source="consensus", confidence=0.9)
-    project.confirm(LabelCorrection(FIRST, "crumb", "misc", "top"))
+    project.confirm(LabelFix(FIRST, "crumb", "misc", "top"))
     project.rename_label("leg", "foot")
     now = Label("misc", 0.9, "consensus", Label("foot", 0.5, "vlm"))
     assert project.labels(SECOND).labels["crumb"] == now
@@ -183,7 +183,7 @@ def test_a_killed_renaming_leaves_a_readable_project_and_is_completed_by_another
     died = 0
     for _ in deaths(again):
         assert project.vocabulary == ("top", "leg", "misc")
-        assert len(project.demonstrations()) == 2 and project.program() and project.corrections(SECOND)
+        assert len(project.demonstrations()) == 2 and project.program() and project.manual_edits(SECOND)
         assert project.status(workers=0).problem is None
         assert says(project) != after
         project.rename_label("leg", "foot")

@@ -15,11 +15,11 @@ from meshforge.project import Project, ProjectReview
 from meshforge.signoff import (
     GroupQuestion,
     HullPlace,
+    MistakeQuestion,
     RepairQuestion,
     ResultQuestion,
     ReviewChoice,
     ReviewReply,
-    SlipQuestion,
 )
 from meshforge.signoff.question import EXCLUDE, NO, NOT_SOLVED, RIGHT, WRONG, YES
 from meshforge.symbolic import Label
@@ -115,8 +115,8 @@ def test_a_result_that_is_wrong_needs_review(tmp_path: Path) -> None:
     said = project.feedback().verdict_on(THIRD)
     assert said is not None and said.verdict == "wrong"
     after = review(project).assessment
-    assert THIRD in after.wrong and after.held == (THIRD,)
-    assert sign_off_of(project, THIRD) == "held"
+    assert THIRD in after.wrong and after.need_review == (THIRD,)
+    assert sign_off_of(project, THIRD) == "needs review"
 
 
 @pytest.mark.parametrize("choice", EXCLUDE)
@@ -127,7 +127,7 @@ def test_an_asset_that_is_given_up_is_excluded_with_the_reason(tmp_path: Path, c
     after = review(project).assessment
     assert after.excluded == {THIRD: EXCLUDE[choice]}
     counts = choice == "not-solved"
-    assert THIRD not in (*after.signed_off, *after.held) and (THIRD in after.assets) == counts
+    assert THIRD not in (*after.signed_off, *after.need_review) and (THIRD in after.assets) == counts
     assert sign_off_of(project, THIRD) == "excluded"
     status = project.status()
     assert (status.is_signed_off, status.is_signed_off_but_unsolved) == (not counts, True)
@@ -227,19 +227,19 @@ def test_what_cannot_be_read_is_held_until_it_is_excluded(tmp_path: Path) -> Non
     project = learned(tmp_path)
     project.path(THIRD).write_text("no mesh at all")
     found = review(project)
-    assert found.assessment.held == (THIRD,) and found.assessment.question is not None
+    assert found.assessment.need_review == (THIRD,) and found.assessment.question is not None
     project.reply(found.assessment.question, ReviewReply(found.assessment.question.id, "not-solved"))
     assert review(project).assessment.is_done
     assert review(project).assessment.excluded == {THIRD: NOT_SOLVED}
     assert sign_off_of(project, THIRD) == "excluded"
     project.set_verdict(THIRD, None)
-    assert review(project).assessment.held == (THIRD,)
+    assert review(project).assessment.need_review == (THIRD,)
 
 
-def selection_of(asset: str) -> SlipQuestion:
+def selection_of(asset: str) -> MistakeQuestion:
     """The question whether the first rule was shown on an asset with a slip."""
     choices = (ReviewChoice(NO, "no", select=("crumb",)), ReviewChoice(YES, "yes", select=("crumb", "left_low")))
-    return SlipQuestion("?", 2.65, 0.5, asset, 1, (), choices, "s")
+    return MistakeQuestion("?", 2.65, 0.5, asset, 1, (), choices, "s")
 
 
 def test_a_slip_that_is_admitted_corrects_the_demonstration_and_what_was_meant_stays(tmp_path: Path) -> None:
@@ -293,7 +293,7 @@ def test_an_output_that_stands_out_though_the_review_did_not_know_is_signed_off_
     assert {asset: one.by for asset, one in project.sign_offs().items()} == {FIRST: "person", SECOND: "person"}
     assert project.renew_sign_offs(clock=lambda: NOON) == {} and THIRD not in project.sign_offs()
     status = next(one for one in project.status().assets if one.id == THIRD)
-    assert (status.sign_off, [doubt.kind for doubt in status.doubts]) == ("held", ["alarm"])
+    assert (status.sign_off, [doubt.kind for doubt in status.reasons]) == ("needs review", ["alarm"])
     review(project)
     assert sign_off_of(project, THIRD) == "signed off"
 
@@ -334,7 +334,7 @@ def test_a_sign_off_of_what_cannot_be_read_now_is_void_and_stays(tmp_path: Path)
     review(project)
     text = project.path(THIRD).read_text()
     project.path(THIRD).write_text("no mesh at all")
-    assert review(project).assessment.held == (THIRD,)
+    assert review(project).assessment.need_review == (THIRD,)
     assert THIRD in project.sign_offs() and sign_off_of(project, THIRD) == "void"
     project.path(THIRD).write_text(text)
     review(project)

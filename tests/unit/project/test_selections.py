@@ -19,7 +19,7 @@ from meshforge.studio.edits.base import make_edit, steps_version
 from meshforge.studio.edits.program import SetSteps, StepEdit
 from meshforge.studio.wire.actions import ActionCall
 from meshforge.symbolic import Label
-from meshforge.synthesis import Answer, LabelCorrection
+from meshforge.synthesis import Answer, LabelFix
 from tests.unit.batch.families import tree
 from tests.unit.deaths import deaths, needs_fork
 from tests.unit.project.tables import FIRST, LEGS, SECOND, applied
@@ -39,8 +39,8 @@ def said(folder: Path) -> Project:
     project = applied(folder)
     project.correct(FIRST, ["left_low~1"], Merge())
     project.add_answer(Answer(1, FIRST, ["crumb"], [["crumb", "top"]]))
-    demonstrations.reject(project, LabelCorrection(FIRST, "crumb", "misc", "leg"))
-    project.confirm(LabelCorrection(FIRST, "crumb", project.mesh(FIRST).hull_of("crumb").label, "top"))
+    demonstrations.reject(project, LabelFix(FIRST, "crumb", "misc", "leg"))
+    project.confirm(LabelFix(FIRST, "crumb", project.mesh(FIRST).hull_of("crumb").label, "top"))
     return project
 
 
@@ -79,7 +79,7 @@ def test_an_edit_by_hand_of_a_split_hull_is_one_of_its_parts(tmp_path: Path) -> 
     project.correct(FIRST, ["top"], Merge())
     before = kept(project)
     project.cut(FIRST, "top", (1, 0, 0), (1, 0, 0))
-    (edit,) = project.corrections(FIRST)
+    (edit,) = project.manual_edits(FIRST)
     assert [name for name, _ in edit.hulls] == ["top#0", "top#1"]
     assert edit.find_problem(project.mesh(FIRST)) is None
     project.unprepare(FIRST)
@@ -148,7 +148,7 @@ def test_an_answer_about_the_parts_since_is_not_lost_by_undoing_the_split(tmp_pa
 
 def test_a_fix_that_was_taken_back_is_none_of_the_parts(tmp_path: Path) -> None:
     project = applied(tmp_path)
-    project.take_back(demonstrations.reject(project, LabelCorrection(FIRST, "crumb", "misc", "leg")))
+    project.take_back(demonstrations.reject(project, LabelFix(FIRST, "crumb", "misc", "leg")))
     project.cut(FIRST, "crumb", *PLANE)
     assert not project.feedback().fixes
 
@@ -231,7 +231,7 @@ def test_a_killed_split_or_undo_loses_nothing_and_flags_what_is_gone(tmp_path: P
     assert died > 3
 
 
-def put_back(project: Project, copy: Path) -> None:
+def include_again(project: Project, copy: Path) -> None:
     shutil.rmtree(project.folder)
     shutil.copytree(copy, project.folder)
 
@@ -261,7 +261,7 @@ def test_a_killed_undo_is_finished_by_the_next_bit_for_bit(tmp_path: Path, every
         if cut_short or FIRST in project.layout.preparation.ids:
             assert project.unprepare(FIRST, everything=everything).undone
         assert kept(project) == (before if everything else middle)
-        put_back(project, tmp_path / "late")
+        include_again(project, tmp_path / "late")
     assert len(states) > 5
 
 
@@ -279,7 +279,7 @@ def test_after_a_killed_split_or_undo_a_split_and_its_undo_leave_nothing(tmp_pat
         "after": lambda: project.unprepare(FIRST),
     }
     for start, change in work.items():
-        put_back(project, tmp_path / start)
+        include_again(project, tmp_path / start)
         died = 0
         for _ in deaths(change, removals=True):
             died += 1
@@ -291,7 +291,7 @@ def test_after_a_killed_split_or_undo_a_split_and_its_undo_leave_nothing(tmp_pat
                 assert kept(project) == after
                 project.unprepare(FIRST)
                 assert kept(project) == before
-            put_back(project, tmp_path / start)
+            include_again(project, tmp_path / start)
         assert died > 5
 
 
@@ -306,7 +306,7 @@ def test_a_killed_undo_does_not_overwrite_labels_that_a_person_changed_since(tmp
         if FIRST in project.layout.preparation.ids:
             project.unprepare(FIRST)
         assert project.mesh(FIRST).hull_of("crumb").label == "misc"
-        put_back(project, tmp_path / "after")
+        include_again(project, tmp_path / "after")
     assert project.mesh(FIRST).hull_of("crumb").label == "misc"
 
 
@@ -314,7 +314,7 @@ BROKEN = {"no json": b"{", "no text": b"\xff", "a list": b"[]", "no fields": b'{
 
 
 @pytest.mark.parametrize("content", BROKEN)
-@pytest.mark.parametrize("kind", ["answers", "demonstration", "corrections"])
+@pytest.mark.parametrize("kind", ["answers", "demonstration", "manual_edits"])
 def test_a_broken_file_is_named_and_nothing_is_written(tmp_path: Path, kind: str, content: str) -> None:
     project = said(tmp_path)
     layout = project.layout

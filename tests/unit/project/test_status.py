@@ -139,7 +139,7 @@ def test_a_file_that_was_only_touched_is_not_stale(tmp_path: Path) -> None:
 def test_an_edit_by_hand_makes_an_output_stale(tmp_path: Path) -> None:
     project = applied(tmp_path)
     project.correct(FIRST, ["top"], Delete())
-    assert asset(project, FIRST).stale == ("corrections",)
+    assert asset(project, FIRST).stale == ("manual edits",)
 
 
 def test_a_template_that_changed_makes_outputs_stale(tmp_path: Path) -> None:
@@ -294,11 +294,11 @@ def test_labels_of_a_status_are_those_of_the_mesh(tmp_path: Path) -> None:
 def test_an_output_is_told_by_its_hulls_and_its_digest(tmp_path: Path) -> None:
     project = applied(tmp_path)
     first = asset(project, FIRST)
-    assert (first.hulls, first.after, first.corrections) == (6, 3, 0) and first.output_digest
+    assert (first.hulls, first.after, first.manual_edits) == (6, 3, 0) and first.output_digest
     project.correct(FIRST, ["top"], Delete())
     list(project.apply(execution=IN_PROCESS))
     again = asset(project, FIRST)
-    assert (again.after, again.corrections) == (2, 1)
+    assert (again.after, again.manual_edits) == (2, 1)
     assert again.output_digest not in (first.output_digest, None)
     (tmp_path / "assets" / FIRST).write_text("nothing of use")
     bad = asset(project, FIRST)
@@ -385,7 +385,7 @@ def test_the_status_is_plain_data_for_scripts(tmp_path: Path) -> None:
         "void": [],
         "found_since": [],
         "probability": None,
-        "doubts": [],
+        "reasons": [],
     }
     assert data["next"]["command"].startswith("meshforge review")
 

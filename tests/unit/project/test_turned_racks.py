@@ -50,7 +50,7 @@ def test_each_choice_has_a_picture_of_the_asset(project: Project) -> None:
 def test_what_would_be_edited_otherwise_is_doubtful_until_somebody_said_no(project: Project) -> None:
     (question,) = asked(project)
     open_, lying = look(project).assessment, ("rack2.obj", "rack5.obj")
-    assert all(any(doubt.kind == "orientation" for doubt in open_.assets[name].doubts) for name in lying)
+    assert all(any(doubt.kind == "orientation" for doubt in open_.assets[name].reasons) for name in lying)
     project.reply(question, ReviewReply(question.id, NO))
     refused = look(project).assessment
-    assert not any(doubt.kind == "orientation" for name in lying for doubt in refused.assets[name].doubts)
+    assert not any(doubt.kind == "orientation" for name in lying for doubt in refused.assets[name].reasons)

@@ -12,8 +12,8 @@ import pytest
 
 from meshforge.batch import IN_PROCESS
 from meshforge.language import Add, Delete, Program
-from meshforge.project import AssetStatus, Project, make_correction, run_with_corrections
-from meshforge.store import SAID
+from meshforge.project import AssetStatus, Project, make_manual_edit, run_with_manual_edits
+from meshforge.store import ANSWERS
 from meshforge.synthesis import Answer, Step
 from tests.unit.batch.families import obj, write_tables, write_urdf_table
 from tests.unit.cli.in_process import Run, runner
@@ -24,9 +24,9 @@ FAMILY = (FIRST, SECOND, THIRD, ACCEPTED)
 
 Voids = dict[str, tuple[str, ...]]
 NONE: Voids = {}
-SHOWN: Voids = dict.fromkeys((FIRST, SECOND, THIRD), (SAID,))  # what a person accepted rests on that look
+SHOWN: Voids = dict.fromkeys((FIRST, SECOND, THIRD), (ANSWERS,))  # what a person accepted rests on that look
 SETTINGS: Voids = dict.fromkeys(SHOWN, ("settings",))
-EVERY: Voids = {**SHOWN, ACCEPTED: (SAID,)}
+EVERY: Voids = {**SHOWN, ACCEPTED: (ANSWERS,)}
 
 
 def knob(size: float) -> bytes:
@@ -35,9 +35,9 @@ def knob(size: float) -> bytes:
 
 def add_knob(project: Project) -> None:
     """Edit the third table by hand, as a file from elsewhere does: nobody says that its result was wrong."""
-    mesh = run_with_corrections(project, THIRD, project.mesh(THIRD), project.program()).mesh
-    edit = make_correction(mesh, THIRD, ["top"], Add("+Z", "knob.obj", keep=True), None)
-    project.write_corrections(THIRD, [edit])
+    mesh = run_with_manual_edits(project, THIRD, project.mesh(THIRD), project.program()).mesh
+    edit = make_manual_edit(mesh, THIRD, ["top"], Add("+Z", "knob.obj", keep=True), None)
+    project.write_manual_edits(THIRD, [edit])
 
 
 @pytest.fixture(scope="module")
@@ -143,7 +143,7 @@ def change_template(project: Project) -> None:
 
 
 def change_edits_by_hand(project: Project) -> None:
-    project.drop_corrections(THIRD)
+    project.drop_manual_edits(THIRD)
 
 
 def set_in_settings(old: str, new: str) -> Callable[[Project], None]:
@@ -229,7 +229,7 @@ def touch_all(project: Project) -> None:
         (change_preparation, {THIRD: ("preparation", "labels")}),
         (change_program, dict.fromkeys(FAMILY, ("program",))),
         (change_template, {THIRD: ("templates",)}),
-        (change_edits_by_hand, {THIRD: ("templates", "corrections")}),
+        (change_edits_by_hand, {THIRD: ("templates", "manual edits")}),
         (set_in_settings('orient = ""', 'orient = "+Z: Is(leg) -> Is(top)"'), SETTINGS),
         (set_in_settings('"leg"', '"leg", "rail"'), SETTINGS),
         (set_in_settings("# What hulls", "[thresholds]\ncontact = 0.1\n# "), SETTINGS),
@@ -291,13 +291,13 @@ Records = dict[str, dict[str, object]]
 
 
 def find_records(project: Project, memory: str) -> Records:
-    content = json.loads((project.layout.survey.parent / f"{memory}.json").read_text())
+    content = json.loads((project.layout.asset_index.parent / f"{memory}.json").read_text())
     found: Records = content["files"] if memory == "outputs" else content["assets"][THIRD]["files"]
     return found
 
 
 def write_records(project: Project, memory: str, records: Records) -> None:
-    path = project.layout.survey.parent / f"{memory}.json"
+    path = project.layout.asset_index.parent / f"{memory}.json"
     content = json.loads(path.read_text())
     if memory == "outputs":
         content["files"] = records
@@ -332,7 +332,7 @@ def test_a_sign_off_of_an_earlier_version_is_void_until_a_review(project: Projec
     path = project.layout.sign_offs
     rows = [json.loads(line) for line in path.read_text().splitlines()]
     for one in rows:
-        del one["rests_on"]["said"], one["rests_on"]["output"]
+        del one["rests_on"]["answers"], one["rests_on"]["output"]
     path.write_text("".join(f"{json.dumps(one)}\n" for one in rows))
     assert find_voids(project) == dict.fromkeys((FIRST, SECOND, THIRD), ("how sign-offs are kept",))
     project.review(0.5, execution=IN_PROCESS)

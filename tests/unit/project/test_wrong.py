@@ -9,7 +9,7 @@ import pytest
 from meshforge.formats import load
 from meshforge.language import Delete, Each, Merge, Program
 from meshforge.project import Project
-from meshforge.signoff import BAR
+from meshforge.signoff import THRESHOLD
 from meshforge.signoff.assessment import CALLED_WRONG_BEFORE, CONTRADICTED
 from meshforge.symbolic import Label
 from meshforge.synthesis import Step
@@ -77,8 +77,8 @@ def test_a_corrected_result_counts_for_a_program_from_when_on_it_does_what_was_m
 def test_labels_of_a_wrong_result_are_a_persons_and_it_needs_another_look(project: Project) -> None:
     found = say(project, "wrong", labels={"left_low": "rail"})
     assert project.mesh(ASKED).hull_of("left_low").annotation == Label("rail", 1.0, "user")
-    assert ASKED in found.assessment.held
-    assert found.assessment.assets[ASKED].doubts[0].text == CALLED_WRONG_BEFORE
+    assert ASKED in found.assessment.need_review
+    assert found.assessment.assets[ASKED].reasons[0].text == CALLED_WRONG_BEFORE
     question = find_question(found, "result", ASKED)
     assert question.choice("right") is not None
     reply_by_method(project, question, {"choice": "right"})
@@ -107,7 +107,7 @@ def test_a_result_that_was_called_wrong_is_never_signed_off_without_another_look
     assert probabilities(risen)[OTHER] > probabilities(wrong)[OTHER]
     write(project)
     project.renew_sign_offs()
-    assert OTHER in look(project).assessment.held and OTHER not in project.sign_offs()
+    assert OTHER in look(project).assessment.need_review and OTHER not in project.sign_offs()
 
 
 def test_an_edit_by_hand_counts_as_a_wrong_result_also_once_it_is_accepted(project: Project) -> None:
@@ -115,7 +115,7 @@ def test_an_edit_by_hand_counts_as_a_wrong_result_also_once_it_is_accepted(proje
     before = probabilities(look(project))
     project.correct(ASKED, ["top"], Delete())
     edited = look(project)
-    assert ASKED in edited.assessment.held and probabilities(edited)[OTHER] < before[OTHER]
+    assert ASKED in edited.assessment.need_review and probabilities(edited)[OTHER] < before[OTHER]
     accepted = say(project, "right")
     assert ASKED in accepted.assessment.signed_off
     assert "top" not in {hull.name for hull in load(project.layout.edited / ASKED).hulls}
@@ -142,7 +142,7 @@ def test_a_demonstration_counts_more_than_what_was_said_of_a_result_before(proje
 def test_a_wrong_result_of_a_demonstrated_asset_needs_review_until_something_else_is_shown(project: Project) -> None:
     write(project)
     project.set_verdict(SHOWN, "wrong")
-    assert SHOWN in look(project).assessment.held
+    assert SHOWN in look(project).assessment.need_review
     project.demonstrate(SHOWN, [Step(1, LEGS | {"rail"}, Each(Merge()))])
     project.set_labels(SHOWN, {"rail": "leg"})
     assert SHOWN in look(project).assessment.signed_off
@@ -152,11 +152,11 @@ def test_a_program_by_hand_that_contradicts_a_demonstration_is_the_first_reason_
     before = probabilities(look(project))
     (project.folder / "program.mf").write_text("labels top, leg, rail\n\nGeo(Is(leg), +X) => Each(Merge)\n")
     found = look(project)
-    assert {SHOWN, ALSO} <= set(found.assessment.held)
-    assert found.assessment.assets[SHOWN].doubts[0].text == CONTRADICTED
+    assert {SHOWN, ALSO} <= set(found.assessment.need_review)
+    assert found.assessment.assets[SHOWN].reasons[0].text == CONTRADICTED
     assert probabilities(found)[OTHER] < before[OTHER]
     accepted = say(project, "right", SHOWN)
-    assert SHOWN in accepted.assessment.signed_off and ALSO in accepted.assessment.held
+    assert SHOWN in accepted.assessment.signed_off and ALSO in accepted.assessment.need_review
 
 
 def test_a_program_by_hand_that_does_what_was_shown_contradicts_nothing(project: Project) -> None:
@@ -181,7 +181,7 @@ def test_what_is_not_solved_counts_and_what_is_not_of_the_family_does_not(projec
     told = run("review", "racks")
     assert told.code == 0
     assert told.out.startswith(
-        f"4 of 4 are at least {100 * BAR:g}% sure, or were looked at, 2 excluded: not of this family."
+        f"4 of 4 are at least {100 * THRESHOLD:g}% sure, or were looked at, 2 excluded: not of this family."
     )
     assert run("status", "racks", "--signed-off").code == 0
     project.set_verdict(BLOCK, None)
@@ -190,7 +190,7 @@ def test_what_is_not_solved_counts_and_what_is_not_of_the_family_does_not(projec
     told = run("status", "racks", "--signed-off")
     assert told.code == 1
     assert (
-        f"4 of 5 are at least {100 * BAR:g}% sure, or were looked at, 1 excluded: not solved, 1 excluded: not of"
+        f"4 of 5 are at least {100 * THRESHOLD:g}% sure, or were looked at, 1 excluded: not solved, 1 excluded: not of"
         in told.out
     )
     assert run("status", "racks", "--signed-off", "--allow-excluded").code == 0

@@ -22,7 +22,7 @@ from meshforge.rendering.labeling.series import propose_arrangements
 from meshforge.rendering.labeling.subject import Arrangement, LabelingSubject
 from meshforge.rendering.labeling.viewpoints import VIEW_PREFERENCES, VIEW_WORDS
 from meshforge.rendering.placement import LEAST_PIXELS
-from meshforge.symbolic import Asset, Document, Opaque, Surface, SymbolicMesh
+from meshforge.symbolic import Asset, Document, NonConvexPiece, Surface, SymbolicMesh
 from tests.corpus_path import corpus
 from tests.examples import examples
 from tests.unit.rendering.scenes import box, hull, pixels, table
@@ -264,7 +264,7 @@ def test_without_a_visual_mesh_the_plain_picture_shows_the_hulls_in_one_material
 @pytest.mark.slow
 def test_collision_geometry_that_is_no_hull_is_drawn_faintly_and_is_in_the_plain_picture() -> None:
     shape = box((0, 0, 0), (1, 1, 1))
-    beside = Opaque("beside", "body", "it is open", surface_of(box((1.5, 0, 0), (1, 1, 1))))
+    beside = NonConvexPiece("beside", "body", "it is open", surface_of(box((1.5, 0, 0), (1, 1, 1))))
     (alone, *_), (shot, *_) = (
         draw_labeling_pictures(mesh_of(shape)),
         draw_labeling_pictures(with_asset(mesh_of(shape), opaque=(beside,))),

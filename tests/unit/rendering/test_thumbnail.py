@@ -9,7 +9,7 @@ import numpy as np
 from meshforge.geometry import Ints, Pose
 from meshforge.rendering import render_thumbnail
 from meshforge.rendering.id_buffer import ThumbnailPixels
-from meshforge.symbolic import Asset, Document, Opaque, Surface, SymbolicMesh
+from meshforge.symbolic import Asset, Document, NonConvexPiece, Surface, SymbolicMesh
 from tests.id_buffer import render_id_buffer
 from tests.unit.rendering.scenes import box, hull, table
 
@@ -21,8 +21,8 @@ def shown(pixels: ThumbnailPixels) -> Ints:
 
 
 def behind(mesh: SymbolicMesh, *surfaces: Surface) -> SymbolicMesh:
-    opaque = tuple(Opaque("piece", "body", "it is open", surface) for surface in surfaces)
-    return SymbolicMesh(mesh.hulls, Asset(Path("a.obj"), "obj", (), (), Document(), opaque=opaque))
+    opaque = tuple(NonConvexPiece("piece", "body", "it is open", surface) for surface in surfaces)
+    return SymbolicMesh(mesh.hulls, Asset(Path("a.obj"), "obj", (), (), Document(), non_convex=opaque))
 
 
 def test_pixels_tell_the_hull_that_rays_through_their_centres_meet() -> None:

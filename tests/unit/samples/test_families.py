@@ -59,7 +59,7 @@ def test_a_family_is_what_its_line_says(root: Path, name: str) -> None:
 @pytest.mark.parametrize("name", NAMES)
 def test_every_hull_is_labelled_and_nothing_is_left_out(root: Path, name: str) -> None:
     for mesh in meshes(root, name).values():
-        assert mesh.asset is not None and mesh.asset.opaque == ()
+        assert mesh.asset is not None and mesh.asset.non_convex == ()
         assert {hull.source for hull in mesh.hulls} == {"file"}
     used = {hull.label for mesh in meshes(root, name).values() for hull in mesh.hulls}
     assert used == set(family_of(name).vocabulary)

@@ -83,7 +83,7 @@ def test_there_are_fourteen_and_they_are_small() -> None:
 @pytest.mark.parametrize("name", NAMES)
 def test_every_hull_is_labelled_and_read_without_a_note(name: str) -> None:
     table = mesh(name)
-    assert table.asset is not None and table.asset.notes == () and table.asset.opaque == ()
+    assert table.asset is not None and table.asset.notes == () and table.asset.non_convex == ()
     assert 12 <= len(table.hulls) <= 70
     assert {hull.source for hull in table.hulls} == {"file"}
     assert {hull.label for hull in table.hulls} <= set(LABELS)

@@ -11,25 +11,25 @@ from meshforge.label_model import model_family
 from meshforge.language import Delete
 from meshforge.signoff import ReviewState
 from meshforge.signoff.confidence import AssetEvidence, read_calibration
-from meshforge.signoff.family import FamilyTrial, cluster, flip_shares
+from meshforge.signoff.family import FamilyRun, alternative_shares, cluster
+from meshforge.signoff.likely_mistakes import ask_about_mistake, offer_label
 from meshforge.signoff.review import review_family
-from meshforge.signoff.slips import ask_about_slip, offer_label
-from meshforge.synthesis import Ambiguous, Demonstration, Found, LabelCorrection, NeedsRepair, Repair, Step
+from meshforge.synthesis import Ambiguous, Demonstration, Found, LabelFix, NeedsRepair, Repair, Step
 from tests.unit.signoff.test_review import FRAME, LABELS, accept, learn, legs_of, shown, tables
 
 WRONG_LEG = "leg2_low"
 
 
-def try_state(state: ReviewState) -> FamilyTrial:
+def try_state(state: ReviewState) -> FamilyRun:
     """The program that is learned, on the family."""
     outcome = learn(state)
     assert isinstance(outcome, Found | Ambiguous)
     said = [hull.annotation for mesh in state.meshes.values() for hull in mesh.hulls]
     posterior = model_family(list(state.meshes.values())).infer(said, LABELS)
-    return FamilyTrial.of(state, outcome.program, outcome.readings, posterior, {})
+    return FamilyRun.of(state, outcome.program, outcome.candidates, posterior, {})
 
 
-def chance(trial: FamilyTrial, asset: str, hull: str, label: str) -> float:
+def chance(trial: FamilyRun, asset: str, hull: str, label: str) -> float:
     place = trial.places[asset]
     row = trial.state.meshes[asset].index[hull]
     return float(trial.posterior.chances_of(place)[row][trial.posterior.seen.labels.index(label)])
@@ -44,7 +44,7 @@ def test_a_corrected_result_makes_the_label_probable_with_which_it_would_have_be
     family = model_family(list(meshes.values()))
     said = [hull.annotation for mesh in meshes.values() for hull in mesh.hulls]
     chances = [
-        chance(FamilyTrial.of(state, outcome.program, outcome.readings, family.infer(said), {}), "t5", WRONG_LEG, "leg")
+        chance(FamilyRun.of(state, outcome.program, outcome.candidates, family.infer(said), {}), "t5", WRONG_LEG, "leg")
         for state in (before, told)
     ]
     assert chances[1] > chances[0]
@@ -64,11 +64,11 @@ def test_a_reading_that_does_what_was_called_wrong_is_less_believed() -> None:
     state = ReviewState(meshes, FRAME, demos=demo)
     outcome = learn(state)
     assert isinstance(outcome, Found | Ambiguous)
-    rule = try_state(state).readings[0]
+    rule = try_state(state).candidates[0]
     if len(rule.extractors) == 1:
         pytest.skip("one reading alone has all the belief")
     failed = replace(state, wrong=frozenset({"t1"}), failed={"t1": (legs_of("t1"),)})
-    doubted = try_state(failed).readings[0]
+    doubted = try_state(failed).candidates[0]
     assert doubted.beliefs[0] <= rule.beliefs[0]
     assert doubted.beliefs.sum() == pytest.approx(1.0)
 
@@ -77,7 +77,7 @@ def test_look_alikes_of_an_asset_count_once() -> None:
     meshes = tables(leg1_low="panel", leg2_low="panel")
     trial = try_state(ReviewState(meshes, FRAME, demos=shown(meshes, "t0")))
     place = trial.places["t5"]
-    shares = flip_shares(trial.trials[place].flips)
+    shares = alternative_shares(trial.runs[place].alternatives)
     assert {"leg1_low", WRONG_LEG} <= shares.keys()
     product = exp(sum(log(1 - share) for share in shares.values()))
     assert product < trial.labels_right(place) <= 1 - max(shares.values())
@@ -94,9 +94,9 @@ def test_a_cluster_is_of_hulls_that_look_like_its_first_one() -> None:
 
 def test_credit_is_linear_in_the_doubt_that_goes() -> None:
     one = AssetEvidence(0.8, 0.5, program=0.9)
-    whole = one.credit(readings=1 / 0.8, labels=2.0, program=1 / 0.9)
+    whole = one.credit(candidates=1 / 0.8, labels=2.0, program=1 / 0.9)
     assert whole == pytest.approx(1 - one.probability)
-    parts = one.credit(readings=1 / 0.8) + one.credit(labels=2.0) + one.credit(program=1 / 0.9)
+    parts = one.credit(candidates=1 / 0.8) + one.credit(labels=2.0) + one.credit(program=1 / 0.9)
     assert parts == pytest.approx(whole), "however many doubts there are, the sum of their credits is the whole"
     assert one.credit() == 0.0
     assert AssetEvidence(1.0, 1.0).credit() == 0.0
@@ -119,7 +119,7 @@ def test_a_slip_may_be_a_wrong_label() -> None:
     demo = Demonstration(meshes["t0"], [Step(1, legs_of("t0") - {WRONG_LEG}, Delete())], "t0")
     state = ReviewState(meshes, FRAME, demos={"t0": demo})
     trial = try_state(state)
-    question = ask_about_slip(state, trial.slips[0])
+    question = ask_about_mistake(state, trial.mistakes[0])
     offered = offer_label(state, trial.posterior, question)
     assert offered.id == question.id
     assert offered.choices[:2] == question.choices
@@ -130,8 +130,8 @@ def test_a_slip_may_be_a_wrong_label() -> None:
 def test_where_all_repairs_were_refused_the_edit_is_asked_for_again() -> None:
     meshes = tables()
     state = ReviewState(meshes, FRAME, demos=shown(meshes, "t0"))
-    repair = Repair(LabelCorrection("t0", WRONG_LEG, "leg", "panel"), 1, 0.9, "why")
-    outcome = NeedsRepair(rules=(), readings=(), tried=(), seconds={}, repairs=(repair,))
+    repair = Repair(LabelFix("t0", WRONG_LEG, "leg", "panel"), 1, 0.9, "why")
+    outcome = NeedsRepair(rules=(), candidates=(), tried=(), seconds={}, repairs=(repair,))
     family = model_family(list(meshes.values()))
     first = review_family(state, outcome, family)
     assert first.question is not None and first.question.kind == "repair"

@@ -11,22 +11,22 @@ from meshforge.common import ProgramError
 from meshforge.label_model import model_family
 from meshforge.language import Delete, Program
 from meshforge.signoff import (
-    BAR,
+    THRESHOLD,
     Assessment,
+    CandidateQuestion,
     ExclusionReason,
     GroupQuestion,
+    MistakeQuestion,
     OrientationQuestion,
-    ReadingQuestion,
     RepairQuestion,
     ResultQuestion,
     ReviewQuestion,
     ReviewState,
-    SlipQuestion,
     review_family,
 )
 from meshforge.signoff.confidence import NO_EDIT
+from meshforge.signoff.program_run import run_on_asset
 from meshforge.signoff.question import EXCLUDE, NO, NOT_OF_FAMILY, NOT_SOLVED, RIGHT, WRONG
-from meshforge.signoff.trial import try_program
 from meshforge.symbolic import Label, SymbolicMesh
 from meshforge.synthesis import (
     Ambiguous,
@@ -76,7 +76,7 @@ def learn(state: ReviewState) -> LearningOutcome | None:
     return synthesize(demos, state.meshes, None, {}, LABELS, answers=[*state.answers, *meant])
 
 
-def review(state: ReviewState, bar: float = BAR) -> Assessment:
+def review(state: ReviewState, bar: float = THRESHOLD) -> Assessment:
     return review_family(state, learn(state), model_family(list(state.meshes.values())), bar)
 
 
@@ -103,7 +103,7 @@ def test_a_wrong_label_that_changes_the_edit_is_the_doubt_of_its_asset() -> None
     found = review(ReviewState(meshes, FRAME, demos=shown(meshes, "t0")))
     worst = min(found.assets.values(), key=lambda one: one.probability)
     assert worst.asset == "t5"
-    doubt = next(one for one in worst.doubts if one.kind == "label")
+    doubt = next(one for one in worst.reasons if one.kind == "label")
     assert doubt.hulls == ("leg2_low",)
     assert doubt.rule == 1
     assert "is called panel, and may be leg" in doubt.text
@@ -112,7 +112,7 @@ def test_a_wrong_label_that_changes_the_edit_is_the_doubt_of_its_asset() -> None
 def test_a_wrong_label_that_changes_nothing_is_no_doubt() -> None:
     meshes = tables(litter0="handle")
     found = review(ReviewState(meshes, FRAME, demos=shown(meshes, "t0")))
-    assert not [doubt for doubt in found.assets["t5"].doubts if doubt.kind == "label"]
+    assert not [doubt for doubt in found.assets["t5"].reasons if doubt.kind == "label"]
 
 
 def test_a_demonstrated_and_an_accepted_asset_are_signed_off_by_a_person() -> None:
@@ -130,14 +130,14 @@ def test_a_demonstrated_asset_is_not_signed_off_while_no_program_fits_and_an_acc
     found = review(accept(ReviewState(meshes, FRAME, demos=odd | opposite), "t5", legs_of("t5")))
     assert found.question is not None and found.question.kind in ("demonstrate", "selection")
     assert found.looked_at == {"t5"} and found.signed_off == ("t5",)
-    assert {"t0", "t3"} <= set(found.held)
+    assert {"t0", "t3"} <= set(found.need_review)
 
 
 @pytest.mark.parametrize("reason", [NOT_OF_FAMILY, NOT_SOLVED])
 def test_an_asset_that_is_excluded_is_neither_signed_off_nor_held(reason: ExclusionReason) -> None:
     meshes = tables(leg2_low="panel")
     found = review(ReviewState(meshes, FRAME, demos=shown(meshes, "t0"), excluded={"t5": reason}))
-    assert "t5" not in (*found.signed_off, *found.held)
+    assert "t5" not in (*found.signed_off, *found.need_review)
     assert found.excluded == {"t5": reason}
 
 
@@ -145,11 +145,11 @@ def test_a_result_that_was_called_wrong_is_held_and_improbable_while_it_stays() 
     meshes = tables()
     state = ReviewState(meshes, FRAME, demos=shown(meshes, "t0"), wrong=frozenset({"t5"}))
     found = review(replace(state, failed={"t5": (legs_of("t5"),)}))
-    assert "t5" in found.held
+    assert "t5" in found.need_review
     assert found.assets["t5"].probability <= NO_EDIT
-    assert found.assets["t5"].doubts[0].text == "a person said that this result is wrong"
+    assert found.assets["t5"].reasons[0].text == "a person said that this result is wrong"
     other = review(replace(state, failed={"t5": (frozenset(),)}))
-    assert "t5" in other.held, "nobody looked at the one that is there now"
+    assert "t5" in other.need_review, "nobody looked at the one that is there now"
     assert other.assets["t5"].probability > 0.5
 
 
@@ -184,13 +184,13 @@ def take_first(state: ReviewState, question: ReviewQuestion) -> ReviewState:
                 label = Label(first.label, 1.0, "user") if first and first.label else None
                 meshes[place.asset] = meshes[place.asset].with_labels({place.hull: label})
             return snooze(replace(state, meshes=meshes), question)
-        case ReadingQuestion():
+        case CandidateQuestion():
             assert first and first.select is not None and question.rule
             answer = Answer(question.rule, question.asset, first.select)
             return replace(state, answers=(*state.answers, answer))
         case ResultQuestion() if first and first.id == RIGHT:
             return accept(state, question.asset, legs_of(question.asset))
-        case SlipQuestion() | OrientationQuestion():
+        case MistakeQuestion() | OrientationQuestion():
             assert first and first.id == NO
     return snooze(state, question)
 
@@ -218,7 +218,7 @@ def test_with_a_label_that_is_told_the_doubt_is_gone() -> None:
     state = ReviewState(meshes, FRAME, demos=shown(meshes, "t0"))
     told = {**meshes, "t5": meshes["t5"].with_labels({"leg2_low": Label("leg", 1.0, "user")})}
     found = review(replace(state, meshes=told))
-    assert not [doubt for doubt in found.assets["t5"].doubts if "leg2_low" in doubt.hulls]
+    assert not [doubt for doubt in found.assets["t5"].reasons if "leg2_low" in doubt.hulls]
     assert found.assets["t5"].probability > review(state).assets["t5"].probability
 
 
@@ -226,14 +226,14 @@ def test_a_program_that_cannot_run_on_an_asset_is_said_so() -> None:
     meshes = {**tables(), "bare": table().with_labels(dict.fromkeys(table().index))}
     found = review(ReviewState(meshes, FRAME, demos=shown(meshes, "t0")))
     assert found.assets["bare"].probability < 0.05
-    assert found.assets["bare"].doubts[0].text == "the program cannot run: no labels, though the program asks for some"
+    assert found.assets["bare"].reasons[0].text == "the program cannot run: no labels, though the program asks for some"
 
 
 @pytest.mark.parametrize(("text", "runs"), [("All => Replace(box)", True), ("Is(leg) => Delete", False)])
 def test_only_a_program_that_asks_for_labels_needs_some(text: str, runs: bool) -> None:
     bare = table().with_labels(dict.fromkeys(table().index))
     program = Program.parse(f"labels leg, panel\n\n{text}\n")
-    assert (try_program("bare", bare, program, {}).error is None) == runs
+    assert (run_on_asset("bare", bare, program, {}).error is None) == runs
     if runs:
         assert program.run(bare).mesh.hulls
     else:

@@ -9,11 +9,11 @@ import pytest
 from meshforge.label_model import model_family
 from meshforge.language import Attach, Delete, Geo, Is, Rule, Union
 from meshforge.signoff import Assessment, ReviewQuestion, ReviewState, review_family
+from meshforge.signoff.likely_mistakes import ask_about_kept_label, ask_about_nearest, find_mistakes
+from meshforge.signoff.program_run import run_on_asset
 from meshforge.signoff.question import NO, YES
-from meshforge.signoff.slips import ask_about_kept_label, ask_about_nearest, find_slips
-from meshforge.signoff.trial import try_program
 from meshforge.symbolic import Label, SymbolicMesh
-from meshforge.synthesis import Answer, Demonstration, LabelCorrection, Nearest, NeedsRepair, Repair, Step
+from meshforge.synthesis import Answer, Demonstration, LabelFix, Nearest, NeedsRepair, Repair, Step
 from tests.unit.signoff.test_review import FRAME, accept, legs_of, review, shown, snooze, tables
 
 FORGOTTEN = "leg2_low"
@@ -26,7 +26,7 @@ def show_without(*forgotten: str) -> tuple[dict[str, SymbolicMesh], ReviewState]
     return meshes, ReviewState(meshes, FRAME, demos={"t0": demo})
 
 
-def ask_about_slip(state: ReviewState) -> ReviewQuestion | None:
+def ask_about_mistake(state: ReviewState) -> ReviewQuestion | None:
     """The question about a slip, whatever else is asked first."""
     for _ in range(12):
         question = review(state).question
@@ -49,7 +49,7 @@ def probability(found: Assessment, asset: str) -> float:
 
 def test_a_hull_that_was_forgotten_is_asked_about() -> None:
     _, state = show_without(FORGOTTEN)
-    question = ask_about_slip(state)
+    question = ask_about_mistake(state)
     assert question is not None
     assert (question.asset, question.rule) == ("t0", 1)
     assert f"{FORGOTTEN} is leg, like the 7 hulls that rule 1 selects" in question.text
@@ -70,30 +70,30 @@ def test_a_hull_that_is_too_much_is_asked_about_in_words_of_its_own() -> None:
 @pytest.mark.slow
 def test_what_was_meant_as_shown_is_not_asked_about_again() -> None:
     _, state = show_without(FORGOTTEN)
-    question = ask_about_slip(state)
+    question = ask_about_mistake(state)
     assert question is not None
-    assert ask_about_slip(snooze(state, question)) is None
+    assert ask_about_mistake(snooze(state, question)) is None
 
 
 def test_a_simple_demonstration_has_no_slip() -> None:
     _, state = show_without()
-    assert ask_about_slip(state) is None
+    assert ask_about_mistake(state) is None
 
 
 def test_a_program_that_nobody_demonstrated_has_no_slips() -> None:
     meshes = tables()
     parts = Union(Is("leg"), Union(Geo(Is("drawer"), "-Z"), Attach(Is("handle"), Is("drawer"))))
     program = replace(FRAME, rules=(Rule(parts, Delete()),))
-    trials = [try_program(name, mesh, program, {}) for name, mesh in meshes.items()]
+    trials = [run_on_asset(name, mesh, program, {}) for name, mesh in meshes.items()]
     seen = accept(ReviewState(meshes, FRAME), "t1", *trials[1].selected)
-    assert list(find_slips(seen, program, trials)) == []
+    assert list(find_mistakes(seen, program, trials)) == []
 
 
 @pytest.mark.slow
 def test_a_corrected_result_is_no_slip() -> None:
     state = answer_wrongly()
     meant = {"t1": (legs_of("t1") | {"drawer0_bottom", "handle0"},)}
-    assert ask_about_slip(replace(state, corrected=frozenset(meant), meant=meant)) is None
+    assert ask_about_mistake(replace(state, corrected=frozenset(meant), meant=meant)) is None
 
 
 def test_results_that_are_all_wrong_lower_the_rest() -> None:
@@ -101,7 +101,7 @@ def test_results_that_are_all_wrong_lower_the_rest() -> None:
     wrong = {f"t{k}": (legs_of(f"t{k}"),) for k in range(1, 5)}
     after = review(replace(state, wrong=frozenset(wrong), failed=wrong))
     assert probability(after, "t5") < probability(review(state), "t5")
-    assert {"t1", "t2", "t3", "t4"} <= set(after.held)
+    assert {"t1", "t2", "t3", "t4"} <= set(after.need_review)
 
 
 def test_results_of_a_program_that_is_no_more_do_not_count_against_the_one_there_is() -> None:
@@ -167,7 +167,7 @@ def answer_wrongly() -> ReviewState:
 
 
 def test_an_answer_that_alone_makes_a_rule_complicated_is_asked_about() -> None:
-    question = ask_about_slip(answer_wrongly())
+    question = ask_about_mistake(answer_wrongly())
     assert question is not None
     assert (question.asset, question.rule) == ("t1", 1)
     assert "rule 1 would just be Is(leg): were they selected on t1 by mistake?" in question.text
@@ -176,10 +176,10 @@ def test_an_answer_that_alone_makes_a_rule_complicated_is_asked_about() -> None:
 @pytest.mark.slow
 def test_an_answer_that_was_meant_so_is_kept() -> None:
     state = answer_wrongly()
-    question = ask_about_slip(state)
+    question = ask_about_mistake(state)
     assert question is not None
     assert meant_by(question) == legs_of("t1")
-    assert ask_about_slip(snooze(state, question)) is None
+    assert ask_about_mistake(snooze(state, question)) is None
 
 
 def keep_label(state: ReviewState, hull: str) -> tuple[ReviewState, NeedsRepair]:
@@ -187,8 +187,8 @@ def keep_label(state: ReviewState, hull: str) -> tuple[ReviewState, NeedsRepair]
     mesh = state.meshes["t1"]
     kept = mesh.with_labels({hull: Label(mesh.hull_of(hull).label or "", source="repair")})
     after = replace(state, meshes={**state.meshes, "t1": kept})
-    repair = Repair(LabelCorrection("t1", hull, kept.hull_of(hull).label, "panel"), 1, 0.6, "it looks like one")
-    outcome = NeedsRepair(rules=(), readings=(), tried=(), seconds={}, repairs=(repair,))
+    repair = Repair(LabelFix("t1", hull, kept.hull_of(hull).label, "panel"), 1, 0.6, "it looks like one")
+    outcome = NeedsRepair(rules=(), candidates=(), tried=(), seconds={}, repairs=(repair,))
     family = model_family(list(after.meshes.values()))
     question = review_family(after, outcome, family).question
     assert question is not None and question.kind == "repair"
@@ -218,7 +218,7 @@ def test_a_hull_that_was_left_out_though_its_label_is_kept_is_asked_about() -> N
 
 def test_nothing_is_asked_of_a_label_that_nobody_gave_or_where_nothing_was_said() -> None:
     _, state = show_without()
-    repair = Repair(LabelCorrection("t1", "handle0", "handle", "leg"), 1, 0.6, "it looks like one")
+    repair = Repair(LabelFix("t1", "handle0", "handle", "leg"), 1, 0.6, "it looks like one")
     answered = replace(state, answers=(Answer(1, "t1", legs_of("t1") | {"handle0"}),))
     assert ask_about_kept_label(answered, repair, 6.0) is None
     silent, outcome = keep_label(state, "handle0")

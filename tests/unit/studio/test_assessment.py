@@ -7,13 +7,13 @@ import pytest
 from meshforge.language import Program
 from meshforge.project import Project
 from meshforge.signoff import (
-    BAR,
+    THRESHOLD,
     Assessment,
     AssetConfidence,
-    Doubt,
+    CandidateQuestion,
     GroupQuestion,
     HullPlace,
-    ReadingQuestion,
+    Reason,
     ReviewChoice,
     ReviewQuestion,
     ReviewState,
@@ -34,7 +34,7 @@ def project(tmp_path_factory: pytest.TempPathFactory) -> Project:
 def assessment_of(*questions: ReviewQuestion) -> Assessment:
     rows = {
         ONE: AssetConfidence(ONE, 0.999),
-        OTHER: AssetConfidence(OTHER, 0.62, (Doubt("alarm", "nearly one solid block", share=0.3),)),
+        OTHER: AssetConfidence(OTHER, 0.62, (Reason("alarm", "nearly one solid block", share=0.3),)),
         "wrong": AssetConfidence("wrong", 0.99),
         "away": AssetConfidence("away", 0.1),
     }
@@ -44,20 +44,20 @@ def assessment_of(*questions: ReviewQuestion) -> Assessment:
 
 def test_each_asset_is_signed_off_held_or_excluded_and_counted() -> None:
     view = view_assessment(assessment_of(), ReviewState({}, Program()), 3)
-    assert (view.number, view.bar, view.signed_off, view.held, view.excluded) == (3, BAR, 1, 2, 1)
-    assert [(row.asset, row.state, row.told) for row in view.assets] == [
+    assert (view.number, view.threshold, view.signed_off, view.need_review, view.excluded) == (3, THRESHOLD, 1, 2, 1)
+    assert [(row.asset, row.state, row.remarks) for row in view.assets] == [
         (ONE, "signed", True),
-        (OTHER, "held", False),
-        ("wrong", "held", False),
+        (OTHER, "needs review", False),
+        ("wrong", "needs review", False),
         ("away", "excluded", False),
     ]
     assert view.assets[1].probability == 0.62
-    assert [doubt.text for doubt in view.assets[1].doubts] == ["nearly one solid block"]
+    assert [doubt.text for doubt in view.assets[1].reasons] == ["nearly one solid block"]
 
 
 def test_without_a_program_no_edit_has_a_probability() -> None:
     view = view_assessment(assessment_of(), ReviewState({}, Program()), 3, has_program=False)
-    assert (view.assets, view.signed_off, view.held) == ((), 0, 0)
+    assert (view.assets, view.signed_off, view.need_review) == ((), 0, 0)
 
 
 def test_a_question_says_where_its_hulls_are_and_what_its_readings_mean(project: Project) -> None:
@@ -65,7 +65,7 @@ def test_a_question_says_where_its_hulls_are_and_what_its_readings_mean(project:
     hull = mesh.hulls[2].name
     choices = (ReviewChoice("a", "Is(leg)", select=(hull,)), ReviewChoice("right", "right"))
     state = ReviewState({ONE: mesh}, Program())
-    for kind in (GroupQuestion, ReadingQuestion):
+    for kind in (GroupQuestion, CandidateQuestion):
         question = kind("?", 4.0, 1.2, ONE, 1, (HullPlace(ONE, hull),), choices, "q")
         asked = view_assessment(assessment_of(question), state, 1).question
         assert asked and asked.kind == question.kind

@@ -15,7 +15,7 @@ from meshforge.language import Delete
 from meshforge.project import Project
 from meshforge.signoff import Assessment, review_family
 from meshforge.store import (
-    SAID,
+    ANSWERS,
     AnswerEvent,
     AssessmentFile,
     ExclusionEvent,
@@ -44,12 +44,12 @@ def assess(project: Project, flag: CancelFlag, number: int = 1) -> None:
     assert process.assess(project.folder, flag.make_token("assess"), number) is not None
 
 
-BAR = 0.9
+THRESHOLD = 0.9
 
 
 def judged(project: Project) -> Project:
     """The same with a bar that a person chose, and its second result accepted."""
-    project.write_assessment(AssessmentFile(bar=BAR, lesson=""))
+    project.write_assessment(AssessmentFile(threshold=THRESHOLD, inputs_digest=""))
     project.set_verdict(SECOND, "accepted")
     return project
 
@@ -80,7 +80,7 @@ def test_what_was_assessed_is_known_to_the_status_and_signs_off_what_is_written(
     before = files_of(project)
     assess(project, flag)
     assert files_of(project) == before
-    project.review(BAR, execution=IN_PROCESS)
+    project.review(THRESHOLD, execution=IN_PROCESS)
     assert files_of(project) == before
 
 
@@ -111,7 +111,7 @@ def test_nothing_rests_unseen_on_a_demonstration_that_was_carried_to_the_parts_o
     assert signers_of(project) == {SECOND: "person"}
     carried = "crumb, which is demonstrated for rule 1, was split into crumb#0, crumb#1: "
     carried += "look whether all parts are meant"
-    told = {asset.id: [doubt.text for doubt in asset.doubts] for asset in project.status().assets}
+    told = {asset.id: [doubt.text for doubt in asset.reasons] for asset in project.status().assets}
     assert carried in told[FIRST] and f"{FIRST}: {carried}" in told[THIRD]
     project.demonstrate(FIRST, project.steps(FIRST))
     learn(project, flag, 2)
@@ -193,7 +193,7 @@ def test_what_a_person_takes_back_is_signed_off_no_longer_and_the_bar_is_that_of
     learn(project, flag)
     assess(project, flag)
     kept = project.assessment()
-    assert kept and kept.bar == 0.9999 and not kept.assets[THIRD].passes(kept.bar)
+    assert kept and kept.threshold == 0.9999 and not kept.assets[THIRD].passes(kept.threshold)
     assert THIRD not in signers_of(project)
 
 
@@ -206,7 +206,7 @@ def test_a_persons_sign_off_is_void_and_not_lost_when_the_program_changes(tmp_pa
     learn(project, flag)
     assess(project, flag)
     assert signers_of(project)[THIRD] == "person"
-    assert next(one for one in project.status().assets if one.id == THIRD).void == ("program", SAID)
+    assert next(one for one in project.status().assets if one.id == THIRD).void == ("program", ANSWERS)
 
 
 def test_what_was_said_is_learned_from_what_is_snoozed_is_only_asked_anew_and_sign_offs_are_neither(

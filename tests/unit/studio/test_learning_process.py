@@ -62,8 +62,8 @@ def test_the_bundled_program_is_learned_and_kept(project: Project, learner: Lear
     assert (outcome.number, outcome.status, outcome.error) == (7, "found", None)
     assert rules_of(outcome.program) == rules_of(BUNDLED)
     assert outcome.rules[0].sentence == "The misc hulls are deleted."
-    counts = {rule.rule: rule.readings for rule in outcome.rules}
-    assert counts == {rule: sum(r.rule == rule for r in outcome.readings) for rule in counts}
+    counts = {rule.rule: rule.candidates for rule in outcome.rules}
+    assert counts == {rule: sum(r.rule == rule for r in outcome.candidates) for rule in counts}
     kept = project.program()
     assert kept
     assert str(kept) == outcome.program
@@ -295,13 +295,13 @@ def test_a_question_tells_what_each_choice_reads(fresh: tuple[Project, Learner])
     outcome = learner.learn(1, take=False).result()
     assert outcome.status == "ambiguous"
     asked, program = learner.assess(1).result().question, Program.parse(outcome.program or "")
-    assert asked and asked.kind == "reading" and asked.rule
+    assert asked and asked.kind == "candidate" and asked.rule
     met = project.mesh_before_rule(asked.asset, asked.rule, program)
     for choice in asked.choices:
         found = select(parse_extractor(choice.text), met)
         assert [met.hulls[k].name for k in sorted(found)] == list(choice.select or ())
         assert choice.sentence
-    assert {choice.text for choice in asked.choices} <= {reading.extractor for reading in outcome.readings}
+    assert {choice.text for choice in asked.choices} <= {reading.extractor for reading in outcome.candidates}
 
 
 @pytest.mark.slow

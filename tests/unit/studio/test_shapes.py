@@ -13,7 +13,7 @@ from meshforge.language import to_canonical_frame
 from meshforge.project import Project
 from meshforge.studio.queries.assets import build_asset_view, compute_upright
 from meshforge.studio.queries.packets import hull_view, pack_asset, pack_visual
-from meshforge.symbolic import Asset, Body, Document, Geom, Opaque, Surface, SymbolicMesh
+from meshforge.symbolic import Asset, Body, Document, Geom, NonConvexPiece, Surface, SymbolicMesh
 from meshforge.synthesis import Step
 from tests.program_parts import parse_action
 from tests.studio_project import demo_project
@@ -27,10 +27,14 @@ def project(tmp_path_factory: pytest.TempPathFactory) -> Project:
     return demo_project(tmp_path_factory.mktemp("tables"))
 
 
-def of_shapes(*shapes: Shape, opaque: tuple[Opaque, ...] = (), visuals: tuple[Surface, ...] = ()) -> SymbolicMesh:
+def of_shapes(
+    *shapes: Shape, opaque: tuple[NonConvexPiece, ...] = (), visuals: tuple[Surface, ...] = ()
+) -> SymbolicMesh:
     geoms = tuple(Geom(f"part{k}", "base", shape) for k, shape in enumerate(shapes))
     bodies = (Body("base", Pose.identity()),)
-    return SymbolicMesh.of(Asset(Path("part.urdf"), "urdf", bodies, geoms, Document(), opaque=opaque, visuals=visuals))
+    return SymbolicMesh.of(
+        Asset(Path("part.urdf"), "urdf", bodies, geoms, Document(), non_convex=opaque, visuals=visuals)
+    )
 
 
 def triangle(color: tuple[float, float, float, float] | None = None) -> Surface:
@@ -55,7 +59,7 @@ def test_round_primitives_come_as_round_as_they_look() -> None:
 
 
 def test_opaque_pieces_with_a_surface_follow_the_hulls() -> None:
-    opaque = (Opaque("floor", "base", "endless"), Opaque("shell", "base", "it is open", triangle()))
+    opaque = (NonConvexPiece("floor", "base", "endless"), NonConvexPiece("shell", "base", "it is open", triangle()))
     header, shapes = read_packet(pack_asset(of_shapes(Sphere(Pose.identity(), 1.0), opaque=opaque)))
     assert [row["name"] for row in header["rows"]] == ["part0", "shell"]
     assert np.allclose(shapes[1][0], np.eye(3) + 0.1)

@@ -8,7 +8,7 @@ import pytest
 
 from meshforge.common import ProjectError
 from meshforge.project import Project
-from meshforge.signoff import ReviewChoice, SlipQuestion
+from meshforge.signoff import MistakeQuestion, ReviewChoice
 from meshforge.store import History
 from meshforge.studio.edits.base import make_edit
 from meshforge.synthesis import Answer
@@ -26,7 +26,7 @@ def kept(project: Project) -> list[bytes | None]:
 
 def correct(project: Project, history: History, asset: str) -> bool:
     choices = (ReviewChoice("no", "no", select=("crumb",)), ReviewChoice("yes", "yes", select=MEANT))
-    question = SlipQuestion("?", 3.0, 1.0, asset, 1, (), choices, "selection-1")
+    question = MistakeQuestion("?", 3.0, 1.0, asset, 1, (), choices, "selection-1")
     return make_edit(history, project, edit_of(question, project, {"choice": "yes"})) is not None
 
 

@@ -17,17 +17,17 @@ from meshforge.language import Program
 from meshforge.project import Project
 from meshforge.signoff import (
     Assessment,
+    CandidateQuestion,
     GroupQuestion,
     HullPlace,
+    MistakeQuestion,
     OrientationQuestion,
-    ReadingQuestion,
     RepairQuestion,
     ResultQuestion,
     ReviewChoice,
     ReviewQuestion,
     ReviewReply,
     ReviewState,
-    SlipQuestion,
     question_of,
 )
 from meshforge.store import History
@@ -49,8 +49,8 @@ MISC_OR_LEG = (ReviewChoice.of_label("leg"), ReviewChoice.of_label("misc"))
 ASKED: dict[str, ReviewQuestion] = {
     "group": GroupQuestion("?", 4.0, 1.2, THIRD, None, (LEG, OTHER_LEG), LEG_OR_TOP, "group-1"),
     "repair": RepairQuestion("?", 3.0, 1.0, THIRD, 2, (CRUMB,), MISC_OR_LEG, "repair-1"),
-    "reading": ReadingQuestion("?", 4.0, 1.0, THIRD, 1, (), READINGS, "reading-1"),
-    "selection": SlipQuestion("?", 3.0, 1.0, FIRST, 1, (HullPlace(FIRST, "top"),), YES_OR_NO, "selection-1"),
+    "candidate": CandidateQuestion("?", 4.0, 1.0, THIRD, 1, (), READINGS, "reading-1"),
+    "selection": MistakeQuestion("?", 3.0, 1.0, FIRST, 1, (HullPlace(FIRST, "top"),), YES_OR_NO, "selection-1"),
     "orientation": OrientationQuestion("?", 3.0, 1.0, FIRST, choices=TURNS, id="orientation-1"),
     "result": ResultQuestion("?", 3.0, 1.0, THIRD, choices=JUDGE, id="result-1"),
 }
@@ -65,8 +65,8 @@ REPLIES: dict[str, tuple[str, dict[str, Any], str]] = {
     "a group is none of these": ("group", {}, "="),
     "a label is wrong": ("repair", {"choice": "leg"}, "<"),
     "a label is right": ("repair", {"choice": "misc"}, "="),
-    "a reading": ("reading", {"choice": "a"}, "="),
-    "no reading": ("reading", {}, "="),
+    "a reading": ("candidate", {"choice": "a"}, "="),
+    "no reading": ("candidate", {}, "="),
     "on purpose": ("selection", {"choice": "no"}, "="),
     "by mistake": ("selection", {"choice": "yes"}, "<"),
     "not turned": ("orientation", {"choice": "no"}, "="),

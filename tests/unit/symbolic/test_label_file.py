@@ -96,12 +96,12 @@ def test_the_label_that_an_inferred_one_replaced_is_written_and_read(tmp_path: P
 
 
 WORDS = st.text(st.characters(exclude_categories=["C", "Z"]), min_size=1)
-SAID = st.builds(Label, WORDS, st.floats(0, 1), st.sampled_from(sorted({*LABEL_SOURCES} - INFERRED_SOURCES)))
-INFERRED = st.builds(Label, WORDS, st.floats(0, 1), st.sampled_from(sorted(INFERRED_SOURCES)), st.none() | SAID)
+ANSWERS = st.builds(Label, WORDS, st.floats(0, 1), st.sampled_from(sorted({*LABEL_SOURCES} - INFERRED_SOURCES)))
+INFERRED = st.builds(Label, WORDS, st.floats(0, 1), st.sampled_from(sorted(INFERRED_SOURCES)), st.none() | ANSWERS)
 
 
 @examples(100)
-@given(labels=st.dictionaries(st.text(), SAID | INFERRED), vocabulary=st.lists(WORDS))
+@given(labels=st.dictionaries(st.text(), ANSWERS | INFERRED), vocabulary=st.lists(WORDS))
 def test_whatever_labels_say_is_read_as_it_was_written(
     tmp_path_factory: pytest.TempPathFactory, labels: dict[str, Label], vocabulary: list[str]
 ) -> None:

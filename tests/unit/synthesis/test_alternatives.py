@@ -11,7 +11,7 @@ from meshforge.language import Delete, Is, LandmarkPair, Replace, parse_extracto
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Demonstration, Found, LearningOutcome, Options, Step, outcome_to_json, synthesize
 from meshforge.synthesis.demonstration import collect_rule_specs
-from meshforge.synthesis.orientation.alternatives import FrameDoubts, cost_extractor
+from meshforge.synthesis.orientation.alternatives import FrameCosts, cost_extractor
 from meshforge.synthesis.orientation.landmarks import Landmarks
 from tests.program_parts import parse_action
 from tests.synthesis_boxes import posed, rack
@@ -114,8 +114,8 @@ def test_actions_that_go_by_axes_count_where_a_later_rule_asks_for_places() -> N
     demo = Demonstration(mesh, [Step(1, {"top_0"}, Replace("box")), Step(2, {"leg"}, Delete())])
     rules = collect_rule_specs([demo])
     plain, place = parse_extractor("Is(leg)"), parse_extractor("Geo(Is(panel), +Z)")
-    assert FrameDoubts(rules, [place, plain]).askew == 0
-    assert FrameDoubts(rules, [plain, place]).askew > 0
+    assert FrameCosts(rules, [place, plain]).askew == 0
+    assert FrameCosts(rules, [plain, place]).askew > 0
 
 
 @pytest.mark.parametrize(

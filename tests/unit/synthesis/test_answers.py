@@ -44,7 +44,7 @@ def test_a_choice_that_is_taken_is_what_the_program_selects(choice: int) -> None
     answer = choose(asked.open_rule, choice)
     outcome = learned(answer)
     assert isinstance(outcome, Found)
-    assert outcome.settled
+    assert outcome.unambiguous
     assert selected(outcome.program, 1, MESHES[answer.asset]) == answer.select
     assert selected(outcome.program, 1, MESHES["c0"]) == {"pull"}
 
@@ -73,7 +73,7 @@ def test_a_choice_is_never_larger_than_what_can_be_learned() -> None:
     options = Options(repair=False, max_size=2)
     outcome = synthesize(DEMOS, MESHES, options=options)
     assert isinstance(outcome, Ambiguous)
-    assert {reading.size for reading in outcome.readings} == {1, 2}
+    assert {reading.size for reading in outcome.candidates} == {1, 2}
     for choice in range(len(outcome.open_rule.selections)):
         answers = [choose(outcome.open_rule, choice)]
         assert isinstance(synthesize(DEMOS, MESHES, answers=answers, options=options), Found | Ambiguous)
@@ -89,17 +89,17 @@ def test_neither_is_taken_note_of_and_not_asked_again_on_that_asset() -> None:
         answers.append(choose(outcome.open_rule, None))
     assert isinstance(outcome, Found)
     assert len({answer.asset for answer in answers}) == len(answers) > 1
-    assert not outcome.settled, "what was declined is still open"
+    assert not outcome.unambiguous, "what was declined is still open"
 
 
 def test_what_was_refused_on_an_asset_is_believed_less() -> None:
     asked = learned()
     assert isinstance(asked, Ambiguous)
     mesh, refused = MESHES[asked.open_rule.asset], asked.open_rule.selections
-    offered = {show(one.extractor) for one in asked.readings if meant(show(one.extractor), mesh) in refused}
+    offered = {show(one.extractor) for one in asked.candidates if meant(show(one.extractor), mesh) in refused}
     after = learned(choose(asked.open_rule, None))
-    before = {show(reading.extractor): reading.belief for reading in asked.readings}
-    others = [reading for reading in after.readings if show(reading.extractor) not in before.keys() & offered]
+    before = {show(reading.extractor): reading.belief for reading in asked.candidates}
+    others = [reading for reading in after.candidates if show(reading.extractor) not in before.keys() & offered]
     assert sum(reading.belief for reading in others) > sum(before[show(reading.extractor)] for reading in others)
 
 

@@ -9,7 +9,7 @@ import pytest
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Ambiguous, Found, Hint, LearningOutcome, Options, synthesize
 from meshforge.synthesis.asset_selection import suggest_demonstration
-from meshforge.synthesis.outcome import reading_id
+from meshforge.synthesis.outcome import candidate_id
 from tests.synthesis_boxes import boxes
 from tests.synthesis_cupboards import cupboard, cupboards, shown, with_rare_doors
 
@@ -21,10 +21,10 @@ def learned(meshes: Mapping[str, SymbolicMesh], names: Sequence[str], program: s
 
 
 def test_readings_are_counted_from_one_within_their_rule() -> None:
-    assert [reading_id(2, place) for place in (0, 9)] == ["2.1", "2.10"]
+    assert [candidate_id(2, place) for place in (0, 9)] == ["2.1", "2.10"]
     outcome = learned(cupboards(), ["c0"], "Is(drawer) => Delete\nIs(handle) => Delete\n")
     for rule in (1, 2):
-        ids = [reading.id for reading in outcome.readings if reading.rule == rule]
+        ids = [reading.id for reading in outcome.candidates if reading.rule == rule]
         assert ids == [f"{rule}.{place}" for place in range(1, len(ids) + 1)]
 
 
@@ -57,7 +57,7 @@ def test_the_choices_of_a_question_are_what_its_readings_differ_by() -> None:
     outcome = learned(with_rare_doors(), ["c0"], "Is(handle) => Delete")
     assert isinstance(outcome, Ambiguous)
     assert [set(one) for one in outcome.open_rule.selections] == [{"pull", "knob"}, {"pull"}, {"knob"}]
-    assert any(outcome.open_rule.asset in reading.differs_on for reading in outcome.readings)
+    assert any(outcome.open_rule.asset in reading.differs_on for reading in outcome.candidates)
 
 
 def test_what_differs_on_many_assets_is_sooner_seen_than_asked() -> None:
@@ -65,9 +65,9 @@ def test_what_differs_on_many_assets_is_sooner_seen_than_asked() -> None:
     rare, common = (learned(meshes, ["c0"], "Is(handle) => Delete") for meshes in (with_rare_doors(), cupboards(12)))
     assert isinstance(rare, Ambiguous)
     assert isinstance(common, Found)
-    assert not common.settled
+    assert not common.unambiguous
     for outcome in (rare, common):
-        assert sum(reading.belief for reading in outcome.readings if "c1" in reading.differs_on) > 0.3
+        assert sum(reading.belief for reading in outcome.candidates if "c1" in reading.differs_on) > 0.3
 
 
 def test_a_faint_doubt_is_reported_but_not_asked_about() -> None:
@@ -76,8 +76,8 @@ def test_a_faint_doubt_is_reported_but_not_asked_about() -> None:
     meshes = {"shown": cupboard(feet=1), **{f"c{k}": usual for k in range(60)}, "odd": cupboard(True, 1)}
     outcome = learned(meshes, ["shown"], "Is(body) => Delete")
     assert isinstance(outcome, Found)
-    assert max(reading.belief for reading in outcome.readings if reading.differs_on == ("odd",)) > 0.03
-    assert not outcome.settled
+    assert max(reading.belief for reading in outcome.candidates if reading.differs_on == ("odd",)) > 0.03
+    assert not outcome.unambiguous
 
 
 def test_where_readings_differ_the_asset_that_tells_most_is_best_demonstrated() -> None:

@@ -23,8 +23,8 @@ from meshforge.synthesis import (
     synthesize,
 )
 from meshforge.synthesis.demonstration import collect_rule_specs
-from meshforge.synthesis.questions import LabelCorrection
-from meshforge.synthesis.task import ReplaySet, apply_corrections, name_batch
+from meshforge.synthesis.questions import LabelFix
+from meshforge.synthesis.task import ReplaySet, apply_fixes, name_family
 from tests.synthesis_boxes import boxes
 from tests.synthesis_cupboards import cupboard, cupboards, shown, with_rare_doors
 
@@ -51,7 +51,7 @@ def at(size: float) -> SymbolicMesh:
 
 
 def test_meshes_made_in_memory_are_counted_from_one() -> None:
-    named = name_batch([cupboard(), cupboard(True)], DEMOS)
+    named = name_family([cupboard(), cupboard(True)], DEMOS)
     assert list(named) == ["mesh 1", "mesh 2"]
 
 
@@ -61,27 +61,27 @@ def test_meshes_of_files_are_called_by_their_paths(tmp_path: Path) -> None:
         path.write_text("o x\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n")
     meshes = [mf.load(path) for path in paths]
     demo = Demonstration(meshes[1], [Step(1, [], Delete())])
-    assert list(name_batch(meshes, DEMOS)) == [str(paths[1]), str(paths[0])]
-    assert list(name_batch((mf.load(path) for path in paths), [demo])) == [str(paths[0])]
+    assert list(name_family(meshes, DEMOS)) == [str(paths[1]), str(paths[0])]
+    assert list(name_family((mf.load(path) for path in paths), [demo])) == [str(paths[0])]
 
 
 def test_demonstrated_meshes_are_left_out_by_name_and_by_identity() -> None:
-    assert "c0" not in name_batch({**MESHES, "c0": cupboard()}, DEMOS)
-    assert "again" not in name_batch({**MESHES, "again": MESHES["c0"]}, DEMOS)
+    assert "c0" not in name_family({**MESHES, "c0": cupboard()}, DEMOS)
+    assert "again" not in name_family({**MESHES, "again": MESHES["c0"]}, DEMOS)
     unnamed = Demonstration(MESHES["c0"], DEMOS[0].steps)
-    assert sorted(name_batch(MESHES, [unnamed])) == [f"c{k}" for k in range(1, 8)]
+    assert sorted(name_family(MESHES, [unnamed])) == [f"c{k}" for k in range(1, 8)]
 
 
 def test_one_mesh_under_two_names_is_two_assets() -> None:
-    assert list(name_batch({"a": MESHES["c1"], "b": MESHES["c1"]}, DEMOS)) == ["a", "b"]
+    assert list(name_family({"a": MESHES["c1"], "b": MESHES["c1"]}, DEMOS)) == ["a", "b"]
 
 
 @pytest.mark.parametrize("batch", [(), [], {}, iter(())])
 def test_without_a_batch_one_reading_is_enough_and_nothing_is_settled(batch: Any) -> None:
     outcome = synthesize(DEMOS, batch)
     assert isinstance(outcome, Found)
-    assert not outcome.settled
-    assert (outcome.hint, len(outcome.readings)) == (None, 1)
+    assert not outcome.unambiguous
+    assert (outcome.hint, len(outcome.candidates)) == (None, 1)
 
 
 def test_a_generator_is_read_once_and_does_what_a_list_does() -> None:
@@ -105,10 +105,10 @@ def test_meshes_that_cannot_be_oriented_leave_the_batch() -> None:
     meshes = {name: mesh for name, mesh in MESHES.items() if name != "c2"}
     outcome = synthesize(shown(MESHES, ["c2"], HANDLES), meshes, orient=up)
     footless = {"c0", "c3", "c6"}
-    assert {name for reading in outcome.readings for name in reading.differs_on} <= meshes.keys() - footless
+    assert {name for reading in outcome.candidates for name in reading.differs_on} <= meshes.keys() - footless
     only = synthesize(shown(MESHES, ["c2"], HANDLES), {name: MESHES[name] for name in footless}, orient=up)
     assert isinstance(only, Found)
-    assert not only.settled, "no mesh was left to look at"
+    assert not only.unambiguous, "no mesh was left to look at"
     assert only.hint is None
 
 
@@ -118,7 +118,7 @@ def test_meshes_that_a_rule_cannot_edit_leave_the_batch_after_it() -> None:
     answer = Answer(2, "huge", {"pull"})
     outcome = synthesize(demos, meshes, answers=[answer], options=Options(repair=False))
     assert isinstance(outcome, Found | Ambiguous)
-    assert not any("huge" in reading.differs_on for reading in outcome.readings if reading.rule == 2)
+    assert not any("huge" in reading.differs_on for reading in outcome.candidates if reading.rule == 2)
     assert outcome.stale == (answer,)
 
 
@@ -126,7 +126,7 @@ def test_a_mesh_without_hulls_is_no_obstacle_and_never_asked_about() -> None:
     with_empty, without = (synthesize(DEMOS, {**RARE, **more}) for more in ({"empty": EMPTY}, {}))
     assert isinstance(with_empty, Ambiguous)
     assert [rule.extractor for rule in with_empty.rules] == [rule.extractor for rule in without.rules]
-    assert not any("empty" in reading.differs_on for reading in with_empty.readings)
+    assert not any("empty" in reading.differs_on for reading in with_empty.candidates)
     only = synthesize(DEMOS, {"empty": EMPTY})
     assert isinstance(only, Found)
     assert only.hint is None
@@ -148,30 +148,30 @@ def test_settled_means_that_no_believable_reading_differs() -> None:
     for program in (HANDLES, "Is(drawer) => Delete", "Is(body) => Delete", "All => Delete"):
         for names in (["c0"], ["c1"], ["c1", "c2"], ["c4", "c5", "c7"]):
             outcome = synthesize(shown(MESHES, names, program), MESHES)
-            differing = [reading for reading in outcome.readings if reading.differs_on and reading.belief >= 0.005]
-            assert outcome.settled is not bool(differing)
+            differing = [reading for reading in outcome.candidates if reading.differs_on and reading.belief >= 0.005]
+            assert outcome.unambiguous is not bool(differing)
 
 
 @pytest.mark.parametrize("effort", [0, 5])
 def test_nothing_is_settled_where_readings_were_left_out(effort: int) -> None:
     outcome = synthesize(shown(MESHES, ["c0", "c1", "c4"], HANDLES), MESHES, options=Options(effort=effort))
     whole = synthesize(shown(MESHES, ["c0", "c1", "c4"], HANDLES), MESHES)
-    assert not outcome.settled
-    assert whole.settled
+    assert not outcome.unambiguous
+    assert whole.unambiguous
 
 
 def test_the_strategy_of_the_paper_takes_a_batch_and_settles_nothing() -> None:
     options = Options(strategy="paper", repair=False)
     outcome = synthesize(DEMOS, MESHES, options=options)
     assert isinstance(outcome, Found)
-    assert (outcome.settled, outcome.open_rule) == (False, None)
+    assert (outcome.unambiguous, outcome.open_rule) == (False, None)
     assert [rule.extractor for rule in outcome.rules] == [Is("handle")]
     assert outcome.hint is not None
 
 
 def test_a_course_runs_the_last_rule_on_demonstrated_meshes_only() -> None:
     program = Program.parse(HANDLES)
-    course = ReplaySet(DEMOS, name_batch(MESHES, DEMOS), program, dict[str, Template](), ())
+    course = ReplaySet(DEMOS, name_family(MESHES, DEMOS), program, dict[str, Template](), ())
     (rule,) = collect_rule_specs(DEMOS)
     examples, rest = course.examples(rule)
     assert [example.name for example in examples] == ["c0"]
@@ -179,7 +179,7 @@ def test_a_course_runs_the_last_rule_on_demonstrated_meshes_only() -> None:
     course.advance(program.rules[0], last=True)
     assert "pull" not in course.shown[0].mesh.index
     assert all("pull" in replay.mesh.index for replay in course.others)
-    before_another = ReplaySet(DEMOS, name_batch(MESHES, DEMOS), program, dict[str, Template](), ())
+    before_another = ReplaySet(DEMOS, name_family(MESHES, DEMOS), program, dict[str, Template](), ())
     before_another.advance(program.rules[0], last=False)
     assert len(before_another.others) == 7
     assert not any("pull" in replay.mesh.index for replay in before_another.others)
@@ -187,10 +187,8 @@ def test_a_course_runs_the_last_rule_on_demonstrated_meshes_only() -> None:
 
 def test_corrections_of_other_meshes_and_of_hulls_that_are_gone_change_nothing() -> None:
     mesh = MESHES["c1"]
-    assert apply_corrections(mesh, "c1", [LabelCorrection("c2", "pull", "handle", "door")]) is mesh
-    after = apply_corrections(
-        mesh, "c1", [LabelCorrection("c1", "pull", "handle", "door"), LabelCorrection("c1", "gone", None, "door")]
-    )
+    assert apply_fixes(mesh, "c1", [LabelFix("c2", "pull", "handle", "door")]) is mesh
+    after = apply_fixes(mesh, "c1", [LabelFix("c1", "pull", "handle", "door"), LabelFix("c1", "gone", None, "door")])
     assert (after.hull_of("pull").label, after.hull_of("pull").source) == ("door", "repair")
     assert mesh.hull_of("pull").label == "handle"
     assert {hull.name for hull in after.hulls} == {hull.name for hull in mesh.hulls}

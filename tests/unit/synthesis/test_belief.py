@@ -8,12 +8,12 @@ from collections.abc import Sequence
 import pytest
 
 from meshforge.language import parse_extractor
-from meshforge.synthesis.readings.belief import (
+from meshforge.synthesis.candidates.belief import (
     FEW,
     LARGER,
     NO_EVIDENCE,
-    ReadingEvidence,
-    choose_reading,
+    CandidateEvidence,
+    choose_candidate,
     compute_beliefs,
 )
 from meshforge.synthesis.search.observation_table import ObservationTable
@@ -37,7 +37,7 @@ def terms(*texts: str) -> list[Term]:
     return [FIELD.term(parse_extractor(text)) for text in texts]
 
 
-def believed(*texts: str, found: Sequence[ReadingEvidence] = (), assets: int = 0) -> tuple[float, ...]:
+def believed(*texts: str, found: Sequence[CandidateEvidence] = (), assets: int = 0) -> tuple[float, ...]:
     return compute_beliefs(terms(*texts), found or [NO_EVIDENCE] * len(texts), SHOWN, assets)
 
 
@@ -68,8 +68,8 @@ def test_what_people_rather_mean_is_believed_more(likely: str, unlikely: str) ->
     assert more > less
 
 
-@pytest.mark.parametrize("worse", [ReadingEvidence(1.0, 0.0), ReadingEvidence(0.0, 4.0)])
-def test_every_kind_of_evidence_counts_and_the_more_the_larger_the_batch(worse: ReadingEvidence) -> None:
+@pytest.mark.parametrize("worse", [CandidateEvidence(1.0, 0.0), CandidateEvidence(0.0, 4.0)])
+def test_every_kind_of_evidence_counts_and_the_more_the_larger_the_batch(worse: CandidateEvidence) -> None:
     shares = [
         believed("Is(leg)", "Is(panel)", found=[NO_EVIDENCE, worse], assets=assets)[1] for assets in (0, 1, FEW, 1000)
     ]
@@ -85,7 +85,7 @@ def test_what_leaves_nothing_out_where_it_was_shown_is_believed_less() -> None:
 
 
 def test_evidence_however_strange_leaves_numbers_that_can_be_compared() -> None:
-    worst = ReadingEvidence(1.0, 1e300)
+    worst = CandidateEvidence(1.0, 1e300)
     shares = believed("Is(leg)", "All", found=[NO_EVIDENCE, worst], assets=10**6)
     assert all(map(math.isfinite, shares))
     assert math.fsum(shares) == pytest.approx(1.0)
@@ -95,17 +95,17 @@ def test_evidence_however_strange_leaves_numbers_that_can_be_compared() -> None:
 
 def test_the_smallest_is_taken_unless_a_larger_one_is_believed_twice_as_much() -> None:
     rows = terms("Is(leg)", "Attach(Is(leg), Is(panel))")
-    assert choose_reading(rows, [0.5, 0.5 * LARGER - 1e-9]) == 0
-    assert choose_reading(rows, [0.5, 0.5 * LARGER]) == 1
+    assert choose_candidate(rows, [0.5, 0.5 * LARGER - 1e-9]) == 0
+    assert choose_candidate(rows, [0.5, 0.5 * LARGER]) == 1
 
 
 def test_of_the_smallest_the_most_believed_is_taken_and_of_equals_the_first() -> None:
-    assert choose_reading(terms("Is(leg)", "Is(panel)", "All"), [0.3, 0.5, 0.2]) == 1
-    assert choose_reading(terms("Is(leg)", "Is(panel)"), [0.5, 0.5]) == 0
-    assert choose_reading(terms("Is(leg)"), [1.0]) == 0
+    assert choose_candidate(terms("Is(leg)", "Is(panel)", "All"), [0.3, 0.5, 0.2]) == 1
+    assert choose_candidate(terms("Is(leg)", "Is(panel)"), [0.5, 0.5]) == 0
+    assert choose_candidate(terms("Is(leg)"), [1.0]) == 0
 
 
 def test_a_larger_one_is_held_against_the_smallest_that_is_believed_most() -> None:
     rows = terms("Is(leg)", "Is(panel)", "Geo(Is(leg), -Z)")
-    assert choose_reading(rows, [0.1, 0.4, 0.5]) == 1
-    assert choose_reading(rows, [0.05, 0.15, 0.8]) == 2
+    assert choose_candidate(rows, [0.1, 0.4, 0.5]) == 1
+    assert choose_candidate(rows, [0.05, 0.15, 0.8]) == 2

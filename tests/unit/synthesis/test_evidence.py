@@ -8,10 +8,10 @@ import pytest
 
 from meshforge.language import parse_extractor, select_mask
 from meshforge.symbolic import SymbolicMesh
-from meshforge.synthesis.readings.belief import (
+from meshforge.synthesis.candidates.belief import (
     NO_EVIDENCE,
     STRANGE_LABEL,
-    ReadingEvidence,
+    CandidateEvidence,
     count_idle,
     count_untested,
     measure_evidence,
@@ -34,7 +34,7 @@ def row(legs: int, misc: int = 0) -> SymbolicMesh:
 
 def said(
     texts: Sequence[str], shown: Sequence[SymbolicMesh], batch: Sequence[SymbolicMesh], rule: str = "Is(leg)"
-) -> tuple[ReadingEvidence, ...]:
+) -> tuple[CandidateEvidence, ...]:
     """The evidence on some extractors, where a rule was demonstrated."""
     field = ObservationTable([*shown, *batch], LABELS)
     selections = [select_mask(parse_extractor(rule), mesh) for mesh in shown]
@@ -67,7 +67,7 @@ def test_a_mesh_without_hulls_is_one_where_nothing_is_selected() -> None:
 
 
 def test_a_reading_that_never_selects_is_idle_and_nothing_else() -> None:
-    assert said(["Is(misc)"], [row(2, 1)], [row(2), row(3)]) == (ReadingEvidence(1.0, 0.0),)
+    assert said(["Is(misc)"], [row(2, 1)], [row(2), row(3)]) == (CandidateEvidence(1.0, 0.0),)
 
 
 def test_hulls_like_those_demonstrated_are_not_strange_and_others_are_the_more_the_less_alike() -> None:

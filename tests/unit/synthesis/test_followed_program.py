@@ -46,7 +46,7 @@ def test_without_a_program_to_follow_nothing_is_told() -> None:
     ('Is("all of it")', 'the label "all of it" is not in the vocabulary'),
 ])  # fmt: skip
 def test_each_rule_is_told_of_in_one_sentence(wanted: str, told: str) -> None:
-    first, second, *_ = synthesize(shown(MESHES, ["c0"], HANDLES), MESHES, options=Options(repair=False)).readings
+    first, second, *_ = synthesize(shown(MESHES, ["c0"], HANDLES), MESHES, options=Options(repair=False)).candidates
     shares = f"{first.belief:.0%} against {second.belief:.0%}"
     assert followed(f"{wanted} => Delete") == (f"rule 1, {wanted}: {told.format(shares)}",)
 
@@ -62,7 +62,7 @@ def test_one_asset_is_it_and_not_one_of_these() -> None:
 def test_a_larger_reading_that_is_believed_more_but_not_taken_is_told_so() -> None:
     meshes = {f"t{k}": mesh for k, mesh in enumerate(family("cabinet", 12, seed=5))}
     demos = shown(meshes, ["t1"], "Attach(Is(handle), Is(drawer)) => Delete")
-    beliefs = {r.extractor: r.belief for r in synthesize(demos, meshes, options=Options(repair=False)).readings}
+    beliefs = {r.extractor: r.belief for r in synthesize(demos, meshes, options=Options(repair=False)).candidates}
     taken, rival, *_ = beliefs
     assert beliefs[taken] < beliefs[rival], "else this family shows nothing"
     options = Options(repair=False, follow=Program.parse(f"{show(rival)} => Delete"))

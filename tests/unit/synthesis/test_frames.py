@@ -49,7 +49,7 @@ def learned_now(
         outcome = synthesize(demos, orient=orient, vocabulary=labels, options=options)
     except DemonstrationError:  # the rule of an open step did what a later step contradicts
         return ()
-    return tuple(reading.extractor for reading in outcome.readings) if isinstance(outcome, Found) else ()
+    return tuple(reading.extractor for reading in outcome.candidates) if isinstance(outcome, Found) else ()
 
 
 def sizes_now(

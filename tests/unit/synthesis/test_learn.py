@@ -77,7 +77,7 @@ def test_a_shown_step_may_name_what_an_earlier_one_made() -> None:
 
 def test_the_vocabulary_is_every_label_of_demonstrations_batch_and_steps() -> None:
     demo = Demonstration(CUPBOARD, [Step(1, {"pull"}, Merge(), "grip")])
-    outcome = synthesize([demo], batch=iter([WITH_DOOR]))
+    outcome = synthesize([demo], family=iter([WITH_DOOR]))
     assert isinstance(outcome, Found | Ambiguous)
     assert outcome.program.labels == ("body", "door", "drawer", "grip", "handle")
 
@@ -170,7 +170,7 @@ def test_time_that_runs_out_gives_the_rules_so_far_and_the_nearest_miss() -> Non
     outcome = synthesize([Demonstration(steps_apart, steps)], options=Options(budget=20, clock=ticking()))
     assert isinstance(outcome, TimedOut)
     assert [rule.extractor for rule in outcome.rules] == [Is("l8")]
-    assert [(reading.rule, reading.extractor) for reading in outcome.readings] == [(1, Is("l8"))]
+    assert [(reading.rule, reading.extractor) for reading in outcome.candidates] == [(1, Is("l8"))]
     assert outcome.program is None
     assert outcome.nearest is not None
     assert outcome.nearest.rule == 2

@@ -11,8 +11,8 @@ from tests.synthesis_boxes import boxes
 KEYS = [
     "status",
     "program",
-    "settled",
-    "readings",
+    "unambiguous",
+    "candidates",
     "repairs",
     "open_rule",
     "nearest",
@@ -41,8 +41,8 @@ def test_a_found_program_as_json() -> None:
     assert json.loads(json.dumps(shape)) == {
         "status": "found",
         "program": "labels leg, panel\n\nIs(panel) => Delete\n",
-        "settled": False,
-        "readings": [{"id": "1.1", "rule": 1, "extractor": "Is(panel)", "size": 1, "belief": 1.0, "differs_on": []}],
+        "unambiguous": False,
+        "candidates": [{"id": "1.1", "rule": 1, "extractor": "Is(panel)", "size": 1, "belief": 1.0, "differs_on": []}],
         "repairs": [],
         "open_rule": None,
         "nearest": None,
@@ -66,7 +66,7 @@ def test_hulls_that_nothing_tells_apart_give_a_nearest_miss_and_say_why() -> Non
     shape = outcome_to_json(outcome)
     assert shape["status"] == "none"
     assert shape["program"] is None
-    assert [reading["extractor"] for reading in shape["readings"]] == ["Is(panel)"]
+    assert [reading["extractor"] for reading in shape["candidates"]] == ["Is(panel)"]
     assert shape["nearest"] == {
         "rule": 2,
         "extractor": "Geo(Is(leg), -X)",
@@ -102,5 +102,5 @@ def test_every_outcome_has_the_attributes_that_callers_read() -> None:
     assert isinstance(outcome, Found)
     assert outcome.status == "found"
     assert [rule.extractor for rule in outcome.rules] == [Attach(Is("handle"), Is("drawer"))]
-    assert (outcome.repairs, outcome.open_rule, outcome.nearest, outcome.settled) == ((), None, None, False)
+    assert (outcome.repairs, outcome.open_rule, outcome.nearest, outcome.unambiguous) == ((), None, None, False)
     assert outcome.tried[0].size == 2

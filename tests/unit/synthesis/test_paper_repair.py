@@ -10,13 +10,13 @@ from meshforge.language import Attach, Diff, Extractor, Is, select_mask
 from meshforge.symbolic import Label, SymbolicMesh
 from meshforge.synthesis.demonstration import Example
 from meshforge.synthesis.options import Options, TimeBudget
-from meshforge.synthesis.paper.search import HitWithCorrections, PaperSearch
-from meshforge.synthesis.questions import LabelCorrection
+from meshforge.synthesis.paper.search import HitWithFixes, PaperSearch
+from meshforge.synthesis.questions import LabelFix
 from meshforge.synthesis.search.smallest import Hit, Miss, SearchResult, Unfinished
 from tests.synthesis_boxes import table
 
 LABELS = ("panel", "leg", "drawer", "handle", "misc")
-WRONG_LEG = LabelCorrection("table", "leg2_low", "panel", "leg")
+WRONG_LEG = LabelFix("table", "leg2_low", "panel", "leg")
 
 
 def misread(right: SymbolicMesh, wanted: Extractor, name: str = "table", **labels: str | None) -> Example:
@@ -29,10 +29,10 @@ def misread(right: SymbolicMesh, wanted: Extractor, name: str = "table", **label
 def run(
     *examples: Example,
     options: Options = Options(max_size=3),  # noqa: B008 (frozen)
-    confirm: Callable[[LabelCorrection], bool] | None = None,
-    rejected: Container[LabelCorrection] = (),
+    confirm: Callable[[LabelFix], bool] | None = None,
+    rejected: Container[LabelFix] = (),
     spent: Mapping[str, int] | None = None,
-) -> SearchResult | HitWithCorrections:
+) -> SearchResult | HitWithFixes:
     return PaperSearch(
         examples, LABELS, TimeBudget(60), options, confirm=confirm, rejected=rejected, spent=spent or {}
     ).run()
@@ -52,26 +52,26 @@ def test_relabelling_keeps_the_contact_graph() -> None:
 
 def test_a_wrong_label_is_found_and_proposed() -> None:
     answer = run(one_leg_wrong(), misread(table(legs=5), Is("leg"), "other"))
-    assert isinstance(answer, HitWithCorrections)
-    assert (answer.extractor, answer.corrections) == (Is("leg"), (WRONG_LEG,))
+    assert isinstance(answer, HitWithFixes)
+    assert (answer.extractor, answer.fixes) == (Is("leg"), (WRONG_LEG,))
 
 
 def test_a_missing_label_is_filled() -> None:
     answer = run(misread(table(), Is("leg"), leg2_low=None))
-    assert isinstance(answer, HitWithCorrections)
-    assert answer.corrections == (LabelCorrection("table", "leg2_low", None, "leg"),)
+    assert isinstance(answer, HitWithFixes)
+    assert answer.fixes == (LabelFix("table", "leg2_low", None, "leg"),)
 
 
 def test_a_hull_leaves_for_the_most_frequent_label_that_is_not_mentioned() -> None:
     answer = run(misread(table(legs=4, drawers=2), Is("leg"), top_0="leg"))
-    assert isinstance(answer, HitWithCorrections)
-    assert answer.corrections == (LabelCorrection("table", "top_0", "leg", "drawer"),)
+    assert isinstance(answer, HitWithFixes)
+    assert answer.fixes == (LabelFix("table", "top_0", "leg", "drawer"),)
 
 
 def test_of_labels_as_frequent_the_first_of_the_vocabulary_is_taken() -> None:
     answer = run(misread(table(legs=1, drawers=0, litter=2, knob=None), Is("leg"), residue_0="leg", shelf="misc"))
-    assert isinstance(answer, HitWithCorrections)
-    assert answer.corrections == (LabelCorrection("table", "residue_0", "leg", "panel"),)
+    assert isinstance(answer, HitWithFixes)
+    assert answer.fixes == (LabelFix("table", "residue_0", "leg", "panel"),)
 
 
 def test_without_repair_labels_are_taken_as_they_are() -> None:
@@ -83,21 +83,21 @@ def test_a_match_needs_no_repair() -> None:
 
 
 def test_what_is_confirmed_ends_the_search() -> None:
-    asked: list[LabelCorrection] = []
+    asked: list[LabelFix] = []
 
-    def confirm(correction: LabelCorrection) -> bool:
+    def confirm(correction: LabelFix) -> bool:
         asked.append(correction)
         return True
 
     answer = run(one_leg_wrong(), confirm=confirm)
-    assert isinstance(answer, HitWithCorrections)
-    assert asked == [WRONG_LEG] == list(answer.corrections)
+    assert isinstance(answer, HitWithFixes)
+    assert asked == [WRONG_LEG] == list(answer.fixes)
 
 
 def test_what_is_refused_is_not_asked_again_and_the_search_goes_on() -> None:
-    asked: list[LabelCorrection] = []
+    asked: list[LabelFix] = []
 
-    def refuse(correction: LabelCorrection) -> bool:
+    def refuse(correction: LabelFix) -> bool:
         asked.append(correction)
         return False
 
@@ -112,7 +112,7 @@ def test_corrections_are_asked_about_one_by_one_until_one_is_refused() -> None:
     example = misread(table(), Is("leg"), leg1_low="panel", leg2_low="panel")
     asked: list[str] = []
 
-    def confirm(correction: LabelCorrection) -> bool:
+    def confirm(correction: LabelFix) -> bool:
         asked.append(correction.hull)
         return correction.hull != "leg2_low"
 
@@ -122,25 +122,25 @@ def test_corrections_are_asked_about_one_by_one_until_one_is_refused() -> None:
 
 def test_a_rejected_correction_is_not_proposed() -> None:
     answer = run(one_leg_wrong(), rejected={WRONG_LEG})
-    assert not isinstance(answer, HitWithCorrections) or WRONG_LEG not in answer.corrections
+    assert not isinstance(answer, HitWithFixes) or WRONG_LEG not in answer.fixes
 
 
 @pytest.mark.parametrize(("eta", "explained"), [(1, False), (2, False), (3, True)])
 def test_no_more_labels_of_a_mesh_are_corrected_than_allowed(eta: int, explained: bool) -> None:
     example = misread(table(), Is("leg"), leg1_low="panel", leg2_low="panel", leg3_low="panel")
-    assert isinstance(run(example, options=Options(max_size=1, eta=eta)), HitWithCorrections) == explained
+    assert isinstance(run(example, options=Options(max_size=1, eta=eta)), HitWithFixes) == explained
 
 
 def test_the_allowance_is_that_of_each_mesh() -> None:
     examples = [misread(table(), Is("leg"), name, leg1_low="panel") for name in ("one", "two")]
     answer = run(*examples, options=Options(max_size=1, eta=1))
-    assert isinstance(answer, HitWithCorrections)
-    assert [correction.asset for correction in answer.corrections] == ["one", "two"]
+    assert isinstance(answer, HitWithFixes)
+    assert [correction.asset for correction in answer.fixes] == ["one", "two"]
 
 
 @pytest.mark.parametrize(("spent", "explained"), [({}, True), ({"other": 2}, True), ({"table": 2}, False)])
 def test_what_was_spent_on_a_mesh_is_no_longer_allowed(spent: Mapping[str, int], explained: bool) -> None:
-    assert isinstance(run(one_leg_wrong(), options=Options(max_size=1), spent=spent), HitWithCorrections) == explained
+    assert isinstance(run(one_leg_wrong(), options=Options(max_size=1), spent=spent), HitWithFixes) == explained
 
 
 HANDLES = Attach(Is("handle"), Is("drawer"))
@@ -153,9 +153,9 @@ def test_a_wrong_label_is_found_through_contact() -> None:
         misread(table(drawers=3, knob=0.9), HANDLES, "other"),
     ]
     answer = run(*examples, options=CONTACT)
-    assert isinstance(answer, HitWithCorrections)
+    assert isinstance(answer, HitWithFixes)
     assert answer.extractor == HANDLES
-    assert answer.corrections == (LabelCorrection("table", "drawer1_front", "handle", "drawer"),)
+    assert answer.fixes == (LabelFix("table", "drawer1_front", "handle", "drawer"),)
 
 
 def test_bounds_cut_what_only_a_repair_would_complete() -> None:

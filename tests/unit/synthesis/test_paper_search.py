@@ -12,7 +12,7 @@ from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis.demonstration import Example
 from meshforge.synthesis.options import Layers, Options, TimeBudget
 from meshforge.synthesis.paper.partial import Hole, HoleGrammar, Open, Worklist
-from meshforge.synthesis.paper.search import HitWithCorrections, PaperSearch
+from meshforge.synthesis.paper.search import HitWithFixes, PaperSearch
 from meshforge.synthesis.search.smallest import Hit, Miss, NearestExtractor, SearchResult, Unfinished
 from tests.synthesis_boxes import table
 
@@ -30,7 +30,7 @@ def shown(extractor: Extractor, *meshes: SymbolicMesh) -> list[Example]:
     return [Example(f"table {k}", mesh, select_mask(extractor, mesh)) for k, mesh in enumerate(meshes)]
 
 
-def run(examples: list[Example], options: Options = EXACT) -> SearchResult | HitWithCorrections:
+def run(examples: list[Example], options: Options = EXACT) -> SearchResult | HitWithFixes:
     return PaperSearch(examples, LABELS, TimeBudget(60), options).run()
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from meshforge.synthesis.readings.rank import MAX_CHOICES, QUESTION_PRICE, SAMPLE_SEEN, UNSEEN_COST, QuestionValue
+from meshforge.synthesis.candidates.rank import MAX_CHOICES, QUESTION_PRICE, SAMPLE_SEEN, UNSEEN_COST, QuestionValue
 
 
 def askable(*assets: int) -> dict[int, float]:

@@ -12,8 +12,8 @@ from meshforge.language import Extractor, parse_extractor, select_mask, show
 from meshforge.symbolic import Label, LabelSource, SymbolicMesh
 from meshforge.synthesis.demonstration import Example
 from meshforge.synthesis.options import Options, OutOfTime, TimeBudget
-from meshforge.synthesis.questions import LabelCorrection
-from meshforge.synthesis.repair.explain import CorrectionSearch, Explanation
+from meshforge.synthesis.questions import LabelFix
+from meshforge.synthesis.repair.explain import Explanation, FixSearch
 from meshforge.synthesis.search.smallest import Hit, Search
 from tests.synthesis_boxes import boxes, table
 
@@ -50,7 +50,7 @@ def examples_of(rule: str, *wrongs: Wrong, confidence: float = 0.6, source: Labe
 
 def explained(
     examples: Sequence[Example],
-    rejected: Collection[LabelCorrection] = (),
+    rejected: Collection[LabelFix] = (),
     spent: Mapping[str, int] | None = None,
     options: Options = OPTIONS,
     batch: Sequence[SymbolicMesh] = FAMILY,
@@ -58,7 +58,7 @@ def explained(
     others = {f"other {k}": labelled(mesh, {}) for k, mesh in enumerate(batch)}
     labels = LabelBeliefs({example.name: example.mesh for example in examples}, others, VOCABULARY)
     exact = exact_of(examples)
-    return CorrectionSearch(
+    return FixSearch(
         examples,
         VOCABULARY,
         labels,
@@ -77,7 +77,7 @@ def exact_of(examples: Sequence[Example]) -> Extractor | None:
 
 def asked(explanation: Explanation | None) -> dict[tuple[str, str], tuple[str | None, str]]:
     assert explanation
-    return {(row.asset, row.hull): (row.was, row.to) for row in explanation.corrections}
+    return {(row.asset, row.hull): (row.was, row.to) for row in explanation.fixes}
 
 
 def test_a_mislabelled_hull_that_was_selected_is_found() -> None:
@@ -152,19 +152,19 @@ def test_a_rejected_correction_is_not_asked_again() -> None:
     examples = examples_of("Is(leg)", {"leg0_low": "drawer"}, {})
     first = explained(examples)
     assert first
-    again = explained(examples, rejected=first.corrections)
-    assert again is None or not set(again.corrections) & set(first.corrections)
+    again = explained(examples, rejected=first.fixes)
+    assert again is None or not set(again.fixes) & set(first.fixes)
 
 
 def test_a_label_that_is_not_to_be_corrected_stands_whatever_else_it_might_be() -> None:
     examples = examples_of("Is(leg)", {"leg0_low": "drawer"}, {})
     first = explained(examples)
     assert first
-    (right,) = first.corrections
+    (right,) = first.fixes
     assert right.to == "leg"
     other = replace(right, to="handle")
     again = explained(examples, rejected=[other])
-    assert again is None or right.hull not in {correction.hull for correction in again.corrections}
+    assert again is None or right.hull not in {correction.hull for correction in again.fixes}
     assert explained(examples, rejected=[replace(other, was="misc")]) == first, "it had another label then"
 
 
@@ -195,4 +195,4 @@ def test_the_time_is_kept() -> None:
     examples = examples_of("Is(leg)", {"leg0_low": "drawer"}, {})
     labels = LabelBeliefs({example.name: example.mesh for example in examples}, {}, VOCABULARY)
     with pytest.raises(OutOfTime):
-        CorrectionSearch(examples, VOCABULARY, labels, OPTIONS, TimeBudget(0)).run()
+        FixSearch(examples, VOCABULARY, labels, OPTIONS, TimeBudget(0)).run()

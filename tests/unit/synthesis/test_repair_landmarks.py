@@ -9,7 +9,7 @@ from meshforge.symbolic import Label, SymbolicMesh
 from meshforge.synthesis import (
     Demonstration,
     Found,
-    LabelCorrection,
+    LabelFix,
     LearningOutcome,
     NeedsRepair,
     Options,
@@ -22,7 +22,7 @@ from tests.synthesis_boxes import rack
 
 LABELS = ("panel", "leg", "misc")
 UP = parse_orient("orient +Z: Is(leg) -> Is(panel)")
-WRONG = LabelCorrection("rack 1", "crate", "leg", "misc")
+WRONG = LabelFix("rack 1", "crate", "leg", "misc")
 
 
 def family(wrong: Mapping[str, str] | None = None, source: str = "vlm") -> dict[str, SymbolicMesh]:
@@ -38,7 +38,7 @@ def family(wrong: Mapping[str, str] | None = None, source: str = "vlm") -> dict[
 
 
 def learn(
-    meshes: Mapping[str, SymbolicMesh], *names: str, rejected: Collection[LabelCorrection] = (), repair: bool = True
+    meshes: Mapping[str, SymbolicMesh], *names: str, rejected: Collection[LabelFix] = (), repair: bool = True
 ) -> LearningOutcome:
     """Of the named meshes the topmost boards are deleted."""
     demos = [
@@ -54,7 +54,7 @@ def learn(
 def test_a_crate_that_is_called_a_leg_is_proposed_for_repair() -> None:
     outcome = learn(family({"crate": "leg"}), "rack 1", "rack 2")
     assert isinstance(outcome, NeedsRepair)
-    assert [repair.correction for repair in outcome.repairs] == [WRONG]
+    assert [repair.fix for repair in outcome.repairs] == [WRONG]
     assert outcome.proposed and [show(rule.extractor) for rule in outcome.proposed.rules] == ["Geo(Is(panel), +Z)"]
 
 
@@ -80,7 +80,7 @@ def test_a_repair_that_is_confirmed_leads_to_the_program() -> None:
     ]
     outcome = synthesize(demos, meshes, UP, vocabulary=LABELS, confirm=confirm)
     assert isinstance(outcome, Found)
-    assert [repair.correction for repair in asked] == [WRONG]
+    assert [repair.fix for repair in asked] == [WRONG]
     assert show(outcome.program.rules[0].extractor) == "Geo(Is(panel), +Z)"
 
 
@@ -90,7 +90,7 @@ def test_right_labels_of_landmarks_are_left_alone() -> None:
 
 def test_a_refused_repair_is_not_proposed_again() -> None:
     outcome = learn(family({"crate": "leg"}), "rack 1", "rack 2", rejected=[WRONG])
-    assert WRONG not in [repair.correction for repair in outcome.repairs]
+    assert WRONG not in [repair.fix for repair in outcome.repairs]
 
 
 def test_labels_of_landmarks_stand_where_repair_is_switched_off() -> None:

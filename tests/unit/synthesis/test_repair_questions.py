@@ -15,7 +15,7 @@ from meshforge.synthesis import (
     Answer,
     Demonstration,
     Found,
-    LabelCorrection,
+    LabelFix,
     LearningOutcome,
     NeedsRepair,
     Options,
@@ -36,7 +36,7 @@ BATCH = {
     for litter in (0, 1)
 }
 TRUE = {"one": table(), "two": table(drawers=2)}
-LEG = LabelCorrection("one", "leg0_low", "drawer", "leg")
+LEG = LabelFix("one", "leg0_low", "drawer", "leg")
 WRONG = {"leg0_low": "drawer"}
 
 
@@ -58,16 +58,16 @@ def planted(wrong: Mapping[str, str | None], program: str = "Is(leg) => Delete")
 class Person:
     """Says yes to what is in `right`, and remembers what was asked."""
 
-    def __init__(self, *right: LabelCorrection) -> None:
+    def __init__(self, *right: LabelFix) -> None:
         self.right, self.asked = right, list[Repair]()
 
     def __call__(self, repair: Repair) -> bool:
         self.asked.append(repair)
-        return repair.correction in self.right
+        return repair.fix in self.right
 
     @property
-    def corrections(self) -> list[LabelCorrection]:
-        return [repair.correction for repair in self.asked]
+    def corrections(self) -> list[LabelFix]:
+        return [repair.fix for repair in self.asked]
 
 
 def learned(
@@ -75,7 +75,7 @@ def learned(
     confirm: Callable[[Repair], bool] | None = None,
     options: Options | None = None,
     answers: tuple[Answer, ...] = (),
-    rejected: tuple[LabelCorrection, ...] = (),
+    rejected: tuple[LabelFix, ...] = (),
 ) -> LearningOutcome:
     return synthesize(
         demos,
@@ -90,12 +90,12 @@ def learned(
 def test_without_a_person_repairs_are_proposed_with_what_the_program_would_be() -> None:
     outcome = learned(planted(WRONG))
     assert isinstance(outcome, NeedsRepair)
-    assert [repair.correction for repair in outcome.repairs] == [LEG]
+    assert [repair.fix for repair in outcome.repairs] == [LEG]
     assert outcome.repairs[0].rule == 1
     assert outcome.program is None
     assert outcome.proposed
     assert [rule.extractor for rule in outcome.proposed.rules] == [Is("leg")]
-    assert not outcome.settled
+    assert not outcome.unambiguous
 
 
 def test_a_proposal_as_json() -> None:
@@ -136,15 +136,15 @@ def test_what_was_refused_before_is_not_asked_at_all() -> None:
 
 
 def test_the_reverse_of_what_was_confirmed_is_never_proposed() -> None:
-    person = Person(LEG, LabelCorrection("one", "leg0_low", "leg", "drawer"))
+    person = Person(LEG, LabelFix("one", "leg0_low", "leg", "drawer"))
     learned(planted(WRONG), person)
     assert all(correction.reverse not in person.corrections for correction in person.corrections)
 
 
 def test_the_reverse_of_a_correction_undoes_it_and_a_filled_gap_has_none() -> None:
-    assert LEG.reverse == LabelCorrection("one", "leg0_low", "leg", "drawer")
+    assert LEG.reverse == LabelFix("one", "leg0_low", "leg", "drawer")
     assert LEG.reverse.reverse == LEG
-    assert LabelCorrection("one", "leg0_low", None, "leg").reverse is None
+    assert LabelFix("one", "leg0_low", None, "leg").reverse is None
 
 
 def test_after_a_repair_for_a_later_rule_the_first_is_learned_anew() -> None:
@@ -158,7 +158,7 @@ def test_after_a_repair_for_a_later_rule_the_first_is_learned_anew() -> None:
 def test_a_person_is_asked_only_so_often_about_a_mesh_over_all_rules_and_rounds() -> None:
     program = "Is(leg) => Delete\nIs(misc) => Delete\nIs(handle) => Delete"
     wrong = {"leg0_low": "drawer", "leg3_high": "panel", "handle0": "drawer", "residue_0": "panel"}
-    right = [LabelCorrection("one", hull, was, TRUE["one"].hull_of(hull).label or "") for hull, was in wrong.items()]
+    right = [LabelFix("one", hull, was, TRUE["one"].hull_of(hull).label or "") for hull, was in wrong.items()]
     person = Person(*right)
     learned(planted(wrong, program), person, Options(max_size=9, eta=2))
     agreed = [correction for correction in person.corrections if correction in right]
@@ -186,7 +186,7 @@ def test_right_labels_raise_no_question() -> None:
 def test_an_answer_may_show_that_a_label_of_the_batch_is_wrong() -> None:
     meshes = {name: labelled(mesh, WRONG if name == "t410" else {}) for name, mesh in BATCH.items()}
     legs = {hull.name for hull in BATCH["t410"].hulls if hull.label == "leg"}
-    person = Person(LabelCorrection("t410", "leg0_low", "drawer", "leg"))
+    person = Person(LabelFix("t410", "leg0_low", "drawer", "leg"))
     outcome = synthesize(
         planted({}), meshes, vocabulary=VOCABULARY, confirm=person, answers=[Answer(1, "t410", legs)],
         options=Options(max_size=9),
@@ -203,7 +203,7 @@ def test_time_does_not_run_while_a_person_thinks(strategy: Strategy) -> None:
 
     def thinking(repair: Repair) -> bool:
         thought[0] += 1e6
-        return repair.correction == LEG
+        return repair.fix == LEG
 
     outcome = synthesize(
         planted(WRONG),

@@ -64,7 +64,7 @@ def test_the_learned_program_edits_a_table_it_has_not_seen() -> None:
 
 def test_each_rule_has_one_reading_and_says_how_far_the_search_went() -> None:
     outcome = learned()
-    assert [(r.id, r.rule, r.size, r.belief) for r in outcome.readings] == [
+    assert [(r.id, r.rule, r.size, r.belief) for r in outcome.candidates] == [
         ("1.1", 1, 1, 1.0),
         ("2.1", 2, 2, 1.0),
         ("3.1", 3, 1, 1.0),

@@ -27,7 +27,7 @@ def test_every_believable_reading_differs_on_one_of_a_dozen_where_so_few_suffice
     meshes = cupboards(40, every=8)
     outcome = synthesize(shown(meshes, ["c0"], HANDLES), meshes)
     assert len(outcome.sample) == SAMPLE_SIZE
-    for reading in outcome.readings:
+    for reading in outcome.candidates:
         assert not reading.differs_on or reading.belief < 0.005 or set(reading.differs_on) & set(outcome.sample)
 
 
@@ -36,10 +36,10 @@ def test_what_is_right_on_all_that_were_looked_at_settles_the_program() -> None:
     demos = shown(meshes, ["c0"], HANDLES)
     first = synthesize(demos, meshes)
     assert first.program
-    assert not first.settled
+    assert not first.unambiguous
     seen = [Answer(1, name, meant("Is(handle)", meshes[name])) for name in first.sample]
     then = synthesize(demos, meshes, answers=seen)
-    assert then.settled
+    assert then.unambiguous
     assert then.program
     assert all(selected(then.program, 1, mesh) == meant("Is(handle)", mesh) for mesh in meshes.values())
     assert not set(then.sample) & {"c0", *first.sample}

@@ -23,7 +23,7 @@ beforeEach(() => {
   useWorkspace.setState({ ...initialWorkspace, asset: "a" }, true);
   useScenes.setState({ scene: { asset: "a", hulls, view: { hulls } } as never });
   useToasts.setState({ toasts: [] });
-  vi.spyOn(api, "edit").mockImplementation(async (edit) => (sent.push(edit), { said: "", nothing: true }));
+  vi.spyOn(api, "edit").mockImplementation(async (edit) => (sent.push(edit), { message: "", nothing: true }));
 });
 
 afterEach(() => {

@@ -4,17 +4,17 @@ import { api } from "../server/api";
 import { emptyProject, useProject } from "../store/project";
 import { sampleAction } from "../store/sample.test-help";
 import { initialWorkspace, useWorkspace } from "../store/workspace";
-import type { AnyEdit, OutcomeView, ReadingView } from "../wire";
+import type { AnyEdit, OutcomeView, CandidateView } from "../wire";
 import { chooseReading, demonstrate, learnCommands, showNearest } from "./learn";
 
-const reading = (id: string): ReadingView => ({ id, rule: 2, extractor: "Geo(All, +Z)", sentence: "", size: 2, belief: 0.3, differs_on: ["y", "x"] });
+const reading = (id: string): CandidateView => ({ id, rule: 2, extractor: "Geo(All, +Z)", sentence: "", size: 2, belief: 0.3, differs_on: ["y", "x"] });
 
 let edits: AnyEdit[] = [];
 beforeEach(() => {
   edits = [];
   vi.spyOn(api, "edit").mockImplementation((edit) => {
     edits.push(edit);
-    return Promise.resolve({ said: "" });
+    return Promise.resolve({ message: "" });
   });
   useWorkspace.setState(initialWorkspace);
   useProject.setState(emptyProject);

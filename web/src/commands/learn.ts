@@ -5,7 +5,7 @@ import { useProject } from "../store/project";
 import { findSeparatingAssets } from "../store/readings";
 import { reportError } from "../store/toasts";
 import { openAsset, openStage, setHighlight, visit } from "../store/workspace";
-import type { NearestView, ReadingView } from "../wire";
+import type { NearestView, CandidateView } from "../wire";
 import type { Command } from "./command";
 
 /** Learns now, and takes what is learned in place of a program by hand. */
@@ -13,7 +13,7 @@ export const learnNow = (): Promise<unknown> => api.learn().catch(reportError);
 export const stopLearning = (): Promise<unknown> => api.stopLearning().catch(reportError);
 
 /** Answers that a rule means another reading: what it selects where that distinguishes it from the others of the rule. */
-export async function chooseReading(reading: ReadingView): Promise<void> {
+export async function chooseReading(reading: CandidateView): Promise<void> {
   setHighlight(null);
   const { rule, extractor } = reading;
   try {

@@ -20,7 +20,7 @@ beforeEach(() => {
   edits = [];
   vi.spyOn(api, "edit").mockImplementation((edit) => {
     edits.push(edit);
-    return Promise.resolve({ said: "", nothing: true });
+    return Promise.resolve({ message: "", nothing: true });
   });
   useWorkspace.setState(initialWorkspace, true);
 });
@@ -62,7 +62,7 @@ describe("what a question is about", () => {
   });
 
   it("is opened with the hulls selected on which readings differ", () => {
-    showAsked(sampleQuestion({ kind: "reading", asset: "x", choices: [choice("a", { select: ["p", "q"] }), choice("b", { select: ["q", "s"] })] }));
+    showAsked(sampleQuestion({ kind: "candidate", asset: "x", choices: [choice("a", { select: ["p", "q"] }), choice("b", { select: ["q", "s"] })] }));
     expect(useWorkspace.getState()).toMatchObject({ asset: "x", showing: { kind: "source" } });
     expect([...useWorkspace.getState().selection]).toEqual(["p", "s"]);
   });

@@ -5,7 +5,7 @@ import { perform } from "../store/edits";
 import { useProject } from "../store/project";
 import { differing } from "../store/readings";
 import { openStage, setFilters, setHighlight, setLayout, useWorkspace, visit } from "../store/workspace";
-import type { DoubtView, ReplyToQuestion, ReviewQuestionView } from "../wire";
+import type { ReasonView, ReplyToQuestion, ReviewQuestionView } from "../wire";
 import type { Command } from "./command";
 
 /** What is said to a question; nothing: none of its choices. */
@@ -54,12 +54,12 @@ export function showAsked(question: ReviewQuestionView): void {
 }
 
 /** Opens an asset with the hulls of a doubt selected. */
-export const showDoubt = (asset: string, doubt: DoubtView): void => visit(asset, { kind: "source" }, doubt.hulls);
+export const showDoubt = (asset: string, doubt: ReasonView): void => visit(asset, { kind: "source" }, doubt.hulls);
 
 /** Shows the held assets alone, the least probable first. */
 export function lookAtHeld(): void {
   setLayout({ family: true });
-  setFilters({ search: "", only: ["held"], sort: "probability", chosen: true });
+  setFilters({ search: "", only: ["needs review"], sort: "probability", chosen: true });
 }
 
 /** Counts how often the card was called for, and up to which call it came. */

@@ -66,7 +66,7 @@ test("a key that means something only after an edit on its way waits for it; one
   vi.mocked(api.edit).mockImplementation(async () => {
     await edit.done;
     isKnown = true;
-    return { said: "labels taken over" };
+    return { message: "labels taken over" };
   });
   const made = perform({ kind: "label-files" });
   runKey(() => () => ran.push("known before"));

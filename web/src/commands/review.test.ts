@@ -17,7 +17,7 @@ beforeEach(() => {
   edits = [];
   vi.spyOn(api, "edit").mockImplementation((edit) => {
     edits.push(edit);
-    return Promise.resolve({ said: "" });
+    return Promise.resolve({ message: "" });
   });
   useWorkspace.setState({ ...initialWorkspace, stage: "review" });
   useToasts.setState({ toasts: [] });

@@ -69,7 +69,7 @@ export function startCorrection(asset: string): void {
   runInTurn(() => startDraft("Delete"));
 }
 
-export const dropCorrections = (asset: string): Promise<boolean> => perform({ kind: "drop-corrections", asset });
+export const dropCorrections = (asset: string): Promise<boolean> => perform({ kind: "drop-manual-edits", asset });
 
 const queue = (): readonly string[] => reviewQueue(cardsInOrder(), useProject.getState().outcome?.sample ?? []);
 

@@ -53,7 +53,7 @@ export const Card = memo(function Card({ asset, width, place, of, large }: CardP
   const found = useLabelChangesOf(asset);
   const relabelled = useWorkspace((workspace) => workspace.stage === "label") ? found : null;
   const engine = useWorkspace((workspace) => workspace.checks.engine);
-  const title = useProject((state) => doubtsText(asset, state.confidence[asset], state.assessment?.bar ?? null));
+  const title = useProject((state) => doubtsText(asset, state.confidence[asset], state.assessment?.threshold ?? null));
   const sure = useProject((state) => probabilityText(state, asset));
   const parts = useProject((state) => commonPartsOf(state.order)(asset));
   if (!card) return null;
@@ -178,7 +178,7 @@ function Amount({ card }: { card: CardData }) {
 /** The probability that its edit is right. */
 function Sure({ asset }: { asset: string }) {
   const text = useProject((state) => probabilityText(state, asset));
-  const held = useProject((state) => state.assessment !== null && state.confidence[asset]?.state === "held");
+  const held = useProject((state) => state.assessment !== null && state.confidence[asset]?.state === "needs review");
   return text === null ? null : (
     <span className={css.sure} data-held={held} aria-hidden>
       {text}
@@ -217,7 +217,7 @@ export const ICONS: Readonly<Record<Badge["name"], LucideIcon>> = {
   failed: CircleAlert,
   corrected: Hand,
   findings: TriangleAlert,
-  held: CircleQuestionMark,
+  "needs review": CircleQuestionMark,
 };
 
 /** room: for signs and their counts [px]. */

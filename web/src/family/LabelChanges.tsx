@@ -34,7 +34,7 @@ export function LabelChanges() {
 }
 
 function ChangeBar({ relabelled }: { relabelled: LabelUpdate }) {
-  const { settled, way } = relabelled;
+  const { newly_sure: settled, way } = relabelled;
   const unsure = useProject((state) => labelProgress(state.cards).unsure);
   useEffect(() => clearLabelChanges, []);
   return (

@@ -8,7 +8,7 @@ import { countText, listText, shortName } from "../store/words";
 import { openAsset } from "../store/workspace";
 import { Button } from "../ui/Button";
 import { Section } from "../ui/Section";
-import type { AssessmentView, DoubtView } from "../wire";
+import type { AssessmentView, ReasonView } from "../wire";
 import css from "./sureness.module.css";
 
 /** `Signed off 71 of 75`, as a bar and in words, with the way to those that are not. */
@@ -26,7 +26,7 @@ export function SignOff() {
 }
 
 function Known({ assessment }: { assessment: AssessmentView }) {
-  const { bar, excluded } = assessment;
+  const { threshold: bar, excluded } = assessment;
   const mood = moodOf(assessment);
   const Icon = mood === "good" ? CircleCheck : CircleQuestionMark;
   const look = lookText(assessment);
@@ -56,9 +56,9 @@ function Known({ assessment }: { assessment: AssessmentView }) {
   );
 }
 
-/** The shares of the family that are signed off, excluded, held, and not looked at; the words beside it say the same. */
-function Meter({ assessment: { signed_off, excluded, held, unseen } }: { assessment: AssessmentView }) {
-  const shares = { signed: signed_off, excluded, held, unseen };
+/** The shares of the family that are signed off, excluded, to review, and not looked at; the words beside it say the same. */
+function Meter({ assessment: { signed_off, excluded, need_review, unseen } }: { assessment: AssessmentView }) {
+  const shares = { signed: signed_off, excluded, need_review, unseen };
   return (
     <span className={css.meter} aria-hidden>
       {Object.entries(shares).map(([what, count]) => count > 0 && <i key={what} data-what={what} style={{ flexGrow: count }} />)}
@@ -89,13 +89,13 @@ function HeldReasons({ assessment }: { assessment: AssessmentView }) {
 
 /** How sure the edit of an asset is, and what makes it doubtful. */
 export function Doubts({ asset }: { asset: string }) {
-  const bar = useProject((state) => state.assessment?.bar ?? null);
+  const bar = useProject((state) => state.assessment?.threshold ?? null);
   const row = useProject((state) => state.confidence[asset]);
-  if (!row || bar === null || (!row.doubts.length && row.state !== "held")) return null;
+  if (!row || bar === null || (!row.reasons.length && row.state !== "needs review")) return null;
   return (
     <Section title={`Why ${shortName(asset)} may be wrong`} aside={<span data-state={row.state} className={css.sure}>{percentText(row.probability, bar)} sure</span>}>
       <ul className={css.doubts}>
-        {row.doubts.map((doubt) => (
+        {row.reasons.map((doubt) => (
           <DoubtRow key={doubt.text} asset={asset} doubt={doubt} />
         ))}
       </ul>
@@ -103,7 +103,7 @@ export function Doubts({ asset }: { asset: string }) {
   );
 }
 
-function DoubtRow({ asset, doubt }: { asset: string; doubt: DoubtView }) {
+function DoubtRow({ asset, doubt }: { asset: string; doubt: ReasonView }) {
   const { text, hulls } = doubt;
   return (
     <li className={css.doubt}>

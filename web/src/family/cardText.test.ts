@@ -19,7 +19,7 @@ const card: Card = {
   review: null,
   excluded: null,
   note: null,
-  corrections: 1,
+  manual_edits: 1,
   sources: 0,
   prepared: [],
   picture: null,

@@ -17,7 +17,7 @@ export interface Badge {
 
 /** How an asset stands, what matters most first; engine: whose limits count. */
 export function badgesOf(card: Card, engine = ""): readonly Badge[] {
-  const { output, review, corrections, stale } = card;
+  const { output, review, manual_edits: corrections, stale } = card;
   const [bare, unsure] = [unlabelled(card), card.unsure.length];
   const faults = faultsOf(card, engine);
   const out: (Badge | false)[] = [

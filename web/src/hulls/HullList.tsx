@@ -56,7 +56,7 @@ function Rows({ scene, search, order, onOrder }: RowsProps) {
   const names = useMemo(() => rows.map((row) => row.hull.name), [rows]);
   const partsOf = useMemo(() => findCommonParts(scene.hulls.map((hull) => hull.name)), [scene.hulls]);
   const shortOf = useMemo(() => shortNamesOf(scene), [scene]);
-  const opaque = scene.view.opaque.filter((piece) => matchesSearch(search, piece.name, piece.reason, piece.body));
+  const opaque = scene.view.non_convex.filter((piece) => matchesSearch(search, piece.name, piece.reason, piece.body));
   const grid = useRef<HTMLDivElement>(null);
   const virtual = useVirtualizer({
     count: rows.length + opaque.length,

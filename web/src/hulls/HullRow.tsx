@@ -10,7 +10,7 @@ import { Name } from "../ui/Name";
 import { Swatch } from "../ui/Section";
 import css from "./hulls.module.css";
 import type { Row } from "./rows";
-import type { OpaqueView } from "../wire";
+import type { NonConvexView } from "../wire";
 
 interface Place {
   readonly index: number;
@@ -87,7 +87,7 @@ function labelTitle({ hull }: Row, was: string | undefined): string {
 }
 
 /** Collision geometry that is no hull, with the reason. */
-export const OpaqueRow = memo(function OpaqueRow({ piece, index, top }: Place & { piece: OpaqueView }) {
+export const OpaqueRow = memo(function OpaqueRow({ piece, index, top }: Place & { piece: NonConvexView }) {
   const pointed = useWorkspace((workspace) => workspace.hover === piece.name);
   return (
     <div

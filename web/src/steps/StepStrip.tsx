@@ -10,7 +10,7 @@ import { countText } from "../store/words";
 import { show, useWorkspace } from "../store/workspace";
 import { Button } from "../ui/Button";
 import { useReorder } from "../ui/useReorder";
-import type { AssetView, CorrectionView } from "../wire";
+import type { AssetView, ManualEditView } from "../wire";
 import { ACTION_ICONS } from "./actionIcon";
 import { StepChip } from "./StepChip";
 import { moveRule } from "./stepMenu";
@@ -86,17 +86,17 @@ function moveFocus(event: KeyboardEvent, list: HTMLElement | null): void {
 
 /** The edits by hand of an asset, which are done again after the program. */
 function Corrections({ view }: { view: AssetView }) {
-  if (!view.corrections.length) {
+  if (!view.manual_edits.length) {
     return <div className={css.line}>No edits by hand: this is the program's result</div>;
   }
   return (
     <ol className={css.strip} aria-label="Edits by hand of this asset">
       <li className={css.title}>Edits by hand, after the program:</li>
-      {view.corrections.map((correction, k) => (
+      {view.manual_edits.map((correction, k) => (
         <Correction key={k} view={view} correction={correction} place={k} />
       ))}
       <li>
-        <Button look="quiet" icon={Undo2} onClick={() => void perform({ kind: "drop-corrections", asset: view.asset })}>
+        <Button look="quiet" icon={Undo2} onClick={() => void perform({ kind: "drop-manual-edits", asset: view.asset })}>
           Revert to the program's result
         </Button>
       </li>
@@ -104,7 +104,7 @@ function Corrections({ view }: { view: AssetView }) {
   );
 }
 
-function Correction({ view, correction, place }: { view: AssetView; correction: CorrectionView; place: number }) {
+function Correction({ view, correction, place }: { view: AssetView; correction: ManualEditView; place: number }) {
   const { short, label, icon } = correction.action;
   const Icon = ACTION_ICONS[icon];
   return (

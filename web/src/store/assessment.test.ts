@@ -1,6 +1,6 @@
 // How sure edits are in words, and which question is open.
 import { describe, expect, it } from "vitest";
-import type { DoubtView, ReviewQuestionView } from "../wire";
+import type { ReasonView, ReviewQuestionView } from "../wire";
 import { doubtsText, groupHeld, leftText, moodOf, openQuestion, percentText, placesOf, probabilityText, signedText } from "./assessment";
 import { filterAssets } from "./family";
 import { applyEvent, emptyProject } from "./project";
@@ -17,20 +17,20 @@ describe("how sure the family is", () => {
   });
 
   it("is told with the bar as it was set", () => {
-    const told = [0.9999, 0.975, 0.57, 1].map((bar) => leftText(sampleAssessment(5, 1, { bar })));
+    const told = [0.9999, 0.975, 0.57, 1].map((bar) => leftText(sampleAssessment(5, 1, { threshold: bar })));
     expect(told).toEqual(["99.99%", "97.5%", "57%", "100%"].map((bar) => `1 is less than ${bar} sure: look at this one.`));
   });
 
   it("is told reason by reason, the least probable first", () => {
-    const doubt = (text: string): DoubtView => ({ kind: "alarm", text, hulls: [], rule: null });
+    const doubt = (text: string): ReasonView => ({ kind: "alarm", text, hulls: [], rule: null });
     const rows = [
-      sampleRow({ asset: "a", probability: 0.6, state: "held", doubts: [doubt("nobody looked"), doubt("nearly solid")] }),
-      sampleRow({ asset: "b", probability: 0.1, state: "held", doubts: [doubt("nearly solid")] }),
-      sampleRow({ asset: "c", probability: 0.3, state: "held", doubts: [doubt("nobody looked")] }),
+      sampleRow({ asset: "a", probability: 0.6, state: "needs review", reasons: [doubt("nobody looked"), doubt("nearly solid")] }),
+      sampleRow({ asset: "b", probability: 0.1, state: "needs review", reasons: [doubt("nearly solid")] }),
+      sampleRow({ asset: "c", probability: 0.3, state: "needs review", reasons: [doubt("nobody looked")] }),
       sampleRow({ asset: "d" }),
-      sampleRow({ asset: "e", probability: 0.6, state: "held" }),
+      sampleRow({ asset: "e", probability: 0.6, state: "needs review" }),
     ];
-    expect(groupHeld({ assets: rows, bar: 0.95 })).toEqual([
+    expect(groupHeld({ assets: rows, threshold: 0.95 })).toEqual([
       { reason: "nearly solid", assets: ["b"], share: "10%" },
       { reason: "nobody looked", assets: ["c", "a"], share: "30% to 60%" },
       { reason: "", assets: ["e"], share: "60%" },
@@ -61,7 +61,7 @@ describe("how sure the family is", () => {
 
   it("comes with the doubts, a sentence a line", () => {
     const doubt = { kind: "alarm", text: "nearly one solid block", hulls: [], rule: null } as const;
-    const row = sampleRow({ probability: 0.03, doubts: [doubt as never] });
+    const row = sampleRow({ probability: 0.03, reasons: [doubt as never] });
     expect(doubtsText("a", row, 0.95)).toBe("a: 3% sure\n• nearly one solid block");
   });
 
@@ -69,13 +69,13 @@ describe("how sure the family is", () => {
     const cards = Object.fromEntries(["a", "b", "c", "d"].map((asset) => [asset, sampleCard({ asset })]));
     const confidence = {
       a: sampleRow(),
-      b: sampleRow({ asset: "b", probability: 0.2, state: "held" }),
+      b: sampleRow({ asset: "b", probability: 0.2, state: "needs review" }),
       c: sampleRow({ asset: "c", probability: 0.1, state: "excluded" }),
     };
-    const shown = (only: readonly "held"[]) =>
+    const shown = (only: readonly "needs review"[]) =>
       filterAssets(cards, Object.keys(cards), { search: "", only, sort: "probability", chosen: true }, emptyProject.project, "", confidence);
     expect(shown([])).toEqual(["b", "a", "c", "d"]);
-    expect(shown(["held"])).toEqual(["b"]);
+    expect(shown(["needs review"])).toEqual(["b"]);
   });
 });
 

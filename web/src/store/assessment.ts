@@ -27,13 +27,13 @@ export interface HeldGroup {
   readonly share: string;
 }
 
-/** The held assets by their weightiest doubt, as `meshforge review` lists them: the least probable first. */
-export function groupHeld({ assets, bar }: Pick<AssessmentView, "assets" | "bar">): readonly HeldGroup[] {
-  const held = assets.filter(({ state }) => state === "held");
+/** The assets that need review by their weightiest reason, as `meshforge review` lists them: the least probable first. */
+export function groupHeld({ assets, threshold: bar }: Pick<AssessmentView, "assets" | "threshold">): readonly HeldGroup[] {
+  const held = assets.filter(({ state }) => state === "needs review");
   held.sort((a, b) => a.probability - b.probability || (a.asset < b.asset ? -1 : 1));
   const groups = new Map<string, ConfidenceView[]>();
   for (const row of held) {
-    const reason = row.doubts[0]?.text ?? "";
+    const reason = row.reasons[0]?.text ?? "";
     groups.set(reason, [...(groups.get(reason) ?? []), row]);
   }
   return [...groups].map(([reason, rows]) => {
@@ -48,8 +48,8 @@ export function signedText({ signed_off: signed, assets, unseen }: AssessmentVie
   return `Signed off ${done} of ${all}`;
 }
 
-/** `look at these 4`; null where none is held. */
-export function lookText({ held }: Pick<AssessmentView, "held">): string | null {
+/** `look at these 4`; null where none needs review. */
+export function lookText({ need_review: held }: Pick<AssessmentView, "need_review">): string | null {
   if (!held) return null;
   return held === 1 ? "look at this one" : `look at these ${held.toLocaleString("en-GB")}`;
 }
@@ -61,7 +61,7 @@ export function unseenText({ unseen }: Pick<AssessmentView, "unseen">): string |
 
 /** What of the family is not signed off, as a sentence; null where all is. */
 export function leftText(assessment: AssessmentView): string | null {
-  const { held, excluded, bar } = assessment;
+  const { need_review: held, excluded, threshold: bar } = assessment;
   const parts = [
     held > 0 && `${held.toLocaleString("en-GB")} ${held === 1 ? "is" : "are"} less than ${barText(bar)} sure: ${lookText(assessment)}`,
     excluded > 0 && `${excluded.toLocaleString("en-GB")} ${excluded === 1 ? "is" : "are"} excluded`,
@@ -70,13 +70,13 @@ export function leftText(assessment: AssessmentView): string | null {
   return parts.length ? `${parts.join("; ")}.` : null;
 }
 
-/** Good only where nothing is held, and all were looked at. */
-export const moodOf = ({ held, unseen }: Pick<AssessmentView, "held" | "unseen">): "good" | "warn" => (held || unseen ? "warn" : "good");
+/** Good only where nothing needs review, and all were looked at. */
+export const moodOf = ({ need_review: held, unseen }: Pick<AssessmentView, "need_review" | "unseen">): "good" | "warn" => (held || unseen ? "warn" : "good");
 
 /** What a card says of an asset: a percentage, `…` while it is not known, null where there is no program. */
 export function probabilityText(state: Sureness, asset: string): string | null {
   const row = state.confidence[asset];
-  if (state.assessment) return row ? percentText(row.probability, state.assessment.bar) : null;
+  if (state.assessment) return row ? percentText(row.probability, state.assessment.threshold) : null;
   return row || isJudging(state) ? "…" : null;
 }
 
@@ -89,8 +89,8 @@ export const isJudging = ({ assessing, learning, outcome }: Judging): boolean =>
 /** An asset and why its edit may be wrong, a sentence a line. */
 export function doubtsText(asset: string, row: ConfidenceView | undefined, bar: number | null): string {
   if (!row || bar === null) return asset;
-  const sure = row.told ? "you showed or accepted it" : `${percentText(row.probability, bar)} sure`;
-  return [`${asset}: ${sure}`, ...row.doubts.map((doubt) => `• ${doubt.text}`)].join("\n");
+  const sure = row.remarks ? "you showed or accepted it" : `${percentText(row.probability, bar)} sure`;
+  return [`${asset}: ${sure}`, ...row.reasons.map((doubt) => `• ${doubt.text}`)].join("\n");
 }
 
 /** The rows of an assessment by asset. */

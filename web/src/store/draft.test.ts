@@ -44,7 +44,7 @@ function given(steps: StepView[], rules: (string | ActionView)[]): void {
     steps,
     version: "v1",
     hulls: ["x", "y", "z"].map((name) => ({ name })),
-    opaque: [],
+    non_convex: [],
   } as unknown as AssetView;
   const state = {
     ...emptyProject,
@@ -74,7 +74,7 @@ beforeEach(() => {
   vi.spyOn(api, "edit").mockImplementation(async (edit) => {
     sent.push(edit);
     receive({ kind: "assets", assets: ["a"], shapes: false });
-    return { said: "" };
+    return { message: "" };
   });
   vi.spyOn(api, "preview").mockResolvedValue(packet);
 });

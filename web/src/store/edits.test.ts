@@ -19,13 +19,13 @@ beforeEach(() => {
 });
 
 test("what was done is notified, and can be undone", async () => {
-  edit.mockResolvedValue({ said: "labelled 3 hulls" });
+  edit.mockResolvedValue({ message: "labelled 3 hulls" });
   expect(await perform(labels)).toBe(true);
   expect(toasts()[0]).toMatchObject({ text: "Labelled 3 hulls", undo: true });
 });
 
 test("what changed nothing offers no undo; what is quiet is not notified", async () => {
-  edit.mockResolvedValue({ said: "nothing to label", nothing: true });
+  edit.mockResolvedValue({ message: "nothing to label", nothing: true });
   await perform(labels);
   expect(toasts()[0]?.undo).toBe(false);
   await perform(labels, { quiet: true });
@@ -33,7 +33,7 @@ test("what changed nothing offers no undo; what is quiet is not notified", async
 });
 
 test("undoing says that it was undone, and offers no undo of that", async () => {
-  vi.mocked(api.undo).mockResolvedValue({ said: "step 1 of a: Delete" });
+  vi.mocked(api.undo).mockResolvedValue({ message: "step 1 of a: Delete" });
   await undo();
   expect(toasts()[0]).toMatchObject({ text: "Undone: step 1 of a: Delete", undo: false });
 });
@@ -45,7 +45,7 @@ test("an edit waits for those before it, also where one is refused", async () =>
     order.push("first");
     throw new ServerProblem({ message: "changed since", where: null, remedy: null, conflict: true }, 409);
   });
-  edit.mockImplementationOnce(() => Promise.resolve({ said: (order.push("second"), "done") }));
+  edit.mockImplementationOnce(() => Promise.resolve({ message: (order.push("second"), "done") }));
   expect(await Promise.all([perform(labels), perform(labels)])).toEqual([false, true]);
   expect(order).toEqual(["first", "second"]);
   expect(toasts().map((toast) => toast.kind)).toEqual(["problem", "done"]);
@@ -53,10 +53,10 @@ test("an edit waits for those before it, also where one is refused", async () =>
 
 test("an edit is over when the page knows what it changed, or is not connected any more", async () => {
   useProject.setState({ connected: true });
-  edit.mockResolvedValue({ said: "done" });
+  edit.mockResolvedValue({ message: "done" });
   const over = vi.fn();
   void perform(labels).then(over);
-  const history = { kind: "history", history: emptyProject.history, did: "edit", said: "done" } as const;
+  const history = { kind: "history", history: emptyProject.history, did: "edit", message: "done" } as const;
   receive({ ...history, by: "another page" });
   await new Promise((soon) => setTimeout(soon, 20));
   expect([over.mock.calls.length, pendingEdits() === null]).toEqual([0, false]);

@@ -31,7 +31,7 @@ function enqueue(request: () => Promise<EditReceipt>, tell: ((said: string) => s
     try {
       const done = await request();
       if (!done.nothing) await whenShown(before);
-      if (tell && done.said) notify(tell(done.said), tell === capitalize && !done.nothing);
+      if (tell && done.message) notify(tell(done.message), tell === capitalize && !done.nothing);
       return true;
     } catch (error) {
       reportError(error);

@@ -15,7 +15,7 @@ export const FILTERS: readonly FilterName[] = [
   "failed",
   "stale",
   "findings",
-  "held",
+  "needs review",
 ];
 
 type Cards = Readonly<Record<string, Card>>;
@@ -35,7 +35,7 @@ const MATCHES: Readonly<Record<FilterName, (card: Card, engine: string, sure?: C
   failed: (card) => card.output === "failed" || card.error !== null,
   stale: (card) => card.output !== "none" && card.stale.length > 0,
   findings: (card, engine) => faultsOf(card, engine).length > 0,
-  held: (_card, _engine, sure) => sure?.state === "held",
+  "needs review": (_card, _engine, sure) => sure?.state === "needs review",
 };
 
 /** engine: whose limits count as findings of checks; sure: how sure its edit is. */

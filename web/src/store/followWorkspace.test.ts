@@ -27,7 +27,7 @@ beforeEach(() => {
   useProject.setState({ ...emptyProject, cards, order: ["a", "b", "c"], revisions, shapeRevisions: revisions }, true);
   useWorkspace.setState(initialWorkspace, true);
   useScenes.setState({ scene: null, loading: false, problem: null });
-  vi.spyOn(api, "asset").mockImplementation(async (asset) => ({ asset, hulls: [], opaque: [], contacts: [], steps }) as never);
+  vi.spyOn(api, "asset").mockImplementation(async (asset) => ({ asset, hulls: [], non_convex: [], contacts: [], steps }) as never);
   vi.spyOn(api, "shapes").mockResolvedValue({ header: { rows: [] }, rows: [], shapes: [] });
   vi.spyOn(api, "stage").mockResolvedValue(edited as never);
   vi.spyOn(api, "result").mockResolvedValue(edited as never);

@@ -17,7 +17,7 @@ import { initialWorkspace, useWorkspace } from "./workspace";
 const found: LabelUpdate = {
   entry: 1,
   way: "propagate",
-  settled: 0,
+  newly_sure: 0,
   assets: [
     { asset: "a", new: [0, 1], changed: [], was: [] },
     { asset: "c", new: [2], changed: [0], was: ["leg"] },

@@ -26,7 +26,7 @@ beforeEach(() => {
   );
   useWorkspace.setState({ ...initialWorkspace, asset: "a" }, true);
   useScenes.setState({ scene: { asset: "a", view: { hulls }, hulls } as never });
-  vi.spyOn(api, "edit").mockImplementation(async (edit) => (sent.push(edit), { said: "" }));
+  vi.spyOn(api, "edit").mockImplementation(async (edit) => (sent.push(edit), { message: "" }));
   vi.spyOn(api, "asset").mockResolvedValue({ asset: "b", hulls } as never);
   vi.spyOn(api, "shapes").mockResolvedValue({ header: { rows: [] }, rows: [], shapes: [] });
 });

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import type { OutcomeView, ReadingView } from "../wire";
+import type { OutcomeView, CandidateView } from "../wire";
 import { coverageOfRule, coverageText, summarizeOutcome } from "./outcome";
 import { highlightOfRule } from "./highlight";
 import { emptyProject } from "./project";
@@ -12,8 +12,8 @@ const outcome = (more: Partial<OutcomeView>): OutcomeView => ({
   program: "Is(a) => Delete",
   rules: [],
   looked_at: 0,
-  settled: false,
-  readings: [],
+  unambiguous: false,
+  candidates: [],
   repairs: 0,
   nearest: null,
   hint: null,
@@ -26,7 +26,7 @@ const outcome = (more: Partial<OutcomeView>): OutcomeView => ({
   seconds: 0.1,
   ...more,
 });
-const reading = (more: Partial<ReadingView>): ReadingView => ({
+const reading = (more: Partial<CandidateView>): CandidateView => ({
   id: "r",
   rule: 1,
   extractor: "Is(a)",
@@ -51,12 +51,12 @@ describe("the summary of a outcome", () => {
 
   it("says that all readings agree once it is unambiguous", () => {
     const sure = { assessment: sampleAssessment(60, 0), assessing: false };
-    const said = summarizeOutcome(outcome({ settled: true, looked_at: 60 }), 60, sure);
+    const said = summarizeOutcome(outcome({ unambiguous: true, looked_at: 60 }), 60, sure);
     expect(said).toEqual({ mood: "good", title: "Signed off 60 of 60", more: "All readings select the same hulls on your 60 assets." });
   });
 
   it("says so where not all assets were looked at", () => {
-    const said = summarizeOutcome(outcome({ settled: true, looked_at: 400 }), 12_000, { assessment: sampleAssessment(400, 4), assessing: false });
+    const said = summarizeOutcome(outcome({ unambiguous: true, looked_at: 400 }), 12_000, { assessment: sampleAssessment(400, 4), assessing: false });
     expect(said).toMatchObject({ mood: "warn", title: "Signed off 396 of 400" });
     expect(said.more).toBe("4 are less than 95% sure: look at these 4.\nAll readings select the same hulls on the 400 assets looked at, of your 12,000 assets.");
     const spread = { hulls: 12, assets: 9, lookedAt: 400 };
@@ -69,12 +69,12 @@ describe("the summary of a outcome", () => {
 
   it("names where a less believable reading differs", () => {
     const readings = [reading({ differs_on: ["a/x", "a/y"] }), reading({ rule: 2, belief: 0.001, differs_on: ["z"] })];
-    expect(summarizeOutcome(outcome({ readings }), 3, { assessment: sampleAssessment(3, 1), assessing: false }).more).toContain("\nRule 1 may select other hulls on x and y.");
+    expect(summarizeOutcome(outcome({ candidates: readings }), 3, { assessment: sampleAssessment(3, 1), assessing: false }).more).toContain("\nRule 1 may select other hulls on x and y.");
   });
 
   it("says nothing good of a program of which it is not known how sure it is", () => {
-    expect(summarizeOutcome(outcome({ settled: true }), 3, { assessment: null, assessing: true })).toMatchObject({ mood: "plain" });
-    expect(summarizeOutcome(outcome({ settled: true }), 3)).toMatchObject({ mood: "plain", more: "How sure its edits are is not known." });
+    expect(summarizeOutcome(outcome({ unambiguous: true }), 3, { assessment: null, assessing: true })).toMatchObject({ mood: "plain" });
+    expect(summarizeOutcome(outcome({ unambiguous: true }), 3)).toMatchObject({ mood: "plain", more: "How sure its edits are is not known." });
   });
 
   it("has words for every outcome", () => {
@@ -104,8 +104,8 @@ describe("what a rule reaches", () => {
 describe("readings and programs", () => {
   it("puts the reading of the program first, then by belief", () => {
     const readings = [reading({ extractor: "Is(b)", belief: 0.2 }), reading({ extractor: "Is(c)", belief: 0.3 }), reading({ belief: 0.1 })];
-    const rule = { rule: 1, text: "Is(a)   => Delete", sentence: "", readings: 3 };
-    expect(readingsOf(outcome({ readings }), rule).map((row) => row.extractor)).toEqual(["Is(a)", "Is(c)", "Is(b)"]);
+    const rule = { rule: 1, text: "Is(a)   => Delete", sentence: "", candidates: 3 };
+    expect(readingsOf(outcome({ candidates: readings }), rule).map((row) => row.extractor)).toEqual(["Is(a)", "Is(c)", "Is(b)"]);
   });
 
   it("does not take an arrow in a label for the end of an extractor", () => {

@@ -25,7 +25,7 @@ export function summarizeOutcome(
   if (!outcome) return summary("plain", "No demonstration yet", "Demonstrate the steps on an asset; MeshForge then learns the program.");
   switch (outcome.status) {
     case "found":
-      return summarizeFamily(outcome.settled ? sameText(outcome.looked_at, assets) : differText(outcome), sure);
+      return summarizeFamily(outcome.unambiguous ? sameText(outcome.looked_at, assets) : differText(outcome), sure);
     case "ambiguous":
       return summary("warn", "One question is open", "The program fits your demonstrations; your answer decides the rest.");
     case "repair": {
@@ -57,7 +57,7 @@ function sameText(lookedAt: number, assets: number): string {
 }
 
 function differText(outcome: OutcomeView): string | null {
-  const open = outcome.readings.filter((reading) => reading.belief >= BELIEVABLE && reading.differs_on.length > 0);
+  const open = outcome.candidates.filter((reading) => reading.belief >= BELIEVABLE && reading.differs_on.length > 0);
   if (!open.length) return null;
   const rules = [...new Set(open.map((reading) => reading.rule))].sort((a, b) => a - b);
   const assets = [...new Set(open.flatMap((reading) => reading.differs_on))].sort();

@@ -85,7 +85,7 @@ describe("what the server says", () => {
 });
 
 it("what the last edit of all labels did is there until the server says otherwise", () => {
-  const relabelled = { entry: 1, way: "propagate", assets: [], settled: 0 } as const;
+  const relabelled = { entry: 1, way: "propagate", assets: [], newly_sure: 0 } as const;
   const told = applyEvent(emptyProject, { kind: "relabelled", relabelled: { ...relabelled, assets: [] } });
   expect(told.relabelled?.entry).toBe(1);
   expect(applyEvent(told, { kind: "relabelled", relabelled: null }).relabelled).toBeNull();

@@ -63,7 +63,7 @@ export const emptyProject: ProjectState = {
     contact: null,
     extremity: null,
     rules: [],
-    said: [],
+    answers: [],
     templates: [],
     carried: null,
     new: null,

@@ -1,7 +1,7 @@
 // The readings of a rule: in which order they are listed, how the choices of a question differ, and which assets tell
 // them apart.
 import { api } from "../server/api";
-import type { OutcomeView, ProgramView, ReadingView, ReviewChoiceView, RuleView } from "../wire";
+import type { OutcomeView, ProgramView, CandidateView, ReviewChoiceView, RuleView } from "../wire";
 import { useProject } from "./project";
 import { countText, listText } from "./words";
 
@@ -46,8 +46,8 @@ function isSame(a: readonly number[] | undefined, b: readonly number[] | undefin
 const RIVALS = 8;
 
 /** Assets on which an answer distinguishes a reading from the others of its rule. */
-export async function findSeparatingAssets({ id, rule, extractor, differs_on }: ReadingView): Promise<string[]> {
-  const readings = (useProject.getState().outcome?.readings ?? []).filter((other) => other.rule === rule && other.id !== id);
+export async function findSeparatingAssets({ id, rule, extractor, differs_on }: CandidateView): Promise<string[]> {
+  const readings = (useProject.getState().outcome?.candidates ?? []).filter((other) => other.rule === rule && other.id !== id);
   const rivals = [...readings].sort((a, b) => b.belief - a.belief).slice(0, RIVALS);
   const own = await selectEverywhere(extractor, rule);
   const known: Rival[] = [];
@@ -63,10 +63,10 @@ async function selectEverywhere(extractor: string, rule: number): Promise<Family
 }
 
 /** The readings of a rule, the one of the program first, then the most believable. */
-export function readingsOf(outcome: OutcomeView | null, rule: RuleView): readonly ReadingView[] {
+export function readingsOf(outcome: OutcomeView | null, rule: RuleView): readonly CandidateView[] {
   const own = extractorOf(rule.text);
-  const rows = (outcome?.readings ?? []).filter((reading) => reading.rule === rule.rule);
-  const taken = (reading: ReadingView): number => Number(reading.extractor === own);
+  const rows = (outcome?.candidates ?? []).filter((reading) => reading.rule === rule.rule);
+  const taken = (reading: CandidateView): number => Number(reading.extractor === own);
   return [...rows].sort((a, b) => taken(b) - taken(a) || b.belief - a.belief);
 }
 

@@ -45,7 +45,7 @@ export function nextInQueue(queue: readonly string[], order: readonly string[], 
 
 /** Assets whose output is up to date, not called wrong, not flagged, legal as far as is known, and not held. */
 export function listAcceptable(cards: readonly Card[], confidence: Readonly<Record<string, ConfidenceView>> = {}): readonly string[] {
-  const isOpen = (card: Card) => groupOf(card) === "open" && confidence[card.asset]?.state !== "held";
+  const isOpen = (card: Card) => groupOf(card) === "open" && confidence[card.asset]?.state !== "needs review";
   return cards.filter(isOpen).map((card) => card.asset);
 }
 
@@ -96,8 +96,8 @@ const ALARMS: Readonly<Record<"hulls" | "volume", RegExp>> = {
 };
 
 /** Why the numbers of an asset stand out, for those that do. */
-export function alarmsOf(row: Pick<ConfidenceView, "doubts"> | undefined): { hulls: string | null; volume: string | null } {
-  const texts = row?.doubts.flatMap(({ kind, text }) => (kind === "alarm" ? [text] : [])) ?? [];
+export function alarmsOf(row: Pick<ConfidenceView, "reasons"> | undefined): { hulls: string | null; volume: string | null } {
+  const texts = row?.reasons.flatMap(({ kind, text }) => (kind === "alarm" ? [text] : [])) ?? [];
   const about = (what: keyof typeof ALARMS) => texts.find((text) => ALARMS[what].test(text)) ?? null;
   return { hulls: about("hulls"), volume: about("volume") };
 }

@@ -17,7 +17,7 @@ export const sampleCard = (change: Partial<Card> = {}): Card => ({
   review: null,
   note: null,
   excluded: null,
-  corrections: 0,
+  manual_edits: 0,
   sources: 0,
   prepared: [],
   picture: null,
@@ -30,18 +30,18 @@ export const sampleCard = (change: Partial<Card> = {}): Card => ({
 export const sampleRow = (change: Partial<ConfidenceView> = {}): ConfidenceView => ({
   asset: "a",
   probability: 0.99,
-  doubts: [],
+  reasons: [],
   state: "signed",
-  told: false,
+  remarks: false,
   ...change,
 });
 
 /** A family of assets a0, a1, ..., of which the first ones are held. */
 export function sampleAssessment(count: number, held: number, change: Partial<AssessmentView> = {}): AssessmentView {
   const assets = Array.from({ length: count }, (_, k) =>
-    sampleRow(k < held ? { asset: `a${k}`, probability: 0.5, state: "held" } : { asset: `a${k}` }),
+    sampleRow(k < held ? { asset: `a${k}`, probability: 0.5, state: "needs review" } : { asset: `a${k}` }),
   );
-  return { number: 1, bar: 0.95, signed_off: count - held, held, excluded: 0, unseen: 0, assets, question: null, ...change };
+  return { number: 1, threshold: 0.95, signed_off: count - held, need_review: held, excluded: 0, unseen: 0, assets, question: null, ...change };
 }
 
 export const sampleQuestion = (change: Partial<ReviewQuestionView> = {}): ReviewQuestionView => ({

@@ -1,6 +1,6 @@
 // What the viewport shows: an asset in one state, or several side by side.
 import type { Shape } from "../server/packet";
-import type { AssetView, EditHeader, HullView, OpaqueView } from "../wire";
+import type { AssetView, EditHeader, HullView, NonConvexView } from "../wire";
 import type { Showing } from "./workspace";
 
 export interface SceneHull extends HullView {
@@ -23,7 +23,7 @@ export interface Scene {
   readonly showing: Showing;
   readonly view: AssetView;
   readonly hulls: readonly SceneHull[];
-  readonly opaque: readonly (OpaqueView & { shape: Shape })[];
+  readonly opaque: readonly (NonConvexView & { shape: Shape })[];
   readonly contacts: readonly (readonly [string, string])[];
   /** Header of the edit that led here; null for the original asset. */
   readonly edit: EditHeader | null;

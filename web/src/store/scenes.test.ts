@@ -9,7 +9,7 @@ import { getDetails, prefetch, showScene, useScenes } from "./scenes";
 import { useToasts } from "./toasts";
 
 const problem = { message: "this file cannot be read", where: "a.obj", remedy: null, conflict: false };
-const view = { hulls: [], opaque: [], contacts: [] } as unknown as AssetView;
+const view = { hulls: [], non_convex: [], contacts: [] } as unknown as AssetView;
 const packet = { rows: [], shapes: [] } as unknown as ShapesPacket;
 const revised = (asset: string, by: number) =>
   useProject.setState({ revisions: { [asset]: by }, shapeRevisions: { [asset]: by } });

@@ -80,7 +80,7 @@ function sceneFrom(
     const shape = made.get(hull.name) ?? own.get(hull.name);
     return shape ? [{ ...hull, shape, made: made.has(hull.name) }] : [];
   });
-  const opaque = view.opaque
+  const opaque = view.non_convex
     .filter((piece) => piece.surface)
     .flatMap((piece, k) => {
       const shape = packet.shapes[count + k];

@@ -81,7 +81,7 @@ describe("look-alikes on all assets", () => {
 
   it("are labelled by one edit", async () => {
     const sent: AnyEdit[] = [];
-    vi.spyOn(api, "edit").mockImplementation(async (edit) => (sent.push(edit), { said: "", nothing: true }));
+    vi.spyOn(api, "edit").mockImplementation(async (edit) => (sent.push(edit), { message: "", nothing: true }));
     select(["x"]);
     await selectSimilar("everywhere");
     applyLabel("leg");

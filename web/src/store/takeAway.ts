@@ -52,7 +52,7 @@ export function describeResults(
 ): string {
   const written = cards.filter(isWritten);
   const inside = signedOnly ? written.filter((card) => isSignedOff(card, confidence[card.asset])) : written;
-  const held = written.filter((card) => confidence[card.asset]?.state === "held" && card.review !== "accepted").length;
+  const held = written.filter((card) => confidence[card.asset]?.state === "needs review" && card.review !== "accepted").length;
   const text = `${countText(inside.length, signedOnly ? "signed-off result" : "result")}, in a zip`;
   if (!held) return text;
   return signedOnly ? `${text}; ${held} held ${held === 1 ? "is" : "are"} not in it` : `${text}; ${held} of them held`;

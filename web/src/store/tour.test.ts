@@ -54,7 +54,7 @@ test("doing what a mark asks for goes on by itself", () => {
   expect(title()).toBe("MeshForge has learned"); // how sure it is, is not known yet
   useProject.setState({ assessment: sampleAssessment(2, 2) });
   expect(title()).toBe("The first program is not right yet");
-  useProject.setState(({ project }) => ({ project: { ...project, said: [{ kind: "answer", id: "1", text: "", asset: "a" }] } }));
+  useProject.setState(({ project }) => ({ project: { ...project, answers: [{ kind: "answer", id: "1", text: "", asset: "a" }] } }));
   expect(title()).toBe("Answer until nothing is held");
   useProject.setState({ assessment: sampleAssessment(2, 0, { unseen: 1 }) });
   expect(title()).toBe("Answer until nothing is held");

@@ -30,10 +30,10 @@ const onlyHas = (workspace: WorkspaceState, label: string) => {
 /** Whether a first program is learned, and it is known how sure its edits are. */
 const isAssessed = ({ assessment }: ProjectState) => (assessment?.assets.length ?? 0) > 0;
 const isSignedOff = ({ assessment }: ProjectState) =>
-  assessment !== null && assessment.assets.length > 0 && assessment.held === 0 && assessment.unseen === 0 && assessment.excluded === 0;
+  assessment !== null && assessment.assets.length > 0 && assessment.need_review === 0 && assessment.unseen === 0 && assessment.excluded === 0;
 /** Whether the person has answered what the program asked first. */
 const hasAnswered = ({ project, assessment, cards }: ProjectState) =>
-  project.said.length > 0 || Object.values(cards).some((card) => card.review === "accepted") || assessment?.held === 0;
+  project.answers.length > 0 || Object.values(cards).some((card) => card.review === "accepted") || assessment?.need_review === 0;
 
 /** How the tables stand, with nothing said of what is not known. */
 function tablesText({ assessment }: ProjectState): string {

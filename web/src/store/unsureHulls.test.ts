@@ -88,7 +88,7 @@ beforeEach(() => {
   useWorkspace.setState({ ...initialWorkspace, asset: "a" }, true);
   useToasts.setState({ toasts: [] });
   showOpen();
-  vi.spyOn(api, "edit").mockImplementation(async (edit) => (sent.push(edit), { said: "done", nothing: false }));
+  vi.spyOn(api, "edit").mockImplementation(async (edit) => (sent.push(edit), { message: "done", nothing: false }));
   vi.spyOn(api, "asset").mockResolvedValue({ hulls } as never);
   vi.spyOn(api, "shapes").mockResolvedValue({ header: { rows: [] }, rows: [], shapes: [] });
 });

@@ -84,7 +84,7 @@ export type FilterName =
   | "failed"
   | "stale"
   | "findings"
-  | "held";
+  | "needs review";
 
 interface CheckSettings {
   /** Whether results are measured as they are looked at. */

@@ -48,7 +48,7 @@ class HullParts:
 
     hull: str
     parts: tuple[Polytope, ...]
-    told: str
+    remark: str
 
 
 def replace_hulls(
@@ -63,13 +63,13 @@ def replace_hulls(
     settings: of the step; `pieces` of a rebuild is the engine of the fine pieces. Raises GeometryError: no such hull.
     """
     geoms = _list_geoms(asset, before)
-    taken = {*(g.name for g in asset.geoms), *(o.name for o in asset.opaque), *before.hull_digests}
+    taken = {*(g.name for g in asset.geoms), *(o.name for o in asset.non_convex), *before.hull_digests}
     entries = list[record.Replacement]()
     for one in rows:
         names = record.free_names(one.hull, len(one.parts), taken)
         made = dict(zip(names, map(record.hull_digest, one.parts), strict=True))
         geom = _take_hull(asset, geoms, one.hull)
-        entries.append(record.Replacement(one.hull, "hull", digest(geom.shape), made, one.told))
+        entries.append(record.Replacement(one.hull, "hull", digest(geom.shape), made, one.remark))
         taken |= made.keys()
     software = software_versions(FINE_SETTINGS[settings["pieces"]] if do == "rebuild" else None)
     step = record.PreparationStep(do, dict(settings), software, tuple(entries))

@@ -69,20 +69,20 @@ def decompose_asset(
     """
     fit = record.replay_preparation(asset, _drop_decompositions(before, only) if again else before)
     kept = fit.preparation
-    taken = {*(g.name for g in asset.geoms), *(o.name for o in asset.opaque), *kept.hull_digests}
+    taken = {*(g.name for g in asset.geoms), *(o.name for o in asset.non_convex), *kept.hull_digests}
     made: list[record.Replacement] = []
     hulls: list[Polytope] = []
     failed: list[record.PieceProblem] = []
     is_hull = isinstance(settings, HullSettings) and by == "whole"  # which stands for a whole element, as engines do it
-    bare, told = record.find_sources(fit.asset, asset if is_hull else None), list[str]()
+    bare, remarks = record.find_sources(fit.asset, asset if is_hull else None), list[str]()
     if by == "labels" and bare:
-        bare = _label_sources(fit.asset, bare, told.append)
+        bare = _label_sources(fit.asset, bare, remarks.append)
     missed = _describe_no_match(only, [*(source.what for source in bare), *kept.source_names])
     chosen = [source for source in bare if matches_only(source.what, only)]
     for number, source in enumerate(chosen):
         progress(number, len(chosen))
         try:
-            entry, own = _decompose_source(source, settings, taken, hollow, by, cache, told)
+            entry, own = _decompose_source(source, settings, taken, hollow, by, cache, remarks)
         except MeshForgeError as error:
             own_name = None if error.where == source.what else error.where  # the name of the piece comes with Lost
             why = MeshForgeError(error.problem, where=own_name, remedy=error.remedy).message
@@ -105,7 +105,7 @@ def replace_concave(asset: Asset, how: Concave) -> Asset:
     how: `hull` makes one of each collision element that is not convex, as MuJoCo and Bullet do, `decompose` several by
     CoACD, `keep` none. Raises GeometryError naming a piece of which none can be made.
     """
-    pieces = [piece for piece in asset.opaque if piece.surface is not None and len(piece.surface.faces)]
+    pieces = [piece for piece in asset.non_convex if piece.surface is not None and len(piece.surface.faces)]
     names = {piece.element if piece.element and how == "hull" else piece.name for piece in pieces}
     if how == "keep" or not names:
         return asset
@@ -124,9 +124,9 @@ def _decompose_source(
     hollow: bool,
     by: DecomposeBy,
     cache: Path | None,
-    told: Sequence[str],
+    remarks: Sequence[str],
 ) -> tuple[record.Replacement, list[Polytope]]:
-    notes = list(told)
+    notes = list(remarks)
     surface = source.surface
     if by != "whole" and surface.parts and surface.parts.is_divided:
         found = geometry.decompose_by_parts(
@@ -140,8 +140,8 @@ def _decompose_source(
         names = [source.base] if is_free else record.free_names(source.base, len(hulls), taken)
         notes += [] if by == "whole" else ["no parts are known, so it was decomposed as a whole"]
     made = dict(zip(names, map(record.hull_digest, hulls), strict=True))
-    remarks = "; ".join([describe_fit(source.surface, hulls), *notes])
-    return record.Replacement(source.what, source.kind, record.surface_digest(source.surface), made, remarks), hulls
+    remark = "; ".join([describe_fit(source.surface, hulls), *notes])
+    return record.Replacement(source.what, source.kind, record.surface_digest(source.surface), made, remark), hulls
 
 
 def _label_sources(

@@ -13,7 +13,7 @@ import numpy as np
 from meshforge.common import AssetError, join_names, pluralize
 from meshforge.formats import NO_GEOMETRY
 from meshforge.geometry import Polytope, SurfaceParts, digest, is_line, stack_parts
-from meshforge.symbolic import Asset, Geom, Opaque, Surface
+from meshforge.symbolic import Asset, Geom, NonConvexPiece, Surface
 
 SourceKind = Literal["opaque", "element", "body", "hull"]
 """What is replaced: an opaque piece; all pieces of a collision element; nothing, by what a body shows that
@@ -31,14 +31,14 @@ class Replacement:
     """One piece and the hulls that stand in its place.
 
     what: the name of the piece, the element or the body; source: the digest of its geometry, by which a change is
-    noticed; made: the digest of each hull by its name; told: how well they fit, for people.
+    noticed; made: the digest of each hull by its name; remark: how well they fit, for people.
     """
 
     what: str
     kind: SourceKind
     source: str
     made: dict[str, str]
-    told: str = ""
+    remark: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -147,33 +147,33 @@ def find_sources(asset: Asset, as_read: Asset | None = None) -> tuple[Decomposit
     joined = (_join_element(element, own) for element, own in elements.items())
     pieces = (
         DecompositionSource(piece.name, "opaque", piece.body, piece.name, piece.surface)
-        for piece in asset.opaque
+        for piece in asset.non_convex
         if piece.surface is not None and len(piece.surface.faces) and piece.element not in elements
     )
     return (*(source for source in joined if source), *pieces, *_find_bare_bodies(asset))
 
 
-def _find_elements(asset: Asset) -> dict[str, list[Geom | Opaque]]:
+def _find_elements(asset: Asset) -> dict[str, list[Geom | NonConvexPiece]]:
     """The pieces of each collision element that has several."""
-    found = dict[str, list[Geom | Opaque]]()
-    pieces: list[Geom | Opaque] = [*asset.geoms, *asset.opaque]
+    found = dict[str, list[Geom | NonConvexPiece]]()
+    pieces: list[Geom | NonConvexPiece] = [*asset.geoms, *asset.non_convex]
     for piece in pieces:
         if piece.element:
             found.setdefault(piece.element, []).append(piece)
     return found
 
 
-def _join_element(element: str, pieces: Sequence[Geom | Opaque]) -> DecompositionSource | None:
+def _join_element(element: str, pieces: Sequence[Geom | NonConvexPiece]) -> DecompositionSource | None:
     body = pieces[0].body
     hulls = [piece.shape.tessellate() for piece in pieces if isinstance(piece, Geom)]
-    shown = [piece.surface for piece in pieces if isinstance(piece, Opaque) and piece.surface]
+    shown = [piece.surface for piece in pieces if isinstance(piece, NonConvexPiece) and piece.surface]
     joined = _stack([*(Surface(hull.vertices, hull.faces) for hull in hulls), *shown], body)
     return DecompositionSource(element, "element", body, element, joined) if joined else None
 
 
 def _find_bare_bodies(asset: Asset) -> Iterable[DecompositionSource]:
     """The bodies without collision geometry, by what they show. Their hulls are called as if the file had one geom."""
-    solid = {geom.body for geom in asset.geoms} | {piece.body for piece in asset.opaque}
+    solid = {geom.body for geom in asset.geoms} | {piece.body for piece in asset.non_convex}
     for body in asset.bodies:
         seen = merge_visuals(asset, body.name) if body.name not in solid else None
         if seen:
@@ -194,7 +194,7 @@ def find_surfaces(asset: Asset) -> dict[str, Surface]:
     """
     found = dict[str, Surface]()
     for body in asset.bodies:
-        pieces = [p.surface for p in asset.opaque if p.body == body.name and p.surface and len(p.surface.faces)]
+        pieces = [p.surface for p in asset.non_convex if p.body == body.name and p.surface and len(p.surface.faces)]
         if surface := _stack(pieces, body.name) or merge_visuals(asset, body.name):
             found[body.name] = surface
     return found
@@ -293,16 +293,16 @@ def _replace_piece(asset: Asset, entry: Replacement, preparation: Preparation, a
         parent = old.parent or (old.name if old.name in authored else None)
         parts = [Geom(name, old.body, shape, parent, mentions=old.mentions) for name, shape in shapes.items()]
         return asset.with_geoms(part for geom in asset.geoms for part in (parts if geom is old else [geom]))
-    gone: Sequence[Geom | Opaque] = ()
+    gone: Sequence[Geom | NonConvexPiece] = ()
     if entry.kind == "element":
         gone = _find_elements(asset)[entry.what]
     elif entry.kind == "opaque":
-        gone = [piece for piece in asset.opaque if piece.name == entry.what]
+        gone = [piece for piece in asset.non_convex if piece.name == entry.what]
     body, parent = (gone[0].body, gone[0].name) if gone else (entry.what, None)
     mentions = tuple(one for one in gone[0].mentions if len(gone) == 1 or one[0] != "group") if gone else ()
     made = (Geom(name, body, shape, parent, mentions=mentions) for name, shape in shapes.items())
     return replace(
         asset,
         geoms=(*(geom for geom in asset.geoms if geom not in gone), *made),
-        opaque=tuple(piece for piece in asset.opaque if piece not in gone),
+        non_convex=tuple(piece for piece in asset.non_convex if piece not in gone),
     )

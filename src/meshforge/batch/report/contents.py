@@ -24,8 +24,8 @@ if TYPE_CHECKING:
     from PIL.Image import Image
 
 
-EditStatus = Literal["edited", "unchanged", "written", "skipped", "held back", "failed"]
-"""What a program or a conversion made of an asset; held back: nothing, since its edit is not sure enough."""
+EditStatus = Literal["edited", "unchanged", "written", "skipped", "not written", "failed"]
+"""What a program or a conversion made of an asset; not written: nothing, since its edit is not sure enough."""
 CheckStatus = Literal["clean", "warnings", "errors", "failed"]
 """What checks found of one; failed: it could not be checked, or not be written."""
 LabelStatus = Literal["labelled", "doubtful", "problems"]
@@ -43,20 +43,20 @@ MeshReader = Callable[[], SymbolicMesh]
 READ_TIMEOUT = 300.0
 """Seconds for one asset."""
 
-StandingWord = Literal["held", "sure", "signed off", "excluded"]
+ResultStatusWord = Literal["needs review", "sure", "signed off", "excluded"]
 """How an asset of a project stands; sure: to be signed off once its output is up to date; held: anything less."""
 
 
 @dataclass(frozen=True, slots=True)
-class AssetStanding:
+class ResultStatus:
     """How sure the edit of an asset of a project is. text: the same in words; probability: that it is right, None where
     it is not known; doubts: why it may be wrong, a sentence each.
     """
 
-    word: StandingWord
+    word: ResultStatusWord
     text: str
     probability: float | None = None
-    doubts: tuple[str, ...] = ()
+    reasons: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,7 +88,7 @@ class ReportAsset:
     notes: tuple[str, ...] = ()
     checked: Examination | EarlierExamination | None = None
     alarms: tuple[str, ...] = ()
-    standing: AssetStanding | None = None
+    result_status: ResultStatus | None = None
 
     @property
     def counts(self) -> tuple[int, int] | None:
@@ -111,21 +111,22 @@ class ReportAsset:
         return self.status in BROKEN or self.has_errors
 
     @property
-    def is_held(self) -> bool:
-        """Whether it is to be looked at first: it is held, or broken."""
-        return self.is_broken or bool(self.standing and self.standing.word == "held")
+    def needs_review(self) -> bool:
+        """Whether it is to be looked at first: it needs review, or is broken."""
+        return self.is_broken or bool(self.result_status and self.result_status.word == "needs review")
 
     @property
     def rank(self) -> tuple[bool, bool, float]:
-        """Its place in an order of assets that have standings: what is held, then alarms, the least sure first."""
-        known = self.standing.probability if self.standing else None
-        return not self.is_held, not self.alarms, -1.0 if known is None else known
+        """Its place in an order of assets that have a result status: what needs review, then alarms, the least sure
+        first."""
+        known = self.result_status.probability if self.result_status else None
+        return not self.needs_review, not self.alarms, -1.0 if known is None else known
 
     @property
     def kinds(self) -> list[str]:
         """The words by which the page can be filtered."""
         marks = (("demonstrated", self.demonstrated), ("doubtful", bool(self.findings or self.alarms)))
-        words = [self.status, *([self.standing.word] if self.standing else [])]
+        words = [self.status, *([self.result_status.word] if self.result_status else [])]
         return [*words, *(word for word, holds in marks if holds)]
 
 
@@ -139,7 +140,7 @@ class RunFigures:
     counts: Mapping[ReportStatus, int]
     more: Mapping[str, tuple[str, str | None]]
     first: str = "those that failed"
-    standings: Mapping[StandingWord, int] = field(default_factory=dict)
+    result_statuses: Mapping[ResultStatusWord, int] = field(default_factory=dict)
 
     @property
     def total(self) -> int:
@@ -150,7 +151,7 @@ class RunFigures:
     def of_run(summary: RunSummary, words: Mapping[ReportStatus, ReportStatus] | None = None) -> RunFigures:
         """Those of a program's run, or of a conversion; words: other ones for what became of assets."""
         counts: dict[ReportStatus, int] = {(words or {}).get(word, word): n for word, n in summary.counts.items()}
-        counts |= {"held back": len(summary.held)} if summary.held else {}
+        counts |= {"not written": len(summary.need_review)} if summary.need_review else {}
         return RunFigures(counts, _hull_figures(summary.before, summary.after))
 
     @staticmethod
@@ -159,8 +160,10 @@ class RunFigures:
         shown = list(assets)
         known = [asset.counts for asset in shown if asset.counts]
         before, after = (sum(counts[k] for counts in known) for k in (0, 1))
-        standings = Counter(asset.standing.word for asset in shown if asset.standing)
-        return RunFigures(Counter(asset.status for asset in shown), _hull_figures(before, after), standings=standings)
+        result_statuses = Counter(asset.result_status.word for asset in shown if asset.result_status)
+        return RunFigures(
+            Counter(asset.status for asset in shown), _hull_figures(before, after), result_statuses=result_statuses
+        )
 
 
 def _hull_figures(before: int, after: int) -> dict[str, tuple[str, str | None]]:

@@ -7,7 +7,7 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
-from meshforge.batch.engine_trial import examine_file
+from meshforge.batch.engine_load import examine_file
 from meshforge.batch.execution import execute
 from meshforge.batch.outcome import MOST_SHOWN, AssetOutcome, Failed, RuleEffect, RunSummary, status_of
 from meshforge.batch.provenance import read_stamp
@@ -21,20 +21,21 @@ from meshforge.symbolic import SymbolicMesh
 
 
 def choose_outcomes(
-    out: Path, summary: RunSummary, held: Sequence[AssetOutcome] = (), doubted: Sequence[str] = ()
+    out: Path, summary: RunSummary, need_review: Sequence[AssetOutcome] = (), doubted: Sequence[str] = ()
 ) -> list[AssetOutcome]:
     """Those that a report shows; of too many failed ones, then those in doubt or with alarms, then the first others.
 
-    held: what would have become of those that were held back; alarms are looked for among these, too. doubted: ids.
+    need_review: what would have become of those that were not written; alarms are looked for among these, too. doubted:
+    ids.
     """
-    known = {outcome.asset: outcome for outcome in (*held, *summary.outcomes_to_show)}
-    summary.measures |= {one.asset: one.measures for one in held if not isinstance(one, Failed) and one.measures}
-    odd = [*doubted, *summary.find_alarms()]
-    for name in odd[:MOST_SHOWN]:
+    known = {outcome.asset: outcome for outcome in (*need_review, *summary.outcomes_to_show)}
+    summary.measures |= {one.asset: one.measures for one in need_review if not isinstance(one, Failed) and one.measures}
+    remarkable = [*doubted, *summary.find_alarms()]
+    for name in remarkable[:MOST_SHOWN]:
         stamp = None if name in known else read_stamp(out, name)
         if stamp and stamp.is_whole(out):
             known[name] = stamp.to_skipped(out)
-    order = dict.fromkeys([*(failed.asset for failed in summary.failed), *odd, *known])
+    order = dict.fromkeys([*(failed.asset for failed in summary.failed), *remarkable, *known])
     chosen = set([name for name in order if name in known][:MOST_SHOWN])
     return [outcome for name, outcome in known.items() if name in chosen]
 
@@ -76,8 +77,8 @@ def compare_outcomes(
             was, pose = to_canonical_frame(was, program.orient, program.contact)
             now = replace(now, hulls=tuple(hull.move(pose) for hull in now.hulls))
         trace = tuple(RuleTrace(line.rule, line.selected, line.made, _describe(line)) for line in outcome.rules)
-        told = (alarms or {}).get(name, ())
-        yield ReportAsset(name, was, now, trace, status_of(outcome), None, is_shown, notes, checked, told)
+        alarms_of = (alarms or {}).get(name, ())
+        yield ReportAsset(name, was, now, trace, status_of(outcome), None, is_shown, notes, checked, alarms_of)
 
 
 def _describe(line: RuleEffect) -> str | None:

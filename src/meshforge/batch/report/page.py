@@ -26,7 +26,7 @@ STATUSES: tuple[contents.ReportStatus, ...] = (
     "unchanged",
     "written",
     "skipped",
-    "held back",
+    "not written",
     "labelled",
     "clean",
     "doubtful",
@@ -64,7 +64,7 @@ class ReportHeader:
     about: str | None = None
     seconds: float | None = None
     figures: contents.RunFigures | None = None
-    standing: str | None = None
+    result_status: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,11 +96,11 @@ def write_report(
 ) -> None:
     """Write the report of a batch: figures, the program if one ran, and every asset, with what each rule did.
 
-    Of a project, assets that are held or failed come first, the least sure before others. Elsewhere those that failed
-    come first, then those with findings, where assets were checked. The page refers to no other file.
-    Raises StoppedError where `options.execution.stop` says so.
+    Of a project, assets that need review or failed come first, the least sure before others. Elsewhere those that
+    failed come first, then those with findings, where assets were checked. The page refers to no other file. Raises
+    StoppedError where `options.execution.stop` says so.
     """
-    if any(asset.standing for asset in assets):
+    if any(asset.result_status for asset in assets):
         assets = sorted(assets, key=lambda asset: asset.rank)
     elif any(asset.checked for asset in assets):
         assets = sorted(assets, key=lambda asset: (not asset.is_broken, not asset.findings))
@@ -109,7 +109,7 @@ def write_report(
     labels = (*known, *sorted({hull.label for mesh in meshes for hull in mesh.hulls if hull.label} - set(known)))
     labelled = bool(options.vocabulary) or any(hull.label for mesh in meshes for hull in mesh.hulls)
     colors, pictures = label_colors(labels), contents.PictureOptions(labels, labelled, options.changes)
-    order = sorted(range(len(assets)), key=lambda k: not (assets[k].demonstrated or assets[k].is_held))
+    order = sorted(range(len(assets)), key=lambda k: not (assets[k].demonstrated or assets[k].needs_review))
     chosen = frozenset(order[: options.pictured])
     cards: list[tuple[contents.ReportAsset, contents.AssetPictures | None]] = []
     drawing = execute(
@@ -127,7 +127,9 @@ def write_report(
         header=header,
         figures=figures,
         counts=[(status, figures.counts[status]) for status in STATUSES if figures.counts.get(status)],
-        standings=[(word, n) for word in get_args(contents.StandingWord) if (n := figures.standings.get(word))],
+        result_statuses=[
+            (word, n) for word in get_args(contents.ResultStatusWord) if (n := figures.result_statuses.get(word))
+        ],
         selection=_describe_selection(len(assets), figures),
         has_program=program is not None,
         header_lines=list(_header_lines(program)) if program else [],
@@ -165,8 +167,10 @@ def _describe_selection(shown: int, figures: contents.RunFigures) -> str | None:
     if shown >= figures.total:
         return None
     some = f"{shown:,} of {figures.total:,} assets are shown"
-    odd = any(n and word in contents.REMARKABLE for word, n in figures.counts.items()) or figures.standings.get("held")
-    return f"{some}, {figures.first} first." if odd else f"{some}."
+    remarkable = any(
+        n and word in contents.REMARKABLE for word, n in figures.counts.items()
+    ) or figures.result_statuses.get("needs review")
+    return f"{some}, {figures.first} first." if remarkable else f"{some}."
 
 
 def _describe_findings(found: Sequence[Finding]) -> str:
@@ -175,8 +179,8 @@ def _describe_findings(found: Sequence[Finding]) -> str:
 
 
 def _kinds(assets: Sequence[contents.ReportAsset]) -> list[str]:
-    present = {word for asset in assets for word in (asset.status, asset.standing and asset.standing.word)}
-    kinds: list[str] = [word for word in (*STATUSES, *get_args(contents.StandingWord)) if word in present]
+    present = {word for asset in assets for word in (asset.status, asset.result_status and asset.result_status.word)}
+    kinds: list[str] = [word for word in (*STATUSES, *get_args(contents.ResultStatusWord)) if word in present]
     if any(asset.demonstrated for asset in assets):
         kinds.append("demonstrated")
     if any((asset.findings or asset.alarms) and asset.status not in get_args(contents.CheckStatus) for asset in assets):

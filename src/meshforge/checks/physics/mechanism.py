@@ -145,7 +145,7 @@ _REMEDIES = {
 
 
 @dataclass(frozen=True, slots=True)
-class _MassDoubt:
+class _MassProblem:
     rule: str
     body: str
     problem: str
@@ -153,21 +153,25 @@ class _MassDoubt:
 
 def check_masses(mesh: SymbolicMesh) -> Iterator[Finding]:
     """What is odd about the masses in the asset of a mesh: a finding for each rule, with its bodies."""
-    doubts = list(_find_doubts(mesh))
+    mass_problems = list(_find_problems(mesh))
     for rule, remedy in _REMEDIES.items():
-        problems = [f"body {doubt.body!r}: {doubt.problem}" for doubt in doubts if doubt.rule == rule]
+        problems = [
+            f"body {problem_of_mass.body!r}: {problem_of_mass.problem}"
+            for problem_of_mass in mass_problems
+            if problem_of_mass.rule == rule
+        ]
         if problems:
             yield Finding(
                 f"physics-{rule}", "error" if rule == "mass" else "warning", (), join_names(problems, 3), remedy
             )
 
 
-def _find_doubts(mesh: SymbolicMesh) -> Iterator[_MassDoubt]:
+def _find_problems(mesh: SymbolicMesh) -> Iterator[_MassProblem]:
     for inertial in mesh.asset.mechanism.inertials if mesh.asset else ():
         hulls = [hull for hull in mesh.hulls if hull.body == inertial.body]
         problem = find_inertial_problem(inertial)
         if problem:
-            yield _MassDoubt("mass", inertial.body, problem)
+            yield _MassProblem("mass", inertial.body, problem)
         elif hulls:
             yield from _compare_with_hulls(inertial, hulls)
 
@@ -186,21 +190,21 @@ def find_inertial_problem(inertial: Inertial) -> str | None:
     return None
 
 
-def _compare_with_hulls(inertial: Inertial, hulls: list[Hull]) -> Iterator[_MassDoubt]:
+def _compare_with_hulls(inertial: Inertial, hulls: list[Hull]) -> Iterator[_MassProblem]:
     shapes = [hull.shape for hull in hulls]
     volume = sum(shape.volume for shape in shapes)
     density = inertial.mass / volume
     if not LIGHTEST <= density <= HEAVIEST:
         problem = f"{inertial.mass:.3g} kg on hulls of {1000 * volume:.3g} l are {density:.3g} kg/m³"
-        yield _MassDoubt("density", inertial.body, problem)
+        yield _MassProblem("density", inertial.body, problem)
     box = Aabb.union(shape.aabb for shape in shapes)
     beyond = float(np.maximum(box.min - inertial.centre, inertial.centre - box.max).max())
     if beyond > _OUTSIDE * box.diagonal:
         problem = f"its centre of mass lies {beyond:.3g} m outside of the box of its hulls"
-        yield _MassDoubt("centre", inertial.body, problem)
+        yield _MassProblem("centre", inertial.body, problem)
     _, solid = inertia(shapes, inertial.mass)
     ratio = np.linalg.eigvalsh(inertial.inertia) / np.linalg.eigvalsh(solid)
     worst = float(ratio[np.abs(np.log(ratio)).argmax()])
     if not 1 / OFF <= worst <= OFF:
         problem = f"its inertia is {worst:.3g} times that of its hulls at that mass"
-        yield _MassDoubt("inertia", inertial.body, problem)
+        yield _MassProblem("inertia", inertial.body, problem)

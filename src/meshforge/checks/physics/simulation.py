@@ -61,7 +61,7 @@ class Physics(Measure):
     rest: Rest | None
     overlaps: tuple[BodyOverlap, ...]
     refused: str | None
-    doubts: tuple[Finding, ...]
+    mass_problems: tuple[Finding, ...]
 
     @property
     def description(self) -> str:
@@ -77,7 +77,7 @@ class Physics(Measure):
     @property
     def findings(self) -> tuple[Finding, ...]:
         """What is odd, the masses first."""
-        return (*self.doubts, *_report_refusal(self.refused), *_report_overlaps(self), *_report_unrest(self))
+        return (*self.mass_problems, *_report_refusal(self.refused), *_report_overlaps(self), *_report_unrest(self))
 
     def to_json(self) -> dict[str, Any]:
         """The behaviour as JSON-able data; lengths in metres, speeds in metres a second, angles in degrees."""
@@ -108,22 +108,22 @@ def simulate(mesh: SymbolicMesh) -> Physics:
     """
     require_mujoco("the check of physics")
     faulty, _ = check_legality(mesh)
-    doubts = tuple(check_masses(mesh))
+    mass_problems = tuple(check_masses(mesh))
     sound = mesh.with_hulls(hull for hull in mesh.hulls if hull.name not in faulty) if faulty else mesh
     if not sound.hulls:
-        return Physics(0.0, None, (), "there is no hull", doubts)
+        return Physics(0.0, None, (), "there is no hull", mass_problems)
     if len(sound.hulls) > HULLS:
-        return Physics(sound.diagonal, None, (), f"more than {HULLS:,} hulls", doubts)
+        return Physics(sound.diagonal, None, (), f"more than {HULLS:,} hulls", mass_problems)
     tree = JointTree.of(sound)
     if len(tree.bodies) > BODIES:
-        return Physics(sound.diagonal, None, (), f"more than {BODIES:,} bodies", doubts)
+        return Physics(sound.diagonal, None, (), f"more than {BODIES:,} bodies", mass_problems)
     try:
         overlaps = find_body_overlaps(sound, tree)
         rest = _simulate_rest(sound, tree)
     except ValueError as error:  # MuJoCo's compiler
         reason = str(error).splitlines()[0].removeprefix("Error: ")
-        return Physics(sound.diagonal, None, (), f"MuJoCo refuses it: {reason}", doubts)
-    return Physics(sound.diagonal, rest, overlaps, None if rest else "the simulation blew up", doubts)
+        return Physics(sound.diagonal, None, (), f"MuJoCo refuses it: {reason}", mass_problems)
+    return Physics(sound.diagonal, rest, overlaps, None if rest else "the simulation blew up", mass_problems)
 
 
 def _simulate_rest(mesh: SymbolicMesh, tree: JointTree) -> Rest | None:

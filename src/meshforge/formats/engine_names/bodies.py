@@ -9,7 +9,7 @@ from meshforge.common import join_names
 from meshforge.formats import base, visuals
 from meshforge.formats.engine_names.conventions import CollisionNames, claim_name
 from meshforge.formats.meshfile.surface import stack_triangles
-from meshforge.symbolic import Asset, Body, FeatureKind, Geom, Opaque, Surface
+from meshforge.symbolic import Asset, Body, FeatureKind, Geom, NonConvexPiece, Surface
 
 _NAMELESS = "body"  # how formats without bodies call the one they have
 
@@ -21,7 +21,7 @@ class EngineBody:
     body: Body
     name: str
     surfaces: tuple[Surface, ...]
-    pieces: tuple[tuple[Geom | Opaque, str], ...]
+    pieces: tuple[tuple[Geom | NonConvexPiece, str], ...]
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -44,17 +44,17 @@ def name_bodies(asset: Asset, engine: CollisionNames, stem: str) -> EngineBodies
     for body in asset.bodies:
         name = claim_name(engine.body, stem if only else body.name, taken)
         geoms = [geom for geom in asset.geoms if geom.body == body.name]
-        opaque = [piece for piece in asset.opaque if piece.body == body.name and has_triangles(piece)]
+        non_convex = [piece for piece in asset.non_convex if piece.body == body.name and has_triangles(piece)]
         surfaces = tuple(surface for owner, surface in shown if owner == body.name)
-        is_bare = engine.shows and not surfaces and bool(geoms or opaque)
+        is_bare = engine.shows and not surfaces and bool(geoms or non_convex)
         if is_bare:
-            surfaces = _merge_surfaces(geoms, opaque)
+            surfaces = _merge_surfaces(geoms, non_convex)
             bare.append(name)
-        if opaque and not engine.takes_opaque:
-            lost.append(lose_opaque(engine, opaque, is_seen=is_bare))
-            opaque = []
+        if non_convex and not engine.takes_non_convex:
+            lost.append(lose_non_convex(engine, non_convex, is_seen=is_bare))
+            non_convex = []
         prefix = f"{body.name}/" if len(asset.bodies) == 1 or engine.in_bodies else ""
-        pieces: list[Geom | Opaque] = [*geoms, *opaque]
+        pieces: list[Geom | NonConvexPiece] = [*geoms, *non_convex]
         own = tuple((piece, piece.name.removeprefix(prefix)) for piece in pieces)
         found.append(EngineBody(body, name, surfaces, own))
     if not any(family.pieces for family in found):
@@ -64,20 +64,20 @@ def name_bodies(asset: Asset, engine: CollisionNames, stem: str) -> EngineBodies
     return EngineBodies(kept, tuple(lost), (stands,) if bare else ())
 
 
-def lose_opaque(engine: CollisionNames, pieces: Sequence[Opaque], *, is_seen: bool) -> base.Loss:
+def lose_non_convex(engine: CollisionNames, pieces: Sequence[NonConvexPiece], *, is_seen: bool) -> base.Loss:
     """The loss of non-convex pieces of which an engine takes none; is_seen: whether they are there to be seen."""
     why = f"{engine.title} makes one hull of any mesh that collides; meshforge prepare makes better ones"
     names = tuple(piece.name for piece in pieces)
-    return base.Loss(FeatureKind.OPAQUE, names, why, "written to be seen alone" if is_seen else None)
+    return base.Loss(FeatureKind.NON_CONVEX, names, why, "written to be seen alone" if is_seen else None)
 
 
-def has_triangles(piece: Opaque) -> bool:
+def has_triangles(piece: NonConvexPiece) -> bool:
     """Whether a piece has a surface to write."""
     return piece.surface is not None and len(piece.surface.faces) > 0
 
 
-def _merge_surfaces(geoms: Sequence[Geom], opaque: Sequence[Opaque]) -> tuple[Surface, ...]:
+def _merge_surfaces(geoms: Sequence[Geom], non_convex: Sequence[NonConvexPiece]) -> tuple[Surface, ...]:
     hulls = [geom.shape.tessellate() for geom in geoms]
     parts: list[Surface] = [Surface(hull.vertices, hull.faces) for hull in hulls]
-    parts += [piece.surface for piece in opaque if piece.surface is not None]
+    parts += [piece.surface for piece in non_convex if piece.surface is not None]
     return (Surface(*stack_triangles((part.vertices, part.faces) for part in parts)),)

@@ -40,10 +40,10 @@ class CollisionNames(ABC):
     engine: ClassVar[EngineName]
     title: ClassVar[str]
     holds: ClassVar[frozenset[FeatureKind]] = frozenset(
-        {FeatureKind.NAMES, FeatureKind.VISUALS, FeatureKind.COLORS, FeatureKind.OPAQUE}
+        {FeatureKind.NAMES, FeatureKind.VISUALS, FeatureKind.COLORS, FeatureKind.NON_CONVEX}
     )
     shows: ClassVar[bool] = False
-    takes_opaque: ClassVar[bool] = True
+    takes_non_convex: ClassVar[bool] = True
     centred: ClassVar[bool] = True
     in_bodies: ClassVar[bool] = False
 
@@ -59,7 +59,7 @@ class CollisionNames(ABC):
         """The name of a node that holds what collides of a body; None where that lies right below the body's."""
         return None
 
-    def opaque(self, own: str) -> str:
+    def non_convex(self, own: str) -> str:
         """The name of a piece that collides with its triangles."""
         raise AssertionError(f"{self.title} takes no such pieces")
 
@@ -141,13 +141,13 @@ class UnrealNames(CollisionNames):
 
     engine: ClassVar[EngineName] = "unreal"
     title: ClassVar[str] = "Unreal"
-    holds: ClassVar[frozenset[FeatureKind]] = CollisionNames.holds - {FeatureKind.OPAQUE} | {
+    holds: ClassVar[frozenset[FeatureKind]] = CollisionNames.holds - {FeatureKind.NON_CONVEX} | {
         FeatureKind.BOXES,
         FeatureKind.SPHERES,
         FeatureKind.CAPSULES,
     }
     shows: ClassVar[bool] = True
-    takes_opaque: ClassVar[bool] = False
+    takes_non_convex: ClassVar[bool] = False
     centred: ClassVar[bool] = False  # its older importers take no notice of where a collision node is
 
     def body(self, wanted: str) -> str:
@@ -233,7 +233,7 @@ class GodotNames(CollisionNames):
         base, tilde, made = own.partition("~")
         return f"{clean_name(base, _GODOT_REFUSED)}{tilde}{made}-convcolonly"
 
-    def opaque(self, own: str) -> str:
+    def non_convex(self, own: str) -> str:
         return f"{clean_name(own, _GODOT_REFUSED)}-colonly"
 
 
@@ -245,7 +245,7 @@ class GodotBodyNames(GodotNames):
     def hull(self, body: str, geom: Geom, number: int, own: str) -> str:
         return self.body(own)
 
-    def opaque(self, own: str) -> str:
+    def non_convex(self, own: str) -> str:
         return self.body(own)
 
 
@@ -265,7 +265,7 @@ class UnityNames(CollisionNames):
     def holder(self, body: str) -> str:
         return body + COLLIDERS
 
-    def opaque(self, own: str) -> str:
+    def non_convex(self, own: str) -> str:
         return self.body(own)
 
 

@@ -119,7 +119,7 @@ class CollisionReader:
         if not len(mesh.faces):
             return NodeCollision(node, name, [])
         if not leaves_volume(linear):
-            return NodeCollision(node, name, [_opaque_part(mesh, linear, offset, "it is scaled to nothing")])
+            return NodeCollision(node, name, [_non_convex_part(mesh, linear, offset, "it is scaled to nothing")])
         found = self._pieces_of(index, mesh, name or f"node {node}")
         owner = np.zeros(len(mesh.faces), dtype=np.int64)
         for k, piece in enumerate(found):
@@ -138,12 +138,12 @@ class CollisionReader:
         if not len(mesh.faces):
             return CollisionPiece(None, "the mesh holds no triangles")
         if not leaves_volume(linear):
-            return _opaque_part(mesh, linear, offset, "it is scaled to nothing")
+            return _non_convex_part(mesh, linear, offset, "it is scaled to nothing")
         try:
             hull, fill = hull_mesh(mesh.vertices, mesh.faces)
             return CollisionPiece(hull.transform(linear, offset), fill=fill)
         except GeometryError:
-            return _opaque_part(mesh, linear, offset, "flat")
+            return _non_convex_part(mesh, linear, offset, "flat")
 
 
 def _split_mesh(mesh: GltfMesh, name: str) -> list[Piece]:
@@ -153,7 +153,7 @@ def _split_mesh(mesh: GltfMesh, name: str) -> list[Piece]:
         raise ValueError(f"{error.problem}, in {name!r}") from error
 
 
-def _opaque_part(mesh: GltfMesh, linear: Floats, offset: Floats, reason: str) -> CollisionPiece:
+def _non_convex_part(mesh: GltfMesh, linear: Floats, offset: Floats, reason: str) -> CollisionPiece:
     return CollisionPiece(None, reason, place_surface(mesh.vertices, mesh.faces, linear, offset))
 
 

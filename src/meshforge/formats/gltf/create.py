@@ -23,7 +23,7 @@ from meshforge.formats.gltf.styles import NewPiece, PlainStyle
 from meshforge.formats.meshfile.gltf_document import Container, Json
 from meshforge.formats.meshfile.gltf_scene import GltfScene
 from meshforge.formats.visuals import linear_color, read_visual_surfaces
-from meshforge.symbolic import Asset, Geom, Opaque, Surface
+from meshforge.symbolic import Asset, Geom, NonConvexPiece, Surface
 
 
 def create_gltf(asset: Asset, name: str, convention: Literal["plain", "khr"] | None = None) -> Output:
@@ -39,12 +39,12 @@ def create_gltf(asset: Asset, name: str, convention: Literal["plain", "khr"] | N
 
 
 def _is_plain(asset: Asset) -> bool:
-    names = [geom.name for geom in asset.geoms] + [piece.name for piece in asset.opaque]
+    names = [geom.name for geom in asset.geoms] + [piece.name for piece in asset.non_convex]
     return (
         [body.name for body in asset.bodies] in ([BODY], [])
         and not len(asset.visuals)
         and not any(geom.shape.is_primitive for geom in asset.geoms)
-        and not any(piece.plane for piece in asset.opaque)
+        and not any(piece.plane for piece in asset.non_convex)
         and not any(unreal_kind(name) or godot_kind(name) for name in names)
     )
 
@@ -59,10 +59,12 @@ class _Creator:
     def build_output(self, stem: str) -> Output:
         seen, lost = read_visual_surfaces(self.asset) if self.convention == "khr" else ([], [])
         style = PlainStyle(self.draft) if self.convention == "plain" else PhysicsStyle(self.draft, "khr", not seen)
-        opaque = [
-            piece for piece in self.asset.opaque if has_triangles(piece) or (piece.plane and self.convention == "khr")
+        non_convex = [
+            piece
+            for piece in self.asset.non_convex
+            if has_triangles(piece) or (piece.plane and self.convention == "khr")
         ]
-        pieces: list[Geom | Opaque] = [*self.asset.geoms, *opaque]
+        pieces: list[Geom | NonConvexPiece] = [*self.asset.geoms, *non_convex]
         for piece in pieces:
             own = piece.name.removeprefix(f"{piece.body}/") if self.nodes else piece.name
             style.add(NewPiece(piece, own, self.nodes.get(piece.body)))

@@ -16,7 +16,7 @@ from meshforge.formats.gltf import output, physics
 from meshforge.formats.meshfile.gltf_document import Json, entries, entry, extension
 from meshforge.formats.meshfile.gltf_scene import GltfScene
 from meshforge.geometry import Floats, Ints, Shape
-from meshforge.symbolic import Geom, Opaque, Texture
+from meshforge.symbolic import Geom, NonConvexPiece, Texture
 
 _KINDS = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}  # by componentType
 _POINTER = re.compile(r"/nodes/(\d+)(/.*)?")
@@ -176,7 +176,7 @@ class SceneDraft:
         inverse: Floats = np.linalg.inv(self.scene.placements[holder].world).astype(np.float64)
         return shape.transform(inverse[:3, :3], inverse[:3, 3])
 
-    def triangles_in(self, what: Geom | Opaque, holder: int | None) -> tuple[Floats, Ints]:
+    def triangles_in(self, what: Geom | NonConvexPiece, holder: int | None) -> tuple[Floats, Ints]:
         """The vertices (n, 3) of a hull or a piece in the space of a node, and its faces (m, 3)."""
         if isinstance(what, Geom):
             hull = self.shape_in(what.shape, holder).tessellate()

@@ -12,7 +12,7 @@ from meshforge.common import AssetError
 from meshforge.formats import references, slots
 from meshforge.formats.base import Output, note_renames, note_shapes_as_hulls, nothing_collides_error
 from meshforge.formats.collision_pieces import names_to_keep, new_hulls, refuse_changed_files
-from meshforge.formats.engine_names.bodies import has_triangles, lose_opaque
+from meshforge.formats.engine_names.bodies import has_triangles, lose_non_convex
 from meshforge.formats.engine_names.conventions import CollisionNames
 from meshforge.formats.gltf.colliders import collision_name_of
 from meshforge.formats.gltf.document import BODY, Convention, GltfDocument, NodeRecord
@@ -22,7 +22,7 @@ from meshforge.formats.gltf.physics import body_nodes
 from meshforge.formats.gltf.physics_style import PhysicsStyle
 from meshforge.formats.gltf.styles import EngineStyle, GodotStyle, NewPiece, PlainStyle, Style, UnityStyle, UnrealStyle
 from meshforge.formats.meshfile import gltf_document, gltf_scene
-from meshforge.symbolic import Asset, Geom, Opaque
+from meshforge.symbolic import Asset, Geom, NonConvexPiece
 
 _ENGINES: dict[Convention, type[EngineStyle]] = {"unreal": UnrealStyle, "godot": GodotStyle, "unity": UnityStyle}
 
@@ -140,7 +140,7 @@ def add_gltf_colliders(asset: Asset, document: GltfDocument, name: str, engine: 
     is no hull to write.
     """
     marked = GltfDocument(b"", engine.engine if engine else "khr", (), document.bodies)
-    lost: list[Opaque] = []
+    lost: list[NonConvexPiece] = []
     with gltf_document.report_damage(str(asset.path)):
         scene = gltf_scene.GltfScene.of(document.source, asset.path)
         refuse_changed_files(document.digests, str(asset.path), "the buffer ")
@@ -148,7 +148,7 @@ def add_gltf_colliders(asset: Asset, document: GltfDocument, name: str, engine: 
         draft = SceneDraft(scene, copy.deepcopy(base.tree), base.before)
         style = style_of(marked.convention, draft, PurePosixPath(name).stem)
         for piece in _list_pieces(asset, document, draft):
-            if engine and not engine.takes_opaque and isinstance(piece.what, Opaque):
+            if engine and not engine.takes_non_convex and isinstance(piece.what, NonConvexPiece):
                 lost.append(piece.what)
             elif isinstance(piece.what, Geom) or has_triangles(piece.what):
                 style.add(piece)
@@ -159,7 +159,7 @@ def add_gltf_colliders(asset: Asset, document: GltfDocument, name: str, engine: 
     hulls = {geom.name for geom in asset.geoms}
     renamed = {old: now for old, now in names.items() if old in hulls}
     notes = (*note_lacking_shapes(style, asset.geoms), *(() if engine else note_renames(renamed)), *style.notes)
-    losses = [lose_opaque(engine, lost, is_seen=True)] if engine and lost else []
+    losses = [lose_non_convex(engine, lost, is_seen=True)] if engine and lost else []
     return replace(output, notes=notes, names=renamed, lost=tuple(losses))
 
 
@@ -167,7 +167,7 @@ def _list_pieces(asset: Asset, document: GltfDocument, draft: SceneDraft) -> Ite
     """All that collides, hulls first, with where it comes from."""
     nodes, kept = {name: node for node, name in document.bodies}, names_to_keep(asset)
     sources = {name: (element, k) for element in document.authored for k, name in enumerate(element.names)}
-    pieces: list[Geom | Opaque] = [*asset.geoms, *asset.opaque]
+    pieces: list[Geom | NonConvexPiece] = [*asset.geoms, *asset.non_convex]
     for what in pieces:
         stays = what.name in sources and what.name in kept
         origin = what.name if stays else what.parent if isinstance(what, Geom) else None

@@ -30,7 +30,7 @@ class GltfFormat(SceneFormat):
     marks = f"as colliders of {_PHYSICS}"
     engine: ClassVar[CollisionNames | None] = None
     has_pictures = True
-    holds = BODY_FEATURES | {FeatureKind.CAPSULES, FeatureKind.OPAQUE, FeatureKind.PLANES}
+    holds = BODY_FEATURES | {FeatureKind.CAPSULES, FeatureKind.NON_CONVEX, FeatureKind.PLANES}
     instead: ClassVar[Mapping[FeatureKind, str]] = {FeatureKind.ELLIPSOIDS: "written as triangles"}
 
     def read(self, path: Path, options: ReadOptions) -> Asset:

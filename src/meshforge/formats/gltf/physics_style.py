@@ -15,7 +15,7 @@ from meshforge.formats.gltf.styles import NewPiece, Style
 from meshforge.formats.meshfile.gltf_document import Json, extension
 from meshforge.formats.meshfile.gltf_meshes import DRACO
 from meshforge.geometry import Box, Capsule, Cylinder, Pose, Sphere
-from meshforge.symbolic import Geom, Opaque
+from meshforge.symbolic import Geom, NonConvexPiece
 
 DRAWN_EXTRAS = {"meshforge": {"drawn": True}}
 """The extras of a node whose mesh only shows its collider, and goes with it."""
@@ -65,7 +65,7 @@ class PhysicsStyle(Style):
         like = draft.scene.placements[piece.source.node].node if piece.source else {}
         shape = draft.shape_in(what.shape, holder) if isinstance(what, Geom) else None
         drawn = self.drawn or is_drawn(like)
-        if isinstance(what, Opaque) and what.plane is not None:
+        if isinstance(what, NonConvexPiece) and what.plane is not None:
             self._add_plane(piece, what.plane)
         elif self._add_as_authored(piece):
             return

@@ -11,7 +11,7 @@ import numpy as np
 
 from meshforge.common import AssetError, MeshForgeError, file_digest, pluralize
 from meshforge.formats import mesh_reader, references, slots
-from meshforge.formats.collision_pieces import CollisionElement, drop_repeats, geoms_of, opaque_of, place_surface
+from meshforge.formats.collision_pieces import CollisionElement, drop_repeats, geoms_of, non_convex_of, place_surface
 from meshforge.formats.engine_names.conventions import godot_kind, unreal_kind
 from meshforge.formats.engine_names.name_problems import find_name_problems
 from meshforge.formats.gltf import physics
@@ -80,7 +80,7 @@ def read_gltf(path: Path) -> Asset:
         bodies=(*([Body(BODY, Pose.identity())] if fixed else []), *moving),
         geoms=geoms,
         document=GltfDocument(source, reader.convention, authored, _nodes_of(bodies), digests),
-        opaque=opaque_of(*pieces),
+        non_convex=non_convex_of(*pieces),
         visuals=() if reader.convention == "plain" else SceneSurfaces(source, path, owners),
         files=files,
         missing=missing,

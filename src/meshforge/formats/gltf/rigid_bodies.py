@@ -21,7 +21,7 @@ from meshforge.formats.kinematic_tree import BodyTree
 from meshforge.formats.meshfile.gltf_document import Json
 from meshforge.formats.visuals import VisualSurfaces
 from meshforge.geometry import combine_inertias
-from meshforge.symbolic import Asset, FeatureKind, Inertial, Opaque, Surface
+from meshforge.symbolic import Asset, FeatureKind, Inertial, NonConvexPiece, Surface
 
 _STILL = "in Godot, what stands still has none"
 _STRAIGHT = [0.0, 0.0, 0.0, 1.0]
@@ -55,15 +55,15 @@ def _create_rigid_bodies(asset: Asset, tree: BodyTree, path: PurePosixPath) -> O
     notes, pieces = _add_bodies(draft, welded, found, moving)
     bodies = tuple((node, family.body.name) for node, family in enumerate(found.each))
     output = pack_bodies(welded, draft, GltfDocument(b"", "omi", (), bodies), found, path)
-    held = tuple(name for name in tree.order if carriers[name] != name)
-    why = join_names([f"{name} to {carriers[name]}" for name in held], 3)
+    welded_bodies = tuple(name for name in tree.order if carriers[name] != name)
+    why = join_names([f"{name} to {carriers[name]}" for name in welded_bodies], 3)
     still = tuple(i.body for i in welded.mechanism.inertials if i.body not in moving)
     losses = (
         *found.lost,
         *_list_joints(asset),
-        Loss(FeatureKind.OPAQUE, tuple(pieces), "in Godot a mesh that is no hull cannot move"),
+        Loss(FeatureKind.NON_CONVEX, tuple(pieces), "in Godot a mesh that is no hull cannot move"),
         Loss(FeatureKind.MASSES, still, _STILL),
-        Loss(FeatureKind.BODIES, held, f"fixed joints hold {why}", "written as parts of others"),
+        Loss(FeatureKind.BODIES, welded_bodies, f"fixed joints hold {why}", "written as parts of others"),
     )
     return replace(output, lost=tuple(loss for loss in losses if loss.count), notes=(*found.notes, *notes))
 
@@ -104,7 +104,7 @@ def _weld_bodies(asset: Asset, carriers: Mapping[str, str]) -> Asset:
         asset,
         bodies=tuple(body for body in asset.bodies if carriers[body.name] == body.name),
         geoms=tuple(replace(g, body=carriers[g.body], shape=g.shape.tessellate()) for g in asset.geoms),
-        opaque=tuple(replace(piece, body=carriers[piece.body]) for piece in asset.opaque),
+        non_convex=tuple(replace(piece, body=carriers[piece.body]) for piece in asset.non_convex),
         visuals=visuals,
         mechanism=replace(asset.mechanism, inertials=tuple(sums)),
     )
@@ -135,7 +135,7 @@ def _add_bodies(draft: SceneDraft, asset: Asset, found: EngineBodies, moving: se
             seen = add_visuals(draft, family, node)
             draft.add_node({"name": f"{family.name}_visual", "mesh": seen}, node)
         for piece, own in family.pieces:
-            if moves and isinstance(piece, Opaque):
+            if moves and isinstance(piece, NonConvexPiece):
                 lost.append(piece.name)
             else:
                 style.add(NewPiece(piece, claim_name(names.body, own, taken), node))

@@ -17,7 +17,7 @@ from meshforge.formats.gltf.document import NodeRecord
 from meshforge.formats.gltf.draft import SceneDraft, material_without_texture, name_of
 from meshforge.formats.meshfile.gltf_document import Json, entries, entry
 from meshforge.geometry import Floats
-from meshforge.symbolic import Geom, Opaque
+from meshforge.symbolic import Geom, NonConvexPiece
 
 _FAR = 1e4  # sizes of a mesh away from its node, beyond which single precision would spoil it
 
@@ -30,7 +30,7 @@ class NewPiece:
     after; part: which piece of the mesh of that node it is, None where an edit made it.
     """
 
-    what: Geom | Opaque
+    what: Geom | NonConvexPiece
     own: str
     holder: int | None
     source: NodeRecord | None = None
@@ -147,8 +147,8 @@ class EngineStyle(PlainStyle):
     def name_piece(self, piece: NewPiece) -> str:
         """A name for a piece that nothing else in the file has."""
         what, names = piece.what, self.names
-        if isinstance(what, Opaque):
-            return conventions.claim_name(names.opaque, piece.own, self.taken)
+        if isinstance(what, NonConvexPiece):
+            return conventions.claim_name(names.non_convex, piece.own, self.taken)
         return conventions.claim_name(lambda own: names.hull("", what, 0, own), piece.own, self.taken)
 
     def _place_of(self, space: int | None, holder: int | None, middle: Floats) -> Json:

@@ -58,8 +58,8 @@ def _materials_of(scene: GltfScene, index: int, mesh: gltf_meshes.GltfMesh) -> t
     if not names:
         return None
     known = ("", *dict.fromkeys(names))
-    said = iter(names)
-    places = [0 if k is None else known.index(next(said)) for k in numbers]
+    own_names = iter(names)
+    places = [0 if k is None else known.index(next(own_names)) for k in numbers]
     return np.repeat(np.array(places), [len(patch.faces) for patch in mesh.patches]), known
 
 

@@ -64,8 +64,8 @@ class ObjText:
         parts = []
         for k, name in enumerate(names):
             own = self.face_group == k
-            said = (of_face[own], materials) if len(materials) > 1 else None
-            parts.append(surface.RawSurface(name, self.vertices, self.faces[own], materials=said))
+            own_materials = (of_face[own], materials) if len(materials) > 1 else None
+            parts.append(surface.RawSurface(name, self.vertices, self.faces[own], materials=own_materials))
         return surface.check_surfaces(parts, where)
 
 

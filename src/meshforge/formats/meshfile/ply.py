@@ -91,8 +91,8 @@ def parse_ply(data: bytes, where: str) -> PlyText:
             raise _truncation_error(element, where)
         try:
             rows.append((_read_binary if header.order else _read_ascii)(data, at, element, header.order))
-        except _OddRowError as odd:
-            raise odd.describe(element, data, where) from None
+        except _RowError as error:
+            raise error.describe(element, data, where) from None
         except (ValueError, IndexError):
             raise _truncation_error(element, where) from None
         at = int(rows[-1].spans[-1, 1]) if element.rows else at
@@ -144,7 +144,7 @@ def _parse_property(words: list[str]) -> PlyProperty:
     raise ValueError(words)
 
 
-class _OddRowError(Exception):
+class _RowError(Exception):
     """A row of an ASCII file that is not as its element says: its number, its place in the file, its text."""
 
     def __init__(self, row: int, at: int, text: bytes) -> None:
@@ -176,7 +176,7 @@ def _read_ascii(data: bytes, at: int, element: PlyElement, _: str) -> PlyRows:
         try:
             read.append([float(word) for word in data[at:stop].split()])
         except ValueError:
-            raise _OddRowError(k, at, data[at:stop]) from None
+            raise _RowError(k, at, data[at:stop]) from None
         at = stop
     values: dict[str, Any] = {p.name: [] for p in element.properties}
     for k, row in enumerate(read):
@@ -185,7 +185,7 @@ def _read_ascii(data: bytes, at: int, element: PlyElement, _: str) -> PlyRows:
             length = _to_whole(row[place : place + 1]) if p.count else 1
             place += 1 if p.count else 0
             if length < 0 or place + length > len(row):
-                raise _OddRowError(k, int(spans[k, 0]), data[slice(*spans[k])])
+                raise _RowError(k, int(spans[k, 0]), data[slice(*spans[k])])
             values[p.name].append(row[place : place + length] if p.count else row[place])
             place += length
     return PlyRows(element, spans, values)

@@ -68,10 +68,10 @@ class MjcfPlan:
     """
 
     def __init__(
-        self, asset: Asset, document: MjcfDocument, reading: MjcfModel, authored: MjcfModel, maker: HullGeomMaker
+        self, asset: Asset, document: MjcfDocument, compiled: MjcfModel, authored: MjcfModel, maker: HullGeomMaker
     ) -> None:
-        self.asset, self.document, self.reading, self.maker = asset, document, reading, maker
-        self.tree = reading.tree
+        self.asset, self.document, self.compiled, self.maker = asset, document, compiled, maker
+        self.tree = compiled.tree
         self.nodes = {(n.source, n.element.start): n for n in self.tree.root.walk()}
         self.body_poses = dict(zip(authored.body_names, authored.body_poses, strict=True))
         kept = names_to_keep(asset)
@@ -79,7 +79,7 @@ class MjcfPlan:
         self.owner = {name: place for place in self.places for name in place.authored.names}
         self.ends: dict[str, list[Slot]] = {}
         self.made: dict[int, Geom] = {}
-        self._shapes = MjcfShapes(reading.model)
+        self._shapes = MjcfShapes(compiled.model)
         self._refuse_fixed(kept)
         for geom in new_hulls(asset, self.owner):
             self._place_new(geom)
@@ -93,15 +93,15 @@ class MjcfPlan:
     def predict_geoms(self) -> list[OldGeom | NewGeom]:
         """The geoms that MuJoCo shall make of the output, in its order."""
         copies: dict[tuple[str, int], list[int]] = {}
-        for k, name in enumerate(self.reading.names):
-            copies.setdefault((self.reading.body_of[k], id(self.owner[name])), []).append(k)
+        for k, name in enumerate(self.compiled.names):
+            copies.setdefault((self.compiled.body_of[k], id(self.owner[name])), []).append(k)
         found: list[OldGeom | NewGeom] = []
-        of_body: dict[str, list[int]] = {name: [] for name in self.reading.body_names}
-        for k, body in enumerate(self.reading.body_of):
+        of_body: dict[str, list[int]] = {name: [] for name in self.compiled.body_names}
+        for k, body in enumerate(self.compiled.body_of):
             of_body[body].append(k)
         for body, numbers in of_body.items():
             for k in numbers:
-                place = self.owner[self.reading.names[k]]
+                place = self.owner[self.compiled.names[k]]
                 if place.own is not None:
                     found.append(OldGeom(k, None if place.authored.fixed else place.own))
                 if k == copies[body, id(place)][-1]:
@@ -127,7 +127,7 @@ class MjcfPlan:
 
     def body_node(self, body: str) -> MjcfNode | None:
         """The element of a body; of the world, the last one, in which its last geoms stand. None without one."""
-        if body == self.reading.body_names[0]:
+        if body == self.compiled.body_names[0]:
             worlds = list(self.tree.root.each("worldbody"))
             return worlds[-1] if worlds else None
         entry = next((entry for entry in self.document.bodies if entry.name == body), None)
@@ -192,8 +192,8 @@ class MjcfPlan:
         """The volume that has the mass of a hull's parent: its own, or that of all hulls in its place."""
         if geom.parent not in self.owner:
             return 0.0
-        number = self.reading.names.index(geom.parent)
-        shape = self._shapes.part_of(number, self.reading.geom_poses[number]).shape
+        number = self.compiled.names.index(geom.parent)
+        shape = self._shapes.part_of(number, self.compiled.geom_poses[number]).shape
         if shape is not None:
             return shape.volume
         return sum(other.shape.volume for other in self.asset.geoms if other.parent == geom.parent)

@@ -35,7 +35,7 @@ _FUSING = {"compiler": ("fusestatic", "discardvisual"), "body": ("fuse",)}
 
 
 @dataclass(frozen=True, slots=True)
-class MujocoTrial:
+class MujocoLoad:
     """What MuJoCo answers of a file as it is. version: of MuJoCo; refusal: why, None where it compiles the file."""
 
     version: str
@@ -43,7 +43,7 @@ class MujocoTrial:
     warnings: tuple[str, ...] = ()
 
 
-def try_in_mujoco(path: Path) -> MujocoTrial:
+def try_in_mujoco(path: Path) -> MujocoLoad:
     """Compile an MJCF or a URDF with MuJoCo, with all files that it names.
 
     Its warnings are collected, and no log is written. Raises ImportError where MuJoCo is not installed.
@@ -55,7 +55,7 @@ def try_in_mujoco(path: Path) -> MujocoTrial:
             mujoco.MjModel.from_xml_path(str(path))
         except failure_types() as error:
             refusal = _join_lines(str(error)) or "it does not say why"
-    return MujocoTrial(version, refusal, tuple(dict.fromkeys(map(_join_lines, warnings))))
+    return MujocoLoad(version, refusal, tuple(dict.fromkeys(map(_join_lines, warnings))))
 
 
 def _join_lines(message: str) -> str:

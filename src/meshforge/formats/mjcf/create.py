@@ -16,7 +16,7 @@ from meshforge.formats.conversion import note_hulled, plan_couplings
 from meshforge.formats.kinematic_tree import BodyTree, claim_name
 from meshforge.formats.mjcf import document, elements, references
 from meshforge.geometry import Aabb, Pose, convex_hull
-from meshforge.symbolic import Asset, FeatureKind, Geom, Joint, Opaque, Rgba
+from meshforge.symbolic import Asset, FeatureKind, Geom, Joint, NonConvexPiece, Rgba
 
 WORLD = "world"
 """What MuJoCo calls the body that never moves; no other may have this name."""
@@ -123,7 +123,7 @@ class _Creator:
         joints = [part for joint in self.tree.joints[body] for part in self._split_joint(joint, top)]
         own = [geom for geom in self.asset.geoms if geom.body == body]
         yield from (lead + elements.joint_tag(joint, self.poses[body]) for joint in joints)
-        pieces = [piece for piece in self.asset.opaque if piece.body == body]
+        pieces = [piece for piece in self.asset.non_convex if piece.body == body]
         hulls = [self.made.make_hull(geom) for geom in own]
         for piece in pieces:
             hulls += self.made.make_plane(piece, piece.plane) if piece.plane else self.made.make_surface(piece)
@@ -181,7 +181,7 @@ class NewGeomMaker:
         self.files = mesh_output.VisualFiles(self.meshes.files, references.is_shown_whole)
         self.files.gather(self.shown)
         self.lost: list[Loss] = []
-        self.hulled: list[tuple[Opaque, float]] = []
+        self.hulled: list[tuple[NonConvexPiece, float]] = []
 
     def make_hull(self, geom: Geom) -> bytes:
         """The geom of a hull."""
@@ -212,7 +212,7 @@ class NewGeomMaker:
             mesh = self.meshes.add_visual(file, seen.scale)
             yield _visual_tag(elements.mesh_geom_attributes(mesh, seen.pose), seen.rgba)
 
-    def make_plane(self, piece: Opaque, plane: Pose) -> Iterator[bytes]:
+    def make_plane(self, piece: NonConvexPiece, plane: Pose) -> Iterator[bytes]:
         """An endless plane."""
         if not self.tree.is_static(piece.body):
             why = "MuJoCo has planes on bodies that do not move only"
@@ -221,11 +221,11 @@ class NewGeomMaker:
         place = elements.pose_attributes(self.poses[piece.body].inverse() @ plane)
         yield elements.tag("geom", {**self._name_attribute(piece.name), "type": "plane", "size": "0 0 1", **place})
 
-    def make_surface(self, piece: Opaque) -> Iterator[bytes]:
+    def make_surface(self, piece: NonConvexPiece) -> Iterator[bytes]:
         """The mesh of a non-convex surface, as it is: MuJoCo collides with its convex hull."""
         if piece.name not in self.names or piece.surface is None:
             if piece.surface is not None:
-                self.lost.append(Loss(FeatureKind.OPAQUE, (piece.name,), "MuJoCo refuses a mesh that is flat"))
+                self.lost.append(Loss(FeatureKind.NON_CONVEX, (piece.name,), "MuJoCo refuses a mesh that is flat"))
             return
         vertices = self.poses[piece.body].inverse().apply(piece.surface.vertices)
         place, volume = _place_mesh(Aabb.of_points(vertices)), convex_hull(vertices, name=piece.name).volume
@@ -247,7 +247,7 @@ def _visual_tag(attributes: dict[str, str], rgba: Rgba | None) -> bytes:
     return elements.tag("geom", {"class": "visual", **attributes, **color})
 
 
-def _can_collide(piece: Opaque) -> bool:
+def _can_collide(piece: NonConvexPiece) -> bool:
     return piece.surface is not None and len(piece.surface.faces) > 0 and not is_flat(piece.surface.vertices)
 
 
@@ -264,7 +264,7 @@ def name_geoms(asset: Asset, tree: BodyTree, bodies: dict[str, str]) -> dict[str
     bodies: what the bodies of the tree are called.
     """
     pieces = [(geom.name, geom.body) for geom in asset.geoms]
-    pieces += [(piece.name, piece.body) for piece in asset.opaque if piece.plane or _can_collide(piece)]
+    pieces += [(piece.name, piece.body) for piece in asset.non_convex if piece.plane or _can_collide(piece)]
     ordered = [(name, own) for body in tree.order for name, own in pieces if own == body]
     plain = [name.removeprefix(f"{body}/") for name, body in ordered]
     holders = [bodies[body] for _, body in ordered]

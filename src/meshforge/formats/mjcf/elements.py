@@ -210,9 +210,9 @@ def stop_ignoring_inertials(tree: MjcfTree) -> list[tuple[int, Splice]]:
     ]
 
 
-def inertial_tag_of_model(reading: MjcfModel, body: int) -> bytes:
+def inertial_tag_of_model(compiled: MjcfModel, body: int) -> bytes:
     """The `<inertial>` of a body as MuJoCo compiled it; reading: of the unedited document, masses not scaled."""
-    model = reading.model
+    model = compiled.model
     pos, quaternion, moments = model.body_ipos[body], model.body_iquat[body], model.body_inertia[body]
     return tag("inertial", inertial_attributes(float(model.body_mass[body]), pos, quaternion, moments))
 

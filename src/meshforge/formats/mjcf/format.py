@@ -34,7 +34,7 @@ class MjcfFormat(Format):
     title = "MJCF"
     up = "z"
     holds = BODY_FEATURES | {
-        *(FeatureKind.CAPSULES, FeatureKind.ELLIPSOIDS, FeatureKind.PLANES, FeatureKind.OPAQUE),
+        *(FeatureKind.CAPSULES, FeatureKind.ELLIPSOIDS, FeatureKind.PLANES, FeatureKind.NON_CONVEX),
         *(FeatureKind.JOINTS, FeatureKind.BALL_JOINTS, FeatureKind.MIMICS),
     }
 

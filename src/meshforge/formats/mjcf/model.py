@@ -16,7 +16,7 @@ from meshforge.formats.mjcf.document import GeomRecord, MjcfBody, MjcfTree, body
 from meshforge.formats.mjcf.shapes import MjcfShapes, body_poses, geom_poses
 from meshforge.formats.xml import parse_numbers
 from meshforge.geometry import Pose, rotation_of_quaternion
-from meshforge.symbolic import Coupling, Geom, Inertial, Joint, JointKind, Mechanism, Mentions, Opaque
+from meshforge.symbolic import Coupling, Geom, Inertial, Joint, JointKind, Mechanism, Mentions, NonConvexPiece
 
 _INSIDE = {
     "replicate": "it is inside a <replicate>, which makes several geoms of one element",
@@ -64,9 +64,9 @@ class MjcfModel:
         self.body_poses = body_poses(self.model)
         self.geom_poses = geom_poses(self.model, self.body_poses)
 
-    def read_pieces(self) -> tuple[tuple[Geom, ...], tuple[Opaque, ...]]:
+    def read_pieces(self) -> tuple[tuple[Geom, ...], tuple[NonConvexPiece, ...]]:
         """The hulls, and the collision geometry that is none."""
-        geoms, opaque = [], []
+        geoms, non_convex = [], []
         shapes, mentions = MjcfShapes(self.model), GeomMentions(self.spec_geoms, self.body_of, self.collides)
         for k, (name, body, pose) in enumerate(zip(self.names, self.body_of, self.geom_poses, strict=True)):
             if not self.collides[k]:
@@ -78,8 +78,8 @@ class MjcfModel:
                 geoms.append(Geom(name, body, part.shape, contact=contact, mentions=own, fill=part.fill))
             else:
                 plane = pose if self.model.geom_type[k] == mujoco.mjtGeom.mjGEOM_PLANE else None
-                opaque.append(Opaque(name, body, part.reason, part.surface, plane, mentions.of(k)))
-        return tuple(geoms), tuple(opaque)
+                non_convex.append(NonConvexPiece(name, body, part.reason, part.surface, plane, mentions.of(k)))
+        return tuple(geoms), tuple(non_convex)
 
     @cached_property
     def bodies(self) -> tuple[MjcfBody, ...]:
@@ -136,35 +136,35 @@ def compile_tree(tree: MjcfTree) -> MjcfModel:
     return MjcfModel(tree, compile_text(tree, flatten(tree)))
 
 
-def compile_unscaled(reading: MjcfModel) -> MjcfModel:
+def compile_unscaled(compiled: MjcfModel) -> MjcfModel:
     """A whole model with masses before they are scaled to a total, and free bodies in their authored frames."""
-    tree = reading.tree
+    tree = compiled.tree
     changing = {"compiler": {"settotalmass", "alignfree"}} | {tag: {"align"} for tag in ("freejoint", "joint")}
-    if not reading.is_whole or not any(
+    if not compiled.is_whole or not any(
         changing.get(node.tag, set()) & node.attributes.keys() for node in tree.root.walk()
     ):
-        return reading
-    spec = parse_text(tree, reading.flat)
+        return compiled
+    spec = parse_text(tree, compiled.flat)
     spec.compiler.settotalmass = -1
     spec.compiler.alignfree = False
     for joint in spec.joints:
         joint.align = 0
-    return MjcfModel(tree, compile_spec(tree, reading.flat, spec))
+    return MjcfModel(tree, compile_spec(tree, compiled.flat, spec))
 
 
-def read_mechanism(reading: MjcfModel) -> Mechanism:
+def read_mechanism(compiled: MjcfModel) -> Mechanism:
     """The mechanism of a model, `<exclude>` and `<pair>` too; a body without a joint is fixed to its parent."""
-    couplings = _read_couplings(reading.tree)
+    couplings = _read_couplings(compiled.tree)
     joints = [
         replace(joint, coupling=couplings.get(joint.name))
-        for k in range(1, reading.model.nbody)
-        for joint in _read_joints(reading, k)
+        for k in range(1, compiled.model.nbody)
+        for joint in _read_joints(compiled, k)
     ]
-    inertials = [i for k in range(1, reading.model.nbody) if (i := _read_inertial(reading, k)) is not None]
-    bodies, signatures = reading.body_names, map(int, reading.model.exclude_signature)
+    inertials = [i for k in range(1, compiled.model.nbody) if (i := _read_inertial(compiled, k)) is not None]
+    bodies, signatures = compiled.body_names, map(int, compiled.model.exclude_signature)
     excludes = [(bodies[s >> 16], bodies[s & 0xFFFF]) for s in signatures]  # as MuJoCo packs two numbers of bodies
-    geoms = zip(reading.model.pair_geom1, reading.model.pair_geom2, strict=True)
-    pairs = [(reading.names[int(first)], reading.names[int(second)]) for first, second in geoms]
+    geoms = zip(compiled.model.pair_geom1, compiled.model.pair_geom2, strict=True)
+    pairs = [(compiled.names[int(first)], compiled.names[int(second)]) for first, second in geoms]
     return Mechanism(tuple(joints), tuple(inertials), tuple(excludes), tuple(pairs))
 
 
@@ -182,18 +182,18 @@ def _read_couplings(tree: MjcfTree) -> dict[str, Coupling]:
     return found
 
 
-def _read_joints(reading: MjcfModel, body: int) -> list[Joint]:
-    model = reading.model
-    child, parent = reading.body_names[body], reading.body_names[int(model.body_parentid[body])]
+def _read_joints(compiled: MjcfModel, body: int) -> list[Joint]:
+    model = compiled.model
+    child, parent = compiled.body_names[body], compiled.body_names[int(model.body_parentid[body])]
     first, count = int(model.body_jntadr[body]), int(model.body_jntnum[body])
     if not count:
-        pose = reading.body_poses[body]
+        pose = compiled.body_poses[body]
         return [Joint("", "fixed", parent, child, pose.translation, pose.rotation[:, 0])]
-    return [_read_joint(reading, k, parent, child) for k in range(first, first + count)]
+    return [_read_joint(compiled, k, parent, child) for k in range(first, first + count)]
 
 
-def _read_joint(reading: MjcfModel, k: int, parent: str, child: str) -> Joint:
-    model, pose = reading.model, reading.body_poses[int(reading.model.jnt_bodyid[k])]
+def _read_joint(compiled: MjcfModel, k: int, parent: str, child: str) -> Joint:
+    model, pose = compiled.model, compiled.body_poses[int(compiled.model.jnt_bodyid[k])]
     kind, dof = _KINDS[int(model.jnt_type[k])], int(model.jnt_dofadr[k])
     limits = None
     if model.jnt_limited[k] and kind in ("prismatic", "revolute"):
@@ -213,8 +213,8 @@ def _read_joint(reading: MjcfModel, k: int, parent: str, child: str) -> Joint:
     )
 
 
-def _read_inertial(reading: MjcfModel, k: int) -> Inertial | None:
-    body = reading.bodies[k]
+def _read_inertial(compiled: MjcfModel, k: int) -> Inertial | None:
+    body = compiled.bodies[k]
     if body.mass <= 0:
         return None
     frame = body.pose @ body.inertial

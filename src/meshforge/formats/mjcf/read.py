@@ -47,21 +47,21 @@ def read_mjcf(path: Path, files: Mapping[Path, bytes] | None = None) -> Asset:
     """
     tree = gather_model(path, files)
     refuse_excess(tree)
-    reading, refusal = _compile_or_strip(tree)
-    geoms, opaque = reading.read_pieces()
+    compiled, refusal = _compile_or_strip(tree)
+    geoms, non_convex = compiled.read_pieces()
     found, missing = references.find_files(tree)
     return Asset(
         path=path,
         format="mjcf",
-        bodies=tuple(Body(body.name, body.pose) for body in reading.bodies),
+        bodies=tuple(Body(body.name, body.pose) for body in compiled.bodies),
         geoms=geoms,
-        document=MjcfDocument(tree.sources, reading.geom_records(), reading.bodies, refusal),
-        opaque=opaque,
-        visuals=read_visuals(reading),
+        document=MjcfDocument(tree.sources, compiled.geom_records(), compiled.bodies, refusal),
+        non_convex=non_convex,
+        visuals=read_visuals(compiled),
         files=found,
         missing=missing,
-        notes=_collect_notes(reading, refusal),
-        mechanism=read_mechanism(reading),
+        notes=_collect_notes(compiled, refusal),
+        mechanism=read_mechanism(compiled),
     )
 
 
@@ -75,11 +75,11 @@ def _compile_or_strip(tree: MjcfTree) -> tuple[MjcfModel, str]:
         return strip_to_collision(tree, error), refusal
 
 
-def _collect_notes(reading: MjcfModel, refusal: str) -> tuple[str, ...]:
+def _collect_notes(compiled: MjcfModel, refusal: str) -> tuple[str, ...]:
     notes = [FileNote(f"{refusal}; read for its collision geometry only")] if refusal else []
-    notes += [FileNote(f"MuJoCo refuses this file: {fault}") for fault in reading.tree.faults]
-    notes += [FileNote(f"MuJoCo warns: {warning}") for warning in reading.warnings]
-    if flexible := int(reading.model.nflex):
+    notes += [FileNote(f"MuJoCo refuses this file: {fault}") for fault in compiled.tree.faults]
+    notes += [FileNote(f"MuJoCo warns: {warning}") for warning in compiled.warnings]
+    if flexible := int(compiled.model.nflex):
         bodies = pluralize(flexible, "flexible body", "flexible bodies")
         notes.append(FileNote(f"{bodies}: no hulls, left as authored"))
     return tuple(notes)
@@ -171,29 +171,29 @@ def _read_numbers(node: MjcfNode, names: tuple[str, ...]) -> list[float]:
     return found
 
 
-def read_visuals(reading: MjcfModel) -> VisualSurfaces:
+def read_visuals(compiled: MjcfModel) -> VisualSurfaces:
     """The visuals of all bodies."""
-    seen = _Visuals(reading)
-    found = (seen.of(k) for k in range(reading.model.ngeom) if k not in reading.stand_ins)
+    seen = _Visuals(compiled)
+    found = (seen.of(k) for k in range(compiled.model.ngeom) if k not in compiled.stand_ins)
     return VisualSurfaces(tuple(visual for visual in found if visual))
 
 
 class _Visuals:
-    def __init__(self, reading: MjcfModel) -> None:
-        self.reading, self.model = reading, reading.model
-        self.shapes = MjcfShapes(reading.model)
-        self.meshes = {mesh.id: mesh for mesh in reading.spec.meshes}
-        self.folders = references.AssetFolders.of(reading.tree)
+    def __init__(self, compiled: MjcfModel) -> None:
+        self.compiled, self.model = compiled, compiled.model
+        self.shapes = MjcfShapes(compiled.model)
+        self.meshes = {mesh.id: mesh for mesh in compiled.spec.meshes}
+        self.folders = references.AssetFolders.of(compiled.tree)
         self.field = mujoco.mjtGeom.mjGEOM_HFIELD
 
     def of(self, k: int) -> Visual | None:
         """What a geom shows, None where it is hidden; height fields and planes are non-convex pieces already."""
-        model, body, pose = self.model, self.reading.body_of[k], self.reading.geom_poses[k]
+        model, body, pose = self.model, self.compiled.body_of[k], self.compiled.geom_poses[k]
         material, mesh = int(model.geom_matid[k]), int(model.geom_dataid[k])
         red, green, blue, alpha = map(float, model.mat_rgba[material] if material >= 0 else model.geom_rgba[k])
         rgba = red, green, blue, alpha
         is_mesh = mesh >= 0 and model.geom_type[k] != self.field
-        if alpha <= 0 or (self.reading.collides[k] and not (is_mesh and model.geom_group[k] < _SHOWN_GROUPS)):
+        if alpha <= 0 or (self.compiled.collides[k] and not (is_mesh and model.geom_group[k] < _SHOWN_GROUPS)):
             return None
         if (shape := self.shapes.primitive_of(k, pose)) is not None:
             return Visual(body, shape, np.eye(3), np.zeros(3), rgba)
@@ -208,8 +208,8 @@ class _Visuals:
         return Visual(body, Polytope(surface.vertices, surface.faces), np.eye(3), np.zeros(3), rgba)
 
     def _find_file(self, mesh: int) -> Path | None:
-        node = self.reading.flat.node_at(self.meshes[mesh].info) if mesh in self.meshes else None
+        node = self.compiled.flat.node_at(self.meshes[mesh].info) if mesh in self.meshes else None
         if node is None or not node.attributes.get("file"):
             return None
-        path = self.folders.find(self.reading.tree, node)
+        path = self.folders.find(self.compiled.tree, node)
         return path if path.suffix.lower() in READABLE_MESH_SUFFIXES else None

@@ -48,17 +48,17 @@ def read_spec(spec: SpecObject) -> Asset:
         text = spec.to_xml().encode()
     except (ValueError, RuntimeError, mujoco.FatalError, mujoco.UnexpectedError) as error:
         raise AssetError(f"MuJoCo cannot write this spec: {error}", where=name) from error
-    held = {str(key): bytes(data) for key, data in dict(spec.assets or {}).items()}
-    if not held:
+    files_of_spec = {str(key): bytes(data) for key, data in dict(spec.assets or {}).items()}
+    if not files_of_spec:
         return read_mjcf(folder / name, {folder / name: text})
     home = make_folder()
-    for path, data in _gather_files(folder / name, text, held):
+    for path, data in _gather_files(folder / name, text, files_of_spec):
         _put(home / path.name if not path.is_relative_to(folder) else home / path.relative_to(folder), data)
     _put(home / name, text)
     return read_mjcf(home / name)
 
 
-def _gather_files(main: Path, text: bytes, held: dict[str, bytes]) -> list[tuple[Path, bytes]]:
+def _gather_files(main: Path, text: bytes, files_of_spec: dict[str, bytes]) -> list[tuple[Path, bytes]]:
     """The files that a text refers to: those that the spec holds, under its names for them, before those on disk."""
     from meshforge.formats.mjcf.references import AssetFolders, iterate_file_references  # lazy: only MJCF needs it
 
@@ -67,9 +67,9 @@ def _gather_files(main: Path, text: bytes, held: dict[str, bytes]) -> list[tuple
     for node, attribute in iterate_file_references(tree):
         path, reference = folders.find(tree, node, attribute), node.attributes[attribute]
         below = path.relative_to(main.parent).as_posix() if path.is_relative_to(main.parent) else path.name
-        key = next((key for key in (reference, below, path.name, str(path)) if key in held), None)
+        key = next((key for key in (reference, below, path.name, str(path)) if key in files_of_spec), None)
         if key is not None:
-            found.append((path, held[key]))
+            found.append((path, files_of_spec[key]))
         elif is_file(path):
             found.append((path, path.read_bytes()))
     return found

@@ -35,7 +35,7 @@ from meshforge.formats.plain.parts import (
 )
 from meshforge.formats.surface_parts import parts_of_groups
 from meshforge.geometry import Ints, Piece, Pose, Shape, distinct, hull_mesh, split_pieces
-from meshforge.symbolic import PRIMITIVE_FEATURES, Asset, Body, FeatureKind, Geom, Mentions, Opaque, Surface
+from meshforge.symbolic import PRIMITIVE_FEATURES, Asset, Body, FeatureKind, Geom, Mentions, NonConvexPiece, Surface
 
 BODY = "body"
 """The name of the one body of a plain mesh file."""
@@ -71,7 +71,7 @@ class MeshFileEdit:
 class PlainFormat(Format):
     """A format of mesh files without structure."""
 
-    holds: ClassVar[frozenset[FeatureKind]] = frozenset({FeatureKind.OPAQUE})
+    holds: ClassVar[frozenset[FeatureKind]] = frozenset({FeatureKind.NON_CONVEX})
     instead: ClassVar[Mapping[FeatureKind, str]] = AS_HULLS
 
     @abstractmethod
@@ -97,14 +97,16 @@ class PlainFormat(Format):
             format=self.name,
             bodies=(Body(BODY, Pose.identity()),),
             geoms=tuple(
-                Geom(name, BODY, shapes[name], mentions=said, element=elements[piece.group], fill=piece.fill)
-                for name, piece, said in named
+                Geom(name, BODY, shapes[name], mentions=mention, element=elements[piece.group], fill=piece.fill)
+                for name, piece, mention in named
                 if name in shapes
             ),
             document=document,
-            opaque=tuple(
-                Opaque(name, BODY, piece.reason or "", _surface_of(soup, piece), None, said, elements[piece.group])
-                for name, piece, said in named
+            non_convex=tuple(
+                NonConvexPiece(
+                    name, BODY, piece.reason or "", _surface_of(soup, piece), None, mention, elements[piece.group]
+                )
+                for name, piece, mention in named
                 if not piece.shape
             ),
             visuals=_visual_surface(soup),
@@ -147,9 +149,9 @@ class PlainFormat(Format):
         document = asset.document
         if not isinstance(document, PlainDocument):
             raise self._creation_error(asset)
-        opaque = {piece.name for piece in asset.opaque}
+        non_convex = {piece.name for piece in asset.non_convex}
         kept = {geom.name for geom in asset.geoms if geom.parent is None} & set(document.names)
-        gone = frozenset(n for n in document.names if n not in kept and n not in opaque)
+        gone = frozenset(n for n in document.names if n not in kept and n not in non_convex)
         new = [geom for geom in asset.geoms if geom.name not in kept]
         beside = references.find_companions(asset.path)
         if not gone and not new:

@@ -17,9 +17,9 @@ from meshforge.formats.plain.parts import MeshPart, PlainDocument, collect_parts
 from meshforge.formats.references import find_companions
 from meshforge.formats.segmentation.reader import is_segmentation
 from meshforge.geometry import Pose
-from meshforge.symbolic import Asset, Body, Document, FeatureKind, Geom, Mentions, Opaque
+from meshforge.symbolic import Asset, Body, Document, FeatureKind, Geom, Mentions, NonConvexPiece
 
-GeomOrOpaque = TypeVar("GeomOrOpaque", Geom, Opaque)
+GeomOrPiece = TypeVar("GeomOrPiece", Geom, NonConvexPiece)
 
 _LONGEST = 120  # letters of a made file name, well below the 255 bytes of file systems
 
@@ -38,7 +38,7 @@ class FolderFormat(Format):
     suffixes = ()
     is_folder = True
     title = "a folder of mesh files"
-    holds = frozenset({FeatureKind.NAMES, FeatureKind.OPAQUE})
+    holds = frozenset({FeatureKind.NAMES, FeatureKind.NON_CONVEX})
     instead = AS_HULLS
 
     def __init__(self, members: Sequence[PlainFormat]) -> None:
@@ -59,7 +59,7 @@ class FolderFormat(Format):
             bodies=(Body(BODY, Pose.identity()),),
             geoms=tuple(_rename(g, names[g.name]) for names, asset in pairs for g in asset.geoms),
             document=FolderDocument(tuple(members)),
-            opaque=tuple(_rename(o, names[o.name]) for names, asset in pairs for o in asset.opaque),
+            non_convex=tuple(_rename(o, names[o.name]) for names, asset in pairs for o in asset.non_convex),
             visuals=tuple(surface for asset in assets for surface in asset.visuals),
             files=tuple(dict.fromkeys(f for asset in assets for f in (asset.path, *asset.files))),
             notes=tuple(f"{asset.path.name}: {note}" for asset in assets for note in asset.notes),
@@ -81,7 +81,7 @@ class FolderFormat(Format):
         if not isinstance(document, FolderDocument):
             raise self._creation_error(asset)
         own = {name for member in document.members for name in member.names.values()}
-        kept = {g.name for g in asset.geoms if g.parent is None} & own | {o.name for o in asset.opaque}
+        kept = {g.name for g in asset.geoms if g.parent is None} & own | {o.name for o in asset.non_convex}
         tree = FolderWriter(self.format_of)
         if not kept and not asset.geoms:
             raise AssetError("the edit leaves nothing in this folder", where=str(asset.path))
@@ -102,7 +102,7 @@ class FolderFormat(Format):
         return tree.to_output({g.name for g in asset.geoms})
 
 
-def _rename(piece: GeomOrOpaque, name: str) -> GeomOrOpaque:
+def _rename(piece: GeomOrPiece, name: str) -> GeomOrPiece:
     """A piece of a file with its name in the folder; a name that its file alone has is not forgotten."""
     own: Mentions = () if piece.name in name or piece.name.startswith("geom") else (("group", piece.name),)
     element = name.rpartition("#")[0] if piece.element else ""
@@ -141,7 +141,7 @@ class FolderWriter:
             self.copies[member.file] = member.asset.path
             self.documents[member.file] = member.document
             self.hulls[member.file] = member.names
-        elif stay and member.document.groups == 1 and not member.asset.opaque:
+        elif stay and member.document.groups == 1 and not member.asset.non_convex:
             for piece in stay:  # a file each, since a piece alone would be called after the file
                 self._edit_member(member, [piece], self._find_free_name(member.names[piece], Path(member.file).suffix))
         elif stay or member.asset.visuals:  # a file of something seen is not lost with its hulls: its writer refuses

@@ -46,7 +46,7 @@ class ObjFormat(PlainFormat):
 
     name = "obj"
     title = "OBJ"
-    holds = frozenset({FeatureKind.NAMES, FeatureKind.OPAQUE})
+    holds = frozenset({FeatureKind.NAMES, FeatureKind.NON_CONVEX})
     suffixes = (".obj",)
 
     def parse_soup(self, data: bytes, path: Path) -> Soup:
@@ -59,9 +59,9 @@ class ObjFormat(PlainFormat):
         shapes, _ = super().interpret_hulls(document, found)
         if not document.marked:
             return shapes, ()
-        readings = {name: conventions.interpret_unreal_shape(name, hull) for name, hull in shapes.items()}
-        notes = (MARKED_NOTE, *(note for _, note in readings.values() if note))
-        return {name: shape for name, (shape, _) in readings.items()}, notes
+        meanings = {name: conventions.interpret_unreal_shape(name, hull) for name, hull in shapes.items()}
+        notes = (MARKED_NOTE, *(note for _, note in meanings.values() if note))
+        return {name: shape for name, (shape, _) in meanings.items()}, notes
 
     def read(self, path: Path, options: ReadOptions) -> Asset:
         asset = super().read(path, options)

@@ -124,7 +124,7 @@ def to_parts(geoms: Iterable[Geom], native: Collection[str] = ()) -> tuple[tuple
 
 def collect_parts(asset: Asset) -> tuple[MeshPart, ...]:
     """The hulls and the non-convex surfaces of an asset. Raises AssetError where there are none."""
-    seen = tuple(MeshPart(piece.name, piece.surface) for piece in asset.opaque if piece.surface)
+    seen = tuple(MeshPart(piece.name, piece.surface) for piece in asset.non_convex if piece.surface)
     parts = to_parts(asset.geoms)[0] + seen
     if not parts:
         raise nothing_collides_error(asset)
@@ -154,8 +154,8 @@ def find_renamed_hulls(
         back.setdefault(name, set()).add(piece)
     shared = Counter(piece for pieces in back.values() for piece in pieces)
     for name in sorted(hulls, key=natural_key):
-        held = back.get(name, set())
-        if len(held) != 1 or any(shared[piece] > 1 or piece not in convex for piece in held):
+        holders = back.get(name, set())
+        if len(holders) != 1 or any(shared[piece] > 1 or piece not in convex for piece in holders):
             problem = f"the hull {name} cannot be told apart from others in this file"
             raise AssetError(problem, where=where, remedy="Write an OBJ, which has groups, or a folder of files.")
     read = {name: min(back[name]) for name in back if name in hulls}

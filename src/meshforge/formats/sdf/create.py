@@ -14,7 +14,7 @@ from meshforge.formats.sdf.document import CONFIG, VISUAL_SUFFIXES
 from meshforge.formats.sdf.frames import WORLD
 from meshforge.formats.slots import Slot, assign_names, name_attribute_of
 from meshforge.geometry import Pose
-from meshforge.symbolic import Asset, FeatureKind, Opaque
+from meshforge.symbolic import Asset, FeatureKind, NonConvexPiece
 
 _VERSION, _WITH_COUPLINGS = (1, 8), "1.11"
 _MAIN = "model.sdf"
@@ -85,7 +85,7 @@ class _Creator(link_output.LinkCreator):
             self.renamed |= dict(zip(slot.names, names, strict=True))
             slot.body, slot.names = link, names
 
-    def build_opaque(self, piece: Opaque, root_t_link: Pose) -> list[Slot]:
+    def build_non_convex(self, piece: NonConvexPiece, root_t_link: Pose) -> list[Slot]:
         """The collision of a non-convex piece; none where it has no surface."""
         surface, link_t_root = piece.surface, root_t_link.inverse()
         if piece.plane is not None:
@@ -95,7 +95,7 @@ class _Creator(link_output.LinkCreator):
         if surface is None:
             return []
         if not len(surface.faces):
-            self.lost.append(Loss(FeatureKind.OPAQUE, (piece.name,), "it has no triangle"))
+            self.lost.append(Loss(FeatureKind.NON_CONVEX, (piece.name,), "it has no triangle"))
             return []
         vertices = link_t_root.apply(np.asarray(surface.vertices))
         kind = elements.mesh_lines(self.maker.files.add(piece.name, "", vertices, surface.faces))

@@ -29,7 +29,7 @@ class SdfFormat(base.Format):
     title = "SDF"
     up = "z"
     holds = base.BODY_FEATURES | {
-        *(FeatureKind.CAPSULES, FeatureKind.ELLIPSOIDS, FeatureKind.OPAQUE, FeatureKind.PLANES),
+        *(FeatureKind.CAPSULES, FeatureKind.ELLIPSOIDS, FeatureKind.NON_CONVEX, FeatureKind.PLANES),
         *(FeatureKind.JOINTS, FeatureKind.BALL_JOINTS, FeatureKind.FIXED_JOINTS, FeatureKind.SPEEDS),
         FeatureKind.MIMICS,
     }

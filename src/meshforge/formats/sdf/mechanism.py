@@ -14,7 +14,7 @@ from meshforge.formats.sdf.frames import MODEL, WORLD, is_true, pose_of, read_va
 from meshforge.formats.sdf.models import ModelScope, ModelTree
 from meshforge.formats.xml import Element, parse_numbers
 from meshforge.geometry import Floats, Pose, combine_inertias, inertia
-from meshforge.symbolic import Body, Coupling, Geom, Inertial, Joint, JointKind, Opaque, unit_vector
+from meshforge.symbolic import Body, Coupling, Geom, Inertial, Joint, JointKind, NonConvexPiece, unit_vector
 
 _KINDS: dict[str, tuple[JointKind, ...]] = {
     "fixed": ("fixed",),
@@ -186,13 +186,13 @@ def read_masses(tree: ModelTree) -> Iterator[Inertial]:
 
 
 def compute_masses(
-    tree: ModelTree, elements: Mapping[str, Element], geoms: Sequence[Geom], opaque: Sequence[Opaque]
+    tree: ModelTree, elements: Mapping[str, Element], geoms: Sequence[Geom], non_convex: Sequence[NonConvexPiece]
 ) -> Iterator[Inertial]:
     """The masses that Gazebo computes of collisions; none for a link with one that is no hull, of unknown volume.
 
     elements: the `<collision>` of each hull by its name.
     """
-    unknown = {piece.body for piece in opaque}
+    unknown = {piece.body for piece in non_convex}
     for body, link in tree.links.items():
         own = [geom for geom in geoms if geom.body == body]
         if not has_computed_mass(link.element) or not own or body in unknown:

@@ -40,10 +40,10 @@ def read_sdf(path: Path, options: base.ReadOptions) -> Asset:
         for one, use, own in zip(tree.collisions, uses, parts, strict=True)
     ]
     geoms = collision_pieces.geoms_of(authored, parts, mentions)
-    opaque = collision_pieces.opaque_of(authored, parts, mentions)
+    non_convex = collision_pieces.non_convex_of(authored, parts, mentions)
     joints = read_joints(tree)
     elements = {name: one.element for one, own in zip(tree.collisions, authored, strict=True) for name in own.names}
-    masses = (*read_masses(tree), *compute_masses(tree, elements, geoms, opaque))
+    masses = (*read_masses(tree), *compute_masses(tree, elements, geoms, non_convex))
     files, missing = find_files(tree.sources)
     return Asset(
         path=path,
@@ -51,7 +51,7 @@ def read_sdf(path: Path, options: base.ReadOptions) -> Asset:
         bodies=(*joints.world, *(Body(name, link.pose) for name, link in tree.links.items())),
         geoms=geoms,
         document=_build_document(tree, authored, meshes),
-        opaque=opaque,
+        non_convex=non_convex,
         visuals=read_visuals(tree),
         files=files,
         missing=missing,

@@ -37,7 +37,7 @@ _SPACES = 3.0  # mean distances of points that count as near
 _LEAST = 0.5  # of the surface that is near points, and of points that are near the surface
 _APART = "It may be turned, or of another asset. If it is right, say --align off."
 _MIDDLE = 1e-3  # of a place: what the middle of a triangle counts beside the places on it
-_TOLD = 0.02  # of the surface: what is as good as told to be of another part, or of none
+_REPORTED = 0.02  # of the surface: what is as good as told to be of another part, or of none
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,9 +79,9 @@ def read_parts(
     box, found, where = Aabb.of_points(vertices[faces].reshape(-1, 3)), read_segmentation(file.path), str(file.path)
     points = align_points(found.points, [box, *beside], file.placing, where, up)
     order = np.lexsort((found.classes, *points.T))  # the order in the file says nothing
-    said = points[order], found.classes[order]
-    kinds, told = _find_classes(said, vertices, faces, file.placing, where, is_part=bool(beside))
-    for text in told:
+    labelled = points[order], found.classes[order]
+    kinds, notes = _find_classes(labelled, vertices, faces, file.placing, where, is_part=bool(beside))
+    for text in notes:
         note(text)
     known, numbers = np.unique(kinds, return_inverse=True)
     names = found.class_names(file.classes)
@@ -92,7 +92,7 @@ def read_parts(
 
 
 def _find_classes(
-    said: tuple[Floats, Ints], vertices: Floats, faces: Ints, placing: PointAlignment, where: str, *, is_part: bool
+    labelled: tuple[Floats, Ints], vertices: Floats, faces: Ints, placing: PointAlignment, where: str, *, is_part: bool
 ) -> tuple[Ints, list[str]]:
     """The class of each of faces (m, 3), -1 for none, and sentences on what is not as clear as it could be.
 
@@ -101,7 +101,7 @@ def _find_classes(
     """
     from scipy.spatial import cKDTree  # lazy: slow to import, only segmentations need it
 
-    (points, classes), corners = said, vertices[faces]
+    (points, classes), corners = labelled, vertices[faces]
     even, of_even = sample_surface(vertices, faces, _COUNT)
     places = np.concatenate([even, corners.mean(axis=1)])  # the middles: no place may be on a small triangle
     face = np.concatenate([of_even, np.arange(len(faces))])
@@ -125,9 +125,9 @@ def _find_classes(
     order = np.lexsort((pairs[:, 1], -sizes, pairs[:, 0]))
     firsts = order[np.unique(pairs[order, 0], return_index=True)[1]]
     other = 1 - float(sizes[firsts].sum() / weights.sum())
-    told = [f"{other:.0%} of the surface is in triangles that are mostly of another part, and goes with it"]
-    told += [f"{bare:.0%} of the surface is far from all labelled points, so it is a part by itself, {REST}"]
-    return pairs[firsts, 1], [text for text, share in zip(told, (other, bare), strict=True) if share >= _TOLD]
+    notes = [f"{other:.0%} of the surface is in triangles that are mostly of another part, and goes with it"]
+    notes += [f"{bare:.0%} of the surface is far from all labelled points, so it is a part by itself, {REST}"]
+    return pairs[firsts, 1], [text for text, share in zip(notes, (other, bare), strict=True) if share >= _REPORTED]
 
 
 def align_points(

@@ -132,9 +132,9 @@ def _to_whole_numbers(array: npt.NDArray[Any], where: str) -> Ints:
         problem = f"its classes are {_describe_shape(array)}, not one whole number each"
         raise AssetError(problem, where=where, remedy=_REMEDY)
     numbers = array.reshape(-1).astype(np.float64)
-    odd = np.flatnonzero(~((np.abs(numbers) < _LARGEST) & (numbers == np.floor(numbers))))
-    if len(odd):
-        problem = f"the class of element {odd[0]} is {numbers[odd[0]]:g}, which is no whole number"
+    invalid = np.flatnonzero(~((np.abs(numbers) < _LARGEST) & (numbers == np.floor(numbers))))
+    if len(invalid):
+        problem = f"the class of element {invalid[0]} is {numbers[invalid[0]]:g}, which is no whole number"
         raise AssetError(problem, where=where)
     return numbers.astype(np.int64)
 

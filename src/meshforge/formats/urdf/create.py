@@ -17,7 +17,7 @@ from meshforge.formats.urdf import edit
 from meshforge.formats.urdf.document import VISUAL_SUFFIXES
 from meshforge.formats.xml import escape
 from meshforge.geometry import Capsule, Pose
-from meshforge.symbolic import Asset, FeatureKind, Opaque
+from meshforge.symbolic import Asset, FeatureKind, NonConvexPiece
 
 
 def create_urdf(asset: Asset, name: str, *, capsules: bool = False) -> Output:
@@ -54,13 +54,13 @@ class _Creator(link_output.LinkCreator):
         lost = self.collect_losses()
         return Output(main, dict(files.made), self.visuals.copies, self._collect_notes(), names, lost)
 
-    def build_opaque(self, piece: Opaque, root_t_link: Pose) -> list[Slot]:
+    def build_non_convex(self, piece: NonConvexPiece, root_t_link: Pose) -> list[Slot]:
         """The element of a non-convex piece; none where it has no surface, or a flat one, which engines refuse."""
         surface = piece.surface
         if surface is None or piece.plane is not None:
             return []
         if not len(surface.faces) or collision_pieces.is_flat(surface.vertices):
-            self.lost.append(Loss(FeatureKind.OPAQUE, (piece.name,), "engines refuse a mesh that is flat"))
+            self.lost.append(Loss(FeatureKind.NON_CONVEX, (piece.name,), "engines refuse a mesh that is flat"))
             return []
         vertices = root_t_link.inverse().apply(np.asarray(surface.vertices))
         tag = edit.mesh_tag(self.maker.files.add(piece.name, "", vertices, surface.faces))
@@ -78,7 +78,7 @@ class _Creator(link_output.LinkCreator):
     def _collect_notes(self) -> tuple[str, ...]:
         notes = [*self.chain.notes, *self.couplings.notes]
         written = {name for own in self.slots.values() for slot in own for name in slot.names}
-        notes += note_hulled([p for p in self.asset.opaque if p.name in written], "MuJoCo and Bullet")
+        notes += note_hulled([p for p in self.asset.non_convex if p.name in written], "MuJoCo and Bullet")
         sliding = [made for made in self.chain.joints if made.joint and made.joint.kind == "prismatic"]
         unlimited = join_names([made.name for made in sliding if made.joint and not made.joint.limits], 3)
         if unlimited:

@@ -30,7 +30,7 @@ class UrdfFormat(base.Format):
     title = "URDF"
     up = "z"
     holds = base.BODY_FEATURES | {
-        *(FeatureKind.OPAQUE, FeatureKind.JOINTS, FeatureKind.FIXED_JOINTS, FeatureKind.SPEEDS, FeatureKind.MIMICS)
+        *(FeatureKind.NON_CONVEX, FeatureKind.JOINTS, FeatureKind.FIXED_JOINTS, FeatureKind.SPEEDS, FeatureKind.MIMICS)
     }
     instead: ClassVar[Mapping[FeatureKind, str]] = {
         FeatureKind.CAPSULES: "written as triangles",

@@ -14,7 +14,7 @@ from meshforge.formats.usd import colliders, prims
 from meshforge.formats.usd.edit import edit_root_layer
 from meshforge.formats.usd.edit_stage import NO_SHAPE, holds_volume
 from meshforge.formats.usd.stage import UsdDocument, UsdStage
-from meshforge.symbolic import Asset, Geom, Opaque
+from meshforge.symbolic import Asset, Geom, NonConvexPiece
 
 _SCOPE = "collision"
 
@@ -27,7 +27,7 @@ def add_usd_colliders(asset: Asset, document: UsdDocument, name: str) -> Output:
 
     def author(scene: UsdStage, layer: Any) -> tuple[list[str], dict[str, str]]:
         writer = _ColliderWriter(scene, layer, document, asset)
-        pieces: list[Geom | Opaque] = [*asset.geoms, *asset.opaque]
+        pieces: list[Geom | NonConvexPiece] = [*asset.geoms, *asset.non_convex]
         for piece in pieces:
             writer.add(piece)
         if not writer.count:
@@ -48,7 +48,7 @@ class _ColliderWriter:
         self.hulled: list[str] = []
         self.count = 0
 
-    def add(self, piece: Geom | Opaque) -> None:
+    def add(self, piece: Geom | NonConvexPiece) -> None:
         """Add a piece below the scope of what it moves with; one that is neither triangles nor a plane is left out."""
         parent = piece.parent if isinstance(piece, Geom) else None
         carrier = self._find_carrier(self.paths.get(piece.name if piece.name in self.kept else parent or ""))
@@ -67,7 +67,7 @@ class _ColliderWriter:
         spec.SetInfoDictionaryValue("customData", colliders.HULL_NAME, piece.name)
         self.count += 1
 
-    def _place_of(self, carrier: Any, piece: Geom | Opaque) -> tuple[Any, str]:
+    def _place_of(self, carrier: Any, piece: Geom | NonConvexPiece) -> tuple[Any, str]:
         """The scope below a prim, and the name of a piece in it: the last part of its own."""
         holder = self._scope_of(carrier)
         taken = [child.name for child in holder.nameChildren]

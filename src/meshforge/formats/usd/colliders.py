@@ -118,8 +118,12 @@ class StageBodies:
         """
         of_body = next((own for own, name in self.names.items() if name == body), "")
         prim = self.scene.stage.GetPrimAtPath(path)
-        said = prim.GetCustomDataByKey(HULL_NAME) if prim else None
-        own = said if isinstance(said, str) and said else self.scene.shorten_path(path, of_body)
+        authored_value = prim.GetCustomDataByKey(HULL_NAME) if prim else None
+        own = (
+            authored_value
+            if isinstance(authored_value, str) and authored_value
+            else self.scene.shorten_path(path, of_body)
+        )
         return f"{body}/{own}" if self.names else own
 
 

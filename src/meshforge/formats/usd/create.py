@@ -17,7 +17,7 @@ from meshforge.formats.usd.colliders import apply_schemas
 from meshforge.formats.usd.stage import BODY, export_layer, is_crate_wanted, pack_usdz, usd
 from meshforge.formats.visuals import linear_color, read_visual_surfaces
 from meshforge.geometry import Pose
-from meshforge.symbolic import Asset, Geom, Opaque, Surface
+from meshforge.symbolic import Asset, Geom, NonConvexPiece, Surface
 
 _ROOT = prims.PrimSpace(np.eye(3), np.zeros(3))
 _WORLDS = (BODY, "world")
@@ -54,8 +54,8 @@ class _Creator:
             self._add_body(body, pose)
         for geom in self.asset.geoms:
             self._add_hull(geom)
-        for piece in self.asset.opaque:
-            self._add_opaque(piece)
+        for piece in self.asset.non_convex:
+            self._add_non_convex(piece)
         self._add_visuals()
         suffix, stem = self.name.suffix.lower(), self.name.stem
         main = export_layer(self.layer, crate=is_crate_wanted(suffix, None))
@@ -83,7 +83,7 @@ class _Creator:
         if read != geom.name:
             self.names[geom.name] = read
 
-    def _add_opaque(self, piece: Opaque) -> None:
+    def _add_non_convex(self, piece: NonConvexPiece) -> None:
         """Add a piece as its triangles, or as a plane; the report names one that is neither."""
         if piece.plane is not None:  # which USD does not let move
             name = self._free_name(self.root, piece.name.rsplit("/", 1)[-1])

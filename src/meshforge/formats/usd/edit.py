@@ -175,8 +175,8 @@ def weigh(scene: stage.UsdStage, prim: Any, body: str, sources: Sequence[PrimCol
     masses = [(shapes, _mass_of(scene, prim, source, shapes)) for source, shapes in solids]
     weights = [(mass, *inertia(shapes, mass)) for shapes, mass in masses]
     total, centre, summed = combine_inertias(weights, centre_of(scene, prim))
-    said, moments = read_number(scene, prim, "physics:mass"), moments_of(scene, prim)
-    mass = said * scene.kilograms if said is not None and said > 0 else total
+    authored_value, moments = read_number(scene, prim, "physics:mass"), moments_of(scene, prim)
+    mass = authored_value * scene.kilograms if authored_value is not None and authored_value > 0 else total
     return Inertial(body, mass, centre, mass / total * summed if moments is None else moments)
 
 

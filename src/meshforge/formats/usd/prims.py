@@ -132,8 +132,8 @@ def add_mesh(holder: Any, name: str, points: Floats, faces: Ints, space: PrimSpa
     spec = add_prim(holder, name, "Mesh")
     set_place(spec, middle)
     middle = np.where(drop_rounding(middle) == 0, 0.0, middle)
-    flipped = np.linalg.det(space.linear) < 0
-    corners = np.ascontiguousarray(faces[:, ::-1] if flipped else faces, dtype=np.int32)
+    is_mirrored = np.linalg.det(space.linear) < 0
+    corners = np.ascontiguousarray(faces[:, ::-1] if is_mirrored else faces, dtype=np.int32)
     floats = np.ascontiguousarray(local - middle, dtype=np.float32)
     set_value(spec, "points", "Point3fArray", pxr.Vt.Vec3fArray.FromNumpy(floats))
     set_value(spec, "faceVertexCounts", "IntArray", pxr.Vt.IntArray.FromNumpy(np.full(len(corners), 3, dtype=np.int32)))

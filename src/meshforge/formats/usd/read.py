@@ -50,7 +50,7 @@ def read_usd(path: Path) -> Asset:
         asset = _build_asset(scene, source)
     with usd(str(path)):  # which complains about missing files once more
         files, missing = find_files(path)
-    if complaints and not asset.geoms and not asset.opaque:
+    if complaints and not asset.geoms and not asset.non_convex:
         raise AssetError(f"nothing in it collides; USD says: {complaints[0]}", where=str(path))
     more = [f"and {len(complaints) - 3} complaints more of USD"] if len(complaints) > 3 else []
     notes = (*asset.notes, *(f"USD says: {text}" for text in complaints[:3]), *more)
@@ -66,7 +66,7 @@ def _build_asset(scene: UsdStage, source: bytes) -> Asset:
     visuals = StageSurfaces.of(scene, bodies) if physics else ()
     mentions = [mentions_of_prim(source.prim) for source in sources]
     geoms = tuple(_build_geoms(authored, sources, mentions))
-    opaque = collision_pieces.opaque_of(
+    non_convex = collision_pieces.non_convex_of(
         [collision_pieces.CollisionElement(element.body, element.names) for element in authored],
         [source.parts for source in sources],
         [[own] * len(source.parts) for own, source in zip(mentions, sources, strict=True)],
@@ -78,7 +78,7 @@ def _build_asset(scene: UsdStage, source: bytes) -> Asset:
         bodies=bodies.list_bodies(),
         geoms=geoms,
         document=UsdDocument(source, physics, authored, tuple(bodies.names.items()), digests_of(scene)),
-        opaque=opaque,
+        non_convex=non_convex,
         visuals=visuals,
         notes=(*collect_notes(scene, physics), *notes),
         mechanism=mechanism,

@@ -183,8 +183,8 @@ class UsdStage:
     @cached_property
     def metres(self) -> float:
         """The metres of the stage's unit."""
-        said = pxr.UsdGeom.StageHasAuthoredMetersPerUnit(self.stage)
-        return float(pxr.UsdGeom.GetStageMetersPerUnit(self.stage)) if said else _CENTIMETRES
+        authored_value = pxr.UsdGeom.StageHasAuthoredMetersPerUnit(self.stage)
+        return float(pxr.UsdGeom.GetStageMetersPerUnit(self.stage)) if authored_value else _CENTIMETRES
 
     @cached_property
     def kilograms(self) -> float:

@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from meshforge.common import pluralize, suggest_aside
+from meshforge.common import pluralize, suggest_match
 from meshforge.labels.names.label_by_names import NamePattern, find_pattern
 from meshforge.labels.names.words import match_label
 from meshforge.symbolic import Label
@@ -40,17 +40,17 @@ def meaning_of(name: str, vocabulary: Sequence[str], patterns: Sequence[NamePatt
     return (one.label, one.confidence) if one and one.exact else None
 
 
-def to_file_labels(said: Mapping[str, tuple[str, Meaning, float]], vocabulary: Sequence[str]) -> FileLabels:
+def to_file_labels(found_names: Mapping[str, tuple[str, Meaning, float]], vocabulary: Sequence[str]) -> FileLabels:
     """The labels that are said of hulls; said: by hull, its name in the file, what that means, and a confidence."""
-    labels, odd = dict[str, Label](), Counter[str]()
-    for hull, (name, meaning, confidence) in said.items():
+    labels, unknown = dict[str, Label](), Counter[str]()
+    for hull, (name, meaning, confidence) in found_names.items():
         if meaning is None:
-            odd[name] += 1
+            unknown[name] += 1
         elif meaning[0]:
             labels[hull] = Label(meaning[0], round(confidence * meaning[1], _DIGITS), "file")
     problems = [
         f"{pluralize(count, 'hull')} left out: {name!r} is not in the vocabulary, and no pattern says what it means"
-        f"{suggest_aside(name, vocabulary)}"
-        for name, count in odd.items()
+        f"{suggest_match(name, vocabulary)}"
+        for name, count in unknown.items()
     ]
-    return FileLabels(labels, {hull: name for hull, (name, _, _) in said.items()}, problems)
+    return FileLabels(labels, {hull: name for hull, (name, _, _) in found_names.items()}, problems)

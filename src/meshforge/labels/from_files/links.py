@@ -64,8 +64,8 @@ def label_by_links(
     if links.isdisjoint(semantics):
         raise AssetError("it lists no link of this asset", where=str(path))
     own = (names for names in names_of_mesh(mesh) if names.body in semantics)
-    said = {names.hull: (*_interpret(names, semantics[names.body], vocabulary, patterns), 1.0) for names in own}
-    found = to_file_labels(said, vocabulary)
+    found_names = {names.hull: (*_interpret(names, semantics[names.body], vocabulary, patterns), 1.0) for names in own}
+    found = to_file_labels(found_names, vocabulary)
     gone = [f"there is no link {link!r}" for link in semantics if link not in links]
     return FileLabels(found.labels, found.names, [*found.problems, *gone])
 

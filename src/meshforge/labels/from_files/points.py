@@ -18,10 +18,10 @@ VOCABULARY = "vocabulary"
 """What is given in place of names of classes where they are the vocabulary, in its order."""
 _UNLABELLED: Meaning = (None, 1.0)
 _LEAST = 0.5  # share of points that hulls hold at least, if both are in the same frame
-_HELD = 0.005  # of the diagonal: a point on the surface of what was decomposed is held though it sticks out so far
+_COVERED = 0.005  # of the diagonal: a point on the surface of what was decomposed is held though it sticks out so far
 _NEAR = 0.02  # of the diagonal: how far from a hull that holds none points may be and still say something
 _SURE_OF_NEAR = 0.4
-_DOUBT = 2.0  # points of other classes that might have been there
+_PRIOR_WEIGHT = 2.0  # points of other classes that might have been there
 _ROUNDED = 6  # digits by which planes of one flat side are told to be the same
 
 
@@ -71,14 +71,14 @@ def label_by_points(
     up = mesh.asset.up if mesh.asset else None
     points = align_points(found.points, boxes, placing, str(path), up) if boxes else found.points
     own = np.array([codes.get(k, -1) for k in found.classes.tolist()])
-    said, held = vote_by_points([hull.shape for hull in mesh.hulls], points, own)
-    if placing.align != "off" and said and held < _LEAST:
-        problem = f"only {held:.0%} of its points are in hulls: it may be turned, or of another asset"
+    votes, covered = vote_by_points([hull.shape for hull in mesh.hulls], points, own)
+    if placing.align != "off" and votes and covered < _LEAST:
+        problem = f"only {covered:.0%} of its points are in hulls: it may be turned, or of another asset"
         remedy = "If it is right, and only part of the asset has hulls, say --align off."
         raise AssetError(problem, where=str(path), remedy=remedy)
     rows = {
         hull.name: (names.get(vote[0], ""), meanings.get(vote[0], _UNLABELLED), vote[1])
-        for hull, vote in zip(mesh.hulls, said, strict=True)
+        for hull, vote in zip(mesh.hulls, votes, strict=True)
     }
     return to_file_labels(rows, vocabulary)
 
@@ -90,16 +90,16 @@ def vote_by_points(hulls: Sequence[Shape], points: Floats, classes: Ints) -> tup
     classes: (n,); -1, of points and of hulls, is none. Of classes with as many points the lowest counts.
     """
     reach = Aabb.union(hull.aabb for hull in hulls).diagonal if hulls else 0.0
-    found, held = list[tuple[int, float]](), np.zeros(len(points), dtype=bool)
+    found, covered = list[tuple[int, float]](), np.zeros(len(points), dtype=bool)
     for hull in hulls:
         near = np.flatnonzero(
             ((points >= hull.aabb.min - _NEAR * reach) & (points <= hull.aabb.max + _NEAR * reach)).all(axis=1)
         )
         gaps = _distances_outside(hull, points[near])
-        held[near[gaps <= _NEAR * reach]] = True
-        within = _find_majority(classes[near[gaps <= _HELD * reach]], 1.0)
+        covered[near[gaps <= _NEAR * reach]] = True
+        within = _find_majority(classes[near[gaps <= _COVERED * reach]], 1.0)
         found.append(within or _find_majority(classes[near[gaps <= _NEAR * reach]], _SURE_OF_NEAR) or (-1, 0.0))
-    return found, float(held.mean()) if len(held) else 0.0
+    return found, float(covered.mean()) if len(covered) else 0.0
 
 
 def _find_majority(classes: Ints, trust: float) -> tuple[int, float] | None:
@@ -107,7 +107,7 @@ def _find_majority(classes: Ints, trust: float) -> tuple[int, float] | None:
         return None
     kinds, counts = np.unique(classes, return_counts=True)
     best = int(counts.argmax())
-    return int(kinds[best]), trust * float(counts[best]) / (len(classes) + _DOUBT)
+    return int(kinds[best]), trust * float(counts[best]) / (len(classes) + _PRIOR_WEIGHT)
 
 
 def _distances_outside(hull: Shape, points: Floats) -> Floats:

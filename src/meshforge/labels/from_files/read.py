@@ -16,7 +16,7 @@ from meshforge.labels.from_files.base import FileLabels
 from meshforge.labels.from_files.links import SEMANTICS_FILE, label_by_links, semantics_beside
 from meshforge.labels.from_files.points import label_by_points
 from meshforge.labels.names.label_by_names import NamePattern, PatternPairs
-from meshforge.store import AssetFacts, Store, hull_digests, iterate_survey
+from meshforge.store import AssetFacts, Store, hull_digests, iterate_asset_index
 from meshforge.symbolic import SymbolicMesh, match_labels, read_labels
 
 LabelFileKind = Literal["labels file", "points", "semantics"]
@@ -124,7 +124,7 @@ def read_label_files(
         if asset not in plain
     ]
     with (
-        closing(iterate_survey(store.found, layout, plain, execution=execution)) as facts,
+        closing(iterate_asset_index(store.found, layout, plain, execution=execution)) as facts,
         closing(execute(_read_by_mesh, work, execution)) as others,
     ):
         for asset, file in files.items():

@@ -14,7 +14,7 @@ _LEAST_PART = 3  # letters of a word that is joined with others
 
 EXACT = 0.7
 """How sure a label is whose word is in a name: names are given by people, though not for this."""
-_VOWELLESS, _SLIP, _GUESS = 0.6, 0.55, 0.45
+_VOWELLESS, _TYPO, _GUESS = 0.6, 0.55, 0.45
 _VOWELS = frozenset("aeiou")
 _LEAST_LETTERS = 3  # letters of a shortened word, and of a label that may be shortened one more
 _LONG = 6  # letters of a word in which any one letter may be wrong; in shorter ones that makes other words
@@ -107,8 +107,8 @@ def word_similarity(word: str, meant: str) -> float:
         return 0.0
     if word == _consonants_of(meant):
         return _VOWELLESS
-    if _is_slip(word, meant):
-        return _SLIP
+    if _is_typo(word, meant):
+        return _TYPO
     return _GUESS if _is_short_for(word, meant) or _is_misspelt(word, meant) else 0.0
 
 
@@ -118,7 +118,7 @@ def _consonants_of(word: str) -> str:
     return "".join(letter for before, letter in pairwise(["", *kept]) if letter != before)
 
 
-def _is_slip(word: str, meant: str) -> bool:
+def _is_typo(word: str, meant: str) -> bool:
     """Whether two letters that follow each other are exchanged, or one is doubled or should be."""
     if len(meant) <= _LEAST_LETTERS + 1:
         return False
@@ -225,11 +225,11 @@ def _split_word(word: str, known: Collection[str]) -> Words:
 
 def _find_mentions(words: Words, label: str, wanted: Words) -> list[_Mention]:
     runs = [(start, start + count) for count in {1, 2, len(wanted)} for start in range(len(words) - count + 1)]
-    sure = [(start, end, _sureness(words[start:end], wanted)) for start, end in runs if end > start]
+    sure = [(start, end, _confidence(words[start:end], wanted)) for start, end in runs if end > start]
     return [_Mention(label, start, end, value) for start, end, value in sure if value]
 
 
-def _sureness(run: Words, wanted: Words) -> float:
+def _confidence(run: Words, wanted: Words) -> float:
     if is_same("".join(run), "".join(wanted)):
         return EXACT
     return min(map(word_similarity, run, wanted)) if len(run) == len(wanted) else 0.0

@@ -21,10 +21,10 @@ _MOST_SHOWN = 60  # characters of a word that is no label
 Chances = Mapping[str | None, float]
 """The chance of each label, None for unknown; they sum up to one."""
 
-_DOUBT = 0.4
+_PRIOR_WEIGHT = 0.4
 """What speaks against every label from the outset, in votes of one clear look: one vote alone makes a confidence of
 0.71, two that agree 0.83, two against one 0.59."""
-_LESS_DOUBT = 0.1
+_LESS_UNCERTAIN = 0.1
 """The same where the server told how sure the model was, which then says most of it."""
 _GLIMPSE = 300.0
 """Pixels of 1024 x 1024 of a hull from which on a look at it counts more than half."""
@@ -37,8 +37,8 @@ class HullAnswer:
     odd: words that are no labels; open: numbers asked about of which nothing usable was said, in their order.
     """
 
-    said: Mapping[int, str | None]
-    odd: tuple[str, ...]
+    given: Mapping[int, str | None]
+    unrecognised: tuple[str, ...]
     open: tuple[int, ...]
 
     @property
@@ -47,8 +47,8 @@ class HullAnswer:
         if not self.open:
             return ""
         return (
-            f"the model said {join_names(self.odd)}, which is no label"
-            if self.odd
+            f"the model said {join_names(self.unrecognised)}, which is no label"
+            if self.unrecognised
             else "the model said nothing usable of it"
         )
 
@@ -59,21 +59,21 @@ def read_answer(text: str, asked: Collection[int], vocabulary: Sequence[str], un
     Numbers that were not asked about are passed over; one with two labels is left open.
     """
     words = {_normalize(word): word for word in vocabulary}
-    said: dict[int, set[str | None]] = {}
-    odd: list[str] = []
+    given: dict[int, set[str | None]] = {}
+    unrecognised: list[str] = []
     for number, word in _entries(text):
         if number not in asked:
             continue
         label = word if word in vocabulary else words.get(_normalize(word))
         if label is not None:
-            said.setdefault(number, set()).add(label)
+            given.setdefault(number, set()).add(label)
         elif _normalize(word) == _normalize(unknown):
-            said.setdefault(number, set()).add(None)
+            given.setdefault(number, set()).add(None)
         else:
-            odd.append(word[:_MOST_SHOWN])
-    clear = {number: next(iter(labels)) for number, labels in sorted(said.items()) if len(labels) == 1}
+            unrecognised.append(word[:_MOST_SHOWN])
+    clear = {number: next(iter(labels)) for number, labels in sorted(given.items()) if len(labels) == 1}
     left = tuple(number for number in sorted(asked) if number not in clear)
-    return HullAnswer(clear, tuple(dict.fromkeys(odd)), left)
+    return HullAnswer(clear, tuple(dict.fromkeys(unrecognised)), left)
 
 
 def _normalize(word: str) -> str:
@@ -107,7 +107,7 @@ def label_chances(reply: Reply, answer: HullAnswer, vocabulary: Sequence[str], u
         return {}
     words: dict[bytes, str | None] = {word.encode(): word for word in vocabulary} | {unknown.encode(): None}
     found = dict[int, Chances]()
-    for number, label in answer.said.items():
+    for number, label in answer.given.items():
         places = list(re.finditer(rb'"number"\s*:\s*%d\s*,\s*"label"\s*:\s*"([^"\\]*)"' % number, text))
         if places and words.get(places[-1][1], "") == label:
             own = _chance_of(reply.tokens, start + places[-1].start(1), start + places[-1].end(1))
@@ -147,16 +147,16 @@ def decide_label(votes: Iterable[LabelVote], vocabulary: Sequence[str]) -> tuple
     Of equals the first of the vocabulary.
     """
     score: dict[str | None, float] = dict.fromkeys((*vocabulary, None), 0.0)
-    total = doubt = 0.0
+    total = reason = 0.0
     for vote in votes:
         for label, chance in (vote.chances or {vote.label: 1.0}).items():
             score[label] += vote.weight * chance
         total += vote.weight
-        doubt = max(doubt, _DOUBT if vote.chances is None else _LESS_DOUBT)
+        reason = max(reason, _PRIOR_WEIGHT if vote.chances is None else _LESS_UNCERTAIN)
     best = max(score, key=lambda label: score[label])
     if not total or best is None:
         return None
-    return best, round(score[best] / (total + doubt), 4)
+    return best, round(score[best] / (total + reason), 4)
 
 
 @dataclass(frozen=True, slots=True)

@@ -105,8 +105,8 @@ def _format_question(file: Path, pictures: str) -> Iterator[str]:
         kept = json.loads(file.read_bytes())
         messages, answer = kept["asked"]["messages"], kept["answered"]
         usage = f"{answer['input_tokens']} tokens in, {answer['output_tokens']} out"
-        said = f'<pre class="answer">{escape(answer["text"])}</pre><p>{usage}.</p>'
-        shown = [*_format_messages(messages, pictures), said]
+        answer_html = f'<pre class="answer">{escape(answer["text"])}</pre><p>{usage}.</p>'
+        shown = [*_format_messages(messages, pictures), answer_html]
     except (OSError, ValueError, KeyError, TypeError):
         yield "<p>It got no answer.</p>"
     else:

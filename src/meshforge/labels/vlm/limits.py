@@ -55,7 +55,7 @@ class CostLimiter:
         self._endpoint, self._most = endpoint, most
         self._changed = threading.Condition()
         self._usage = Usage(cost=0.0 if endpoint.is_priced else None)
-        self._held = 0.0
+        self._reserved = 0.0
         self._ratios: deque[float] = deque(maxlen=_REMEMBERED)
         self._first_ratio = 1.0
 
@@ -80,19 +80,19 @@ class CostLimiter:
         """
         with self._changed:
             most = math.inf if self._most is None else self._most
-            while self._spent + bound <= most < self._spent + bound + self._held and not stop():
+            while self._spent + bound <= most < self._spent + bound + self._reserved and not stop():
                 self._changed.wait(0.1)
             if self._spent + bound > most:
                 raise EndError(
                     f"the next question could cost up to ${bound:.4f}, and ${self._spent:.4f} of ${most:g} are spent",
                     remedy="Raise --max-cost to go on; what was answered is not paid for again.",
                 )
-            self._held += bound
+            self._reserved += bound
         try:
             yield
         finally:
             with self._changed:
-                self._held -= bound
+                self._reserved -= bound
                 self._changed.notify_all()
 
     def charge(

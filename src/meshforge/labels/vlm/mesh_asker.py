@@ -116,12 +116,12 @@ class MeshAsker:
         sure = label_chances(reply, answer, vocabulary, unknown)
         votes = {
             (hull := hull_question.hulls[number]): LabelVote(label, hull_question.weights[hull], sure.get(number))
-            for number, label in answer.said.items()
+            for number, label in answer.given.items()
         }
         if not answer.open:
             return votes, {}, None
-        why = "the answer was cut off" if reply.is_cut and not answer.odd else answer.problem
-        back = (Message.assistant(reply.text[:_QUOTED] or "-"), prompt.retry_message(answer.open, answer.odd))
+        why = "the answer was cut off" if reply.is_cut and not answer.unrecognised else answer.problem
+        back = (Message.assistant(reply.text[:_QUOTED] or "-"), prompt.retry_message(answer.open, answer.unrecognised))
         limit = question.limit * 2 if reply.is_cut else question.limit
         second = replace(question, messages=(*question.messages, *back), limit=limit)
         return votes, dict.fromkeys(answer.open, why), second
@@ -144,5 +144,5 @@ def example_messages(mesh: SymbolicMesh, config: PromptConfig) -> tuple[Message,
     )
     shown = frozenset[str]().union(*(shot.numbered for shot in taken))
     numbers = {hull: mesh.index[hull] for hull in labelled if hull in shown}
-    said = {number: mesh.hull_of(hull).label or config.unknown for hull, number in numbers.items()}
-    return prompt.question_message(taken, 0, numbers), prompt.example_answer(said)
+    given = {number: mesh.hull_of(hull).label or config.unknown for hull, number in numbers.items()}
+    return prompt.question_message(taken, 0, numbers), prompt.example_answer(given)

@@ -86,9 +86,9 @@ class PromptConfig:
     def __post_init__(self) -> None:
         if not self.vocabulary:
             raise UsageError("the vocabulary is empty", remedy="Say first what hulls can be: --vocabulary a,b,c.")
-        odd = next((label for label in self.descriptions if label not in self.vocabulary), None)
-        if odd is not None:
-            raise UsageError(f"the label {odd!r} is described, but is not in the vocabulary")
+        unrecognised = next((label for label in self.descriptions if label not in self.vocabulary), None)
+        if unrecognised is not None:
+            raise UsageError(f"the label {unrecognised!r} is described, but is not in the vocabulary")
 
     @property
     def picture_mode(self) -> PictureMode:
@@ -138,10 +138,10 @@ def question_message(
         parts += [f"Picture: {shot.name}.", encode_png(shot.marked)]
         if k < plain:
             parts += ["The same without numbers.", encode_png(shot.plain)]
-    told = ", ".join(
+    options = ", ".join(
         f"{n} ({hull!r})" if name else str(n) for hull, n in sorted(numbers.items(), key=lambda row: row[1])
     )
-    parts.append(f"Which part does each of these pieces belong to: {told}?")
+    parts.append(f"Which part does each of these pieces belong to: {options}?")
     return Message("user", tuple(parts))
 
 
@@ -151,9 +151,13 @@ def example_answer(labels: Mapping[int, str]) -> Message:
     return Message.assistant(f'{{"hulls": [{rows}]}}')
 
 
-def retry_message(numbers: Sequence[int], odd: Sequence[str]) -> Message:
+def retry_message(numbers: Sequence[int], unrecognised: Sequence[str]) -> Message:
     """The words that ask once more for what an answer left open; odd: words in it that are no labels."""
-    why = f" ({', '.join(map(_quote, odd))} {'is no label' if len(odd) == 1 else 'are no labels'})" if odd else ""
+    why = (
+        f" ({', '.join(map(_quote, unrecognised))} {'is no label' if len(unrecognised) == 1 else 'are no labels'})"
+        if unrecognised
+        else ""
+    )
     return Message.user(_AGAIN.format(why=why, numbers=", ".join(map(str, numbers))))
 
 

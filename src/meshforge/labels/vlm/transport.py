@@ -153,23 +153,25 @@ class Transport:
         return TransientError(why, charged=not unreachable, unreachable=unreachable)
 
     def _to_error(self, error: APIStatusError) -> Exception:
-        status, said = error.status_code, self._redact(_error_text(error))
+        status, answer_text = error.status_code, self._redact(_error_text(error))
         where = self._endpoint.place
-        if status == 402 or (status in (400, 403, 429) and any(word in said.lower() for word in _NO_MONEY)):
-            return EndError(f"the account has no money left: {said}", where=where)
+        if status == 402 or (status in (400, 403, 429) and any(word in answer_text.lower() for word in _NO_MONEY)):
+            return EndError(f"the account has no money left: {answer_text}", where=where)
         if status in _TRANSIENT or status >= 500:
-            return TransientError(f"{status}: {said}", _retry_after(error))
-        if status == 403 and "logprobs" in said.lower():  # not the key, but that field is not allowed
-            return RefusalError(f"the server refused the question ({status}): {said}", where=where)
-        if status in (401, 403) or (status == 400 and "api key" in said.lower()):
+            return TransientError(f"{status}: {answer_text}", _retry_after(error))
+        if status == 403 and "logprobs" in answer_text.lower():  # not the key, but that field is not allowed
+            return RefusalError(f"the server refused the question ({status}): {answer_text}", where=where)
+        if status in (401, 403) or (status == 400 and "api key" in answer_text.lower()):
             name = self._endpoint.key_name
-            held = f"The key is what the environment variable {name} holds."
-            remedy = held if name else "Name its key: key_env in [vlm]."
-            return EndError(f"the server does not accept the key: {said}", where=where, remedy=remedy)
+            holder = f"The key is what the environment variable {name} holds."
+            remedy = holder if name else "Name its key: key_env in [vlm]."
+            return EndError(f"the server does not accept the key: {answer_text}", where=where, remedy=remedy)
         if status == 404:
             remedy = "Look at base_url and model; a base_url mostly ends with /v1."
-            return EndError(f"there is no model {self._endpoint.model!r} here: {said}", where=where, remedy=remedy)
-        return RefusalError(f"the server refused the question ({status}): {said}", where=where)
+            return EndError(
+                f"there is no model {self._endpoint.model!r} here: {answer_text}", where=where, remedy=remedy
+            )
+        return RefusalError(f"the server refused the question ({status}): {answer_text}", where=where)
 
     def _redact(self, text: str) -> str:
         return text.replace(self._key, "...") if self._key else text

@@ -69,7 +69,7 @@ class NewShape:
     """
 
     shape: Shape
-    heir: Hull
+    main_source: Hull
     sources: tuple[Hull, ...]
 
 
@@ -83,7 +83,11 @@ class GroupEdit:
 
     def replaces_one(self, made: NewShape) -> bool:
         """Whether a made shape takes the place of one hull alone."""
-        return self.removes and len(made.sources) == 1 and sum(one.heir is made.heir for one in self.made) == 1
+        return (
+            self.removes
+            and len(made.sources) == 1
+            and sum(one.main_source is made.main_source for one in self.made) == 1
+        )
 
     @staticmethod
     def insert(

@@ -41,10 +41,10 @@ class Attach(Leaf):
         return self.selected.cost + self.anchor.cost + SELF * (self.selected == self.anchor)
 
     @property
-    def doubts(self) -> int:
+    def uncertainty(self) -> int:
         """One more where it is not between two labels: it says how parts were cut then."""
-        doubts = self.selected.doubts + self.anchor.doubts
-        return doubts + (doubts > 0 or self.selected == self.anchor)
+        uncertainty = self.selected.uncertainty + self.anchor.uncertainty
+        return uncertainty + (uncertainty > 0 or self.selected == self.anchor)
 
 
 def _find_touching(hulls: HullTable, anchor: Bools) -> Bools:

@@ -83,9 +83,9 @@ class Leaf(_Selector, Operation, ABC):
         return 1.65 + sum(base.cost for base in self.bases)
 
     @property
-    def doubts(self) -> int:
+    def uncertainty(self) -> int:
         """The doubts by which a search, which knows no shares, puts it behind others of its size."""
-        return 1 + sum(base.doubts for base in self.bases)
+        return 1 + sum(base.uncertainty for base in self.bases)
 
     @property
     def bases(self) -> tuple[BaseExtractor, ...]:

@@ -66,5 +66,5 @@ class Is(BaseExtractor):
         return 0.0
 
     @property
-    def doubts(self) -> int:
+    def uncertainty(self) -> int:
         return 0

@@ -74,15 +74,15 @@ class LabelingSubject:
         shown = self.mesh.asset.visuals if self.mesh.asset else ()
         kept = [s for s in shown if len(s.faces) and (s.rgba is None or s.rgba[3] > _CLEAR)]
         colors = [NEUTRAL if s.rgba is None else np.clip(s.rgba[:3], 0, _LIGHTEST) for s in kept]
-        if not kept and self.opaque:
-            every = [*self.render_meshes, *self.opaque]
+        if not kept and self.non_convex:
+            every = [*self.render_meshes, *self.non_convex]
             return every, np.tile(NEUTRAL, (len(every), 1))
         return [to_render_mesh(s) for s in kept], np.array(colors).reshape(-1, 3)
 
     @cached_property
-    def opaque(self) -> list[RenderMesh]:
+    def non_convex(self) -> list[RenderMesh]:
         """Collision geometry that is no hull."""
-        pieces = self.mesh.asset.opaque if self.mesh.asset else ()
+        pieces = self.mesh.asset.non_convex if self.mesh.asset else ()
         return [to_render_mesh(piece.surface) for piece in pieces if piece.surface and len(piece.surface.faces)]
 
     @cached_property
@@ -93,7 +93,7 @@ class LabelingSubject:
     @cached_property
     def points(self) -> Floats:
         """The outermost points (n, 3) [m] that a picture of the whole mesh holds, from any view."""
-        return outermost_points(points_to_frame(self.render_meshes, [*self.visuals[0], *self.opaque]), self.up)
+        return outermost_points(points_to_frame(self.render_meshes, [*self.visuals[0], *self.non_convex]), self.up)
 
     @cached_property
     def view_frame(self) -> ViewFrame:
@@ -223,7 +223,7 @@ class Arrangement:
         others = sorted(set(range(len(self.render_meshes))) - set(self.solid))
         low, high = self.subject.mesh.corners
         near_by = [k for k in others if (low[k] > near.min - reach).all() and (high[k] < near.max + reach).all()]
-        render_meshes = [self.render_meshes[k] for k in near_by] + ([] if self.push else self.subject.opaque)
+        render_meshes = [self.render_meshes[k] for k in near_by] + ([] if self.push else self.subject.non_convex)
         return prepare_for_rays(build_scene(render_meshes, near.center, self.view_frame.unit), None)
 
 

@@ -90,7 +90,7 @@ def prepare_similar(session: CurrentSession) -> requests.EditReceipt:
     """Describe the assets, as hulls that look alike may soon be asked for."""
     assets = choose_assets((), readable_assets(session))
     session.similar.prepare(session.project, assets)
-    return requests.EditReceipt(said="preparing")
+    return requests.EditReceipt(message="preparing")
 
 
 def readable_assets(session: Session) -> tuple[str, ...]:
@@ -236,7 +236,7 @@ def learn(session: CurrentSession) -> requests.EditReceipt:
 def stop_learning(session: CurrentSession) -> requests.EditReceipt:
     """Stop the learning run that is under way."""
     session.learning.stop()
-    return requests.EditReceipt(said="stopped")
+    return requests.EditReceipt(message="stopped")
 
 
 @router.post("/jobs")

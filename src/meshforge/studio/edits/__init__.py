@@ -29,7 +29,7 @@ AnyEdit = Annotated[
     | assets.ReviewAssets
     | assets.ExcludeAssets
     | assets.CorrectByHand
-    | assets.DropCorrections
+    | assets.DropManualEdits
     | assets.LeaveOut
     | assets.RemoveAssets,
     Field(discriminator="kind"),

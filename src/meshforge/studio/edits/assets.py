@@ -201,12 +201,12 @@ class ExcludeAssets(Edit):
         return f"{_count_or_name(self.ids)} {f'excluded: {self.reason}' if self.reason else 'included again'}"
 
 
-class _CorrectionEdit(Edit):
-    touches = (Layout.corrections, Layout.events)
+class _ManualEditBase(Edit):
+    touches = (Layout.manual_edits, Layout.events)
     asset: str
 
 
-class CorrectByHand(_CorrectionEdit):
+class CorrectByHand(_ManualEditBase):
     """Add an edit by hand, on hulls by the names they have after the program and the edits before."""
 
     kind: Literal["correct"] = "correct"
@@ -220,13 +220,13 @@ class CorrectByHand(_CorrectionEdit):
         return f"{self.asset} edited by hand: {action_text(*read_action(self.action, self.asset))}"
 
 
-class DropCorrections(_CorrectionEdit):
+class DropManualEdits(_ManualEditBase):
     """Take all edits by hand away from an asset, so that it is what the program makes of it."""
 
-    kind: Literal["drop-corrections"] = "drop-corrections"
+    kind: Literal["drop-manual-edits"] = "drop-manual-edits"
 
     def apply(self, project: Project) -> None:
-        project.drop_corrections(self.asset)
+        project.drop_manual_edits(self.asset)
 
     def describe(self, project: Project) -> str:
         return f"edits by hand of {self.asset} taken away"
@@ -260,10 +260,10 @@ class LeaveOut(Edit):
         if self.out:
             project.leave_out(self.ids)
         else:
-            project.put_back(self.ids)
+            project.include_again(self.ids)
 
     def describe(self, project: Project) -> str:
-        return f"{_count_or_name(self.ids)} {'left out' if self.out else 'put back'}"
+        return f"{_count_or_name(self.ids)} {'excluded' if self.out else 'included'}"
 
 
 class RemoveAssets(Edit):

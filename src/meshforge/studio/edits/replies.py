@@ -58,14 +58,14 @@ class ReplyToQuestion(Edit):
 
     def describe(self, project: Project) -> str:
         if self._is_put_off:
-            return "question put off"
+            return "question snoozed"
         question, choice, asset = self._asked, self._choice, self._asked.asset
         match question:
-            case signoff.ReadingQuestion():
+            case signoff.CandidateQuestion():
                 return f"rule {question.rule} on {asset} answered"
-            case signoff.SlipQuestion() if not self._labels:
+            case signoff.MistakeQuestion() if not self._labels:
                 return f"what rule {question.rule} selects on {asset} corrected"
-            case signoff.GroupQuestion() | signoff.RepairQuestion() | signoff.SlipQuestion():
+            case signoff.GroupQuestion() | signoff.RepairQuestion() | signoff.MistakeQuestion():
                 counts = Counter(self._labels.values()).items()
                 return ", ".join(f"{pluralize(count, 'hull')} labelled {label}" for label, count in counts)
             case signoff.ResultQuestion():
@@ -73,7 +73,7 @@ class ReplyToQuestion(Edit):
             case signoff.OrientationQuestion():
                 return "assets are turned first"
             case signoff.DemonstrationQuestion():
-                return "question put off"
+                return "question snoozed"
             case _:
                 assert_never(question)
 
@@ -104,31 +104,36 @@ class ReplyToQuestion(Edit):
             return {}
         asked, choice = self._asked, self._choice
         given = dict.fromkeys(asked.hulls, choice.label) if choice and choice.label else {}
-        said = {HullPlace(asked.asset, hull): label for hull, label in self.labels.items()}
-        return {place: label for place, label in {**given, **self._reply.exceptions, **said}.items() if label}
+        own_labels = {HullPlace(asked.asset, hull): label for hull, label in self.labels.items()}
+        return {place: label for place, label in {**given, **self._reply.exceptions, **own_labels}.items() if label}
 
     @property
     def _is_put_off(self) -> bool:
         if self.later or isinstance(self._asked, signoff.DemonstrationQuestion):
             return True
-        if isinstance(self._asked, signoff.SlipQuestion | signoff.OrientationQuestion):
+        if isinstance(self._asked, signoff.MistakeQuestion | signoff.OrientationQuestion):
             return self.choice is None or self.choice == NO
-        return self.choice is None and not self._labels and not isinstance(self._asked, signoff.ReadingQuestion)
+        return self.choice is None and not self._labels and not isinstance(self._asked, signoff.CandidateQuestion)
 
     def _list_more_paths(self, project: Project) -> Iterator[Path]:
         if self._is_put_off:
             return
         layout = project.layout
         match self._asked:
-            case signoff.SlipQuestion() if not self._labels:
+            case signoff.MistakeQuestion() if not self._labels:
                 yield layout.demonstration(self._asked.asset)
-            case signoff.GroupQuestion() | signoff.RepairQuestion() | signoff.ResultQuestion() | signoff.SlipQuestion():
+            case (
+                signoff.GroupQuestion()
+                | signoff.RepairQuestion()
+                | signoff.ResultQuestion()
+                | signoff.MistakeQuestion()
+            ):
                 assets = self.list_labels()
                 everywhere = bool(assets) and has_agreed_labels(project)
                 yield from [Layout.labels.path(project.folder)] if everywhere else map(layout.labels, assets)
             case signoff.OrientationQuestion():
                 yield layout.settings
-            case signoff.ReadingQuestion() | signoff.DemonstrationQuestion():
+            case signoff.CandidateQuestion() | signoff.DemonstrationQuestion():
                 return
             case other:
                 assert_never(other)

@@ -25,7 +25,7 @@ from meshforge.studio.wire.jobs import DownloadJob, Job, JobLine
 
 _NOT_WHOLE = "changed since it was written"
 _REMEDIES = {
-    "held": "it is held: look at it first",
+    "needs review": "it needs review: look at it first",
     "failed": "the program failed on it",
     "without output": "the program was not applied to it yet",
     _NOT_WHOLE: "files of its output are gone or changed: apply the program to it again",
@@ -85,10 +85,10 @@ def _start_results(session: Session, written: Sequence[Card], signed_only: bool)
     def write(progress: JobProgress, path: Path) -> str:
         project, out = session.project, session.project.layout.edited
         with batch.hold_lock(out / batch.STATE / "lock", str(out), wait=0):  # no run changes files meanwhile
-            held = {asset.id for asset in project.status(stop=progress.is_stopped).open_assets}
+            need_review = {asset.id for asset in project.status(stop=progress.is_stopped).open_assets}
             stamps = {asset: stamp for asset in chosen if (stamp := batch.read_stamp(out, asset))}
             whole = {asset: stamp for asset, stamp in stamps.items() if stamp.is_whole(out)}
-            left_out = dict(_list_left_out(session.pages.cards, whole, chosen, held))
+            left_out = dict(_list_left_out(session.pages.cards, whole, chosen, need_review))
             for asset, why in left_out.items():
                 is_broken = why in ("failed", _NOT_WHOLE)
                 progress.add_line(
@@ -96,7 +96,7 @@ def _start_results(session: Session, written: Sequence[Card], signed_only: bool)
                 )
             if not whole:
                 raise UsageError("no result is whole", remedy="Apply the program again.")
-            text = _describe_results(session.pages.cards, whole, held, left_out)
+            text = _describe_results(session.pages.cards, whole, need_review, left_out)
             names = {name for stamp in whole.values() for name in stamp.outputs}
             names |= {batch.stamp_path(out, asset).relative_to(out).as_posix() for asset in whole}
             with progress.stage(len(names), "packing") as advance:
@@ -109,7 +109,7 @@ def _start_results(session: Session, written: Sequence[Card], signed_only: bool)
 
 
 def _list_left_out(
-    cards: Sequence[Card], inside: Collection[str], chosen: Collection[str], held: Collection[str]
+    cards: Sequence[Card], inside: Collection[str], chosen: Collection[str], need_review: Collection[str]
 ) -> Iterator[tuple[str, str]]:
     for card in cards:
         if card.asset in inside:
@@ -125,21 +125,20 @@ def _list_left_out(
         elif card.excluded:
             yield card.asset, "excluded"
         else:
-            yield card.asset, "held" if card.asset in held else "not signed off"
+            yield card.asset, "needs review" if card.asset in need_review else "not signed off"
 
 
 def _describe_results(
-    cards: Sequence[Card], inside: Collection[str], held: Collection[str], left_out: dict[str, str]
+    cards: Sequence[Card], inside: Collection[str], need_review: Collection[str], left_out: dict[str, str]
 ) -> str:
     parts = [f"{len(inside)} of {pluralize(len(cards), 'result')}" if left_out else pluralize(len(inside), "result")]
     counts = Counter(left_out.values())
     if left_out:
         parts.append(f"not in it: {', '.join(f'{counts[why]} {why}' for why in _REMEDIES if counts[why])}")
-    odd = sum(card.asset in inside and card.asset in held for card in cards)
+    open_ones = sum(card.asset in inside and card.asset in need_review for card in cards)
     old = sum(card.asset in inside and bool(card.stale) for card in cards)
-    parts += [f"{odd} in it {'is' if odd == 1 else 'are'} held: look at {'it' if odd == 1 else 'them'} first"] * bool(
-        odd
-    )
+    needs, them = ("needs", "it") if open_ones == 1 else ("need", "them")
+    parts += [f"{open_ones} in it {needs} review: look at {them} first"] * bool(open_ones)
     parts += [f"{old} in it {'is' if old == 1 else 'are'} not up to date"] * bool(old)
     return f"{'; '.join(parts)}."
 

@@ -38,8 +38,8 @@ class NewAssetPreparation:
 
     def __str__(self) -> str:
         """What was done to all, in sentences; empty where nothing was."""
-        told = [self.unclear, describe_new(list(self.results.values()))]
-        return " ".join(f"{text[0].upper()}{text[1:]}." for text in told if text)
+        remarks = [self.unclear, describe_new(list(self.results.values()))]
+        return " ".join(f"{text[0].upper()}{text[1:]}." for text in remarks if text)
 
 
 def prepare_new(

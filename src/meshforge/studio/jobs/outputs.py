@@ -83,14 +83,17 @@ def start_check(session: Session) -> Job:
         raise ProjectError("there is no output to be checked", remedy="Apply the program first.")
 
     def work(progress: JobProgress) -> str:
-        odd = failed = 0
+        with_text = failed = 0
         for asset, found in session.checks.check_all(session.project, assets, progress.advance, progress.is_stopped):
             line = to_line(asset, found)
-            odd, failed = odd + bool(line.text and line.status == "done"), failed + (line.status == "failed")
+            with_text, failed = (
+                with_text + bool(line.text and line.status == "done"),
+                failed + (line.status == "failed"),
+            )
             progress.add_line(line)
             session.refresh_queue.add([asset])
         broken = f"; {failed} could not be checked" if failed else ""
-        return f"{pluralize(len(assets), 'result')}: {odd} with findings, limits of engines apart{broken}."
+        return f"{pluralize(len(assets), 'result')}: {with_text} with findings, limits of engines apart{broken}."
 
     return session.jobs.start("check", f"Checking {pluralize(len(assets), 'result')}", len(assets), work)
 
@@ -106,9 +109,9 @@ def to_line(asset: str, found: tuple[Fault, ...] | str) -> JobLine:
 def list_signed_off(session: Session) -> list[Card]:
     """The assets whose output is up to date and signed off: sure enough, or accepted by a person."""
     known = session.pages.assessment
-    sure = {row.asset for row in known.assets if row.state == "signed"} if known else set()
+    unreviewed = {row.asset for row in known.assets if row.state == "signed"} if known else set()
     written = [card for card in session.pages.cards if card.output in ("edited", "unchanged") and not card.stale]
-    return [card for card in written if card.review == "accepted" or (card.review is None and card.asset in sure)]
+    return [card for card in written if card.review == "accepted" or (card.review is None and card.asset in unreviewed)]
 
 
 def start_export(session: Session, request: ExportJob) -> Job:
@@ -144,9 +147,9 @@ def _export_asset(edited: Path, folder: Path, asset: str, known: dict[str, None]
     if not stamp.is_whole(edited):
         return JobLine(asset=asset, status="failed", text="files of its output are gone or changed: apply it again")
     names = sorted(stamp.outputs, key=lambda name: (name == stamp.out, name))
-    foreign = [name for name in names if name not in known and (folder / name).exists()]
-    if foreign:
-        return JobLine(asset=asset, status="failed", text=f"{folder / foreign[0]} is there, and no export wrote it")
+    unknown = [name for name in names if name not in known and (folder / name).exists()]
+    if unknown:
+        return JobLine(asset=asset, status="failed", text=f"{folder / unknown[0]} is there, and no export wrote it")
     known |= dict.fromkeys(names)
     write_atomically(folder / EXPORT_MARK, "".join(f"{name}\n" for name in known))
     for name in names:

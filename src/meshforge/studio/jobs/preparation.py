@@ -107,7 +107,7 @@ def start_rebuild(session: Session, request: RebuildJob) -> Job:
 def _rebuild_line(result: PreparationResult) -> JobLine | None:
     """What was found of one asset, and what of it could not be looked at; None where there is nothing to tell."""
     entries = result.made or result.planned
-    texts = [*result.problems, *(entry.told for entry in entries if entry.told != MADE_ANEW), *result.notes]
+    texts = [*result.problems, *(entry.remark for entry in entries if entry.remark != MADE_ANEW), *result.notes]
     if not texts:
         return None
     status: Literal["failed", "done", "skipped"] = "failed" if result.problems else "done" if entries else "skipped"
@@ -123,7 +123,7 @@ def _describe_rebuild(results: Sequence[PreparationResult]) -> str:
         hulls = pluralize(sum(len(result.hulls) for result in made), "hull")
         return f"Bodies of {pluralize(len(made), 'asset')} rebuilt: {hulls}.{left}"
     if planned:
-        spanning = sum(entry.told != MADE_ANEW for result in planned for entry in result.planned)
+        spanning = sum(entry.remark != MADE_ANEW for result in planned for entry in result.planned)
         noun = "spans" if spanning == 1 else "span"
         return f"{pluralize(spanning, 'hull')} of {pluralize(len(planned), 'asset')} {noun} parts.{left}"
     return f"No hull spans parts with {format_share(REBUILD_DEFAULTS.min_confidence)} or more.{left}"
@@ -177,8 +177,8 @@ def _describe_propagation(result: LabelResult) -> str:
         return "Every label stays as it is."
     assets = pluralize(sum(report.taken > 0 for report in result.outcomes), "asset")
     unsure = sum(report.unsure for report in result.outcomes)
-    doubt = f"{pluralize(unsure, 'label')} {'is' if unsure == 1 else 'are'} unsure" if unsure else "all are sure"
-    return f"{pluralize(taken, 'label')} on {assets}; {doubt}."
+    reason = f"{pluralize(unsure, 'label')} {'is' if unsure == 1 else 'are'} unsure" if unsure else "all are sure"
+    return f"{pluralize(taken, 'label')} on {assets}; {reason}."
 
 
 def start_forecast(session: Session, request: ForecastJob) -> Job:

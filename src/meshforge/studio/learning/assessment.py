@@ -14,7 +14,7 @@ from meshforge.project import (
     program_by_hand,
     sees_whole_family,
 )
-from meshforge.signoff import BAR, Assessment, ReviewChoice, ReviewQuestion, ReviewState
+from meshforge.signoff import THRESHOLD, Assessment, ReviewChoice, ReviewQuestion, ReviewState
 from meshforge.studio.wire import signoff as wire
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import LearningOutcome
@@ -33,8 +33,8 @@ def assess_project(
     program; basis: taken before the meshes were read.
     """
     by_hand, last = program_by_hand(project), project.assessment()
-    bar = last.bar if last else BAR
-    return assess_family(project, meshes, by_hand or outcome, basis, bar, by_hand=by_hand is not None, stop=stop)
+    threshold = last.threshold if last else THRESHOLD
+    return assess_family(project, meshes, by_hand or outcome, basis, threshold, by_hand=by_hand is not None, stop=stop)
 
 
 def keep_assessment(project: Project, made: FamilyAssessment) -> None:
@@ -52,24 +52,24 @@ def view_assessment(
     question = assessment.question
     asked = _view_question(question, state.meshes) if question else None
     if not has_program:
-        return wire.AssessmentView(number=number, bar=assessment.bar, question=asked)
+        return wire.AssessmentView(number=number, threshold=assessment.threshold, question=asked)
     signed = set(assessment.signed_off)
     rows = tuple(
         wire.ConfidenceView(
             asset=name,
             probability=round(one.probability, 4),
-            doubts=tuple(wire.DoubtView(**doubt.to_json()) for doubt in one.doubts),
-            state="excluded" if name in assessment.excluded else "signed" if name in signed else "held",
-            told=name in assessment.looked_at,
+            reasons=tuple(wire.ReasonView(**reason.to_json()) for reason in one.reasons),
+            state="excluded" if name in assessment.excluded else "signed" if name in signed else "needs review",
+            remarks=name in assessment.looked_at,
         )
         for name, one in assessment.assets.items()
     )
-    counts = {what: sum(row.state == what for row in rows) for what in ("signed", "held", "excluded")}
+    counts = {what: sum(row.state == what for row in rows) for what in ("signed", "needs review", "excluded")}
     return wire.AssessmentView(
         number=number,
-        bar=assessment.bar,
+        threshold=assessment.threshold,
         signed_off=counts["signed"],
-        held=counts["held"],
+        need_review=counts["needs review"],
         excluded=counts["excluded"],
         unseen=unseen,
         assets=rows,
@@ -99,12 +99,12 @@ def _view_choice(choice: ReviewChoice) -> wire.ReviewChoiceView:
         text=choice.text,
         label=choice.label,
         select=choice.select,
-        sentence=_explain_reading(choice),
+        sentence=_explain_candidate(choice),
         orient=choice.orient_text,
     )
 
 
-def _explain_reading(choice: ReviewChoice) -> str:
+def _explain_candidate(choice: ReviewChoice) -> str:
     if choice.select is None:
         return ""
     try:

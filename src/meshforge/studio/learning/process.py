@@ -12,7 +12,7 @@ from time import perf_counter
 
 from meshforge.common import MeshForgeError
 from meshforge.language import Program, parse_extractor
-from meshforge.project import AssessmentBasis, Project, digest_lesson, select_assets
+from meshforge.project import AssessmentBasis, Project, digest_inputs, select_assets
 from meshforge.store import MeshCache
 from meshforge.studio.learning.assessment import assess_project, keep_assessment, view_assessment
 from meshforge.studio.learning.queue import CancelToken
@@ -38,7 +38,7 @@ def _rule_selector(folder: Path) -> RuleSelector:
 
 
 @dataclass(slots=True)
-class _Lesson:
+class _LearnedFamily:
     """What the last learning run of a project came to. meshes: what it learned from, by asset; digest: of all else."""
 
     number: int = 0
@@ -53,8 +53,8 @@ class _Lesson:
 
 
 @cache
-def _last_lesson(folder: Path) -> _Lesson:
-    return _Lesson()
+def _last_learned(folder: Path) -> _LearnedFamily:
+    return _LearnedFamily()
 
 
 def learn(folder: Path, token: CancelToken, number: int, take: bool) -> OutcomeView:
@@ -64,7 +64,7 @@ def learn(folder: Path, token: CancelToken, number: int, take: bool) -> OutcomeV
         project = Project.open(folder)
         family = _family_cache(folder)
         family.count_run()
-        digest = digest_lesson(project)
+        digest = digest_inputs(project)
         meshes = dict(family.read_meshes(project, select_assets(project), stop))
         accept = take or not project.program_state().by_hand
         outcome = project.synthesize(accept=accept, meshes=meshes, stop=stop)
@@ -72,8 +72,13 @@ def learn(folder: Path, token: CancelToken, number: int, take: bool) -> OutcomeV
         return OutcomeView(number=number, status="timeout", seconds=perf_counter() - started)
     except MeshForgeError as error:
         return OutcomeView(number=number, status="error", error=error.message, seconds=perf_counter() - started)
-    lesson = _last_lesson(folder)
-    lesson.number, lesson.outcome, lesson.meshes, lesson.digest = number, outcome, meshes, digest
+    inputs_digest = _last_learned(folder)
+    inputs_digest.number, inputs_digest.outcome, inputs_digest.meshes, inputs_digest.digest = (
+        number,
+        outcome,
+        meshes,
+        digest,
+    )
     return build_outcome_view(number, outcome, len(meshes), perf_counter() - started)
 
 
@@ -82,20 +87,20 @@ def assess(folder: Path, token: CancelToken, number: int) -> AssessmentView | No
 
     It is kept, as a review is, where nothing changed since that run. None too where nothing is demonstrated yet.
     """
-    lesson, project = _last_lesson(folder), Project.open(folder)
+    inputs_digest, project = _last_learned(folder), Project.open(folder)
     if not project.demonstration_ids():
         return None
-    if lesson.number != number or lesson.outcome is None:
+    if inputs_digest.number != number or inputs_digest.outcome is None:
         return None
     basis = AssessmentBasis.take(project)
     try:
         meshes = dict(_family_cache(folder).read_meshes(project, select_assets(project), token.stop))
     except ReadInterrupted:
         return None
-    made = assess_project(project, meshes, lesson.outcome, basis, token.stop)
+    made = assess_project(project, meshes, inputs_digest.outcome, basis, token.stop)
     if made is None:
         return None
-    if lesson.holds(meshes, basis.lesson):
+    if inputs_digest.holds(meshes, basis.inputs_digest):
         with suppress(MeshForgeError, OSError):  # pages show it all the same
             keep_assessment(project, made)
     unseen = len(project.assets()) - len(meshes)

@@ -21,7 +21,7 @@ def build_outcome_view(
     number: int, outcome: synthesis.LearningOutcome, looked_at: int, seconds: float
 ) -> wire.OutcomeView:
     """The outcome of a learning run. number: of the run; looked_at: how many assets it looked at; seconds: its time."""
-    counts = Counter(reading.rule for reading in outcome.readings)
+    counts = Counter(candidate.rule for candidate in outcome.candidates)
     failure = outcome if isinstance(outcome, synthesis.NoProgram) else None
     return wire.OutcomeView(
         number=number,
@@ -29,29 +29,29 @@ def build_outcome_view(
         program=str(outcome.program) if outcome.program else None,
         looked_at=looked_at,
         rules=rule_views(outcome.program or Program(rules=outcome.rules), counts),
-        settled=outcome.settled,
-        readings=tuple(map(_view_reading, outcome.readings)),
+        unambiguous=outcome.unambiguous,
+        candidates=tuple(map(_view_candidate, outcome.candidates)),
         repairs=len(outcome.repairs),
         nearest=_view_nearest(outcome.nearest) if outcome.nearest else None,
         hint=wire.HintView(asset=outcome.hint.asset, why=outcome.hint.why) if outcome.hint else None,
         why=failure.why if failure else None,
         advice=failure.advice if failure else (),
         stale=tuple(f"{answer.rule}:{answer.asset}" for answer in outcome.stale),
-        sample=() if outcome.settled else outcome.sample,
+        sample=() if outcome.unambiguous else outcome.sample,
         overruled=outcome.overruled,
         seconds=seconds,
     )
 
 
-def _view_reading(reading: synthesis.Reading) -> wire.ReadingView:
-    return wire.ReadingView(
-        id=reading.id,
-        rule=reading.rule,
-        extractor=show(reading.extractor),
-        sentence=explain(reading.extractor),
-        size=reading.size,
-        belief=reading.belief,
-        differs_on=reading.differs_on,
+def _view_candidate(candidate: synthesis.CandidateProgram) -> wire.CandidateView:
+    return wire.CandidateView(
+        id=candidate.id,
+        rule=candidate.rule,
+        extractor=show(candidate.extractor),
+        sentence=explain(candidate.extractor),
+        size=candidate.size,
+        belief=candidate.belief,
+        differs_on=candidate.differs_on,
     )
 
 

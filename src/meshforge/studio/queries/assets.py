@@ -19,7 +19,7 @@ from meshforge.studio.actions import view_action
 from meshforge.studio.edits.base import steps_version
 from meshforge.studio.queries.packets import contact_names, frame_packet, hull_views
 from meshforge.studio.queries.replay import replay_steps
-from meshforge.studio.wire.asset import AssetView, CorrectionView, NearMiss, OpaqueView, StepView
+from meshforge.studio.wire.asset import AssetView, ManualEditView, NearMiss, NonConvexView, StepView
 from meshforge.symbolic import Asset, Label, SymbolicMesh
 from meshforge.synthesis import Step
 
@@ -49,8 +49,9 @@ def build_asset_view(project: Project, asset: str, mesh: SymbolicMesh) -> AssetV
         up=source.up or "z",
         bodies=tuple(body.name for body in source.bodies),
         hulls=hull_views(mesh),
-        opaque=tuple(
-            OpaqueView(name=o.name, body=o.body, reason=o.reason, surface=o.surface is not None) for o in source.opaque
+        non_convex=tuple(
+            NonConvexView(name=o.name, body=o.body, reason=o.reason, surface=o.surface is not None)
+            for o in source.non_convex
         ),
         has_visual=_has_visual(source),
         contacts=contact_names(seen),
@@ -63,9 +64,9 @@ def build_asset_view(project: Project, asset: str, mesh: SymbolicMesh) -> AssetV
         unturned=shown.problem,
         steps=_step_views(project.steps(asset), replay.trace if replay else (), shown.problem or problem),
         version=steps_version(project, asset),
-        corrections=tuple(
-            CorrectionView(select=tuple(name for name, _ in c.hulls), action=view_action(c.action, c.label))
-            for c in project.corrections(asset)
+        manual_edits=tuple(
+            ManualEditView(select=tuple(name for name, _ in c.hulls), action=view_action(c.action, c.label))
+            for c in project.manual_edits(asset)
         ),
         prepared=tuple(map(str, project.preparation(asset).steps)),
         missing=source.missing,

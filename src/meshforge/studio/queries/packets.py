@@ -10,13 +10,13 @@ from typing import Literal, cast
 
 import numpy as np
 
-from meshforge.batch import RuleEffect, read_stamp, replay_corrections
+from meshforge.batch import RuleEffect, read_stamp, replay_manual_edits
 from meshforge.checks import Finding, check
 from meshforge.common import ProjectError
 from meshforge.formats import load
 from meshforge.geometry import digest
 from meshforge.language import Program, Replay, RuleTrace, make_anew
-from meshforge.project import Project, make_correction, run_with_corrections
+from meshforge.project import Project, make_manual_edit, run_with_manual_edits
 from meshforge.rendering import RenderMesh, to_render_mesh
 from meshforge.studio.actions import read_action
 from meshforge.studio.queries.replay import replay_steps
@@ -35,7 +35,7 @@ PacketRow = tuple[wire.ShapeRow, RenderMesh]
 
 def pack_asset(mesh: SymbolicMesh) -> bytes:
     """The shapes of an asset: its hulls in their order, then its non-convex pieces that have a surface."""
-    pieces = mesh.asset.opaque if mesh.asset else ()
+    pieces = mesh.asset.non_convex if mesh.asset else ()
     return _pack_rows([*hull_rows(mesh.hulls), *(_make_surface_row(p.name, p.surface) for p in pieces if p.surface)])
 
 
@@ -113,7 +113,7 @@ def pack_edited(
 def findings_of_new(before: SymbolicMesh, after: SymbolicMesh) -> tuple[wire.FindingView, ...]:
     """Findings about the legality of the hulls that an edit made."""
     made = replace(after, hulls=tuple(hull for hull in after.hulls if hull.name not in before.index))
-    return finding_views(found for found in check(made) if found.rule != "opaque")
+    return finding_views(found for found in check(made) if found.rule != "non_convex")
 
 
 def finding_views(findings: Iterable[Finding]) -> tuple[wire.FindingView, ...]:
@@ -182,7 +182,7 @@ def preview_action(project: Project, asset: str, mesh: SymbolicMesh, request: Pr
     Raises MeshForgeError: no such hull, no such action, or one that fails.
     """
     if request.result:
-        return _preview_correction(project, asset, mesh, request)
+        return _preview_manual_edit(project, asset, mesh, request)
     action, label = read_action(request.action, asset)
     before = replace(replay_steps(project, asset, mesh, request.steps), memo=make_anew)  # each one is another
     after = before.apply(before.mask_of(request.select), action, label, project.templates(action.templates))
@@ -192,11 +192,11 @@ def preview_action(project: Project, asset: str, mesh: SymbolicMesh, request: Pr
     return pack_edited(mesh, start, home, notes, after.mesh)
 
 
-def _preview_correction(project: Project, asset: str, mesh: SymbolicMesh, request: PreviewRequest) -> bytes:
-    before = run_with_corrections(project, asset, mesh, project.program())
-    one = make_correction(before.mesh, asset, request.select, *read_action(request.action, asset))
+def _preview_manual_edit(project: Project, asset: str, mesh: SymbolicMesh, request: PreviewRequest) -> bytes:
+    before = run_with_manual_edits(project, asset, mesh, project.program())
+    one = make_manual_edit(before.mesh, asset, request.select, *read_action(request.action, asset))
     templates = {**before.templates, **project.templates(one.action.templates)}
-    after, flags = replay_corrections((*before.corrections, one), mesh, before.run.mesh, before.program, templates)
+    after, flags = replay_manual_edits((*before.manual_edits, one), mesh, before.run.mesh, before.program, templates)
     notes = EditNotes(findings=findings_of_new(before.mesh, after), flags=flags)
     return pack_edited(mesh, before.mesh, after, notes)
 
@@ -218,7 +218,7 @@ def preview_result(project: Project, asset: str, mesh: SymbolicMesh, of: ResultO
     Raises MeshForgeError where the program cannot run on it, or where there is no output.
     """
     if of == "program":
-        now = run_with_corrections(project, asset, mesh, program)
+        now = run_with_manual_edits(project, asset, mesh, program)
         return pack_edited(mesh, mesh, now.mesh, _collect_notes(now.mesh, now.run.trace, now.flags))
     stamp = read_stamp(project.layout.edited, asset)
     if stamp is None or stamp.status not in ("edited", "unchanged"):

@@ -51,11 +51,11 @@ def check_text(text: str) -> wire.ProgramCheck:
     return wire.ProgramCheck(rules=rule_views(program), orient_sentence=orient_sentence(program.orient))
 
 
-def rule_views(program: Program, readings: Mapping[int, int] | None = None) -> tuple[wire.RuleView, ...]:
+def rule_views(program: Program, candidates: Mapping[int, int] | None = None) -> tuple[wire.RuleView, ...]:
     """The rules of a program in words; readings: how many extractors agree with what was demonstrated, by rule."""
-    readings = readings or {}
+    candidates = candidates or {}
     return tuple(
-        wire.RuleView(rule=k, text=show(rule), sentence=explain(rule), readings=readings.get(k, 1))
+        wire.RuleView(rule=k, text=show(rule), sentence=explain(rule), candidates=candidates.get(k, 1))
         for k, rule in enumerate(program.rules, 1)
     )
 

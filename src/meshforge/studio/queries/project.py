@@ -70,13 +70,13 @@ def _last_run(outcome: OutcomeView) -> LastRun:
 def _add_confidence(asset: AssetStatus, row: ConfidenceView | None) -> AssetStatus:
     if row is None or asset.review == "accepted":
         return asset
-    states: Mapping[str, SignOffState] = {"signed": "sure", "held": "held", "excluded": "excluded"}
+    states: Mapping[str, SignOffState] = {"signed": "sure", "needs review": "needs review", "excluded": "excluded"}
     return replace(asset, sign_off=states[row.state], probability=row.probability)
 
 
 def _find_question(assessment: AssessmentView | None) -> OpenQuestion | None:
     """The question that is worth most, as long as some results need review."""
-    asked = assessment.question if assessment and assessment.held else None
+    asked = assessment.question if assessment and assessment.need_review else None
     if asked is None:
         return None
     return OpenQuestion(asked.kind if asked.kind in ("result", "demonstrate") else "other", asked.asset)
@@ -101,7 +101,7 @@ def build_project_view(
         contact=settings.thresholds.contact,
         extremity=settings.thresholds.extremity,
         rules=_rule_lines(project),
-        said=tuple(_list_feedback(project)),
+        answers=tuple(_list_feedback(project)),
         templates=project.template_names(),
         carried=propagated,
         next=next_step,
@@ -151,15 +151,15 @@ def vocabulary_view(words: Sequence[str], cards: Iterable[Card]) -> tuple[Vocabu
 
 
 def _list_feedback(project: Project) -> Iterator[AnswerView]:
-    said = project.feedback()
-    for answer in said.answers.values():
+    answers = project.feedback()
+    for answer in answers.answers.values():
         if answer.select is None:
             what = "neither of the choices"
         else:
             what = pluralize(len(answer.select), "hull") if answer.select else "nothing"
         text = f"rule {answer.rule} on {answer.asset} selects {what}"
         yield AnswerView(id=answer.id, kind="answer", asset=answer.asset, text=text)
-    for line in said.fixes.values():
+    for line in answers.fixes.values():
         is_or_not = f"is {line.to}, not {line.was or 'without a label'}" if line.accepted else f"is not {line.to}"
         text = f"{line.hull} of {line.asset} {is_or_not}"
         yield AnswerView(id=line.id, kind="confirmed" if line.accepted else "rejected", asset=line.asset, text=text)
@@ -193,7 +193,7 @@ def build_card(
         review=status.review,
         note=status.review_note,
         excluded=status.excluded,
-        corrections=status.corrections,
+        manual_edits=status.manual_edits,
         sources=status.sources,
         prepared=status.prepared,
         picture=picture,

@@ -41,7 +41,7 @@ class FileSync:
         self.project = project
         self._pages, self._learning, self._queue = pages, learning, queue
         self._stamps = read_stamps(project)
-        self._said = _read_feedback(project)
+        self._announced = _read_feedback(project)
 
     def update(self, names: Iterable[str]) -> None:
         """Refresh what depends on files that changed; names: paths from the project's folder."""
@@ -100,8 +100,8 @@ class FileSync:
 
     def _add_feedback(self, changes: FileChanges) -> FileChanges:
         """The same with what people said since: what is learned from it, and of which assets; else, what is asked."""
-        before, now = self._said, _read_feedback(self.project)
-        self._said = now
+        before, now = self._announced, _read_feedback(self.project)
+        self._announced = now
         about = {
             asset
             for asset in before.verdicts.keys() | now.verdicts.keys()

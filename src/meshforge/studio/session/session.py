@@ -150,9 +150,9 @@ class Session:
             finally:
                 self.learning.resume()
             if entry is None:
-                return EditReceipt(said=title, nothing=True)
+                return EditReceipt(message=title, nothing=True)
             self.announce((entry,), "edit", by)
-        return EditReceipt(said=entry.title)
+        return EditReceipt(message=entry.title)
 
     def move(self, way: Literal["undo", "redo"], by: str | None = None) -> EditReceipt:
         """Undo what was done last, or redo what was undone last."""
@@ -163,9 +163,9 @@ class Session:
             finally:
                 self.learning.resume()
             if not entries:
-                return EditReceipt(said=f"there is nothing to {way}", nothing=True)
+                return EditReceipt(message=f"there is nothing to {way}", nothing=True)
             self.announce(entries, way, by)
-        return EditReceipt(said=entries[0].title)
+        return EditReceipt(message=entries[0].title)
 
     def announce(
         self, entries: Iterable[HistoryEntry], did: Literal["edit", "undo", "redo"], by: str | None = None
@@ -175,7 +175,7 @@ class Session:
             entries = tuple(entries)
             self.pages.set_relabelled(None)
             self.update({name for entry in entries for name in entry.names})
-            self.pages.set_history(HistoryChanged(history=self._history_view, did=did, said=entries[0].title, by=by))
+            self.pages.set_history(HistoryChanged(history=self._history_view, did=did, message=entries[0].title, by=by))
 
     @contextmanager
     def record(self, title: str, edit: dict[str, Any], paths: Iterable[Path], group: str) -> Iterator[None]:
@@ -206,7 +206,7 @@ class Session:
             self._file_sync.poll()
             if self.history.refresh():
                 view = self._history_view
-                self.pages.set_history(HistoryChanged(history=view, did="edit", said=view.undo or ""))
+                self.pages.set_history(HistoryChanged(history=view, did="edit", message=view.undo or ""))
 
     # Learning
 
@@ -217,7 +217,7 @@ class Session:
         with self._mutex:
             self._take_learned = self.pages.program.by_hand
             self.learning.restart()
-        return EditReceipt(said="learning")
+        return EditReceipt(message="learning")
 
     def _has_demonstrations(self) -> bool:
         shown = set(self.project.layout.demonstration.ids)

@@ -30,7 +30,7 @@ class HullView(Wire):
     parent: str | None = None
 
 
-class OpaqueView(Wire):
+class NonConvexView(Wire):
     """A non-convex piece of collision geometry. reason: why it is no hull; surface: whether the packet has it."""
 
     name: str
@@ -61,7 +61,7 @@ class StepView(Wire):
     removed: tuple[str, ...] = ()
 
 
-class CorrectionView(Wire):
+class ManualEditView(Wire):
     """An edit by hand that is replayed after the program."""
 
     select: tuple[str, ...]
@@ -82,7 +82,7 @@ class AssetView(Wire):
     up: Literal["y", "z"]
     bodies: tuple[str, ...]
     hulls: tuple[HullView, ...]
-    opaque: tuple[OpaqueView, ...] = ()
+    non_convex: tuple[NonConvexView, ...] = ()
     has_visual: bool = False
     contacts: tuple[tuple[str, str], ...] = ()
     near_misses: tuple[NearMiss, ...] = ()
@@ -92,7 +92,7 @@ class AssetView(Wire):
     unturned: str | None = None
     steps: tuple[StepView, ...] = ()
     version: str = ""
-    corrections: tuple[CorrectionView, ...] = ()
+    manual_edits: tuple[ManualEditView, ...] = ()
     prepared: tuple[str, ...] = ()
     missing: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()

@@ -77,7 +77,7 @@ class HistoryChanged(Wire):
     kind: Literal["history"] = "history"
     history: HistoryView
     did: Literal["edit", "undo", "redo"]
-    said: str
+    message: str
     by: str | None = None
 
 

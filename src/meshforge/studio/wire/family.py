@@ -43,7 +43,7 @@ class Card(Wire):
     review: Verdict | None = None
     note: str | None = None
     excluded: ExclusionReason | None = None
-    corrections: int = 0
+    manual_edits: int = 0
     sources: int = 0
     prepared: tuple[str, ...] = ()
     picture: str | None = None
@@ -124,7 +124,7 @@ class ProjectView(Wire):
     contact: float | None = None
     extremity: float | None = None
     rules: tuple[RuleLine, ...] = ()
-    said: tuple[AnswerView, ...] = ()
+    answers: tuple[AnswerView, ...] = ()
     templates: tuple[str, ...] = ()
     carried: PropagationState | None = None
     next: NextStep

@@ -142,7 +142,7 @@ class LabelUpdate(Wire):
     entry: int
     way: LabelEditKind
     assets: tuple[AssetLabelUpdate, ...]
-    settled: int = 0
+    newly_sure: int = 0
 
 
 class Model(Wire):

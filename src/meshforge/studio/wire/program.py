@@ -13,10 +13,10 @@ class RuleView(Wire):
     rule: int
     text: str
     sentence: str
-    readings: int = 1
+    candidates: int = 1
 
 
-class ReadingView(Wire):
+class CandidateView(Wire):
     """An extractor that agrees with all demonstrations of a rule; belief: its share in 0..1; differs_on: assets where
     it selects something else than the program's."""
 
@@ -61,8 +61,8 @@ class OutcomeView(Wire):
     program: str | None = None
     looked_at: int = 0
     rules: tuple[RuleView, ...] = ()
-    settled: bool = False
-    readings: tuple[ReadingView, ...] = ()
+    unambiguous: bool = False
+    candidates: tuple[CandidateView, ...] = ()
     repairs: int = 0
     nearest: NearestView | None = None
     hint: HintView | None = None

@@ -110,7 +110,7 @@ class UploadReceipt(Wire):
 class EditReceipt(Wire):
     """An edit is on disk. said: what was done, in words; nothing: whether there was nothing to do."""
 
-    said: str
+    message: str
     nothing: bool = False
 
 

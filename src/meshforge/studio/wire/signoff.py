@@ -6,15 +6,15 @@ from typing import Literal
 
 from meshforge.studio.wire import Wire
 
-DoubtKind = Literal["reading", "label", "orientation", "unlike", "alarm"]
-QuestionKind = Literal["group", "repair", "reading", "label", "selection", "orientation", "result", "demonstrate"]
-SignoffState = Literal["signed", "held", "excluded"]
+ReasonKind = Literal["candidate", "label", "orientation", "outlier", "alarm"]
+QuestionKind = Literal["group", "repair", "candidate", "label", "selection", "orientation", "result", "demonstrate"]
+SignoffState = Literal["signed", "needs review", "excluded"]
 
 
-class DoubtView(Wire):
+class ReasonView(Wire):
     """Why an edit may be wrong. hulls: names of those concerned; rule: its number, null where it is about none."""
 
-    kind: DoubtKind
+    kind: ReasonKind
     text: str
     hulls: tuple[str, ...] = ()
     rule: int | None = None
@@ -26,9 +26,9 @@ class ConfidenceView(Wire):
 
     asset: str
     probability: float
-    doubts: tuple[DoubtView, ...] = ()
+    reasons: tuple[ReasonView, ...] = ()
     state: SignoffState
-    told: bool = False
+    remarks: bool = False
 
 
 class HullRef(Wire):
@@ -73,9 +73,9 @@ class AssessmentView(Wire):
     question: null where nothing is left to ask."""
 
     number: int
-    bar: float
+    threshold: float
     signed_off: int = 0
-    held: int = 0
+    need_review: int = 0
     excluded: int = 0
     unseen: int = 0
     assets: tuple[ConfidenceView, ...] = ()

@@ -13,12 +13,12 @@ import numpy as np
 from meshforge import language
 from meshforge.common import MeshForgeError
 from meshforge.symbolic import SymbolicMesh
+from meshforge.synthesis.candidates.belief import NODE
 from meshforge.synthesis.demonstration import Demonstration, RuleSpec
 from meshforge.synthesis.options import Options, TimeBudget
 from meshforge.synthesis.orientation.attempts import OrientationSearch
 from meshforge.synthesis.orientation.landmarks import ALONG, NEARLY_ALL, Landmarks
 from meshforge.synthesis.orientation.suggest import Directives
-from meshforge.synthesis.readings.belief import NODE
 
 UNSUPPORTED = 2.6
 """For a direction along whose axis no landmarks lie on nearly all meshes [nats]."""
@@ -49,21 +49,21 @@ def find_more_believable(
     frame: the program without its rules, and without an orientation; extractors: of the rules, as they were learned.
     Raises OutOfTime.
     """
-    doubts = FrameDoubts(rules, extractors)
-    if doubts.most - DIRECTIVE <= doubts.least:
+    costs = FrameCosts(rules, extractors)
+    if costs.most - DIRECTIVE <= costs.least:
         return None
     shown, others = [demo.mesh for demo in demos], batch[:MAX_MESHES]
     landmarks = Landmarks([*shown, *others], frame.labels)
     supported = [letter for letter in "XYZ" if landmarks.supports(letter)]
-    if doubts.count(supported, askew=True) - DIRECTIVE <= doubts.least:
+    if costs.count(supported, askew=True) - DIRECTIVE <= costs.least:
         return None
     orients = _rank(Directives(shown, others, frame.labels), landmarks)[:MAX_TRIED]
-    askew = bool(orients and doubts.askew and _turns_many([*shown, *others][:MAX_TURNED], orients[0]))
-    most = doubts.count(supported, askew) - DIRECTIVE
-    if most <= doubts.least:
+    askew = bool(orients and costs.askew and _turns_many([*shown, *others][:MAX_TURNED], orients[0]))
+    most = costs.count(supported, askew) - DIRECTIVE
+    if most <= costs.least:
         return None
     search = OrientationSearch(demos, rules, frame, templates, options, budget, extractors)
-    return _find_first(search, orients, most, doubts.least)
+    return _find_first(search, orients, most, costs.least)
 
 
 def _find_first(
@@ -87,7 +87,7 @@ def _find_first(
     return best
 
 
-class FrameDoubts:
+class FrameCosts:
     """What speaks against rules in the files' own frames.
 
     least: what extractors cost at least in any frame; askew: what it costs besides that actions went by axes that
@@ -137,22 +137,22 @@ def _rank(directives: Directives, landmarks: Landmarks) -> list[language.Orient]
 
 def cost_extractor(extractor: language.Extractor, supported: Collection[str]) -> float:
     """What it costs to believe in one [nats]."""
-    return NODE * language.size_of(extractor) + _doubt(extractor, supported)
+    return NODE * language.size_of(extractor) + _reason(extractor, supported)
 
 
-def _doubt(extractor: language.Extractor, supported: Collection[str]) -> float:
-    return sum(_doubt_leaf(leaf, supported) for leaf in language.leaves_of(extractor))
+def _reason(extractor: language.Extractor, supported: Collection[str]) -> float:
+    return sum(_weigh_leaf(leaf, supported) for leaf in language.leaves_of(extractor))
 
 
-def _doubt_leaf(leaf: language.Leaf, supported: Collection[str]) -> float:
+def _weigh_leaf(leaf: language.Leaf, supported: Collection[str]) -> float:
     """What is believed less of a leaf for its bases, and for directions that mean something or not."""
     if isinstance(leaf, language.BaseExtractor):
         return leaf.cost
     given = (
         getattr(leaf, name) for name, kind in leaf.arguments().items() if isinstance(kind, language.DirectionArgument)
     )
-    doubts = sum(language.UPRIGHT if direction[1] in supported else UNSUPPORTED for direction in given)
-    return sum(base.cost for base in leaf.bases) + doubts
+    costs = sum(language.UPRIGHT if direction[1] in supported else UNSUPPORTED for direction in given)
+    return sum(base.cost for base in leaf.bases) + costs
 
 
 def _asks_for_places(extractor: language.Extractor) -> bool:

@@ -52,10 +52,10 @@ class Landmarks:
     def holds(self, orient: Orient) -> Bools:
         """On which meshes the landmarks of a directive are apart, those of a second pair across the first (n,)."""
         first = orient.pairs[0]
-        held = self.apart(first.start, first.end)
+        satisfied = self.apart(first.start, first.end)
         for second in orient.pairs[1:]:
-            held = held & self._across(first, second)
-        return held
+            satisfied = satisfied & self._across(first, second)
+        return satisfied
 
     def supports(self, letter: str) -> bool:
         """Whether two landmarks lie along a coordinate axis on nearly all meshes, the same way round."""

@@ -126,26 +126,32 @@ def suggest_orientation(
     search = OrientationSearch(demos, rules, frame, templates, options, budget, known)
     if limit < sum(search.floors):
         return None
-    trials = Trials(search, options.max_size)
+    search_attempts = Attempts(search, options.max_size)
     directives = Directives([demo.mesh for demo in demos], batch, frame.labels)
-    best = _vary(trials, directives, frame.orient, limit) if frame.orient else None
+    best = _vary(search_attempts, directives, frame.orient, limit) if frame.orient else None
     if not best and not (frame.orient and len(frame.orient.pairs) == 2):
-        best = _search_all(trials, directives, limit)
+        best = _search_all(search_attempts, directives, limit)
     return OrientationSuggestion(*best, explain_orientation(*best, sizes), sizes) if best else None
 
 
-def _vary(trials: Trials, directives: Directives, given: language.Orient, limit: int) -> OrientationFit | None:
+def _vary(
+    search_attempts: Attempts, directives: Directives, given: language.Orient, limit: int
+) -> OrientationFit | None:
     toggled = replace(given, snap=not given.snap)
-    return trials.best([toggled, *(directives.with_two_pairs(given.pairs) if len(given.pairs) == 1 else [])], limit)
+    return search_attempts.best(
+        [toggled, *(directives.with_two_pairs(given.pairs) if len(given.pairs) == 1 else [])], limit
+    )
 
 
-def _search_all(trials: Trials, directives: Directives, limit: int) -> OrientationFit | None:
+def _search_all(search_attempts: Attempts, directives: Directives, limit: int) -> OrientationFit | None:
     """The best directive of all: of one pair, or of two where that saves further."""
     ones = directives.with_one_pair()
-    one = trials.best_of_small(ones, limit)
-    if one and trials.is_optimal(one):
+    one = search_attempts.best_of_small(ones, limit)
+    if one and search_attempts.is_optimal(one):
         return one
-    return trials.best([*ones, *directives.with_two_pairs(trials.farthest_pairs(ones, MAX_EXTENDED))], limit)
+    return search_attempts.best(
+        [*ones, *directives.with_two_pairs(search_attempts.farthest_pairs(ones, MAX_EXTENDED))], limit
+    )
 
 
 def explain_orientation(orient: language.Orient, found: Sequence[int], before: Sequence[int], assets: int = 0) -> str:
@@ -175,7 +181,7 @@ def _describe_sizes(sizes: Sequence[int]) -> str:
     return f"{', '.join(map(str, others))} and {last} nodes" if others else pluralize(last, "node")
 
 
-class Trials:
+class Attempts:
     """What became of the directives that were tried; most: nodes that an extractor may have."""
 
     def __init__(self, search: OrientationSearch, most: int) -> None:

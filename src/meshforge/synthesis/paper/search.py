@@ -11,20 +11,20 @@ from types import MappingProxyType
 
 from meshforge.language import Extractor, labels_of
 from meshforge.symbolic import bits_of
-from meshforge.synthesis.demonstration import Example, LabelChange, to_correction
+from meshforge.synthesis.demonstration import Example, LabelChange, to_fix
 from meshforge.synthesis.options import Options, OutOfTime, TimeBudget
 from meshforge.synthesis.paper import partial as partials
 from meshforge.synthesis.paper.partial import ExampleMasks, Hole, HoleGrammar, NearestTracker, Open, Worklist
-from meshforge.synthesis.questions import LabelCorrection
+from meshforge.synthesis.questions import LabelFix
 from meshforge.synthesis.search.smallest import Hit, Miss, SearchEffort, SearchResult, Unfinished
 
 
 @dataclass(frozen=True, slots=True)
-class HitWithCorrections:
+class HitWithFixes:
     """An extractor that matches once some labels are corrected: confirmed, or proposed where nobody was asked."""
 
     extractor: Extractor
-    corrections: tuple[LabelCorrection, ...]
+    fixes: tuple[LabelFix, ...]
     tried: SearchEffort
 
 
@@ -42,8 +42,8 @@ class PaperSearch:
         vocabulary: Sequence[str],
         budget: TimeBudget,
         options: Options,
-        confirm: Callable[[LabelCorrection], bool] | None = None,
-        rejected: Container[LabelCorrection] = (),
+        confirm: Callable[[LabelFix], bool] | None = None,
+        rejected: Container[LabelFix] = (),
         spent: Mapping[str, int] = MappingProxyType({}),
     ) -> None:
         self._demos = [ExampleMasks(example, options.geo_extremity) for example in examples]
@@ -54,7 +54,7 @@ class PaperSearch:
         self._size = self._complete = self._filled = 0
         self._nearest = NearestTracker(self._demos)
 
-    def run(self) -> SearchResult | HitWithCorrections:
+    def run(self) -> SearchResult | HitWithFixes:
         """The answer, within the limits of the options and the budget."""
         try:
             return self._find_hit()
@@ -65,7 +65,7 @@ class PaperSearch:
     def _tried(self) -> SearchEffort:
         return SearchEffort(self._size, self._complete, self._filled)
 
-    def _find_hit(self) -> Hit | HitWithCorrections | Miss:
+    def _find_hit(self) -> Hit | HitWithFixes | Miss:
         worklist = Worklist(self._max_size)
         worklist.put(Hole())
         while popped := worklist.pop():
@@ -86,14 +86,14 @@ class PaperSearch:
             if not isinstance(candidate, Open) or all(partials.is_feasible(candidate, demo) for demo in self._demos):
                 worklist.put(candidate)
 
-    def _check_complete(self, extractor: Extractor) -> Hit | HitWithCorrections | None:
+    def _check_complete(self, extractor: Extractor) -> Hit | HitWithFixes | None:
         self._complete += 1
         if self._nearest.offer(extractor) == 0:
             return Hit(extractor, self._tried)
-        corrections = self._abduction.infer(extractor) if self._abduction else None
-        if corrections is None or not self._confirmations.are_confirmed(corrections):
+        fixes = self._abduction.infer(extractor) if self._abduction else None
+        if fixes is None or not self._confirmations.are_confirmed(fixes):
             return None
-        return HitWithCorrections(extractor, corrections, self._tried)
+        return HitWithFixes(extractor, fixes, self._tried)
 
     def _report_miss(self) -> Miss:
         nearest = self._nearest.miss()
@@ -117,19 +117,19 @@ class Abduction:
             counts.update({label: mask.bit_count() for label, mask in demo.labels.items()})
         self._by_frequency = sorted(vocabulary, key=lambda label: -counts[label])
 
-    def infer(self, extractor: Extractor) -> tuple[LabelCorrection, ...] | None:
+    def infer(self, extractor: Extractor) -> tuple[LabelFix, ...] | None:
         """The fewest corrections after which an extractor matches; None where no repair is within the allowance.
 
         A correction touches one mesh only and a match is a match on each, so the fewest corrections of all are the
         fewest of each mesh, and one mesh beyond repair decides. Of repairs as small the first is taken: hulls in
         the order of the mesh, labels in that of `_choices`.
         """
-        found: list[LabelCorrection] = []
+        found: list[LabelFix] = []
         for demo in self._demos:
             repair = self._repair(extractor, demo)
             if repair is None:
                 return None
-            found += [to_correction(demo.example, change) for change in repair]
+            found += [to_fix(demo.example, change) for change in repair]
         return tuple(found)
 
     def _repair(self, extractor: Extractor, demo: ExampleMasks) -> tuple[LabelChange, ...] | None:
@@ -161,20 +161,18 @@ class Abduction:
 class Confirmations:
     """Remembers what was answered; without `confirm` every correction that was not rejected is agreed to."""
 
-    def __init__(
-        self, confirm: Callable[[LabelCorrection], bool] | None = None, rejected: Container[LabelCorrection] = ()
-    ) -> None:
+    def __init__(self, confirm: Callable[[LabelFix], bool] | None = None, rejected: Container[LabelFix] = ()) -> None:
         self._confirm, self._rejected = confirm, rejected
-        self._answers: dict[LabelCorrection, bool] = {}
+        self._answers: dict[LabelFix, bool] = {}
 
-    def are_confirmed(self, corrections: Sequence[LabelCorrection]) -> bool:
+    def are_confirmed(self, fixes: Sequence[LabelFix]) -> bool:
         """Whether all are right; nothing is asked about a repair of which one is known to be wrong."""
-        return not any(map(self._is_refused, corrections)) and all(map(self._is_confirmed, corrections))
+        return not any(map(self._is_refused, fixes)) and all(map(self._is_confirmed, fixes))
 
-    def _is_refused(self, correction: LabelCorrection) -> bool:
-        return correction in self._rejected or not self._answers.get(correction, True)
+    def _is_refused(self, fix: LabelFix) -> bool:
+        return fix in self._rejected or not self._answers.get(fix, True)
 
-    def _is_confirmed(self, correction: LabelCorrection) -> bool:
-        if self._confirm and correction not in self._answers:
-            self._answers[correction] = self._confirm(correction)
-        return self._answers.get(correction, True)
+    def _is_confirmed(self, fix: LabelFix) -> bool:
+        if self._confirm and fix not in self._answers:
+            self._answers[fix] = self._confirm(fix)
+        return self._answers.get(fix, True)

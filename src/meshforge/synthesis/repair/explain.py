@@ -13,14 +13,14 @@ from types import MappingProxyType
 from meshforge.label_model import LabelBeliefs, is_human
 from meshforge.language import Extractor, size_of
 from meshforge.symbolic import SymbolicMesh
-from meshforge.synthesis.demonstration import Example, LabelChange, name_demonstrations, to_correction
+from meshforge.synthesis.demonstration import Example, LabelChange, name_demonstrations, to_fix
 from meshforge.synthesis.options import Options, TimeBudget
-from meshforge.synthesis.paper.search import HitWithCorrections
-from meshforge.synthesis.questions import LabelCorrection, Repair
-from meshforge.synthesis.repair import candidates as candidate_search
-from meshforge.synthesis.repair.candidates import NO_EXTRACTOR_COST, Candidate, key_cost, total_chance
-from meshforge.synthesis.repair.landmarks import LandmarkCorrectionSearch, proposal_cost
-from meshforge.synthesis.repair.reasons import describe_effect, explain_correction
+from meshforge.synthesis.paper.search import HitWithFixes
+from meshforge.synthesis.questions import LabelFix, Repair
+from meshforge.synthesis.repair import hypotheses as candidate_search
+from meshforge.synthesis.repair.hypotheses import NO_EXTRACTOR_COST, Candidate, key_cost, total_chance
+from meshforge.synthesis.repair.landmarks import LandmarkFixSearch, proposal_cost
+from meshforge.synthesis.repair.reasons import describe_effect, explain_fix
 from meshforge.synthesis.repair.relabelings import Variants, enumerate_relabelings
 from meshforge.synthesis.search.smallest import Hit, Miss
 from meshforge.synthesis.search.terms import order_key
@@ -32,9 +32,9 @@ noisy labels (`script/bench tuning`): of 120 sessions 99 end right within three 
 74 where looks go by confidence, and questions by nothing."""
 
 
-def make_confirmer(rule: int, confirm: Callable[[Repair], bool]) -> Callable[[LabelCorrection], bool]:
+def make_confirmer(rule: int, confirm: Callable[[Repair], bool]) -> Callable[[LabelFix], bool]:
     """Asks about corrections of which nothing is known but that an extractor of the rule matches with them."""
-    return lambda correction: confirm(Repair(correction, rule, 1.0, "an extractor selects what was shown with it"))
+    return lambda fix: confirm(Repair(fix, rule, 1.0, "an extractor selects what was shown with it"))
 
 
 class RepairCollector:
@@ -45,7 +45,7 @@ class RepairCollector:
 
     def __init__(self, task: LearningTask, meshes: Mapping[str, SymbolicMesh], budget: TimeBudget) -> None:
         self._task, self._meshes, self._budget = task, meshes, budget
-        self._found: dict[LabelCorrection, Repair] = {}
+        self._found: dict[LabelFix, Repair] = {}
 
     @property
     def repairs(self) -> tuple[Repair, ...]:
@@ -54,7 +54,7 @@ class RepairCollector:
     @property
     def counts(self) -> Mapping[str, int]:
         """How many corrections there are on each mesh, those included that a person confirmed before."""
-        return Counter(correction.asset for correction in [*self._found, *self._task.confirmed])
+        return Counter(fix.asset for fix in [*self._found, *self._task.confirmed])
 
     @cached_property
     def trust(self) -> Mapping[str, float]:
@@ -62,31 +62,27 @@ class RepairCollector:
         errors = self._beliefs.errors  # of none that is demonstrated under another name
         return {name: exp(-DISTRUST_PER_ERROR * errors.get(name, 0.0)) for name in self._meshes}
 
-    def find_corrections(
-        self, rule: int, examples: Sequence[Example], found: Hit | Miss
-    ) -> tuple[LabelCorrection, ...]:
+    def find_fixes(self, rule: int, examples: Sequence[Example], found: Hit | Miss) -> tuple[LabelFix, ...]:
         """Corrections that explain what was shown better than what was found does. Raises OutOfTime."""
         options, labels, rejected = self._task.options, self._task.frame.labels, self._task.rejected
         exact = found.extractor if isinstance(found, Hit) else None
         explanation = (
             options.repair
-            and CorrectionSearch(
-                examples, labels, self._beliefs, options, self._budget, exact, self.counts, rejected
-            ).run()
+            and FixSearch(examples, labels, self._beliefs, options, self._budget, exact, self.counts, rejected).run()
         )
         if not explanation:
             return ()
-        rows = zip(explanation.corrections, explanation.beliefs, explanation.whys, strict=True)
-        self._found.update({correction: Repair(correction, rule, belief, why) for correction, belief, why in rows})
-        return explanation.corrections
+        rows = zip(explanation.fixes, explanation.beliefs, explanation.whys, strict=True)
+        self._found.update({fix: Repair(fix, rule, belief, why) for fix, belief, why in rows})
+        return explanation.fixes
 
-    def record_inferred(self, rule: int, explained: HitWithCorrections) -> tuple[LabelCorrection, ...]:
+    def record_inferred(self, rule: int, explained: HitWithFixes) -> tuple[LabelFix, ...]:
         """Take over what the paper's algorithm infers, which says nothing about how believable it is."""
-        why = describe_effect(explained.extractor, len(explained.corrections) == 1)
-        self._found.update({correction: Repair(correction, rule, 1.0, why) for correction in explained.corrections})
-        return explained.corrections
+        why = describe_effect(explained.extractor, len(explained.fixes) == 1)
+        self._found.update({fix: Repair(fix, rule, 1.0, why) for fix in explained.fixes})
+        return explained.fixes
 
-    def find_landmark_corrections(self, learned: Sequence[Extractor], failed: bool) -> bool:
+    def find_landmark_fixes(self, learned: Sequence[Extractor], failed: bool) -> bool:
         """Whether landmarks' labels explain better what was shown; if so, their corrections take the place of all.
 
         learned: the extractors of the rules; failed: whether the rule after them has none. Raises OutOfTime.
@@ -94,10 +90,10 @@ class RepairCollector:
         if not self._task.options.repair or self._task.options.strategy == "paper" or not self._task.frame.orient:
             return False
         spent = proposal_cost(self._beliefs, self._task, self.repairs)
-        search = LandmarkCorrectionSearch(self._task, self._beliefs, self._budget, learned, failed, spent)
+        search = LandmarkFixSearch(self._task, self._beliefs, self._budget, learned, failed, spent)
         repairs = search.run()
         if repairs:
-            self._found = {repair.correction: repair for repair in repairs}
+            self._found = {repair.fix: repair for repair in repairs}
         return bool(repairs)
 
     @cached_property
@@ -132,13 +128,13 @@ class Explanation:
     """
 
     extractor: Extractor
-    corrections: tuple[LabelCorrection, ...]
+    fixes: tuple[LabelFix, ...]
     beliefs: tuple[float, ...]
     whys: tuple[str, ...]
     cost: float
 
 
-class CorrectionSearch:
+class FixSearch:
     """One rule that may have been shown on wrong labels.
 
     vocabulary: the labels to ask for and to correct to; exact: the smallest extractor that needs no correction, None
@@ -155,7 +151,7 @@ class CorrectionSearch:
         budget: TimeBudget,
         exact: Extractor | None = None,
         spent: Mapping[str, int] = _NONE_SPENT,
-        rejected: Collection[LabelCorrection] = (),
+        rejected: Collection[LabelFix] = (),
     ) -> None:
         self._examples = tuple(example for example in examples if example.mesh.hulls)
         self._vocabulary, self._labels, self._options, self._budget = vocabulary, labels, options, budget
@@ -169,11 +165,11 @@ class CorrectionSearch:
         variants = self._build_variants()
         if variants is None or not all(variants.by_example):
             return None
-        candidates = self._find_candidates(variants)
+        hypotheses = self._find_candidates(variants)
         # what it costs that the exact extractor, or none at all, is right, on whichever relabelings it matches
         rival = self._exact_cost - sum(log(total_chance(some)) for some in variants.relabelings_for(self._exact))
-        beliefs = compute_change_beliefs(candidates, rival)
-        chosen = self._choose(rank_candidates(candidates), beliefs)
+        beliefs = compute_change_beliefs(hypotheses, rival)
+        chosen = self._choose(rank_candidates(hypotheses), beliefs)
         return self._to_explanation(chosen, beliefs) if chosen else None
 
     @cached_property
@@ -217,11 +213,11 @@ class CorrectionSearch:
         )
         return found
 
-    def _choose(self, candidates: Sequence[Candidate], beliefs: Mapping[ChangeAt, float]) -> Candidate | None:
+    def _choose(self, hypotheses: Sequence[Candidate], beliefs: Mapping[ChangeAt, float]) -> Candidate | None:
         """The first candidate, of those about as good as the best, whose corrections are all believed."""
         least = candidate_search.MIN_BELIEF if self._exact else candidate_search.MIN_BELIEF_WITHOUT_EXACT
-        for candidate in candidates:
-            if candidate.score > candidates[0].score + candidate_search.RIVAL_MARGIN:
+        for candidate in hypotheses:
+            if candidate.score > hypotheses[0].score + candidate_search.RIVAL_MARGIN:
                 break
             if all(beliefs[place] >= least for place in changes_of(candidate)):
                 return candidate
@@ -236,16 +232,16 @@ class CorrectionSearch:
             odds = self._labels.odds_of(example.name, hull)
             assert odds, "only hulls with odds are relabelled"
             most = candidate_search.MAX_BELIEF_AGAINST_PERSON if is_human(hull) else 1.0
-            why = explain_correction(odds, change[1], chosen.extractor, len(places) == 1)
-            rows.append((to_correction(example, change), min(beliefs[at, change], most), why))
+            why = explain_fix(odds, change[1], chosen.extractor, len(places) == 1)
+            rows.append((to_fix(example, change), min(beliefs[at, change], most), why))
         rows.sort(key=lambda row: (row[0].asset, row[0].hull))
-        corrections, believed, whys = zip(*rows, strict=True)
-        return Explanation(chosen.extractor, corrections, believed, whys, chosen.cost)
+        fixes, believed, whys = zip(*rows, strict=True)
+        return Explanation(chosen.extractor, fixes, believed, whys, chosen.cost)
 
 
-def rank_candidates(candidates: Iterable[Candidate]) -> list[Candidate]:
+def rank_candidates(hypotheses: Iterable[Candidate]) -> list[Candidate]:
     """The candidates with corrections, the most believable first; of equally believable ones in their order."""
-    return sorted((one for one in candidates if not one.exact), key=lambda one: (round(one.score, 9), one.key))
+    return sorted((one for one in hypotheses if not one.exact), key=lambda one: (round(one.score, 9), one.key))
 
 
 def changes_of(candidate: Candidate) -> tuple[ChangeAt, ...]:
@@ -253,14 +249,14 @@ def changes_of(candidate: Candidate) -> tuple[ChangeAt, ...]:
     return tuple((place, change) for place, some in enumerate(candidate.ways) for change in some[0].changes)
 
 
-def compute_change_beliefs(candidates: Sequence[Candidate], instead: float) -> Mapping[ChangeAt, float]:
+def compute_change_beliefs(hypotheses: Sequence[Candidate], instead: float) -> Mapping[ChangeAt, float]:
     """The probability of each change, among all candidates and what stands against them.
 
     instead: the cost [nats] of what else may be the case. An extractor's share is spread over its relabelings.
     """
-    least = min([instead, *(one.score for one in candidates)])
+    least = min([instead, *(one.score for one in hypotheses)])
     total, shares = exp(least - instead), defaultdict[ChangeAt, float](float)
-    for candidate in candidates:
+    for candidate in hypotheses:
         weight = exp(least - candidate.base)
         sums = [total_chance(some) for some in candidate.ways]
         total += weight * prod(sums)

@@ -22,9 +22,9 @@ from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis.demonstration import name_demonstrations
 from meshforge.synthesis.options import TimeBudget
 from meshforge.synthesis.orientation.attempts import OrientationSearch
-from meshforge.synthesis.questions import LabelCorrection, Repair
-from meshforge.synthesis.repair import candidates
-from meshforge.synthesis.repair.candidates import key_cost
+from meshforge.synthesis.questions import LabelFix, Repair
+from meshforge.synthesis.repair import hypotheses
+from meshforge.synthesis.repair.hypotheses import key_cost
 from meshforge.synthesis.repair.reasons import list_evidence
 from meshforge.synthesis.search.terms import order_key
 from meshforge.synthesis.task import LearningTask, correct_demonstrations
@@ -39,7 +39,7 @@ MAX_TRIED = 24
 class FrameChange:
     """A correction that turns a mesh; cost: to propose it [nats]; odds: of the label as it is; angle [rad]."""
 
-    correction: LabelCorrection
+    fix: LabelFix
     cost: float
     odds: LabelOdds
     angle: float
@@ -60,10 +60,10 @@ class _Hypothesis:
     @property
     def score(self) -> float:
         """What it costs that labels and program are so [nats]."""
-        return self.base + sum(one.odds.odds[one.correction.to] for one in self.changes)
+        return self.base + sum(one.odds.odds[one.fix.to] for one in self.changes)
 
 
-class LandmarkCorrectionSearch:
+class LandmarkFixSearch:
     """The demonstrated meshes of a task that may lie in a wrong frame.
 
     learned: the extractors as the labels are; failed: whether the rule after them has none; spent: what was proposed
@@ -84,9 +84,9 @@ class LandmarkCorrectionSearch:
         self._places = {label: place for place, label in enumerate(task.frame.labels)}
         costs = [self._cost(one) for one in learned]
         self._sizes = (*map(size_of, learned), *(() if not failed else (0,)))
-        self._now = sum(costs) + failed * candidates.NO_EXTRACTOR_COST + spent
-        plain = 2 * candidates.NODE_COST + candidates.DOUBT_COST
-        self._least = sum(min(cost, plain) for cost in costs) + failed * candidates.NODE_COST
+        self._now = sum(costs) + failed * hypotheses.NO_EXTRACTOR_COST + spent
+        plain = 2 * hypotheses.NODE_COST + hypotheses.UNCERTAINTY_COST
+        self._least = sum(min(cost, plain) for cost in costs) + failed * hypotheses.NODE_COST
         self._failed = failed
 
     def run(self) -> tuple[Repair, ...]:
@@ -102,12 +102,12 @@ class LandmarkCorrectionSearch:
             sum(weight for one, weight in zip(tried, weights, strict=True) if change in one.changes) / total
             for change in best.changes
         ]
-        wanted = candidates.MIN_BELIEF_WITHOUT_EXACT if self._failed else candidates.MIN_BELIEF
+        wanted = hypotheses.MIN_BELIEF_WITHOUT_EXACT if self._failed else hypotheses.MIN_BELIEF
         if best.cost >= self._now or min(beliefs) < wanted:
             return ()
         return tuple(
             self._to_repair(change, belief, best)
-            for change, belief in sorted(zip(best.changes, beliefs, strict=True), key=lambda row: row[0].correction)
+            for change, belief in sorted(zip(best.changes, beliefs, strict=True), key=lambda row: row[0].fix)
         )
 
     def _cost(self, extractor: Extractor) -> float:
@@ -122,8 +122,8 @@ class LandmarkCorrectionSearch:
         frames = {name: frame for name, mesh in meshes.items() if (frame := self._rotate(mesh)) is not None}
         suspects = [row for name in frames for row in self._list_suspects(name, meshes[name], orient, within)]
         found, tried = list[FrameChange](), 0
-        for cost, correction in sorted(suspects):
-            change = self._to_change(correction, meshes[correction.asset], frames[correction.asset], cost)
+        for cost, fix in sorted(suspects):
+            change = self._to_change(fix, meshes[fix.asset], frames[fix.asset], cost)
             if change:
                 found.append(change)
                 tried += self._is_allowed((change,))
@@ -133,7 +133,7 @@ class LandmarkCorrectionSearch:
 
     def _list_suspects(
         self, name: str, mesh: SymbolicMesh, orient: Orient, within: float
-    ) -> Iterator[tuple[float, LabelCorrection]]:
+    ) -> Iterator[tuple[float, LabelFix]]:
         """What it costs to correct labels that may be wrong, where one before or after it is a landmark's."""
         bases = [base for pair in orient.pairs for base in (pair.start, pair.end)]
         landmarks = {label for base in bases for label in base.labels}
@@ -145,19 +145,17 @@ class LandmarkCorrectionSearch:
                 if (to in landmarks or hull.label in landmarks) and to != hull.label:
                     cost = self._labels.cost(name, hull, to)
                     if cost < within:
-                        yield cost, LabelCorrection(name, hull.name, hull.label, to)
+                        yield cost, LabelFix(name, hull.name, hull.label, to)
 
-    def _to_change(
-        self, correction: LabelCorrection, mesh: SymbolicMesh, now: Floats, cost: float
-    ) -> FrameChange | None:
+    def _to_change(self, fix: LabelFix, mesh: SymbolicMesh, now: Floats, cost: float) -> FrameChange | None:
         """None where the correction leaves the frame as it is, or leaves no frame. now: the rotation as labels are."""
-        hull = mesh.hull_of(correction.hull)
-        then = self._rotate(mesh, [correction.to if one is hull else one.label for one in mesh.hulls])
+        hull = mesh.hull_of(fix.hull)
+        then = self._rotate(mesh, [fix.to if one is hull else one.label for one in mesh.hulls])
         if then is None:
             return None
         angle = float(np.arccos(np.clip((np.trace(now @ then.T) - 1) / 2, -1, 1)))
-        odds = self._labels.odds_of(correction.asset, hull)
-        return FrameChange(correction, cost, odds, angle) if odds and angle >= MIN_TURN else None
+        odds = self._labels.odds_of(fix.asset, hull)
+        return FrameChange(fix, cost, odds, angle) if odds and angle >= MIN_TURN else None
 
     def _rotate(self, mesh: SymbolicMesh, labels: Sequence[str | None] | None = None) -> Floats | None:
         assert self._task.frame.orient
@@ -174,16 +172,16 @@ class LandmarkCorrectionSearch:
         return sorted(able, key=lambda one: sum(change.cost for change in one))[:MAX_TRIED]
 
     def _is_allowed(self, changes: Collection[FrameChange]) -> bool:
-        hulls = [(one.correction.asset, one.correction.hull) for one in changes]
+        hulls = [(one.fix.asset, one.fix.hull) for one in changes]
         assets = [asset for asset, _ in hulls] + [one.asset for one in self._task.confirmed]
         return len(set(hulls)) == len(hulls) and max(map(assets.count, assets)) <= self._task.options.eta
 
     def _try(self, changes: Sequence[FrameChange]) -> _Hypothesis | None:
         """What the rules cost on meshes with corrected labels; None where they are not found for less than now."""
         task = self._task
-        corrections = [one.correction for one in changes]
-        demos = correct_demonstrations(task.demos, corrections)
-        most = int((self._now - sum(one.cost for one in changes)) / candidates.NODE_COST)
+        fixes = [one.fix for one in changes]
+        demos = correct_demonstrations(task.demos, fixes)
+        most = int((self._now - sum(one.cost for one in changes)) / hypotheses.NODE_COST)
         search = OrientationSearch(demos, self._rules, task.frame, task.templates, task.options, self._budget)
         assert task.frame.orient
         attempt = search.attempt(task.frame.orient)
@@ -193,22 +191,22 @@ class LandmarkCorrectionSearch:
         return _Hypothesis(tuple(changes), tuple(attempt.sizes), base)
 
     def _to_repair(self, change: FrameChange, belief: float, best: _Hypothesis) -> Repair:
-        most = candidates.MAX_BELIEF_AGAINST_PERSON if is_human(change.odds.hull) else 1.0
+        most = hypotheses.MAX_BELIEF_AGAINST_PERSON if is_human(change.odds.hull) else 1.0
         places = [k for k, (now, then) in enumerate(zip(self._sizes, best.sizes, strict=True)) if then < now or not now]
         rule = places[0] if places else 0
         now = "no extractor" if not self._sizes[rule] else f"one of {pluralize(self._sizes[rule], 'node')}"
         all_ = "it" if len(best.changes) == 1 else "all corrections"
         effect = (
-            f"with {all_} the orientation turns {change.correction.asset} by {np.degrees(change.angle):.0f}° "
+            f"with {all_} the orientation turns {change.fix.asset} by {np.degrees(change.angle):.0f}° "
             f"otherwise, and rule {rule + 1} has an extractor of {pluralize(best.sizes[rule], 'node')}, now {now}"
         )
-        why = "; ".join([*list_evidence(change.odds, change.correction.to), effect])
-        return Repair(change.correction, rule + 1, min(belief, most), why[0].upper() + why[1:])
+        why = "; ".join([*list_evidence(change.odds, change.fix.to), effect])
+        return Repair(change.fix, rule + 1, min(belief, most), why[0].upper() + why[1:])
 
 
 def proposal_cost(labels: LabelBeliefs, task: LearningTask, repairs: Sequence[Repair]) -> float:
     """What it costs to believe in corrections that were found otherwise [nats]; of meshes that have no odds, none."""
     meshes = {name: demo.mesh for name, demo in name_demonstrations(task.demos)}
-    known = [one.correction for one in repairs if one.correction.asset in meshes]
+    known = [one.fix for one in repairs if one.fix.asset in meshes]
     costs = [labels.cost(one.asset, meshes[one.asset].hull_of(one.hull), one.to) for one in known]
     return sum(cost for cost in costs if cost < -log(1e-12))

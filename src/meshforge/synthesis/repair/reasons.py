@@ -9,7 +9,7 @@ from meshforge.symbolic import Hull
 _LOW_CONFIDENCE = 0.8  # a confidence below is worth mentioning
 
 
-def explain_correction(odds: LabelOdds, to: str, extractor: Extractor, alone: bool) -> str:
+def explain_fix(odds: LabelOdds, to: str, extractor: Extractor, alone: bool) -> str:
     """One sentence on the label itself, and what its correction makes possible.
 
     alone: whether it is the only correction.
@@ -25,10 +25,10 @@ def list_evidence(odds: LabelOdds, to: str) -> list[str]:
     reasons = []
     if agreeing > similar.count(hull.label or ""):
         reasons.append(f"{agreeing} of the {of} most similar hulls are labelled {to}")
-    return [*reasons, *_label_doubts(hull)]
+    return [*reasons, *_label_reasons(hull)]
 
 
-def _label_doubts(hull: Hull) -> list[str]:
+def _label_reasons(hull: Hull) -> list[str]:
     if hull.annotation is None:
         return ["it has no label"]
     if is_human(hull):

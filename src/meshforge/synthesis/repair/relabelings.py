@@ -12,7 +12,7 @@ from meshforge.language import Extractor, HullTable
 from meshforge.symbolic import Label, mask_of
 from meshforge.synthesis.demonstration import Example, LabelChange
 from meshforge.synthesis.options import Options
-from meshforge.synthesis.questions import LabelCorrection
+from meshforge.synthesis.questions import LabelFix
 from meshforge.synthesis.search.observation_table import HullGroups
 from meshforge.synthesis.search.terms import enumerate_leaves
 
@@ -34,7 +34,7 @@ def enumerate_relabelings(
     vocabulary: Sequence[str],
     labels: LabelBeliefs,
     allowed: int,
-    rejected: Collection[LabelCorrection],
+    rejected: Collection[LabelFix],
     within: float,
     limit: int,
 ) -> list[Relabeling]:
@@ -67,7 +67,7 @@ def _single_changes(
     example: Example,
     vocabulary: Sequence[str],
     labels: LabelBeliefs,
-    rejected: Collection[LabelCorrection],
+    rejected: Collection[LabelFix],
     within: float,
 ) -> list[Relabeling]:
     found = []

@@ -62,7 +62,7 @@ def _enumerate(
 ) -> tuple[Leaf, ...]:
     some = [kind for kind in kinds if kind.layer in layers]
     bases = [leaf for kind in some if issubclass(kind, BaseExtractor) for leaf in _list(kind, labels, (), meshes)]
-    bases.sort(key=lambda base: base.doubts)
+    bases.sort(key=lambda base: base.uncertainty)
     others = [kind for kind in some if not issubclass(kind, BaseExtractor)]
     return (*bases, *(leaf for kind in others for leaf in _list(kind, labels, tuple(bases), meshes)))
 
@@ -87,7 +87,7 @@ def leaf_key(leaf: Leaf, labels: Mapping[str, int]) -> Key:
     """
     kind = type(leaf)
     rank = (_LEAF_RANK[kind],) if kind in _LEAF_RANK else (_PLUGIN_RANK, kind.__name__)
-    return (leaf.size, leaf.doubts, *rank, *_argument_keys(leaf, labels))
+    return (leaf.size, leaf.uncertainty, *rank, *_argument_keys(leaf, labels))
 
 
 def _argument_keys(leaf: Leaf, labels: Mapping[str, int]) -> Iterator[Any]:

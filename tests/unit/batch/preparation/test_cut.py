@@ -47,7 +47,7 @@ def test_a_native_box_of_a_urdf_is_cut_into_meshes_with_its_attributes(tmp_path:
     saved = save(SymbolicMesh.of(apply_preparation(asset, done)), tmp_path / "out/stand.urdf")
     back = {hull.name: hull.volume for hull in load(saved.path).hulls}
     assert back == {"frame/foot#0": pytest.approx(2.0), "frame/foot#1": pytest.approx(2.0)}
-    assert done.steps[0].replaced[0].told == "2 hulls"
+    assert done.steps[0].replaced[0].remark == "2 hulls"
 
 
 def test_hulls_of_a_decomposition_inherit_from_the_piece(tmp_path: Path) -> None:

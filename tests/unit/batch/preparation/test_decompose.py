@@ -11,7 +11,7 @@ from meshforge.common import AssetError
 from meshforge.formats import NO_GEOMETRY, load, read, save
 from meshforge.geometry import volume_of_union
 from meshforge.geometry.decomposition.engines import DecomposeSettings
-from meshforge.symbolic import Opaque, Surface, SymbolicMesh
+from meshforge.symbolic import NonConvexPiece, Surface, SymbolicMesh
 from tests.unit.batch.preparation.samples import PIECES, QUICK, VOXELS, stand, write_boxes, write_stand
 
 
@@ -23,8 +23,8 @@ def test_opaque_pieces_and_bodies_that_only_show_something_can_be_decomposed(tmp
 
 def test_planes_and_the_like_have_no_triangles_and_stay_opaque(tmp_path: Path) -> None:
     asset = read(write_boxes(tmp_path / "row.obj"))
-    plane = Opaque("ground", "body", "an endless plane")
-    assert find_sources(replace(asset, opaque=(plane,))) == ()
+    plane = NonConvexPiece("ground", "body", "an endless plane")
+    assert find_sources(replace(asset, non_convex=(plane,))) == ()
 
 
 def test_a_prepared_asset_is_not_noted_to_have_no_collision_geometry(tmp_path: Path) -> None:
@@ -50,7 +50,7 @@ def test_the_hulls_take_the_place_of_what_they_were_made_of(tmp_path: Path, sett
     done = decompose_asset(asset, Preparation(), settings)
     ready = apply_preparation(asset, done.preparation)
     made = {geom.name: geom for geom in ready.geoms[len(asset.geoms) :]}
-    assert ready.opaque == () and ready.geoms[: len(asset.geoms)] == asset.geoms
+    assert ready.non_convex == () and ready.geoms[: len(asset.geoms)] == asset.geoms
     bodies = {name.partition("/")[0] for name in made}
     assert bodies == {"frame", "cover"} and all(geom.body in bodies for geom in made.values())
     assert {geom.parent for geom in made.values() if geom.body == "frame"} == {"frame/body"}
@@ -62,7 +62,7 @@ def test_the_hulls_take_the_place_of_what_they_were_made_of(tmp_path: Path, sett
 
 def test_what_it_comes_to_is_told(tmp_path: Path) -> None:
     done = decompose_asset(read(write_stand(tmp_path)), Preparation(), QUICK)
-    assert [entry.told for entry in done.made] == ["2 hulls, 100% of the free space stays free"] * 2
+    assert [entry.remark for entry in done.made] == ["2 hulls, 100% of the free space stays free"] * 2
     assert str(done.preparation.steps[0]) == "2 pieces decomposed into 4 hulls by coacd"
 
 
@@ -72,7 +72,7 @@ def test_the_edited_file_has_the_hulls_in_the_place_of_the_piece(tmp_path: Path)
     saved = save(mesh, tmp_path / "out/stand.urdf")
     back = load(saved.path)
     assert sorted(hull.name for hull in back.hulls) == sorted(hull.name for hull in mesh.hulls)
-    assert back.asset and back.asset.opaque == ()
+    assert back.asset and back.asset.non_convex == ()
     text = saved.path.read_text()
     assert text.count('<friction mu="0.3"/>') == 2 and "<!-- a stand -->" in text
     assert text.count('filename="corner.obj"') == 2  # both visuals, as they were
@@ -112,11 +112,11 @@ def test_names_that_the_file_has_already_are_not_given_again(tmp_path: Path) -> 
 def test_a_piece_that_fails_is_told_and_the_others_are_done(tmp_path: Path) -> None:
     asset = read(write_stand(tmp_path))
     line = Surface(asset.visuals[0].vertices * [1, 0, 0], asset.visuals[0].faces)
-    bad = replace(asset, opaque=(Opaque("frame/wire", "frame", "flat", line), *asset.opaque))
+    bad = replace(asset, non_convex=(NonConvexPiece("frame/wire", "frame", "flat", line), *asset.non_convex))
     done = decompose_asset(bad, Preparation(), QUICK)
     assert [(lost.what, "no area" in lost.why) for lost in done.failed] == [("frame/wire", True)]
     assert [entry.what for entry in done.made] == ["frame/body", "cover"]
-    assert [piece.name for piece in apply_preparation(bad, done.preparation).opaque] == ["frame/wire"]
+    assert [piece.name for piece in apply_preparation(bad, done.preparation).non_convex] == ["frame/wire"]
 
 
 BALL = '<collision><geometry><sphere radius="1"/></geometry></collision>'
@@ -156,4 +156,4 @@ def test_a_preparation_is_never_applied_to_other_geometry(tmp_path: Path, old: s
     kept = replay_preparation(changed, preparation)
     assert len(kept.lost) == 1 and len(kept.preparation.steps[0].replaced) == 1
     done = decompose_asset(changed, preparation, QUICK)
-    assert len(done.dropped) == 1 and apply_preparation(changed, done.preparation).opaque == ()
+    assert len(done.dropped) == 1 and apply_preparation(changed, done.preparation).non_convex == ()

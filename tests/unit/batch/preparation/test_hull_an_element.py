@@ -59,7 +59,7 @@ def test_each_collision_element_is_the_convex_hull_of_its_mesh(tmp_path: Path) -
     asset = read(write_robot(tmp_path))
     made = hulled(asset)
     volume, corners = hull_of(tmp_path / "cad.obj")
-    assert made.opaque == ()
+    assert made.non_convex == ()
     assert [(geom.name, geom.body) for geom in made.geoms] == [
         ("base/geom1", "base"), ("base/geom0", "base"), ("lid/top", "lid")
     ]  # fmt: skip
@@ -77,7 +77,7 @@ def test_the_rest_of_the_urdf_keeps_its_bytes(tmp_path: Path) -> None:
     assert '<friction mu="0.4"/>' in changed[1][1] and 'name="top"' in changed[1][1]
     again = load(saved.path)
     assert sorted(hull.name for hull in again.hulls) == ["base/geom0", "base/geom1", "lid/top"]
-    assert again.asset and again.asset.opaque == ()
+    assert again.asset and again.asset.non_convex == ()
 
 
 def test_pieces_are_sources_of_their_own_for_engines_that_divide(tmp_path: Path) -> None:
@@ -106,7 +106,7 @@ def test_a_mesh_of_any_format_becomes_one_hull(tmp_path: Path, suffix: str) -> N
     asset = read(_write_whole(tmp_path / "in" / "cad.obj", suffix))
     made = hulled(asset)
     volume, _ = hull_of(tmp_path / "in" / "cad.obj")
-    assert made.opaque == () and [geom.shape.volume for geom in made.geoms] == pytest.approx([volume])
+    assert made.non_convex == () and [geom.shape.volume for geom in made.geoms] == pytest.approx([volume])
     saved = save(SymbolicMesh.of(made), tmp_path / "out" / f"cad{suffix}")
     again = load(saved.path)
     assert [hull.volume for hull in again.hulls] == pytest.approx([volume], rel=1e-5)
@@ -152,7 +152,7 @@ def test_the_command_line_makes_a_hull_of_each_mesh_and_undoes_it(
     assert names == ["base/geom1", "base/geom0", "lid/top"]
     assert run("prepare", "p", "--decompose", "hull", "--workers", "1").out == "cad.urdf: nothing new\n"
     assert run("prepare", "p", "cad.urdf", "--undo").code == 0
-    assert len(run("info", "cad.urdf", "--project", "p", "--json").json["opaque"]) == 2
+    assert len(run("info", "cad.urdf", "--project", "p", "--json").json["non_convex"]) == 2
 
 
 def test_one_hull_of_a_mesh_file_is_written_and_nothing_is_divided_by_it(

@@ -10,7 +10,7 @@ from meshforge.labels.vlm.answer import HullAnswer, read_answer
 
 WORDS = ("leg", "table top", "drawer_front", "Füße")
 RIGHT = '{"hulls": [{"number": 0, "label": "leg"}, {"number": 2, "label": "table top"}]}'
-SAID = {0: "leg", 2: "table top"}
+ANSWERS = {0: "leg", 2: "table top"}
 
 
 def read(text: str, asked: tuple[int, ...] = (0, 2)) -> HullAnswer:
@@ -37,7 +37,7 @@ def read(text: str, asked: tuple[int, ...] = (0, 2)) -> HullAnswer:
     ],
 )
 def test_all_that_says_the_same_is_read_the_same(text: str) -> None:
-    assert read(text) == HullAnswer(SAID, (), ())
+    assert read(text) == HullAnswer(ANSWERS, (), ())
 
 
 @pytest.mark.parametrize(
@@ -74,9 +74,9 @@ def test_words_that_are_no_labels_are_told() -> None:
 @given(text=st.text(alphabet=st.sampled_from('{}[]":, 02leg\\nunkwhs'), max_size=60) | st.text(max_size=60))
 def test_whatever_is_said_each_number_is_said_of_or_left_open(text: str) -> None:
     answer = read(text)
-    assert set(answer.said).isdisjoint(answer.open)
-    assert set(answer.said) | set(answer.open) == {0, 2}
-    assert all(label is None or label in WORDS for label in answer.said.values())
+    assert set(answer.given).isdisjoint(answer.open)
+    assert set(answer.given) | set(answer.open) == {0, 2}
+    assert all(label is None or label in WORDS for label in answer.given.values())
 
 
 @given(
@@ -87,11 +87,11 @@ def test_whatever_is_said_each_number_is_said_of_or_left_open(text: str) -> None
 def test_an_answer_is_found_in_any_chatter(said: dict[int, str], before: str, after: str) -> None:
     rows = [{"number": number, "label": label} for number, label in said.items()]
     answer = read(before + json.dumps({"hulls": rows}) + after, tuple(said))
-    assert answer.said == said
+    assert answer.given == said
 
 
 @given(said=st.dictionaries(st.integers(0, 30), st.sampled_from(WORDS), min_size=1), share=st.floats(0, 1))
 def test_a_cut_answer_never_says_another_label(said: dict[int, str], share: float) -> None:
     text = json.dumps({"hulls": [{"number": number, "label": label} for number, label in said.items()]})
     answer = read(text[: int(share * len(text))], tuple(said))
-    assert answer.said.items() <= said.items()
+    assert answer.given.items() <= said.items()

@@ -42,7 +42,7 @@ function Preparation() {
     <Section title="Prepare this asset">
       <div className={css.buttons}>
         <Split />
-        <Decompose asset={view.asset} pieces={view.opaque.length} />
+        <Decompose asset={view.asset} pieces={view.non_convex.length} />
       </div>
       {view.prepared.length > 0 && (
         <>

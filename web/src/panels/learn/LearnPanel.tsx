@@ -125,7 +125,7 @@ const KINDS = { answer: "Answer", confirmed: "Repair accepted", rejected: "Repai
 
 /** What was said so far: answers and repairs, each of which can be taken back. */
 function AnswerList() {
-  const said = useProject((state) => state.project.said);
+  const said = useProject((state) => state.project.answers);
   const stale = useProject((state) => state.outcome?.stale);
   if (!said.length) return null;
   return (

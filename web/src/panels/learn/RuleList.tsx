@@ -9,7 +9,7 @@ import { extractorOf, learnedDiffers, readingsOf } from "../../store/readings";
 import { countText, shortName } from "../../store/words";
 import { setHighlight, visit } from "../../store/workspace";
 import { Button } from "../../ui/Button";
-import type { ReadingView, RuleView } from "../../wire";
+import type { CandidateView, RuleView } from "../../wire";
 import css from "./learn.module.css";
 import { RuleText, useExtractorHighlight } from "./RuleText";
 
@@ -138,7 +138,7 @@ function Readings({ rule }: { rule: RuleView }) {
 }
 
 /** One reading of a rule: what it says, how believable it is, and where it does something else. */
-function ReadingRow({ reading, own }: { reading: ReadingView; own: boolean }) {
+function ReadingRow({ reading, own }: { reading: CandidateView; own: boolean }) {
   const { rule, extractor, sentence, belief, size, differs_on: differs } = reading;
   const point = useExtractorHighlight(extractor, rule);
   const percent = Math.round(100 * belief);

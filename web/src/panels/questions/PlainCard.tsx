@@ -43,7 +43,7 @@ export function PlainCard({ question }: { question: ReviewQuestionView }) {
 /** An asset before and after, where its result is written; the view shows it at any rate. And what stands out of it. */
 function ResultPictures({ asset }: { asset: string }) {
   const made = useProject((state) => isUpToDate(state.cards[asset]));
-  const doubts = useProject((state) => state.confidence[asset]?.doubts);
+  const doubts = useProject((state) => state.confidence[asset]?.reasons);
   const alarms = (doubts ?? []).filter((doubt) => doubt.kind === "alarm");
   return (
     <>

@@ -47,7 +47,7 @@ export function Questions() {
 
 function Card({ question }: { question: ReviewQuestionView }) {
   switch (question.kind) {
-    case "reading":
+    case "candidate":
     case "label":
       return <ReadingsCard question={question} />;
     case "orientation":
@@ -65,11 +65,11 @@ function NoQuestion() {
   return assessment?.assets.length ? <Over assessment={assessment} /> : null;
 }
 
-function Over({ assessment: { held, unseen } }: { assessment: AssessmentView }) {
-  if (!held) return <Line icon={<CircleCheck size={15} aria-hidden />} text="Nothing is left to ask." mood={unseen ? "plain" : "good"} />;
+function Over({ assessment: { need_review: open, unseen } }: { assessment: AssessmentView }) {
+  if (!open) return <Line icon={<CircleCheck size={15} aria-hidden />} text="Nothing is left to ask." mood={unseen ? "plain" : "good"} />;
   return (
-    <Line icon={<CircleQuestionMark size={15} aria-hidden />} text={`Nothing more to ask, and ${countText(held, "result")} held.`}>
-      <Button onClick={lookAtHeld}>Look at {held === 1 ? "it" : "them"}</Button>
+    <Line icon={<CircleQuestionMark size={15} aria-hidden />} text={`Nothing more to ask, and ${countText(open, "result")} ${open === 1 ? "needs" : "need"} review.`}>
+      <Button onClick={lookAtHeld}>Look at {open === 1 ? "it" : "them"}</Button>
     </Line>
   );
 }

@@ -11,7 +11,7 @@ import { countText, listText } from "../../store/words";
 import { useWorkspace } from "../../store/workspace";
 import { Button } from "../../ui/Button";
 import { Section } from "../../ui/Section";
-import type { CorrectionView } from "../../wire";
+import type { ManualEditView } from "../../wire";
 import css from "./review.module.css";
 
 export function Corrections({ asset }: { asset: string }) {
@@ -74,16 +74,16 @@ function toView(form: HTMLElement | null): void {
   form?.scrollIntoView({ block: "nearest" });
 }
 
-const NONE: readonly CorrectionView[] = [];
+const NONE: readonly ManualEditView[] = [];
 
 /** The edits by hand of an asset, also where its result fails. */
-function useCorrections(asset: string): readonly CorrectionView[] {
+function useCorrections(asset: string): readonly ManualEditView[] {
   const revision = useProject((state) => state.revisions[asset] ?? 0);
-  const [got, setGot] = useState<{ asset: string; corrections: readonly CorrectionView[] } | null>(null);
+  const [got, setGot] = useState<{ asset: string; corrections: readonly ManualEditView[] } | null>(null);
   useEffect(() => {
     let wanted = true;
     getDetails(asset).then(
-      ({ view }) => wanted && setGot({ asset, corrections: view.corrections }),
+      ({ view }) => wanted && setGot({ asset, corrections: view.manual_edits }),
       () => undefined, // the viewport reports an asset that cannot be read
     );
     return () => {

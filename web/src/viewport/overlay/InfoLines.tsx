@@ -29,7 +29,7 @@ function UnturnedNote() {
 function PointedHull() {
   const name = useWorkspace((workspace) => workspace.hover);
   const hull = useScenes(({ scene }) => scene?.hulls.find((one) => one.name === name));
-  const piece = useScenes(({ scene }) => scene?.view.opaque.find((one) => one.name === name));
+  const piece = useScenes(({ scene }) => scene?.view.non_convex.find((one) => one.name === name));
   if (hull) return <HullLine hull={hull} />;
   if (!piece) return null;
   return (

@@ -131,7 +131,7 @@ function Tools() {
 /** What is drawn besides the hulls, and how. */
 function Switches() {
   const ghosts = useScenes(({ scene }) => scene?.view.has_visual ?? false);
-  const opaque = useScenes(({ scene }) => scene?.view.opaque.length ?? 0);
+  const opaque = useScenes(({ scene }) => scene?.view.non_convex.length ?? 0);
   return (
     <div className={css.group} role="group" aria-label="Overlays">
       <Switch what="contacts" icon={Network} name="Contact graph; near misses are dashed" />

@@ -11,7 +11,7 @@ from meshforge.store import AssessmentFile, ConfidenceLine, Feedback, SignOff, S
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Standings:
+class ResultStatuses:
     """What is kept of a review. bases: what sign-offs would rest on now, of assets that can be edited; lacks: what is
     not there of the others; feedback: of people; signed: what is signed off; last: what the last review found, None
     where something changed since.
@@ -39,7 +39,7 @@ class Standings:
             found_since=self._find_news(line) if state == "signed off" else (),
             excluded=excluded.reason if excluded else None,
             probability=found.probability if found else None,
-            doubts=found.doubts if found else (),
+            reasons=found.reasons if found else (),
         )
 
     def _find_void(self, asset: AssetStatus, sign_off: SignOff | None) -> tuple[str, ...]:
@@ -57,20 +57,20 @@ class Standings:
         verdict = self.feedback.verdict_on(asset.id)
         is_wrong = asset.review == "wrong" and not (verdict and verdict.meant)
         if asset.id in self.last.wrong if self.last else is_wrong:
-            return "held"
+            return "needs review"
         if is_signed or asset.review == "accepted":
             return "void" if is_void else "signed off"
         if not line or not self.last:
             return "unknown"
-        return "sure" if line.passes(self.last.bar) else "held"
+        return "sure" if line.passes(self.last.threshold) else "needs review"
 
     def _find_news(self, line: ConfidenceLine | None) -> tuple[str, ...]:
         """What was found after an asset was signed off, and no person has answered."""
-        if not line or not self.last or line.passes(self.last.bar):
+        if not line or not self.last or line.passes(self.last.threshold):
             return ()
         sure = f"it is {format_share(line.probability)} sure now"
-        weighty = (one.text for one in line.doubts if one.kind == "alarm" or one.share > 1 - self.last.bar)
-        return tuple(weighty) or (line.doubts[0].text if line.doubts else sure,)
+        weighty = (one.text for one in line.reasons if one.kind == "alarm" or one.share > 1 - self.last.threshold)
+        return tuple(weighty) or (line.reasons[0].text if line.reasons else sure,)
 
 
 def _is_accepted(asset: AssetStatus) -> bool:

@@ -27,7 +27,7 @@ RULE_OF_FRAME = 0
 
 
 @dataclass(frozen=True, slots=True)
-class Flip:
+class AlternativeLabel:
     """A hull that may have another label, with which the edit would be another one.
 
     chance: of that label; rules: the numbers of those that would select otherwise; 0 for the orientation; selections:
@@ -43,7 +43,7 @@ class Flip:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Trial:
+class ProgramRun:
     """One asset under a program. meshes: as each rule meets it; selections: of the rules, as bit sets; error: why the
     program cannot run, None where it can; flips: the labels that matter.
     """
@@ -51,7 +51,7 @@ class Trial:
     asset: str
     meshes: tuple[SymbolicMesh, ...]
     selections: tuple[int, ...]
-    flips: tuple[Flip, ...] = ()
+    alternatives: tuple[AlternativeLabel, ...] = ()
     error: str | None = None
 
     def names(self, rule: int, mask: int) -> tuple[str, ...]:
@@ -64,7 +64,7 @@ class Trial:
         return tuple(frozenset(self.names(rule, mask)) for rule, mask in enumerate(self.selections, 1))
 
 
-def try_program(asset: str, mesh: SymbolicMesh, program: Program, templates: Mapping[str, Template]) -> Trial:
+def run_on_asset(asset: str, mesh: SymbolicMesh, program: Program, templates: Mapping[str, Template]) -> ProgramRun:
     """The program on an asset."""
     delta = EXTREMITY if program.extremity is None else program.extremity
     meshes, selections = list[SymbolicMesh](), list[int]()
@@ -76,13 +76,13 @@ def try_program(asset: str, mesh: SymbolicMesh, program: Program, templates: Map
             selections.append(select_mask(rule.extractor, replay.mesh, delta))
         next(replays, None)  # the last rule
     except MeshForgeError as error:
-        return Trial(asset, tuple(meshes), tuple(selections), error=error.problem)
-    return Trial(asset, tuple(meshes), tuple(selections))
+        return ProgramRun(asset, tuple(meshes), tuple(selections), error=error.problem)
+    return ProgramRun(asset, tuple(meshes), tuple(selections))
 
 
-def find_flips(
-    trial: Trial, mesh: SymbolicMesh, program: Program, labels: Sequence[str], chances: Floats
-) -> tuple[Flip, ...]:
+def find_alternatives(
+    run: ProgramRun, mesh: SymbolicMesh, program: Program, labels: Sequence[str], chances: Floats
+) -> tuple[AlternativeLabel, ...]:
     """The other labels of hulls with which a rule would select otherwise, or the asset be turned otherwise.
 
     mesh: the asset; chances: (hulls, labels) of it.
@@ -92,8 +92,8 @@ def find_flips(
     before = _frame_of(mesh, program.orient) if program.orient else None
     landmarks = frozenset(Program(orient=program.orient).labels_asked)
     every = landmarks.union(*asked)
-    seen = [[hull.label for hull in met.hulls] for met in trial.meshes]
-    found = list[Flip]()
+    seen = [[hull.label for hull in met.hulls] for met in run.meshes]
+    found = list[AlternativeLabel]()
     for row, hull in enumerate(mesh.hulls):
         for place in np.flatnonzero(chances[row] >= LEAST_CHANCE).tolist():
             to = labels[place]
@@ -101,16 +101,16 @@ def find_flips(
                 continue
             turned = bool({to, hull.label} & landmarks) and _turns(mesh, row, to, program.orient, before)
             others = {RULE_OF_FRAME: 0} if turned else {}
-            for number, (rule, met, names) in enumerate(zip(program.rules, trial.meshes, seen, strict=False), 1):
+            for number, (rule, met, names) in enumerate(zip(program.rules, run.meshes, seen, strict=False), 1):
                 at = met.index.get(hull.name)
                 if at is None or names[at] != hull.label or not {to, hull.label} & asked[number - 1]:
                     continue
                 other = select_mask(rule.extractor, met, delta, [*names[:at], to, *names[at + 1 :]])
-                if other != trial.selections[number - 1]:
+                if other != run.selections[number - 1]:
                     others[number] = other
             if others:
                 chance = float(chances[row, place])
-                found.append(Flip(hull.name, hull.label, to, chance, tuple(others), tuple(others.values())))
+                found.append(AlternativeLabel(hull.name, hull.label, to, chance, tuple(others), tuple(others.values())))
     return tuple(found)
 
 
@@ -137,43 +137,47 @@ def _frame_of(mesh: SymbolicMesh, orient: Orient, labels: Sequence[str | None] |
         return None
 
 
-def select_by(trial: Trial, rule: int, extractor: Extractor, delta: float) -> int | None:
+def select_by(run: ProgramRun, rule: int, extractor: Extractor, delta: float) -> int | None:
     """What another extractor of a rule selects on an asset, None where the rule is not reached."""
-    return select_mask(extractor, trial.meshes[rule - 1], delta) if rule <= len(trial.meshes) else None
+    return select_mask(extractor, run.meshes[rule - 1], delta) if rule <= len(run.meshes) else None
 
 
 _WRONG_BY_RIGHT, _WRONG_BY_CORRECTED = 0.08, 0.24
 """Of labels that follow from results that are as meant, and from corrected ones, so many are wrong (measured)."""
 
 
-def weigh_labels(state: ReviewState, trials: Sequence[Trial], posterior: FamilyPosterior) -> Floats | None:
+def weigh_labels(state: ReviewState, runs: Sequence[ProgramRun], posterior: FamilyPosterior) -> Floats | None:
     """The evidence (hulls of all meshes, labels) [nats] of results on labels, None where there is none.
 
     trials: of all assets, with their flips; posterior: by all other evidence.
     """
     codes = {label: code for code, label in enumerate(posterior.seen.labels)}
-    found, said = np.zeros(posterior.chances.shape), False
-    for place, trial in enumerate(trials):
-        if trial.asset not in state.meant or trial.error:
+    found, is_known = np.zeros(posterior.chances.shape), False
+    for place, run in enumerate(runs):
+        if run.asset not in state.meant or run.error:
             continue
-        start, index = posterior.table.spans[place].start, state.meshes[trial.asset].index
-        for flip, nats in _weigh_flips(state, trial):
-            found[start + index[flip.hull], codes[flip.to]] += nats
-            said = True
-    return found if said else None
+        start, index = posterior.table.spans[place].start, state.meshes[run.asset].index
+        for alternative, nats in _weigh_alternatives(state, run):
+            found[start + index[alternative.hull], codes[alternative.to]] += nats
+            is_known = True
+    return found if is_known else None
 
 
-def _weigh_flips(state: ReviewState, trial: Trial) -> Iterator[tuple[Flip, float]]:
+def _weigh_alternatives(state: ReviewState, run: ProgramRun) -> Iterator[tuple[AlternativeLabel, float]]:
     """How much more probable each other label is by what rules are to select on an asset."""
     meant = [
         mask_of(mesh.index[hull] for hull in select if hull in mesh.index)
-        for mesh, select in zip(trial.meshes, state.meant[trial.asset], strict=False)
+        for mesh, select in zip(run.meshes, state.meant[run.asset], strict=False)
     ]
-    for flip in trial.flips:
-        pairs = [(meant[rule - 1], now) for rule, now in zip(flip.rules, flip.selections, strict=True) if rule > 0]
-        before = sum((trial.selections[rule - 1] ^ meant[rule - 1]).bit_count() for rule in flip.rules if rule > 0)
+    for alternative in run.alternatives:
+        pairs = [
+            (meant[rule - 1], now)
+            for rule, now in zip(alternative.rules, alternative.selections, strict=True)
+            if rule > 0
+        ]
+        before = sum((run.selections[rule - 1] ^ meant[rule - 1]).bit_count() for rule in alternative.rules if rule > 0)
         after = sum((wanted ^ now).bit_count() for wanted, now in pairs)
         if after < before:
-            yield flip, log((1 - _WRONG_BY_CORRECTED) / _WRONG_BY_CORRECTED)
+            yield alternative, log((1 - _WRONG_BY_CORRECTED) / _WRONG_BY_CORRECTED)
         elif after > before:
-            yield flip, -log((1 - _WRONG_BY_RIGHT) / _WRONG_BY_RIGHT)
+            yield alternative, -log((1 - _WRONG_BY_RIGHT) / _WRONG_BY_RIGHT)

@@ -37,7 +37,7 @@ _MAX_SIZE = 9  # nodes; beyond, what a few examples show no longer speaks for a 
 NODE_COST = 1.8
 """A syntax node of an extractor: with five labels, the number of extractors grows so fast with their size."""
 
-DOUBT_COST = 1.0
+UNCERTAINTY_COST = 1.0
 """A doubt of the search's order (`All`, a direction, an unusual contact)."""
 
 NO_EXTRACTOR_COST = 22.0
@@ -95,8 +95,8 @@ def total_chance(ways: Iterable[Relabeling]) -> float:
 
 def key_cost(key: Key) -> float:
     """What it costs to believe an extractor, by its place in the search's order."""
-    size, doubts = float(key[0]), float(key[1])
-    return NODE_COST * size + DOUBT_COST * doubts
+    size, uncertainty = float(key[0]), float(key[1])
+    return NODE_COST * size + UNCERTAINTY_COST * uncertainty
 
 
 def search_small(variants: Variants, largest: int, within: float, budget: TimeBudget) -> Iterator[Candidate]:

@@ -48,7 +48,7 @@ def selections_digest(meant: Iterable[RuleSelection]) -> str | None:
 
 
 @dataclass(frozen=True, slots=True)
-class Correction:
+class ManualEdit:
     """One edit by hand. hulls: name and digest of each hull it is about; label: of what it makes, None keeps it."""
 
     hulls: tuple[tuple[str, str], ...]
@@ -69,8 +69,8 @@ class Correction:
         return None
 
 
-def replay_corrections(
-    corrections: Iterable[Correction],
+def replay_manual_edits(
+    manual_edits: Iterable[ManualEdit],
     source: symbolic.SymbolicMesh,
     edited: symbolic.SymbolicMesh,
     program: language.Program,
@@ -80,8 +80,8 @@ def replay_corrections(
 
     The edits see the mesh in the program's canonical frame, as its rules do.
     """
-    corrections = tuple(corrections)
-    if not corrections:
+    manual_edits = tuple(manual_edits)
+    if not manual_edits:
         return edited, ()
     replay = language.Replay.begin(source, program.orient, program.contact)
     staged, known = replay.mesh, replay.mesh.index
@@ -90,13 +90,13 @@ def replay_corrections(
         for h in edited.hulls
     )
     replay, flags = replace(replay, mesh=current, used=frozenset(edited.index)), []
-    for number, correction in enumerate(corrections, 1):
-        lost = correction.find_problem(_restore_program_hulls(replay.mesh, edited))
+    for number, manual_edit in enumerate(manual_edits, 1):
+        lost = manual_edit.find_problem(_restore_program_hulls(replay.mesh, edited))
         if lost:
             flags.append(f"edit {number} by hand was left out: {lost}")
             continue
-        mask = replay.mask_of(name for name, _ in correction.hulls)
-        replay = replay.apply(mask, correction.action, correction.label, templates)
+        mask = replay.mask_of(name for name, _ in manual_edit.hulls)
+        replay = replay.apply(mask, manual_edit.action, manual_edit.label, templates)
     return _restore_program_hulls(replay.edited, edited), tuple(flags)
 
 
@@ -106,7 +106,7 @@ def _restore_program_hulls(mesh: symbolic.SymbolicMesh, edited: symbolic.Symboli
     return replace(mesh, hulls=tuple(hulls))
 
 
-def corrections_digest(corrections: Iterable[Correction]) -> str | None:
+def manual_edits_digest(manual_edits: Iterable[ManualEdit]) -> str | None:
     """The digest of edits by hand, None where there are none."""
-    lines = [str(correction) for correction in corrections]
+    lines = [str(manual_edit) for manual_edit in manual_edits]
     return text_digest("\n".join(lines)) if lines else None

@@ -16,16 +16,16 @@ from meshforge.synthesis.search.bank import Bank
 from meshforge.synthesis.search.smallest import ErrorCounter, Search, compare_selection
 from meshforge.synthesis.search.terms import Term
 
-MOST_SLIPS = 2
+MOST_MISTAKES = 2
 """Slips in what is known of one rule."""
-SLIP, NODE = 3.5, 1.0
-"""What a slip costs, and a node of an extractor [nats]: a person misses about one hull in thirty, and answers as seldom
-wrongly; rules that people mean are short."""
+MISTAKE, NODE = 3.5, 1.0
+"""What a mistake costs, and a node of an extractor [nats]: a person misses about one hull in thirty, and answers as
+seldom wrongly; rules that people mean are short."""
 _LEAST_NODES, _MOST_NODES = 2, 3  # of an extractor that may come from a slip, and of one that would be simpler
 
 
 @dataclass(frozen=True, slots=True)
-class Slip:
+class LikelyMistake:
     """What a person may have meant on one asset, and did not select.
 
     asset: how messages call it; missing, extra: names of the hulls left out, and selected, by mistake; extractor: the
@@ -39,18 +39,18 @@ class Slip:
     share: float
 
 
-def find_slip(
+def find_mistake(
     extractor: Extractor,
     examples: Sequence[Example],
     vocabulary: Sequence[str],
     options: Options,
-    said: Collection[str] = (),
-) -> Slip | None:
-    """The likeliest slip in what was selected on some meshes, None where the extractor is simple enough. Where several
-    are needed for a simpler one, the first of them.
+    answered: Collection[str] = (),
+) -> LikelyMistake | None:
+    """The likeliest mistake in what was selected on some meshes, None where the extractor is simple enough. Where
+    several are needed for a simpler one, the first of them.
 
-    extractor: what was learned; options: with the extremity under which it was; said: the examples that are answers or
-    verdicts, by name, of which each is one slip, whatever it selects.
+    extractor: what was learned; options: with the extremity under which it was; answered: the examples that are answers
+    or verdicts, by name, of which each is one mistake, whatever it selects.
     """
     if size_of(extractor) < _LEAST_NODES:
         return None
@@ -62,29 +62,29 @@ def find_slip(
     field, shown = search.field, (1 << search.width) - 1
     bank = Bank([Term(one.bits & shown, one.key, one.form) for one in field.terms], search.width, search.budget)
     rows = zip(search.selections, field.groups, examples, strict=True)
-    counters = [(ErrorCounter([mask], [groups], search.width), one.name in said) for mask, groups, one in rows]
+    counters = [(ErrorCounter([mask], [groups], search.width), one.name in answered) for mask, groups, one in rows]
 
-    def count_slips(bits: int) -> int:
+    def count_mistakes(bits: int) -> int:
         count = 0
-        for errors, is_said in counters:
+        for errors, is_answered in counters:
             wrong = errors.count(bits)
-            count += min(wrong, 1) if is_said else wrong
-            if count > MOST_SLIPS:
+            count += min(wrong, 1) if is_answered else wrong
+            if count > MOST_MISTAKES:
                 break
         return count
 
     levels = range(1, _MOST_NODES + 1)
     found = [
-        (NODE * size + SLIP * slips, term)
+        (NODE * size + MISTAKE * mistakes, term)
         for size in levels
         for term in bank.level(size).terms
-        if 0 < (slips := count_slips(term.bits)) <= MOST_SLIPS
+        if 0 < (mistakes := count_mistakes(term.bits)) <= MOST_MISTAKES
     ]
     if not found:
         return None
     nats, best = min(found, key=lambda row: (row[0], row[1].key))
-    own = NODE * size_of(extractor) + SLIP * count_slips(field.term(extractor).bits & shown)
+    own = NODE * size_of(extractor) + MISTAKE * count_mistakes(field.term(extractor).bits & shown)
     share = 1 / (1 + math.exp(nats - own))
     place = next(place for place, (errors, _) in enumerate(counters) if errors.count(best.bits))
     differs = compare_selection(best.extractor, field, examples, place)
-    return Slip(differs.asset, differs.extra, differs.missing, best.extractor, share)
+    return LikelyMistake(differs.asset, differs.extra, differs.missing, best.extractor, share)

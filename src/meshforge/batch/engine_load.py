@@ -12,10 +12,10 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from types import MappingProxyType
 
-from meshforge.checks import CheckOptions, EngineTrial, Examination, examine_mesh
-from meshforge.checks.engine_trial import Given
+from meshforge.checks import CheckOptions, EngineLoad, Examination, examine_mesh
+from meshforge.checks.engine_load import Given
 from meshforge.common import MeshForgeError, quote_path
-from meshforge.formats import MujocoTrial, format_of, save, try_in_mujoco
+from meshforge.formats import MujocoLoad, format_of, save, try_in_mujoco
 from meshforge.symbolic import SymbolicMesh
 
 _OWN_FORMATS = {"mujoco": ("mjcf", "urdf"), "bullet": ("urdf",)}
@@ -42,7 +42,7 @@ def examine_file(
     if (engine := wanted.engine) is None:
         return found
     ask = ENGINES_TO_ASK.get(engine)
-    return found.add_trial(ask(engine, path, mesh) if ask else EngineTrial(engine, _name_of(path)))
+    return found.add_engine_load(ask(engine, path, mesh) if ask else EngineLoad(engine, _name_of(path)))
 
 
 def _name_of(path: Path | None) -> str:
@@ -55,7 +55,7 @@ def engine_version(engine: str | None) -> str:
     return f" {program} {version(program)}" if program and find_spec(program) else ""
 
 
-def try_mujoco(engine: str, path: Path | None, mesh: SymbolicMesh) -> EngineTrial:
+def try_mujoco(engine: str, path: Path | None, mesh: SymbolicMesh) -> EngineLoad:
     """What MuJoCo says: of an MJCF or a URDF as it is, of any other file as `meshforge convert` writes it as MJCF."""
     form = format_of(path).name if path else ""
     own = path is not None and form in _OWN_FORMATS["mujoco"]
@@ -64,7 +64,7 @@ def try_mujoco(engine: str, path: Path | None, mesh: SymbolicMesh) -> EngineTria
     except ImportError:
         return _describe_absence(engine, path)
     except MeshForgeError as error:
-        return EngineTrial(engine, _name_of(path), untried=f"it cannot be made an MJCF: {error.message}")
+        return EngineLoad(engine, _name_of(path), untried=f"it cannot be made an MJCF: {error.message}")
     remedy = ""
     if found.refusal and path and own and form != "mjcf" and _is_taken_converted(mesh):
         command = f"meshforge convert {quote_path(path)} {quote_path(path.with_suffix('.xml'))}"
@@ -72,7 +72,7 @@ def try_mujoco(engine: str, path: Path | None, mesh: SymbolicMesh) -> EngineTria
     given: Given = "file" if own else "conversion"
     asked = f"MuJoCo {found.version}"
     joined = tuple(_find_joined(mesh).items()) if form == "urdf" and not found.refusal else ()
-    return EngineTrial(engine, _name_of(path), asked, given, found.refusal, found.warnings, joined, remedy=remedy)
+    return EngineLoad(engine, _name_of(path), asked, given, found.refusal, found.warnings, joined, remedy=remedy)
 
 
 def _find_joined(mesh: SymbolicMesh) -> dict[str, tuple[str, ...]]:
@@ -84,14 +84,14 @@ def _find_joined(mesh: SymbolicMesh) -> dict[str, tuple[str, ...]]:
     return joined
 
 
-def _describe_absence(engine: str, path: Path | None) -> EngineTrial:
+def _describe_absence(engine: str, path: Path | None) -> EngineLoad:
     program = _PROGRAMS[engine]
-    return EngineTrial(
+    return EngineLoad(
         engine, _name_of(path), untried=f"{program} is not installed", remedy=f"Install it: pip install {program}"
     )
 
 
-def _try_converted(mesh: SymbolicMesh) -> MujocoTrial:
+def _try_converted(mesh: SymbolicMesh) -> MujocoLoad:
     with TemporaryDirectory(prefix="meshforge-") as folder:
         return try_in_mujoco(save(mesh, Path(folder) / "asset.xml").path)
 
@@ -103,34 +103,34 @@ def _is_taken_converted(mesh: SymbolicMesh) -> bool:
         return False
 
 
-def try_bullet(engine: str, path: Path | None, mesh: SymbolicMesh) -> EngineTrial:
+def try_bullet(engine: str, path: Path | None, mesh: SymbolicMesh) -> EngineLoad:
     """What PyBullet says of a URDF, in a process of its own, since it may crash; of other files nothing."""
     if path is None or format_of(path).name not in _OWN_FORMATS["bullet"]:
-        return EngineTrial(engine, _name_of(path))
+        return EngineLoad(engine, _name_of(path))
     if find_spec("pybullet") is None:
         return _describe_absence(engine, path)
     command = [sys.executable, "-P", "-c", _LOAD_IN_BULLET, str(path.absolute())]
     try:
         done = subprocess.run(command, capture_output=True, text=True, errors="replace", timeout=_BULLET_SECONDS)
     except subprocess.TimeoutExpired:
-        return EngineTrial(engine, path.name, untried=f"it took longer than {_BULLET_SECONDS:g} s")
+        return EngineLoad(engine, path.name, untried=f"it took longer than {_BULLET_SECONDS:g} s")
     refusal = (_read_bullet_words(done.stdout) or "it crashed") if done.returncode else None
-    return EngineTrial(engine, path.name, f"PyBullet {version('pybullet')}", "file", refusal)
+    return EngineLoad(engine, path.name, f"PyBullet {version('pybullet')}", "file", refusal)
 
 
 def _read_bullet_words(printed: str) -> str:
     """What Bullet printed, without where in its code; it prints a name as a message of its own."""
     words = iter(" ".join(word.split()) for word in _BULLET_HEAD.split(printed))
-    said = ""
+    line = ""
     for word in words:
         if word.startswith("No inertial data for link"):
             next(words, None)
         elif word:
-            said += f" {word}" if said.endswith(":") else f"; {word}" if said else word
-    return said
+            line += f" {word}" if line.endswith(":") else f"; {word}" if line else word
+    return line
 
 
-ENGINES_TO_ASK: MappingProxyType[str, Callable[[str, Path | None, SymbolicMesh], EngineTrial]] = MappingProxyType(
+ENGINES_TO_ASK: MappingProxyType[str, Callable[[str, Path | None, SymbolicMesh], EngineLoad]] = MappingProxyType(
     {"mujoco": try_mujoco, "bullet": try_bullet}
 )
 """How an engine itself is asked, by its name; of the others only the tables of limits are known."""

@@ -14,8 +14,8 @@ import numpy as np
 from meshforge.geometry import Floats
 from meshforge.language import Extractor
 from meshforge.symbolic import mask_of
+from meshforge.synthesis.candidates.belief import choose_candidate, compute_beliefs, count_idle, measure_evidence
 from meshforge.synthesis.options import OutOfTime
-from meshforge.synthesis.readings.belief import choose_reading, compute_beliefs, count_idle, measure_evidence
 from meshforge.synthesis.search.bank import Bank, Goal, HalfTerm, half_terms_for, rows_for, satisfies
 from meshforge.synthesis.search.smallest import Search
 from meshforge.synthesis.search.terms import Key, Term
@@ -153,7 +153,7 @@ class Preference(NamedTuple):
     is_meant: bool
 
 
-class RankedReadings:
+class RankedCandidates:
     """Consistent terms over the field of a search: first the one that the rule takes, then the more believable.
 
     preferences: what else a person said.
@@ -171,17 +171,17 @@ class RankedReadings:
         shown = (1 << search.width) - 1
         idle = [count_idle(term, shown, field) for term in terms]
         shares = compute_beliefs(terms, found, shown, assets, against, idle) if many else (1.0,)
-        head = choose_reading(terms, shares)
+        head = choose_candidate(terms, shares)
         order = sorted(range(len(terms)), key=lambda k: (k != head, -shares[k], k))
         self.field, self.consistent, self.examples = field, consistent, search.examples
         self.terms: tuple[Term, ...] = tuple(terms[k] for k in order)
         self.beliefs = tuple(shares[k] for k in order)
 
     @staticmethod
-    def of_single(search: Search, extractor: Extractor) -> RankedReadings:
+    def of_single(search: Search, extractor: Extractor) -> RankedCandidates:
         """One extractor, whatever else is consistent."""
         term = search.field.term(extractor)
-        return RankedReadings(search, ConsistentTerms((term,), term.size, False))
+        return RankedCandidates(search, ConsistentTerms((term,), term.size, False))
 
     @property
     def extractor(self) -> Extractor:
@@ -203,13 +203,13 @@ class RankedReadings:
         return QuestionValue(rows, [self.beliefs[k] for k in self.believable])
 
     @property
-    def settled(self) -> bool:
+    def unambiguous(self) -> bool:
         """Whether all believable readings do the same on the whole batch; never where not all are known."""
         return self.consistent.complete and len(self.believable) == 1
 
-    def differences(self, reading: int) -> tuple[int, ...]:
+    def differences(self, candidate: int) -> tuple[int, ...]:
         """Places of the meshes on which a reading selects something else than the one that is taken."""
-        other = self.terms[reading].bits ^ self.terms[0].bits
+        other = self.terms[candidate].bits ^ self.terms[0].bits
         return tuple(k for k, present in enumerate(self.field.present) if other & present)
 
     def best_question(self, trust: Mapping[int, float]) -> QuestionSplit | None:

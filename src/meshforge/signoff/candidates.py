@@ -11,10 +11,10 @@ import numpy.typing as npt
 
 from meshforge.geometry import Floats, Ints
 from meshforge.language import EXTREMITY, Extractor, Program
-from meshforge.signoff.trial import Trial, select_by
-from meshforge.synthesis import Reading
+from meshforge.signoff.program_run import ProgramRun, select_by
+from meshforge.synthesis import CandidateProgram
 
-MOST_READINGS = 24
+MOST_CANDIDATES = 24
 """Of the readings of a rule so many are compared, the most believed ones."""
 LEAST_BELIEF = 0.0005
 FEW_ASSETS = 400
@@ -24,7 +24,7 @@ Bools = npt.NDArray[np.bool_]
 
 
 @dataclass(frozen=True, eq=False)
-class RuleReadings:
+class RuleCandidates:
     """The readings of one rule, that of the program first.
 
     beliefs: (k,), in all 1; kinds: (k, assets), equal where two readings select the same on an asset, 0 for what the
@@ -42,14 +42,14 @@ class RuleReadings:
         found: Floats = self.beliefs @ (self.kinds == 0)
         return found
 
-    def doubt(self, some: Bools, share: float) -> RuleReadings:
+    def discount(self, some: Bools, share: float) -> RuleCandidates:
         """The same where some readings (k,) are wrong with that probability besides."""
         beliefs = np.where(some, self.beliefs * (1 - share), self.beliefs)
         return replace(self, beliefs=beliefs / beliefs.sum())
 
 
 @dataclass(frozen=True, slots=True)
-class ReadingSplit:
+class CandidateSplit:
     """A question about one rule on one asset: the selections to choose from, as readings that make them; gains: by how
     much more probable the edit of each asset is right in this rule once it is answered (assets,)."""
 
@@ -59,37 +59,35 @@ class ReadingSplit:
     gains: Floats
 
 
-def compare_readings(
-    program: Program, readings: Sequence[Reading], trials: Sequence[Trial]
-) -> tuple[RuleReadings, ...]:
+def compare_candidates(
+    program: Program, candidates: Sequence[CandidateProgram], runs: Sequence[ProgramRun]
+) -> tuple[RuleCandidates, ...]:
     """The readings of each rule over a family; a rule without any is what it says."""
     delta = EXTREMITY if program.extremity is None else program.extremity
     found = []
     for number, rule in enumerate(program.rules, 1):
-        mine = [one for one in readings if one.rule == number and one.extractor != rule.extractor]
-        own = sum(one.belief for one in readings if one.rule == number and one.extractor == rule.extractor)
-        mine = sorted(mine, key=lambda one: -one.belief)[:MOST_READINGS]
+        mine = [one for one in candidates if one.rule == number and one.extractor != rule.extractor]
+        own = sum(one.belief for one in candidates if one.rule == number and one.extractor == rule.extractor)
+        mine = sorted(mine, key=lambda one: -one.belief)[:MOST_CANDIDATES]
         mine = [one for one in mine if one.belief >= LEAST_BELIEF]
         extractors = (rule.extractor, *(one.extractor for one in mine))
         weights = np.array([own or 1.0, *(one.belief for one in mine)])
-        kinds = np.zeros((len(extractors), len(trials)), dtype=np.int64)
-        every = len(trials) > FEW_ASSETS
+        kinds = np.zeros((len(extractors), len(runs)), dtype=np.int64)
+        every = len(runs) > FEW_ASSETS
         differs = [frozenset(one.differs_on) for one in mine]
-        for place, trial in enumerate(trials):
-            masks = [select_by(trial, number, rule.extractor, delta)]
+        for place, run in enumerate(runs):
+            masks = [select_by(run, number, rule.extractor, delta)]
             masks += [
-                select_by(trial, number, one.extractor, delta)
-                if every or trial.asset in some or trial.error
-                else masks[0]
+                select_by(run, number, one.extractor, delta) if every or run.asset in some or run.error else masks[0]
                 for one, some in zip(mine, differs, strict=True)
             ]
             numbers: dict[int | None, int] = {}
             kinds[:, place] = [numbers.setdefault(mask, len(numbers)) for mask in masks]
-        found.append(RuleReadings(number, extractors, weights / weights.sum(), kinds))
+        found.append(RuleCandidates(number, extractors, weights / weights.sum(), kinds))
     return tuple(found)
 
 
-def split_readings(known: RuleReadings, places: Collection[int]) -> list[ReadingSplit]:
+def split_candidates(known: RuleCandidates, places: Collection[int]) -> list[CandidateSplit]:
     """The questions about a rule on some of the assets, given by their places."""
     found = []
     for asset in places:
@@ -105,5 +103,5 @@ def split_readings(known: RuleReadings, places: Collection[int]) -> list[Reading
             heads.append((-float(known.beliefs[part].sum()), head))
         ours, *others = heads
         chosen = sorted([ours, *sorted(others)[: MOST_CHOICES - 1]])
-        found.append(ReadingSplit(known.rule, asset, tuple(head for _, head in chosen), expected - known.agreement))
+        found.append(CandidateSplit(known.rule, asset, tuple(head for _, head in chosen), expected - known.agreement))
     return found

@@ -47,7 +47,7 @@ STRANGE_LABEL = 3.0
 
 def compute_beliefs(
     terms: Sequence[Term],
-    found: Sequence[ReadingEvidence],
+    found: Sequence[CandidateEvidence],
     shown: int,
     assets: int,
     against: Sequence[float] | None = None,
@@ -73,7 +73,7 @@ def compute_beliefs(
     return tuple(weight / total for weight in weights)
 
 
-def choose_reading(terms: Sequence[Term], shares: Sequence[float]) -> int:
+def choose_candidate(terms: Sequence[Term], shares: Sequence[float]) -> int:
     """The place of the reading that the program takes: a smallest one, unless a larger is far more believable."""
     smallest = min(term.size for term in terms)
     best = max(range(len(terms)), key=lambda k: (shares[k], -k))
@@ -83,21 +83,21 @@ def choose_reading(terms: Sequence[Term], shares: Sequence[float]) -> int:
 
 def count_nats(term: Term, shown: int, known: dict[Extractor, float] | None = None) -> float:
     """How little a term is believed for what it says alone [nats]; shown: the groups of demonstrated hulls."""
-    doubt = _doubt_nats(term, {} if known is None else known)
-    return NODE * term.size + doubt + UNTRIED * count_untested(term, shown)
+    reason = _prior_nats(term, {} if known is None else known)
+    return NODE * term.size + reason + UNTRIED * count_untested(term, shown)
 
 
-def _doubt_nats(term: Term, known: dict[Extractor, float]) -> float:
+def _prior_nats(term: Term, known: dict[Extractor, float]) -> float:
     made = term.form
     if isinstance(made, Compound):
-        return _doubt_nats(made.left, known) + _doubt_nats(made.right, known)
+        return _prior_nats(made.left, known) + _prior_nats(made.right, known)
     if made not in known:
         known[made] = made.cost
     return known[made]
 
 
 @dataclass(frozen=True, slots=True)
-class ReadingEvidence:
+class CandidateEvidence:
     """Of one reading: the share of the assets where it selects nothing; and how far the hulls that it selects on the
     others are from the nearest demonstrated one, squared, in standard deviations of the descriptors.
     """
@@ -106,12 +106,12 @@ class ReadingEvidence:
     strange: float
 
 
-NO_EVIDENCE = ReadingEvidence(0.0, 0.0)
+NO_EVIDENCE = CandidateEvidence(0.0, 0.0)
 
 
 def measure_evidence(
-    field: ObservationTable, selections: Sequence[int], readings: Sequence[int]
-) -> tuple[ReadingEvidence, ...]:
+    field: ObservationTable, selections: Sequence[int], candidates: Sequence[int]
+) -> tuple[CandidateEvidence, ...]:
     """The evidence on some readings, given as groups of the field.
 
     selections: the hulls that were shown on each of the field's first meshes, as bit sets; the batch is the rest.
@@ -119,16 +119,16 @@ def measure_evidence(
     shown, rest = len(selections), len(field.meshes) - len(selections)
     counts = np.array([len(mesh.hulls) for mesh in field.meshes[shown:]], dtype=np.int64)
     if not rest or not counts.sum() or not any(selections):
-        return tuple(NO_EVIDENCE for _ in readings)
+        return tuple(NO_EVIDENCE for _ in candidates)
     places = np.array([group for groups in field.groups[shown:] for group in groups], dtype=np.int64)
     ends = np.concatenate([[0], np.cumsum(counts)])
-    chosen = _unpack(readings, field.width)[:, places]
+    chosen = _unpack(candidates, field.width)[:, places]
     many = _sum_by_mesh(chosen.astype(float), ends)
     strange = _sum_by_mesh(chosen * _strangeness(field, selections), ends)
     active = many > 0
-    odd = np.where(active, strange / np.maximum(many, 1), 0.0).sum(axis=1) / np.maximum(active.sum(axis=1), 1)
+    strangeness = np.where(active, strange / np.maximum(many, 1), 0.0).sum(axis=1) / np.maximum(active.sum(axis=1), 1)
     idle = 1 - active.mean(axis=1)
-    return tuple(ReadingEvidence(*row) for row in zip(idle.tolist(), odd.tolist(), strict=True))
+    return tuple(CandidateEvidence(*row) for row in zip(idle.tolist(), strangeness.tolist(), strict=True))
 
 
 def _strangeness(field: ObservationTable, selections: Sequence[int]) -> Floats:
@@ -145,14 +145,14 @@ def _strangeness(field: ObservationTable, selections: Sequence[int]) -> Floats:
     ]
     far = cKDTree(rows[shown]).query(rows[first:])[0]
     known = {hulls[place].label for place in shown}
-    foreign = np.array([hull.label not in known for hull in hulls[first:]])
-    return np.where(foreign, np.maximum(far, STRANGE_LABEL), far) ** 2
+    unknown = np.array([hull.label not in known for hull in hulls[first:]])
+    return np.where(unknown, np.maximum(far, STRANGE_LABEL), far) ** 2
 
 
-def _unpack(readings: Sequence[int], width: int) -> npt.NDArray[np.bool_]:
+def _unpack(candidates: Sequence[int], width: int) -> npt.NDArray[np.bool_]:
     size = (width + 7) // 8
-    packed = np.frombuffer(b"".join(row.to_bytes(size, "little") for row in readings), np.uint8)
-    return np.unpackbits(packed.reshape(len(readings), size), axis=1, count=width, bitorder="little").astype(np.bool_)
+    packed = np.frombuffer(b"".join(row.to_bytes(size, "little") for row in candidates), np.uint8)
+    return np.unpackbits(packed.reshape(len(candidates), size), axis=1, count=width, bitorder="little").astype(np.bool_)
 
 
 def _sum_by_mesh(values: Floats, ends: npt.NDArray[np.int64]) -> Floats:

@@ -13,11 +13,11 @@ from meshforge.geometry import Floats
 from meshforge.label_model import FamilyPosterior
 from meshforge.language import Program, show
 from meshforge.signoff.assessment import ReviewState
-from meshforge.signoff.question import NO, YES, YES_OR_NO, HullPlace, ReviewChoice, SlipQuestion, identify
-from meshforge.signoff.trial import Trial, select_by
+from meshforge.signoff.program_run import ProgramRun, select_by
+from meshforge.signoff.question import NO, YES, YES_OR_NO, HullPlace, MistakeQuestion, ReviewChoice, identify
 from meshforge.symbolic import HUMAN_SOURCES, mask_of
-from meshforge.synthesis import Example, Nearest, Options, Repair, Slip, find_slip
-from meshforge.synthesis.slips import MOST_SLIPS
+from meshforge.synthesis import Example, LikelyMistake, Nearest, Options, Repair, find_mistake
+from meshforge.synthesis.likely_mistakes import MOST_MISTAKES
 
 _LEAST_SHARE = 0.05  # from which on a slip is asked about
 _LEAST_CHANCE = 0.05  # of another label, from which on it is offered
@@ -25,49 +25,50 @@ _FITS_BARELY = 0.5  # the probability of a slip where no program fits what was s
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class RuleSlip:
-    """A slip in what was shown of a rule, or said. differs: whether the rule would do something else on each asset."""
+class RuleMistake:
+    """A mistake in what was shown of a rule, or said. differs: whether the rule would do something else on each
+    asset."""
 
     rule: int
-    slip: Slip
+    mistake: LikelyMistake
     differs: Floats
 
 
-def find_slips(state: ReviewState, program: Program, trials: Sequence[Trial]) -> Iterator[RuleSlip]:
-    """The likely slips under a program that does what was shown, of each rule at most one; those that a person denied
-    are not among them, and there are none where nothing was shown, as under a program that a person wrote."""
+def find_mistakes(state: ReviewState, program: Program, runs: Sequence[ProgramRun]) -> Iterator[RuleMistake]:
+    """The likely mistakes under a program that does what was shown, of each rule at most one; those that a person
+    denied are not among them, and there are none where nothing was shown, as under a program that a person wrote."""
     if state.by_hand or not state.demos:
         return
     options = Options(extremity=program.extremity)
-    by_name = {trial.asset: trial for trial in trials}
+    by_name = {run.asset: run for run in runs}
     for number, rule in enumerate(program.rules, 1):
         examples = list(_list_examples(state, by_name, number))
         if not examples:
             continue
-        said = {one.asset for one in state.answers if one.rule == number}.union(state.accepted)
-        said -= state.demos.keys() | state.corrected
-        slip = find_slip(rule.extractor, examples, program.labels, options, said)
-        if slip is None or slip.asset not in {*state.demos, *said} or slip.share < _LEAST_SHARE:
+        answered = {one.asset for one in state.answers if one.rule == number}.union(state.accepted)
+        answered -= state.demos.keys() | state.corrected
+        mistake = find_mistake(rule.extractor, examples, program.labels, options, answered)
+        if mistake is None or mistake.asset not in {*state.demos, *answered} or mistake.share < _LEAST_SHARE:
             continue
-        if _is_used_later(state, slip.asset, number, slip.missing):
+        if _is_used_later(state, mistake.asset, number, mistake.missing):
             continue
-        selected = [select_by(trial, number, slip.extractor, options.geo_extremity) for trial in trials]
-        if any(_is_refused(state, number, trial, mask) for trial, mask in zip(trials, selected, strict=True)):
+        selected = [select_by(run, number, mistake.extractor, options.geo_extremity) for run in runs]
+        if any(_is_refused(state, number, run, mask) for run, mask in zip(runs, selected, strict=True)):
             continue
-        ours = [trial.selections[number - 1] if number <= len(trial.selections) else None for trial in trials]
+        ours = [run.selections[number - 1] if number <= len(run.selections) else None for run in runs]
         differs = np.array([float(one != other) for one, other in zip(ours, selected, strict=True)])
-        found = RuleSlip(number, slip, differs)
-        if ask_about_slip(state, found).id not in state.snoozed:
+        found = RuleMistake(number, mistake, differs)
+        if ask_about_mistake(state, found).id not in state.snoozed:
             yield found
 
 
-def _list_examples(state: ReviewState, trials: Mapping[str, Trial], rule: int) -> Iterator[Example]:
+def _list_examples(state: ReviewState, runs: Mapping[str, ProgramRun], rule: int) -> Iterator[Example]:
     """What is known to be meant by a rule, as it meets the meshes; what was shown first."""
     for name in dict.fromkeys([*state.demos, *(one.asset for one in state.answers), *state.meant]):
-        select, trial = _read_selection(state, name, rule), trials.get(name)
-        if select is None or trial is None or rule > len(trial.meshes):
+        select, run = _read_selection(state, name, rule), runs.get(name)
+        if select is None or run is None or rule > len(run.meshes):
             continue
-        mesh = trial.meshes[rule - 1]
+        mesh = run.meshes[rule - 1]
         if select <= mesh.index.keys():
             yield Example(name, mesh, mask_of(mesh.index[hull] for hull in select))
 
@@ -90,23 +91,25 @@ def _is_used_later(state: ReviewState, asset: str, rule: int, hulls: Sequence[st
     return any(not step.select.isdisjoint(hulls) for step in steps if step.select)
 
 
-def _is_refused(state: ReviewState, rule: int, trial: Trial, mask: int | None) -> bool:
-    refused = [some for one in state.answers if (one.rule, one.asset) == (rule, trial.asset) for some in one.refused]
-    return bool(refused) and mask is not None and frozenset(trial.names(rule, mask)) in refused
+def _is_refused(state: ReviewState, rule: int, run: ProgramRun, mask: int | None) -> bool:
+    refused = [some for one in state.answers if (one.rule, one.asset) == (rule, run.asset) for some in one.refused]
+    return bool(refused) and mask is not None and frozenset(run.names(rule, mask)) in refused
 
 
-def ask_about_slip(state: ReviewState, found: RuleSlip) -> SlipQuestion:
+def ask_about_mistake(state: ReviewState, found: RuleMistake) -> MistakeQuestion:
     """The question whether it is one."""
-    slip, rule = found.slip, found.rule
+    mistake, rule = found.mistake, found.rule
     text = _liken_to_shown(state, found) or (
-        f"{_describe(slip.missing, slip.extra)} rule {rule} would just be {show(slip.extractor)}"
+        f"{_describe(mistake.missing, mistake.extra)} rule {rule} would just be {show(mistake.extractor)}"
     )
-    return _ask(state, (slip.asset, rule), slip.missing, slip.extra, text, slip.share * float(found.differs.sum()))
+    return _ask(
+        state, (mistake.asset, rule), mistake.missing, mistake.extra, text, mistake.share * float(found.differs.sum())
+    )
 
 
-def ask_about_nearest(state: ReviewState, nearest: Nearest, everyone: float) -> SlipQuestion | None:
+def ask_about_nearest(state: ReviewState, nearest: Nearest, everyone: float) -> MistakeQuestion | None:
     """The question where nothing fits what was shown and said, and an extractor nearly does."""
-    if len(nearest.extra) + len(nearest.missing) > MOST_SLIPS:
+    if len(nearest.extra) + len(nearest.missing) > MOST_MISTAKES:
         return None
     if nearest.asset in state.corrected or nearest.asset not in state.meshes:
         return None
@@ -119,10 +122,10 @@ def ask_about_nearest(state: ReviewState, nearest: Nearest, everyone: float) -> 
     return _ask(state, place, nearest.extra, nearest.missing, text, _FITS_BARELY * everyone)
 
 
-def ask_about_kept_label(state: ReviewState, repair: Repair, everyone: float) -> SlipQuestion | None:
+def ask_about_kept_label(state: ReviewState, repair: Repair, everyone: float) -> MistakeQuestion | None:
     """The question where a person kept the label that would have to be another one for what was shown and said: what
-    was shown or said of that hull may be the slip."""
-    hull, asset = repair.correction.hull, repair.correction.asset
+    was shown or said of that hull may be the mistake."""
+    hull, asset = repair.fix.hull, repair.fix.asset
     shown = _read_selection(state, asset, repair.rule)
     kept = state.meshes[asset].hull_of(hull).source in HUMAN_SOURCES if asset in state.meshes else False
     if shown is None or asset in state.corrected or not kept:
@@ -130,23 +133,23 @@ def ask_about_kept_label(state: ReviewState, repair: Repair, everyone: float) ->
     missing, extra = ((), (hull,)) if hull in shown else ((hull,), ())
     if _is_used_later(state, asset, repair.rule, missing):
         return None
-    text = f"{hull} is {repair.correction.was}, and rule {repair.rule} {'selects it' if extra else 'leaves it out'}"
+    text = f"{hull} is {repair.fix.was}, and rule {repair.rule} {'selects it' if extra else 'leaves it out'}"
     return _ask(state, (asset, repair.rule), missing, extra, text, _FITS_BARELY * everyone)
 
 
-def _liken_to_shown(state: ReviewState, found: RuleSlip) -> str | None:
+def _liken_to_shown(state: ReviewState, found: RuleMistake) -> str | None:
     """What hulls that were left out have in common with those that were selected, None where that is not all."""
-    slip, mesh = found.slip, state.meshes[found.slip.asset]
-    shown = _read_selection(state, slip.asset, found.rule) or frozenset()
-    labels = {mesh.hull_of(hull).label for hull in {*slip.missing, *shown} if hull in mesh.index}
-    if slip.extra or not shown or len(labels) != 1:
+    mistake, mesh = found.mistake, state.meshes[found.mistake.asset]
+    shown = _read_selection(state, mistake.asset, found.rule) or frozenset()
+    labels = {mesh.hull_of(hull).label for hull in {*mistake.missing, *shown} if hull in mesh.index}
+    if mistake.extra or not shown or len(labels) != 1:
         return None
-    verb = "is" if len(slip.missing) == 1 else "are"
+    verb = "is" if len(mistake.missing) == 1 else "are"
     others = f"the {len(shown)} hulls that rule {found.rule} selects" if len(shown) > 1 else next(iter(shown))
-    return f"{join_names(slip.missing)} {verb} {next(iter(labels))}, like {others}"
+    return f"{join_names(mistake.missing)} {verb} {next(iter(labels))}, like {others}"
 
 
-def offer_label(state: ReviewState, posterior: FamilyPosterior, question: SlipQuestion) -> SlipQuestion:
+def offer_label(state: ReviewState, posterior: FamilyPosterior, question: MistakeQuestion) -> MistakeQuestion:
     """The same question with one more choice: that the label of its hull is wrong, where another one is likely by what
     is said of other hulls."""
     if len(question.hulls) != 1 or not posterior.seen.labels:
@@ -170,7 +173,7 @@ def _describe(missing: Sequence[str], extra: Sequence[str]) -> str:
 
 def _ask(
     state: ReviewState, place: tuple[str, int], missing: Sequence[str], extra: Sequence[str], why: str, gain: float
-) -> SlipQuestion:
+) -> MistakeQuestion:
     asset, rule = place
     shown = _read_selection(state, asset, rule) or frozenset()
     corrected = tuple(sorted((shown | {*missing}) - {*extra}))
@@ -182,4 +185,4 @@ def _ask(
         ReviewChoice(NO, "no, on purpose", select=tuple(sorted(shown))),
         ReviewChoice(YES, "yes, by mistake", select=corrected),
     )
-    return identify(SlipQuestion(text, YES_OR_NO, gain, asset, rule, hulls, choices))
+    return identify(MistakeQuestion(text, YES_OR_NO, gain, asset, rule, hulls, choices))

@@ -16,7 +16,7 @@ Given = Literal["file", "conversion"]
 
 
 @dataclass(frozen=True, slots=True)
-class EngineTrial(Measure):
+class EngineLoad(Measure):
     """What an engine says of an asset, besides our table of its limits.
 
     engine, file: names; asked: the program and version that was run, None where none was; given: what it was given;
