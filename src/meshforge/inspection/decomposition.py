@@ -34,7 +34,7 @@ _CELL = (480, 400)  # [px] of a picture
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class DecompositionResult:
+class DecompositionCandidate:
     """One setting and what it came to. setting: `threshold 0.05`; spanning: how many hulls hold more than one part,
     None where that was not judged; kept: the share of the free space that stays free, None for hardly any."""
 
@@ -56,7 +56,7 @@ class DecompositionAdvice:
     """judged: by what it was judged which hulls span parts, or why not; up: the axis that points up in pictures."""
 
     judged: str
-    results: tuple[DecompositionResult, ...]
+    results: tuple[DecompositionCandidate, ...]
     up: Literal["Y", "Z"] = "Z"
 
     def to_json(self) -> dict[str, Any]:
@@ -121,7 +121,7 @@ def advise_decomposition(
         spanning = None if regions is None else 0  # by parts, each hull is made of the surface of one
         if regions is not None and by == "whole":
             spanning = int(find_spanning(surface, regions, hulls).sum())
-        results.append(DecompositionResult(title, by, made, spanning, measure_kept_space(surface, hulls)))
+        results.append(DecompositionCandidate(title, by, made, spanning, measure_kept_space(surface, hulls)))
     up: Literal["Y", "Z"] = "Y" if Path(mesh).suffix.lower() in (".glb", ".gltf") else "Z"
     return DecompositionAdvice("; ".join([judged, *notes]), tuple(results), up)
 

@@ -10,12 +10,12 @@ from meshforge.synthesis.options import Layers as Layers
 from meshforge.synthesis.options import Options as Options
 from meshforge.synthesis.orientation.suggest import OrientationSuggestion as OrientationSuggestion
 from meshforge.synthesis.outcome import Ambiguous as Ambiguous
+from meshforge.synthesis.outcome import CandidateProgram as CandidateProgram
 from meshforge.synthesis.outcome import Found as Found
 from meshforge.synthesis.outcome import LearningOutcome as LearningOutcome
 from meshforge.synthesis.outcome import Nearest as Nearest
 from meshforge.synthesis.outcome import NeedsRepair as NeedsRepair
 from meshforge.synthesis.outcome import NoProgram as NoProgram
-from meshforge.synthesis.outcome import CandidateProgram as CandidateProgram
 from meshforge.synthesis.outcome import TimedOut as TimedOut
 from meshforge.synthesis.outcome import outcome_to_json as outcome_to_json
 from meshforge.synthesis.questions import Answer as Answer
@@ -23,7 +23,7 @@ from meshforge.synthesis.questions import Hint as Hint
 from meshforge.synthesis.questions import LabelFix as LabelFix
 from meshforge.synthesis.questions import OpenRule as OpenRule
 from meshforge.synthesis.questions import Repair as Repair
-from meshforge.synthesis.readings.rank import BELIEVABLE as BELIEVABLE
+from meshforge.synthesis.candidates.rank import BELIEVABLE as BELIEVABLE
 from meshforge.synthesis.likely_mistakes import LikelyMistake as LikelyMistake
 from meshforge.synthesis.likely_mistakes import find_mistake as find_mistake
 from meshforge.synthesis.task import begin_replay as begin_replay

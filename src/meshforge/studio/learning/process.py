@@ -38,7 +38,7 @@ def _rule_selector(folder: Path) -> RuleSelector:
 
 
 @dataclass(slots=True)
-class _LearnedFamily:
+class _FamilyMemory:
     """What the last learning run of a project came to. meshes: what it learned from, by asset; digest: of all else."""
 
     number: int = 0
@@ -53,8 +53,8 @@ class _LearnedFamily:
 
 
 @cache
-def _last_learned(folder: Path) -> _LearnedFamily:
-    return _LearnedFamily()
+def _last_learned(folder: Path) -> _FamilyMemory:
+    return _FamilyMemory()
 
 
 def learn(folder: Path, token: CancelToken, number: int, take: bool) -> OutcomeView:
