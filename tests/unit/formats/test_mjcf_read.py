@@ -9,7 +9,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from meshforge.formats.mjcf.document import MjcfDocument, body_names, geom_names
+from meshforge.formats.mjcf.document import body_names, geom_names
 from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Pose, Sphere
 from meshforge.symbolic import Surface
 from tests.mjcf_engines import TETRAHEDRON, assert_as_in_mujoco, asset, mesh_vertices, model, put, read, shape_of
@@ -253,35 +253,12 @@ def test_bodies_stay_apart_where_the_compiler_would_fuse_them(tmp_path: Path) ->
     assert len(found.visuals) == 1
 
 
-def test_every_geom_knows_its_element_and_why_it_cannot_be_edited(tmp_path: Path) -> None:
-    sub = model('<body name="q"><geom size="2" name="n"/></body>')
-    replicated = '<replicate count="2"><geom name="r" size="1"/></replicate>'
-    inside = f'<include file="inc.xml"/>{replicated}<attach model="s" body="q" prefix="p_"/>'
-    text = model(inside, '<asset><model name="s" file="sub.xml"/></asset>')
-    found = read(put(tmp_path, {"main.xml": text, "inc.xml": "<x>\n<geom size='1'/></x>", "sub.xml": sub}))
-    document = found.document
-    assert isinstance(document, MjcfDocument)
-    tree = document.tree
-    inc, copied, attached = document.authored
-    (node,) = [n for n in tree.root.walk() if (n.source, n.element.start) == (inc.source, inc.start)]
-    assert node.tag == "geom" and tree.where(node) == f"{tmp_path / 'inc.xml'}:2" and not inc.fixed
-    assert copied.names == ("world/r0", "world/r1") and "<replicate>" in copied.fixed
-    assert attached.names == ("p_q/p_n",) and "another model" in attached.fixed
-    assert attached.source == -1
-
-
-def test_a_document_tells_masses_and_whose_they_are(tmp_path: Path) -> None:
+def test_masses_are_those_of_the_file_or_follow_from_geoms(tmp_path: Path) -> None:
     inertial = '<inertial pos="1 0 0" mass="2" diaginertia="3 4 5"/>'
     other = '<body name="b" pos="1 0 0"><geom size="1" mass="7"/></body>'
-    inside = f'<body name="a">{inertial}<geom size="1"/></body>{other}'
-    document = asset(tmp_path, inside).document
-    assert isinstance(document, MjcfDocument)
-    world, a, b = document.bodies
-    assert (world.parent, world.explicit, world.source) == (None, False, -1)
-    assert (a.mass, a.explicit, a.parent, a.inertial.translation.tolist()) == (2, True, "world", [1, 0, 0])
-    assert sorted(a.inertia.tolist()) == [3, 4, 5]
-    assert (b.explicit, b.pose.translation.tolist()) == (False, [1, 0, 0])
-    assert b.mass == pytest.approx(7)
+    a, b = asset(tmp_path, f'<body name="a">{inertial}<geom size="1"/></body>{other}').mechanism.inertials
+    assert (a.body, a.mass, a.centre.tolist(), sorted(np.diag(a.inertia).tolist())) == ("a", 2, [1, 0, 0], [3, 4, 5])
+    assert (b.body, b.mass, b.centre.tolist()) == ("b", pytest.approx(7), [1, 0, 0])
 
 
 def test_joints_and_masses_are_told_in_the_root_frame(tmp_path: Path) -> None:

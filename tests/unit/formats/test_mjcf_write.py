@@ -180,7 +180,7 @@ def test_what_a_replicated_hull_adds_stands_beside_the_replicate(tmp_path: Path)
 def test_a_hull_on_a_replicated_body_cannot_be_made(tmp_path: Path) -> None:
     inside = '<replicate count="2" offset="1 0 0"><body name="b"><geom name="g" size=".1"/></body></replicate>'
     asset = read(put(tmp_path / "in", {"main.xml": model(inside)}))
-    with pytest.raises(AssetError, match="'b1/g1~1' is on body 'b1', which is made by <replicate>"):
+    with pytest.raises(AssetError, match="'b1/g1~1' is on body 'b1', which is inside a <replicate>"):
         write(replaced(asset, [], hull(asset, "b1/g1", BOX)), tmp_path / "out")
 
 
@@ -189,7 +189,7 @@ def test_what_a_scaling_frame_holds_is_read_only(tmp_path: Path) -> None:
     asset = read(put(tmp_path / "in", {"main.xml": model(inside)}))
     with pytest.raises(AssetError, match="'b/g' cannot be changed: it is inside a <frame> that scales"):
         write(replaced(asset, ["b/g"]), tmp_path / "out")
-    with pytest.raises(AssetError, match="'b/g~1' is on body 'b', which is in a <frame> that scales it"):
+    with pytest.raises(AssetError, match="'b/g~1' is on body 'b', which is inside a <frame> that scales"):
         write(replaced(asset, [], hull(asset, "b/g", BOX)), tmp_path / "out")
 
 

@@ -32,6 +32,7 @@ KeepAttributes = Callable[[MjcfNode], Mapping[str, str] | None]
 """Which attributes of an element go into the text; None leaves the element out, with all below it."""
 
 _FUSING = {"compiler": ("fusestatic", "discardvisual"), "body": ("fuse",)}
+_SCALING = {"compiler": ("settotalmass", "alignfree"), "freejoint": ("align",), "joint": ("align",)}
 
 
 @dataclass(frozen=True, slots=True)
@@ -220,6 +221,11 @@ def flatten(tree: MjcfTree, keep: KeepAttributes | None = None) -> FlatText:
         parts.append(_start_tag(tree, folders, node, attributes, first=not depth))
     parts += [b"</%s>" % node.tag.encode() for node, _ in reversed(closing)]
     return FlatText(b"".join(parts), tuple(nodes))
+
+
+def drop_scaling(node: MjcfNode) -> Mapping[str, str]:
+    """The attributes without those that scale masses to a total, or put frames of free bodies at their centres."""
+    return {name: value for name, value in node.attributes.items() if name not in _SCALING.get(node.tag, ())}
 
 
 def _walk_kept(root: MjcfNode, keep: KeepAttributes) -> Iterator[tuple[MjcfNode, int, Mapping[str, str]]]:

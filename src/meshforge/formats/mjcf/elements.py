@@ -1,4 +1,4 @@
-"""XML text of MJCF elements: geoms, meshes, joints, masses, and the edits by which a body says its mass."""
+"""XML text of MJCF elements: geoms, meshes, joints and masses."""
 
 from __future__ import annotations
 
@@ -9,12 +9,9 @@ from typing import assert_never
 
 import numpy as np
 
-from meshforge.common import AssetError
 from meshforge.formats.kinematic_tree import claim_name, drop_rounding, place_inertial, split_planar
 from meshforge.formats.mesh_output import HullFiles
-from meshforge.formats.mjcf.document import MjcfNode, MjcfTree
-from meshforge.formats.mjcf.model import MjcfModel
-from meshforge.formats.xml import Splice, escape, format_numbers, line_gap, remove_element, set_attribute
+from meshforge.formats.xml import escape, format_numbers
 from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Floats, Ints, Polytope, Pose, Sphere, principal_axes
 from meshforge.symbolic import Inertial, Joint
 
@@ -32,8 +29,6 @@ LEAST_MASS = 1e-9
 _LEAST_MOMENT = 1e-14  # [kg m^2]; MuJoCo refuses less than 1e-15
 _LIGHT_MOMENT = 1e-9  # [kg m^2], that of LIGHT about 3 cm away
 _SLIGHT = 1e-6  # of the largest moment, by which two may fall short of the third through rounding
-
-FROM_GEOMS = "inertiafromgeom"
 
 
 def tag(name: str, attributes: Mapping[str, str], closed: bool = True) -> bytes:
@@ -193,59 +188,3 @@ def _legal_moments(moments: Floats, mass: float) -> Floats:
         repaired[largest] = others * (1 - 1e-12)
         return repaired
     return np.full(3, max(float(moments.mean()), _LIGHT_MOMENT * mass, _LEAST_MOMENT))
-
-
-def is_inertial_ignored(tree: MjcfTree) -> bool:
-    """Whether the compiler settings say that every `<inertial>` is ignored."""
-    settings = [c.attributes[FROM_GEOMS] for c in tree.root.each("compiler") if FROM_GEOMS in c.attributes]
-    return settings[-1:] == ["true"]
-
-
-def stop_ignoring_inertials(tree: MjcfTree) -> list[tuple[int, Splice]]:
-    """The edits, with their files, by which an `<inertial>` counts where there is one."""
-    return [
-        (node.source, set_attribute(tree.sources[node.source].text.data, node.element, FROM_GEOMS, "auto"))
-        for node in tree.root.each("compiler")
-        if node.attributes.get(FROM_GEOMS) == "true"
-    ]
-
-
-def inertial_tag_of_model(reading: MjcfModel, body: int) -> bytes:
-    """The `<inertial>` of a body as MuJoCo compiled it; reading: of the unedited document, masses not scaled."""
-    model = reading.model
-    pos, quaternion, moments = model.body_ipos[body], model.body_iquat[body], model.body_inertia[body]
-    return tag("inertial", inertial_attributes(float(model.body_mass[body]), pos, quaternion, moments))
-
-
-def insert_inertial(tree: MjcfTree, node: MjcfNode, text: bytes) -> list[tuple[int, Splice]]:
-    """The edits, with their files, that put an `<inertial>` before the children of a body's element.
-
-    One that was ignored so far gives way.
-    """
-    data = tree.sources[node.source].text.data
-    texts = [source.text.data for source in tree.sources]
-    gone = [(old.source, remove_element(texts[old.source], old.element)) for old in _inertials_of(node)]
-    at, gap = node.element.inside, line_gap(data, node.element.children[0].start)
-    return [*gone, (node.source, Splice(at, at, gap + text))]
-
-
-def has_inertial(node: MjcfNode | None, tree: MjcfTree) -> bool:
-    """Whether a body's element has an `<inertial>` that counts."""
-    return node is not None and any(True for _ in _inertials_of(node)) and not is_inertial_ignored(tree)
-
-
-def mass_error(body: str, why: str, tree: MjcfTree) -> AssetError:
-    """The error about a body that cannot say its mass."""
-    return AssetError(
-        f"the mass of body {body!r} cannot be kept: {why}",
-        where=str(tree.main.path),
-        remedy="Let MuJoCo take it from the edited hulls (--mass recompute).",
-    )
-
-
-def _inertials_of(node: MjcfNode) -> Iterable[MjcfNode]:
-    for child in node.children:
-        if child.tag == "inertial":
-            yield child
-        elif child.tag == "frame":
-            yield from _inertials_of(child)

@@ -3,7 +3,7 @@ each geom is."""
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Sequence
+from collections.abc import Hashable
 from dataclasses import replace
 from functools import cached_property
 
@@ -11,18 +11,12 @@ import numpy as np
 
 from meshforge.formats.collision_pieces import ShapeNames, collect_mentions
 from meshforge.formats.libraries import mujoco
-from meshforge.formats.mjcf.compiler import Compilation, compile_spec, compile_text, flatten, parse_text
-from meshforge.formats.mjcf.document import GeomRecord, MjcfBody, MjcfTree, body_names, geom_names
+from meshforge.formats.mjcf.compiler import Compilation, KeepAttributes, compile_text, flatten
+from meshforge.formats.mjcf.document import MjcfTree, body_names, geom_names
 from meshforge.formats.mjcf.shapes import MjcfShapes, body_poses, geom_poses
 from meshforge.formats.xml import parse_numbers
 from meshforge.geometry import Pose, rotation_of_quaternion
 from meshforge.symbolic import Coupling, Geom, Inertial, Joint, JointKind, Mechanism, Mentions, Opaque
-
-_INSIDE = {
-    "replicate": "it is inside a <replicate>, which makes several geoms of one element",
-    "frame": "it is inside a <frame> that scales what it holds",
-}
-_ATTACHED = "it comes out of another model, which is attached"
 
 _KINDS: tuple[JointKind, ...] = ("floating", "ball", "prismatic", "revolute")  # in the order of MuJoCo's numbers
 
@@ -67,89 +61,41 @@ class MjcfModel:
     def read_pieces(self) -> tuple[tuple[Geom, ...], tuple[Opaque, ...]]:
         """The hulls, and the collision geometry that is none."""
         geoms, opaque = [], []
-        shapes, mentions = MjcfShapes(self.model), GeomMentions(self.spec_geoms, self.body_of, self.collides)
+        shapes = MjcfShapes(self.model)
         for k, (name, body, pose) in enumerate(zip(self.names, self.body_of, self.geom_poses, strict=True)):
             if not self.collides[k]:
                 continue
             part = shapes.part_of(k, pose)
             if part.shape is not None:
-                contact = contact_attributes(self.model, k)
-                own = mentions.of(k)
+                contact, own = _contact_attributes(self.model, k), self._mentions_of(k)
                 geoms.append(Geom(name, body, part.shape, contact=contact, mentions=own, fill=part.fill))
             else:
                 plane = pose if self.model.geom_type[k] == mujoco.mjtGeom.mjGEOM_PLANE else None
-                opaque.append(Opaque(name, body, part.reason, part.surface, plane, mentions.of(k)))
+                opaque.append(Opaque(name, body, part.reason, part.surface, plane, self._mentions_of(k)))
         return tuple(geoms), tuple(opaque)
 
+    @property
+    def collision_names(self) -> tuple[str, ...]:
+        """The names of the geoms that collide."""
+        return tuple(name for name, collides in zip(self.names, self.collides, strict=True) if collides)
+
+    def _mentions_of(self, k: int) -> Mentions:
+        geom, shown = self.spec_geoms[k], self._visual_names.get(self.body_of[k], [])
+        kind = geom.classname.name if geom.classname else ""
+        return collect_mentions(_names_of(geom), shown, [("class", kind)] if kind != _UNNAMED else [])
+
     @cached_property
-    def bodies(self) -> tuple[MjcfBody, ...]:
-        """The bodies in MuJoCo's order, the world first."""
-        return tuple(self._read_body(k) for k in range(self.model.nbody))
-
-    def _read_body(self, k: int) -> MjcfBody:
-        model, body = self.model, self.spec_bodies[k]
-        node = self.flat.node_at(body.info)
-        return MjcfBody(
-            name=self.body_names[k],
-            parent=self.body_names[int(model.body_parentid[k])] if k else None,
-            source=node.source if node else -1,
-            start=node.element.start if node else -1,
-            pose=self.body_poses[k],
-            inertial=Pose(rotation_of_quaternion(model.body_iquat[k]), model.body_ipos[k]),
-            mass=float(model.body_mass[k]),
-            inertia=model.body_inertia[k].copy(),
-            explicit=bool(body.explicitinertial),
-        )
-
-    def geom_records(self) -> tuple[GeomRecord, ...]:
-        """The elements that geoms were made of, in document order; geoms without one each for itself, at the end."""
-        order = {id(node): k for k, node in enumerate(self.flat.nodes)}
-        copies: dict[int, list[int]] = {}
-        for k, node in enumerate(self.elements):
-            copies.setdefault(len(order) + k if node is None else order[id(node)], []).append(k)
-        inside = self._reasons_against_edit()
-        return tuple(self._record_geom(copies[key], inside) for key in sorted(copies))
-
-    def _reasons_against_edit(self) -> dict[int, str]:
-        """Why what stands inside some elements cannot be edited, by the identity of its nodes."""
-        found: dict[int, str] = {}
-        for top in self.flat.nodes:
-            if top.tag == "replicate" or (top.tag == "frame" and "scale" in top.attributes):
-                found |= {id(node): _INSIDE[top.tag] for node in top.walk() if id(node) not in found}
+    def _visual_names(self) -> dict[str, list[ShapeNames]]:
+        found: dict[str, list[ShapeNames]] = {}
+        for geom, body, collides in zip(self.spec_geoms, self.body_of, self.collides, strict=True):
+            if not collides:
+                found.setdefault(body, []).append(_names_of(geom, geom.name))
         return found
 
-    def _record_geom(self, copies: list[int], inside: dict[int, str]) -> GeomRecord:
-        node = self.elements[copies[0]]
-        fixed = _ATTACHED if node is None else inside.get(id(node), "")
-        return GeomRecord(
-            source=node.source if node else -1,
-            start=node.element.start if node else -1,
-            body=self.body_of[copies[0]],
-            names=tuple(self.names[k] for k in copies),
-            collides=any(self.collides[k] for k in copies),
-            fixed=fixed,
-        )
 
-
-def compile_tree(tree: MjcfTree) -> MjcfModel:
-    """The model of all that a tree says. Raises AssetError with MuJoCo's message."""
-    return MjcfModel(tree, compile_text(tree, flatten(tree)))
-
-
-def compile_unscaled(reading: MjcfModel) -> MjcfModel:
-    """A whole model with masses before they are scaled to a total, and free bodies in their authored frames."""
-    tree = reading.tree
-    changing = {"compiler": {"settotalmass", "alignfree"}} | {tag: {"align"} for tag in ("freejoint", "joint")}
-    if not reading.is_whole or not any(
-        changing.get(node.tag, set()) & node.attributes.keys() for node in tree.root.walk()
-    ):
-        return reading
-    spec = parse_text(tree, reading.flat)
-    spec.compiler.settotalmass = -1
-    spec.compiler.alignfree = False
-    for joint in spec.joints:
-        joint.align = 0
-    return MjcfModel(tree, compile_spec(tree, reading.flat, spec))
+def compile_tree(tree: MjcfTree, keep: KeepAttributes | None = None) -> MjcfModel:
+    """The model of all that a tree says; keep: of a part of it. Raises AssetError with MuJoCo's message."""
+    return MjcfModel(tree, compile_text(tree, flatten(tree, keep)))
 
 
 def read_mechanism(reading: MjcfModel) -> Mechanism:
@@ -214,39 +160,18 @@ def _read_joint(reading: MjcfModel, k: int, parent: str, child: str) -> Joint:
 
 
 def _read_inertial(reading: MjcfModel, k: int) -> Inertial | None:
-    body = reading.bodies[k]
-    if body.mass <= 0:
+    model, mass = reading.model, float(reading.model.body_mass[k])
+    if mass <= 0:
         return None
-    frame = body.pose @ body.inertial
-    inertia = frame.rotation @ np.diag(body.inertia) @ frame.rotation.T
-    return Inertial(body.name, body.mass, frame.translation, inertia)
+    frame = reading.body_poses[k] @ Pose(rotation_of_quaternion(model.body_iquat[k]), model.body_ipos[k])
+    inertia = frame.rotation @ np.diag(model.body_inertia[k]) @ frame.rotation.T
+    return Inertial(reading.body_names[k], mass, frame.translation, inertia)
 
 
-def contact_attributes(model: mujoco.MjModel, geom: int) -> tuple[tuple[str, str], ...]:
+def _contact_attributes(model: mujoco.MjModel, geom: int) -> tuple[tuple[str, str], ...]:
     """Names and values of what decides how a geom collides, defaults and classes included."""
     numbers = {name: np.atleast_1d(getattr(model, f"geom_{name}")[geom]).tolist() for name in _ATTRIBUTES}
     return tuple((k, " ".join(str(n) if isinstance(n, int) else f"{n:g}" for n in own)) for k, own in numbers.items())
-
-
-class GeomMentions:
-    """What is said of the geoms of one model, in its order; collides: whether each takes part in collisions."""
-
-    def __init__(self, geoms: Sequence[mujoco.MjsGeom], bodies: Sequence[str], collides: Sequence[bool]) -> None:
-        self.geoms, self.bodies, self.collides = geoms, bodies, collides
-
-    def of(self, k: int) -> Mentions:
-        """What is said of the k-th geom."""
-        geom, shown = self.geoms[k], self._visual_names.get(self.bodies[k], [])
-        kind = geom.classname.name if geom.classname else ""
-        return collect_mentions(_names_of(geom), shown, [("class", kind)] if kind != _UNNAMED else [])
-
-    @cached_property
-    def _visual_names(self) -> dict[str, list[ShapeNames]]:
-        found: dict[str, list[ShapeNames]] = {}
-        for geom, body, collides in zip(self.geoms, self.bodies, self.collides, strict=True):
-            if not collides:
-                found.setdefault(body, []).append(_names_of(geom, geom.name))
-        return found
 
 
 def _names_of(geom: mujoco.MjsGeom, name: str = "") -> ShapeNames:

@@ -53,9 +53,9 @@ def read_mjcf(path: Path, files: Mapping[Path, bytes] | None = None) -> Asset:
     return Asset(
         path=path,
         format="mjcf",
-        bodies=tuple(Body(body.name, body.pose) for body in reading.bodies),
+        bodies=tuple(map(Body, reading.body_names, reading.body_poses)),
         geoms=geoms,
-        document=MjcfDocument(tree.sources, reading.geom_records(), reading.bodies, refusal),
+        document=MjcfDocument(tree.sources, reading.collision_names, refusal),
         opaque=opaque,
         visuals=read_visuals(reading),
         files=found,
