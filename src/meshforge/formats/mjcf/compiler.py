@@ -209,7 +209,7 @@ def flatten(tree: MjcfTree, keep: KeepAttributes | None = None) -> FlatText:
     References of included files are made absolute where MuJoCo would find them beside the included file. Static
     bodies are not fused and visual geoms not discarded, whatever the compiler settings say.
     """
-    folders = AssetFolders.of(tree)
+    folders = AssetFolders(tree)
     nodes: list[MjcfNode] = []
     parts: list[bytes] = []
     closing: list[tuple[MjcfNode, int]] = []
@@ -218,7 +218,7 @@ def flatten(tree: MjcfTree, keep: KeepAttributes | None = None) -> FlatText:
             parts.append(b"</%s>" % closing.pop()[0].tag.encode())
         nodes.append(node)
         closing.append((node, depth))
-        parts.append(_start_tag(tree, folders, node, attributes, first=not depth))
+        parts.append(_start_tag(folders, node, attributes, first=not depth))
     parts += [b"</%s>" % node.tag.encode() for node, _ in reversed(closing)]
     return FlatText(b"".join(parts), tuple(nodes))
 
@@ -238,14 +238,12 @@ def _walk_kept(root: MjcfNode, keep: KeepAttributes) -> Iterator[tuple[MjcfNode,
             waiting.extend((child, depth + 1) for child in reversed(node.children))
 
 
-def _start_tag(
-    tree: MjcfTree, folders: AssetFolders, node: MjcfNode, attributes: Mapping[str, str], first: bool
-) -> bytes:
+def _start_tag(folders: AssetFolders, node: MjcfNode, attributes: Mapping[str, str], first: bool) -> bytes:
     parts = [b"<" if first else b"\n<", node.tag.encode()]
     for name, value in attributes.items():
         if name in _FUSING.get(node.tag, ()):
             continue
-        if node.source and name.startswith("file") and (path := folders.path_beside_include(tree, node, name)):
+        if node.source and name.startswith("file") and (path := folders.path_beside_include(node, name)):
             value = os.fspath(path)
         parts.append(b' %s="%s"' % (name.encode(), escape(value)))
     return b"".join([*parts, b">"])

@@ -41,7 +41,7 @@ class NewGeoms:
 
     def __init__(self, asset: Asset, tree: MjcfTree, stem: str) -> None:
         self.tree, self.context = tree, ElementContext(tree)
-        self.folders = references.AssetFolders.of(tree)
+        self.folders = references.AssetFolders(tree)
         self.files = mesh_output.HullFiles(stem)
         self.elements: list[bytes] = []
         self._main = tree.main.path.parent
@@ -136,9 +136,9 @@ class NewGeoms:
     def _folder_inside(self, node: MjcfNode) -> str | None:
         """The folder of a mesh file as its reference has it, None where it lies outside of the main file's folder."""
         reference = node.attributes.get("file", "").replace("\\", "/")
-        if not reference or Path(reference).is_absolute() or self.folders.path_beside_include(self.tree, node, "file"):
+        if not reference or Path(reference).is_absolute() or self.folders.path_beside_include(node):
             return None
-        if not self.folders.find(self.tree, node).is_relative_to(self._main):
+        if not self.folders.find(node).is_relative_to(self._main):
             return None
         return "" if self.folders.strip else reference[: reference.rfind("/") + 1]
 

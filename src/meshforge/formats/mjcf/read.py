@@ -47,9 +47,9 @@ def read_mjcf(path: Path, files: Mapping[Path, bytes] | None = None) -> Asset:
     """
     tree = gather_model(path, files)
     refuse_excess(tree)
+    found, missing = references.find_files(tree)  # before MuJoCo looks for any of them
     reading, refusal = _compile_or_strip(tree)
     geoms, opaque = reading.read_pieces()
-    found, missing = references.find_files(tree)
     return Asset(
         path=path,
         format="mjcf",
@@ -95,7 +95,6 @@ def gather_model(path: Path, files: Mapping[Path, bytes] | None = None) -> MjcfT
         _refuse_fragment(plain_path(path), parse_xml(XmlText.of(read_content(path)).data, str(path)))
         raise
     _refuse_fragment(tree.main.path, tree.root.element)
-    references.refuse_beyond_reach(tree)
     return tree
 
 
@@ -183,7 +182,7 @@ class _Visuals:
         self.reading, self.model = reading, reading.model
         self.shapes = MjcfShapes(reading.model)
         self.meshes = {mesh.id: mesh for mesh in reading.spec.meshes}
-        self.folders = references.AssetFolders.of(reading.tree)
+        self.folders = references.AssetFolders(reading.tree)
         self.field = mujoco.mjtGeom.mjGEOM_HFIELD
 
     def of(self, k: int) -> Visual | None:
@@ -211,5 +210,5 @@ class _Visuals:
         node = self.reading.flat.node_at(self.meshes[mesh].info) if mesh in self.meshes else None
         if node is None or not node.attributes.get("file"):
             return None
-        path = self.folders.find(self.reading.tree, node)
+        path = self.folders.find(node)
         return path if path.suffix.lower() in READABLE_MESH_SUFFIXES else None

@@ -60,14 +60,13 @@ def read_spec(spec: SpecObject) -> Asset:
 
 def _gather_files(main: Path, text: bytes, held: dict[str, bytes]) -> list[tuple[Path, bytes]]:
     """The files that a text refers to: those that the spec holds, under its names for them, before those on disk."""
-    from meshforge.formats.mjcf.references import AssetFolders, iterate_file_references  # lazy: only MJCF needs it
+    from meshforge.formats.mjcf.references import list_references  # lazy: only MJCF needs it
 
-    tree = read_tree(main, {main: text})
-    folders, found = AssetFolders.of(tree), []
-    for node, attribute in iterate_file_references(tree):
-        path, reference = folders.find(tree, node, attribute), node.attributes[attribute]
+    found = []
+    for reference in list_references(read_tree(main, {main: text})):
+        path = reference.path
         below = path.relative_to(main.parent).as_posix() if path.is_relative_to(main.parent) else path.name
-        key = next((key for key in (reference, below, path.name, str(path)) if key in held), None)
+        key = next((key for key in (reference.text, below, path.name, str(path)) if key in held), None)
         if key is not None:
             found.append((path, held[key]))
         elif is_file(path):
