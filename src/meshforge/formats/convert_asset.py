@@ -8,7 +8,7 @@ from typing import Any
 
 from meshforge.formats.base import Collision
 from meshforge.formats.engine_names.conventions import MarkName
-from meshforge.formats.mjcf.spec import build_spec
+from meshforge.formats.mjcf.format import build_spec
 from meshforge.formats.output_tree import SaveResult, make_output, save
 from meshforge.formats.registry import Source, labels_beside, read, to_mesh
 from meshforge.symbolic import SymbolicMesh, write_labels

@@ -18,8 +18,7 @@ from meshforge.formats.base import Format, ReadOptions
 from meshforge.formats.engine_names.conventions import MarkName
 from meshforge.formats.gltf.format import GltfForGodot, GltfFormat, GltfForUnity, GltfForUnreal, PhysicsGltf
 from meshforge.formats.meshfile.surface import FARTHEST
-from meshforge.formats.mjcf.format import MjcfFormat
-from meshforge.formats.mjcf.spec import SpecObject, read_spec, read_text
+from meshforge.formats.mjcf.format import MjcfFormat, SpecObject, read_spec, read_text
 from meshforge.formats.plain import folder, obj, ply, stl
 from meshforge.formats.plugin_format import guard_format
 from meshforge.formats.sdf.document import CONFIG, find_main_file

@@ -70,13 +70,13 @@ def strip_to_collision(tree: MjcfTree, refusal: AssetError, masses: Literal["fix
     for all_visuals, of_masses in attempts:
         flat = compiler.flatten(repaired, lambda node, of_masses=of_masses: _keep_needed(node, of_masses))
         try:
-            spec = compiler.parse_text(repaired, flat)
+            spec = compiler.parse_text(flat)
         except AssetError as error:
             last = error
             continue
-        infos = _replace_visuals(repaired, flat, spec, all_visuals)
+        infos = _replace_visuals(flat, spec, all_visuals)
         try:
-            made = compiler.compile_spec(repaired, flat, spec)
+            made = compiler.compile_spec(flat, spec)
         except AssetError as error:
             last = error
             continue
@@ -128,16 +128,15 @@ def _add_setting(target: MjcfNode, child: MjcfNode) -> None:
     target.children.append(child)
 
 
-def _replace_visuals(
-    tree: MjcfTree, flat: compiler.FlatText, spec: mujoco.MjSpec, all_visuals: bool
-) -> dict[str, bool]:
+def _replace_visuals(flat: compiler.FlatText, spec: mujoco.MjSpec, all_visuals: bool) -> dict[str, bool]:
     """Put massless spheres in the place of visual mesh geoms, so that the other geoms of a body keep their numbers.
 
     all_visuals: not only of those whose meshes are missing. Returns the lines of these geoms, and whether they had a
     mass. Meshes that no geom is left to use go, and pairs of geoms that are not there. Raises AssetError where the mesh
     of a geom that collides is not there, or plainly is a file of another kind, such as a pointer.
     """
-    geoms, folders = compiler.geoms_of(spec.bodies), AssetFolders(tree)
+    tree, geoms = flat.tree, compiler.geoms_of(spec.bodies)
+    folders = AssetFolders(tree)
     nodes = {mesh.name: flat.node_at(mesh.info) for mesh in spec.meshes}
     files = {name: folders.find(node) for name, node in nodes.items() if node and node.attributes.get("file")}
     paired = {name for pair in spec.pairs for name in (pair.geomname1, pair.geomname2)}

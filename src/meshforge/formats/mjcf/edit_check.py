@@ -9,7 +9,6 @@ import numpy as np
 from meshforge.formats.libraries import mujoco
 from meshforge.formats.mjcf.geom_edits import GeomEdits
 from meshforge.formats.mjcf.model import MjcfModel
-from meshforge.formats.mjcf.shapes import MjcfShapes
 from meshforge.geometry import Floats, Shape
 
 _OF_BODY = tuple(
@@ -86,12 +85,11 @@ def _data_name(model: mujoco.MjModel, geom: int) -> str:
 
 
 def _compare_new_geoms(before: MjcfModel, after: MjcfModel, edit: GeomEdits) -> Iterator[str]:
-    shapes = MjcfShapes(after.model)
     origins = {name: pose.translation for name, pose in zip(after.body_names, after.body_poses, strict=True)}
     for k, hull in enumerate(geom.hull for geom in edit.geoms):
         if hull is None:
             continue
-        shape = shapes.part_of(k, after.geom_poses[k]).shape
+        shape = after.read_piece(k).shape
         if after.body_of[k] != hull.body or not _is_same_shape(shape, hull.shape, origins[hull.body]):
             yield f"the geometry of hull {hull.name!r}"
         if hull.parent in before.names:

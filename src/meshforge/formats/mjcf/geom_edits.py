@@ -11,7 +11,6 @@ from meshforge.formats.collision_pieces import names_to_keep, new_hulls
 from meshforge.formats.mjcf.document import MjcfNode, MjcfTree, geom_names
 from meshforge.formats.mjcf.model import MjcfModel
 from meshforge.formats.mjcf.new_geoms import NewGeoms
-from meshforge.formats.mjcf.shapes import MjcfShapes
 from meshforge.formats.slots import Slot, append_elements, replace_element
 from meshforge.formats.xml import Splice
 from meshforge.symbolic import Asset, Geom
@@ -64,7 +63,6 @@ class GeomEdits:
         self.asset, self.before, self.maker, self.tree = asset, before, maker, before.tree
         self.ends: dict[str, list[Slot]] = {}
         self._poses = dict(zip(before.body_names, before.body_poses, strict=True))
-        self._shapes = MjcfShapes(before.model)
         self._hulls: dict[int, Geom] = {}
         self.elements = list(self._list_elements())
         self._owner = {before.names[k]: element for element in self.elements for k in element.geoms}
@@ -166,8 +164,7 @@ class GeomEdits:
         """The volume that has the mass of a hull's parent: its own, or that of all hulls in its place."""
         if geom.parent not in self._owner:
             return 0.0
-        number = self.before.names.index(geom.parent)
-        shape = self._shapes.part_of(number, self.before.geom_poses[number]).shape
+        shape = self.before.read_piece(self.before.names.index(geom.parent)).shape
         if shape is not None:
             return shape.volume
         return sum(other.shape.volume for other in self.asset.geoms if other.parent == geom.parent)

@@ -9,14 +9,15 @@ from functools import cached_property
 
 import numpy as np
 
-from meshforge.formats.collision_pieces import ShapeNames, collect_mentions
+from meshforge import geometry
+from meshforge.common import GeometryError
+from meshforge.formats.collision_pieces import CollisionPiece, ShapeNames, collect_mentions
 from meshforge.formats.libraries import mujoco
 from meshforge.formats.mjcf.compiler import Compilation, KeepAttributes, compile_text, flatten
 from meshforge.formats.mjcf.document import MjcfTree, body_names, geom_names
-from meshforge.formats.mjcf.shapes import MjcfShapes, body_poses, geom_poses
 from meshforge.formats.xml import parse_numbers
 from meshforge.geometry import Pose, rotation_of_quaternion
-from meshforge.symbolic import Coupling, Geom, Inertial, Joint, JointKind, Mechanism, Mentions, Opaque
+from meshforge.symbolic import Coupling, Geom, Inertial, Joint, JointKind, Mechanism, Mentions, Opaque, Surface
 
 _KINDS: tuple[JointKind, ...] = ("floating", "ball", "prismatic", "revolute")  # in the order of MuJoCo's numbers
 
@@ -55,23 +56,28 @@ class MjcfModel:
         touching = (self.model.geom_contype != 0) | (self.model.geom_conaffinity != 0)
         touching[np.concatenate([self.model.pair_geom1, self.model.pair_geom2])] = True
         self.collides: list[bool] = touching.tolist()
-        self.body_poses = body_poses(self.model)
-        self.geom_poses = geom_poses(self.model, self.body_poses)
+        self.body_poses = [Pose.identity()]
+        for k in range(1, self.model.nbody):  # in the reference configuration no joint displaces anything
+            parent = self.body_poses[int(self.model.body_parentid[k])]
+            self.body_poses.append(parent @ _pose(self.model.body_quat[k], self.model.body_pos[k]))
+        self.geom_poses = [  # of a mesh, of the frame in which MuJoCo keeps its vertices, at its principal axes
+            self.body_poses[int(body)] @ _pose(quat, pos)
+            for body, quat, pos in zip(self.model.geom_bodyid, self.model.geom_quat, self.model.geom_pos, strict=True)
+        ]
+        self._hulls: dict[int, tuple[geometry.Polytope, float | None] | str] = {}
 
     def read_pieces(self) -> tuple[tuple[Geom, ...], tuple[Opaque, ...]]:
         """The hulls, and the collision geometry that is none."""
         geoms, opaque = [], []
-        shapes = MjcfShapes(self.model)
-        for k, (name, body, pose) in enumerate(zip(self.names, self.body_of, self.geom_poses, strict=True)):
+        for k, (name, body) in enumerate(zip(self.names, self.body_of, strict=True)):
             if not self.collides[k]:
                 continue
-            part = shapes.part_of(k, pose)
+            part = self.read_piece(k)
             if part.shape is not None:
                 contact, own = _contact_attributes(self.model, k), self._mentions_of(k)
                 geoms.append(Geom(name, body, part.shape, contact=contact, mentions=own, fill=part.fill))
             else:
-                plane = pose if self.model.geom_type[k] == mujoco.mjtGeom.mjGEOM_PLANE else None
-                opaque.append(Opaque(name, body, part.reason, part.surface, plane, self._mentions_of(k)))
+                opaque.append(Opaque(name, body, part.reason, part.surface, part.plane, self._mentions_of(k)))
         return tuple(geoms), tuple(opaque)
 
     @property
@@ -92,10 +98,91 @@ class MjcfModel:
                 found.setdefault(body, []).append(_names_of(geom, geom.name))
         return found
 
+    def read_piece(self, geom: int) -> CollisionPiece:
+        """The shape of a geom; of a mesh it is the convex hull, with which MuJoCo collides."""
+        kinds, pose = mujoco.mjtGeom, self.geom_poses[geom]
+        kind = kinds(int(self.model.geom_type[geom]))
+        match kind:
+            case kinds.mjGEOM_MESH:
+                return self._read_hull(int(self.model.geom_dataid[geom]), pose)
+            case kinds.mjGEOM_PLANE:
+                return CollisionPiece(None, "a plane has no end", plane=pose)
+            case kinds.mjGEOM_HFIELD:
+                return CollisionPiece(None, "a height field is no convex hull", self._read_field(geom))
+            case kinds.mjGEOM_SDF:
+                data = int(self.model.geom_dataid[geom])
+                surface = self.mesh_surface(data, pose) if data >= 0 else None
+                return CollisionPiece(None, "a signed distance field is no convex hull", surface)
+        shape = self.primitive_of(geom)
+        return CollisionPiece(shape) if shape else CollisionPiece(None, f"{kind.name} is no geometry that is known")
+
+    def primitive_of(self, geom: int) -> geometry.Shape | None:
+        """The shape of a geom that is no mesh; MuJoCo's sizes are half sizes."""
+        kinds, pose = mujoco.mjtGeom, self.geom_poses[geom]
+        size = self.model.geom_size[geom].astype(np.float64)
+        match kinds(int(self.model.geom_type[geom])):
+            case kinds.mjGEOM_BOX:
+                return geometry.Box(pose, size)
+            case kinds.mjGEOM_SPHERE:
+                return geometry.Sphere(pose, float(size[0]))
+            case kinds.mjGEOM_CAPSULE:
+                return geometry.Capsule(pose, float(size[0]), float(size[1]))
+            case kinds.mjGEOM_CYLINDER:
+                return geometry.Cylinder(pose, float(size[0]), float(size[1]))
+            case kinds.mjGEOM_ELLIPSOID:
+                return geometry.Ellipsoid(pose, size)
+        return None
+
+    def mesh_surface(self, mesh: int, root_t_mesh: Pose) -> Surface:
+        """The triangles of a mesh in the root frame."""
+        model = self.model
+        first, count = int(model.mesh_faceadr[mesh]), int(model.mesh_facenum[mesh])
+        faces = model.mesh_face[first : first + count].astype(np.int64)
+        return Surface(root_t_mesh.apply(self._mesh_vertices(mesh)), faces)
+
+    def mesh_frame(self, mesh: int) -> Pose:
+        """authored_T_kept: from the frame in which MuJoCo keeps a mesh's vertices to that of its scaled file."""
+        return _pose(self.model.mesh_quat[mesh], self.model.mesh_pos[mesh])
+
+    def _read_hull(self, mesh: int, pose: Pose) -> CollisionPiece:
+        """The hull of a mesh, made once for all geoms that share it; that of MuJoCo's vertices under `maxhullvert`."""
+        if mesh not in self._hulls:
+            own, corners = self.mesh_surface(mesh, Pose.identity()), self._mesh_vertices(mesh)
+            if (start := int(self.model.mesh_graphadr[mesh])) >= 0:
+                count = int(self.model.mesh_graph[start])
+                first = start + 2 + count  # after the numbers of vertices and faces, and each vertex's first edge
+                corners = corners[self.model.mesh_graph[first : first + count]]
+            try:
+                self._hulls[mesh] = geometry.hull_mesh(own.vertices, own.faces, corners)
+            except GeometryError as error:
+                self._hulls[mesh] = error.problem
+        made = self._hulls[mesh]
+        if isinstance(made, str):
+            return CollisionPiece(None, made, self.mesh_surface(mesh, pose))
+        return CollisionPiece(made[0].move(pose), fill=made[1])
+
+    def _mesh_vertices(self, mesh: int) -> geometry.Floats:
+        first, count = int(self.model.mesh_vertadr[mesh]), int(self.model.mesh_vertnum[mesh])
+        vertices: geometry.Floats = self.model.mesh_vert[first : first + count].astype(np.float64)
+        return vertices
+
+    def _read_field(self, geom: int) -> Surface:
+        """The upper side of a height field in the root frame."""
+        model, field = self.model, int(self.model.geom_dataid[geom])
+        rows, columns = int(model.hfield_nrow[field]), int(model.hfield_ncol[field])
+        start = int(model.hfield_adr[field])
+        x, y, z, _ = model.hfield_size[field].astype(np.float64)
+        heights = model.hfield_data[start : start + rows * columns].astype(np.float64) * z
+        ys, xs = np.meshgrid(np.linspace(-y, y, rows), np.linspace(-x, x, columns), indexing="ij")
+        corner = (np.arange(rows - 1)[:, None] * columns + np.arange(columns - 1)).ravel()
+        one, other = (corner, corner + 1, corner + columns), (corner + 1, corner + columns + 1, corner + columns)
+        faces = np.concatenate([np.stack(one, axis=1), np.stack(other, axis=1)])
+        return Surface(self.geom_poses[geom].apply(np.stack([xs.ravel(), ys.ravel(), heights], axis=1)), faces)
+
 
 def compile_tree(tree: MjcfTree, keep: KeepAttributes | None = None) -> MjcfModel:
     """The model of all that a tree says; keep: of a part of it. Raises AssetError with MuJoCo's message."""
-    return MjcfModel(tree, compile_text(tree, flatten(tree, keep)))
+    return MjcfModel(tree, compile_text(flatten(tree, keep)))
 
 
 def read_mechanism(reading: MjcfModel) -> Mechanism:
@@ -163,9 +250,13 @@ def _read_inertial(reading: MjcfModel, k: int) -> Inertial | None:
     model, mass = reading.model, float(reading.model.body_mass[k])
     if mass <= 0:
         return None
-    frame = reading.body_poses[k] @ Pose(rotation_of_quaternion(model.body_iquat[k]), model.body_ipos[k])
+    frame = reading.body_poses[k] @ _pose(model.body_iquat[k], model.body_ipos[k])
     inertia = frame.rotation @ np.diag(model.body_inertia[k]) @ frame.rotation.T
     return Inertial(reading.body_names[k], mass, frame.translation, inertia)
+
+
+def _pose(quaternion: geometry.Floats, position: geometry.Floats) -> Pose:
+    return Pose(rotation_of_quaternion(quaternion), position)
 
 
 def _contact_attributes(model: mujoco.MjModel, geom: int) -> tuple[tuple[str, str], ...]:

@@ -17,7 +17,6 @@ from meshforge.formats.mjcf import references
 from meshforge.formats.mjcf.collision_only import strip_to_collision
 from meshforge.formats.mjcf.document import MjcfDocument, MjcfNode, MjcfTree, read_tree
 from meshforge.formats.mjcf.model import MjcfModel, compile_tree, read_mechanism
-from meshforge.formats.mjcf.shapes import MjcfShapes, mesh_frame, mesh_surface
 from meshforge.formats.visuals import Visual, VisualSurfaces
 from meshforge.formats.xml import Element, XmlText, parse_xml
 from meshforge.geometry import Polytope, rotation_of_quaternion
@@ -172,43 +171,34 @@ def _read_numbers(node: MjcfNode, names: tuple[str, ...]) -> list[float]:
 
 def read_visuals(reading: MjcfModel) -> VisualSurfaces:
     """The visuals of all bodies."""
-    seen = _Visuals(reading)
-    found = (seen.of(k) for k in range(reading.model.ngeom) if k not in reading.stand_ins)
+    meshes = {mesh.id: mesh for mesh in reading.spec.meshes}
+    folders = references.AssetFolders(reading.tree)
+    shown = (k for k in range(reading.model.ngeom) if k not in reading.stand_ins)
+    found = (_read_visual(reading, k, meshes, folders) for k in shown)
     return VisualSurfaces(tuple(visual for visual in found if visual))
 
 
-class _Visuals:
-    def __init__(self, reading: MjcfModel) -> None:
-        self.reading, self.model = reading, reading.model
-        self.shapes = MjcfShapes(reading.model)
-        self.meshes = {mesh.id: mesh for mesh in reading.spec.meshes}
-        self.folders = references.AssetFolders(reading.tree)
-        self.field = mujoco.mjtGeom.mjGEOM_HFIELD
-
-    def of(self, k: int) -> Visual | None:
-        """What a geom shows, None where it is hidden; height fields and planes are non-convex pieces already."""
-        model, body, pose = self.model, self.reading.body_of[k], self.reading.geom_poses[k]
-        material, mesh = int(model.geom_matid[k]), int(model.geom_dataid[k])
-        red, green, blue, alpha = map(float, model.mat_rgba[material] if material >= 0 else model.geom_rgba[k])
-        rgba = red, green, blue, alpha
-        is_mesh = mesh >= 0 and model.geom_type[k] != self.field
-        if alpha <= 0 or (self.reading.collides[k] and not (is_mesh and model.geom_group[k] < _SHOWN_GROUPS)):
-            return None
-        if (shape := self.shapes.primitive_of(k, pose)) is not None:
-            return Visual(body, shape, np.eye(3), np.zeros(3), rgba)
-        if not is_mesh:
-            return None
-        if path := self._find_file(mesh):
-            placed = pose @ mesh_frame(model, mesh).inverse()
-            first = self.meshes[mesh]  # its reference pose, by which its vertices are moved first of all
-            linear = placed.rotation * model.mesh_scale[mesh] @ rotation_of_quaternion(first.refquat).T
-            return Visual(body, path, linear, placed.translation - linear @ np.asarray(first.refpos), rgba)
-        surface = mesh_surface(model, mesh, pose)  # of the model itself, or of a kind of file that only MuJoCo reads
-        return Visual(body, Polytope(surface.vertices, surface.faces), np.eye(3), np.zeros(3), rgba)
-
-    def _find_file(self, mesh: int) -> Path | None:
-        node = self.reading.flat.node_at(self.meshes[mesh].info) if mesh in self.meshes else None
-        if node is None or not node.attributes.get("file"):
-            return None
-        path = self.folders.find(node)
-        return path if path.suffix.lower() in READABLE_MESH_SUFFIXES else None
+def _read_visual(
+    reading: MjcfModel, k: int, meshes: Mapping[int, mujoco.MjsMesh], folders: references.AssetFolders
+) -> Visual | None:
+    """What a geom shows, None where it is hidden; height fields and planes are non-convex pieces already."""
+    model, body, pose = reading.model, reading.body_of[k], reading.geom_poses[k]
+    material, mesh = int(model.geom_matid[k]), int(model.geom_dataid[k])
+    red, green, blue, alpha = map(float, model.mat_rgba[material] if material >= 0 else model.geom_rgba[k])
+    rgba = red, green, blue, alpha
+    is_mesh = mesh >= 0 and model.geom_type[k] != mujoco.mjtGeom.mjGEOM_HFIELD
+    if alpha <= 0 or (reading.collides[k] and not (is_mesh and model.geom_group[k] < _SHOWN_GROUPS)):
+        return None
+    if (shape := reading.primitive_of(k)) is not None:
+        return Visual(body, shape, np.eye(3), np.zeros(3), rgba)
+    if not is_mesh:
+        return None
+    first = meshes.get(mesh)
+    node = reading.flat.node_at(first.info) if first else None
+    path = folders.find(node) if node and node.attributes.get("file") else None
+    if first and path and path.suffix.lower() in READABLE_MESH_SUFFIXES:
+        placed = pose @ reading.mesh_frame(mesh).inverse()  # the reference pose moves vertices first of all
+        linear = placed.rotation * model.mesh_scale[mesh] @ rotation_of_quaternion(first.refquat).T
+        return Visual(body, path, linear, placed.translation - linear @ np.asarray(first.refpos), rgba)
+    surface = reading.mesh_surface(mesh, pose)  # of the model itself, or of a kind of file that only MuJoCo reads
+    return Visual(body, Polytope(surface.vertices, surface.faces), np.eye(3), np.zeros(3), rgba)
