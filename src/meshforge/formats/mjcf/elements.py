@@ -1,8 +1,7 @@
-"""XML text of MJCF elements: geoms, meshes, joints and masses."""
+"""XML text of MJCF elements: geoms, joints and masses."""
 
 from __future__ import annotations
 
-import posixpath
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import assert_never
@@ -10,15 +9,12 @@ from typing import assert_never
 import numpy as np
 
 from meshforge.formats.kinematic_tree import claim_name, drop_rounding, place_inertial, split_planar
-from meshforge.formats.mesh_output import HullFiles
 from meshforge.formats.xml import escape, format_numbers
-from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Floats, Ints, Polytope, Pose, Sphere, principal_axes
+from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Floats, Pose, Sphere, principal_axes
 from meshforge.symbolic import Inertial, Joint
 
 MjcfShape = Box | Capsule | Cylinder | Ellipsoid | Sphere
 """The shapes that MuJoCo has of its own."""
-
-_TINY = 1e-12  # [m^3], below which MuJoCo cannot compute a mass from the volume of a mesh
 
 _TYPES = {"revolute": "hinge", "prismatic": "slide", "ball": "ball"}
 
@@ -73,45 +69,6 @@ def inertial_attributes(mass: float, pos: Floats, quaternion: Floats, diagonal: 
     turned = {} if np.array_equal(quaternion, (1, 0, 0, 0)) else {"quat": format_numbers(quaternion)}
     weight = {"mass": format_numbers([mass]), "diaginertia": format_numbers(diagonal)}
     return {"pos": format_numbers(pos), **turned, **weight}
-
-
-class MeshAssets:
-    """Collects `<mesh>` elements and the files that are made for them; stem: of the main file."""
-
-    def __init__(self, stem: str) -> None:
-        self.files = HullFiles(stem)
-        self._names: set[str] = set()
-        self._elements: list[bytes] = []
-        self._shown: dict[tuple[str, tuple[float, ...]], str] = {}
-
-    def add_hull(self, name: str, shape: Polytope) -> str:
-        """The name of the mesh of a hull, whose file is made."""
-        extra = {"inertia": "shell"} if shape.volume < _TINY else {}
-        return self._add(self.files.add(name, "", shape.vertices, shape.faces), extra)
-
-    def add_surface(self, name: str, vertices: Floats, faces: Ints, volume: float) -> str:
-        """The name of the mesh of a non-convex surface, whose file is made; volume: of its hull [m^3]."""
-        inertia = "shell" if volume < _TINY else "convex"
-        return self._add(self.files.add(name, "", vertices, faces), {"inertia": inertia})
-
-    def add_visual(self, file: str, scale: Floats) -> str:
-        """The name of the mesh of a visual file under scales (3,); nothing of it counts for masses or collisions."""
-        key = file, tuple(scale.tolist())
-        if key not in self._shown:
-            scaled = {} if np.array_equal(scale, np.ones(3)) else {"scale": format_numbers(scale)}
-            self._shown[key] = self._add(file, {**scaled, "inertia": "shell"})
-        return self._shown[key]
-
-    def lines(self) -> list[bytes]:
-        """The lines of the `<asset>`; none where there is no mesh."""
-        inside = [b"    " + element for element in self._elements]
-        return [b"  <asset>", *inside, b"  </asset>"] if inside else []
-
-    def _add(self, file: str, attributes: dict[str, str]) -> str:
-        stem = posixpath.splitext(posixpath.basename(file))[0]
-        name = claim_name(stem.removeprefix(f"{self.files.stem}--"), self._names)
-        self._elements.append(tag("mesh", {"name": name, "file": file, **attributes}))
-        return name
 
 
 def split_joint(joint: Joint, top: bool, taken: set[str]) -> Sequence[Joint]:
