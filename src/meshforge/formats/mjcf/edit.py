@@ -9,6 +9,7 @@ from pathlib import Path
 from meshforge.common import AssetError, join_names
 from meshforge.formats.base import Mass, Output
 from meshforge.formats.collision_pieces import is_edited
+from meshforge.formats.element_edits import OutputElement, append_elements, child_indent_of
 from meshforge.formats.mjcf import edit_check, references
 from meshforge.formats.mjcf.collision_only import strip_to_collision
 from meshforge.formats.mjcf.compiler import drop_scaling
@@ -18,7 +19,6 @@ from meshforge.formats.mjcf.geom_edits import GeomEdits
 from meshforge.formats.mjcf.model import MjcfModel, compile_tree
 from meshforge.formats.mjcf.new_geoms import NewGeoms
 from meshforge.formats.references import note_absolute
-from meshforge.formats.slots import Slot, append_elements, child_indent_of
 from meshforge.formats.xml import Splice, apply_splices, line_gap, newline_of, parse_xml, remove_element, set_attribute
 from meshforge.symbolic import Asset
 
@@ -143,11 +143,11 @@ class MjcfEdit:
             return
         data, root = self.tree.main.text.data, self.tree.root.element
         if own := list(root.each("asset")):
-            yield 0, append_elements(data, own[-1], [Slot("", (), text=text) for text in self.maker.elements])
+            yield 0, append_elements(data, own[-1], [OutputElement("", (), text=text) for text in self.maker.elements])
         else:
             lead = child_indent_of(data, root)
             lines = [b"<asset>", *(2 * lead + text for text in self.maker.elements), lead + b"</asset>"]
-            yield 0, append_elements(data, root, [Slot("", (), text=newline_of(data).join(lines))])
+            yield 0, append_elements(data, root, [OutputElement("", (), text=newline_of(data).join(lines))])
 
     def _compile(self, texts: list[bytes]) -> MjcfModel:
         """What MuJoCo makes of the texts, of as much as was read before. Raises AssetError where it refuses them."""
@@ -194,7 +194,7 @@ class KeptMasses:
             numbers = model.body_ipos[body], model.body_iquat[body], model.body_inertia[body]
             text = tag("inertial", inertial_attributes(float(model.body_mass[body]), *numbers))
             if id(node) not in self._texts and not node.element.children:
-                self.geoms.ends[self.before.body_names[body]].insert(0, Slot("", (), text=text))
+                self.geoms.ends[self.before.body_names[body]].insert(0, OutputElement("", (), text=text))
             self._texts.setdefault(id(node), (node, text))
         self.bodies += new
         return bool(new)

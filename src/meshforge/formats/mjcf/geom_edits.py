@@ -8,10 +8,10 @@ from dataclasses import dataclass, field
 
 from meshforge.common import AssetError, nearest_name
 from meshforge.formats.collision_pieces import names_to_keep, new_hulls
+from meshforge.formats.element_edits import OutputElement, append_elements, replace_element
 from meshforge.formats.mjcf.document import MjcfNode, MjcfTree, geom_names
 from meshforge.formats.mjcf.model import MjcfModel
 from meshforge.formats.mjcf.new_geoms import NewGeoms
-from meshforge.formats.slots import Slot, append_elements, replace_element
 from meshforge.formats.xml import Splice
 from meshforge.symbolic import Asset, Geom
 
@@ -32,8 +32,8 @@ class GeomElement:
     node: MjcfNode | None
     geoms: list[int]
     fixed: str
-    own: Slot | None
-    after: list[Slot] = field(default_factory=list)
+    own: OutputElement | None
+    after: list[OutputElement] = field(default_factory=list)
 
 
 @dataclass(slots=True, eq=False)
@@ -47,7 +47,7 @@ class PlannedGeom:
     name: str
     body: str
     attribute: str
-    element: Slot | None
+    element: OutputElement | None
     number: int | None = None
     hull: Geom | None = None
 
@@ -61,7 +61,7 @@ class GeomEdits:
 
     def __init__(self, asset: Asset, before: MjcfModel, maker: NewGeoms) -> None:
         self.asset, self.before, self.maker, self.tree = asset, before, maker, before.tree
-        self.ends: dict[str, list[Slot]] = {}
+        self.ends: dict[str, list[OutputElement]] = {}
         self._poses = dict(zip(before.body_names, before.body_poses, strict=True))
         self._hulls: dict[int, Geom] = {}
         self.elements = list(self._list_elements())
@@ -91,14 +91,14 @@ class GeomEdits:
         """The edits of one of the files."""
         data = self.tree.sources[source].text.data
         for element in self.elements:
-            slots = [*([element.own] if element.own else []), *element.after]
-            untouched = len(slots) == 1 and slots[0].is_untouched
+            outputs = [*([element.own] if element.own else []), *element.after]
+            untouched = len(outputs) == 1 and outputs[0].is_untouched
             if element.node is not None and element.node.source == source and not untouched:
-                yield replace_element(data, element.node.element, slots)
-        for body, slots in self.ends.items():
+                yield replace_element(data, element.node.element, outputs)
+        for body, outputs in self.ends.items():
             node = self.body_node(body)
             if node is not None and node.source == source:
-                yield append_elements(data, node.element, slots)
+                yield append_elements(data, node.element, outputs)
 
     def _list_elements(self) -> Iterator[GeomElement]:
         fixed: dict[int, str] = {}
@@ -112,7 +112,7 @@ class GeomEdits:
             node = self.before.elements[numbers[0]]
             names = tuple(self.before.names[k] for k in numbers)
             attribute = node.attributes.get("name") if node else None
-            own = Slot(self.before.body_of[numbers[0]], names, attribute, node.element if node else None)
+            own = OutputElement(self.before.body_of[numbers[0]], names, attribute, node.element if node else None)
             why = fixed.get(id(node), "")
             yield GeomElement(node, numbers, f"it is inside {why}" if why else "" if node else _ATTACHED, own)
 
@@ -141,9 +141,9 @@ class GeomEdits:
                 f"hull {geom.name!r} takes after {geom.parent!r}, of which {parent.fixed}", where=str(self.asset.path)
             )
         beside = parent is not None and not parent.fixed and self.before.body_of[parent.geoms[0]] == geom.body
-        slot = self.maker.make_geom(geom, self._poses[geom.body], body, node, self._parent_volume(geom), beside)
-        (parent.after if parent and beside else self.ends.setdefault(geom.body, [])).append(slot)
-        self._hulls[id(slot)] = geom
+        output = self.maker.make_geom(geom, self._poses[geom.body], body, node, self._parent_volume(geom), beside)
+        (parent.after if parent and beside else self.ends.setdefault(geom.body, [])).append(output)
+        self._hulls[id(output)] = geom
 
     def _find_body(self, geom: Geom) -> MjcfNode:
         body = self.body_node(geom.body)
@@ -183,9 +183,9 @@ class GeomEdits:
                 yield from map(self._plan_hull, element.after)
             yield from map(self._plan_hull, self.ends.get(body, []))
 
-    def _plan_hull(self, slot: Slot) -> PlannedGeom:
-        hull = self._hulls[id(slot)]
-        return PlannedGeom(hull.name, hull.body, "", slot, hull=hull)
+    def _plan_hull(self, output: OutputElement) -> PlannedGeom:
+        hull = self._hulls[id(output)]
+        return PlannedGeom(hull.name, hull.body, "", output, hull=hull)
 
     def _assign_names(self) -> dict[str, str]:
         """Name the new geoms, and those that would else read back under other names; the names that cannot be had."""

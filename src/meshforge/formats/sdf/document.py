@@ -36,11 +36,6 @@ CONFIG = "model.config"
 """The file that makes a folder a Gazebo model."""
 _USUAL_NAME = "model.sdf"
 
-GEOMETRY_TAGS = (
-    *("box", "sphere", "cylinder", "capsule", "ellipsoid", "cone"),
-    *("plane", "mesh", "polyline", "heightmap", "image", "empty"),
-)
-"""The elements of a `<geometry>` that there are."""
 _MAPS = (
     *("albedo_map", "normal_map", "roughness_map", "metalness_map", "emissive_map", "light_map"),
     *("environment_map", "ambient_occlusion_map", "glossiness_map", "specular_map", "diffuse", "normal"),
@@ -212,14 +207,6 @@ def parse_root(data: bytes, where: str) -> tuple[Element, Version]:
         known = f"{'.'.join(map(str, OLDEST))} to {'.'.join(map(str, NEWEST))}"
         raise AssetError(f"SDF {text} is not read, only {known}", where=place, remedy="Convert it: gz sdf -p FILE.")
     return root, version
-
-
-def geometry_of(element: Element) -> Element | None:
-    """What the `<geometry>` of a collision or visual holds, None where there is nothing."""
-    geometry = element.first("geometry")
-    if geometry is None or not geometry.children:
-        return None
-    return next((child for child in geometry.children if child.tag in GEOMETRY_TAGS), geometry.children[0])
 
 
 def mesh_uri(mesh: Element) -> str:

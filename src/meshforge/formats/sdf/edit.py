@@ -9,20 +9,31 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from meshforge.common import AssetError, join_names
-from meshforge.formats import collision_pieces, mesh_output
+from meshforge.formats import mesh_output
 from meshforge.formats.base import Mass, Output
-from meshforge.formats.references import add_copy, note_absolute
-from meshforge.formats.sdf import document, elements, shapes
-from meshforge.formats.slots import (
+from meshforge.formats.element_edits import (
+    ElementEdits,
     ElementMaker,
-    ElementPlan,
-    Slot,
+    OutputElement,
     assign_names,
     name_attribute_of,
     refuse_unknown_link,
 )
-from meshforge.formats.xml import Element, Splice, XmlText, apply_splices, indent_of, newline_of
-from meshforge.geometry import Capsule, Ellipsoid, Pose
+from meshforge.formats.link_reader import geometry_of
+from meshforge.formats.references import add_copy, note_absolute
+from meshforge.formats.sdf import document, elements, shapes
+from meshforge.formats.xml import (
+    Element,
+    Splice,
+    XmlText,
+    apply_splices,
+    indent_of,
+    line_gap,
+    newline_of,
+    remove_element,
+    replace_or_insert,
+)
+from meshforge.geometry import Capsule, Ellipsoid, Pose, Shape
 from meshforge.symbolic import Asset, Geom
 
 _REMEDY = "Rename one of them, or put both under one folder."
@@ -37,7 +48,7 @@ def write_sdf(asset: Asset, origin: document.SdfDocument, name: str, mass: Mass)
     for geom in asset.geoms:
         refuse_unknown_link(geom, origin.links, str(asset.path))
     edit = _FileEdits(asset, origin, Path(name).stem)
-    names = assign_names([slot for plan in edit.plans for slot in plan.slots])
+    names = assign_names([output for plan in edit.plans for output in plan.outputs])
     texts = [edit.build_text(number, mass) for number in range(len(origin.sources))]
     copies, notes = list_copies(origin.sources, texts, name)
     made = edit.mesh_files
@@ -50,9 +61,9 @@ def write_sdf(asset: Asset, origin: document.SdfDocument, name: str, mass: Mass)
 class _FileEdits:
     def __init__(self, asset: Asset, origin: document.SdfDocument, stem: str) -> None:
         self.asset, self.document, self.stem = asset, origin, stem
-        self.kept = collision_pieces.SourceMeshes(origin.digests, str(asset.path), shapes.select_submesh)
+        self.kept = shapes.SdfMeshes(origin.digests)
         self.taken: set[str] = set()
-        self.plans: list[ElementPlan] = []
+        self.plans: list[ElementEdits] = []
         self.makers: list[SdfElementMaker] = []
         for number in range(len(origin.sources)):
             self._plan_source(number)
@@ -91,11 +102,11 @@ class _FileEdits:
         links = {body: at[place.start] for body, place in self.document.links.items() if place.source == number}
         files = mesh_output.HullFiles(self.stem, source.resolver, self.taken)
         files.avoid(document.references(root))
-        folder = _first_mesh_folder(root, files)
-        maker = SdfElementMaker(data, newline_of(data), files, folder, self.kept, version=version)
+        maker = SdfElementMaker(f"SDF {version[0]}.{version[1]}", data, files, meshes=self.kept, version=version)
+        maker.folder = maker.find_folder(element for element in root.walk() if element.tag == "collision")
         asset = replace(self.asset, geoms=tuple(geom for geom in self.asset.geoms if geom.body in links))
         authored, at_own = [self.document.authored[k] for k in own], [at[self.document.at[k].start] for k in own]
-        self.plans.append(ElementPlan(asset, authored, at_own, links, maker))
+        self.plans.append(ElementEdits(asset, authored, at_own, links, maker))
         self.makers.append(maker)
 
     def _refuse_fixed(self, source: document.SdfSource) -> None:
@@ -110,60 +121,61 @@ class _FileEdits:
             raise AssetError(problem, where=where, remedy=f"Edit {source.path} itself.")
 
 
-def _first_mesh_folder(root: Element, files: mesh_output.HullFiles) -> str:
-    kinds = (document.geometry_of(element) for element in root.walk() if element.tag == "collision")
-    return files.folder_of(
-        next((document.mesh_uri(kind) for kind in kinds if kind is not None and kind.tag == "mesh"), None)
-    )
-
-
-@dataclass(frozen=True, eq=False, slots=True)
+@dataclass(eq=False)
 class SdfElementMaker(ElementMaker):
     """Makes elements for one file."""
 
     version: document.Version = field(kw_only=True)
 
-    @property
-    def title(self) -> str:
-        return f"SDF {'.'.join(map(str, self.version))}"
+    def reference_of(self, mesh: Element) -> str:
+        return document.mesh_uri(mesh)
 
-    def find_mesh(self, collision: Element) -> str | None:
-        mesh = document.geometry_of(collision)
-        return document.mesh_uri(mesh) if mesh is not None and mesh.tag == "mesh" else None
-
-    def make_slot(self, geom: Geom, root_t_link: Pose, template: Element | None, lead: bytes) -> Slot:
-        shape = geom.shape.move(root_t_link.inverse())
+    def native_lines(self, shape: Shape) -> list[bytes] | None:
         is_known = self.version >= document.ROUND_SHAPES or not isinstance(shape, Capsule | Ellipsoid)
-        if isinstance(shape, elements.SdfShape) and is_known:
-            pose, kind = shape.pose, elements.native_lines(shape)
-        else:
-            pose, kind = Pose.identity(), elements.mesh_lines(self.make_mesh(geom, shape, template))
-        if template is None:
-            slot = Slot(geom.body, (geom.name,), text=elements.build_collision(pose, kind, lead, self.line_end))
-        else:
-            old = document.geometry_of(template)
-            assert old is not None  # only elements with pieces are copied
-            if b"\n" not in self.data[old.start : old.end]:  # all in one line
-                kind = [b"".join(line.strip() for line in kind)]
-            edits = elements.replace_geometry(self.data, template, pose, kind)
-            slot = Slot(geom.body, (geom.name,), None, template, edits, copy=True)
-        slot.name = name_attribute_of(slot)  # SDF asks for one
-        return slot
+        return elements.native_lines(shape) if isinstance(shape, elements.SdfShape) and is_known else None
+
+    def mesh_lines(self, reference: str) -> list[bytes]:
+        return elements.mesh_lines(reference)
+
+    def build_collision(self, pose: Pose, kind: Sequence[bytes], lead: bytes) -> bytes:
+        lines = elements.nest("collision", elements.pose_leaf(pose), *elements.nest("geometry", *kind))
+        return (newline_of(self.data) + lead).join(lines)
+
+    def make_element(self, geom: Geom, root_t_link: Pose, template: Element | None, lead: bytes) -> OutputElement:
+        made = super().make_element(geom, root_t_link, template, lead)
+        made.name = name_attribute_of(made)  # SDF asks for one
+        return made
+
+    def replace_geometry(
+        self, collision: Element, pose: Pose, kind: Sequence[bytes], reference: str | None
+    ) -> tuple[Splice, ...]:
+        geometry, old = collision.first("geometry"), geometry_of(collision)
+        assert geometry is not None and old is not None  # only elements with pieces are copied
+        if b"\n" not in self.data[old.start : old.end]:  # all in one line
+            kind = [b"".join(line.strip() for line in kind)]
+        made = Splice(old.start, old.end, line_gap(self.data, old.start).join(kind))
+        polylines = (child for child in geometry.children if child.tag == "polyline" and child is not old)
+        placed = replace_or_insert(self.data, collision, "pose", "geometry", elements.pose_leaf(pose))
+        return (placed, made, *(remove_element(self.data, child) for child in polylines))
 
     def extract_piece(self, element: Element, name: str, k: int) -> tuple[Splice, ...]:
-        mesh = document.geometry_of(element)
+        """Scale and place stay; the file is used whole."""
+        mesh = geometry_of(element)
         assert mesh is not None  # only meshes have several pieces
         _, made = self.make_piece(document.mesh_uri(mesh), shapes.read_submesh(mesh), name, k)
-        return elements.replace_mesh_file(self.data, mesh, made)
+        uri, submesh = mesh.first("uri") or mesh.first("filename"), mesh.first("submesh")
+        assert uri is not None  # it has pieces
+        new = Splice(uri.start, uri.end, elements.leaf(uri.tag, made))
+        return (new, remove_element(self.data, submesh)) if submesh else (new,)
 
 
-def keep_masses(asset: Asset, origin: document.SdfDocument, plan: ElementPlan) -> list[Splice]:
+def keep_masses(asset: Asset, origin: document.SdfDocument, plan: ElementEdits) -> list[Splice]:
     """The edits that make computed masses of the links that are edited explicit.
 
     Raises AssetError for a link of which a collision is no hull, so that its mass is not known.
     """
-    edited = {slot.body for _, slots in plan.places for slot in slots if not slot.is_untouched}
-    edited |= {one.link for one, (_, slots) in zip(plan.authored, plan.places, strict=True) if not slots}
+    edited = {output.body for _, outputs in plan.places for output in outputs if not output.is_untouched}
+    edited |= {one.link for one, (_, outputs) in zip(plan.authored, plan.places, strict=True) if not outputs}
     edited |= plan.ends.keys()
     known = {inertial.body: inertial for inertial in asset.mechanism.inertials}
     edits = []

@@ -2,27 +2,23 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 
 from meshforge.common import AssetError, GeometryError, join_names
-from meshforge.formats.collision_pieces import (
-    CollisionMeshes,
-    CollisionPiece,
-    MeshUse,
-    build_primitive,
-    place_pieces,
-    refuse_zero_scale,
-    turn_z_to,
-)
+from meshforge.formats.collision_pieces import CollisionPiece, build_primitive, turn_z_to
+from meshforge.formats.link_reader import CollisionMeshes
 from meshforge.formats.meshfile.surface import RawSurface, join_surfaces
-from meshforge.formats.sdf import document, models
 from meshforge.formats.sdf.frames import is_true, read_floats, read_values, text_of
 from meshforge.formats.xml import Element
 from meshforge.geometry import Floats, Pose, convex_hull, hull_mesh
 
+_UNIT = re.compile(rb"<unit\b[^>]*?\bmeter\s*=\s*[\"']\s*([0-9.eE+-]+)\s*[\"']")
+_HEAD_BYTES = 100_000  # bytes within which a file says its unit
 _MOST_POINTS = 10_000  # points of a polyline
 _NO_HULLS = {"heightmap": "a height map is no hull", "image": "an image is no hull", "empty": "it is empty"}
 
@@ -73,14 +69,6 @@ def _read_polylines(lines: Sequence[Element], pose: Pose, where: str) -> Collisi
     return CollisionPiece(hull)
 
 
-def read_mesh_scale(mesh: Element, where: str, label: str) -> Floats:
-    """The factors (3,) by which a `<mesh>` is scaled. Raises AssetError naming `label`: a factor is zero."""
-    scale = read_floats(mesh, "scale", where, (1.0, 1.0, 1.0))
-    given = f"<scale>{text_of(mesh, 'scale')}</scale>"
-    refuse_zero_scale(scale, label, given, f"{where}:{mesh.line}")
-    return scale
-
-
 def read_submesh(mesh: Element) -> tuple[str, ...]:
     """What of its file a `<mesh>` uses: nothing for all, else the name of a submesh, and `center` where it is moved."""
     submesh = mesh.first("submesh")
@@ -90,22 +78,25 @@ def read_submesh(mesh: Element) -> tuple[str, ...]:
     return (name, "center") if is_true(text_of(submesh, "center")) else (name,)
 
 
-def select_submesh(surfaces: Sequence[RawSurface], part: tuple[str, ...]) -> Sequence[RawSurface]:
-    """What a part of `read_submesh` stands for, in metres: Gazebo obeys the unit of a Collada file.
+class SdfMeshes(CollisionMeshes):
+    """The mesh files of an SDF, of which elements use submeshes."""
 
-    Raises AssetError: there is no such submesh.
-    """
-    found = [s for s in surfaces if not part or s.name == part[0]]
-    if not found:
-        names = [s.name for s in surfaces if s.name]
-        remedy = f"Its submeshes are {join_names(names, 5)}." if names else "None of its submeshes has a name."
-        raise AssetError(f"the mesh has no submesh {part[0]!r}", remedy=remedy)
-    scaled = [replace(s, vertices=s.vertices * s.unit, unit=1.0) if s.unit != 1.0 else s for s in found]
-    if "center" not in part[1:]:
-        return scaled
-    used = np.concatenate([s.vertices[np.unique(s.faces)] for s in scaled])
-    middle = (used.min(axis=0) + used.max(axis=0)) / 2
-    return [replace(s, vertices=s.vertices - middle) for s in scaled]
+    def select(self, surfaces: Sequence[RawSurface], part: tuple[str, ...]) -> Sequence[RawSurface]:
+        """What a part of `read_submesh` stands for, in metres: Gazebo obeys the unit of a Collada file.
+
+        Raises AssetError: there is no such submesh.
+        """
+        found = [s for s in surfaces if not part or s.name == part[0]]
+        if not found:
+            names = [s.name for s in surfaces if s.name]
+            remedy = f"Its submeshes are {join_names(names, 5)}." if names else "None of its submeshes has a name."
+            raise AssetError(f"the mesh has no submesh {part[0]!r}", remedy=remedy)
+        scaled = [replace(s, vertices=s.vertices * s.unit, unit=1.0) if s.unit != 1.0 else s for s in found]
+        if "center" not in part[1:]:
+            return scaled
+        used = np.concatenate([s.vertices[np.unique(s.faces)] for s in scaled])
+        middle = (used.min(axis=0) + used.max(axis=0)) / 2
+        return [replace(s, vertices=s.vertices - middle) for s in scaled]
 
 
 def hull_of(surfaces: Sequence[RawSurface], linear: Floats, offset: Floats) -> CollisionPiece:
@@ -118,16 +109,14 @@ def hull_of(surfaces: Sequence[RawSurface], linear: Floats, offset: Floats) -> C
         return CollisionPiece(None, error.problem)
 
 
-def read_parts(collision: models.SdfCollision, use: MeshUse | None, meshes: CollisionMeshes) -> list[CollisionPiece]:
-    """The pieces of a collision, in the root frame; none where it has no geometry."""
-    kind, pose, where = document.geometry_of(collision.element), collision.pose, collision.link.scope.where
-    if kind is None:
-        return []
-    if use is not None:
-        linear = pose.rotation * read_mesh_scale(kind, where, use.label)
-        if kind.attributes.get("optimization") == "convex_hull":
-            return [hull_of(meshes.surfaces(use), linear, pose.translation)]
-        return place_pieces(meshes.pieces(use), linear, pose.translation, meshes.surfaces(use))
-    geometry = collision.element.first("geometry")
-    assert geometry is not None  # it holds the kind
-    return [read_shape(geometry, kind, pose, where)]
+def collada_unit_of(mesh: Path) -> float:
+    """The metres of the unit that a mesh file is in: as a Collada file says, 1 for all others."""
+    if mesh.suffix.lower() != ".dae":
+        return 1.0
+    try:
+        with mesh.open("rb") as stream:
+            found = _UNIT.search(stream.read(_HEAD_BYTES))
+        unit = float(found[1]) if found else 1.0
+    except (OSError, ValueError):
+        return 1.0
+    return unit if 0 < unit < float("inf") else 1.0

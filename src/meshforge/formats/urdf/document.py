@@ -19,8 +19,6 @@ from meshforge.symbolic import Coupling, Document, Inertial, Joint, JointKind, M
 
 VISUAL_SUFFIXES = (".obj", ".stl", ".dae")
 """The mesh files that ROS, PyBullet and others read."""
-GEOMETRY_TAGS = ("box", "sphere", "cylinder", "capsule", "plane", "mesh")
-"""The elements of a `<geometry>` that engines know."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -85,14 +83,6 @@ def read_origin(element: Element, where: str) -> Pose:
     zero = (0.0, 0.0, 0.0)
     xyz, rpy = (read_floats(place, attribute, 3, where, zero) for attribute in ("xyz", "rpy"))
     return Pose.from_rpy(list(xyz), list(rpy))
-
-
-def geometry_of(element: Element) -> Element | None:
-    """What the `<geometry>` of a collision or visual holds, None where there is nothing."""
-    geometry = element.first("geometry")
-    if geometry is None or not geometry.children:
-        return None
-    return next((child for child in geometry.children if child.tag in GEOMETRY_TAGS), geometry.children[0])
 
 
 _KINDS: dict[str, JointKind] = {
