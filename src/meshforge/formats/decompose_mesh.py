@@ -11,9 +11,10 @@ from typing import Literal, get_args
 
 from meshforge import geometry
 from meshforge.common import UsageError, join_names
+from meshforge.formats.assets_with_labels import labels_beside
 from meshforge.formats.mesh_reader import read_triangles
 from meshforge.formats.meshfile.surface import RawSurface, check_surfaces, stack_triangles
-from meshforge.formats.registry import format_of, labels_beside
+from meshforge.formats.registry import format_of
 from meshforge.formats.segmentation.parts import SegmentationFile, read_parts
 from meshforge.formats.segmentation.reader import POINTS_MARK, points_beside
 from meshforge.formats.surface_parts import parts_of_surfaces, plain_part_name
