@@ -48,7 +48,9 @@ def name_bodies(asset: Asset, engine: CollisionNames, stem: str) -> EngineBodies
         surfaces = tuple(surface for owner, surface in shown if owner == body.name)
         is_bare = engine.shows and not surfaces and bool(geoms or opaque)
         if is_bare:
-            surfaces = _merge_surfaces(geoms, opaque)
+            parts = [(hull.vertices, hull.faces) for hull in (geom.shape.tessellate() for geom in geoms)]
+            parts += [(p.surface.vertices, p.surface.faces) for p in opaque if p.surface is not None]
+            surfaces = (Surface(*stack_triangles(parts)),)
             bare.append(name)
         if opaque and not engine.takes_opaque:
             lost.append(lose_opaque(engine, opaque, is_seen=is_bare))
@@ -74,10 +76,3 @@ def lose_opaque(engine: CollisionNames, pieces: Sequence[Opaque], *, is_seen: bo
 def has_triangles(piece: Opaque) -> bool:
     """Whether a piece has a surface to write."""
     return piece.surface is not None and len(piece.surface.faces) > 0
-
-
-def _merge_surfaces(geoms: Sequence[Geom], opaque: Sequence[Opaque]) -> tuple[Surface, ...]:
-    hulls = [geom.shape.tessellate() for geom in geoms]
-    parts: list[Surface] = [Surface(hull.vertices, hull.faces) for hull in hulls]
-    parts += [piece.surface for piece in opaque if piece.surface is not None]
-    return (Surface(*stack_triangles((part.vertices, part.faces) for part in parts)),)
