@@ -136,12 +136,6 @@ def test_bullet_and_yourdfpy_have_the_joints_and_masses_of_a_urdf_made_of_an_mjc
     assert assert_mujoco_agrees(path, read(path)) == 1  # MuJoCo drops the names that links share
 
 
-def test_mass_and_inertia_of_every_link_survive_from_mjcf_to_urdf(tmp_path: Path) -> None:
-    mjcf = save(doors(), tmp_path / "x" / "m.xml").path
-    urdf = save(read(mjcf), tmp_path / "u" / "m.urdf").path
-    assert_same_masses(masses_of(*at_rest(mjcf)), masses_of(*at_rest(unfused(urdf))))
-
-
 def several() -> Asset:
     """A body on three joints with anchors of their own, one of them away from its frame; and a ball."""
     asset = foreign(

@@ -160,10 +160,11 @@ def _replace_visuals(flat: compiler.FlatText, spec: mujoco.MjSpec, all_visuals: 
     names = {geom.name for geom in geoms}
     for pair in [pair for pair in spec.pairs if not names >= {pair.geomname1, pair.geomname2}]:
         spec.delete(pair)
-    infos = {}
+    infos, (first_group, last_group) = {}, spec.compiler.inertiagrouprange
     for geom in geoms:
         if geom.meshname and not collides[id(geom)] and (all_visuals or geom.meshname in missing):
-            infos[geom.info] = _has_mass(geom, spec)
+            weighs = geom.density > 0 if isnan(geom.mass) else geom.mass > 0
+            infos[geom.info] = bool(first_group <= geom.group <= last_group and weighs)
             geom.type, geom.meshname, geom.size, geom.mass = mujoco.mjtGeom.mjGEOM_SPHERE, "", [1, 0, 0], 0
     used = {geom.meshname for geom in geoms}
     for mesh in [mesh for mesh in spec.meshes if mesh.name not in used]:
@@ -172,8 +173,3 @@ def _replace_visuals(flat: compiler.FlatText, spec: mujoco.MjSpec, all_visuals: 
     spec.compiler.boundinertia = max(spec.compiler.boundinertia, _LEAST_INERTIA)
     spec.compiler.balanceinertia = True
     return infos
-
-
-def _has_mass(geom: mujoco.MjsGeom, spec: mujoco.MjSpec) -> bool:
-    first, last = spec.compiler.inertiagrouprange
-    return bool(first <= geom.group <= last and (geom.density > 0 if isnan(geom.mass) else geom.mass > 0))

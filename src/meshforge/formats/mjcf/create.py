@@ -60,8 +60,8 @@ class _Creator:
         self.inertials = {inertial.body: inertial for inertial in asset.mechanism.inertials}
         self.joint_names = self.tree.joint_names
         self.couplings = plan_couplings(asset.mechanism.joints, "MJCF", polynomials=True)
-        self.bodies = name_bodies(self.tree)
-        self.named = name_geoms(asset, self.tree, self.bodies)
+        self.bodies = _name_bodies(self.tree)
+        self.named = _name_geoms(asset, self.tree, self.bodies)
         self.geoms = _GeomTexts(asset, stem, {piece: name for piece, (name, _) in self.named.items()})
         self.lost: list[Loss] = []
         self.notes: dict[str, list[str]] = {}
@@ -261,24 +261,22 @@ def _place_mesh(box: Aabb) -> Pose:
     return Pose.of_translation(box.center if np.linalg.norm(box.center) > _FAR * box.diagonal else np.zeros(3))
 
 
-def _can_collide(piece: Opaque) -> bool:
-    return piece.surface is not None and len(piece.surface.faces) > 0 and not is_flat(piece.surface.vertices)
-
-
-def name_bodies(tree: BodyTree) -> dict[str, str]:
+def _name_bodies(tree: BodyTree) -> dict[str, str]:
     """What each body of an asset is called; a root called world is MuJoCo's, no other body is."""
     taken = {WORLD, *tree.order}
     is_root = WORLD in tree.roots
     return {name: claim_name(name, taken) if name == WORLD and not is_root else name for name in tree.order}
 
 
-def name_geoms(asset: Asset, tree: BodyTree, bodies: dict[str, str]) -> dict[str, tuple[str, str]]:
+def _name_geoms(asset: Asset, tree: BodyTree, bodies: dict[str, str]) -> dict[str, tuple[str, str]]:
     """For each hull, plane and mesh the name attribute, empty where it needs none, and the name that it reads back as.
 
     bodies: what the bodies of the tree are called.
     """
     pieces = [(geom.name, geom.body) for geom in asset.geoms]
-    pieces += [(piece.name, piece.body) for piece in asset.opaque if piece.plane or _can_collide(piece)]
+    faces = {p.name: p.surface.vertices for p in asset.opaque if p.surface is not None and len(p.surface.faces)}
+    solid = {name for name, vertices in faces.items() if not is_flat(vertices)}
+    pieces += [(piece.name, piece.body) for piece in asset.opaque if piece.plane or piece.name in solid]
     ordered = [(name, own) for body in tree.order for name, own in pieces if own == body]
     plain = [name.removeprefix(f"{body}/") for name, body in ordered]
     holders = [bodies[body] for _, body in ordered]

@@ -187,16 +187,19 @@ def compile_tree(tree: MjcfTree, keep: KeepAttributes | None = None) -> MjcfMode
 
 def read_mechanism(reading: MjcfModel) -> Mechanism:
     """The mechanism of a model, `<exclude>` and `<pair>` too; a body without a joint is fixed to its parent."""
-    couplings = _read_couplings(reading.tree)
-    joints = [
-        replace(joint, coupling=couplings.get(joint.name))
-        for k in range(1, reading.model.nbody)
-        for joint in _read_joints(reading, k)
-    ]
-    inertials = [i for k in range(1, reading.model.nbody) if (i := _read_inertial(reading, k)) is not None]
-    bodies, signatures = reading.body_names, map(int, reading.model.exclude_signature)
+    model, couplings = reading.model, _read_couplings(reading.tree)
+    joints: list[Joint] = []
+    for k in range(1, model.nbody):
+        first, count = int(model.body_jntadr[k]), int(model.body_jntnum[k])
+        own = [_read_joint(reading, joint) for joint in range(first, first + count)]
+        joints += [replace(joint, coupling=couplings.get(joint.name)) for joint in own]
+        if not count:
+            ends, pose = (reading.body_names[int(model.body_parentid[k])], reading.body_names[k]), reading.body_poses[k]
+            joints.append(Joint("", "fixed", *ends, pose.translation, pose.rotation[:, 0]))
+    inertials = [i for k in range(1, model.nbody) if (i := _read_inertial(reading, k)) is not None]
+    bodies, signatures = reading.body_names, map(int, model.exclude_signature)
     excludes = [(bodies[s >> 16], bodies[s & 0xFFFF]) for s in signatures]  # as MuJoCo packs two numbers of bodies
-    geoms = zip(reading.model.pair_geom1, reading.model.pair_geom2, strict=True)
+    geoms = zip(model.pair_geom1, model.pair_geom2, strict=True)
     pairs = [(reading.names[int(first)], reading.names[int(second)]) for first, second in geoms]
     return Mechanism(tuple(joints), tuple(inertials), tuple(excludes), tuple(pairs))
 
@@ -215,18 +218,10 @@ def _read_couplings(tree: MjcfTree) -> dict[str, Coupling]:
     return found
 
 
-def _read_joints(reading: MjcfModel, body: int) -> list[Joint]:
-    model = reading.model
+def _read_joint(reading: MjcfModel, k: int) -> Joint:
+    model, body = reading.model, int(reading.model.jnt_bodyid[k])
     child, parent = reading.body_names[body], reading.body_names[int(model.body_parentid[body])]
-    first, count = int(model.body_jntadr[body]), int(model.body_jntnum[body])
-    if not count:
-        pose = reading.body_poses[body]
-        return [Joint("", "fixed", parent, child, pose.translation, pose.rotation[:, 0])]
-    return [_read_joint(reading, k, parent, child) for k in range(first, first + count)]
-
-
-def _read_joint(reading: MjcfModel, k: int, parent: str, child: str) -> Joint:
-    model, pose = reading.model, reading.body_poses[int(reading.model.jnt_bodyid[k])]
+    pose = reading.body_poses[body]
     kind, dof = _KINDS[int(model.jnt_type[k])], int(model.jnt_dofadr[k])
     limits = None
     if model.jnt_limited[k] and kind in ("prismatic", "revolute"):

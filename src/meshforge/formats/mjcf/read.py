@@ -44,10 +44,15 @@ def read_mjcf(path: Path, files: Mapping[Path, bytes] | None = None) -> Asset:
     Raises AssetError naming file and line: text that is not understood, an include or a collision mesh that is not
     there, a model whose collision geometry MuJoCo refuses too.
     """
-    tree = gather_model(path, files)
-    refuse_excess(tree)
+    tree = _gather_model(path, files)
+    _refuse_excess(tree)
     found, missing = references.find_files(tree)  # before MuJoCo looks for any of them
-    reading, refusal = _compile_or_strip(tree)
+    try:
+        reading, refusal = compile_tree(tree), ""
+    except AssetError as error:
+        place = Path(error.where or "").name
+        refusal = f"{error.problem} ({place})" if ":" in place else error.problem
+        reading = strip_to_collision(tree, error)
     geoms, opaque = reading.read_pieces()
     return Asset(
         path=path,
@@ -64,16 +69,6 @@ def read_mjcf(path: Path, files: Mapping[Path, bytes] | None = None) -> Asset:
     )
 
 
-def _compile_or_strip(tree: MjcfTree) -> tuple[MjcfModel, str]:
-    """The model, of the collision geometry alone where MuJoCo refuses the whole, and why it does."""
-    try:
-        return compile_tree(tree), ""
-    except AssetError as error:
-        place = Path(error.where or "").name
-        refusal = f"{error.problem} ({place})" if ":" in place else error.problem
-        return strip_to_collision(tree, error), refusal
-
-
 def _collect_notes(reading: MjcfModel, refusal: str) -> tuple[str, ...]:
     notes = [FileNote(f"{refusal}; read for its collision geometry only")] if refusal else []
     notes += [FileNote(f"MuJoCo refuses this file: {fault}") for fault in reading.tree.faults]
@@ -84,7 +79,7 @@ def _collect_notes(reading: MjcfModel, refusal: str) -> tuple[str, ...]:
     return tuple(notes)
 
 
-def gather_model(path: Path, files: Mapping[Path, bytes] | None = None) -> MjcfTree:
+def _gather_model(path: Path, files: Mapping[Path, bytes] | None = None) -> MjcfTree:
     """The tree of a file that is a model. Raises AssetError; for a fragment, one that names what to open instead."""
     try:
         tree = read_tree(path, files)
@@ -127,7 +122,7 @@ def _has_include_of(path: Path, fragment: Path) -> bool:
     return tree.root.tag.lower() == "mujoco" and any(source.path == fragment for source in tree.sources)
 
 
-def refuse_excess(tree: MjcfTree) -> None:
+def _refuse_excess(tree: MjcfTree) -> None:
     """Raise AssetError with `file:line` for replicated elements, grids, textures or meshes without measure."""
     waiting: list[tuple[MjcfNode, float]] = [(tree.root, 1.0)]
     copies = 0.0

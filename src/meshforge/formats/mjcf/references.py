@@ -21,6 +21,7 @@ _REFERRING = {"mesh": "mesh", "hfield": "mesh", "skin": "mesh", "flexcomp": "mes
 """The elements with a `file`, and the folder in which it is looked for."""
 
 _FACE = re.compile(rb"^[ \t]*f[ \t]+([^\r\n#]*)", re.M)
+_VERTEX = re.compile(rb"^[ \t]*v[ \t]", re.M)
 _GROUP = re.compile(rb"^[ \t]*[og](?=\s|$)", re.M)
 _NUMBER = re.compile(rb"[+-]?\d+")
 _HEADER, _RECORD = 84, 50  # bytes of a binary STL: before the first triangle, and each
@@ -211,23 +212,11 @@ def is_shown_whole(path: Path) -> bool:
         data = read_content(path)
     except MeshForgeError:
         return False
-    match path.suffix.lower():
-        case ".obj":
-            return _is_one_group(data) and _is_uniform(data)
-        case ".stl":
-            count = int.from_bytes(data[_HEADER - 4 : _HEADER], "little")
-            return len(data) == _HEADER + count * _RECORD and _LEAST_VERTICES <= 3 * count <= 3 * _MOST_TRIANGLES
-        case _:
-            return False
-
-
-def _is_one_group(data: bytes) -> bool:
+    if path.suffix.lower() == ".stl":
+        count = int.from_bytes(data[_HEADER - 4 : _HEADER], "little")
+        return len(data) == _HEADER + count * _RECORD and _LEAST_VERTICES <= 3 * count <= 3 * _MOST_TRIANGLES
     first = _FACE.search(data)
-    return first is not None and b"\\\n" not in data and _GROUP.search(data, first.end()) is None
-
-
-def _is_uniform(data: bytes) -> bool:
-    """Whether all corners of an OBJ name vertices, texture coordinates and normals alike, of enough vertices."""
+    if path.suffix.lower() != ".obj" or first is None or b"\\\n" in data or _GROUP.search(data, first.end()):
+        return False
     kinds = {_NUMBER.sub(b"1", corner) for face in _FACE.findall(data) for corner in face.split()}
-    enough = len(re.findall(rb"^[ \t]*v[ \t]", data[:_MOST_TRIANGLES], re.M)) >= _LEAST_VERTICES
-    return len(kinds) == 1 and enough
+    return len(kinds) == 1 and len(_VERTEX.findall(data[:_MOST_TRIANGLES])) >= _LEAST_VERTICES
