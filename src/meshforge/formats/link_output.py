@@ -10,11 +10,11 @@ from meshforge.formats.conversion import plan_couplings
 from meshforge.formats.element_edits import ElementMaker, OutputElement
 from meshforge.formats.visuals import unreadable_visuals, visuals_of
 from meshforge.geometry import Pose, Shape
-from meshforge.symbolic import Asset, FeatureKind, Inertial, Opaque, Surface
+from meshforge.symbolic import Asset, FeatureKind, Inertial, JointKind, Opaque, Surface
 
 
 class LinkCreator(ABC):
-    """Collects what the links of a new file hold; native: the shapes that the format has of its own.
+    """Collects what the links of a new file hold; native: the shapes that the format has of its own, kinds: its joints.
 
     links: what each link of the chain is called in the file; outputs: its collisions; shown: its visuals, each with the
     mesh file of a shape that the format lacks.
@@ -22,7 +22,8 @@ class LinkCreator(ABC):
 
     native: UnionType
     title: str
-    rules: kinematic_tree.JointRules
+    kinds: tuple[JointKind, ...]
+    has_world: bool = False
     visual_suffixes: tuple[str, ...]
     lead: bytes
 
@@ -35,7 +36,7 @@ class LinkCreator(ABC):
         self.visuals.gather(visuals)
         used = {g.body for g in asset.geoms} | {o.body for o in asset.opaque} | {body for body, _ in visuals}
         bare = {body.name for body in asset.bodies} - used - set(self.inertials)
-        self.chain = kinematic_tree.build_chain(asset, bare, self.rules)
+        self.chain = kinematic_tree.KinematicChain(asset, bare, self.kinds, self.has_world)
         self.couplings = plan_couplings(asset.mechanism.joints, self.title)
         self.links = self.name_links(bare)
         self.outputs = self._build_outputs()

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from meshforge.common import AssetError, is_file, plain_path, relative_name
 from meshforge.formats.mesh_reader import read_content
-from meshforge.formats.xml import Element, XmlText, parse_xml
+from meshforge.formats.xml import Element, SourceFile, XmlText, parse_xml
 from meshforge.symbolic import Document, unique_names
 
 _DEEPEST = 100  # includes one in another; no author nests so far
@@ -25,7 +25,7 @@ class MjcfDocument(Document):
     be none.
     """
 
-    sources: tuple[MjcfSource, ...]
+    sources: tuple[SourceFile, ...]
     names: tuple[str, ...]
     refusal: str = ""
 
@@ -54,25 +54,6 @@ def geom_names(geoms: Sequence[tuple[str, str]]) -> list[str]:
 def body_names(names: Sequence[str]) -> list[str]:
     """The names of bodies in MuJoCo's order; the K-th is `bodyK` where it has none, the world is the 0-th."""
     return unique_names(name or f"body{k}" for k, name in enumerate(names))
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class MjcfSource:
-    """An authored file: the main one, or one that is included.
-
-    path: absolute; place: its path relative to the main file's folder, where an output has it too, None for one that
-    is included by an absolute path; reference: as the `<include>` has it, empty for the main file.
-    """
-
-    path: Path
-    place: str | None
-    reference: str
-    raw: bytes
-
-    @property
-    def text(self) -> XmlText:
-        """The text in which offsets of elements count."""
-        return XmlText.of(self.raw)
 
 
 @dataclass(slots=True, eq=False)
@@ -118,12 +99,12 @@ class MjcfTree:
     """
 
     root: MjcfNode
-    sources: tuple[MjcfSource, ...]
+    sources: tuple[SourceFile, ...]
     faults: tuple[str, ...]
     files: Mapping[Path, bytes]
 
     @property
-    def main(self) -> MjcfSource:
+    def main(self) -> SourceFile:
         return self.sources[0]
 
     def where(self, node: MjcfNode) -> str:
@@ -152,7 +133,7 @@ class _TreeReader:
 
     def __init__(self, main: Path, files: Mapping[Path, bytes]) -> None:
         self.main, self.files = main, files
-        self.sources: list[MjcfSource] = []
+        self.sources: list[SourceFile] = []
         self.faults: list[str] = []
 
     def parse(self, path: Path, reference: str) -> Element:
@@ -160,7 +141,7 @@ class _TreeReader:
         absolute = bool(reference) and Path(reference).is_absolute()
         place = None if absolute else relative_name(path, self.main.parent)
         text = XmlText.of(raw)
-        self.sources.append(MjcfSource(path, place, reference, raw))
+        self.sources.append(SourceFile(path, place, reference, raw))
         if text.encoding.startswith("utf-16"):
             self.faults.append(f"{path.name} is text in UTF-16")
         return parse_xml(text.data, str(path))

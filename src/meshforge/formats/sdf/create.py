@@ -32,7 +32,8 @@ def create_sdf(asset: Asset, name: str) -> Output:
 class _Creator(link_output.LinkCreator):
     native = elements.SdfShape
     title = "SDF"
-    rules = kinematic_tree.JointRules(("fixed", "revolute", "prismatic", "ball", "floating"), world=True)
+    kinds = ("fixed", "revolute", "prismatic", "ball", "floating")
+    has_world = True
     visual_suffixes = VISUAL_SUFFIXES
     lead = 3 * elements.STEP
 

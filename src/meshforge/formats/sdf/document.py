@@ -13,7 +13,7 @@ from pathlib import Path
 from meshforge.common import AssetError, is_beyond_reach, is_file
 from meshforge.formats.collision_pieces import CollisionElement
 from meshforge.formats.references import Resolver, placement
-from meshforge.formats.xml import Element, XmlText, parse_numbers, parse_xml
+from meshforge.formats.xml import Element, SourceFile, XmlText, parse_numbers, parse_xml
 from meshforge.symbolic import Document
 
 Version = tuple[int, int]
@@ -79,24 +79,11 @@ class SdfDocument(Document):
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class SdfSource:
-    """An authored file.
+class SdfSource(SourceFile):
+    """An authored file; resolver: finds what it refers to; count: how often it is included."""
 
-    path: absolute; place: where an output has it, relative to the main file's folder, None for one that is included by
-    an absolute path; reference: as the `<include>` has it, empty for the main file; count: how often it is included.
-    """
-
-    path: Path
-    place: str | None
-    reference: str
-    raw: bytes
     resolver: ModelResolver
     count: int = 1
-
-    @property
-    def text(self) -> XmlText:
-        """The text in which offsets of elements count."""
-        return XmlText.of(self.raw)
 
 
 @dataclass(frozen=True, slots=True)

@@ -47,78 +47,64 @@ def write_sdf(asset: Asset, origin: document.SdfDocument, name: str, mass: Mass)
     """
     for geom in asset.geoms:
         refuse_unknown_link(geom, origin.links, str(asset.path))
-    edit = _FileEdits(asset, origin, Path(name).stem)
-    names = assign_names([output for plan in edit.plans for output in plan.outputs])
-    texts = [edit.build_text(number, mass) for number in range(len(origin.sources))]
+    meshes, taken = shapes.SdfMeshes(origin.digests), set[str]()
+    plans = []
+    for number, source in enumerate(origin.sources):
+        files = mesh_output.HullFiles(Path(name).stem, source.resolver, taken)
+        plans.append(_plan_source(asset, origin, number, files, meshes))
+    names = assign_names([output for plan in plans for output in plan.outputs])
+    each = list(zip(plans, origin.sources, strict=True))
+    texts = [_build_text(asset, origin, plan, source, mass) for plan, source in each]
     copies, notes = list_copies(origin.sources, texts, name)
-    made = edit.mesh_files
-    for source, text in zip(origin.sources[1:], texts[1:], strict=True):
-        if source.place is not None:
-            made[source.place] = text
-    return Output(texts[0], made, copies, (*edit.notes, *notes), names)
+    made: dict[str, bytes] = {}
+    for plan, source in each:
+        folder = posixpath.dirname(source.place or "")
+        made |= {posixpath.normpath(posixpath.join(folder, key)): v for key, v in plan.maker.files.made.items()}
+    made |= {source.place: text for source, text in zip(origin.sources[1:], texts[1:], strict=True) if source.place}
+    return Output(texts[0], made, copies, (*(note for plan in plans for note in plan.maker.notes), *notes), names)
 
 
-class _FileEdits:
-    def __init__(self, asset: Asset, origin: document.SdfDocument, stem: str) -> None:
-        self.asset, self.document, self.stem = asset, origin, stem
-        self.kept = shapes.SdfMeshes(origin.digests)
-        self.taken: set[str] = set()
-        self.plans: list[ElementEdits] = []
-        self.makers: list[SdfElementMaker] = []
-        for number in range(len(origin.sources)):
-            self._plan_source(number)
+def _plan_source(
+    asset: Asset,
+    origin: document.SdfDocument,
+    number: int,
+    files: mesh_output.HullFiles,
+    meshes: shapes.SdfMeshes,
+) -> ElementEdits:
+    """The collision elements of one file."""
+    source = origin.sources[number]
+    data = source.text.data
+    root, version = document.parse_root(data, str(source.path))
+    at = {element.start: element for element in root.walk()}
+    own = [k for k, place in enumerate(origin.at) if place.source == number]
+    links = {body: at[place.start] for body, place in origin.links.items() if place.source == number}
+    files.avoid(document.references(root))
+    maker = SdfElementMaker(f"SDF {version[0]}.{version[1]}", data, files, meshes=meshes, version=version)
+    maker.folder = maker.find_folder(element for element in root.walk() if element.tag == "collision")
+    here = replace(asset, geoms=tuple(geom for geom in asset.geoms if geom.body in links))
+    authored, found = [origin.authored[k] for k in own], [at[origin.at[k].start] for k in own]
+    return ElementEdits(here, authored, found, links, maker)
 
-    @property
-    def mesh_files(self) -> dict[str, bytes]:
-        """The mesh files of all files' hulls, from the main one."""
-        found: dict[str, bytes] = {}
-        for maker, source in zip(self.makers, self.document.sources, strict=True):
-            folder = posixpath.dirname(source.place or "")
-            found |= {posixpath.normpath(posixpath.join(folder, key)): v for key, v in maker.files.made.items()}
-        return found
 
-    @property
-    def notes(self) -> list[str]:
-        return [note for maker in self.makers for note in maker.notes]
-
-    def build_text(self, number: int, mass: Mass) -> bytes:
-        """The text of a file. Raises AssetError where it cannot be edited."""
-        plan, source = self.plans[number], self.document.sources[number]
-        edits = plan.splices
-        if not edits:
-            return source.raw
-        self._refuse_fixed(source)
-        if mass == "keep":
-            edits += keep_masses(self.asset, self.document, plan)
-        data = apply_splices(plan.maker.data, edits)
-        return source.raw if data == plan.maker.data else source.text.encode(data)
-
-    def _plan_source(self, number: int) -> None:
-        source = self.document.sources[number]
-        data = source.text.data
-        root, version = document.parse_root(data, str(source.path))
-        at = {element.start: element for element in root.walk()}
-        own = [k for k, place in enumerate(self.document.at) if place.source == number]
-        links = {body: at[place.start] for body, place in self.document.links.items() if place.source == number}
-        files = mesh_output.HullFiles(self.stem, source.resolver, self.taken)
-        files.avoid(document.references(root))
-        maker = SdfElementMaker(f"SDF {version[0]}.{version[1]}", data, files, meshes=self.kept, version=version)
-        maker.folder = maker.find_folder(element for element in root.walk() if element.tag == "collision")
-        asset = replace(self.asset, geoms=tuple(geom for geom in self.asset.geoms if geom.body in links))
-        authored, at_own = [self.document.authored[k] for k in own], [at[self.document.at[k].start] for k in own]
-        self.plans.append(ElementEdits(asset, authored, at_own, links, maker))
-        self.makers.append(maker)
-
-    def _refuse_fixed(self, source: document.SdfSource) -> None:
-        origin, where = self.document, str(self.asset.path)
-        if origin.worlds:
-            worlds = join_names(origin.worlds, 2)
-            remedy = "Put its <model> into a file of its own (<sdf><model>), and edit that."
-            raise AssetError(f"this is a world ({worlds}), which is only read", where=where, remedy=remedy)
-        if source.count > 1 or source.place is None:
-            why = f"is included {source.count} times" if source.count > 1 else "is included by an absolute path"
-            problem = f"{source.reference!r} {why}: it is not edited here"
-            raise AssetError(problem, where=where, remedy=f"Edit {source.path} itself.")
+def _build_text(
+    asset: Asset, origin: document.SdfDocument, plan: ElementEdits, source: document.SdfSource, mass: Mass
+) -> bytes:
+    """The text of a file. Raises AssetError where it cannot be edited."""
+    edits, where = plan.splices, str(asset.path)
+    if not edits:
+        return source.raw
+    if origin.worlds:
+        worlds = join_names(origin.worlds, 2)
+        remedy = "Put its <model> into a file of its own (<sdf><model>), and edit that."
+        raise AssetError(f"this is a world ({worlds}), which is only read", where=where, remedy=remedy)
+    if source.count > 1 or source.place is None:
+        why = f"is included {source.count} times" if source.count > 1 else "is included by an absolute path"
+        problem = f"{source.reference!r} {why}: it is not edited here"
+        raise AssetError(problem, where=where, remedy=f"Edit {source.path} itself.")
+    if mass == "keep":
+        edits += keep_masses(asset, origin, plan)
+    data = apply_splices(plan.maker.data, edits)
+    return source.raw if data == plan.maker.data else source.text.encode(data)
 
 
 @dataclass(eq=False)

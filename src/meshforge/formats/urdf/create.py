@@ -10,7 +10,7 @@ from meshforge.formats import collision_pieces, link_output, mesh_output
 from meshforge.formats.base import Loss, Output
 from meshforge.formats.conversion import note_hulled
 from meshforge.formats.element_edits import assign_names
-from meshforge.formats.kinematic_tree import LIGHT_INERTIAL, JointRules
+from meshforge.formats.kinematic_tree import LIGHT_INERTIAL
 from meshforge.formats.urdf import edit
 from meshforge.formats.urdf.document import VISUAL_SUFFIXES
 from meshforge.formats.xml import escape
@@ -34,7 +34,7 @@ def create_urdf(asset: Asset, name: str, *, capsules: bool = False) -> Output:
 class _Creator(link_output.LinkCreator):
     native = edit.UrdfShape
     title = "URDF"
-    rules = JointRules(("fixed", "revolute", "prismatic", "floating", "planar"))
+    kinds = ("fixed", "revolute", "prismatic", "floating", "planar")
     visual_suffixes = VISUAL_SUFFIXES
     lead = b"    "
 
