@@ -11,7 +11,7 @@ from meshforge.formats import base, references
 from meshforge.formats.collision_pieces import CollisionPiece
 from meshforge.formats.link_reader import Link, LinkReader, geometry_of
 from meshforge.formats.sdf import document, models, shapes
-from meshforge.formats.sdf.frames import read_floats, text_of
+from meshforge.formats.sdf.frames import WORLD, read_floats, text_of
 from meshforge.formats.sdf.mechanism import compute_masses, has_computed_mass, read_joints, read_masses
 from meshforge.formats.xml import Element, parse_numbers
 from meshforge.geometry import Floats, Pose
@@ -30,13 +30,14 @@ def read_sdf(path: Path, options: base.ReadOptions) -> Asset:
     elements = [element for _, element in collisions.found]
     numbers = {body: link.scope.source.number for body, link in links.items()}
     own = {n: e for e, one in zip(elements, collisions.authored, strict=True) for n in one.names}
-    joints = read_joints(tree)
+    joints, notes = read_joints(tree)
+    world = [Body(WORLD, Pose.identity())] if any(joint.parent == WORLD for joint in joints) else []
     masses = (*read_masses(tree), *compute_masses(tree, own, collisions.geoms, collisions.opaque))
     files, missing = find_files(tree.sources)
     return Asset(
         path=path,
         format="sdf",
-        bodies=(*joints.world, *(Body(name, link.pose) for name, link in links.items())),
+        bodies=(*world, *(Body(name, link.pose) for name, link in links.items())),
         geoms=collisions.geoms,
         document=document.SdfDocument(
             tuple(tree.sources),
@@ -51,8 +52,8 @@ def read_sdf(path: Path, options: base.ReadOptions) -> Asset:
         visuals=reader.read_visuals(links.values()),
         files=files,
         missing=missing,
-        notes=(*tree.notes, *joints.notes, *_collect_notes(tree, elements)),
-        mechanism=Mechanism(tuple(joints.joints), masses),
+        notes=(*tree.notes, *notes, *_collect_notes(tree, elements)),
+        mechanism=Mechanism(tuple(joints), masses),
     )
 
 
