@@ -4,7 +4,7 @@ the names that they carry."""
 from __future__ import annotations
 
 import posixpath
-from collections.abc import Callable, Container, Hashable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Container, Hashable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -50,9 +50,8 @@ class CollisionElement:
 
 
 ElementPieces = Sequence[Sequence[CollisionPiece]]
-"""The pieces of each element, in order."""
 ElementMentions = Sequence[Sequence[Mentions]]
-"""What else the file calls each of them."""
+"""The pieces of each element, in order, and what else the file calls each of them."""
 
 
 def place_pieces(
@@ -207,10 +206,10 @@ def element_of(names: Sequence[str]) -> str:
 
 def geoms_of(authored: Sequence[CollisionElement], parts: ElementPieces, mentions: ElementMentions) -> tuple[Geom, ...]:
     """The pieces that are hulls."""
-    pieces = _iterate_pieces(authored, parts, mentions)
     return tuple(
-        Geom(name, one.link, part.shape, mentions=own, element=one.element, fill=part.fill)
-        for name, one, part, own in pieces
+        Geom(name, one.link, part.shape, mentions=said, element=one.element, fill=part.fill)
+        for one, own, words in zip(authored, parts, mentions, strict=True)
+        for name, part, said in zip(one.names, own, words, strict=True)
         if part.shape
     )
 
@@ -220,18 +219,11 @@ def opaque_of(
 ) -> tuple[Opaque, ...]:
     """The pieces that are no hulls."""
     return tuple(
-        Opaque(name, one.link, part.reason, part.surface, part.plane, own, one.element)
-        for name, one, part, own in _iterate_pieces(authored, parts, mentions)
+        Opaque(name, one.link, part.reason, part.surface, part.plane, said, one.element)
+        for one, own, words in zip(authored, parts, mentions, strict=True)
+        for name, part, said in zip(one.names, own, words, strict=True)
         if part.shape is None
     )
-
-
-def _iterate_pieces(
-    authored: Sequence[CollisionElement], parts: ElementPieces, mentions: ElementMentions
-) -> Iterator[tuple[str, CollisionElement, CollisionPiece, Mentions]]:
-    for element, own, words in zip(authored, parts, mentions, strict=True):
-        for name, part, said in zip(element.names, own, words, strict=True):
-            yield name, element, part, said
 
 
 @dataclass(frozen=True, slots=True)

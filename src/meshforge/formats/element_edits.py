@@ -143,9 +143,8 @@ class ElementMaker(ABC):
         if not isinstance(shape, Polytope):
             corners = pluralize(len(shape.vertices), "vertex", "vertices")
             self.notes.append(f"{self.explain_hull(shape)}: {geom.name!r} is written as a hull of {corners}")
-        beside = geometry_of(template) if template else None
-        is_mesh = beside is not None and beside.tag == "mesh"
-        folder = self.files.folder_of(self.reference_of(beside)) if beside and is_mesh else self.folder
+        own = geometry_of(template) if template else None
+        folder = self.find_folder([template]) if template and own and own.tag == "mesh" else self.folder
         return self.files.add(geom.name, folder, shape.vertices, shape.faces)
 
 

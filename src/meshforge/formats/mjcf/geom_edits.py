@@ -140,9 +140,9 @@ class GeomEdits:
             raise AssetError(
                 f"hull {geom.name!r} takes after {geom.parent!r}, of which {parent.fixed}", where=str(self.asset.path)
             )
-        beside = parent is not None and not parent.fixed and self.before.body_of[parent.geoms[0]] == geom.body
-        output = self.maker.make_geom(geom, self._poses[geom.body], body, node, self._parent_volume(geom), beside)
-        (parent.after if parent and beside else self.ends.setdefault(geom.body, [])).append(output)
+        is_adjacent = parent is not None and not parent.fixed and self.before.body_of[parent.geoms[0]] == geom.body
+        output = self.maker.make_geom(geom, self._poses[geom.body], body, node, self._parent_volume(geom), is_adjacent)
+        (parent.after if parent and is_adjacent else self.ends.setdefault(geom.body, [])).append(output)
         self._hulls[id(output)] = geom
 
     def _find_body(self, geom: Geom) -> MjcfNode:

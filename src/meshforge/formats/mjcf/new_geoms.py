@@ -51,21 +51,21 @@ class NewGeoms:
         self.files.taken |= {name.lower() for name in self._meshes}
 
     def make_geom(
-        self, geom: Geom, root_t_body: Pose, body: MjcfNode, parent: MjcfNode | None, volume: float, beside: bool
+        self, geom: Geom, root_t_body: Pose, body: MjcfNode, parent: MjcfNode | None, volume: float, is_adjacent: bool
     ) -> OutputElement:
         """The element of a hull, which inherits all but geometry, at the density of its parent.
 
-        volume: what has the mass of the parent [m^3]; beside: whether it is to stand right after its parent, else at
-        the end of its body. Raises AssetError where a default class of all geoms cannot be undone.
+        volume: what has the mass of the parent [m^3]; is_adjacent: whether it is to stand right after its parent, else
+        at the end of its body. Raises AssetError where a default class of all geoms cannot be undone.
         """
         own = {k: v for k, v in parent.attributes.items() if k not in ("name", "class")} if parent else {}
         by_class = self.context.defaults_of(
             self.context.class_of(parent) if parent else self.context.class_inside(body)
         )
         inherited = {**by_class, **own}
-        frame = self.context.body_t_frame(parent) if parent and beside else Pose.identity()
+        frame = self.context.body_t_frame(parent) if parent and is_adjacent else Pose.identity()
         attributes = self._place_shape(geom, root_t_body, frame, inherited if parent else {})
-        if parent and beside and "fromto" not in by_class:
+        if parent and is_adjacent and "fromto" not in by_class:
             attributes = _complete(geom, attributes, inherited, by_class, volume)
             data = self.tree.sources[parent.source].text.data
             changed = [key for key in _NOT_INHERITED if attributes.get(key) != parent.attributes.get(key)]
