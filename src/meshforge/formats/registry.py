@@ -13,8 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from meshforge import symbolic
-from meshforge.common import AssetError, Plugin, PluginError, Registry, UsageError, is_text, nearest_name
-from meshforge.common.messages import join_names
+from meshforge.common import AssetError, Plugin, PluginError, Registry, UsageError, is_text, join_names, nearest_name
 from meshforge.formats.base import Format, ReadOptions
 from meshforge.formats.engine_names.conventions import MarkName
 from meshforge.formats.gltf.format import GltfForGodot, GltfFormat, GltfForUnity, GltfForUnreal, PhysicsGltf

@@ -82,7 +82,7 @@ class MjcfEdit:
         self.before, self.tree = before, before.tree
         self.maker = NewGeoms(asset, before.tree, stem)
         self.geoms = GeomEdits(asset, before, self.maker)
-        self.masses = KeptMasses(self.geoms)
+        self.masses = BodyMasses(self.geoms)
 
     def build_checked_texts(self, mass: Mass) -> list[bytes]:
         """The bytes of each of the files, with the masses that bodies have to say.
@@ -164,7 +164,7 @@ class MjcfEdit:
         return [body for body in found if self.before.model.body_mass[body] > 0]
 
 
-class KeptMasses:
+class BodyMasses:
     """The bodies, by their numbers, that say in the output the masses which they had, and did not say."""
 
     def __init__(self, geoms: GeomEdits) -> None:

@@ -37,7 +37,7 @@ class GeomElement:
 
 
 @dataclass(slots=True, eq=False)
-class PlannedGeom:
+class GeomPlan:
     """A geom that MuJoCo shall make of the output.
 
     name: that of the asset; attribute: its name in the file, empty without one; element: what may get such a name, None
@@ -169,7 +169,7 @@ class GeomEdits:
             return shape.volume
         return sum(other.shape.volume for other in self.asset.geoms if other.parent == geom.parent)
 
-    def _plan_geoms(self) -> Iterator[PlannedGeom]:
+    def _plan_geoms(self) -> Iterator[GeomPlan]:
         """The geoms in MuJoCo's order: body by body, and in each in the order of the file."""
         of_body: dict[str, list[int]] = {body: [] for body in self.before.body_names}
         for k, body in enumerate(self.before.body_of):
@@ -179,13 +179,13 @@ class GeomEdits:
                 element, attribute = self._owner[self.before.names[k]], self.before.spec_geoms[k].name
                 if element.own is not None:
                     can_name = not element.fixed and not attribute
-                    yield PlannedGeom(self.before.names[k], body, attribute, element.own if can_name else None, k)
+                    yield GeomPlan(self.before.names[k], body, attribute, element.own if can_name else None, k)
                 yield from map(self._plan_hull, element.after)
             yield from map(self._plan_hull, self.ends.get(body, []))
 
-    def _plan_hull(self, output: OutputElement) -> PlannedGeom:
+    def _plan_hull(self, output: OutputElement) -> GeomPlan:
         hull = self._hulls[id(output)]
-        return PlannedGeom(hull.name, hull.body, "", output, hull=hull)
+        return GeomPlan(hull.name, hull.body, "", output, hull=hull)
 
     def _assign_names(self) -> dict[str, str]:
         """Name the new geoms, and those that would else read back under other names; the names that cannot be had."""
@@ -207,7 +207,7 @@ class GeomEdits:
         return geom_names([(geom.body, geom.attribute) for geom in self.geoms])
 
 
-def _assign_name(geom: PlannedGeom, taken: set[str]) -> bool:
+def _assign_name(geom: GeomPlan, taken: set[str]) -> bool:
     """Give an element a name under which its geom reads as wanted, if there is one that is free; take that."""
     for name in (geom.name.removeprefix(f"{geom.body}/"), geom.name):
         if geom.element is not None and name not in taken and name != geom.element.name:

@@ -9,30 +9,11 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from meshforge.common import AssetError, join_names
-from meshforge.formats import mesh_output
+from meshforge.formats import element_edits, mesh_output, xml
 from meshforge.formats.base import Mass, Output
-from meshforge.formats.element_edits import (
-    ElementEdits,
-    ElementMaker,
-    OutputElement,
-    assign_names,
-    name_attribute_of,
-    refuse_unknown_link,
-)
 from meshforge.formats.link_reader import geometry_of
 from meshforge.formats.references import add_copy, note_absolute
 from meshforge.formats.sdf import document, elements, shapes
-from meshforge.formats.xml import (
-    Element,
-    Splice,
-    XmlText,
-    apply_splices,
-    indent_of,
-    line_gap,
-    newline_of,
-    remove_element,
-    replace_or_insert,
-)
 from meshforge.geometry import Capsule, Ellipsoid, Pose, Shape
 from meshforge.symbolic import Asset, Geom
 
@@ -46,13 +27,13 @@ def write_sdf(asset: Asset, origin: document.SdfDocument, name: str, mass: Mass)
     there, a mesh file that changed since the asset was read, or a mass of which a part is not known.
     """
     for geom in asset.geoms:
-        refuse_unknown_link(geom, origin.links, str(asset.path))
+        element_edits.refuse_unknown_link(geom, origin.links, str(asset.path))
     meshes, taken = shapes.SdfMeshes(origin.digests), set[str]()
     plans = []
     for number, source in enumerate(origin.sources):
         files = mesh_output.HullFiles(Path(name).stem, source.resolver, taken)
         plans.append(_plan_source(asset, origin, number, files, meshes))
-    names = assign_names([output for plan in plans for output in plan.outputs])
+    names = element_edits.assign_names([output for plan in plans for output in plan.outputs])
     each = list(zip(plans, origin.sources, strict=True))
     texts = [_build_text(asset, origin, plan, source, mass) for plan, source in each]
     copies, notes = list_copies(origin.sources, texts, name)
@@ -70,7 +51,7 @@ def _plan_source(
     number: int,
     files: mesh_output.HullFiles,
     meshes: shapes.SdfMeshes,
-) -> ElementEdits:
+) -> element_edits.ElementEdits:
     """The collision elements of one file."""
     source = origin.sources[number]
     data = source.text.data
@@ -83,11 +64,11 @@ def _plan_source(
     maker.folder = maker.find_folder(element for element in root.walk() if element.tag == "collision")
     here = replace(asset, geoms=tuple(geom for geom in asset.geoms if geom.body in links))
     authored, found = [origin.authored[k] for k in own], [at[origin.at[k].start] for k in own]
-    return ElementEdits(here, authored, found, links, maker)
+    return element_edits.ElementEdits(here, authored, found, links, maker)
 
 
 def _build_text(
-    asset: Asset, origin: document.SdfDocument, plan: ElementEdits, source: document.SdfSource, mass: Mass
+    asset: Asset, origin: document.SdfDocument, plan: element_edits.ElementEdits, source: document.SdfSource, mass: Mass
 ) -> bytes:
     """The text of a file. Raises AssetError where it cannot be edited."""
     edits, where = plan.splices, str(asset.path)
@@ -103,17 +84,17 @@ def _build_text(
         raise AssetError(problem, where=where, remedy=f"Edit {source.path} itself.")
     if mass == "keep":
         edits += keep_masses(asset, origin, plan)
-    data = apply_splices(plan.maker.data, edits)
+    data = xml.apply_splices(plan.maker.data, edits)
     return source.raw if data == plan.maker.data else source.text.encode(data)
 
 
 @dataclass(eq=False)
-class SdfElementMaker(ElementMaker):
+class SdfElementMaker(element_edits.ElementMaker):
     """Makes elements for one file."""
 
     version: document.Version = field(kw_only=True)
 
-    def reference_of(self, mesh: Element) -> str:
+    def reference_of(self, mesh: xml.Element) -> str:
         return document.mesh_uri(mesh)
 
     def native_lines(self, shape: Shape) -> list[bytes] | None:
@@ -125,37 +106,39 @@ class SdfElementMaker(ElementMaker):
 
     def build_collision(self, pose: Pose, kind: Sequence[bytes], lead: bytes) -> bytes:
         lines = elements.nest("collision", elements.pose_leaf(pose), *elements.nest("geometry", *kind))
-        return (newline_of(self.data) + lead).join(lines)
+        return (xml.newline_of(self.data) + lead).join(lines)
 
-    def make_element(self, geom: Geom, root_t_link: Pose, template: Element | None, lead: bytes) -> OutputElement:
+    def make_element(
+        self, geom: Geom, root_t_link: Pose, template: xml.Element | None, lead: bytes
+    ) -> element_edits.OutputElement:
         made = super().make_element(geom, root_t_link, template, lead)
-        made.name = name_attribute_of(made)  # SDF asks for one
+        made.name = element_edits.name_attribute_of(made)  # SDF asks for one
         return made
 
     def replace_geometry(
-        self, collision: Element, pose: Pose, kind: Sequence[bytes], reference: str | None
-    ) -> tuple[Splice, ...]:
+        self, collision: xml.Element, pose: Pose, kind: Sequence[bytes], reference: str | None
+    ) -> tuple[xml.Splice, ...]:
         geometry, old = collision.first("geometry"), geometry_of(collision)
         assert geometry is not None and old is not None  # only elements with pieces are copied
         if b"\n" not in self.data[old.start : old.end]:  # all in one line
             kind = [b"".join(line.strip() for line in kind)]
-        made = Splice(old.start, old.end, line_gap(self.data, old.start).join(kind))
+        made = xml.Splice(old.start, old.end, xml.line_gap(self.data, old.start).join(kind))
         polylines = (child for child in geometry.children if child.tag == "polyline" and child is not old)
-        placed = replace_or_insert(self.data, collision, "pose", "geometry", elements.pose_leaf(pose))
-        return (placed, made, *(remove_element(self.data, child) for child in polylines))
+        placed = xml.replace_or_insert(self.data, collision, "pose", "geometry", elements.pose_leaf(pose))
+        return (placed, made, *(xml.remove_element(self.data, child) for child in polylines))
 
-    def extract_piece(self, element: Element, name: str, k: int) -> tuple[Splice, ...]:
+    def extract_piece(self, element: xml.Element, name: str, k: int) -> tuple[xml.Splice, ...]:
         """Scale and place stay; the file is used whole."""
         mesh = geometry_of(element)
         assert mesh is not None  # only meshes have several pieces
         _, made = self.make_piece(document.mesh_uri(mesh), shapes.read_submesh(mesh), name, k)
         uri, submesh = mesh.first("uri") or mesh.first("filename"), mesh.first("submesh")
         assert uri is not None  # it has pieces
-        new = Splice(uri.start, uri.end, elements.leaf(uri.tag, made))
-        return (new, remove_element(self.data, submesh)) if submesh else (new,)
+        new = xml.Splice(uri.start, uri.end, elements.leaf(uri.tag, made))
+        return (new, xml.remove_element(self.data, submesh)) if submesh else (new,)
 
 
-def keep_masses(asset: Asset, origin: document.SdfDocument, plan: ElementEdits) -> list[Splice]:
+def keep_masses(asset: Asset, origin: document.SdfDocument, plan: element_edits.ElementEdits) -> list[xml.Splice]:
     """The edits that make computed masses of the links that are edited explicit.
 
     Raises AssetError for a link of which a collision is no hull, so that its mass is not known.
@@ -174,9 +157,9 @@ def keep_masses(asset: Asset, origin: document.SdfDocument, plan: ElementEdits) 
                 where=str(asset.path),
                 remedy="Leave it to the new collisions (--mass recompute), or say it in the file.",
             )
-        lead = indent_of(plan.maker.data, element.start) or b""
+        lead = xml.indent_of(plan.maker.data, element.start) or b""
         lines = elements.inertial_lines(known[body], asset.body_poses[body])
-        edits.append(Splice(element.start, element.end, (newline_of(plan.maker.data) + lead).join(lines)))
+        edits.append(xml.Splice(element.start, element.end, (xml.newline_of(plan.maker.data) + lead).join(lines)))
     return edits
 
 
@@ -208,6 +191,6 @@ def list_copies(
 
 
 def _find_references(source: document.SdfSource, text: bytes) -> list[tuple[str, Path]]:
-    root, _ = document.parse_root(XmlText.of(text).data, str(source.path))
+    root, _ = document.parse_root(xml.XmlText.of(text).data, str(source.path))
     found = [(reference, source.resolver.find(reference)) for reference in document.references(root)]
     return [(reference, path) for reference, path in found if path is not None] + list(document.find_scripts(source))
