@@ -5,9 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from types import UnionType
 
-from meshforge.formats import base, kinematic_tree, mesh_output
-from meshforge.formats.conversion import plan_couplings
-from meshforge.formats.element_edits import ElementMaker, OutputElement
+from meshforge.formats import base, conversion, element_edits, kinematic_tree, mesh_output
 from meshforge.formats.visuals import unreadable_visuals, visuals_of
 from meshforge.geometry import Pose, Shape
 from meshforge.symbolic import Asset, FeatureKind, Inertial, JointKind, Opaque, Surface
@@ -27,7 +25,7 @@ class LinkCreator(ABC):
     visual_suffixes: tuple[str, ...]
     lead: bytes
 
-    def __init__(self, asset: Asset, maker: ElementMaker) -> None:
+    def __init__(self, asset: Asset, maker: element_edits.ElementMaker) -> None:
         self.asset, self.maker = asset, maker
         self.visuals = mesh_output.VisualFiles(maker.files, lambda mesh: mesh.suffix.lower() in self.visual_suffixes)
         self.inertials = {inertial.body: inertial for inertial in asset.mechanism.inertials}
@@ -37,7 +35,7 @@ class LinkCreator(ABC):
         used = {g.body for g in asset.geoms} | {o.body for o in asset.opaque} | {body for body, _ in visuals}
         bare = {body.name for body in asset.bodies} - used - set(self.inertials)
         self.chain = kinematic_tree.KinematicChain(asset, bare, self.kinds, self.has_world)
-        self.couplings = plan_couplings(asset.mechanism.joints, self.title)
+        self.couplings = conversion.plan_couplings(asset.mechanism.joints, self.title)
         self.links = self.name_links(bare)
         self.outputs = self._build_outputs()
         self.shown = {link: self._build_visuals(link) for link in self.links}
@@ -50,7 +48,7 @@ class LinkCreator(ABC):
     def refuse_surface(self, surface: Surface) -> str:
         """Why a non-convex piece of such a surface is not written, empty where it is."""
 
-    def build_plane(self, piece: Opaque, link_t_plane: Pose) -> list[OutputElement]:
+    def build_plane(self, piece: Opaque, link_t_plane: Pose) -> list[element_edits.OutputElement]:
         """The collision of an endless plane; none where the format has none."""
         return []
 
@@ -70,8 +68,8 @@ class LinkCreator(ABC):
         """What the file does not hold."""
         return (*self.chain.lost, *self.couplings.lost, *self.lost, *unreadable_visuals(self.visuals.refused))
 
-    def _build_outputs(self) -> dict[str, list[OutputElement]]:
-        outputs: dict[str, list[OutputElement]] = {link: [] for link in self.links}
+    def _build_outputs(self) -> dict[str, list[element_edits.OutputElement]]:
+        outputs: dict[str, list[element_edits.OutputElement]] = {link: [] for link in self.links}
         for geom in self.asset.geoms:
             link = self.chain.of_body[geom.body]
             outputs[link].append(self.maker.make_element(geom, self.chain.frames[link], None, self.lead))

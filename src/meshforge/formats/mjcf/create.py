@@ -10,11 +10,8 @@ from pathlib import Path
 import numpy as np
 
 from meshforge.common import join_names, pluralize
-from meshforge.formats import mesh_output, visuals
+from meshforge.formats import collision_pieces, conversion, kinematic_tree, mesh_output, visuals
 from meshforge.formats.base import Loss, Output
-from meshforge.formats.collision_pieces import is_flat
-from meshforge.formats.conversion import note_hulled, plan_couplings
-from meshforge.formats.kinematic_tree import BodyTree, claim_name
 from meshforge.formats.mjcf import document, elements, references
 from meshforge.formats.mjcf.elements import tag
 from meshforge.formats.xml import format_numbers
@@ -55,11 +52,11 @@ def create_mjcf(asset: Asset, name: str) -> Output:
 class _Creator:
     def __init__(self, asset: Asset, stem: str) -> None:
         self.asset, self.stem = asset, stem
-        self.tree = BodyTree.of(asset)
+        self.tree = kinematic_tree.BodyTree.of(asset)
         self.poses = asset.body_poses
         self.inertials = {inertial.body: inertial for inertial in asset.mechanism.inertials}
         self.joint_names = self.tree.joint_names
-        self.couplings = plan_couplings(asset.mechanism.joints, "MJCF", polynomials=True)
+        self.couplings = conversion.plan_couplings(asset.mechanism.joints, "MJCF", polynomials=True)
         self.bodies = _name_bodies(self.tree)
         self.named = _name_geoms(asset, self.tree, self.bodies)
         self.geoms = _GeomTexts(asset, stem, {piece: name for piece, (name, _) in self.named.items()})
@@ -169,7 +166,7 @@ class _Creator:
     def _collect_notes(self) -> tuple[str, ...]:
         notes = [*self.couplings.notes]
         notes += [f"{text} ({join_names(bodies, 3)})" if bodies else text for text, bodies in self.notes.items()]
-        notes += note_hulled([piece for piece, _ in self.geoms.hulled], "MuJoCo")
+        notes += conversion.note_hulled([piece for piece, _ in self.geoms.hulled], "MuJoCo")
         if not any(joint.kind == "floating" for joint in self.asset.mechanism.joints):
             roots = [self.bodies[root] for root in self.tree.roots if self.bodies[root] != WORLD]
             roots = roots or [b for b in self.tree.order if self.tree.parent(b) == WORLD and self.tree.is_static(b)]
@@ -252,7 +249,7 @@ class _GeomTexts:
 
     def _add_mesh(self, file: str, attributes: dict[str, str]) -> str:
         name = posixpath.splitext(posixpath.basename(file))[0].removeprefix(f"{self.files.stem}--")
-        name = claim_name(name, self._mesh_names)
+        name = kinematic_tree.claim_name(name, self._mesh_names)
         self.meshes.append(tag("mesh", {"name": name, "file": file, **attributes}))
         return name
 
@@ -261,21 +258,23 @@ def _place_mesh(box: Aabb) -> Pose:
     return Pose.of_translation(box.center if np.linalg.norm(box.center) > _FAR * box.diagonal else np.zeros(3))
 
 
-def _name_bodies(tree: BodyTree) -> dict[str, str]:
+def _name_bodies(tree: kinematic_tree.BodyTree) -> dict[str, str]:
     """What each body of an asset is called; a root called world is MuJoCo's, no other body is."""
     taken = {WORLD, *tree.order}
     is_root = WORLD in tree.roots
-    return {name: claim_name(name, taken) if name == WORLD and not is_root else name for name in tree.order}
+    return {
+        name: kinematic_tree.claim_name(name, taken) if name == WORLD and not is_root else name for name in tree.order
+    }
 
 
-def _name_geoms(asset: Asset, tree: BodyTree, bodies: dict[str, str]) -> dict[str, tuple[str, str]]:
+def _name_geoms(asset: Asset, tree: kinematic_tree.BodyTree, bodies: dict[str, str]) -> dict[str, tuple[str, str]]:
     """For each hull, plane and mesh the name attribute, empty where it needs none, and the name that it reads back as.
 
     bodies: what the bodies of the tree are called.
     """
     pieces = [(geom.name, geom.body) for geom in asset.geoms]
     faces = {p.name: p.surface.vertices for p in asset.opaque if p.surface is not None and len(p.surface.faces)}
-    solid = {name for name, vertices in faces.items() if not is_flat(vertices)}
+    solid = {name for name, vertices in faces.items() if not collision_pieces.is_flat(vertices)}
     pieces += [(piece.name, piece.body) for piece in asset.opaque if piece.plane or piece.name in solid]
     ordered = [(name, own) for body in tree.order for name, own in pieces if own == body]
     plain = [name.removeprefix(f"{body}/") for name, body in ordered]
@@ -285,6 +284,6 @@ def _name_geoms(asset: Asset, tree: BodyTree, bodies: dict[str, str]) -> dict[st
     attributes = []
     for unnamed, holder, name in zip(document.geom_names([(h, "") for h in holders]), holders, plain, strict=True):
         wanted = f"{holder}/{name}" if shared[name] > 1 else name
-        attributes.append("" if unnamed == f"{holder}/{name}" else claim_name(wanted, taken))
+        attributes.append("" if unnamed == f"{holder}/{name}" else kinematic_tree.claim_name(wanted, taken))
     back = document.geom_names(list(zip(holders, attributes, strict=True)))
     return {name: pair for (name, _), pair in zip(ordered, zip(attributes, back, strict=True), strict=True)}

@@ -7,9 +7,8 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from meshforge.common import AssetError, join_names
+from meshforge.formats import collision_pieces, element_edits
 from meshforge.formats.base import Mass, Output
-from meshforge.formats.collision_pieces import is_edited
-from meshforge.formats.element_edits import OutputElement, append_elements, child_indent_of
 from meshforge.formats.mjcf import edit_check, references
 from meshforge.formats.mjcf.collision_only import strip_to_collision
 from meshforge.formats.mjcf.compiler import drop_scaling
@@ -35,7 +34,7 @@ def write_mjcf(asset: Asset, document: MjcfDocument, name: str, mass: Mass) -> O
     """
     tree = document.tree
     copies, notes = references.list_copies(asset, tree)
-    if not is_edited(asset, document.names):
+    if not collision_pieces.is_edited(asset, document.names):
         return _build_output(tree, [source.raw for source in tree.sources], {}, copies, notes, {})
     try:
         before = compile_tree(tree, drop_scaling)
@@ -143,11 +142,21 @@ class MjcfEdit:
             return
         data, root = self.tree.main.text.data, self.tree.root.element
         if own := list(root.each("asset")):
-            yield 0, append_elements(data, own[-1], [OutputElement("", (), text=text) for text in self.maker.elements])
+            yield (
+                0,
+                element_edits.append_elements(
+                    data, own[-1], [element_edits.OutputElement("", (), text=text) for text in self.maker.elements]
+                ),
+            )
         else:
-            lead = child_indent_of(data, root)
+            lead = element_edits.child_indent_of(data, root)
             lines = [b"<asset>", *(2 * lead + text for text in self.maker.elements), lead + b"</asset>"]
-            yield 0, append_elements(data, root, [OutputElement("", (), text=newline_of(data).join(lines))])
+            yield (
+                0,
+                element_edits.append_elements(
+                    data, root, [element_edits.OutputElement("", (), text=newline_of(data).join(lines))]
+                ),
+            )
 
     def _compile(self, texts: list[bytes]) -> MjcfModel:
         """What MuJoCo makes of the texts, of as much as was read before. Raises AssetError where it refuses them."""
@@ -194,7 +203,7 @@ class BodyMasses:
             numbers = model.body_ipos[body], model.body_iquat[body], model.body_inertia[body]
             text = tag("inertial", inertial_attributes(float(model.body_mass[body]), *numbers))
             if id(node) not in self._texts and not node.element.children:
-                self.geoms.ends[self.before.body_names[body]].insert(0, OutputElement("", (), text=text))
+                self.geoms.ends[self.before.body_names[body]].insert(0, element_edits.OutputElement("", (), text=text))
             self._texts.setdefault(id(node), (node, text))
         self.bodies += new
         return bool(new)

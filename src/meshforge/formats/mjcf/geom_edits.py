@@ -7,8 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from meshforge.common import AssetError, nearest_name
-from meshforge.formats.collision_pieces import names_to_keep, new_hulls
-from meshforge.formats.element_edits import OutputElement, append_elements, replace_element
+from meshforge.formats import collision_pieces, element_edits
 from meshforge.formats.mjcf.document import MjcfNode, MjcfTree, geom_names
 from meshforge.formats.mjcf.model import MjcfModel
 from meshforge.formats.mjcf.new_geoms import NewGeoms
@@ -32,8 +31,8 @@ class GeomElement:
     node: MjcfNode | None
     geoms: list[int]
     fixed: str
-    own: OutputElement | None
-    after: list[OutputElement] = field(default_factory=list)
+    own: element_edits.OutputElement | None
+    after: list[element_edits.OutputElement] = field(default_factory=list)
 
 
 @dataclass(slots=True, eq=False)
@@ -47,7 +46,7 @@ class GeomPlan:
     name: str
     body: str
     attribute: str
-    element: OutputElement | None
+    element: element_edits.OutputElement | None
     number: int | None = None
     hull: Geom | None = None
 
@@ -61,12 +60,12 @@ class GeomEdits:
 
     def __init__(self, asset: Asset, before: MjcfModel, maker: NewGeoms) -> None:
         self.asset, self.before, self.maker, self.tree = asset, before, maker, before.tree
-        self.ends: dict[str, list[OutputElement]] = {}
+        self.ends: dict[str, list[element_edits.OutputElement]] = {}
         self._poses = dict(zip(before.body_names, before.body_poses, strict=True))
         self._hulls: dict[int, Geom] = {}
         self.elements = list(self._list_elements())
         self._owner = {before.names[k]: element for element in self.elements for k in element.geoms}
-        made = new_hulls(asset, before.collision_names)
+        made = collision_pieces.new_hulls(asset, before.collision_names)
         self._remove({geom.name for geom in made})
         for geom in made:
             self._add(geom)
@@ -94,11 +93,11 @@ class GeomEdits:
             outputs = [*([element.own] if element.own else []), *element.after]
             untouched = len(outputs) == 1 and outputs[0].is_untouched
             if element.node is not None and element.node.source == source and not untouched:
-                yield replace_element(data, element.node.element, outputs)
+                yield element_edits.replace_element(data, element.node.element, outputs)
         for body, outputs in self.ends.items():
             node = self.body_node(body)
             if node is not None and node.source == source:
-                yield append_elements(data, node.element, outputs)
+                yield element_edits.append_elements(data, node.element, outputs)
 
     def _list_elements(self) -> Iterator[GeomElement]:
         fixed: dict[int, str] = {}
@@ -112,13 +111,15 @@ class GeomEdits:
             node = self.before.elements[numbers[0]]
             names = tuple(self.before.names[k] for k in numbers)
             attribute = node.attributes.get("name") if node else None
-            own = OutputElement(self.before.body_of[numbers[0]], names, attribute, node.element if node else None)
+            own = element_edits.OutputElement(
+                self.before.body_of[numbers[0]], names, attribute, node.element if node else None
+            )
             why = fixed.get(id(node), "")
             yield GeomElement(node, numbers, f"it is inside {why}" if why else "" if node else _ATTACHED, own)
 
     def _remove(self, renewed: set[str]) -> None:
         """Take away the elements of hulls that are gone; renewed: the names of new hulls."""
-        kept, names = names_to_keep(self.asset), self.before.names
+        kept, names = collision_pieces.names_to_keep(self.asset), self.before.names
         removed: dict[str, str] = {}
         for element in self.elements:
             gone = [names[k] for k in element.geoms if self.before.collides[k] and names[k] not in kept]
@@ -183,7 +184,7 @@ class GeomEdits:
                 yield from map(self._plan_hull, element.after)
             yield from map(self._plan_hull, self.ends.get(body, []))
 
-    def _plan_hull(self, output: OutputElement) -> GeomPlan:
+    def _plan_hull(self, output: element_edits.OutputElement) -> GeomPlan:
         hull = self._hulls[id(output)]
         return GeomPlan(hull.name, hull.body, "", output, hull=hull)
 

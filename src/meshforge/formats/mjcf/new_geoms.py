@@ -12,8 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from meshforge.common import AssetError, relative_name
-from meshforge.formats import mesh_output, xml
-from meshforge.formats.element_edits import OutputElement
+from meshforge.formats import element_edits, mesh_output, xml
 from meshforge.formats.mjcf import references
 from meshforge.formats.mjcf.compiler import compile_model
 from meshforge.formats.mjcf.document import MjcfNode, MjcfTree
@@ -52,7 +51,7 @@ class NewGeoms:
 
     def make_geom(
         self, geom: Geom, root_t_body: Pose, body: MjcfNode, parent: MjcfNode | None, volume: float, is_adjacent: bool
-    ) -> OutputElement:
+    ) -> element_edits.OutputElement:
         """The element of a hull, which inherits all but geometry, at the density of its parent.
 
         volume: what has the mass of the parent [m^3]; is_adjacent: whether it is to stand right after its parent, else
@@ -70,7 +69,7 @@ class NewGeoms:
             data = self.tree.sources[parent.source].text.data
             changed = [key for key in _NOT_INHERITED if attributes.get(key) != parent.attributes.get(key)]
             edits = (xml.set_attribute(data, parent.element, key, attributes.get(key), last=True) for key in changed)
-            return OutputElement(geom.body, (geom.name,), None, parent.element, tuple(edits), copy=True)
+            return element_edits.OutputElement(geom.body, (geom.name,), None, parent.element, tuple(edits), copy=True)
         set_by_class = self.context.defaults_of(_MAIN_CLASS) if parent else by_class
         if "fromto" in set_by_class:
             raise AssetError(
@@ -85,7 +84,7 @@ class NewGeoms:
             attributes = {"class": _MAIN_CLASS, **attributes, **rest}
         elif by_class.get("contype") == "0" == by_class.get("conaffinity"):  # a class of visual geoms
             attributes |= {"contype": "1", "conaffinity": "1"}
-        return OutputElement(geom.body, (geom.name,), text=tag("geom", attributes))
+        return element_edits.OutputElement(geom.body, (geom.name,), text=tag("geom", attributes))
 
     def _place_shape(
         self, geom: Geom, root_t_body: Pose, body_t_frame: Pose, inherited: Mapping[str, str]

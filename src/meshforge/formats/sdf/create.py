@@ -7,9 +7,8 @@ from pathlib import Path
 import numpy as np
 
 from meshforge.common import join_names, pluralize
-from meshforge.formats import kinematic_tree, link_output, mesh_output, xml
+from meshforge.formats import element_edits, kinematic_tree, link_output, mesh_output, xml
 from meshforge.formats.base import Loss, Output
-from meshforge.formats.element_edits import OutputElement, assign_names, name_attribute_of
 from meshforge.formats.sdf import edit, elements
 from meshforge.formats.sdf.document import CONFIG, VISUAL_SUFFIXES
 from meshforge.formats.sdf.frames import WORLD
@@ -47,7 +46,7 @@ class _Creator(link_output.LinkCreator):
                 self._rename(output, self.links[link])
 
     def build_output(self) -> Output:
-        others = assign_names([output for own in self.outputs.values() for output in own])
+        others = element_edits.assign_names([output for own in self.outputs.values() for output in own])
         names = {was: others.pop(name, name) for was, name in self.renamed.items()} | others
         inside = [line for link in self.links for line in self._link_lines(link)]
         if WORLD in self.links:  # what is part of the world does not fall
@@ -79,8 +78,8 @@ class _Creator(link_output.LinkCreator):
             names = {WORLD: kinematic_tree.claim_name(f"{WORLD}_link", taken), **names}
         return {link: _legal_name(name, taken) for link, name in names.items()} or {WORLD: f"{WORLD}_link"}
 
-    def _rename(self, output: OutputElement, link: str) -> None:
-        output.name = name_attribute_of(output)
+    def _rename(self, output: element_edits.OutputElement, link: str) -> None:
+        output.name = element_edits.name_attribute_of(output)
         if link != output.body:
             names = tuple(f"{link}/{name.removeprefix(f'{output.body}/')}" for name in output.names)
             self.renamed |= dict(zip(output.names, names, strict=True))
@@ -89,10 +88,10 @@ class _Creator(link_output.LinkCreator):
     def refuse_surface(self, surface: Surface) -> str:
         return "" if len(surface.faces) else "it has no triangle"
 
-    def build_plane(self, piece: Opaque, link_t_plane: Pose) -> list[OutputElement]:
+    def build_plane(self, piece: Opaque, link_t_plane: Pose) -> list[element_edits.OutputElement]:
         kind = elements.nest("plane", elements.leaf("normal", "0 0 1"), elements.leaf("size", "100 100"))
         text = self.maker.build_collision(link_t_plane, kind, self.lead)
-        return [OutputElement(piece.body, (piece.name,), text=text)]
+        return [element_edits.OutputElement(piece.body, (piece.name,), text=text)]
 
     def _link_lines(self, link: str) -> list[bytes]:
         frame = self.chain.frames[link]

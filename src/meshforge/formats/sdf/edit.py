@@ -9,9 +9,8 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from meshforge.common import AssetError, join_names
-from meshforge.formats import element_edits, mesh_output, xml
+from meshforge.formats import element_edits, link_reader, mesh_output, xml
 from meshforge.formats.base import Mass, Output
-from meshforge.formats.link_reader import geometry_of
 from meshforge.formats.references import add_copy, note_absolute
 from meshforge.formats.sdf import document, elements, shapes
 from meshforge.geometry import Capsule, Ellipsoid, Pose, Shape
@@ -118,7 +117,7 @@ class SdfElementMaker(element_edits.ElementMaker):
     def replace_geometry(
         self, collision: xml.Element, pose: Pose, kind: Sequence[bytes], reference: str | None
     ) -> tuple[xml.Splice, ...]:
-        geometry, old = collision.first("geometry"), geometry_of(collision)
+        geometry, old = collision.first("geometry"), link_reader.geometry_of(collision)
         assert geometry is not None and old is not None  # only elements with pieces are copied
         if b"\n" not in self.data[old.start : old.end]:  # all in one line
             kind = [b"".join(line.strip() for line in kind)]
@@ -129,7 +128,7 @@ class SdfElementMaker(element_edits.ElementMaker):
 
     def extract_piece(self, element: xml.Element, name: str, k: int) -> tuple[xml.Splice, ...]:
         """Scale and place stay; the file is used whole."""
-        mesh = geometry_of(element)
+        mesh = link_reader.geometry_of(element)
         assert mesh is not None  # only meshes have several pieces
         _, made = self.make_piece(document.mesh_uri(mesh), shapes.read_submesh(mesh), name, k)
         uri, submesh = mesh.first("uri") or mesh.first("filename"), mesh.first("submesh")

@@ -8,8 +8,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from meshforge.common import AssetError
-from meshforge.formats import mesh_reader, references
-from meshforge.formats.link_reader import Link
+from meshforge.formats import link_reader, mesh_reader, references
 from meshforge.formats.sdf.document import ModelResolver, SdfSource, Version, parse_root
 from meshforge.formats.sdf.frames import MODEL, WORLD, FrameTable, SdfFrame, is_true, pose_of, text_of
 from meshforge.formats.xml import Element, XmlText
@@ -44,7 +43,7 @@ class ModelScope:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class SdfLink(Link):
+class SdfLink(link_reader.Link):
     """A `<link>` of a model."""
 
     scope: ModelScope
@@ -65,7 +64,7 @@ class ModelTree:
     frames: FrameTable = field(default_factory=FrameTable)
     links: dict[str, SdfLink] = field(default_factory=dict)
 
-    def pose_in_link(self, link: Link, element: Element) -> Pose:
+    def pose_in_link(self, link: link_reader.Link, element: Element) -> Pose:
         """root_T_element of something in a link, whose pose counts from the link or from a frame of its model."""
         at, scope = pose_of(element, link.where), self.links[link.body].scope
         if not at.base:

@@ -7,9 +7,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from meshforge.common import join_names, plain_path, pluralize
-from meshforge.formats import base, references
-from meshforge.formats.collision_pieces import CollisionPiece
-from meshforge.formats.link_reader import Link, LinkReader, geometry_of
+from meshforge.formats import base, collision_pieces, link_reader, references
 from meshforge.formats.sdf import document, models, shapes
 from meshforge.formats.sdf.frames import WORLD, read_floats, text_of
 from meshforge.formats.sdf.mechanism import compute_masses, has_computed_mass, read_joints, read_masses
@@ -57,12 +55,12 @@ def read_sdf(path: Path, options: base.ReadOptions) -> Asset:
     )
 
 
-class _SdfReader(LinkReader):
+class _SdfReader(link_reader.LinkReader):
     def __init__(self, tree: models.ModelTree) -> None:
         super().__init__(shapes.SdfMeshes())
         self.tree = tree
 
-    def place(self, link: Link, element: Element) -> Pose:
+    def place(self, link: link_reader.Link, element: Element) -> Pose:
         return self.tree.pose_in_link(link, element)
 
     def reference_of(self, mesh: Element) -> str:
@@ -77,12 +75,14 @@ class _SdfReader(LinkReader):
     def read_scale(self, mesh: Element, where: str) -> tuple[Floats, str]:
         return read_floats(mesh, "scale", where, (1.0, 1.0, 1.0)), f"<scale>{text_of(mesh, 'scale')}</scale>"
 
-    def read_shape(self, element: Element, kind: Element, pose: Pose, where: str) -> CollisionPiece:
+    def read_shape(self, element: Element, kind: Element, pose: Pose, where: str) -> collision_pieces.CollisionPiece:
         geometry = element.first("geometry")
         assert geometry is not None  # it holds the kind
         return shapes.read_shape(geometry, kind, pose, where)
 
-    def place_mesh(self, kind: Element, path: Path, linear: Floats, offset: Floats) -> list[CollisionPiece]:
+    def place_mesh(
+        self, kind: Element, path: Path, linear: Floats, offset: Floats
+    ) -> list[collision_pieces.CollisionPiece]:
         if kind.attributes.get("optimization") == "convex_hull":
             return [shapes.hull_of(self.meshes.surfaces(path, self.part_of(kind)), linear, offset)]
         return super().place_mesh(kind, path, linear, offset)
@@ -119,7 +119,7 @@ def _collect_notes(tree: models.ModelTree, collisions: Sequence[Element]) -> Ite
         )
     if actors := [actor.line for actor in tree.root.each("actor")]:
         yield f"{pluralize(len(actors), 'actor')}, the first on line {actors[0]}: passed over"
-    kinds = [(collision.line, geometry_of(collision)) for collision in collisions]
+    kinds = [(collision.line, link_reader.geometry_of(collision)) for collision in collisions]
     if bare := [f"line {line}" for line, kind in kinds if kind is None]:
         yield f"{pluralize(len(bare), 'collision')} without geometry ({join_names(bare, 3)}): passed over"
     cut = [k for _, k in kinds if k is not None and k.attributes.get("optimization") == "convex_decomposition"]

@@ -10,8 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from meshforge.common import AssetError, GeometryError, join_names
-from meshforge.formats.collision_pieces import CollisionPiece, build_primitive, turn_z_to
-from meshforge.formats.link_reader import CollisionMeshes
+from meshforge.formats import collision_pieces, link_reader
 from meshforge.formats.meshfile.surface import RawSurface, join_surfaces
 from meshforge.formats.sdf.frames import is_true, read_floats, read_values, text_of
 from meshforge.formats.xml import Element
@@ -23,7 +22,7 @@ _MOST_POINTS = 10_000  # points of a polyline
 _NO_HULLS = {"heightmap": "a height map is no hull", "image": "an image is no hull", "empty": "it is empty"}
 
 
-def read_shape(geometry: Element, kind: Element, pose: Pose, where: str) -> CollisionPiece:
+def read_shape(geometry: Element, kind: Element, pose: Pose, where: str) -> collision_pieces.CollisionPiece:
     """The shape of an element of a geometry that is no mesh; pose: root_T_geometry.
 
     What is left out has libsdformat's default. Raises AssetError with `where:line` for an unreadable number.
@@ -37,19 +36,21 @@ def read_shape(geometry: Element, kind: Element, pose: Pose, where: str) -> Coll
             radius = read_floats(kind, "radius", where, (1.0 if kind.tag == "cylinder" else 0.5,))
             sizes = np.concatenate([radius, read_floats(kind, "length", where, (1.0,))])
         case "plane":
-            turn = turn_z_to(read_floats(kind, "normal", where, (0, 0, 1)))
-            return CollisionPiece(None, "a plane has no end", plane=pose @ turn)
+            turn = collision_pieces.turn_z_to(read_floats(kind, "normal", where, (0, 0, 1)))
+            return collision_pieces.CollisionPiece(None, "a plane has no end", plane=pose @ turn)
         case "polyline":
             return _read_polylines(list(geometry.each("polyline")), pose, where)
         case _:
-            return CollisionPiece(None, _NO_HULLS.get(kind.tag, f"<{kind.tag}> is no geometry that is known"))
-    return build_primitive(kind.tag, sizes, pose)
+            return collision_pieces.CollisionPiece(
+                None, _NO_HULLS.get(kind.tag, f"<{kind.tag}> is no geometry that is known")
+            )
+    return collision_pieces.build_primitive(kind.tag, sizes, pose)
 
 
-def _read_polylines(lines: Sequence[Element], pose: Pose, where: str) -> CollisionPiece:
+def _read_polylines(lines: Sequence[Element], pose: Pose, where: str) -> collision_pieces.CollisionPiece:
     """Outlines of points, drawn up to a height: a hull where there is one that is convex."""
     if len(lines) > 1:
-        return CollisionPiece(None, f"{len(lines)} polylines in one")
+        return collision_pieces.CollisionPiece(None, f"{len(lines)} polylines in one")
     corners = list(lines[0].each("point"))
     if len(corners) > _MOST_POINTS:
         raise AssetError(f"a polyline of {len(corners):,} points", where=f"{where}:{lines[0].line}")
@@ -61,12 +62,12 @@ def _read_polylines(lines: Sequence[Element], pose: Pose, where: str) -> Collisi
     except GeometryError:
         hull = None
     if hull is None:
-        return CollisionPiece(None, "a polyline without volume")
+        return collision_pieces.CollisionPiece(None, "a polyline without volume")
     x, y = (outline - outline[0]).T
     volume = abs(float(x @ np.roll(y, -1) - y @ np.roll(x, -1))) / 2 * height
     if not np.isclose(volume, hull.volume, rtol=1e-6):
-        return CollisionPiece(None, "a polyline that is not convex")
-    return CollisionPiece(hull)
+        return collision_pieces.CollisionPiece(None, "a polyline that is not convex")
+    return collision_pieces.CollisionPiece(hull)
 
 
 def read_submesh(mesh: Element) -> tuple[str, ...]:
@@ -78,7 +79,7 @@ def read_submesh(mesh: Element) -> tuple[str, ...]:
     return (name, "center") if is_true(text_of(submesh, "center")) else (name,)
 
 
-class SdfMeshes(CollisionMeshes):
+class SdfMeshes(link_reader.CollisionMeshes):
     """The mesh files of an SDF, of which elements use submeshes."""
 
     def select(self, surfaces: Sequence[RawSurface], part: tuple[str, ...]) -> Sequence[RawSurface]:
@@ -99,14 +100,14 @@ class SdfMeshes(CollisionMeshes):
         return [replace(s, vertices=s.vertices - middle) for s in scaled]
 
 
-def hull_of(surfaces: Sequence[RawSurface], linear: Floats, offset: Floats) -> CollisionPiece:
+def hull_of(surfaces: Sequence[RawSurface], linear: Floats, offset: Floats) -> collision_pieces.CollisionPiece:
     """The convex hull of a mesh that says it is one (`optimization="convex_hull"`), under x -> linear @ x + offset."""
     whole = join_surfaces(surfaces)
     try:
         hull, fill = hull_mesh(whole.vertices, whole.faces)
-        return CollisionPiece(hull.transform(linear, offset), fill=fill)
+        return collision_pieces.CollisionPiece(hull.transform(linear, offset), fill=fill)
     except GeometryError as error:
-        return CollisionPiece(None, error.problem)
+        return collision_pieces.CollisionPiece(None, error.problem)
 
 
 def collada_unit_of(mesh: Path) -> float:

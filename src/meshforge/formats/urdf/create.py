@@ -6,11 +6,8 @@ from dataclasses import replace
 from pathlib import Path
 
 from meshforge.common import join_names, pluralize
-from meshforge.formats import collision_pieces, link_output, mesh_output
+from meshforge.formats import collision_pieces, conversion, element_edits, kinematic_tree, link_output, mesh_output
 from meshforge.formats.base import Loss, Output
-from meshforge.formats.conversion import note_hulled
-from meshforge.formats.element_edits import assign_names
-from meshforge.formats.kinematic_tree import LIGHT_INERTIAL
 from meshforge.formats.urdf import edit
 from meshforge.formats.urdf.document import VISUAL_SUFFIXES
 from meshforge.formats.xml import escape
@@ -39,7 +36,7 @@ class _Creator(link_output.LinkCreator):
     lead = b"    "
 
     def build_output(self) -> Output:
-        names = assign_names([output for own in self.outputs.values() for output in own], unique=True)
+        names = element_edits.assign_names([output for own in self.outputs.values() for output in own], unique=True)
         files = self.maker.files
         head = [b'<?xml version="1.0"?>', b'<robot name="%s">' % escape(files.stem)]
         links = [line for link in self.chain.frames for line in self._link_lines(link)]
@@ -68,7 +65,7 @@ class _Creator(link_output.LinkCreator):
     def _collect_notes(self) -> tuple[str, ...]:
         notes = [*self.chain.notes, *self.couplings.notes]
         written = {name for own in self.outputs.values() for output in own for name in output.names}
-        notes += note_hulled([p for p in self.asset.opaque if p.name in written], "MuJoCo and Bullet")
+        notes += conversion.note_hulled([p for p in self.asset.opaque if p.name in written], "MuJoCo and Bullet")
         sliding = [made for made in self.chain.joints if made.joint and made.joint.kind == "prismatic"]
         unlimited = join_names([made.name for made in sliding if made.joint and not made.joint.limits], 3)
         if unlimited:
@@ -77,7 +74,9 @@ class _Creator(link_output.LinkCreator):
             )
         if self.chain.light:
             light = join_names(self.chain.light, 3)
-            notes.append(f"links of {LIGHT_INERTIAL.mass:g} kg stand between joints of one body ({light})")
+            notes.append(
+                f"links of {kinematic_tree.LIGHT_INERTIAL.mass:g} kg stand between joints of one body ({light})"
+            )
         # of the name of the world, PyBullet knows that it has no mass
         if weightless := [link for link in self.weightless if link != "world"]:
             notes.append(

@@ -10,8 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from meshforge.common import AssetError, nearest_name
-from meshforge.formats.collision_pieces import CollisionElement
-from meshforge.formats.kinematic_tree import TENSOR_NAMES, read_numbers, tensor_of_moments
+from meshforge.formats import collision_pieces, kinematic_tree
 from meshforge.formats.references import Resolver
 from meshforge.formats.xml import Element, parse_xml
 from meshforge.geometry import Floats, Pose
@@ -30,7 +29,7 @@ class UrdfDocument(Document):
     """
 
     source: bytes
-    authored: tuple[CollisionElement, ...]
+    authored: tuple[collision_pieces.CollisionElement, ...]
     resolver: Resolver
     digests: tuple[tuple[Path, str], ...] = ()
 
@@ -72,7 +71,7 @@ def read_floats(
     given = f"<{element.tag} {attribute}={text!r}>"
     if "${" in text:
         raise AssetError(f"{given} is a xacro expression", where=place, remedy="Expand the file with xacro first.")
-    return read_numbers(text, count, given, place)
+    return kinematic_tree.read_numbers(text, count, given, place)
 
 
 def read_origin(element: Element, where: str) -> Pose:
@@ -237,7 +236,9 @@ def _read_inertial(name: str, link: Element, root_t_link: Pose) -> Inertial | No
     except AssetError:
         pose = root_t_link
     tensor = element.first("inertia")
-    inertia = tensor_of_moments(_read_number(tensor, name) or 0.0 for name in TENSOR_NAMES)
+    inertia = kinematic_tree.tensor_of_moments(
+        _read_number(tensor, name) or 0.0 for name in kinematic_tree.TENSOR_NAMES
+    )
     return Inertial(name, mass, pose.translation, pose.rotation @ inertia @ pose.rotation.T)
 
 

@@ -10,10 +10,7 @@ from typing import assert_never
 
 import numpy as np
 
-from meshforge.formats import base, collision_pieces, mesh_output, xml
-from meshforge.formats.element_edits import ElementEdits, ElementMaker, assign_names
-from meshforge.formats.kinematic_tree import LinkJoint, drop_rounding, name_moments, place_inertial
-from meshforge.formats.link_reader import CollisionMeshes, geometry_of
+from meshforge.formats import base, collision_pieces, element_edits, kinematic_tree, link_reader, mesh_output, xml
 from meshforge.formats.references import Resolver, add_copy, note_absolute, placement
 from meshforge.formats.urdf.document import UrdfDocument, collisions, parse_robot, references
 from meshforge.geometry import Box, Capsule, Cylinder, Pose, Shape, Sphere
@@ -57,7 +54,7 @@ def _place_lines(pose: Pose, tag: bytes) -> list[bytes]:
     return [origin_tag(pose), b"<geometry>", b"  " + tag, b"</geometry>"]
 
 
-def joint_lines(made: LinkJoint, coupling: Coupling | None) -> list[bytes]:
+def joint_lines(made: kinematic_tree.LinkJoint, coupling: Coupling | None) -> list[bytes]:
     """The lines of a `<joint>`, which may follow another one."""
     joint = made.joint
     kind = joint.kind if joint else "fixed"
@@ -69,7 +66,7 @@ def joint_lines(made: LinkJoint, coupling: Coupling | None) -> list[bytes]:
         b'    <child link="%s"/>' % xml.escape(made.child),
     ]
     if kind in ("revolute", "prismatic", "planar"):
-        lines.append(b'    <axis xyz="%s"/>' % _text_of(*drop_rounding(made.axis)))
+        lines.append(b'    <axis xyz="%s"/>' % _text_of(*kinematic_tree.drop_rounding(made.axis)))
     if joint and kind in ("revolute", "prismatic"):
         lower, upper = joint.limits or (-UNLIMITED_TRAVEL, UNLIMITED_TRAVEL)
         range_ = b"" if type_ == "continuous" else b'lower="%s" upper="%s" ' % (_text_of(lower), _text_of(upper))
@@ -87,8 +84,10 @@ def joint_lines(made: LinkJoint, coupling: Coupling | None) -> list[bytes]:
 
 def inertial_lines(inertial: Inertial, root_t_link: Pose) -> list[bytes]:
     """The lines of an `<inertial>`, its axes those of the link."""
-    centre, tensor = place_inertial(inertial, root_t_link)
-    moments = b" ".join(b'%s="%s"' % (name.encode(), _text_of(value)) for name, value in name_moments(tensor))
+    centre, tensor = kinematic_tree.place_inertial(inertial, root_t_link)
+    moments = b" ".join(
+        b'%s="%s"' % (name.encode(), _text_of(value)) for name, value in kinematic_tree.name_moments(tensor)
+    )
     return [
         b"    <inertial>",
         b"      " + origin_tag(Pose.of_translation(centre)),
@@ -130,14 +129,14 @@ def write_urdf(asset: Asset, document: UrdfDocument, name: str, *, capsules: boo
     robot = parse_robot(text.data, str(asset.path))
     files = mesh_output.HullFiles(Path(name).stem, document.resolver)
     files.avoid(references(robot))
-    meshes = CollisionMeshes(document.digests)
+    meshes = link_reader.CollisionMeshes(document.digests)
     elements = [element for _, element in collisions(robot)]
-    has_capsule = any(kind.tag == "capsule" for element in elements if (kind := geometry_of(element)))
+    has_capsule = any(kind.tag == "capsule" for element in elements if (kind := link_reader.geometry_of(element)))
     maker = UrdfElementMaker("URDF", text.data, files, meshes=meshes, capsules=capsules or has_capsule)
     maker.folder = maker.find_folder(elements)
     links = {link.attributes["name"]: link for link in robot.each("link")}
-    plan = ElementEdits(asset, document.authored, elements, links, maker)
-    names = assign_names(plan.outputs, unique=True)
+    plan = element_edits.ElementEdits(asset, document.authored, elements, links, maker)
+    names = element_edits.assign_names(plan.outputs, unique=True)
     data = xml.apply_splices(text.data, plan.splices)
     main = document.source if data == text.data else text.encode(data)
     copies, far = _list_copies(parse_robot(data, str(asset.path)), document.resolver)
@@ -160,7 +159,7 @@ def _list_copies(robot: xml.Element, resolver: Resolver) -> tuple[dict[str, Path
 
 
 @dataclass(eq=False)
-class UrdfElementMaker(ElementMaker):
+class UrdfElementMaker(element_edits.ElementMaker):
     """Makes elements for one document; capsules: whether they are written as such."""
 
     capsules: bool = False
@@ -186,7 +185,7 @@ class UrdfElementMaker(ElementMaker):
         self, collision: xml.Element, pose: Pose, kind: Sequence[bytes], reference: str | None
     ) -> tuple[xml.Splice, ...]:
         """Where the element has a mesh and gets one, the other attributes of that stay."""
-        old = geometry_of(collision)
+        old = link_reader.geometry_of(collision)
         assert old is not None  # only elements with pieces are copied
         origin = xml.replace_or_insert(self.data, collision, "origin", "geometry", origin_tag(pose))
         if reference is None or old.tag != "mesh":
@@ -195,7 +194,7 @@ class UrdfElementMaker(ElementMaker):
         return (origin, xml.set_attribute(self.data, old, "filename", reference), *scale)
 
     def extract_piece(self, element: xml.Element, name: str, k: int) -> tuple[xml.Splice, ...]:
-        mesh = geometry_of(element)
+        mesh = link_reader.geometry_of(element)
         assert mesh is not None  # only meshes have several pieces
         piece, made = self.make_piece(mesh.attributes["filename"], (), name, k)
         if piece.shape is None and collision_pieces.is_flat(piece.vertices):

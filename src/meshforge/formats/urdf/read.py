@@ -8,9 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from meshforge.common import AssetError, join_names, plain_path, pluralize
-from meshforge.formats import base, mesh_reader
-from meshforge.formats.collision_pieces import CollisionPiece, build_primitive, turn_z_to
-from meshforge.formats.link_reader import CollisionMeshes, Link, LinkReader
+from meshforge.formats import base, collision_pieces, link_reader, mesh_reader
 from meshforge.formats.references import Resolver, find_all
 from meshforge.formats.urdf import document
 from meshforge.formats.urdf.document import UrdfLinks, read_links, read_mechanism
@@ -32,7 +30,9 @@ def read_urdf(path: Path, options: base.ReadOptions, source: bytes | None = None
     robot = document.parse_robot(XmlText.of(source).data, where)
     placed = read_links(robot, where)
     resolver = Resolver(plain_path(path).parent, tuple(map(plain_path, options.package_roots)))
-    links = [Link(name, link, placed.poses[name], where, resolver) for name, link in placed.elements.items()]
+    links = [
+        link_reader.Link(name, link, placed.poses[name], where, resolver) for name, link in placed.elements.items()
+    ]
     reader = _UrdfReader(robot, where)
     collisions = reader.read_collisions(links)
     files, missing = find_all(document.references(robot), resolver)
@@ -51,14 +51,14 @@ def read_urdf(path: Path, options: base.ReadOptions, source: bytes | None = None
     )
 
 
-class _UrdfReader(LinkReader):
+class _UrdfReader(link_reader.LinkReader):
     def __init__(self, robot: Element, where: str) -> None:
-        super().__init__(CollisionMeshes())
+        super().__init__(link_reader.CollisionMeshes())
         named = [e for e in robot.walk() if e.tag == "material" and "name" in e.attributes]
         found = ((material.attributes["name"], _read_rgba(material.first("color"), where)) for material in named)
         self.colors = {name: color for name, color in found if color is not None}
 
-    def place(self, link: Link, element: Element) -> Pose:
+    def place(self, link: link_reader.Link, element: Element) -> Pose:
         return link.pose @ document.read_origin(element, link.where)
 
     def reference_of(self, mesh: Element) -> str:
@@ -70,7 +70,7 @@ class _UrdfReader(LinkReader):
         scale = document.read_floats(mesh, "scale", 1 if single else 3, where, (1.0, 1.0, 1.0))
         return np.broadcast_to(scale, (3,)), f"scale={mesh.attributes.get('scale')!r}"
 
-    def read_shape(self, element: Element, kind: Element, pose: Pose, where: str) -> CollisionPiece:
+    def read_shape(self, element: Element, kind: Element, pose: Pose, where: str) -> collision_pieces.CollisionPiece:
         match kind.tag:
             case "box":
                 sizes = document.read_floats(kind, "size", 3, where)
@@ -79,11 +79,11 @@ class _UrdfReader(LinkReader):
             case "cylinder" | "capsule":
                 sizes = np.concatenate([document.read_floats(kind, name, 1, where) for name in ("radius", "length")])
             case "plane":
-                turn = turn_z_to(document.read_floats(kind, "normal", 3, where, _UP))
-                return CollisionPiece(None, "a plane has no end", plane=pose @ turn)
+                turn = collision_pieces.turn_z_to(document.read_floats(kind, "normal", 3, where, _UP))
+                return collision_pieces.CollisionPiece(None, "a plane has no end", plane=pose @ turn)
             case _:
-                return CollisionPiece(None, f"<{kind.tag}> is no geometry that is known")
-        return build_primitive(kind.tag, sizes, pose)
+                return collision_pieces.CollisionPiece(None, f"<{kind.tag}> is no geometry that is known")
+        return collision_pieces.build_primitive(kind.tag, sizes, pose)
 
     def read_color(self, visual: Element, where: str) -> Rgba | None:
         material = visual.first("material")
