@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 import mujoco
 import numpy as np
@@ -66,18 +65,6 @@ def test_mujoco_collides_with_the_same_geoms_before_and_after(tmp_path: Path, sh
     assert [body for body, _, _ in colliding(saved.path)] == ["base", "tip"]
     (said,) = (note for note in saved.notes if "MuJoCo will collide" in note)
     assert said.endswith("MuJoCo will collide with its hull (71% full)")
-
-
-def test_a_dropped_body_rests_on_what_collides(tmp_path: Path) -> None:
-    """Not so where nothing of it collides: it falls through the floor."""
-    saved = convert(write_arm(tmp_path), tmp_path / "out" / "arm.xml")
-    spec = mujoco.MjSpec.from_file(str(saved.path))
-    spec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_PLANE, size=[0, 0, 1], pos=[0, 0, -2])
-    spec.body("base").add_freejoint()
-    model: Any = spec.compile()
-    data = mujoco.MjData(model)
-    mujoco.mj_step(model, data, 2000)
-    assert data.body("base").xpos[2] == pytest.approx(-2, abs=0.01)
 
 
 @pytest.mark.parametrize("between", [".sdf", ".usda", ".glb"])

@@ -12,7 +12,6 @@ import pytest
 import yourdfpy
 
 from meshforge.formats import SaveResult, read, save
-from meshforge.formats.urdf.edit import CAPSULE_READERS
 from meshforge.geometry import (
     Aabb,
     Box,
@@ -115,13 +114,6 @@ def test_yourdfpy_finds_it_in_a_urdf(kind: str, tmp_path: Path) -> None:
     tube = found.geometry.cylinder
     sizes = [tube.radius, tube.length / 2] if tube else [found.geometry.sphere.radius]
     assert_in_place(shape, sizes, found.origin[:3, 3], found.origin[:3, 2])
-
-
-def test_in_a_urdf_a_capsule_is_a_hull_and_noted(tmp_path: Path) -> None:
-    saved, shape = edited(tmp_path, "stool.urdf", "capsule")
-    made = made_geom(saved)
-    assert saved.notes == (f"{CAPSULE_READERS}: {made.name!r} is written as a hull of 50 vertices",)
-    assert_is_hull_of(made.shape, shape)
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from lxml import etree
 
-from meshforge.formats import convert, load, read, save
+from meshforge.formats import read, save
 from meshforge.geometry import Box, Pose
 from meshforge.symbolic import Geom
 
@@ -54,12 +54,6 @@ def test_made_up_names_do_not_repeat_from_link_to_link(tmp_path: Path, source: s
     assert warned(saved.path) == []
     after = {geom.name for geom in read(saved.path).geoms}
     assert after == {saved.names.get(geom.name, geom.name) for geom in read(path).geoms}
-
-
-def test_labels_go_along_where_a_name_goes(tmp_path: Path) -> None:
-    mesh = load(tower(tmp_path, "ab"), labels={"a/geom1": "foot", "b/geom1": "top"})
-    saved = convert(mesh, tmp_path / "out" / "t.urdf")
-    assert {hull.body: hull.label for hull in load(saved.path).hulls if hull.label} == {"a": "foot", "b": "top"}
 
 
 LINK = '<link name="{}">{}{}</link>'

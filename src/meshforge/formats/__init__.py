@@ -7,8 +7,8 @@ from meshforge.common.exports import export_lazily
 __getattr__, __all__ = export_lazily(
     __name__,
     {
+        "assets_with_labels": "convert labels_beside load load_many to_mesh to_mjspec",
         "base": "Collision Format Loss Mass Output ReadOptions",
-        "convert_asset": "convert to_mjspec",
         "decompose_mesh": "DecomposeBy decompose label_surface read_surface",
         "engine_names.conventions": "EngineName MarkName",
         "mesh_reader": "read_triangles split_into_pieces",
@@ -19,8 +19,8 @@ __getattr__, __all__ = export_lazily(
         "plain.parts": "MeshPart",
         "registry": (
             "FORMATS FORMATS_BY_SUFFIX MARKED_FORMATS MESH_SUFFIXES NO_GEOMETRY SUFFIXES Source all_suffixes "
-            "format_for format_of format_with_names is_asset is_description labels_beside load load_many "
-            "notes_after path_of plugin_of_suffix read resolve_asset_path to_mesh"
+            "format_for format_of format_with_names is_asset is_description notes_after path_of "
+            "plugin_of_suffix read resolve_asset_path"
         ),
         "segmentation.parts": "PointAlignment SegmentationFile align_points read_parts",
         "segmentation.reader": "POINTS_SUFFIXES points_beside read_segmentation",

@@ -1,27 +1,23 @@
-"""The collision geometry of a description as a reader finds it: its mesh files, found, read once each and cut, and its
-pieces, convex shapes or surfaces in the root frame, under the names that they carry.
-"""
+"""The collision geometry of a file as a reader finds it: its pieces, convex shapes or surfaces in the root frame, under
+the names that they carry."""
 
 from __future__ import annotations
 
 import posixpath
-from collections.abc import Callable, Container, Hashable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Container, Hashable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
 from meshforge import geometry
-from meshforge.common import AssetError, GeometryError, MeshForgeError, file_digest
-from meshforge.formats.mesh_reader import read_triangles, split_into_pieces
+from meshforge.common import AssetError, GeometryError, file_digest
 from meshforge.formats.meshfile.surface import RawSurface
-from meshforge.formats.references import Resolver
 from meshforge.formats.surface_parts import parts_of_surfaces
-from meshforge.formats.xml import format_numbers
+from meshforge.formats.xml import Element, format_numbers
 from meshforge.geometry import FLATNESS, Floats, Ints, Piece, Pose, Shape, Sphere, principal_extents
 from meshforge.symbolic import Asset, Geom, Mentions, NonConvexPiece, Surface, unique_names
 
-_LEAST_SCALE = 1e-12  # a factor that is taken for zero
 _NO_LENGTH = 1e-9  # of the radius, for a capsule
 _RING = 32  # corners of each end of a tapered cylinder
 
@@ -54,9 +50,8 @@ class CollisionElement:
 
 
 ElementPieces = Sequence[Sequence[CollisionPiece]]
-"""The pieces of each element, in order."""
 ElementMentions = Sequence[Sequence[Mentions]]
-"""What else the file calls each of them."""
+"""The pieces of each element, in order, and what else the file calls each of them."""
 
 
 def place_pieces(
@@ -87,13 +82,6 @@ def is_flat(vertices: Floats) -> bool:
     """Whether points (n, 3) span no volume to speak of; MuJoCo refuses a mesh of such points."""
     extents = principal_extents(vertices)[2]
     return bool(extents.min() <= FLATNESS * extents.max())
-
-
-def refuse_zero_scale(scale: Floats, label: str, given: str, place: str) -> None:
-    """Raise AssetError where a factor by which the mesh of a collision is scaled is zero."""
-    if np.abs(scale).min() < _LEAST_SCALE:
-        problem = f"collision {label!r} is scaled to nothing: {given}"
-        raise AssetError(problem, where=place, remedy="Give every axis a factor that is not zero.")
 
 
 def turn_z_to(normal: Floats) -> Pose:
@@ -183,6 +171,34 @@ def name_pieces(bases: Iterable[tuple[str, int]]) -> list[tuple[str, ...]]:
     return [tuple(next(unique) for _ in names) for names in each]
 
 
+def name_element_pieces(elements: Sequence[tuple[str | None, str | None, int]]) -> list[tuple[str, ...]]:
+    """The names that the pieces of collision elements read as; for each element its link, own name and pieces.
+
+    `link/name`, without a link for None; `geomK` for the K-th element of a link where it has no name; `#k` for one of
+    several pieces.
+    """
+    count: dict[str | None, int] = {}
+    bases = []
+    for link, name, _ in elements:
+        own = name or f"geom{count.get(link, 0)}"
+        bases.append(own if link is None else f"{link}/{own}")
+        count[link] = count.get(link, 0) + 1
+    return name_pieces(zip(unique_names(bases), (pieces for _, _, pieces in elements), strict=True))
+
+
+def own_name_of(names: tuple[str, ...], body: str | None) -> str:
+    """The name of an element whose pieces are to have names: that of the first, without body and `#0`."""
+    name = names[0].removeprefix(f"{body}/")
+    return name if len(names) == 1 else name.removesuffix("#0")
+
+
+def name_elements(found: Iterable[tuple[str, Element]], pieces: Iterable[int]) -> tuple[CollisionElement, ...]:
+    """Collisions with the names of their pieces; found: of each its link and its element; pieces: how many it has."""
+    own = [(link, e.attributes.get("name"), count) for (link, e), count in zip(found, pieces, strict=True)]
+    named = zip(own, name_element_pieces(own), strict=True)
+    return tuple(CollisionElement(link, names) for (link, _, _), names in named)
+
+
 def element_of(names: Sequence[str]) -> str:
     """The name of an element of several pieces by theirs; empty where it has one."""
     return names[0].removesuffix("#0") if len(names) > 1 else ""
@@ -190,10 +206,10 @@ def element_of(names: Sequence[str]) -> str:
 
 def geoms_of(authored: Sequence[CollisionElement], parts: ElementPieces, mentions: ElementMentions) -> tuple[Geom, ...]:
     """The pieces that are hulls."""
-    pieces = _iterate_pieces(authored, parts, mentions)
     return tuple(
-        Geom(name, one.link, part.shape, mentions=own, element=one.element, fill=part.fill)
-        for name, one, part, own in pieces
+        Geom(name, one.link, part.shape, mentions=mention_of, element=one.element, fill=part.fill)
+        for one, own, words in zip(authored, parts, mentions, strict=True)
+        for name, part, mention_of in zip(one.names, own, words, strict=True)
         if part.shape
     )
 
@@ -203,18 +219,11 @@ def non_convex_of(
 ) -> tuple[NonConvexPiece, ...]:
     """The pieces that are no hulls."""
     return tuple(
-        NonConvexPiece(name, one.link, part.reason, part.surface, part.plane, own, one.element)
-        for name, one, part, own in _iterate_pieces(authored, parts, mentions)
+        NonConvexPiece(name, one.link, part.reason, part.surface, part.plane, mention_of, one.element)
+        for one, own, words in zip(authored, parts, mentions, strict=True)
+        for name, part, mention_of in zip(one.names, own, words, strict=True)
         if part.shape is None
     )
-
-
-def _iterate_pieces(
-    authored: Sequence[CollisionElement], parts: ElementPieces, mentions: ElementMentions
-) -> Iterator[tuple[str, CollisionElement, CollisionPiece, Mentions]]:
-    for element, own, words in zip(authored, parts, mentions, strict=True):
-        for name, part, mention_of in zip(element.names, own, words, strict=True):
-            yield name, element, part, mention_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -277,123 +286,6 @@ def drop_repeats(found: Iterable[tuple[str, str | None]]) -> Mentions:
 def stem_of(reference: str) -> str:
     """The name of a file that is referred to, without folder and suffix."""
     return posixpath.splitext(posixpath.basename(reference.replace("\\", "/").strip()))[0]
-
-
-_SHOWN = 120  # characters of a reference in a message
-
-SurfaceSelector = Callable[[Sequence[RawSurface], tuple[str, ...]], Sequence[RawSurface]]
-"""What a `MeshUse.part` stands for among the surfaces of a file."""
-
-
-@dataclass(frozen=True, slots=True)
-class MeshUse:
-    """A collision element that refers to a mesh file; label: its name in messages; place: `file:line`.
-
-    part: what of the file it uses, which the `select` of `CollisionMeshes` finds; empty for all of it.
-    """
-
-    label: str
-    reference: str
-    place: str
-    resolver: Resolver
-    part: tuple[str, ...] = ()
-
-    @property
-    def path(self) -> Path:
-        """The file; only of one that `refuse_missing` let pass."""
-        path = self.resolver.find(self.reference)
-        assert path is not None
-        return path
-
-
-def refuse_missing(uses: Iterable[MeshUse]) -> None:
-    """Raise AssetError where files are not there: the first, and how many more."""
-    missing: list[MeshUse] = []
-    for use in uses:
-        if not use.reference:
-            raise AssetError(f"collision {use.label!r} names no mesh file", where=use.place)
-        if use.resolver.find(use.reference) is None:
-            missing.append(use)
-    if missing:
-        first, others = missing[0], f" (and {len(missing) - 1} more like it)" if len(missing) > 1 else ""
-        shown = first.reference if len(first.reference) <= _SHOWN else f"{first.reference[:_SHOWN]}..."
-        problem = f"the mesh {shown!r} of collision {first.label!r} is not there{others}"
-        raise AssetError(problem, where=first.place, remedy=first.resolver.advice(first.reference))
-
-
-class CollisionMeshes:
-    """The mesh files of one asset; select: what elements use of them."""
-
-    def __init__(self, select: SurfaceSelector = lambda surfaces, _: surfaces) -> None:
-        self._select = select
-        self._files: dict[Path, Sequence[RawSurface]] = {}
-        self._surfaces: dict[tuple[Path, tuple[str, ...]], Sequence[RawSurface]] = {}
-        self._pieces: dict[tuple[Path, tuple[str, ...]], list[Piece]] = {}
-
-    def surfaces(self, use: MeshUse) -> Sequence[RawSurface]:
-        """What an element uses of a file that is there.
-
-        Raises AssetError naming the element and the mesh file: it cannot be read, or a number in it is not finite.
-        """
-        key = use.path, use.part
-        if key not in self._surfaces:
-            try:
-                if use.path not in self._files:
-                    self._files[use.path] = read_triangles(use.path)
-                self._surfaces[key] = self._select(self._files[use.path], use.part)
-            except MeshForgeError as error:
-                raise AssetError(f"collision {use.label!r}: {error.message}", where=use.place) from error
-        return self._surfaces[key]
-
-    def pieces(self, use: MeshUse) -> list[Piece]:
-        """The pieces of what an element uses, in the unit of the file. Raises AssetError as `surfaces` does."""
-        key = use.path, use.part
-        if key not in self._pieces:
-            surfaces = self.surfaces(use)
-            try:
-                self._pieces[key] = split_into_pieces(surfaces, name=str(use.path))
-            except MeshForgeError as error:
-                raise AssetError(f"collision {use.label!r}: {error.message}", where=use.place) from error
-        return self._pieces[key]
-
-    def mention_groups(self, use: MeshUse | None, common: Mentions, count: int) -> list[Mentions]:
-        """What is said of each piece of an element, of several of a file also the name of its group or node."""
-        pieces = self._pieces.get((use.path, use.part)) if use else None
-        if not use or not pieces:
-            return [common] * count
-        groups = [self._surfaces[use.path, use.part][piece.group].name for piece in pieces]
-        return [(("group", group), *common) if group else common for group in groups]
-
-    def digests(self) -> tuple[tuple[Path, str], ...]:
-        """Digests of the files that hold several pieces, which an edit may have to part."""
-        several = dict.fromkeys(path for (path, _), pieces in self._pieces.items() if len(pieces) > 1)
-        return tuple((path, file_digest(path)) for path in several)
-
-
-class SourceMeshes:
-    """The mesh files of an asset when it is written; digests: of those that may have to be parted, as they were.
-
-    select: what elements use of them.
-    """
-
-    def __init__(
-        self, digests: Iterable[tuple[Path, str]], where: str, select: SurfaceSelector = lambda surfaces, _: surfaces
-    ) -> None:
-        self._digests, self._where, self._select = dict(digests), where, select
-        self._surfaces: dict[Path, Sequence[RawSurface]] = {}
-        self._pieces: dict[tuple[str, Resolver, tuple[str, ...]], list[Piece]] = {}
-
-    def pieces(self, reference: str, resolver: Resolver, part: tuple[str, ...]) -> list[Piece]:
-        """The pieces of what an element uses of a file. Raises AssetError where it has changed since it was read."""
-        key = reference, resolver, part
-        if key not in self._pieces:
-            path = resolver.find(reference)
-            if path is None or file_digest(path) != self._digests.get(path):
-                raise change_error(f"the mesh {reference!r}", self._where)
-            if path not in self._surfaces:
-                self._surfaces[path] = read_triangles(path)
-            self._pieces[key] = split_into_pieces(self._select(self._surfaces[path], part), name=reference)
-        return self._pieces[key]
 
 
 def change_error(what: str, where: str) -> AssetError:

@@ -3,7 +3,7 @@ the joint that drives them, and a report says what that format does not hold."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from math import floor
 from pathlib import Path
@@ -47,14 +47,31 @@ def report_conversion(
     asset: Asset, source: Format | None, target: Format, output: Output, remarks: Iterable[str] = ()
 ) -> ConversionReport:
     """The report on an asset of the format `source` (None: of memory) that `target` has made the output of."""
-    own = [*output.lost, *_find_renamed(output, target), *_find_faded_materials(asset, target)]
-    features = [_subtract_losses(feature, own) for feature in (*features_of(asset), *_visual_features(asset))]
+    own = [*output.lost, *_find_faded_materials(asset, target)]
+    if output.names and FeatureKind.NAMES in target.holds:
+        now = join_names(list(output.names.values()), 3)
+        why = f"{'it reads' if len(output.names) == 1 else 'they read'} back as {now}"
+        own.insert(len(output.lost), Loss(FeatureKind.NAMES, tuple(output.names), why, "written otherwise"))
+    visuals = asset.visuals
+    shown: Sequence[Surface | Visual] = visuals.visuals if isinstance(visuals, VisualSurfaces) else visuals
+    of_visuals = (
+        _body_feature(FeatureKind.VISUALS, [visual.body for visual in shown]),
+        _body_feature(FeatureKind.COLORS, [visual.body for visual in shown if visual.rgba is not None]),
+    )
+    features = [f for feature in (*features_of(asset), *of_visuals) if (f := _subtract_losses(feature, own)).count]
     # a creator sees the asset, not the document: what only that holds is never converted
     beyond = [feature for feature in (source.features(asset) if source else ()) if feature.count]
-    lost = [f for f in features if f.count and f.kind not in target.holds]
+    lost: dict[tuple[FeatureKind, str, str | None], list[Loss]] = {}
+    for loss in own:
+        lost.setdefault((loss.kind, loss.why, loss.instead), []).append(loss)
+    merged = (
+        Loss(kind, tuple(n for one in each for n in one.names), why, instead, sum(one.unnamed for one in each))
+        for (kind, why, instead), each in lost.items()
+    )
+    unheld = (_explain_loss(f, target) for f in (*(f for f in features if f.kind not in target.holds), *beyond))
     return ConversionReport(
-        kept=tuple(f for f in features if f.count and f.kind in target.holds),
-        lost=(*(_explain_loss(f, target) for f in (*lost, *beyond) if f.count), *_merge_losses(own)),
+        kept=tuple(f for f in features if f.kind in target.holds),
+        lost=(*unheld, *merged),
         remarks=(*remarks, *output.notes),
         marked=not (isinstance(source, SceneFormat) and source.is_unmarked(asset)),
     )
@@ -73,21 +90,6 @@ def _explain_loss(feature: Feature, target: Format) -> Loss:
     return Loss(feature.kind, feature.names, feature.reason or why, instead, feature.unnamed)
 
 
-def _find_renamed(output: Output, target: Format) -> list[Loss]:
-    if not output.names or FeatureKind.NAMES not in target.holds:
-        return []
-    now = join_names(list(output.names.values()), 3)
-    why = f"{'it reads' if len(output.names) == 1 else 'they read'} back as {now}"
-    return [Loss(FeatureKind.NAMES, tuple(output.names), why, "written otherwise")]
-
-
-def _visual_features(asset: Asset) -> Iterator[Feature]:
-    visuals = asset.visuals
-    shown: Sequence[Surface | Visual] = visuals.visuals if isinstance(visuals, VisualSurfaces) else visuals
-    yield _body_feature(FeatureKind.VISUALS, [visual.body for visual in shown])
-    yield _body_feature(FeatureKind.COLORS, [visual.body for visual in shown if visual.rgba is not None])
-
-
 def _find_faded_materials(asset: Asset, target: Format) -> list[Loss]:
     """Mesh files of visuals whose own materials the target does not show, though it has the shapes."""
     if FeatureKind.VISUALS not in target.holds or not isinstance(asset.visuals, VisualSurfaces):
@@ -102,16 +104,6 @@ def _find_faded_materials(asset: Asset, target: Format) -> list[Loss]:
     instead = "shown with one picture or base colour a mesh" if target.has_pictures else "shown without these"
     why = f"MeshForge does not convert the rest of materials to {target.title}"
     return [Loss(FeatureKind.MESH_MATERIALS, tuple(faded), why, instead)] if faded else []
-
-
-def _merge_losses(losses: Sequence[Loss]) -> list[Loss]:
-    alike: dict[tuple[FeatureKind, str, str | None], list[Loss]] = {}
-    for loss in losses:
-        alike.setdefault((loss.kind, loss.why, loss.instead), []).append(loss)
-    return [
-        Loss(what, tuple(n for one in each for n in one.names), why, instead, sum(one.unnamed for one in each))
-        for (what, why, instead), each in alike.items()
-    ]
 
 
 def _body_feature(what: FeatureKind, bodies: list[str | None]) -> Feature:
@@ -136,39 +128,33 @@ def turn_upright(asset: Asset, source: Format | None, target: Format) -> tuple[A
     return turn_asset(asset, turn), (remark,)
 
 
-def _turn_non_convex(piece: NonConvexPiece, turn: Pose) -> NonConvexPiece:
-    surface = _turn_surface(piece.surface, turn) if piece.surface else None
-    return replace(piece, surface=surface, plane=turn @ piece.plane if piece.plane else None)
-
-
 def turn_asset(asset: Asset, turn: Pose) -> Asset:
     """The asset in another root frame, new_T_old; frames of bodies are turned along, so that a root stays one."""
-    back = turn.inverse()
+
+    def turn_surface(surface: Surface) -> Surface:
+        return replace(surface, vertices=turn.apply(surface.vertices))
+
+    back, visuals = turn.inverse(), asset.visuals
     return replace(
         asset,
         bodies=tuple(Body(body.name, turn @ body.pose @ back) for body in asset.bodies),
         geoms=tuple(replace(geom, shape=geom.shape.move(turn)) for geom in asset.geoms),
-        non_convex=tuple(_turn_non_convex(piece, turn) for piece in asset.non_convex),
-        visuals=_turn_visuals(asset.visuals, turn),
+        non_convex=tuple(
+            replace(o, surface=o.surface and turn_surface(o.surface), plane=o.plane and turn @ o.plane)
+            for o in asset.non_convex
+        ),
+        visuals=VisualSurfaces(tuple(visual.move(turn) for visual in visuals.visuals))
+        if isinstance(visuals, VisualSurfaces)
+        else tuple(map(turn_surface, visuals)),
         mechanism=asset.mechanism.move(turn),
     )
-
-
-def _turn_visuals(visuals: Sequence[Surface], turn: Pose) -> Sequence[Surface]:
-    if isinstance(visuals, VisualSurfaces):
-        return VisualSurfaces(tuple(visual.move(turn) for visual in visuals.visuals))
-    return tuple(_turn_surface(surface, turn) for surface in visuals)
-
-
-def _turn_surface(surface: Surface, turn: Pose) -> Surface:
-    return replace(surface, vertices=turn.apply(surface.vertices))
 
 
 def note_hulled(pieces: Sequence[NonConvexPiece], engines: str) -> list[str]:
     """A note on pieces of which engines make hulls: which, and the share of its hull that each fills."""
     if not pieces:
         return []
-    found = [measure_fill(piece.surface) for piece in pieces if piece.surface]
+    found = [_measure_fill(piece.surface) for piece in pieces if piece.surface]
     shares = sorted({floor(100 * share) for share in found if share is not None})  # as the reader says it
     full = f" ({'% to '.join(map(str, dict.fromkeys((shares[0], shares[-1]))))}% full)" if shares else ""
     which = f"{pluralize(len(pieces), 'non-convex piece')} ({join_names([piece.name for piece in pieces], 3)})"
@@ -176,7 +162,7 @@ def note_hulled(pieces: Sequence[NonConvexPiece], engines: str) -> list[str]:
     return [f"{each}{which} is written as it is: {engines} will collide with its hull{full}"]
 
 
-def measure_fill(surface: Surface) -> float | None:
+def _measure_fill(surface: Surface) -> float | None:
     """The share of its convex hull that a surface encloses; None where it is open, or its hull has no volume."""
     volume = volume_inside(surface.vertices, surface.faces)
     try:

@@ -11,14 +11,15 @@ from typing import Literal, get_args
 
 from meshforge import geometry
 from meshforge.common import UsageError, join_names
+from meshforge.formats.assets_with_labels import labels_beside
 from meshforge.formats.mesh_reader import read_triangles
 from meshforge.formats.meshfile.surface import RawSurface, check_surfaces, stack_triangles
-from meshforge.formats.registry import format_of, labels_beside
+from meshforge.formats.registry import format_of
 from meshforge.formats.segmentation.parts import SegmentationFile, read_parts
 from meshforge.formats.segmentation.reader import POINTS_MARK, points_beside
 from meshforge.formats.surface_parts import parts_of_surfaces, plain_part_name
 from meshforge.formats.trimesh_meshes import WHERE, TrimeshObject, list_surfaces
-from meshforge.geometry import CoacdSettings, DecomposeSettings, Polytope, Pose, SurfaceParts
+from meshforge.geometry import CoacdSettings, DecomposeSettings, Pose, SurfaceParts
 from meshforge.symbolic import Asset, Body, Document, Geom, Surface, SymbolicMesh, unique_names
 
 DecomposeBy = Literal["whole", "parts", "labels"]
@@ -76,7 +77,9 @@ def decompose(
         )
         names = _number(["hull"] * len(hulls))
         notes += _describe_parts(known, by)
-    return SymbolicMesh.of(_to_asset(path, names, hulls, notes))
+    geoms = tuple(Geom(name, "body", hull) for name, hull in zip(names, hulls, strict=True))
+    body = Body("body", Pose.identity())
+    return SymbolicMesh.of(Asset(path, "decomposition", (body,), geoms, Document(), notes=tuple(notes)))
 
 
 def read_surface(mesh: str | os.PathLike[str] | TrimeshObject) -> tuple[Path, Surface]:
@@ -134,8 +137,3 @@ def _describe_parts(known: SurfaceParts | None, by: DecomposeBy) -> list[str]:
     if known and known.is_divided:
         return [f"a hull may hold several of its parts ({join_names(names, 3)}); --by parts keeps them apart"]
     return []
-
-
-def _to_asset(path: Path, names: Sequence[str], hulls: Sequence[Polytope], notes: Sequence[str]) -> Asset:
-    geoms = tuple(Geom(name, "body", hull) for name, hull in zip(names, hulls, strict=True))
-    return Asset(path, "decomposition", (Body("body", Pose.identity()),), geoms, Document(), notes=tuple(notes))

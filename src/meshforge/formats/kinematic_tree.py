@@ -4,7 +4,7 @@ joint."""
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -96,53 +96,32 @@ class LinkJoint:
     axis: Floats
 
 
-@dataclass(frozen=True, slots=True)
-class JointRules:
-    """What a format makes of joints; kinds: those that it has, others are made of simpler ones.
-
-    world: whether links can be joined to a world that is no link. Without one, the root link stands for it.
-    """
-
-    kinds: Collection[JointKind]
-    world: bool = False
-
-
-@dataclass(slots=True)
 class KinematicChain:
-    """The links, and what leads to them.
+    """The links of an asset's bodies, and what leads to them.
 
     frames: root_T_link of each link in the order of the file; joints: one for each link but the root; light: links
-    that stand between two joints of one body; of_body: the link of each body.
+    that stand between two joints of one body; of_body: the link of each body. The root link is in the root frame: the
+    first body that is a root there, else a link of its own.
     """
 
-    frames: dict[str, Pose] = field(default_factory=dict)
-    joints: list[LinkJoint] = field(default_factory=list)
-    light: list[str] = field(default_factory=list)
-    of_body: dict[str, str] = field(default_factory=dict)
-    lost: list[Loss] = field(default_factory=list)
-    notes: list[str] = field(default_factory=list)
+    def __init__(self, asset: Asset, bare: set[str], kinds: Collection[JointKind], has_world: bool) -> None:
+        """Build the chain; bare: bodies that have nothing, of which a root can be left out.
 
-
-def build_chain(asset: Asset, bare: Iterable[str], rules: JointRules) -> KinematicChain:
-    """The chain of an asset's bodies; bare: those that have nothing, of which a root can be left out.
-
-    The root link is in the root frame: the first body that is a root there, else a link of its own.
-    """
-    return _ChainBuilder(asset, set(bare), rules).chain
-
-
-class _ChainBuilder:
-    def __init__(self, asset: Asset, bare: set[str], rules: JointRules) -> None:
-        self.rules = rules
-        self.poses: Mapping[str, Pose] = asset.body_poses
-        self.tree = BodyTree.of(asset)
-        self.chain = KinematicChain()
-        self.links = set(self.poses)
-        self.joint_names = self.tree.joint_names
-        self.dropped = None if rules.world else self._find_idle_root(bare)
-        self.root = self._add_root()
-        for body in self.tree.order:
-            if body != self.dropped and body not in self.chain.frames:
+        kinds: the joints that the format has, others are made of simpler ones; has_world: whether links can be joined
+        to a world that is no link, for which else the root link stands.
+        """
+        self.frames: dict[str, Pose] = {}
+        self.joints: list[LinkJoint] = []
+        self.light: list[str] = []
+        self.of_body: dict[str, str] = {}
+        self.lost: list[Loss] = []
+        self.notes: list[str] = []
+        self._kinds, self._poses, self._tree = kinds, asset.body_poses, BodyTree.of(asset)
+        self._links, self._joint_names = set(self._poses), self._tree.joint_names
+        self._dropped = None if has_world else self._find_idle_root(bare)
+        self._root = self._add_root()
+        for body in self._tree.order:
+            if body != self._dropped and body not in self.frames:
                 self._add_body(body)
 
     def _find_idle_root(self, bare: set[str]) -> str | None:
@@ -150,69 +129,69 @@ class _ChainBuilder:
 
         Whether its root link is free or fixed to the world is for the loader of a URDF to say.
         """
-        roots = self.tree.roots
-        below = [body for body in self.tree.order if self.tree.parent(body) == roots[0]]
+        roots = self._tree.roots
+        below = [body for body in self._tree.order if self._tree.parent(body) == roots[0]]
         if len(roots) != 1 or roots[0] not in bare or len(below) != 1:
             return None
-        joints = self.tree.joints[below[0]]
+        joints = self._tree.joints[below[0]]
         if [joint.kind for joint in joints] == ["floating"]:
-            self.chain.notes.append(
+            self.notes.append(
                 f"{below[0]!r} moves freely: it is the root link, which a URDF leaves to its loader to fix or not; "
                 "MuJoCo fixes it, PyBullet does with useFixedBase"
             )
             name, why = joints[0].name, "the root link of a URDF has none"
-            self.chain.lost.append(Loss(FeatureKind.JOINTS, (name,) if name else (), why, unnamed=int(not name)))
+            self.lost.append(Loss(FeatureKind.JOINTS, (name,) if name else (), why, unnamed=int(not name)))
         elif any(joint.kind != "fixed" for joint in joints):
             return None
         return roots[0]
 
     def _add_root(self) -> str:
-        hung = [b for b in self.tree.order if self.dropped and self.tree.parent(b) == self.dropped]
-        poses = [(body, self.poses[body]) for body in self.tree.roots]
+        hung = [b for b in self._tree.order if self._dropped and self._tree.parent(b) == self._dropped]
+        poses = [(body, self._poses[body]) for body in self._tree.roots]
         still = hung or [b for b, p in poses if np.array_equal(p.rotation, np.eye(3)) and not p.translation.any()]
-        name = still[0] if still else claim_name("base", self.links)
+        name = still[0] if still else claim_name("base", self._links)
         if still:
-            self.chain.of_body[name] = name
-        self.chain.frames[name] = Pose.identity()
+            self.of_body[name] = name
+        self.frames[name] = Pose.identity()
         return name
 
     def _add_body(self, body: str) -> None:
         """Add the link of a body behind its parent's, with light links between where several joints lead to it."""
-        joints = [part for joint in self.tree.joints[body] for part in self._split_joint(joint)]
-        up = self.tree.parent(body)
-        parent = self.root if up is None or up == self.dropped else self.chain.of_body[up]
+        joints = [part for joint in self._tree.joints[body] for part in self._split_joint(joint)]
+        up = self._tree.parent(body)
+        parent = self._root if up is None or up == self._dropped else self.of_body[up]
         if not joints:
-            self._add_link(body, None, parent, self.poses[body], claim_name(f"{body}_fixed", self.joint_names))
+            self._add_link(body, None, parent, self._poses[body], claim_name(f"{body}_fixed", self._joint_names))
         for k, joint in enumerate(joints):
             last = k == len(joints) - 1
-            link = body if last else claim_name(f"{body}_{joint.name or k}", self.links)
-            frame = Pose(self.poses[body].rotation, _link_origin_of(joint, self.poses[body]))
-            name = joint.name or claim_name(f"{body}_{joint.kind}", self.joint_names)
+            link = body if last else claim_name(f"{body}_{joint.name or k}", self._links)
+            frame = Pose(self._poses[body].rotation, _link_origin_of(joint, self._poses[body]))
+            name = joint.name or claim_name(f"{body}_{joint.kind}", self._joint_names)
             self._add_link(link, joint, parent, frame, name)
             if not last:
-                self.chain.light.append(link)
+                self.light.append(link)
             parent = link
-        self.chain.of_body[body] = body
+        self.of_body[body] = body
 
     def _add_link(self, link: str, joint: Joint | None, parent: str, frame: Pose, name: str) -> None:
-        pose = self.chain.frames[parent].inverse() @ frame
+        pose = self.frames[parent].inverse() @ frame
         axis = frame.rotation.T @ joint.axis if joint else np.array([1.0, 0.0, 0.0])
-        self.chain.joints.append(LinkJoint(name, joint, parent, link, pose, axis))
-        self.chain.frames[link] = frame
+        self.joints.append(LinkJoint(name, joint, parent, link, pose, axis))
+        self.frames[link] = frame
 
     def _split_joint(self, joint: Joint) -> Sequence[Joint]:
         """The joints of the format that move as one does: a ball is three that turn about one point."""
-        if joint.kind in self.rules.kinds or joint.kind not in ("ball", "planar"):
+        if joint.kind in self._kinds or joint.kind not in ("ball", "planar"):
             return [joint]
         if joint.kind == "planar":
             parts = split_planar(joint)
         else:
-            axes = self.poses[joint.child].rotation.T
+            axes = self._poses[joint.child].rotation.T
             parts = [(letter, "revolute", axes[k]) for k, letter in enumerate("xyz")]
         name = joint.name or f"{joint.child}_{joint.kind}"
         bare = replace(joint, limits=None)
         return [
-            replace(bare, name=claim_name(f"{name}_{part}", self.joint_names), kind=kind, axis=axis)
+            replace(bare, name=claim_name(f"{name}_{part}", self._joint_names), kind=kind, axis=axis)
             for part, kind, axis in parts
         ]
 

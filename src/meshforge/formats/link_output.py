@@ -5,28 +5,27 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from types import UnionType
 
-from meshforge.formats import base, kinematic_tree, mesh_output
-from meshforge.formats.conversion import plan_couplings
-from meshforge.formats.slots import ElementMaker, Slot
+from meshforge.formats import base, conversion, element_edits, kinematic_tree, mesh_output
 from meshforge.formats.visuals import unreadable_visuals, visuals_of
 from meshforge.geometry import Pose, Shape
-from meshforge.symbolic import Asset, Inertial, NonConvexPiece
+from meshforge.symbolic import Asset, FeatureKind, Inertial, JointKind, NonConvexPiece, Surface
 
 
 class LinkCreator(ABC):
-    """Collects what the links of a new file hold; native: the shapes that the format has of its own.
+    """Collects what the links of a new file hold; native: the shapes that the format has of its own, kinds: its joints.
 
-    links: what each link of the chain is called in the file; slots: its collisions; shown: its visuals, each with the
+    links: what each link of the chain is called in the file; outputs: its collisions; shown: its visuals, each with the
     mesh file of a shape that the format lacks.
     """
 
     native: UnionType
     title: str
-    rules: kinematic_tree.JointRules
+    kinds: tuple[JointKind, ...]
+    has_world: bool = False
     visual_suffixes: tuple[str, ...]
     lead: bytes
 
-    def __init__(self, asset: Asset, maker: ElementMaker) -> None:
+    def __init__(self, asset: Asset, maker: element_edits.ElementMaker) -> None:
         self.asset, self.maker = asset, maker
         self.visuals = mesh_output.VisualFiles(maker.files, lambda mesh: mesh.suffix.lower() in self.visual_suffixes)
         self.inertials = {inertial.body: inertial for inertial in asset.mechanism.inertials}
@@ -35,10 +34,10 @@ class LinkCreator(ABC):
         self.visuals.gather(visuals)
         used = {g.body for g in asset.geoms} | {o.body for o in asset.non_convex} | {body for body, _ in visuals}
         bare = {body.name for body in asset.bodies} - used - set(self.inertials)
-        self.chain = kinematic_tree.build_chain(asset, bare, self.rules)
-        self.couplings = plan_couplings(asset.mechanism.joints, self.title)
+        self.chain = kinematic_tree.KinematicChain(asset, bare, self.kinds, self.has_world)
+        self.couplings = conversion.plan_couplings(asset.mechanism.joints, self.title)
         self.links = self.name_links(bare)
-        self.slots = self._build_slots()
+        self.outputs = self._build_outputs()
         self.shown = {link: self._build_visuals(link) for link in self.links}
 
     def name_links(self, bare: set[str]) -> dict[str, str]:
@@ -46,8 +45,12 @@ class LinkCreator(ABC):
         return {link: link for link in self.chain.frames}
 
     @abstractmethod
-    def build_non_convex(self, piece: NonConvexPiece, root_t_link: Pose) -> list[Slot]:
-        """The collision of a non-convex piece; none where it has no surface."""
+    def refuse_surface(self, surface: Surface) -> str:
+        """Why a non-convex piece of such a surface is not written, empty where it is."""
+
+    def build_plane(self, piece: NonConvexPiece, link_t_plane: Pose) -> list[element_edits.OutputElement]:
+        """The collision of an endless plane; none where the format has none."""
+        return []
 
     def inertial_of(self, link: str) -> tuple[Inertial | None, Pose]:
         """The mass of a link, and the frame of the link as the mass has it."""
@@ -56,19 +59,29 @@ class LinkCreator(ABC):
             return self.inertials.get(body), self.chain.frames[link]
         return kinematic_tree.LIGHT_INERTIAL if link in self.chain.light else None, Pose.identity()
 
+    @property
+    def weightless(self) -> list[str]:
+        """The links without a mass."""
+        return [link for link in self.links if link not in self.inertials and link not in self.chain.light]
+
     def collect_losses(self) -> tuple[base.Loss, ...]:
         """What the file does not hold."""
         return (*self.chain.lost, *self.couplings.lost, *self.lost, *unreadable_visuals(self.visuals.refused))
 
-    def _build_slots(self) -> dict[str, list[Slot]]:
-        slots: dict[str, list[Slot]] = {link: [] for link in self.links}
+    def _build_outputs(self) -> dict[str, list[element_edits.OutputElement]]:
+        outputs: dict[str, list[element_edits.OutputElement]] = {link: [] for link in self.links}
         for geom in self.asset.geoms:
             link = self.chain.of_body[geom.body]
-            slots[link].append(self.maker.make_slot(geom, self.chain.frames[link], None, self.lead))
+            outputs[link].append(self.maker.make_element(geom, self.chain.frames[link], None, self.lead))
         for piece in self.asset.non_convex:
-            link = self.chain.of_body[piece.body]
-            slots[link] += self.build_non_convex(piece, self.chain.frames[link])
-        return slots
+            link, surface = self.chain.of_body[piece.body], piece.surface
+            if piece.plane is not None:
+                outputs[link] += self.build_plane(piece, self.chain.frames[link].inverse() @ piece.plane)
+            elif surface is not None and (why := self.refuse_surface(surface)):
+                self.lost.append(base.Loss(FeatureKind.NON_CONVEX, (piece.name,), why))
+            elif surface is not None:
+                outputs[link].append(self.maker.make_surface(piece, self.chain.frames[link], surface, self.lead))
+        return outputs
 
     def _build_visuals(self, link: str) -> list[tuple[mesh_output.LinkVisual, str | None]]:
         shown = []

@@ -73,7 +73,8 @@ def save(
     """
     asset = _to_asset(what)
     out = Path(os.path.normpath(out))
-    known = _format_of_output(out, asset, names)
+    known = format_for(out, asset.format)
+    known = format_with_names(known, names) if names else known
     if urdf_capsules and known.name == "urdf":
         known = URDF_WITH_CAPSULES
     where = _place_collision(asset, known, names, collision)
@@ -81,7 +82,6 @@ def save(
     limits = _note_limits(asset, known, where, output.names)
     report = replace(report, remarks=(*report.remarks, *limits))
     plan = _plan_files(output, out, known.is_folder)
-    _refuse_outside(plan, out if known.is_folder else out.parent)
     _refuse_overwrite(plan, asset, overwrite)
     extra = _find_extra_files(plan, out, overwrite) if known.is_folder else []
     with _build_in_draft(out) if known.is_folder and not out.exists() else nullcontext(out) as place:
@@ -114,12 +114,11 @@ def _note_limits(asset: Asset, known: Format, place: Collision | None, names: Ma
 
 
 def _to_asset(what: SymbolicMesh | Asset) -> Asset:
-    return what if isinstance(what, Asset) else what.to_asset() if what.asset else _asset_of_mesh(what)
-
-
-def _format_of_output(out: Path, asset: Asset, names: MarkName | None) -> Format:
-    known = format_for(out, asset.format)
-    return format_with_names(known, names) if names else known
+    if isinstance(what, Asset) or what.asset:
+        return what if isinstance(what, Asset) else what.to_asset()
+    bodies, named = dict.fromkeys(hull.body for hull in what.hulls), what.names_in_file
+    geoms = tuple(Geom(named.get(hull.name, hull.name), hull.body, hull.shape) for hull in what.hulls)
+    return Asset(Path("memory"), "memory", tuple(Body(b, Pose.identity()) for b in bodies), geoms, Document())
 
 
 def _place_collision(
@@ -133,14 +132,6 @@ def _place_collision(
     return None if collision is None and stays else collision or "beside"
 
 
-def _note_collision(asset: Asset, known: Format, place: Collision | None) -> tuple[str, ...]:
-    if place == "beside" and isinstance(known, SceneFormat):
-        return (f"nothing was marked as collision: what is seen stays, and the hulls are beside it {known.marks}",)
-    if place == "replace" and isinstance(known, SceneFormat) and known.name == asset.format and known.is_edited(asset):
-        return ("nothing was marked as collision: the hulls are in the place of what was seen",)
-    return ()
-
-
 def _make_output(
     asset: Asset, known: Format, name: str, mass: Mass, place: Collision | None
 ) -> tuple[Output, ConversionReport]:
@@ -148,7 +139,11 @@ def _make_output(
 
     place: where the hulls of an unmarked scene go.
     """
-    source, notes = format_named(asset.format), _note_collision(asset, known, place)
+    source, notes = format_named(asset.format), list[str]()
+    if place == "beside" and isinstance(known, SceneFormat):
+        notes.append(f"nothing was marked as collision: what is seen stays, and the hulls are beside it {known.marks}")
+    elif place and isinstance(known, SceneFormat) and known.name == asset.format and known.is_edited(asset):
+        notes.append("nothing was marked as collision: the hulls are in the place of what was seen")
     if place == "beside" and isinstance(known, SceneFormat) and known.name == asset.format:
         output = known.add_colliders(asset, name)
         return output, ConversionReport(lost=output.lost, remarks=(*notes, *output.notes), marked=False)
@@ -162,28 +157,19 @@ def _make_output(
     return output, report_conversion(upright, source, known, output, (*notes, *remarks))
 
 
-def _asset_of_mesh(mesh: SymbolicMesh) -> Asset:
-    bodies = dict.fromkeys(hull.body for hull in mesh.hulls)
-    named = mesh.names_in_file
-    geoms = tuple(Geom(named.get(hull.name, hull.name), hull.body, hull.shape) for hull in mesh.hulls)
-    return Asset(Path("memory"), "memory", tuple(Body(b, Pose.identity()) for b in bodies), geoms, Document())
-
-
 def _plan_files(output: Output, out: Path, is_folder: bool) -> dict[Path, Content]:
+    """What each file is to hold, the main one last. Raises AssetError for one that would lie in a strange place."""
     folder = out if is_folder else out.parent
     beside: dict[str, Content] = {**output.copies, **output.made}
     plan: dict[Path, Content] = {Path(os.path.normpath(folder / name)): content for name, content in beside.items()}
     if not is_folder:
         plan.pop(Path(os.path.normpath(out)), None)
         plan[out] = output.main
-    return plan
-
-
-def _refuse_outside(plan: Mapping[Path, Content], folder: Path) -> None:
     for target in plan:
         if not target.is_relative_to(folder) and target.suffix.lower() not in _KINDS:
             problem = "this is no mesh or texture, and lies outside of the output folder: not written"
             raise AssetError(problem, where=str(target), remedy="Correct the reference to it in the input.")
+    return plan
 
 
 def _refuse_overwrite(plan: Mapping[Path, Content], asset: Asset, overwrite: bool) -> None:

@@ -4,7 +4,8 @@ alone or many, with the labels that lie beside them."""
 from __future__ import annotations
 
 import os
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Collection, Mapping
+from contextlib import suppress
 from dataclasses import replace
 from math import floor
 from pathlib import Path
@@ -12,14 +13,12 @@ from pathlib import Path
 import numpy as np
 
 from meshforge import symbolic
-from meshforge.common import AssetError, Plugin, PluginError, Registry, UsageError, expand_glob, is_text, nearest_name
-from meshforge.common.messages import join_names
+from meshforge.common import AssetError, Plugin, PluginError, Registry, UsageError, is_text, join_names, nearest_name
 from meshforge.formats.base import Format, ReadOptions
 from meshforge.formats.engine_names.conventions import MarkName
 from meshforge.formats.gltf.format import GltfForGodot, GltfFormat, GltfForUnity, GltfForUnreal, PhysicsGltf
 from meshforge.formats.meshfile.surface import FARTHEST
-from meshforge.formats.mjcf.format import MjcfFormat
-from meshforge.formats.mjcf.spec import SpecObject, read_spec, read_text
+from meshforge.formats.mjcf.format import MjcfFormat, SpecObject, read_spec, read_text
 from meshforge.formats.plain import folder, obj, ply, stl
 from meshforge.formats.plugin_format import guard_format
 from meshforge.formats.sdf.document import CONFIG, find_main_file
@@ -29,7 +28,6 @@ from meshforge.formats.urdf.format import UrdfFormat, UrdfWithCapsules
 from meshforge.formats.urdf.xacro import XacroFormat
 from meshforge.formats.usd.format import UsdFormat
 from meshforge.formats.usd.live_stage import StageObject, read_stage
-from meshforge.symbolic import Label
 
 _HEAD = 4096  # bytes by which a format tells its assets from other files of its suffix
 _UNREAD = {".mjb": "is a model compiled for one version of MuJoCo: open the XML it was made from"}
@@ -45,6 +43,8 @@ FORMATS: tuple[Format, ...] = (
     *FOLDER.members,
     FOLDER,
 )
+URDF_WITH_CAPSULES = UrdfWithCapsules()
+"""URDF for readers that know `<capsule>`."""
 MARKED_FORMATS: Mapping[MarkName, tuple[Format, ...]] = {
     "unreal": (GltfForUnreal(), obj.ObjForUnreal()),
     "godot": (GltfForGodot(),),
@@ -53,13 +53,7 @@ MARKED_FORMATS: Mapping[MarkName, tuple[Format, ...]] = {
     "usd": (UsdFormat(),),
 }
 """The formats that can be written with collision marked in a way: by names that an engine knows, or an extension."""
-_MARKS: Mapping[MarkName, str] = {
-    "unreal": "named for Unreal",
-    "godot": "named for Godot",
-    "unity": "named for Unity",
-    "khr": "marked by KHR_physics_rigid_bodies",
-    "usd": "marked by UsdPhysics",
-}
+_EXTENSIONS = {"khr": "KHR_physics_rigid_bodies", "usd": "UsdPhysics"}
 SUFFIXES: tuple[str, ...] = tuple(suffix for known in FORMATS for suffix in known.suffixes)
 """The suffixes of all files that can be read without plug-ins, lower case, with the dot; folders have none."""
 FORMATS_BY_SUFFIX: Registry[Format] = Registry(
@@ -139,11 +133,10 @@ def is_asset(path: Path) -> bool:
         known = _format_of_suffix(path)
     except PluginError:  # its reading says why
         return True
-    return known is not None and known.matches_head(_read_head(path)) and known.is_main(path)
-
-
-URDF_WITH_CAPSULES = UrdfWithCapsules()
-"""URDF for readers that know `<capsule>`."""
+    head = b""  # of one that cannot be read, which its reader will say
+    with suppress(OSError), path.open("rb") as stream:
+        head = stream.read(_HEAD)
+    return known is not None and known.matches_head(head) and known.is_main(path)
 
 
 def format_for(path: Path, own: str) -> Format:
@@ -164,8 +157,9 @@ def format_with_names(known: Format, names: MarkName) -> Format:
         if marked.name == known.name:
             return marked
     files = known.title if known.is_folder else f"{known.title} files"
+    mark = f"marked by {_EXTENSIONS[names]}" if names in _EXTENSIONS else f"named for {names.capitalize()}"
     can = ", ".join(suffix for marked in MARKED_FORMATS[names] for suffix in marked.suffixes)
-    raise UsageError(f"{files} cannot be {_MARKS[names]}", remedy=f"Formats that can: {can}.")
+    raise UsageError(f"{files} cannot be {mark}", remedy=f"Formats that can: {can}.")
 
 
 def _format_of_suffix(path: Path) -> Format | None:
@@ -174,15 +168,6 @@ def _format_of_suffix(path: Path) -> Format | None:
         return FORMATS_BY_SUFFIX.get(path.suffix.lower().removeprefix("."))
     except PluginError as error:
         raise error.at(str(path)) from error.__cause__
-
-
-def _read_head(path: Path) -> bytes:
-    """The start of a file; nothing of one that cannot be read, which its reader will say."""
-    try:
-        with path.open("rb") as stream:
-            return stream.read(_HEAD)
-    except OSError:
-        return b""
 
 
 def _unknown_format_error(path: Path) -> AssetError:
@@ -209,14 +194,23 @@ def read(source: Source, options: ReadOptions | None = None) -> symbolic.Asset:
 
     options: None takes those of the environment. Raises AssetError; UsageError: nothing that can be read.
     """
-    asset = _read_source(source, options or ReadOptions.from_environment())
-    for file in (path_of(source), *asset.files):
+    options = options or ReadOptions.from_environment()
+    if path := path_of(source):
+        asset = format_of(path).read(path, options)
+    elif isinstance(source, str):
+        asset = read_text(source)
+    elif isinstance(source, SpecObject):
+        asset = read_spec(source)
+    elif isinstance(source, StageObject):
+        asset = read_stage(source)
+    else:
+        remedy = "Give a path, the text of an MJCF, a mujoco.MjSpec or a Usd.Stage; for trimesh there is from_trimesh."
+        raise UsageError(f"a {type(source).__name__} is nothing that an asset is read from", remedy=remedy)
+    for file in (path, *asset.files):
         if not is_text(str(file)):
             raise AssetError("this name is not UTF-8", where=str(file), remedy="Rename the file.")
-    refuse_far(asset)
-    found = [note_unusual_size(asset) if asset.geoms or asset.non_convex else NO_GEOMETRY, _note_fills(asset)]
-    notes = tuple(symbolic.FileNote(note) for note in found if note)
-    return replace(asset, notes=(*asset.notes, *notes)) if notes else asset
+    found = (_note_size(asset), _note_fills(asset))
+    return replace(asset, notes=(*asset.notes, *(symbolic.FileNote(note) for note in found if note)))
 
 
 def _note_fills(asset: symbolic.Asset) -> str | None:
@@ -239,106 +233,29 @@ def notes_after(before: symbolic.Asset, written: symbolic.Asset, hulled: Collect
     return (*(note for note in before.notes if not isinstance(note, symbolic.FileNote)), *now, *filter(None, [fills]))
 
 
-def _read_source(source: Source, options: ReadOptions) -> symbolic.Asset:
-    if path := path_of(source):
-        return format_of(path).read(path, options)
-    if isinstance(source, str):
-        return read_text(source)
-    if isinstance(source, SpecObject):
-        return read_spec(source)
-    if isinstance(source, StageObject):
-        return read_stage(source)
-    remedy = "Give a path, the text of an MJCF, a mujoco.MjSpec or a Usd.Stage; for trimesh there is from_trimesh."
-    raise UsageError(f"a {type(source).__name__} is nothing that an asset is read from", remedy=remedy)
-
-
 def path_of(source: symbolic.SymbolicMesh | Source) -> Path | None:
     """The file or folder that is meant, None for text and for objects. Raises AssetError as `resolve_asset_path`."""
     is_text = isinstance(source, str) and source.lstrip().startswith("<")
     return resolve_asset_path(Path(source)) if isinstance(source, str | os.PathLike) and not is_text else None
 
 
-def to_mesh(what: symbolic.SymbolicMesh | Source) -> symbolic.SymbolicMesh:
-    """A mesh as it is, anything else as `load` reads it."""
-    return what if isinstance(what, symbolic.SymbolicMesh) else load(what)
+def _note_size(asset: symbolic.Asset) -> str | None:
+    """A note on the size of an asset, None where that is usual.
 
-
-Labels = str | os.PathLike[str] | Mapping[str, Label | str]
-"""Labels for an asset: the path of a labels file, or the labels by the names of hulls."""
-
-
-def load(source: Source, labels: Labels | None = None) -> symbolic.SymbolicMesh:
-    """The symbolic mesh of a file or a folder, of the text of an MJCF, of a `mujoco.MjSpec` or a `Usd.Stage`.
-
-    labels: a labels file, or labels by the names of hulls; None takes those of the file beside it if present.
-    What is saved of an object in memory is what it said when it was loaded, with the edit; the object does not change.
-    Raises AssetError: the asset or the labels cannot be read; HullNotFoundError: a label for a hull that is not there;
-    UsageError: nothing that can be read.
+    Raises AssetError where a piece is not in a place of finite numbers, or so far out that numbers lose it.
     """
-    mesh = symbolic.SymbolicMesh.of(read(source))
-    if isinstance(labels, Mapping):
-        return label_hulls(mesh, labels)
-    if labels is None and (path := path_of(source)):
-        beside = labels_beside(path)
-        labels = beside if beside.is_file() else None
-    return mesh if labels is None else symbolic.transfer_labels(symbolic.read_labels(Path(labels)), mesh).mesh
-
-
-def label_hulls(mesh: symbolic.SymbolicMesh, labels: Mapping[str, Label | str]) -> symbolic.SymbolicMesh:
-    """The mesh with some labels set. Raises HullNotFoundError: there is no hull of a name."""
-    for name in labels:
-        mesh.hull_of(name)
-    return mesh.with_labels(labels)
-
-
-def load_many(patterns: str | Path | Iterable[str | Path]) -> Iterator[symbolic.SymbolicMesh]:
-    """The symbolic meshes of all files that the patterns match (`**` too), sorted, each read when it is asked for.
-
-    Raises AssetError at once where a pattern matches no asset.
-    """
-    several = [patterns] if isinstance(patterns, str | Path) else list(patterns)
-    paths = sorted({path for pattern in several for path in _match_pattern(str(pattern))})
-    return (load(path) for path in paths)
-
-
-def labels_beside(path: Path) -> Path:
-    """Where the labels of an asset lie: beside it, `table.labels.json` for table.urdf and for a folder `table`."""
-    suffix = path.suffix.lower()
-    is_file = not path.is_dir() and suffix.removeprefix(".") in FORMATS_BY_SUFFIX
-    stem = path.stem if is_file else path.name
-    return path.with_name(f"{stem}.labels.json")
-
-
-def _match_pattern(pattern: str) -> list[Path]:
-    if Path(pattern).exists():
-        return [Path(pattern)]
-    found = [Path(name) for name in expand_glob(pattern)]
-    known = [p for p in found if is_asset(p)]
-    if not known:
-        problem = "no file matches" if not found else "none of the files it matches is an asset"
-        raise AssetError(problem, where=pattern, remedy=f"Known suffixes: {', '.join(all_suffixes())}.")
-    return known
-
-
-def refuse_far(asset: symbolic.Asset) -> None:
-    """Raise AssetError where a piece is not in a place of finite numbers, or so far out that numbers lose it."""
-    corners = {geom.name: (geom.shape.aabb.min, geom.shape.aabb.max) for geom in asset.geoms}
-    surfaces = {piece.name: piece.surface.vertices for piece in asset.non_convex if piece.surface}
-    for name, points in (corners | surfaces).items():
+    pieces = {geom.name: np.array([geom.shape.aabb.min, geom.shape.aabb.max]) for geom in asset.geoms}
+    pieces |= {piece.name: piece.surface.vertices for piece in asset.non_convex if piece.surface}
+    for name, points in pieces.items():
         if not (np.abs(points) <= FARTHEST).all():  # true of NaN as well
             problem = f"{name} reaches beyond all numbers that are read, {FARTHEST:g} m"
             raise AssetError(problem, where=str(asset.path), remedy="Fix its place, its size or its scale.")
-
-
-def note_unusual_size(asset: symbolic.Asset) -> str | None:
-    """A note on the size of an asset, None where that is usual."""
-    points = [corner for geom in asset.geoms for box in [geom.shape.aabb] for corner in (box.min, box.max)]
-    surfaces = [o.surface.vertices[o.surface.faces].reshape(-1, 3) for o in asset.non_convex if o.surface]
-    corners = np.concatenate([*(p[None] for p in points), *surfaces]) if points or surfaces else np.zeros((0, 3))
-    if len(corners) == 0:
-        return None
-    size = float(np.linalg.norm(np.ptp(corners, axis=0)))
-    if _SMALL <= size <= _LARGE or size == 0:
+    if not asset.geoms and not asset.non_convex:
+        return NO_GEOMETRY
+    pieces |= {o.name: o.surface.vertices[o.surface.faces].reshape(-1, 3) for o in asset.non_convex if o.surface}
+    corners = np.concatenate([np.zeros((0, 3)), *pieces.values()])
+    size = float(np.linalg.norm(np.ptp(corners, axis=0))) if len(corners) else 0.0
+    if size == 0 or _SMALL <= size <= _LARGE:
         return None
     advice = "export it in metres, or scale it where a URDF or MJCF refers to it"
     if size > _LARGE:

@@ -9,11 +9,11 @@ from typing import Any, Protocol, runtime_checkable
 import numpy as np
 
 from meshforge.common import UsageError
+from meshforge.formats.assets_with_labels import label_hulls
 from meshforge.formats.mesh_reader import split_into_pieces
 from meshforge.formats.meshfile.surface import RawSurface, check_surfaces
 from meshforge.formats.plain.base import BODY
 from meshforge.formats.plain.parts import name_file_pieces
-from meshforge.formats.registry import label_hulls
 from meshforge.geometry import Pose
 from meshforge.symbolic import Asset, Body, Document, Geom, Label, NonConvexPiece, Surface, SymbolicMesh
 

@@ -8,6 +8,7 @@ import math
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import NoReturn
 from xml.parsers import expat
 
@@ -149,6 +150,25 @@ class XmlText:
     def encode(self, data: bytes) -> bytes:
         """Edited UTF-8 in the authored encoding, with its byte order mark."""
         return self.mark + data.decode().encode(self.encoding, "xmlcharrefreplace")
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class SourceFile:
+    """An authored file: the main one, or one that is included.
+
+    path: absolute; place: its path relative to the main file's folder, where an output has it too, None for one that
+    is included by an absolute path; reference: as the `<include>` has it, empty for the main file.
+    """
+
+    path: Path
+    place: str | None
+    reference: str
+    raw: bytes
+
+    @property
+    def text(self) -> XmlText:
+        """The text in which offsets of elements count."""
+        return XmlText.of(self.raw)
 
 
 def blank_markup(data: bytes) -> bytes:

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from meshforge.formats import convert, labels_beside, read, save
-from meshforge.geometry import Floats, convex_hull
+from meshforge.geometry import Floats
 from meshforge.symbolic import Asset, SymbolicMesh, read_labels, transfer_labels
 from tests.asset_bounds import bounds_of
 from tests.conversion_samples import SAMPLES
@@ -79,17 +79,6 @@ def test_opaque_pieces_with_a_surface_come_back_as_such(target: str, tmp_path: P
     after = read(save(asset, tmp_path / f"thing{target}").path)
     assert [piece.reason for piece in after.non_convex if piece.surface] == ["not convex: fills 71% of its convex hull"]
     assert len(after.geoms) == 1
-
-
-def test_mujoco_collides_with_the_convex_hull_of_an_opaque_piece(tmp_path: Path) -> None:
-    before = SAMPLES["opaque"]()
-    saved = save(before, tmp_path / "thing.xml")
-    after = read(saved.path)
-    assert [geom.name for geom in after.geoms] == ["room/stool", "room/walls"] and saved.hulled == ("room/walls",)
-    assert [(piece.name, piece.plane is not None) for piece in after.non_convex] == [("room/floor", True)]
-    (walls,) = (piece.surface for piece in before.non_convex if piece.surface)
-    assert after.geoms[1].shape.volume == pytest.approx(convex_hull(walls.vertices).volume, rel=1e-6)
-    assert any(note.endswith("MuJoCo will collide with its hull (71% full)") for note in saved.notes)
 
 
 @pytest.mark.parametrize("target", [".urdf", ".xml", ".sdf", ".glb"])

@@ -103,12 +103,3 @@ def test_what_replaces_two_has_the_name_of_the_larger_with_a_number(tmp_path: Pa
     names = {hull.name for hull in load(tmp_path / "out" / name).hulls}
     larger = next(hull.name for hull in sorted(mesh.hulls, key=lambda h: -h.volume) if hull.name in inside)
     assert f"{larger}~1" in names and not set(inside) & names
-
-
-def test_an_ellipsoid_is_native_where_the_format_has_one_and_noted_where_not(tmp_path: Path) -> None:
-    for name, kinds in (("door.xml", {"ellipsoid"}), ("door.sdf", {"ellipsoid"}), ("door.urdf", {"polytope"})):
-        out, _ = edit(tmp_path, name, ("board",))
-        assert {h.shape.kind for h in load(out).hulls if h.name.endswith("board")} == kinds
-    mesh = load(tmp_path / "door.urdf")
-    egg = RULE.run(mesh.with_labels({"door/board": "handle"})).mesh
-    assert any("has no ellipsoid: 'door/board'" in note for note in save(egg, tmp_path / "again.urdf").notes)

@@ -7,9 +7,8 @@ from pathlib import Path
 
 import pytest
 
-import meshforge as mf
 from meshforge.common import AssetError
-from meshforge.formats import SUFFIXES, format_of, labels_beside, load, load_many, read, save
+from meshforge.formats import labels_beside, load, load_many, read, save
 from tests.mesh_files import obj, stl_binary
 from tests.soups import box, together
 
@@ -92,15 +91,3 @@ def test_a_suffix_near_a_known_one_is_told(tmp_path: Path) -> None:
     (tmp_path / "a.ob").write_text("")
     with pytest.raises(AssetError, match=r"did you mean \.obj\?"):
         read(tmp_path / "a.ob")
-
-
-def test_suffixes_name_every_format_once(tmp_path: Path) -> None:
-    assert {".obj", ".stl", ".ply", ".wrl", ".urdf"} <= set(SUFFIXES)
-    assert len(SUFFIXES) == len(set(SUFFIXES))
-    assert format_of(tmp_path).name == "folder"
-
-
-def test_the_python_interface_offers_loading_and_saving(table: Path, tmp_path: Path) -> None:
-    mesh = mf.load(table)
-    assert mf.save(mesh, tmp_path / "b.stl").path.exists()
-    assert [len(m.hulls) for m in mf.load_many(str(tmp_path / "*.stl"))] == [2]

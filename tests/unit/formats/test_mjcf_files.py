@@ -6,13 +6,11 @@ import struct
 import zlib
 from pathlib import Path
 
-import mujoco
 import pytest
 
 from meshforge.common import AssetError
 from meshforge.formats import read as read_any
-from meshforge.formats.mjcf.compiler import compile_model
-from meshforge.formats.mjcf.document import MjcfDocument, read_tree
+from meshforge.formats.mjcf.document import MjcfDocument
 from meshforge.symbolic import Asset
 from tests.mjcf_engines import TETRAHEDRON, assert_as_in_mujoco, model, put, read
 
@@ -221,33 +219,3 @@ def test_a_urdf_and_a_compiled_model_are_called_what_they_are(tmp_path: Path) ->
         read(path)
     with pytest.raises(AssetError, match="compiled for one version of MuJoCo: open the XML"):
         read_any(tmp_path / "model.mjb")
-
-
-def test_edited_files_compile_from_memory_with_what_lies_on_disk(tmp_path: Path) -> None:
-    files: Files = {
-        "main.xml": model('<include file="a.xml"/>', '<asset><mesh name="t" file="t.obj"/></asset>'),
-        "a.xml": '<x><geom size="1"/></x>',
-        "t.obj": OBJ,
-    }
-    path = put(tmp_path, files)
-    edited = {tmp_path / "n.obj": OBJ.encode(), tmp_path / "new" / "b.xml": b'<x><geom size="2"/>\n<mesh/></x>'}
-    edited[tmp_path / "a.xml"] = b'<x><geom type="mesh" mesh="n"/><include file="new/b.xml"/></x>'
-    meshes = '<asset><mesh name="n" file="n.obj"/><mesh name="t" file="t.obj"/></asset>'
-    edited[path] = model('<include file="a.xml"/>', meshes).encode()
-    with pytest.raises(AssetError, match=r"new/b\.xml:2: MuJoCo refuses this file: Schema violation"):
-        compile_model(path, edited)
-    edited[tmp_path / "new" / "b.xml"] = b'<x><geom size="2"/></x>'
-    made = compile_model(path, edited)
-    assert isinstance(made, mujoco.MjModel)
-    assert made.ngeom == 2 and made.geom_size[1, 0] == 2
-    assert compile_model(path).ngeom == 1
-
-
-def test_a_tree_tells_the_file_and_line_of_each_element(tmp_path: Path) -> None:
-    files: Files = {"main.xml": model('<include file="a.xml"/>\n<body/>'), "a.xml": "<x>\n\n<geom size='1'/></x>"}
-    tree = read_tree(put(tmp_path, files))
-    assert [node.tag for node in tree.root.walk()] == ["mujoco", "worldbody", "geom", "body"]
-    assert [tree.where(node) for node in list(tree.root.walk())[2:]] == [
-        f"{tmp_path}/a.xml:3",
-        f"{tmp_path}/main.xml:2",
-    ]

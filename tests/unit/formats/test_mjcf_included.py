@@ -78,8 +78,8 @@ def test_the_geom_with_most_numbers_of_the_users_may_go(tmp_path: Path) -> None:
 
 
 def test_what_mujoco_refuses_of_includes_after_an_edit_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    as_it_is = edit._edit_file
-    monkeypatch.setattr(edit, "_edit_file", lambda *of: b"<mujocoinclude/>" if of[2] else as_it_is(*of))
+    as_it_is = edit.MjcfEdit.build_texts
+    monkeypatch.setattr(edit.MjcfEdit, "build_texts", lambda own: [as_it_is(own)[0], b"<mujocoinclude/>"])
     asset = read(put(tmp_path / "in", {"main.xml": model(INCLUDING), "c.xml": INCLUDED}))
     with pytest.raises(AssetError, match=r"of the edited file: the included file 'c.xml' is empty"):
         write(replaced(asset, ["b/h"]), tmp_path / "out")

@@ -76,22 +76,16 @@ def test_an_inertial_of_the_author_stays_as_it_is(tmp_path: Path) -> None:
     assert GIVEN.encode() in path.read_bytes()
 
 
-def test_a_geom_without_mass_leaves_the_body_alone(tmp_path: Path) -> None:
-    text = model(TWO.format(FREE, "").replace('name="g"', 'name="g" density="0"'))
-    path, _, _ = check(tmp_path, text)
+@pytest.mark.parametrize("weightless", ['density="0"', 'group="3"'])
+def test_a_geom_that_does_not_weigh_leaves_the_body_alone(weightless: str, tmp_path: Path) -> None:
+    text = TWO.format(FREE, "").replace('name="g"', f'name="g" {weightless}')
+    path, _, _ = check(tmp_path, model(text, '<compiler inertiagrouprange="0 2"/>'))
     assert b"<inertial" not in path.read_bytes()
 
 
-def test_geoms_of_a_group_that_does_not_weigh_leave_the_body_alone(tmp_path: Path) -> None:
-    text = model(TWO.format(FREE, "").replace('name="g"', 'name="g" group="3"'), '<compiler inertiagrouprange="0 2"/>')
-    path, _, _ = check(tmp_path, text)
-    assert b"<inertial" not in path.read_bytes()
-
-
-@pytest.mark.parametrize("setting", ['inertiafromgeom="false"'])
-def test_where_geoms_never_weigh_nothing_is_written(setting: str, tmp_path: Path) -> None:
+def test_where_geoms_never_weigh_nothing_is_written(tmp_path: Path) -> None:
     text = TWO.format(GIVEN + FREE, GIVEN).replace('<body name="static">', f'<body name="static">{GIVEN}')
-    path, _, _ = check(tmp_path, model(text, f"<compiler {setting}/>"))
+    path, _, _ = check(tmp_path, model(text, '<compiler inertiafromgeom="false"/>'))
     assert path.read_bytes().count(b"<inertial") == 3
 
 

@@ -9,29 +9,21 @@ import mujoco
 import numpy as np
 import pytest
 
-from meshforge.formats.mjcf.document import MjcfDocument, body_names, geom_names
-from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Pose, Sphere
+from meshforge.formats.mjcf.document import body_names, geom_names
+from meshforge.geometry import Pose
 from meshforge.symbolic import Surface
-from tests.mjcf_engines import TETRAHEDRON, assert_as_in_mujoco, asset, mesh_vertices, model, put, read, shape_of
+from tests.mjcf_engines import TETRAHEDRON, assert_as_in_mujoco, asset, model, put, read
 
 MESH = f'<asset><mesh name="m" vertex="{TETRAHEDRON}"/></asset>'
 OBJ = "v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n"
 
 
-def test_primitives_are_native_and_sizes_are_half_sizes(tmp_path: Path) -> None:
-    kinds = {"box": "1 2 3", "sphere": "1", "capsule": "1 2", "cylinder": "1 2", "ellipsoid": "1 2 3"}
-    inside = "".join(f'<geom name="{kind}" type="{kind}" size="{size}"/>' for kind, size in kinds.items())
-    found = asset(tmp_path, inside)
-    box, sphere, capsule, cylinder, ellipsoid = (geom.shape for geom in found.geoms)
-    assert isinstance(box, Box) and box.half.tolist() == [1, 2, 3]
-    assert isinstance(sphere, Sphere) and sphere.radius == 1
-    assert isinstance(capsule, Capsule) and (capsule.radius, capsule.half_length) == (1, 2)
-    assert isinstance(cylinder, Cylinder) and (cylinder.radius, cylinder.half_length) == (1, 2)
-    assert isinstance(ellipsoid, Ellipsoid) and ellipsoid.radii.tolist() == [1, 2, 3]
-    assert [geom.name for geom in found.geoms] == [f"world/{kind}" for kind in kinds]
-
-
 PLACED = {
+    "primitives of every kind": (
+        '<geom name="a" type="box" size="1 2 3"/><geom name="b" size="1"/><geom name="c" type="capsule" size="1 2"/>'
+        '<geom name="d" type="cylinder" size="1 2"/><geom name="e" type="ellipsoid" size="1 2 3"/>',
+        "",
+    ),
     "fromto": (
         '<geom type="capsule" fromto="0 0 0 1 1 1" size=".1"/><geom type="box" fromto="1 0 0 1 0 2" size=".3"/>',
         "",
@@ -104,19 +96,19 @@ def test_geoms_are_where_mujoco_has_them(what: str, tmp_path: Path) -> None:
     ['scale="1 -2 1"', 'scale="-1 -1 -1"', 'refpos="1 2 3"', 'refquat="1 1 0 0.5"',
      'refpos="1 2 3" refquat="0.5 0.5 0.1 0.3" scale="2 1 -1"'],
 )  # fmt: skip
-@pytest.mark.parametrize("kind", ["inline", "file"])
+@pytest.mark.parametrize("kind", ["inline", "file", "scaled"])
 def test_a_changed_mesh_is_where_mujoco_has_it_and_shows_there(kind: str, changes: str, tmp_path: Path) -> None:
     content = f'vertex="{TETRAHEDRON}"' if kind == "inline" else 'file="m.obj"'
     before = f'<asset><mesh name="m" {content} {changes}/></asset>'
     inside = '<geom type="mesh" mesh="m" pos="1 2 3" euler="10 20 30"/>'
+    inside, size = (f'<frame scale="2">{inside}</frame>', 8.0) if kind == "scaled" else (inside, 1.0)
     path = put(tmp_path, {"main.xml": model(inside, before), "m.obj": OBJ})
     found = read(path)
     assert_as_in_mujoco(found, path)
     (shown,) = found.visuals
     (hull,) = found.geoms
-    assert hull.shape.volume == pytest.approx(
-        1.0 if "scale" not in changes else 2.0 if "2" in changes else 1.0, rel=1e-6
-    )
+    doubled = "scale" in changes and "2" in changes
+    assert hull.shape.volume == pytest.approx(size * (2.0 if doubled else 1.0), rel=1e-6)
     np.testing.assert_allclose(_sorted(shown.vertices), _sorted(hull.shape.vertices), atol=1e-6)
     assert _volume(shown) > 0
 
@@ -253,35 +245,12 @@ def test_bodies_stay_apart_where_the_compiler_would_fuse_them(tmp_path: Path) ->
     assert len(found.visuals) == 1
 
 
-def test_every_geom_knows_its_element_and_why_it_cannot_be_edited(tmp_path: Path) -> None:
-    sub = model('<body name="q"><geom size="2" name="n"/></body>')
-    replicated = '<replicate count="2"><geom name="r" size="1"/></replicate>'
-    inside = f'<include file="inc.xml"/>{replicated}<attach model="s" body="q" prefix="p_"/>'
-    text = model(inside, '<asset><model name="s" file="sub.xml"/></asset>')
-    found = read(put(tmp_path, {"main.xml": text, "inc.xml": "<x>\n<geom size='1'/></x>", "sub.xml": sub}))
-    document = found.document
-    assert isinstance(document, MjcfDocument)
-    tree = document.tree
-    inc, copied, attached = document.authored
-    (node,) = [n for n in tree.root.walk() if (n.source, n.element.start) == (inc.source, inc.start)]
-    assert node.tag == "geom" and tree.where(node) == f"{tmp_path / 'inc.xml'}:2" and not inc.fixed
-    assert copied.names == ("world/r0", "world/r1") and "<replicate>" in copied.fixed
-    assert attached.names == ("p_q/p_n",) and "another model" in attached.fixed
-    assert attached.source == -1
-
-
-def test_a_document_tells_masses_and_whose_they_are(tmp_path: Path) -> None:
+def test_masses_are_those_of_the_file_or_follow_from_geoms(tmp_path: Path) -> None:
     inertial = '<inertial pos="1 0 0" mass="2" diaginertia="3 4 5"/>'
     other = '<body name="b" pos="1 0 0"><geom size="1" mass="7"/></body>'
-    inside = f'<body name="a">{inertial}<geom size="1"/></body>{other}'
-    document = asset(tmp_path, inside).document
-    assert isinstance(document, MjcfDocument)
-    world, a, b = document.bodies
-    assert (world.parent, world.explicit, world.source) == (None, False, -1)
-    assert (a.mass, a.explicit, a.parent, a.inertial.translation.tolist()) == (2, True, "world", [1, 0, 0])
-    assert sorted(a.inertia.tolist()) == [3, 4, 5]
-    assert (b.explicit, b.pose.translation.tolist()) == (False, [1, 0, 0])
-    assert b.mass == pytest.approx(7)
+    a, b = asset(tmp_path, f'<body name="a">{inertial}<geom size="1"/></body>{other}').mechanism.inertials
+    assert (a.body, a.mass, a.centre.tolist(), sorted(np.diag(a.inertia).tolist())) == ("a", 2, [1, 0, 0], [3, 4, 5])
+    assert (b.body, b.mass, b.centre.tolist()) == ("b", pytest.approx(7), [1, 0, 0])
 
 
 def test_joints_and_masses_are_told_in_the_root_frame(tmp_path: Path) -> None:
@@ -325,29 +294,6 @@ def test_flexible_bodies_are_told_not_read(tmp_path: Path) -> None:
     assert [geom.name for geom in found.geoms] == ["world/geom0"]
     assert "1 flexible body: no hulls, left as authored" in found.notes
     assert any(note.startswith("MuJoCo warns: flex 'f'") for note in found.notes)
-
-
-def test_visuals_of_a_mesh_are_the_vertices_that_mujoco_has(tmp_path: Path) -> None:
-    before = '<asset><mesh name="m" file="m.obj" scale="1 2 3" refpos="1 1 1"/></asset>'
-    inside = (
-        '<frame scale="2"><geom type="mesh" mesh="m" pos="1 2 3" contype="0" conaffinity="0" rgba="1 0 0 .5"/></frame>'
-    )
-    path = put(tmp_path, {"main.xml": model(inside, before), "m.obj": OBJ})
-    (shown,) = read(path).visuals
-    compiled = mujoco.MjModel.from_xml_path(str(path))
-    data = mujoco.MjData(compiled)
-    mujoco.mj_kinematics(compiled, data)
-    points = (
-        mesh_vertices(compiled, int(compiled.geom_dataid[0])) @ data.geom_xmat[0].reshape(3, 3).T + data.geom_xpos[0]
-    )
-    assert _sorted(shown.vertices) == _sorted(points)
-
-
-def test_a_mesh_that_two_geoms_share_is_placed_for_each(tmp_path: Path) -> None:
-    inside = '<geom name="big" type="mesh" mesh="m"/><geom name="far" type="mesh" mesh="m" pos="5 0 0"/>'
-    found = asset(tmp_path, inside, MESH)
-    moved = shape_of(found, "world/far").vertices - shape_of(found, "world/big").vertices
-    np.testing.assert_allclose(moved, np.tile([5.0, 0, 0], (4, 1)), atol=1e-6)
 
 
 def test_geoms_tell_how_they_collide_with_defaults_and_classes(tmp_path: Path) -> None:

@@ -16,7 +16,7 @@ from meshforge.formats.urdf.edit import CAPSULE_READERS
 from meshforge.formats.urdf.format import UrdfFormat
 from meshforge.formats.visuals import Visual, VisualSurfaces
 from meshforge.geometry import Aabb, Box, Capsule, Cylinder, Pose, Shape, Sphere
-from meshforge.symbolic import Asset, Body, Document, Geom, Inertial, Joint, Mechanism, NonConvexPiece, Surface
+from meshforge.symbolic import Asset, Body, Document, Geom, Joint, Mechanism, NonConvexPiece, Surface
 from tests.urdf_engines import assert_mujoco_agrees, bullet, mujoco_model, yourdf
 from tests.urdf_sample import boxes_obj, put, read
 
@@ -210,22 +210,6 @@ def test_joints_of_one_body_have_light_links_between_them(tmp_path: Path) -> Non
     said = told(asset, output)
     assert "1 ball joint is written as three joints that turn about one point: URDF has no ball joints" in said
     assert "links of 1e-06 kg stand between joints of one body (arm_slide, arm_arm_ball_x, arm_arm_ball_y)" in said
-
-
-def test_masses_are_told_in_the_frame_of_the_link(tmp_path: Path) -> None:
-    inertia = TURNED.rotation @ np.diag([0.1, 0.2, 0.25]) @ TURNED.rotation.T
-    mass = Inertial("arm", 2.5, TURNED.translation + TURNED.rotation @ [0, 0, 1], inertia)
-    asset = jointed(Joint("j", "fixed", "base", "arm", TURNED.translation, np.array([0, 0, 1.0])))
-    asset = replace(asset, mechanism=replace(asset.mechanism, inertials=(mass,)))
-    again, path, _ = created(asset, tmp_path)
-    inertial = ElementTree.parse(path).getroot().findall("link")[1].find("inertial")
-    assert inertial is not None
-    moments = inertial.find("inertia")
-    assert moments is not None
-    assert [round(float(moments.attrib[key]), 12) for key in ("ixx", "iyy", "izz")] == [0.1, 0.2, 0.25]
-    found = again.mechanism.inertials[0]
-    np.testing.assert_allclose(found.centre, mass.centre, atol=1e-12)
-    np.testing.assert_allclose(found.inertia, mass.inertia, atol=1e-12)
 
 
 def test_visuals_are_copied_with_what_lies_beside_them_or_become_objs(tmp_path: Path) -> None:

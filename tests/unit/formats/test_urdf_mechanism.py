@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import pickle
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -105,16 +104,6 @@ def test_damping_friction_effort_and_velocity_are_numbers_or_not_there(tmp_path:
 def test_a_mass_is_there_where_it_is_more_than_nothing(inside: str, masses: list[float], tmp_path: Path) -> None:
     found = mechanism(tmp_path, f'<link name="a">{inside}</link>')
     assert [inertial.mass for inertial in found.inertials] == masses
-
-
-def test_a_mechanism_comes_back_from_a_worker_process() -> None:
-    axis = np.array([0, 0, 1.0])
-    before = Mechanism(
-        (Joint("j", "revolute", "a", "b", np.zeros(3), axis, (0.0, 1.0)),), (Inertial("a", 1.0, axis, np.eye(3)),)
-    )
-    after = pickle.loads(pickle.dumps(before))
-    assert (after.joints[0].name, after.joints[0].limits, after.inertials[0].mass) == ("j", (0.0, 1.0), 1.0)
-    np.testing.assert_array_equal(after.joints[0].axis, axis)
 
 
 def test_a_mechanism_turns_with_its_root_frame() -> None:

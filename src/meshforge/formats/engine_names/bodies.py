@@ -48,7 +48,9 @@ def name_bodies(asset: Asset, engine: CollisionNames, stem: str) -> EngineBodies
         surfaces = tuple(surface for owner, surface in shown if owner == body.name)
         is_bare = engine.shows and not surfaces and bool(geoms or non_convex)
         if is_bare:
-            surfaces = _merge_surfaces(geoms, non_convex)
+            parts = [(hull.vertices, hull.faces) for hull in (geom.shape.tessellate() for geom in geoms)]
+            parts += [(p.surface.vertices, p.surface.faces) for p in non_convex if p.surface is not None]
+            surfaces = (Surface(*stack_triangles(parts)),)
             bare.append(name)
         if non_convex and not engine.takes_non_convex:
             lost.append(lose_non_convex(engine, non_convex, is_seen=is_bare))
@@ -74,10 +76,3 @@ def lose_non_convex(engine: CollisionNames, pieces: Sequence[NonConvexPiece], *,
 def has_triangles(piece: NonConvexPiece) -> bool:
     """Whether a piece has a surface to write."""
     return piece.surface is not None and len(piece.surface.faces) > 0
-
-
-def _merge_surfaces(geoms: Sequence[Geom], non_convex: Sequence[NonConvexPiece]) -> tuple[Surface, ...]:
-    hulls = [geom.shape.tessellate() for geom in geoms]
-    parts: list[Surface] = [Surface(hull.vertices, hull.faces) for hull in hulls]
-    parts += [piece.surface for piece in non_convex if piece.surface is not None]
-    return (Surface(*stack_triangles((part.vertices, part.faces) for part in parts)),)

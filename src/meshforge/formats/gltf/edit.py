@@ -9,7 +9,7 @@ from dataclasses import replace
 from pathlib import Path, PurePosixPath
 
 from meshforge.common import AssetError
-from meshforge.formats import references, slots
+from meshforge.formats import collision_pieces, references
 from meshforge.formats.base import Output, note_renames, note_shapes_as_hulls, nothing_collides_error
 from meshforge.formats.collision_pieces import names_to_keep, new_hulls, refuse_changed_files
 from meshforge.formats.engine_names.bodies import has_triangles, lose_non_convex
@@ -106,7 +106,7 @@ def assign_names(draft: SceneDraft, document: GltfDocument, *, renames: bool) ->
     misread = _find_misread(draft, document)
     for _ in range(4 if renames and misread else 0):
         for node, (body, _) in misread.items():
-            draft.node(node)["name"] = slots.own_name_of(draft.expected[node], body)
+            draft.node(node)["name"] = collision_pieces.own_name_of(draft.expected[node], body)
         misread = _find_misread(draft, document)
     return {
         wanted: name
@@ -128,7 +128,7 @@ def _find_misread(draft: SceneDraft, document: GltfDocument) -> dict[int, tuple[
     ]
     return {
         node: (body, read)
-        for node, body, read in zip(order, bodies, slots.name_element_pieces(sources), strict=True)
+        for node, body, read in zip(order, bodies, collision_pieces.name_element_pieces(sources), strict=True)
         if read != draft.expected[node]
     }
 

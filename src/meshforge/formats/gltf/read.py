@@ -10,7 +10,7 @@ from urllib.parse import unquote
 import numpy as np
 
 from meshforge.common import AssetError, MeshForgeError, file_digest, pluralize
-from meshforge.formats import mesh_reader, references, slots
+from meshforge.formats import collision_pieces, mesh_reader, references
 from meshforge.formats.collision_pieces import CollisionElement, drop_repeats, geoms_of, non_convex_of, place_surface
 from meshforge.formats.engine_names.conventions import godot_kind, unreal_kind
 from meshforge.formats.engine_names.name_problems import find_name_problems
@@ -127,7 +127,7 @@ def record_nodes(sources: Sequence[NodeCollision], bodies: Mapping[int, tuple[in
     ]
     return tuple(
         NodeRecord(source.node, body, names, source.owner)
-        for source, body, names in zip(sources, own, slots.name_element_pieces(named), strict=True)
+        for source, body, names in zip(sources, own, collision_pieces.name_element_pieces(named), strict=True)
     )
 
 

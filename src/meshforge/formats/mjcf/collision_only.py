@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import isnan
-from pathlib import Path
 from typing import Literal
 
 from meshforge.common import AssetError, is_file
@@ -45,27 +44,19 @@ _WHOLE = ("extension", "plugin", "instance", "config")  # of signed distance fie
 _FIXED = {"pos": "0 0 0", "mass": "1", "diaginertia": "1 1 1"}
 _LEAST_MASS, _LEAST_INERTIA = 1e-9, 1e-12  # [kg], [kg m^2] above what MuJoCo asks of moving bodies
 
-
-@dataclass(frozen=True, slots=True)
-class _Attempt:
-    """How much is left out: all visual meshes or only missing ones; what stands for the authored masses."""
-
-    all_visuals: bool
-    masses: Literal["authored", "fixed", "none"]
-
-    def keep(self, node: MjcfNode) -> Mapping[str, str] | None:
-        """The attributes of an element that are needed, None where the element is not."""
-        if node.tag in _WHOLE:
-            return node.attributes
-        if node.tag == "inertial" and self.masses != "authored":
-            return _FIXED if self.masses == "fixed" else None
-        if node.tag not in _NEEDED:
-            return None
-        kept = _NEEDED[node.tag].split()
-        return {name: value for name, value in node.attributes.items() if name in kept}
+_Masses = Literal["authored", "fixed", "none"]
 
 
-_ATTEMPTS = (_Attempt(False, "authored"), _Attempt(True, "authored"))
+def _keep_needed(node: MjcfNode, masses: _Masses) -> Mapping[str, str] | None:
+    """The attributes of an element that are needed, None where the element is not."""
+    if node.tag in _WHOLE:
+        return node.attributes
+    if node.tag == "inertial" and masses != "authored":
+        return _FIXED if masses == "fixed" else None
+    if node.tag not in _NEEDED:
+        return None
+    kept = _NEEDED[node.tag].split()
+    return {name: value for name, value in node.attributes.items() if name in kept}
 
 
 def strip_to_collision(tree: MjcfTree, refusal: AssetError, masses: Literal["fixed", "none"] = "none") -> MjcfModel:
@@ -75,24 +66,17 @@ def strip_to_collision(tree: MjcfTree, refusal: AssetError, masses: Literal["fix
     Raises AssetError: a collision mesh that is not there; else `refusal`, where the collision geometry is refused too.
     """
     last, repaired = refusal, _repair_defaults(tree)
-    for attempt in (*_ATTEMPTS, _Attempt(True, masses)):
-        flat = compiler.flatten(repaired, attempt.keep)
+    attempts: list[tuple[bool, _Masses]] = [(False, "authored"), (True, "authored"), (True, masses)]
+    for all_visuals, of_masses in attempts:
+        flat = compiler.flatten(repaired, lambda node, of_masses=of_masses: _keep_needed(node, of_masses))
         try:
-            spec = compiler.parse_text(repaired, flat)
+            spec = compiler.parse_text(flat)
         except AssetError as error:
             last = error
             continue
-        _refuse_missing(repaired, flat, spec)
-        _refuse_lookalikes(repaired, flat, spec)
-        names = {geom.name for geom in compiler.geoms_of(spec.bodies)}
-        for pair in [pair for pair in spec.pairs if not names >= {pair.geomname1, pair.geomname2}]:
-            spec.delete(pair)
-        infos = _replace_visuals(repaired, flat, spec, attempt.all_visuals)
-        spec.compiler.boundmass = max(spec.compiler.boundmass, _LEAST_MASS)
-        spec.compiler.boundinertia = max(spec.compiler.boundinertia, _LEAST_INERTIA)
-        spec.compiler.balanceinertia = True
+        infos = _replace_visuals(flat, spec, all_visuals)
         try:
-            made = compiler.compile_spec(repaired, flat, spec)
+            made = compiler.compile_spec(flat, spec)
         except AssetError as error:
             last = error
             continue
@@ -144,71 +128,48 @@ def _add_setting(target: MjcfNode, child: MjcfNode) -> None:
     target.children.append(child)
 
 
-def _refuse_missing(tree: MjcfTree, flat: compiler.FlatText, spec: mujoco.MjSpec) -> None:
-    lost = _find_missing_meshes(tree, flat, spec)
-    geoms = [
-        geom
-        for geom in compiler.geoms_of(spec.bodies)
-        if geom.meshname in lost and flat.node_at(geom.info) and _can_collide(geom, spec)
-    ]
-    if geoms:
-        first, meshes = geoms[0], dict.fromkeys(geom.meshname for geom in geoms)
-        mesh = lost[first.meshname]
-        called = f"collision geom {first.name!r}" if first.name else "a collision geom"
-        others = f" (and {len(meshes) - 1} more like it)" if len(meshes) > 1 else ""
-        raise AssetError(
-            f"the mesh {mesh.attributes['file']!r} of {called} of body {first.parent.name!r} is not there{others}",
-            where=tree.where(mesh),
-            remedy=references.Resolver(tree.main.path.parent).advice(str(AssetFolders.of(tree).find(tree, mesh))),
-        )
-
-
-def _refuse_lookalikes(tree: MjcfTree, flat: compiler.FlatText, spec: mujoco.MjSpec) -> None:
-    """Raise AssetError where the mesh of a collision geom plainly is a file of another kind, such as a pointer."""
-    meshes = _locate_meshes(tree, flat, spec)
-    for name in dict.fromkeys(geom.meshname for geom in compiler.geoms_of(spec.bodies) if _can_collide(geom, spec)):
-        if name in meshes and is_file(meshes[name][1]):
-            mesh_reader.read_content(meshes[name][1])
-
-
-def _locate_meshes(tree: MjcfTree, flat: compiler.FlatText, spec: mujoco.MjSpec) -> dict[str, tuple[MjcfNode, Path]]:
-    folders, nodes = AssetFolders.of(tree), {mesh.name: flat.node_at(mesh.info) for mesh in spec.meshes}
-    return {
-        name: (node, folders.find(tree, node)) for name, node in nodes.items() if node and node.attributes.get("file")
-    }
-
-
-def _find_missing_meshes(tree: MjcfTree, flat: compiler.FlatText, spec: mujoco.MjSpec) -> dict[str, MjcfNode]:
-    return {name: node for name, (node, path) in _locate_meshes(tree, flat, spec).items() if not tree.has(path)}
-
-
-def _replace_visuals(
-    tree: MjcfTree, flat: compiler.FlatText, spec: mujoco.MjSpec, all_visuals: bool
-) -> dict[str, bool]:
+def _replace_visuals(flat: compiler.FlatText, spec: mujoco.MjSpec, all_visuals: bool) -> dict[str, bool]:
     """Put massless spheres in the place of visual mesh geoms, so that the other geoms of a body keep their numbers.
 
-    Returns the lines of these geoms, and whether they had a mass. Meshes that no geom is left to use go.
+    all_visuals: not only of those whose meshes are missing. Returns the lines of these geoms, and whether they had a
+    mass. Meshes that no geom is left to use go, and pairs of geoms that are not there. Raises AssetError where the mesh
+    of a geom that collides is not there, or plainly is a file of another kind, such as a pointer.
     """
-    lost = _find_missing_meshes(tree, flat, spec)
-    infos = {}
-    geoms = compiler.geoms_of(spec.bodies)
+    tree, geoms = flat.tree, compiler.geoms_of(spec.bodies)
+    folders = AssetFolders(tree)
+    nodes = {mesh.name: flat.node_at(mesh.info) for mesh in spec.meshes}
+    files = {name: folders.find(node) for name, node in nodes.items() if node and node.attributes.get("file")}
+    paired = {name for pair in spec.pairs for name in (pair.geomname1, pair.geomname2)}
+    collides = {id(geom): bool(geom.contype or geom.conaffinity or geom.name in paired - {""}) for geom in geoms}
+    colliding = [geom for geom in geoms if collides[id(geom)]]
+    missing = {name for name, path in files.items() if not tree.has(path)}
+    if lost := [geom for geom in colliding if geom.meshname in missing and flat.node_at(geom.info)]:
+        first, count = lost[0], len({geom.meshname for geom in lost})
+        node = nodes[first.meshname]
+        assert node is not None  # it names the file
+        called = f"collision geom {first.name!r}" if first.name else "a collision geom"
+        others = f" (and {count - 1} more like it)" if count > 1 else ""
+        raise AssetError(
+            f"the mesh {node.attributes['file']!r} of {called} of body {first.parent.name!r} is not there{others}",
+            where=tree.where(node),
+            remedy=references.Resolver(tree.main.path.parent).advice(str(files[first.meshname])),
+        )
+    for name in dict.fromkeys(geom.meshname for geom in colliding):
+        if name in files and is_file(files[name]):
+            mesh_reader.read_content(files[name])
+    names = {geom.name for geom in geoms}
+    for pair in [pair for pair in spec.pairs if not names >= {pair.geomname1, pair.geomname2}]:
+        spec.delete(pair)
+    infos, (first_group, last_group) = {}, spec.compiler.inertiagrouprange
     for geom in geoms:
-        if geom.meshname and not _can_collide(geom, spec) and (all_visuals or geom.meshname in lost):
-            infos[geom.info] = _has_mass(geom, spec)
+        if geom.meshname and not collides[id(geom)] and (all_visuals or geom.meshname in missing):
+            weighs = geom.density > 0 if isnan(geom.mass) else geom.mass > 0
+            infos[geom.info] = bool(first_group <= geom.group <= last_group and weighs)
             geom.type, geom.meshname, geom.size, geom.mass = mujoco.mjtGeom.mjGEOM_SPHERE, "", [1, 0, 0], 0
     used = {geom.meshname for geom in geoms}
-    for mesh in list(spec.meshes):
-        if mesh.name not in used:
-            spec.delete(mesh)
+    for mesh in [mesh for mesh in spec.meshes if mesh.name not in used]:
+        spec.delete(mesh)
+    spec.compiler.boundmass = max(spec.compiler.boundmass, _LEAST_MASS)
+    spec.compiler.boundinertia = max(spec.compiler.boundinertia, _LEAST_INERTIA)
+    spec.compiler.balanceinertia = True
     return infos
-
-
-def _has_mass(geom: mujoco.MjsGeom, spec: mujoco.MjSpec) -> bool:
-    first, last = spec.compiler.inertiagrouprange
-    return bool(first <= geom.group <= last and (geom.density > 0 if isnan(geom.mass) else geom.mass > 0))
-
-
-def _can_collide(geom: mujoco.MjsGeom, spec: mujoco.MjSpec) -> bool:
-    if geom.contype or geom.conaffinity:
-        return True
-    return bool(geom.name) and any(geom.name in (pair.geomname1, pair.geomname2) for pair in spec.pairs)

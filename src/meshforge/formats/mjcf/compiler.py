@@ -32,6 +32,7 @@ KeepAttributes = Callable[[MjcfNode], Mapping[str, str] | None]
 """Which attributes of an element go into the text; None leaves the element out, with all below it."""
 
 _FUSING = {"compiler": ("fusestatic", "discardvisual"), "body": ("fuse",)}
+_SCALING = {"compiler": ("settotalmass", "alignfree"), "freejoint": ("align",), "joint": ("align",)}
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,36 +82,31 @@ def compile_model(main: Path, files: Mapping[Path, bytes] | None = None) -> mujo
     Static bodies are not fused and visual geoms not discarded, whatever the compiler settings say.
     Raises AssetError with MuJoCo's message, at `file:line` where that is known.
     """
-    tree = read_tree(main, files)
-    return compile_text(tree, flatten(tree)).model
+    return compile_text(flatten(read_tree(main, files))).model
 
 
-def compile_text(tree: MjcfTree, flat: FlatText) -> Compilation:
-    """What MuJoCo makes of a tree's text. Raises AssetError with MuJoCo's message."""
+def compile_text(flat: FlatText) -> Compilation:
+    """What MuJoCo makes of a text. Raises AssetError with MuJoCo's message."""
     warnings: list[str] = []
-    return compile_spec(tree, flat, parse_text(tree, flat, warnings), warnings)
+    return compile_spec(flat, parse_text(flat, warnings), warnings)
 
 
-def parse_text(tree: MjcfTree, flat: FlatText, warnings: list[str] | None = None) -> mujoco.MjSpec:
-    """The spec of a tree's text, assets not yet read; warnings: gets those of MuJoCo. Raises AssetError."""
-    with collect_warnings([] if warnings is None else warnings), _provide_files(tree, flat) as vfs:
-        try:
-            return mujoco.MjSpec.from_file(str(tree.main.path), vfs=vfs)
-        except failure_types() as error:
-            raise _error_of(str(error), tree, flat) from None
+def parse_text(flat: FlatText, warnings: list[str] | None = None) -> mujoco.MjSpec:
+    """The spec of a text, assets not yet read; warnings: gets those of MuJoCo. Raises AssetError."""
+    with collect_warnings([] if warnings is None else warnings), _provide_files(flat) as vfs:
+        return mujoco.MjSpec.from_file(str(flat.tree.main.path), vfs=vfs)
 
 
-def compile_spec(tree: MjcfTree, flat: FlatText, spec: mujoco.MjSpec, warnings: Sequence[str] = ()) -> Compilation:
+def compile_spec(flat: FlatText, spec: mujoco.MjSpec, warnings: Sequence[str] = ()) -> Compilation:
     """The model of a spec; warnings: those that MuJoCo gave before. Raises AssetError with MuJoCo's message."""
     bodies = tuple(spec.bodies)
     geoms = geoms_of(bodies)
-    _refuse_bad_poses(tree, flat, bodies, geoms)
+    for kind, of_kind in (("body", bodies), ("geom", geoms)):
+        for thing in of_kind:
+            _refuse_bad_pose(flat, kind, thing)
     every = list(warnings)
-    with collect_warnings(every), _provide_files(tree, flat) as vfs:
-        try:
-            model = spec.compile(vfs=vfs)
-        except failure_types() as error:
-            raise _error_of(str(error), tree, flat) from None
+    with collect_warnings(every), _provide_files(flat) as vfs:
+        model = spec.compile(vfs=vfs)
     messages = tuple(dict.fromkeys(_clean_message(warning) for warning in every))
     in_order = tuple(sorted(bodies, key=lambda body: body.id)), tuple(sorted(geoms, key=lambda geom: geom.id))
     return Compilation(flat, spec, model, *in_order, messages)
@@ -121,25 +117,13 @@ def geoms_of(bodies: Iterable[mujoco.MjsBody]) -> tuple[mujoco.MjsGeom, ...]:
     return tuple(geom for body in bodies for geom in body.geoms)
 
 
-def _refuse_bad_poses(
-    tree: MjcfTree, flat: FlatText, bodies: tuple[mujoco.MjsBody, ...], geoms: tuple[mujoco.MjsGeom, ...]
-) -> None:
+def _refuse_bad_pose(flat: FlatText, kind: str, thing: mujoco.MjsBody | mujoco.MjsGeom) -> None:
     """Raise AssetError for a pose that is not of finite numbers, of which MuJoCo only warns, or beyond any size."""
-    for kind, of_kind in (("body", bodies), ("geom", geoms)):
-        for thing in of_kind:
-            if problem := _describe_bad_pose(thing):
-                node = flat.node_at(thing.info)
-                where = tree.where(node) if node else str(tree.main.path)
-                called = f"{kind} {thing.name!r}" if thing.name else f"a {kind} without a name"
-                raise AssetError(problem.format(called), where=where)
-
-
-def _describe_bad_pose(thing: mujoco.MjsBody | mujoco.MjsGeom) -> str | None:
+    called = f"{kind} {thing.name!r}" if thing.name else f"a {kind} without a name"
     if not math.isfinite(thing.pos.sum() + thing.quat.sum()):
-        return "the pose of {} is not of finite numbers"
+        raise AssetError(f"the pose of {called} is not of finite numbers", where=flat.where(thing.info))
     if max(map(abs, (*thing.pos, *getattr(thing, "size", ())))) > FARTHEST:
-        return "the place or size of {} is larger than anything"
-    return None
+        raise AssetError(f"the place or size of {called} is larger than anything", where=flat.where(thing.info))
 
 
 def failure_types() -> tuple[type[Exception], ...]:
@@ -148,14 +132,24 @@ def failure_types() -> tuple[type[Exception], ...]:
 
 
 @contextmanager
-def _provide_files(tree: MjcfTree, flat: FlatText) -> Iterator[mujoco.MjVfs]:
+def _provide_files(flat: FlatText) -> Iterator[mujoco.MjVfs]:
+    """The files of a text for MuJoCo. Raises AssetError with MuJoCo's message where it refuses what it reads."""
+    tree = flat.tree
+    included = {source.path for source in tree.sources}
+    files = {path: data for path, data in tree.files.items() if path not in included}
+    files |= read_submodels(tree, len(flat.nodes)) | {tree.main.path: flat.text}
     with mujoco.MjVfs() as vfs:
-        included = {source.path for source in tree.sources}
-        seen = {path: data for path, data in tree.files.items() if path not in included}
-        for path, data in (seen | read_submodels(tree, len(flat.nodes))).items():
+        for path, data in files.items():
             vfs[str(path)] = data
-        vfs[str(tree.main.path)] = flat.text
-        yield vfs
+        try:
+            yield vfs
+        except failure_types() as error:
+            message = str(error)
+            lines = [number for number in _LINE.findall(message) if flat.node_at(f"line {number}")]
+            where = flat.where(f"line {lines[-1]}" if lines else "")
+            remedy = _UNKNOWN_CLASS if "unknown default class" in message else None
+            problem = f"MuJoCo refuses this file: {_clean_message(message)}"
+            raise AssetError(problem, where=where, remedy=remedy) from None
 
 
 @contextmanager
@@ -177,13 +171,6 @@ def collect_warnings(warnings: list[str]) -> Iterator[None]:
             warnings += [str(warning.message) for warning in raised]
 
 
-def _error_of(message: str, tree: MjcfTree, flat: FlatText) -> AssetError:
-    lines = [node for number in _LINE.findall(message) if (node := flat.node_at(f"line {number}"))]
-    where = tree.where(lines[-1]) if lines else str(tree.main.path)
-    remedy = _UNKNOWN_CLASS if "unknown default class" in message else None
-    return AssetError(f"MuJoCo refuses this file: {_clean_message(message)}", where=where, remedy=remedy)
-
-
 def _clean_message(message: str) -> str:
     text = _NAMELESS.sub("", _PARSER.sub("", _HEAD.sub("", message.strip())))
     return " ".join(_NAMED.sub(r"(element '\1') ", text).split())
@@ -191,8 +178,9 @@ def _clean_message(message: str) -> str:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class FlatText:
-    """The text, and its elements in order: that of line k is `nodes[k - 1]`."""
+    """The text of a tree, and its elements in order: that of line k is `nodes[k - 1]`."""
 
+    tree: MjcfTree
     text: bytes
     nodes: tuple[MjcfNode, ...]
 
@@ -201,6 +189,11 @@ class FlatText:
         line = int(info.removeprefix("line ")) if info.startswith("line ") and info[5:].isdigit() else 0
         return self.nodes[line - 1] if 0 < line <= len(self.nodes) else None
 
+    def where(self, info: str) -> str:
+        """`file:line` of such an element; the main file where it is in another one."""
+        node = self.node_at(info)
+        return self.tree.where(node) if node else str(self.tree.main.path)
+
 
 def flatten(tree: MjcfTree, keep: KeepAttributes | None = None) -> FlatText:
     """The text of a tree; keep: for a part of it.
@@ -208,7 +201,7 @@ def flatten(tree: MjcfTree, keep: KeepAttributes | None = None) -> FlatText:
     References of included files are made absolute where MuJoCo would find them beside the included file. Static
     bodies are not fused and visual geoms not discarded, whatever the compiler settings say.
     """
-    folders = AssetFolders.of(tree)
+    folders = AssetFolders(tree)
     nodes: list[MjcfNode] = []
     parts: list[bytes] = []
     closing: list[tuple[MjcfNode, int]] = []
@@ -217,9 +210,14 @@ def flatten(tree: MjcfTree, keep: KeepAttributes | None = None) -> FlatText:
             parts.append(b"</%s>" % closing.pop()[0].tag.encode())
         nodes.append(node)
         closing.append((node, depth))
-        parts.append(_start_tag(tree, folders, node, attributes, first=not depth))
+        parts.append(_start_tag(folders, node, attributes, first=not depth))
     parts += [b"</%s>" % node.tag.encode() for node, _ in reversed(closing)]
-    return FlatText(b"".join(parts), tuple(nodes))
+    return FlatText(tree, b"".join(parts), tuple(nodes))
+
+
+def drop_scaling(node: MjcfNode) -> Mapping[str, str]:
+    """The attributes without those that scale masses to a total, or put frames of free bodies at their centres."""
+    return {name: value for name, value in node.attributes.items() if name not in _SCALING.get(node.tag, ())}
 
 
 def _walk_kept(root: MjcfNode, keep: KeepAttributes) -> Iterator[tuple[MjcfNode, int, Mapping[str, str]]]:
@@ -232,14 +230,12 @@ def _walk_kept(root: MjcfNode, keep: KeepAttributes) -> Iterator[tuple[MjcfNode,
             waiting.extend((child, depth + 1) for child in reversed(node.children))
 
 
-def _start_tag(
-    tree: MjcfTree, folders: AssetFolders, node: MjcfNode, attributes: Mapping[str, str], first: bool
-) -> bytes:
+def _start_tag(folders: AssetFolders, node: MjcfNode, attributes: Mapping[str, str], first: bool) -> bytes:
     parts = [b"<" if first else b"\n<", node.tag.encode()]
     for name, value in attributes.items():
         if name in _FUSING.get(node.tag, ()):
             continue
-        if node.source and name.startswith("file") and (path := folders.path_beside_include(tree, node, name)):
+        if node.source and name.startswith("file") and (path := folders.path_beside_include(node, name)):
             value = os.fspath(path)
         parts.append(b' %s="%s"' % (name.encode(), escape(value)))
     return b"".join([*parts, b">"])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import posixpath
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -9,14 +10,13 @@ from pathlib import Path
 import numpy as np
 
 from meshforge.common import join_names, pluralize
-from meshforge.formats import mesh_output, visuals, xml
+from meshforge.formats import collision_pieces, conversion, kinematic_tree, mesh_output, visuals
 from meshforge.formats.base import Loss, Output
-from meshforge.formats.collision_pieces import is_flat
-from meshforge.formats.conversion import note_hulled, plan_couplings
-from meshforge.formats.kinematic_tree import BodyTree, claim_name
 from meshforge.formats.mjcf import document, elements, references
-from meshforge.geometry import Aabb, Pose, convex_hull
-from meshforge.symbolic import Asset, FeatureKind, Geom, Joint, NonConvexPiece, Rgba
+from meshforge.formats.mjcf.elements import tag
+from meshforge.formats.xml import format_numbers
+from meshforge.geometry import Aabb, Floats, Ints, Pose, convex_hull
+from meshforge.symbolic import Asset, FeatureKind, Geom, Joint, NonConvexPiece, Surface
 
 WORLD = "world"
 """What MuJoCo calls the body that never moves; no other may have this name."""
@@ -35,6 +35,7 @@ _DEFAULTS = [
     b"    </default>",
     b"  </default>",
 ]
+_TINY = 1e-12  # [m^3], below which MuJoCo cannot compute a mass from the volume of a mesh
 _FAR = 100.0  # sizes away from its body, beyond which a mesh is placed: MuJoCo keeps its vertices in single precision
 
 
@@ -51,31 +52,30 @@ def create_mjcf(asset: Asset, name: str) -> Output:
 class _Creator:
     def __init__(self, asset: Asset, stem: str) -> None:
         self.asset, self.stem = asset, stem
-        self.tree = BodyTree.of(asset)
+        self.tree = kinematic_tree.BodyTree.of(asset)
         self.poses = asset.body_poses
         self.inertials = {inertial.body: inertial for inertial in asset.mechanism.inertials}
         self.joint_names = self.tree.joint_names
-        self.couplings = plan_couplings(asset.mechanism.joints, "MJCF", polynomials=True)
-        self.bodies = name_bodies(self.tree)
-        self.named = name_geoms(asset, self.tree, self.bodies)
-        self.made = NewGeomMaker(asset, stem, self.tree, {piece: name for piece, (name, _) in self.named.items()})
+        self.couplings = conversion.plan_couplings(asset.mechanism.joints, "MJCF", polynomials=True)
+        self.bodies = _name_bodies(self.tree)
+        self.named = _name_geoms(asset, self.tree, self.bodies)
+        self.geoms = _GeomTexts(asset, stem, {piece: name for piece, (name, _) in self.named.items()})
         self.lost: list[Loss] = []
         self.notes: dict[str, list[str]] = {}
 
     def build_output(self) -> Output:
         body = list(self._body_lines())
-        head = [
-            elements.tag("mujoco", {"model": self.stem}, closed=False),
-            b"  " + elements.tag("compiler", {"angle": "radian"}),
-        ]
-        defaults = _DEFAULTS if self.made.shown else []
-        meshes, files = self.made.meshes, self.made.files
-        main = b"\n".join([*head, *defaults, *meshes.lines(), *body, *self._equality_lines(), b"</mujoco>", b""])
+        head = [tag("mujoco", {"model": self.stem}, closed=False), b"  " + tag("compiler", {"angle": "radian"})]
+        defaults = _DEFAULTS if self.geoms.shown else []
+        meshes = [b"    " + element for element in self.geoms.meshes]
+        assets = [b"  <asset>", *meshes, b"  </asset>"] if meshes else []
+        main = b"\n".join([*head, *defaults, *assets, *body, *self._equality_lines(), b"</mujoco>", b""])
         reads = {geom.name: self.named[geom.name][1] for geom in self.asset.geoms}
         names = {name: read for name, read in reads.items() if read != name}
-        lost = (*self.made.losses(), *self.lost, *self.couplings.lost)
-        hulled = tuple(self.named[piece.name][1] for piece, _ in self.made.hulled)
-        return Output(main, dict(meshes.files.made), files.copies, self._collect_notes(), names, lost, hulled)
+        lost = (*visuals.unreadable_visuals(self.geoms.visuals.refused), *self.lost, *self.couplings.lost)
+        hulled = tuple(self.named[piece.name][1] for piece, _ in self.geoms.hulled)
+        files, copies = dict(self.geoms.files.made), self.geoms.visuals.copies
+        return Output(main, files, copies, self._collect_notes(), names, lost, hulled)
 
     def _body_lines(self) -> Iterator[bytes]:
         below: dict[str, list[str]] = {}
@@ -94,9 +94,7 @@ class _Creator:
             body, depth = entry
             lead, place = b"  " * depth, self._place_of(body)
             pose = self.poses[place].inverse() @ self.poses[body] if place else self.poses[body]  # place_T_body
-            yield lead + elements.tag(
-                "body", {"name": self.bodies[body], **elements.pose_attributes(pose)}, closed=False
-            )
+            yield lead + tag("body", {"name": self.bodies[body], **elements.pose_attributes(pose)}, closed=False)
             yield from self._element_lines(body, lead + b"  ")
             waiting.append(lead + b"</body>")
             waiting += [(child, depth + 1) for child in reversed(below.get(body, []))]
@@ -107,8 +105,8 @@ class _Creator:
             return
         yield b"  <equality>"
         for joint, coupling in self.couplings.by_joint.items():
-            numbers = xml.format_numbers([*coupling.coefficients, *[0.0] * (5 - len(coupling.coefficients))])
-            yield b"    " + elements.tag("joint", {"joint1": joint, "joint2": coupling.joint, "polycoef": numbers})
+            numbers = format_numbers([*coupling.coefficients, *[0.0] * (5 - len(coupling.coefficients))])
+            yield b"    " + tag("joint", {"joint1": joint, "joint2": coupling.joint, "polycoef": numbers})
         yield b"  </equality>"
 
     def _place_of(self, body: str) -> str:
@@ -123,13 +121,23 @@ class _Creator:
         joints = [part for joint in self.tree.joints[body] for part in self._split_joint(joint, top)]
         own = [geom for geom in self.asset.geoms if geom.body == body]
         yield from (lead + elements.joint_tag(joint, self.poses[body]) for joint in joints)
-        pieces = [piece for piece in self.asset.non_convex if piece.body == body]
-        hulls = [self.made.make_hull(geom) for geom in own]
-        for piece in pieces:
-            hulls += self.made.make_plane(piece, piece.plane) if piece.plane else self.made.make_surface(piece)
-        volume = sum(geom.shape.volume for geom in own) + sum(v for piece, v in self.made.hulled if piece.body == body)
-        lines = [*self._mass_lines(body, bool(joints), volume), *hulls, *self.made.make_visuals(body)]
+        hulls = [self.geoms.make_hull(geom) for geom in own]
+        hulls += [text for piece in self.asset.non_convex if piece.body == body for text in self._make_opaque(piece)]
+        volume = sum(geom.shape.volume for geom in own) + sum(v for piece, v in self.geoms.hulled if piece.body == body)
+        lines = [*self._mass_lines(body, bool(joints), volume), *hulls, *self.geoms.make_visuals(body)]
         yield from (lead + text for text in lines)
+
+    def _make_opaque(self, piece: NonConvexPiece) -> Iterator[bytes]:
+        """The geom of an endless plane, or of a mesh as it is: MuJoCo collides with its convex hull."""
+        if piece.plane and not self.tree.is_static(piece.body):
+            why = "MuJoCo has planes on bodies that do not move only"
+            self.lost.append(Loss(FeatureKind.PLANES, (piece.name,), why))
+        elif piece.plane:
+            yield self.geoms.make_plane(piece, piece.plane)
+        elif piece.surface is not None and piece.name not in self.named:
+            self.lost.append(Loss(FeatureKind.NON_CONVEX, (piece.name,), "MuJoCo refuses a mesh that is flat"))
+        elif piece.surface is not None:
+            yield self.geoms.make_surface(piece, piece.surface)
 
     def _split_joint(self, joint: Joint, top: bool) -> Sequence[Joint]:
         parts = elements.split_joint(joint, top, self.joint_names)
@@ -158,7 +166,7 @@ class _Creator:
     def _collect_notes(self) -> tuple[str, ...]:
         notes = [*self.couplings.notes]
         notes += [f"{text} ({join_names(bodies, 3)})" if bodies else text for text, bodies in self.notes.items()]
-        notes += note_hulled([piece for piece, _ in self.made.hulled], "MuJoCo")
+        notes += conversion.note_hulled([piece for piece, _ in self.geoms.hulled], "MuJoCo")
         if not any(joint.kind == "floating" for joint in self.asset.mechanism.joints):
             roots = [self.bodies[root] for root in self.tree.roots if self.bodies[root] != WORLD]
             roots = roots or [b for b in self.tree.order if self.tree.parent(b) == WORLD and self.tree.is_static(b)]
@@ -170,27 +178,64 @@ class _Creator:
         return tuple(notes)
 
 
-class NewGeomMaker:
-    """Makes elements for one asset; names: of what collides its attributes; lost: what cannot be made of it;
-    hulled: the non-convex pieces that are made, each with the volume [m^3] of its hull."""
+class _GeomTexts:
+    """Makes the elements of what collides and of visuals; names: of what collides its attributes.
 
-    def __init__(self, asset: Asset, stem: str, tree: BodyTree, names: dict[str, str]) -> None:
-        self.tree, self.poses, self.names = tree, asset.body_poses, names
+    meshes: the `<mesh>` elements so far; hulled: the non-convex pieces, each with the volume [m^3] of its hull.
+    """
+
+    def __init__(self, asset: Asset, stem: str, names: dict[str, str]) -> None:
+        self.poses, self.names = asset.body_poses, names
         self.shown = visuals.visuals_of(asset)
-        self.meshes = elements.MeshAssets(stem)
-        self.files = mesh_output.VisualFiles(self.meshes.files, references.is_shown_whole)
-        self.files.gather(self.shown)
-        self.lost: list[Loss] = []
+        self.files = mesh_output.HullFiles(stem)
+        self.visuals = mesh_output.VisualFiles(self.files, references.is_shown_whole)
+        self.visuals.gather(self.shown)
+        self.meshes: list[bytes] = []
         self.hulled: list[tuple[NonConvexPiece, float]] = []
+        self._mesh_names: set[str] = set()
+        self._mesh_of_visual: dict[tuple[str, tuple[float, ...]], str] = {}
 
     def make_hull(self, geom: Geom) -> bytes:
         """The geom of a hull."""
         shape = geom.shape.move(self.poses[geom.body].inverse())
         if isinstance(shape, elements.MjcfShape):
-            return elements.tag("geom", {**self._head_of(geom.name), **elements.geom_attributes(shape)})
+            return tag("geom", {**self._head_of(geom.name), **elements.geom_attributes(shape)})
         place = _place_mesh(shape.aabb)
-        mesh = self.meshes.add_hull(geom.name, shape.move(place.inverse()).tessellate())
-        return elements.tag("geom", {**self._head_of(geom.name), **elements.mesh_geom_attributes(mesh, place)})
+        own = shape.move(place.inverse()).tessellate()
+        inertia = {"inertia": "shell"} if own.volume < _TINY else {}
+        return self._make_mesh(geom.name, own.vertices, own.faces, place, inertia)
+
+    def make_surface(self, piece: NonConvexPiece, surface: Surface) -> bytes:
+        """The geom of a non-convex surface."""
+        vertices = self.poses[piece.body].inverse().apply(surface.vertices)
+        place, volume = _place_mesh(Aabb.of_points(vertices)), convex_hull(vertices, name=piece.name).volume
+        self.hulled.append((piece, volume))
+        inertia = {"inertia": "shell" if volume < _TINY else "convex"}
+        return self._make_mesh(piece.name, place.inverse().apply(vertices), surface.faces, place, inertia)
+
+    def make_plane(self, piece: NonConvexPiece, plane: Pose) -> bytes:
+        """The geom of an endless plane."""
+        place = elements.pose_attributes(self.poses[piece.body].inverse() @ plane)
+        return tag("geom", {**self._name_attribute(piece.name), "type": "plane", "size": "0 0 1", **place})
+
+    def make_visuals(self, body: str) -> Iterator[bytes]:
+        """The geoms that show what a body shows."""
+        for own, visual in self.shown:
+            if own != body or (seen := self.visuals.add_visual(body, visual, self.poses[body])) is None:
+                continue
+            if isinstance(seen.what, elements.MjcfShape):
+                attributes = elements.geom_attributes(seen.what)
+            else:
+                file = seen.what
+                if not isinstance(file, str):
+                    file = self.files.add(f"{body}-visual", "", file.vertices, file.faces)
+                key = file, tuple(seen.scale.tolist())
+                if key not in self._mesh_of_visual:
+                    scaled = {} if np.array_equal(seen.scale, np.ones(3)) else {"scale": format_numbers(seen.scale)}
+                    self._mesh_of_visual[key] = self._add_mesh(file, {**scaled, "inertia": "shell"})
+                attributes = elements.mesh_geom_attributes(self._mesh_of_visual[key], seen.pose)
+            color = {"rgba": format_numbers(seen.rgba)} if seen.rgba else {}
+            yield tag("geom", {"class": "visual", **attributes, **color})
 
     def _head_of(self, piece: str) -> dict[str, str]:
         return self._name_attribute(piece) | ({"class": "collision"} if self.shown else {})
@@ -198,73 +243,39 @@ class NewGeomMaker:
     def _name_attribute(self, piece: str) -> dict[str, str]:
         return {"name": self.names[piece]} if self.names[piece] else {}
 
-    def make_visuals(self, body: str) -> Iterator[bytes]:
-        """The geoms that show what a body shows."""
-        for own, visual in self.shown:
-            if own != body or (seen := self.files.add_visual(body, visual, self.poses[body])) is None:
-                continue
-            if isinstance(seen.what, elements.MjcfShape):
-                yield _visual_tag(elements.geom_attributes(seen.what), seen.rgba)
-                continue
-            file = seen.what
-            if not isinstance(file, str):
-                file = self.meshes.files.add(f"{body}-visual", "", file.vertices, file.faces)
-            mesh = self.meshes.add_visual(file, seen.scale)
-            yield _visual_tag(elements.mesh_geom_attributes(mesh, seen.pose), seen.rgba)
+    def _make_mesh(self, piece: str, vertices: Floats, faces: Ints, place: Pose, inertia: dict[str, str]) -> bytes:
+        mesh = self._add_mesh(self.files.add(piece, "", vertices, faces), inertia)
+        return tag("geom", {**self._head_of(piece), **elements.mesh_geom_attributes(mesh, place)})
 
-    def make_plane(self, piece: NonConvexPiece, plane: Pose) -> Iterator[bytes]:
-        """An endless plane."""
-        if not self.tree.is_static(piece.body):
-            why = "MuJoCo has planes on bodies that do not move only"
-            self.lost.append(Loss(FeatureKind.PLANES, (piece.name,), why))
-            return
-        place = elements.pose_attributes(self.poses[piece.body].inverse() @ plane)
-        yield elements.tag("geom", {**self._name_attribute(piece.name), "type": "plane", "size": "0 0 1", **place})
-
-    def make_surface(self, piece: NonConvexPiece) -> Iterator[bytes]:
-        """The mesh of a non-convex surface, as it is: MuJoCo collides with its convex hull."""
-        if piece.name not in self.names or piece.surface is None:
-            if piece.surface is not None:
-                self.lost.append(Loss(FeatureKind.NON_CONVEX, (piece.name,), "MuJoCo refuses a mesh that is flat"))
-            return
-        vertices = self.poses[piece.body].inverse().apply(piece.surface.vertices)
-        place, volume = _place_mesh(Aabb.of_points(vertices)), convex_hull(vertices, name=piece.name).volume
-        mesh = self.meshes.add_surface(piece.name, place.inverse().apply(vertices), piece.surface.faces, volume)
-        self.hulled.append((piece, volume))
-        yield elements.tag("geom", {**self._head_of(piece.name), **elements.mesh_geom_attributes(mesh, place)})
-
-    def losses(self) -> tuple[Loss, ...]:
-        """What is lost, visuals without a file that can be read included."""
-        return (*visuals.unreadable_visuals(self.files.refused), *self.lost)
+    def _add_mesh(self, file: str, attributes: dict[str, str]) -> str:
+        name = posixpath.splitext(posixpath.basename(file))[0].removeprefix(f"{self.files.stem}--")
+        name = kinematic_tree.claim_name(name, self._mesh_names)
+        self.meshes.append(tag("mesh", {"name": name, "file": file, **attributes}))
+        return name
 
 
 def _place_mesh(box: Aabb) -> Pose:
     return Pose.of_translation(box.center if np.linalg.norm(box.center) > _FAR * box.diagonal else np.zeros(3))
 
 
-def _visual_tag(attributes: dict[str, str], rgba: Rgba | None) -> bytes:
-    color = {"rgba": xml.format_numbers(rgba)} if rgba else {}
-    return elements.tag("geom", {"class": "visual", **attributes, **color})
-
-
-def _can_collide(piece: NonConvexPiece) -> bool:
-    return piece.surface is not None and len(piece.surface.faces) > 0 and not is_flat(piece.surface.vertices)
-
-
-def name_bodies(tree: BodyTree) -> dict[str, str]:
+def _name_bodies(tree: kinematic_tree.BodyTree) -> dict[str, str]:
     """What each body of an asset is called; a root called world is MuJoCo's, no other body is."""
     taken = {WORLD, *tree.order}
     is_root = WORLD in tree.roots
-    return {name: claim_name(name, taken) if name == WORLD and not is_root else name for name in tree.order}
+    return {
+        name: kinematic_tree.claim_name(name, taken) if name == WORLD and not is_root else name for name in tree.order
+    }
 
 
-def name_geoms(asset: Asset, tree: BodyTree, bodies: dict[str, str]) -> dict[str, tuple[str, str]]:
+def _name_geoms(asset: Asset, tree: kinematic_tree.BodyTree, bodies: dict[str, str]) -> dict[str, tuple[str, str]]:
     """For each hull, plane and mesh the name attribute, empty where it needs none, and the name that it reads back as.
 
     bodies: what the bodies of the tree are called.
     """
     pieces = [(geom.name, geom.body) for geom in asset.geoms]
-    pieces += [(piece.name, piece.body) for piece in asset.non_convex if piece.plane or _can_collide(piece)]
+    faces = {p.name: p.surface.vertices for p in asset.non_convex if p.surface is not None and len(p.surface.faces)}
+    solid = {name for name, vertices in faces.items() if not collision_pieces.is_flat(vertices)}
+    pieces += [(piece.name, piece.body) for piece in asset.non_convex if piece.plane or piece.name in solid]
     ordered = [(name, own) for body in tree.order for name, own in pieces if own == body]
     plain = [name.removeprefix(f"{body}/") for name, body in ordered]
     holders = [bodies[body] for _, body in ordered]
@@ -273,6 +284,6 @@ def name_geoms(asset: Asset, tree: BodyTree, bodies: dict[str, str]) -> dict[str
     attributes = []
     for unnamed, holder, name in zip(document.geom_names([(h, "") for h in holders]), holders, plain, strict=True):
         wanted = f"{holder}/{name}" if shared[name] > 1 else name
-        attributes.append("" if unnamed == f"{holder}/{name}" else claim_name(wanted, taken))
+        attributes.append("" if unnamed == f"{holder}/{name}" else kinematic_tree.claim_name(wanted, taken))
     back = document.geom_names(list(zip(holders, attributes, strict=True)))
     return {name: pair for (name, _), pair in zip(ordered, zip(attributes, back, strict=True), strict=True)}

@@ -1,5 +1,5 @@
-"""What is kept of an MJCF to write it back: its files as one tree with includes resolved, and which hulls were read
-from which elements."""
+"""What is kept of an MJCF to write it back, its files as one tree without includes, and the names of its geoms and
+bodies."""
 
 from __future__ import annotations
 
@@ -10,63 +10,23 @@ from pathlib import Path
 
 from meshforge.common import AssetError, is_file, plain_path, relative_name
 from meshforge.formats.mesh_reader import read_content
-from meshforge.formats.xml import Element, XmlText, parse_xml
-from meshforge.geometry import Floats, Pose
+from meshforge.formats.xml import Element, SourceFile, XmlText, parse_xml
 from meshforge.symbolic import Document, unique_names
 
 _DEEPEST = 100  # includes one in another; no author nests so far
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class GeomRecord:
-    """A `<geom>` of the file that MuJoCo makes geoms of, or geoms that have no element in these files.
-
-    source, start: the file and the byte offset in its text, as in the tree's nodes; source -1 for geoms out of a
-    sub-model, which have no element here. body: its body, that of the first copy. names: what each copy is called in
-    the asset, in the order of the compiled model; visual ones have names too, though the asset does not show them.
-    collides: whether its copies take part in collisions. fixed: why an edit cannot change it, empty where it can.
-    """
-
-    source: int
-    start: int
-    body: str
-    names: tuple[str, ...]
-    collides: bool
-    fixed: str = ""
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class MjcfBody:
-    """A body as MuJoCo compiled it, before static bodies are fused.
-
-    name: as in the asset; parent: None for the world. source, start: its element, source -1 where it has none here.
-    pose: root_T_body in the reference configuration; inertial: body_T_inertial; mass [kg]; inertia: (3,) moments about
-    the axes of `inertial` [kg m^2]; explicit: whether an `<inertial>` of the file says them.
-    """
-
-    name: str
-    parent: str | None
-    source: int
-    start: int
-    pose: Pose
-    inertial: Pose
-    mass: float
-    inertia: Floats
-    explicit: bool
-
-
-@dataclass(frozen=True, eq=False, slots=True)
 class MjcfDocument(Document):
     """The source of an asset read from an MJCF.
 
-    sources: the authored files, main first, then in order of mention; authored: one entry a geom element, in document
-    order; bodies: in MuJoCo's order, the world first; refusal: MuJoCo's message where it refuses the file, of which
-    then only the collision geometry was read, with masses that may be none.
+    sources: the authored files, main first, then in order of mention; names: of the geoms that collide; refusal:
+    MuJoCo's message where it refuses the file, of which then only the collision geometry was read, with masses that may
+    be none.
     """
 
-    sources: tuple[MjcfSource, ...]
-    authored: tuple[GeomRecord, ...]
-    bodies: tuple[MjcfBody, ...]
+    sources: tuple[SourceFile, ...]
+    names: tuple[str, ...]
     refusal: str = ""
 
     @property
@@ -94,25 +54,6 @@ def geom_names(geoms: Sequence[tuple[str, str]]) -> list[str]:
 def body_names(names: Sequence[str]) -> list[str]:
     """The names of bodies in MuJoCo's order; the K-th is `bodyK` where it has none, the world is the 0-th."""
     return unique_names(name or f"body{k}" for k, name in enumerate(names))
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class MjcfSource:
-    """An authored file: the main one, or one that is included.
-
-    path: absolute; place: its path relative to the main file's folder, where an output has it too, None for one that
-    is included by an absolute path; reference: as the `<include>` has it, empty for the main file.
-    """
-
-    path: Path
-    place: str | None
-    reference: str
-    raw: bytes
-
-    @property
-    def text(self) -> XmlText:
-        """The text in which offsets of elements count."""
-        return XmlText.of(self.raw)
 
 
 @dataclass(slots=True, eq=False)
@@ -158,12 +99,12 @@ class MjcfTree:
     """
 
     root: MjcfNode
-    sources: tuple[MjcfSource, ...]
+    sources: tuple[SourceFile, ...]
     faults: tuple[str, ...]
     files: Mapping[Path, bytes]
 
     @property
-    def main(self) -> MjcfSource:
+    def main(self) -> SourceFile:
         return self.sources[0]
 
     def where(self, node: MjcfNode) -> str:
@@ -181,7 +122,10 @@ def read_tree(main: Path, files: Mapping[Path, bytes] | None = None) -> MjcfTree
     An include is searched from the main file's folder, then from that of the file it stands in.
     Raises AssetError with `file:line`: a file that cannot be read, is not well formed, or is included twice.
     """
-    return _TreeReader(plain_path(main), {plain_path(p): data for p, data in (files or {}).items()}).read()
+    known = {plain_path(path): data for path, data in (files or {}).items()}
+    reader = _TreeReader(plain_path(main), known)
+    root = reader.build_node(reader.parse(reader.main, ""), 0)
+    return MjcfTree(root, tuple(reader.sources), tuple(reader.faults), known)
 
 
 class _TreeReader:
@@ -189,24 +133,20 @@ class _TreeReader:
 
     def __init__(self, main: Path, files: Mapping[Path, bytes]) -> None:
         self.main, self.files = main, files
-        self.sources: list[MjcfSource] = []
+        self.sources: list[SourceFile] = []
         self.faults: list[str] = []
 
-    def read(self) -> MjcfTree:
-        root = self._parse(self.main, "")
-        return MjcfTree(self._build_node(root, 0), tuple(self.sources), tuple(self.faults), self.files)
-
-    def _parse(self, path: Path, reference: str) -> Element:
+    def parse(self, path: Path, reference: str) -> Element:
         raw = self.files[path] if path in self.files else read_content(path)
         absolute = bool(reference) and Path(reference).is_absolute()
         place = None if absolute else relative_name(path, self.main.parent)
         text = XmlText.of(raw)
-        self.sources.append(MjcfSource(path, place, reference, raw))
+        self.sources.append(SourceFile(path, place, reference, raw))
         if text.encoding.startswith("utf-16"):
             self.faults.append(f"{path.name} is text in UTF-16")
         return parse_xml(text.data, str(path))
 
-    def _build_node(self, element: Element, source: int, depth: int = 0) -> MjcfNode:
+    def build_node(self, element: Element, source: int, depth: int = 0) -> MjcfNode:
         top = MjcfNode(element, source)
         waiting = [top]
         while waiting:
@@ -237,7 +177,7 @@ class _TreeReader:
                 where=where,
                 remedy="MuJoCo includes a file at most once; take this <include> away.",
             )
-        root = self._parse(path, reference)
+        root = self.parse(path, reference)
         if not root.children:
             self.faults.append(f"the included file {reference!r} is empty")
-        return self._build_node(root, len(self.sources) - 1, depth + 1).children
+        return self.build_node(root, len(self.sources) - 1, depth + 1).children

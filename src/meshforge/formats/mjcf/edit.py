@@ -3,23 +3,26 @@ before it is given out."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from meshforge.common import AssetError, join_names
+from meshforge.formats import collision_pieces, element_edits
 from meshforge.formats.base import Mass, Output
-from meshforge.formats.mjcf import edit_check, elements, references
-from meshforge.formats.mjcf.collision_edit import MjcfPlan, NewGeom, OldGeom, is_edited
+from meshforge.formats.mjcf import edit_check, references
 from meshforge.formats.mjcf.collision_only import strip_to_collision
+from meshforge.formats.mjcf.compiler import drop_scaling
 from meshforge.formats.mjcf.document import MjcfDocument, MjcfNode, MjcfTree, read_tree
-from meshforge.formats.mjcf.edit_geoms import ElementContext, HullGeomMaker, HullMeshes
-from meshforge.formats.mjcf.model import MjcfModel, compile_tree, compile_unscaled
+from meshforge.formats.mjcf.elements import inertial_attributes, tag
+from meshforge.formats.mjcf.geom_edits import GeomEdits
+from meshforge.formats.mjcf.model import MjcfModel, compile_tree
+from meshforge.formats.mjcf.new_geoms import NewGeoms
 from meshforge.formats.references import note_absolute
-from meshforge.formats.slots import Slot, append_elements, child_indent_of
-from meshforge.formats.xml import Splice, XmlText, apply_splices, newline_of, parse_xml
+from meshforge.formats.xml import Splice, apply_splices, line_gap, newline_of, parse_xml, remove_element, set_attribute
 from meshforge.symbolic import Asset
 
-_ROUNDS = 4  # what one body or geom says may change what another has to say
+_ROUNDS = 4  # the mass that one body says may change what another has to say
+_FROM_GEOMS = "inertiafromgeom"
 
 
 def write_mjcf(asset: Asset, document: MjcfDocument, name: str, mass: Mass) -> Output:
@@ -31,60 +34,25 @@ def write_mjcf(asset: Asset, document: MjcfDocument, name: str, mass: Mass) -> O
     """
     tree = document.tree
     copies, notes = references.list_copies(asset, tree)
-    if not is_edited(asset, document):
+    if not collision_pieces.is_edited(asset, document.names):
         return _build_output(tree, [source.raw for source in tree.sources], {}, copies, notes, {})
-    before = _compile(tree, can_strip=bool(document.refusal))
-    authored = compile_unscaled(before)
-    context = ElementContext(tree)
-    meshes = HullMeshes(asset, context, Path(name).stem)
-    plan = MjcfPlan(asset, document, before, authored, HullGeomMaker(context, meshes))
-    edit = MjcfEdit(plan, meshes, authored)
-    if mass == "keep":
-        edit.keep_masses()
-        if edit.weighs and elements.is_inertial_ignored(tree):
-            bodies = join_names([authored.body_names[k] for k in edit.weighs], 3)
-            notes.append(f"inertiafromgeom is 'auto' now, so that <inertial> keeps the masses of {bodies}")
-    names = _check(edit, before, mass)
-    return _build_output(tree, edit.build_texts(), meshes.files.made, copies, notes, names)
-
-
-def _compile(tree: MjcfTree, can_strip: bool) -> MjcfModel:
-    """The model of a tree, of its collision geometry alone where MuJoCo refuses the whole and `can_strip`."""
     try:
-        return compile_tree(tree)
+        before = compile_tree(tree, drop_scaling)
     except AssetError:
-        if not can_strip:
+        if not document.refusal:
             raise
-        return _strip(tree)
+        before = _strip(tree)
+    edit = MjcfEdit(asset, before, Path(name).stem)
+    texts = edit.build_checked_texts(mass)
+    if edit.masses.bodies and edit.masses.are_ignored:
+        bodies = join_names([before.body_names[k] for k in edit.masses.bodies], 3)
+        notes.append(f"inertiafromgeom is 'auto' now, so that <inertial> keeps the masses of {bodies}")
+    return _build_output(tree, texts, edit.maker.files.made, copies, notes, edit.geoms.names)
 
 
 def _strip(tree: MjcfTree) -> MjcfModel:
     refusal = AssetError("MuJoCo refuses its collision geometry", where=str(tree.main.path))
     return strip_to_collision(tree, refusal, masses="fixed")
-
-
-def _check(edit: MjcfEdit, before: MjcfModel, mass: Mass) -> dict[str, str]:
-    """The names that hulls cannot have.
-
-    Raises AssetError where MuJoCo refuses the edited file, or finds in it what the edit does not say.
-    """
-    try:
-        after, names = edit.name_geoms()
-        if mass == "recompute":  # a free body may stand on its centre of mass
-            before, after = edit.authored, edit.read_back_unscaled()
-    except AssetError as error:
-        remedy = "Keep the masses (--mass keep)." if mass == "recompute" else error.remedy
-        raise AssetError(
-            f"of the edited file: {error.problem}", where=str(edit.tree.main.path), remedy=remedy
-        ) from None
-    wrong = next(edit_check.find_differences(before, after, edit.expected, mass == "keep"), None)
-    if wrong is not None:
-        raise AssetError(
-            f"the edited file would differ from the authored one in more than the edit says: {wrong}",
-            where=str(edit.tree.main.path),
-            remedy="This is a fault of MeshForge; please report it. Nothing was written.",
-        )
-    return names
 
 
 def _build_output(
@@ -107,150 +75,161 @@ def _build_output(
 
 
 class MjcfEdit:
-    """An edited document. authored: the unedited one with plain masses.
+    """An edited document; before: the model of the unedited one, its masses not scaled."""
 
-    weighs: the numbers of the bodies that say their masses, which they did not.
-    """
+    def __init__(self, asset: Asset, before: MjcfModel, stem: str) -> None:
+        self.before, self.tree = before, before.tree
+        self.maker = NewGeoms(asset, before.tree, stem)
+        self.geoms = GeomEdits(asset, before, self.maker)
+        self.masses = BodyMasses(self.geoms)
 
-    def __init__(self, plan: MjcfPlan, meshes: HullMeshes, authored: MjcfModel) -> None:
-        self.plan, self.meshes, self.authored = plan, meshes, authored
-        self.tree = plan.tree
-        self.weighs: list[int] = []
-        self.expected = plan.predict_geoms()
-        taken = self._names_of_kept()
-        for entry in self.expected:
-            if isinstance(entry, NewGeom):
-                _name_slot(entry.slot, entry.slot.names[0], taken)
+    def build_checked_texts(self, mass: Mass) -> list[bytes]:
+        """The bytes of each of the files, with the masses that bodies have to say.
+
+        Raises AssetError where MuJoCo refuses them, or finds in them what the edit does not say.
+        """
+        where = str(self.tree.main.path)
+        for _ in range(_ROUNDS):
+            texts = self.build_texts()
+            try:
+                after = self._compile(texts)
+            except AssetError as error:  # perhaps for a body that has lost the geoms that it has its mass from
+                if mass == "keep" and self.masses.add(self._find_changed_bodies()):
+                    continue
+                remedy = "Keep the masses (--mass keep)." if mass == "recompute" else error.remedy
+                raise AssetError(f"of the edited file: {error.problem}", where=where, remedy=remedy) from None
+            if mass == "recompute" or not self.masses.add(edit_check.find_changed_masses(self.before, after)):
+                break
+        wrong = next(edit_check.find_differences(self.before, after, self.geoms, mass == "keep"), None)
+        if wrong is not None:
+            raise AssetError(
+                f"the edited file would differ from the authored one in more than the edit says: {wrong}",
+                where=where,
+                remedy="This is a fault of MeshForge; please report it. Nothing was written.",
+            )
+        return texts
 
     def build_texts(self) -> list[bytes]:
-        """The bytes of each of the authored files, edited. Raises AssetError where one of them cannot be."""
-        rest = [*self._mass_splices(), *self._asset_splices()]
-        masses = {name: text for name, (node, text) in self._inertial_texts().items() if not node.element.children}
-        out = []
-        for k, source in enumerate(self.tree.sources):
-            splices = [*self.plan.build_splices(k, masses), *(splice for owner, splice in rest if owner == k)]
-            if splices and source.place is None:
-                raise AssetError(
-                    f"the edit is in {source.reference!r}, which is included by an absolute path",
-                    where=str(source.path),
-                    remedy="Include it by a path relative to the main file.",
-                )
-            out.append(_edit_file(source.text, splices, k > 0) if splices else source.raw)
-        return out
+        """The bytes of each of the files. Raises AssetError where one of them cannot be edited."""
+        rest = [*self.masses.build_splices(), *self._asset_splices()]
+        return [
+            self._edit_file(k, [*self.geoms.build_splices(k), *(splice for owner, splice in rest if owner == k)])
+            for k in range(len(self.tree.sources))
+        ]
 
-    def read_back_unscaled(self) -> MjcfModel:
-        """What MuJoCo makes of the texts with plain masses."""
-        return compile_unscaled(self._compile_edited())
+    def _edit_file(self, number: int, splices: list[Splice]) -> bytes:
+        """The bytes of an edited file; in an included one that nothing is left in, an element that says nothing.
 
-    def keep_masses(self) -> None:
-        """Let each body say its mass that would have another one. Raises AssetError where one cannot."""
-        for _ in range(_ROUNDS):
-            bodies = self._find_reweighed()
-            if not bodies:
-                break
-            self.weighs += bodies
-        self._inertial_texts()
-
-    def name_geoms(self) -> tuple[MjcfModel, dict[str, str]]:
-        """Name the geoms that would else read back under other names.
-
-        Returns what MuJoCo makes of them, and the names that cannot be had, with what they read back as.
+        MuJoCo refuses to include an empty file. What it held were geoms or masses, so a frame may stand there.
         """
-        for _ in range(_ROUNDS):
-            after = self._compile_edited()
-            misread = list(self._find_misread(after))
-            taken = {geom.name for geom in after.spec_geoms} | self._names_of_kept()
-            named = [_name_slot(slot, wanted, taken) for slot, wanted, _ in misread if slot is not None]
-            if not any(named):
-                break
-        return after, {wanted: read for _, wanted, read in misread}
-
-    def _names_of_kept(self) -> set[str]:
-        return {self.authored.spec_geoms[e.number].name for e in self.expected if isinstance(e, OldGeom)}
-
-    def _compile_edited(self) -> MjcfModel:
-        """What MuJoCo makes of the texts, of as much as was read before. Raises AssetError where it refuses them."""
-        main = self.tree.main.path
-        files = dict(zip((source.path for source in self.tree.sources), self.build_texts(), strict=True))
-        tree = read_tree(main, files | {main.parent / place: data for place, data in self.meshes.files.made.items()})
-        if amiss := [fault for fault in tree.faults if fault not in self.tree.faults]:
-            raise AssetError(amiss[0], where=str(main))
-        return compile_tree(tree) if self.authored.is_whole else _strip(tree)
-
-    def _find_reweighed(self) -> list[int]:
-        try:
-            found = edit_check.find_changed_masses(self.authored, self.read_back_unscaled())
-        except AssetError:  # perhaps for a body that has lost the geoms that it has its mass from
-            names = self.authored.body_names
-            found = [names.index(body) for body in self.plan.bodies_to_change]
-            found = [body for body in found if self.authored.model.body_mass[body] > 0]
-        nodes = {body: self.plan.body_node(self.authored.body_names[body]) for body in found}
-        return [body for body in found if body not in self.weighs and not elements.has_inertial(nodes[body], self.tree)]
-
-    def _mass_splices(self) -> Iterator[tuple[int, Splice]]:
-        if self.weighs and elements.is_inertial_ignored(self.tree):
-            yield from elements.stop_ignoring_inertials(self.tree)
-        for node, text in self._inertial_texts().values():
-            if node.element.children:
-                yield from elements.insert_inertial(self.tree, node, text)
-
-    def _inertial_texts(self) -> dict[str, tuple[MjcfNode, bytes]]:
-        """The elements of the bodies that say their masses, and what they say; copies of a body have one mass."""
-        found: dict[int, tuple[str, MjcfNode, bytes]] = {}
-        for body in self.weighs:
-            name = self.authored.body_names[body]
-            node = self.plan.body_node(name)
-            if node is None:
-                raise elements.mass_error(name, "it has no element of its own", self.tree)
-            if body in self.authored.unweighed:
-                raise elements.mass_error(name, "a visual mesh that weighs could not be read", self.tree)
-            found.setdefault(id(node), (name, node, elements.inertial_tag_of_model(self.authored, body)))
-        return {name: (node, text) for name, node, text in found.values()}
+        source = self.tree.sources[number]
+        if not splices:
+            return source.raw
+        if source.place is None:
+            raise AssetError(
+                f"the edit is in {source.reference!r}, which is included by an absolute path",
+                where=str(source.path),
+                remedy="Include it by a path relative to the main file.",
+            )
+        data = apply_splices(source.text.data, splices)
+        if number and not (root := parse_xml(data, "an edited file")).children:
+            data = apply_splices(data, [Splice(root.inside, root.inside, b"<frame/>")])
+        return source.text.encode(data)
 
     def _asset_splices(self) -> Iterator[tuple[int, Splice]]:
-        if not self.meshes.elements:
+        """The edits, with their files, that add the new meshes."""
+        if not self.maker.elements:
             return
         data, root = self.tree.main.text.data, self.tree.root.element
-        made = [Slot("", (), text=text) for text in self.meshes.elements]
-        own = list(root.each("asset"))
-        if own:
-            yield 0, append_elements(data, own[-1], made)
+        if own := list(root.each("asset")):
+            yield (
+                0,
+                element_edits.append_elements(
+                    data, own[-1], [element_edits.OutputElement("", (), text=text) for text in self.maker.elements]
+                ),
+            )
         else:
-            lead = child_indent_of(data, root)
-            lines = [b"<asset>", *(2 * lead + slot.text for slot in made), lead + b"</asset>"]
-            yield 0, append_elements(data, root, [Slot("", (), text=newline_of(data).join(lines))])
+            lead = element_edits.child_indent_of(data, root)
+            lines = [b"<asset>", *(2 * lead + text for text in self.maker.elements), lead + b"</asset>"]
+            yield (
+                0,
+                element_edits.append_elements(
+                    data, root, [element_edits.OutputElement("", (), text=newline_of(data).join(lines))]
+                ),
+            )
 
-    def _find_misread(self, after: MjcfModel) -> Iterator[tuple[Slot | None, str, str]]:
-        """The geoms that read back under other names: what may be named, the name as it should be, and as it is."""
-        if len(after.names) != len(self.expected):
-            return
-        for entry, read in zip(self.expected, after.names, strict=True):
-            if isinstance(entry, OldGeom):
-                wanted = self.authored.names[entry.number]
-                named = self.authored.spec_geoms[entry.number].name
-                slot = None if named else entry.slot
-            else:
-                wanted, slot = entry.geom.name, entry.slot
-            if wanted != read:
-                yield slot, wanted, read
+    def _compile(self, texts: list[bytes]) -> MjcfModel:
+        """What MuJoCo makes of the texts, of as much as was read before. Raises AssetError where it refuses them."""
+        main = self.tree.main.path
+        files = dict(zip((source.path for source in self.tree.sources), texts, strict=True))
+        tree = read_tree(main, files | {main.parent / place: data for place, data in self.maker.files.made.items()})
+        if amiss := [fault for fault in tree.faults if fault not in self.tree.faults]:
+            raise AssetError(amiss[0], where=str(main))
+        return compile_tree(tree, drop_scaling) if self.before.is_whole else _strip(tree)
 
-
-def _edit_file(text: XmlText, splices: Sequence[Splice], is_included: bool) -> bytes:
-    """The bytes of an edited file; of an included one that nothing is left in, with an element that says nothing.
-
-    MuJoCo refuses to include an empty file. What it held were geoms or masses, so a frame may stand there.
-    """
-    data = apply_splices(text.data, splices)
-    if is_included and not (root := parse_xml(data, "an edited file")).children:
-        data = apply_splices(data, [Splice(root.inside, root.inside, b"<frame/>")])
-    return text.encode(data)
+    def _find_changed_bodies(self) -> list[int]:
+        """The bodies with a mass whose geoms change."""
+        found = map(self.before.body_names.index, self.geoms.changed_bodies)
+        return [body for body in found if self.before.model.body_mass[body] > 0]
 
 
-def _name_slot(slot: Slot, wanted: str, taken: set[str]) -> bool:
-    """Give an element a name attribute under which it reads as wanted, if there is one that is free; take that."""
-    for name in (wanted.removeprefix(f"{slot.body}/"), wanted):
-        if name not in taken and name != slot.name:
-            slot.name = name
-            taken.add(name)
-            return True
-    return False
+class BodyMasses:
+    """The bodies, by their numbers, that say in the output the masses which they had, and did not say."""
+
+    def __init__(self, geoms: GeomEdits) -> None:
+        self.geoms, self.before, self.tree = geoms, geoms.before, geoms.tree
+        self.bodies: list[int] = []
+        self._texts: dict[int, tuple[MjcfNode, bytes]] = {}  # copies of a body have one element, and one mass
+        settings = [c.attributes[_FROM_GEOMS] for c in self.tree.root.each("compiler") if _FROM_GEOMS in c.attributes]
+        self.are_ignored = settings[-1:] == ["true"]
+
+    def add(self, bodies: Iterable[int]) -> bool:
+        """Let bodies say their masses; whether there was one that did not. Raises AssetError where one cannot."""
+        nodes = {body: self.geoms.body_node(self.before.body_names[body]) for body in bodies}
+        new = [body for body, node in nodes.items() if body not in self.bodies and not self._has_inertial(node)]
+        for body in new:
+            node, why = nodes[body], ""
+            if node is None:
+                why = "it has no element of its own"
+            elif body in self.before.unweighed:
+                why = "a visual mesh that weighs could not be read"
+            if node is None or why:
+                raise AssetError(
+                    f"the mass of body {self.before.body_names[body]!r} cannot be kept: {why}",
+                    where=str(self.tree.main.path),
+                    remedy="Let MuJoCo take it from the edited hulls (--mass recompute).",
+                )
+            model = self.before.model
+            numbers = model.body_ipos[body], model.body_iquat[body], model.body_inertia[body]
+            text = tag("inertial", inertial_attributes(float(model.body_mass[body]), *numbers))
+            if id(node) not in self._texts and not node.element.children:
+                self.geoms.ends[self.before.body_names[body]].insert(0, element_edits.OutputElement("", (), text=text))
+            self._texts.setdefault(id(node), (node, text))
+        self.bodies += new
+        return bool(new)
+
+    def build_splices(self) -> Iterator[tuple[int, Splice]]:
+        """The edits, with their files, that put an `<inertial>` before the children of a body's element.
+
+        Where every `<inertial>` was ignored so far, they count now, and those of the bodies give way.
+        """
+        texts = [source.text.data for source in self.tree.sources]
+        for node in self.tree.root.each("compiler") if self.bodies and self.are_ignored else ():
+            if node.attributes.get(_FROM_GEOMS) == "true":
+                yield node.source, set_attribute(texts[node.source], node.element, _FROM_GEOMS, "auto")
+        for node, text in self._texts.values():
+            if node.element.children:
+                yield from ((old.source, remove_element(texts[old.source], old.element)) for old in _inertials_of(node))
+                at, gap = node.element.inside, line_gap(texts[node.source], node.element.children[0].start)
+                yield node.source, Splice(at, at, gap + text)
+
+    def _has_inertial(self, node: MjcfNode | None) -> bool:
+        return node is not None and not self.are_ignored and any(True for _ in _inertials_of(node))
+
+
+def _inertials_of(node: MjcfNode) -> Iterator[MjcfNode]:
+    for child in node.children:
+        if child.tag == "inertial":
+            yield child
+        elif child.tag == "frame":
+            yield from _inertials_of(child)

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 import numpy as np
 
 from meshforge.formats.libraries import mujoco
-from meshforge.formats.mjcf.collision_edit import NewGeom, OldGeom
+from meshforge.formats.mjcf.geom_edits import GeomEdits
 from meshforge.formats.mjcf.model import MjcfModel
-from meshforge.formats.mjcf.shapes import MjcfShapes
 from meshforge.geometry import Floats, Shape
 
 _OF_BODY = tuple(
@@ -19,8 +18,9 @@ _OF_BODY = tuple(
         *("pos", "quat", "gravcomp", "user", "plugin"),
     )
 )
+_MASS_FIELDS = ("body_mass", "body_inertia", "body_ipos", "body_iquat")
 _OF_MASS = (
-    *("body_mass", "body_inertia", "body_ipos", "body_iquat", "body_subtreemass", "body_invweight0"),
+    *(*_MASS_FIELDS, "body_subtreemass", "body_invweight0"),
     *("dof_M0", "dof_invweight0", "dof_simplenum", "tendon_invweight0", "actuator_acc0"),
     *("dof_damping", "jnt_stiffness", "actuator_gainprm", "actuator_biasprm", "actuator_lengthrange"),
 )
@@ -29,105 +29,53 @@ _OTHERS = (
     *("numeric_", "text_", "key_", "skin_", "flex_", "hfield_", "plugin"),
 )
 _NOT_COMPARED = (
-    *("sensor_objid", "sensor_refid", "site_dataid"),  # numbers of geoms and meshes, which shift
+    *("sensor_objid", "sensor_refid", "site_dataid"),  # numbers of geoms and meshes, which shift; names are compared
     *("cam_poscom0", "light_poscom0", "site_sameframe"),  # follow from masses, which are compared themselves
     "dof_length",  # how far geoms reach from a joint
     "flex_bvhadr",  # a place behind the bounding volumes of all geoms
 )
 
-INHERITED = tuple(
+_INHERITED = tuple(
     f"geom_{name}"
     for name in (
         *("contype", "conaffinity", "condim", "priority", "group", "matid", "friction", "solmix", "solref", "solimp"),
         *("margin", "gap", "user", "rgba", "surfacevel", "adhesion", "castshadow"),
     )
 )
-"""What a made geom has from its parent."""
+"""What a new geom has from its parent."""
 
 _OF_GEOM = (
-    *INHERITED,
+    *_INHERITED,
     *(f"geom_{name}" for name in ("type", "size", "aabb", "rbound", "pos", "quat", "fluid", "plugin", "bodyid")),
 )
-_OF_MESH = ("mesh_pos", "mesh_quat", "mesh_scale", "mesh_vertnum", "mesh_facenum")
 
 _SINGLE = 3e-7  # relative: MuJoCo keeps vertices in single precision
 _POSE = 1e-9  # relative: a pose through quaternions and frames
 
-MASS_FIELDS = ("body_mass", "body_inertia", "body_ipos", "body_iquat")
 
+def find_differences(before: MjcfModel, after: MjcfModel, edit: GeomEdits, masses: bool) -> Iterator[str]:
+    """What an edited file says otherwise than it should; masses: whether they are to be as before.
 
-def find_differences(
-    before: MjcfModel, after: MjcfModel, expected: Sequence[OldGeom | NewGeom], masses: bool
-) -> Iterator[str]:
-    """What an edited file says otherwise than it should.
-
-    expected: the geoms of the edited model; masses: whether masses are to be as before.
+    Elements refer to geoms by names, and the text of other elements is as it was: where names are right, so are these.
     """
-    if after.model.ngeom != len(expected):
-        yield f"{after.model.ngeom} geoms where {len(expected)} were expected"
+    if after.model.ngeom != len(edit.geoms):
+        yield f"{after.model.ngeom} geoms where {len(edit.geoms)} were expected"
         return
-    yield from _compare_fields(before.model, after.model, masses)
-    yield from _compare_meshes(before.model, after.model, before.is_whole)
-    number = {entry.number: k for k, entry in enumerate(expected) if isinstance(entry, OldGeom)}
-    yield from _compare_kept(before, after, number)
-    made = {k: entry for k, entry in enumerate(expected) if isinstance(entry, NewGeom)}
-    renewed = {before.names.index(e.geom.name): k for k, e in made.items() if e.geom.name in before.names}
-    yield from _compare_references(before.model, after.model, renewed | number)
-    yield from _compare_new_geoms(before, after, made)
-
-
-def _compare_fields(one: mujoco.MjModel, other: mujoco.MjModel, masses: bool) -> Iterator[str]:
-    names = [n for n in dir(one) if n.startswith(_OTHERS) and not n.endswith("pathadr")]
+    names = [name for name in dir(before.model) if name.startswith(_OTHERS) and not name.endswith("pathadr")]
     plain = [name for name in names if name not in _NOT_COMPARED and name not in _OF_MASS]
     for name in [*_OF_BODY, *(_OF_MASS if masses else ()), *plain]:
-        if not is_equal(one, other, name, slice(None), slice(None)):
+        if not _is_equal(before.model, after.model, name, slice(None), slice(None)):
             yield name
-
-
-def _compare_meshes(one: mujoco.MjModel, other: mujoco.MjModel, is_whole: bool) -> Iterator[str]:
-    """The meshes that differ; is_whole: whether both models are, where meshes stay that no geom uses any more."""
-    there = {other.mesh(k).name for k in range(other.nmesh)}
-    for k in range(one.nmesh):
-        name = one.mesh(k).name
-        if name and name not in there:
-            if is_whole:
-                yield f"mesh {name!r}"
-            continue
-        m = other.mesh(name).id if name else k
-        vertices = [slice(n.mesh_vertadr[i], n.mesh_vertadr[i] + n.mesh_vertnum[i]) for n, i in ((one, k), (other, m))]
-        is_kept = all(is_equal(one, other, field, k, m) for field in _OF_MESH)
-        if not (is_kept and is_equal(one, other, "mesh_vert", *vertices)):
-            yield f"mesh {name!r}"
-
-
-def _compare_kept(before: MjcfModel, after: MjcfModel, number: dict[int, int]) -> Iterator[str]:
-    """The geoms that stay; number: what the number of each has become."""
-    one, other = before.model, after.model
+    kept = {geom.number: k for k, geom in enumerate(edit.geoms) if geom.number is not None}
     for field in _OF_GEOM:
-        if not is_equal(one, other, field, list(number), list(number.values())):
+        if not _is_equal(before.model, after.model, field, list(kept), list(kept.values())):
             yield field
-    for a, b in number.items():
-        if before.spec_geoms[a].name not in ("", after.spec_geoms[b].name):
-            yield f"the name of geom {before.names[a]!r}"
-        if _data_name(one, a) != _data_name(other, b):
-            yield f"the mesh of geom {before.names[a]!r}"
-
-
-def _compare_references(one: mujoco.MjModel, other: mujoco.MjModel, number: dict[int, int]) -> Iterator[str]:
-    geom, wraps = mujoco.mjtObj.mjOBJ_GEOM, (mujoco.mjtWrap.mjWRAP_SPHERE, mujoco.mjtWrap.mjWRAP_CYLINDER)
-    kinds = {
-        "pair_geom1": np.ones(one.npair, bool),
-        "pair_geom2": np.ones(one.npair, bool),
-        "sensor_objid": one.sensor_objtype == geom,
-        "sensor_refid": one.sensor_reftype == geom,
-        "tuple_objid": one.tuple_objtype == geom,
-        "wrap_objid": np.isin(one.wrap_type, wraps),
-    }
-    for field, refers in kinds.items():
-        pairs = zip(getattr(one, field).tolist(), refers, strict=True)
-        wanted = [number.get(k) if is_geom else k for k, is_geom in pairs]
-        if wanted != getattr(other, field).tolist():
-            yield field
+    for k, (geom, read) in enumerate(zip(edit.geoms, edit.read_names(), strict=True)):
+        if (after.spec_geoms[k].name, after.names[k]) != (geom.attribute, read):
+            yield f"the name of geom {geom.name!r}"
+        if geom.number is not None and _data_name(before.model, geom.number) != _data_name(after.model, k):
+            yield f"the mesh of geom {geom.name!r}"
+    yield from _compare_new_geoms(before, after, edit)
 
 
 def _data_name(model: mujoco.MjModel, geom: int) -> str:
@@ -136,18 +84,17 @@ def _data_name(model: mujoco.MjModel, geom: int) -> str:
     return "" if data < 0 else str(model.mesh(data).name if of_mesh else model.hfield(data).name)
 
 
-def _compare_new_geoms(before: MjcfModel, after: MjcfModel, made: dict[int, NewGeom]) -> Iterator[str]:
-    """What is not as it should be; made: the new geoms by their numbers after the edit."""
-    shapes = MjcfShapes(after.model)
+def _compare_new_geoms(before: MjcfModel, after: MjcfModel, edit: GeomEdits) -> Iterator[str]:
     origins = {name: pose.translation for name, pose in zip(after.body_names, after.body_poses, strict=True)}
-    for k, entry in made.items():
-        hull = entry.geom
-        shape = shapes.part_of(k, after.geom_poses[k]).shape
+    for k, hull in enumerate(geom.hull for geom in edit.geoms):
+        if hull is None:
+            continue
+        shape = after.read_piece(k).shape
         if after.body_of[k] != hull.body or not _is_same_shape(shape, hull.shape, origins[hull.body]):
             yield f"the geometry of hull {hull.name!r}"
         if hull.parent in before.names:
             parent = before.names.index(hull.parent)
-            wrong = [field for field in INHERITED if not is_equal(before.model, after.model, field, parent, k)]
+            wrong = [field for field in _INHERITED if not _is_equal(before.model, after.model, field, parent, k)]
             yield from (f"{field} of hull {hull.name!r}" for field in wrong)
 
 
@@ -156,17 +103,13 @@ def _is_same_shape(found: Shape | None, wanted: Shape, origin: Floats) -> bool:
         return False
     size = float(np.linalg.norm(wanted.aabb.size))
     away = float(np.linalg.norm(wanted.aabb.center - origin))
-    if not found.is_primitive:
-        return _reach_difference(found, wanted) <= _SINGLE * (size + min(away, 1000.0 * size)) + _POSE * away
-    corners, others = (shape.tessellate().vertices for shape in (found, wanted))  # each about its own axes
-    return bool(np.abs(corners - others).max() <= _POSE * (size + away))
-
-
-def _reach_difference(one: Shape, other: Shape) -> float:
-    """How far two polytopes reach differently, along the normals of their faces."""
-    normals = np.concatenate([_face_normals(shape) for shape in (one, other)])
-    reach, reach_of_other = ((shape.vertices @ normals.T).max(axis=0) for shape in (one, other))
-    return float(np.abs(reach - reach_of_other).max())
+    if found.is_primitive:
+        corners, others = (shape.tessellate().vertices for shape in (found, wanted))  # each about its own axes
+        return bool(np.abs(corners - others).max() <= _POSE * (size + away))
+    normals = np.concatenate([_face_normals(shape) for shape in (found, wanted)])
+    reach, wanted_reach = ((shape.vertices @ normals.T).max(axis=0) for shape in (found, wanted))
+    near = _SINGLE * (size + min(away, 1000.0 * size)) + _POSE * away
+    return bool(np.abs(reach - wanted_reach).max() <= near)
 
 
 def _face_normals(shape: Shape) -> Floats:
@@ -176,7 +119,7 @@ def _face_normals(shape: Shape) -> Floats:
     return np.asarray(normals[lengths > 0] / lengths[lengths > 0][:, None])
 
 
-def is_equal(
+def _is_equal(
     one: mujoco.MjModel,
     other: mujoco.MjModel,
     field: str,
@@ -201,7 +144,7 @@ def is_equal(
 def find_changed_masses(before: MjcfModel, after: MjcfModel) -> list[int]:
     """The bodies of another mass, centre or inertia, by number."""
     differ = np.zeros(before.model.nbody, dtype=bool)
-    for field in MASS_FIELDS:
+    for field in _MASS_FIELDS:
         one, other = (getattr(r.model, field).reshape(len(differ), -1) for r in (before, after))
         differ |= (one != other).any(axis=1)
     return [int(k) for k in np.flatnonzero(differ)]

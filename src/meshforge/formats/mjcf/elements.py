@@ -1,27 +1,20 @@
-"""XML text of MJCF elements: geoms, meshes, joints, masses, and the edits by which a body says its mass."""
+"""XML text of MJCF elements: geoms, joints and masses."""
 
 from __future__ import annotations
 
-import posixpath
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import assert_never
 
 import numpy as np
 
-from meshforge.common import AssetError
 from meshforge.formats.kinematic_tree import claim_name, drop_rounding, place_inertial, split_planar
-from meshforge.formats.mesh_output import HullFiles
-from meshforge.formats.mjcf.document import MjcfNode, MjcfTree
-from meshforge.formats.mjcf.model import MjcfModel
-from meshforge.formats.xml import Splice, escape, format_numbers, line_gap, remove_element, set_attribute
-from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Floats, Ints, Polytope, Pose, Sphere, principal_axes
+from meshforge.formats.xml import escape, format_numbers
+from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Floats, Pose, Sphere, principal_axes
 from meshforge.symbolic import Inertial, Joint
 
 MjcfShape = Box | Capsule | Cylinder | Ellipsoid | Sphere
 """The shapes that MuJoCo has of its own."""
-
-_TINY = 1e-12  # [m^3], below which MuJoCo cannot compute a mass from the volume of a mesh
 
 _TYPES = {"revolute": "hinge", "prismatic": "slide", "ball": "ball"}
 
@@ -32,8 +25,6 @@ LEAST_MASS = 1e-9
 _LEAST_MOMENT = 1e-14  # [kg m^2]; MuJoCo refuses less than 1e-15
 _LIGHT_MOMENT = 1e-9  # [kg m^2], that of LIGHT about 3 cm away
 _SLIGHT = 1e-6  # of the largest moment, by which two may fall short of the third through rounding
-
-FROM_GEOMS = "inertiafromgeom"
 
 
 def tag(name: str, attributes: Mapping[str, str], closed: bool = True) -> bytes:
@@ -78,45 +69,6 @@ def inertial_attributes(mass: float, pos: Floats, quaternion: Floats, diagonal: 
     turned = {} if np.array_equal(quaternion, (1, 0, 0, 0)) else {"quat": format_numbers(quaternion)}
     weight = {"mass": format_numbers([mass]), "diaginertia": format_numbers(diagonal)}
     return {"pos": format_numbers(pos), **turned, **weight}
-
-
-class MeshAssets:
-    """Collects `<mesh>` elements and the files that are made for them; stem: of the main file."""
-
-    def __init__(self, stem: str) -> None:
-        self.files = HullFiles(stem)
-        self._names: set[str] = set()
-        self._elements: list[bytes] = []
-        self._shown: dict[tuple[str, tuple[float, ...]], str] = {}
-
-    def add_hull(self, name: str, shape: Polytope) -> str:
-        """The name of the mesh of a hull, whose file is made."""
-        extra = {"inertia": "shell"} if shape.volume < _TINY else {}
-        return self._add(self.files.add(name, "", shape.vertices, shape.faces), extra)
-
-    def add_surface(self, name: str, vertices: Floats, faces: Ints, volume: float) -> str:
-        """The name of the mesh of a non-convex surface, whose file is made; volume: of its hull [m^3]."""
-        inertia = "shell" if volume < _TINY else "convex"
-        return self._add(self.files.add(name, "", vertices, faces), {"inertia": inertia})
-
-    def add_visual(self, file: str, scale: Floats) -> str:
-        """The name of the mesh of a visual file under scales (3,); nothing of it counts for masses or collisions."""
-        key = file, tuple(scale.tolist())
-        if key not in self._shown:
-            scaled = {} if np.array_equal(scale, np.ones(3)) else {"scale": format_numbers(scale)}
-            self._shown[key] = self._add(file, {**scaled, "inertia": "shell"})
-        return self._shown[key]
-
-    def lines(self) -> list[bytes]:
-        """The lines of the `<asset>`; none where there is no mesh."""
-        inside = [b"    " + element for element in self._elements]
-        return [b"  <asset>", *inside, b"  </asset>"] if inside else []
-
-    def _add(self, file: str, attributes: dict[str, str]) -> str:
-        stem = posixpath.splitext(posixpath.basename(file))[0]
-        name = claim_name(stem.removeprefix(f"{self.files.stem}--"), self._names)
-        self._elements.append(tag("mesh", {"name": name, "file": file, **attributes}))
-        return name
 
 
 def split_joint(joint: Joint, top: bool, taken: set[str]) -> Sequence[Joint]:
@@ -193,59 +145,3 @@ def _legal_moments(moments: Floats, mass: float) -> Floats:
         repaired[largest] = others * (1 - 1e-12)
         return repaired
     return np.full(3, max(float(moments.mean()), _LIGHT_MOMENT * mass, _LEAST_MOMENT))
-
-
-def is_inertial_ignored(tree: MjcfTree) -> bool:
-    """Whether the compiler settings say that every `<inertial>` is ignored."""
-    settings = [c.attributes[FROM_GEOMS] for c in tree.root.each("compiler") if FROM_GEOMS in c.attributes]
-    return settings[-1:] == ["true"]
-
-
-def stop_ignoring_inertials(tree: MjcfTree) -> list[tuple[int, Splice]]:
-    """The edits, with their files, by which an `<inertial>` counts where there is one."""
-    return [
-        (node.source, set_attribute(tree.sources[node.source].text.data, node.element, FROM_GEOMS, "auto"))
-        for node in tree.root.each("compiler")
-        if node.attributes.get(FROM_GEOMS) == "true"
-    ]
-
-
-def inertial_tag_of_model(compiled: MjcfModel, body: int) -> bytes:
-    """The `<inertial>` of a body as MuJoCo compiled it; reading: of the unedited document, masses not scaled."""
-    model = compiled.model
-    pos, quaternion, moments = model.body_ipos[body], model.body_iquat[body], model.body_inertia[body]
-    return tag("inertial", inertial_attributes(float(model.body_mass[body]), pos, quaternion, moments))
-
-
-def insert_inertial(tree: MjcfTree, node: MjcfNode, text: bytes) -> list[tuple[int, Splice]]:
-    """The edits, with their files, that put an `<inertial>` before the children of a body's element.
-
-    One that was ignored so far gives way.
-    """
-    data = tree.sources[node.source].text.data
-    texts = [source.text.data for source in tree.sources]
-    gone = [(old.source, remove_element(texts[old.source], old.element)) for old in _inertials_of(node)]
-    at, gap = node.element.inside, line_gap(data, node.element.children[0].start)
-    return [*gone, (node.source, Splice(at, at, gap + text))]
-
-
-def has_inertial(node: MjcfNode | None, tree: MjcfTree) -> bool:
-    """Whether a body's element has an `<inertial>` that counts."""
-    return node is not None and any(True for _ in _inertials_of(node)) and not is_inertial_ignored(tree)
-
-
-def mass_error(body: str, why: str, tree: MjcfTree) -> AssetError:
-    """The error about a body that cannot say its mass."""
-    return AssetError(
-        f"the mass of body {body!r} cannot be kept: {why}",
-        where=str(tree.main.path),
-        remedy="Let MuJoCo take it from the edited hulls (--mass recompute).",
-    )
-
-
-def _inertials_of(node: MjcfNode) -> Iterable[MjcfNode]:
-    for child in node.children:
-        if child.tag == "inertial":
-            yield child
-        elif child.tag == "frame":
-            yield from _inertials_of(child)

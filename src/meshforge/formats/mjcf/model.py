@@ -3,26 +3,21 @@ each geom is."""
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Sequence
+from collections.abc import Hashable
 from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
 
-from meshforge.formats.collision_pieces import ShapeNames, collect_mentions
+from meshforge import geometry
+from meshforge.common import GeometryError
+from meshforge.formats.collision_pieces import CollisionPiece, ShapeNames, collect_mentions
 from meshforge.formats.libraries import mujoco
-from meshforge.formats.mjcf.compiler import Compilation, compile_spec, compile_text, flatten, parse_text
-from meshforge.formats.mjcf.document import GeomRecord, MjcfBody, MjcfTree, body_names, geom_names
-from meshforge.formats.mjcf.shapes import MjcfShapes, body_poses, geom_poses
+from meshforge.formats.mjcf.compiler import Compilation, KeepAttributes, compile_text, flatten
+from meshforge.formats.mjcf.document import MjcfTree, body_names, geom_names
 from meshforge.formats.xml import parse_numbers
 from meshforge.geometry import Pose, rotation_of_quaternion
-from meshforge.symbolic import Coupling, Geom, Inertial, Joint, JointKind, Mechanism, Mentions, NonConvexPiece
-
-_INSIDE = {
-    "replicate": "it is inside a <replicate>, which makes several geoms of one element",
-    "frame": "it is inside a <frame> that scales what it holds",
-}
-_ATTACHED = "it comes out of another model, which is attached"
+from meshforge.symbolic import Coupling, Geom, Inertial, Joint, JointKind, Mechanism, Mentions, NonConvexPiece, Surface
 
 _KINDS: tuple[JointKind, ...] = ("floating", "ball", "prismatic", "revolute")  # in the order of MuJoCo's numbers
 
@@ -61,109 +56,155 @@ class MjcfModel:
         touching = (self.model.geom_contype != 0) | (self.model.geom_conaffinity != 0)
         touching[np.concatenate([self.model.pair_geom1, self.model.pair_geom2])] = True
         self.collides: list[bool] = touching.tolist()
-        self.body_poses = body_poses(self.model)
-        self.geom_poses = geom_poses(self.model, self.body_poses)
+        self.body_poses = [Pose.identity()]
+        for k in range(1, self.model.nbody):  # in the reference configuration no joint displaces anything
+            parent = self.body_poses[int(self.model.body_parentid[k])]
+            self.body_poses.append(parent @ _pose(self.model.body_quat[k], self.model.body_pos[k]))
+        self.geom_poses = [  # of a mesh, of the frame in which MuJoCo keeps its vertices, at its principal axes
+            self.body_poses[int(body)] @ _pose(quat, pos)
+            for body, quat, pos in zip(self.model.geom_bodyid, self.model.geom_quat, self.model.geom_pos, strict=True)
+        ]
+        self._hulls: dict[int, tuple[geometry.Polytope, float | None] | str] = {}
 
     def read_pieces(self) -> tuple[tuple[Geom, ...], tuple[NonConvexPiece, ...]]:
         """The hulls, and the collision geometry that is none."""
         geoms, non_convex = [], []
-        shapes, mentions = MjcfShapes(self.model), GeomMentions(self.spec_geoms, self.body_of, self.collides)
-        for k, (name, body, pose) in enumerate(zip(self.names, self.body_of, self.geom_poses, strict=True)):
+        for k, (name, body) in enumerate(zip(self.names, self.body_of, strict=True)):
             if not self.collides[k]:
                 continue
-            part = shapes.part_of(k, pose)
+            part = self.read_piece(k)
             if part.shape is not None:
-                contact = contact_attributes(self.model, k)
-                own = mentions.of(k)
+                contact, own = _contact_attributes(self.model, k), self._mentions_of(k)
                 geoms.append(Geom(name, body, part.shape, contact=contact, mentions=own, fill=part.fill))
             else:
-                plane = pose if self.model.geom_type[k] == mujoco.mjtGeom.mjGEOM_PLANE else None
-                non_convex.append(NonConvexPiece(name, body, part.reason, part.surface, plane, mentions.of(k)))
+                non_convex.append(
+                    NonConvexPiece(name, body, part.reason, part.surface, part.plane, self._mentions_of(k))
+                )
         return tuple(geoms), tuple(non_convex)
 
+    @property
+    def collision_names(self) -> tuple[str, ...]:
+        """The names of the geoms that collide."""
+        return tuple(name for name, collides in zip(self.names, self.collides, strict=True) if collides)
+
+    def _mentions_of(self, k: int) -> Mentions:
+        geom, shown = self.spec_geoms[k], self._visual_names.get(self.body_of[k], [])
+        kind = geom.classname.name if geom.classname else ""
+        return collect_mentions(_names_of(geom), shown, [("class", kind)] if kind != _UNNAMED else [])
+
     @cached_property
-    def bodies(self) -> tuple[MjcfBody, ...]:
-        """The bodies in MuJoCo's order, the world first."""
-        return tuple(self._read_body(k) for k in range(self.model.nbody))
-
-    def _read_body(self, k: int) -> MjcfBody:
-        model, body = self.model, self.spec_bodies[k]
-        node = self.flat.node_at(body.info)
-        return MjcfBody(
-            name=self.body_names[k],
-            parent=self.body_names[int(model.body_parentid[k])] if k else None,
-            source=node.source if node else -1,
-            start=node.element.start if node else -1,
-            pose=self.body_poses[k],
-            inertial=Pose(rotation_of_quaternion(model.body_iquat[k]), model.body_ipos[k]),
-            mass=float(model.body_mass[k]),
-            inertia=model.body_inertia[k].copy(),
-            explicit=bool(body.explicitinertial),
-        )
-
-    def geom_records(self) -> tuple[GeomRecord, ...]:
-        """The elements that geoms were made of, in document order; geoms without one each for itself, at the end."""
-        order = {id(node): k for k, node in enumerate(self.flat.nodes)}
-        copies: dict[int, list[int]] = {}
-        for k, node in enumerate(self.elements):
-            copies.setdefault(len(order) + k if node is None else order[id(node)], []).append(k)
-        inside = self._reasons_against_edit()
-        return tuple(self._record_geom(copies[key], inside) for key in sorted(copies))
-
-    def _reasons_against_edit(self) -> dict[int, str]:
-        """Why what stands inside some elements cannot be edited, by the identity of its nodes."""
-        found: dict[int, str] = {}
-        for top in self.flat.nodes:
-            if top.tag == "replicate" or (top.tag == "frame" and "scale" in top.attributes):
-                found |= {id(node): _INSIDE[top.tag] for node in top.walk() if id(node) not in found}
+    def _visual_names(self) -> dict[str, list[ShapeNames]]:
+        found: dict[str, list[ShapeNames]] = {}
+        for geom, body, collides in zip(self.spec_geoms, self.body_of, self.collides, strict=True):
+            if not collides:
+                found.setdefault(body, []).append(_names_of(geom, geom.name))
         return found
 
-    def _record_geom(self, copies: list[int], inside: dict[int, str]) -> GeomRecord:
-        node = self.elements[copies[0]]
-        fixed = _ATTACHED if node is None else inside.get(id(node), "")
-        return GeomRecord(
-            source=node.source if node else -1,
-            start=node.element.start if node else -1,
-            body=self.body_of[copies[0]],
-            names=tuple(self.names[k] for k in copies),
-            collides=any(self.collides[k] for k in copies),
-            fixed=fixed,
-        )
+    def read_piece(self, geom: int) -> CollisionPiece:
+        """The shape of a geom; of a mesh it is the convex hull, with which MuJoCo collides."""
+        kinds, pose = mujoco.mjtGeom, self.geom_poses[geom]
+        kind = kinds(int(self.model.geom_type[geom]))
+        match kind:
+            case kinds.mjGEOM_MESH:
+                return self._read_hull(int(self.model.geom_dataid[geom]), pose)
+            case kinds.mjGEOM_PLANE:
+                return CollisionPiece(None, "a plane has no end", plane=pose)
+            case kinds.mjGEOM_HFIELD:
+                return CollisionPiece(None, "a height field is no convex hull", self._read_field(geom))
+            case kinds.mjGEOM_SDF:
+                data = int(self.model.geom_dataid[geom])
+                surface = self.mesh_surface(data, pose) if data >= 0 else None
+                return CollisionPiece(None, "a signed distance field is no convex hull", surface)
+        shape = self.primitive_of(geom)
+        return CollisionPiece(shape) if shape else CollisionPiece(None, f"{kind.name} is no geometry that is known")
+
+    def primitive_of(self, geom: int) -> geometry.Shape | None:
+        """The shape of a geom that is no mesh; MuJoCo's sizes are half sizes."""
+        kinds, pose = mujoco.mjtGeom, self.geom_poses[geom]
+        size = self.model.geom_size[geom].astype(np.float64)
+        match kinds(int(self.model.geom_type[geom])):
+            case kinds.mjGEOM_BOX:
+                return geometry.Box(pose, size)
+            case kinds.mjGEOM_SPHERE:
+                return geometry.Sphere(pose, float(size[0]))
+            case kinds.mjGEOM_CAPSULE:
+                return geometry.Capsule(pose, float(size[0]), float(size[1]))
+            case kinds.mjGEOM_CYLINDER:
+                return geometry.Cylinder(pose, float(size[0]), float(size[1]))
+            case kinds.mjGEOM_ELLIPSOID:
+                return geometry.Ellipsoid(pose, size)
+        return None
+
+    def mesh_surface(self, mesh: int, root_t_mesh: Pose) -> Surface:
+        """The triangles of a mesh in the root frame."""
+        model = self.model
+        first, count = int(model.mesh_faceadr[mesh]), int(model.mesh_facenum[mesh])
+        faces = model.mesh_face[first : first + count].astype(np.int64)
+        return Surface(root_t_mesh.apply(self._mesh_vertices(mesh)), faces)
+
+    def mesh_frame(self, mesh: int) -> Pose:
+        """authored_T_kept: from the frame in which MuJoCo keeps a mesh's vertices to that of its scaled file."""
+        return _pose(self.model.mesh_quat[mesh], self.model.mesh_pos[mesh])
+
+    def _read_hull(self, mesh: int, pose: Pose) -> CollisionPiece:
+        """The hull of a mesh, made once for all geoms that share it; that of MuJoCo's vertices under `maxhullvert`."""
+        if mesh not in self._hulls:
+            own, corners = self.mesh_surface(mesh, Pose.identity()), self._mesh_vertices(mesh)
+            if (start := int(self.model.mesh_graphadr[mesh])) >= 0:
+                count = int(self.model.mesh_graph[start])
+                first = start + 2 + count  # after the numbers of vertices and faces, and each vertex's first edge
+                corners = corners[self.model.mesh_graph[first : first + count]]
+            try:
+                self._hulls[mesh] = geometry.hull_mesh(own.vertices, own.faces, corners)
+            except GeometryError as error:
+                self._hulls[mesh] = error.problem
+        made = self._hulls[mesh]
+        if isinstance(made, str):
+            return CollisionPiece(None, made, self.mesh_surface(mesh, pose))
+        return CollisionPiece(made[0].move(pose), fill=made[1])
+
+    def _mesh_vertices(self, mesh: int) -> geometry.Floats:
+        first, count = int(self.model.mesh_vertadr[mesh]), int(self.model.mesh_vertnum[mesh])
+        vertices: geometry.Floats = self.model.mesh_vert[first : first + count].astype(np.float64)
+        return vertices
+
+    def _read_field(self, geom: int) -> Surface:
+        """The upper side of a height field in the root frame."""
+        model, field = self.model, int(self.model.geom_dataid[geom])
+        rows, columns = int(model.hfield_nrow[field]), int(model.hfield_ncol[field])
+        start = int(model.hfield_adr[field])
+        x, y, z, _ = model.hfield_size[field].astype(np.float64)
+        heights = model.hfield_data[start : start + rows * columns].astype(np.float64) * z
+        ys, xs = np.meshgrid(np.linspace(-y, y, rows), np.linspace(-x, x, columns), indexing="ij")
+        corner = (np.arange(rows - 1)[:, None] * columns + np.arange(columns - 1)).ravel()
+        one, other = (corner, corner + 1, corner + columns), (corner + 1, corner + columns + 1, corner + columns)
+        faces = np.concatenate([np.stack(one, axis=1), np.stack(other, axis=1)])
+        return Surface(self.geom_poses[geom].apply(np.stack([xs.ravel(), ys.ravel(), heights], axis=1)), faces)
 
 
-def compile_tree(tree: MjcfTree) -> MjcfModel:
-    """The model of all that a tree says. Raises AssetError with MuJoCo's message."""
-    return MjcfModel(tree, compile_text(tree, flatten(tree)))
-
-
-def compile_unscaled(compiled: MjcfModel) -> MjcfModel:
-    """A whole model with masses before they are scaled to a total, and free bodies in their authored frames."""
-    tree = compiled.tree
-    changing = {"compiler": {"settotalmass", "alignfree"}} | {tag: {"align"} for tag in ("freejoint", "joint")}
-    if not compiled.is_whole or not any(
-        changing.get(node.tag, set()) & node.attributes.keys() for node in tree.root.walk()
-    ):
-        return compiled
-    spec = parse_text(tree, compiled.flat)
-    spec.compiler.settotalmass = -1
-    spec.compiler.alignfree = False
-    for joint in spec.joints:
-        joint.align = 0
-    return MjcfModel(tree, compile_spec(tree, compiled.flat, spec))
+def compile_tree(tree: MjcfTree, keep: KeepAttributes | None = None) -> MjcfModel:
+    """The model of all that a tree says; keep: of a part of it. Raises AssetError with MuJoCo's message."""
+    return MjcfModel(tree, compile_text(flatten(tree, keep)))
 
 
 def read_mechanism(compiled: MjcfModel) -> Mechanism:
     """The mechanism of a model, `<exclude>` and `<pair>` too; a body without a joint is fixed to its parent."""
-    couplings = _read_couplings(compiled.tree)
-    joints = [
-        replace(joint, coupling=couplings.get(joint.name))
-        for k in range(1, compiled.model.nbody)
-        for joint in _read_joints(compiled, k)
-    ]
-    inertials = [i for k in range(1, compiled.model.nbody) if (i := _read_inertial(compiled, k)) is not None]
-    bodies, signatures = compiled.body_names, map(int, compiled.model.exclude_signature)
+    model, couplings = compiled.model, _read_couplings(compiled.tree)
+    joints: list[Joint] = []
+    for k in range(1, model.nbody):
+        first, count = int(model.body_jntadr[k]), int(model.body_jntnum[k])
+        own = [_read_joint(compiled, joint) for joint in range(first, first + count)]
+        joints += [replace(joint, coupling=couplings.get(joint.name)) for joint in own]
+        if not count:
+            ends, pose = (
+                (compiled.body_names[int(model.body_parentid[k])], compiled.body_names[k]),
+                compiled.body_poses[k],
+            )
+            joints.append(Joint("", "fixed", *ends, pose.translation, pose.rotation[:, 0]))
+    inertials = [i for k in range(1, model.nbody) if (i := _read_inertial(compiled, k)) is not None]
+    bodies, signatures = compiled.body_names, map(int, model.exclude_signature)
     excludes = [(bodies[s >> 16], bodies[s & 0xFFFF]) for s in signatures]  # as MuJoCo packs two numbers of bodies
-    geoms = zip(compiled.model.pair_geom1, compiled.model.pair_geom2, strict=True)
+    geoms = zip(model.pair_geom1, model.pair_geom2, strict=True)
     pairs = [(compiled.names[int(first)], compiled.names[int(second)]) for first, second in geoms]
     return Mechanism(tuple(joints), tuple(inertials), tuple(excludes), tuple(pairs))
 
@@ -182,18 +223,10 @@ def _read_couplings(tree: MjcfTree) -> dict[str, Coupling]:
     return found
 
 
-def _read_joints(compiled: MjcfModel, body: int) -> list[Joint]:
-    model = compiled.model
+def _read_joint(compiled: MjcfModel, k: int) -> Joint:
+    model, body = compiled.model, int(compiled.model.jnt_bodyid[k])
     child, parent = compiled.body_names[body], compiled.body_names[int(model.body_parentid[body])]
-    first, count = int(model.body_jntadr[body]), int(model.body_jntnum[body])
-    if not count:
-        pose = compiled.body_poses[body]
-        return [Joint("", "fixed", parent, child, pose.translation, pose.rotation[:, 0])]
-    return [_read_joint(compiled, k, parent, child) for k in range(first, first + count)]
-
-
-def _read_joint(compiled: MjcfModel, k: int, parent: str, child: str) -> Joint:
-    model, pose = compiled.model, compiled.body_poses[int(compiled.model.jnt_bodyid[k])]
+    pose = compiled.body_poses[body]
     kind, dof = _KINDS[int(model.jnt_type[k])], int(model.jnt_dofadr[k])
     limits = None
     if model.jnt_limited[k] and kind in ("prismatic", "revolute"):
@@ -214,39 +247,22 @@ def _read_joint(compiled: MjcfModel, k: int, parent: str, child: str) -> Joint:
 
 
 def _read_inertial(compiled: MjcfModel, k: int) -> Inertial | None:
-    body = compiled.bodies[k]
-    if body.mass <= 0:
+    model, mass = compiled.model, float(compiled.model.body_mass[k])
+    if mass <= 0:
         return None
-    frame = body.pose @ body.inertial
-    inertia = frame.rotation @ np.diag(body.inertia) @ frame.rotation.T
-    return Inertial(body.name, body.mass, frame.translation, inertia)
+    frame = compiled.body_poses[k] @ _pose(model.body_iquat[k], model.body_ipos[k])
+    inertia = frame.rotation @ np.diag(model.body_inertia[k]) @ frame.rotation.T
+    return Inertial(compiled.body_names[k], mass, frame.translation, inertia)
 
 
-def contact_attributes(model: mujoco.MjModel, geom: int) -> tuple[tuple[str, str], ...]:
+def _pose(quaternion: geometry.Floats, position: geometry.Floats) -> Pose:
+    return Pose(rotation_of_quaternion(quaternion), position)
+
+
+def _contact_attributes(model: mujoco.MjModel, geom: int) -> tuple[tuple[str, str], ...]:
     """Names and values of what decides how a geom collides, defaults and classes included."""
     numbers = {name: np.atleast_1d(getattr(model, f"geom_{name}")[geom]).tolist() for name in _ATTRIBUTES}
     return tuple((k, " ".join(str(n) if isinstance(n, int) else f"{n:g}" for n in own)) for k, own in numbers.items())
-
-
-class GeomMentions:
-    """What is said of the geoms of one model, in its order; collides: whether each takes part in collisions."""
-
-    def __init__(self, geoms: Sequence[mujoco.MjsGeom], bodies: Sequence[str], collides: Sequence[bool]) -> None:
-        self.geoms, self.bodies, self.collides = geoms, bodies, collides
-
-    def of(self, k: int) -> Mentions:
-        """What is said of the k-th geom."""
-        geom, shown = self.geoms[k], self._visual_names.get(self.bodies[k], [])
-        kind = geom.classname.name if geom.classname else ""
-        return collect_mentions(_names_of(geom), shown, [("class", kind)] if kind != _UNNAMED else [])
-
-    @cached_property
-    def _visual_names(self) -> dict[str, list[ShapeNames]]:
-        found: dict[str, list[ShapeNames]] = {}
-        for geom, body, collides in zip(self.geoms, self.bodies, self.collides, strict=True):
-            if not collides:
-                found.setdefault(body, []).append(_names_of(geom, geom.name))
-        return found
 
 
 def _names_of(geom: mujoco.MjsGeom, name: str = "") -> ShapeNames:

@@ -17,7 +17,6 @@ from meshforge.formats.mjcf import references
 from meshforge.formats.mjcf.collision_only import strip_to_collision
 from meshforge.formats.mjcf.document import MjcfDocument, MjcfNode, MjcfTree, read_tree
 from meshforge.formats.mjcf.model import MjcfModel, compile_tree, read_mechanism
-from meshforge.formats.mjcf.shapes import MjcfShapes, mesh_frame, mesh_surface
 from meshforge.formats.visuals import Visual, VisualSurfaces
 from meshforge.formats.xml import Element, XmlText, parse_xml
 from meshforge.geometry import Polytope, rotation_of_quaternion
@@ -45,17 +44,22 @@ def read_mjcf(path: Path, files: Mapping[Path, bytes] | None = None) -> Asset:
     Raises AssetError naming file and line: text that is not understood, an include or a collision mesh that is not
     there, a model whose collision geometry MuJoCo refuses too.
     """
-    tree = gather_model(path, files)
-    refuse_excess(tree)
-    compiled, refusal = _compile_or_strip(tree)
+    tree = _gather_model(path, files)
+    _refuse_excess(tree)
+    found, missing = references.find_files(tree)  # before MuJoCo looks for any of them
+    try:
+        compiled, refusal = compile_tree(tree), ""
+    except AssetError as error:
+        place = Path(error.where or "").name
+        refusal = f"{error.problem} ({place})" if ":" in place else error.problem
+        compiled = strip_to_collision(tree, error)
     geoms, non_convex = compiled.read_pieces()
-    found, missing = references.find_files(tree)
     return Asset(
         path=path,
         format="mjcf",
-        bodies=tuple(Body(body.name, body.pose) for body in compiled.bodies),
+        bodies=tuple(map(Body, compiled.body_names, compiled.body_poses)),
         geoms=geoms,
-        document=MjcfDocument(tree.sources, compiled.geom_records(), compiled.bodies, refusal),
+        document=MjcfDocument(tree.sources, compiled.collision_names, refusal),
         non_convex=non_convex,
         visuals=read_visuals(compiled),
         files=found,
@@ -63,16 +67,6 @@ def read_mjcf(path: Path, files: Mapping[Path, bytes] | None = None) -> Asset:
         notes=_collect_notes(compiled, refusal),
         mechanism=read_mechanism(compiled),
     )
-
-
-def _compile_or_strip(tree: MjcfTree) -> tuple[MjcfModel, str]:
-    """The model, of the collision geometry alone where MuJoCo refuses the whole, and why it does."""
-    try:
-        return compile_tree(tree), ""
-    except AssetError as error:
-        place = Path(error.where or "").name
-        refusal = f"{error.problem} ({place})" if ":" in place else error.problem
-        return strip_to_collision(tree, error), refusal
 
 
 def _collect_notes(compiled: MjcfModel, refusal: str) -> tuple[str, ...]:
@@ -85,7 +79,7 @@ def _collect_notes(compiled: MjcfModel, refusal: str) -> tuple[str, ...]:
     return tuple(notes)
 
 
-def gather_model(path: Path, files: Mapping[Path, bytes] | None = None) -> MjcfTree:
+def _gather_model(path: Path, files: Mapping[Path, bytes] | None = None) -> MjcfTree:
     """The tree of a file that is a model. Raises AssetError; for a fragment, one that names what to open instead."""
     try:
         tree = read_tree(path, files)
@@ -95,7 +89,6 @@ def gather_model(path: Path, files: Mapping[Path, bytes] | None = None) -> MjcfT
         _refuse_fragment(plain_path(path), parse_xml(XmlText.of(read_content(path)).data, str(path)))
         raise
     _refuse_fragment(tree.main.path, tree.root.element)
-    references.refuse_beyond_reach(tree)
     return tree
 
 
@@ -129,7 +122,7 @@ def _has_include_of(path: Path, fragment: Path) -> bool:
     return tree.root.tag.lower() == "mujoco" and any(source.path == fragment for source in tree.sources)
 
 
-def refuse_excess(tree: MjcfTree) -> None:
+def _refuse_excess(tree: MjcfTree) -> None:
     """Raise AssetError with `file:line` for replicated elements, grids, textures or meshes without measure."""
     waiting: list[tuple[MjcfNode, float]] = [(tree.root, 1.0)]
     copies = 0.0
@@ -173,43 +166,34 @@ def _read_numbers(node: MjcfNode, names: tuple[str, ...]) -> list[float]:
 
 def read_visuals(compiled: MjcfModel) -> VisualSurfaces:
     """The visuals of all bodies."""
-    seen = _Visuals(compiled)
-    found = (seen.of(k) for k in range(compiled.model.ngeom) if k not in compiled.stand_ins)
+    meshes = {mesh.id: mesh for mesh in compiled.spec.meshes}
+    folders = references.AssetFolders(compiled.tree)
+    shown = (k for k in range(compiled.model.ngeom) if k not in compiled.stand_ins)
+    found = (_read_visual(compiled, k, meshes, folders) for k in shown)
     return VisualSurfaces(tuple(visual for visual in found if visual))
 
 
-class _Visuals:
-    def __init__(self, compiled: MjcfModel) -> None:
-        self.compiled, self.model = compiled, compiled.model
-        self.shapes = MjcfShapes(compiled.model)
-        self.meshes = {mesh.id: mesh for mesh in compiled.spec.meshes}
-        self.folders = references.AssetFolders.of(compiled.tree)
-        self.field = mujoco.mjtGeom.mjGEOM_HFIELD
-
-    def of(self, k: int) -> Visual | None:
-        """What a geom shows, None where it is hidden; height fields and planes are non-convex pieces already."""
-        model, body, pose = self.model, self.compiled.body_of[k], self.compiled.geom_poses[k]
-        material, mesh = int(model.geom_matid[k]), int(model.geom_dataid[k])
-        red, green, blue, alpha = map(float, model.mat_rgba[material] if material >= 0 else model.geom_rgba[k])
-        rgba = red, green, blue, alpha
-        is_mesh = mesh >= 0 and model.geom_type[k] != self.field
-        if alpha <= 0 or (self.compiled.collides[k] and not (is_mesh and model.geom_group[k] < _SHOWN_GROUPS)):
-            return None
-        if (shape := self.shapes.primitive_of(k, pose)) is not None:
-            return Visual(body, shape, np.eye(3), np.zeros(3), rgba)
-        if not is_mesh:
-            return None
-        if path := self._find_file(mesh):
-            placed = pose @ mesh_frame(model, mesh).inverse()
-            first = self.meshes[mesh]  # its reference pose, by which its vertices are moved first of all
-            linear = placed.rotation * model.mesh_scale[mesh] @ rotation_of_quaternion(first.refquat).T
-            return Visual(body, path, linear, placed.translation - linear @ np.asarray(first.refpos), rgba)
-        surface = mesh_surface(model, mesh, pose)  # of the model itself, or of a kind of file that only MuJoCo reads
-        return Visual(body, Polytope(surface.vertices, surface.faces), np.eye(3), np.zeros(3), rgba)
-
-    def _find_file(self, mesh: int) -> Path | None:
-        node = self.compiled.flat.node_at(self.meshes[mesh].info) if mesh in self.meshes else None
-        if node is None or not node.attributes.get("file"):
-            return None
-        path = self.folders.find(self.compiled.tree, node)
-        return path if path.suffix.lower() in READABLE_MESH_SUFFIXES else None
+def _read_visual(
+    compiled: MjcfModel, k: int, meshes: Mapping[int, mujoco.MjsMesh], folders: references.AssetFolders
+) -> Visual | None:
+    """What a geom shows, None where it is hidden; height fields and planes are non-convex pieces already."""
+    model, body, pose = compiled.model, compiled.body_of[k], compiled.geom_poses[k]
+    material, mesh = int(model.geom_matid[k]), int(model.geom_dataid[k])
+    red, green, blue, alpha = map(float, model.mat_rgba[material] if material >= 0 else model.geom_rgba[k])
+    rgba = red, green, blue, alpha
+    is_mesh = mesh >= 0 and model.geom_type[k] != mujoco.mjtGeom.mjGEOM_HFIELD
+    if alpha <= 0 or (compiled.collides[k] and not (is_mesh and model.geom_group[k] < _SHOWN_GROUPS)):
+        return None
+    if (shape := compiled.primitive_of(k)) is not None:
+        return Visual(body, shape, np.eye(3), np.zeros(3), rgba)
+    if not is_mesh:
+        return None
+    first = meshes.get(mesh)
+    node = compiled.flat.node_at(first.info) if first else None
+    path = folders.find(node) if node and node.attributes.get("file") else None
+    if first and path and path.suffix.lower() in READABLE_MESH_SUFFIXES:
+        placed = pose @ compiled.mesh_frame(mesh).inverse()  # the reference pose moves vertices first of all
+        linear = placed.rotation * model.mesh_scale[mesh] @ rotation_of_quaternion(first.refquat).T
+        return Visual(body, path, linear, placed.translation - linear @ np.asarray(first.refpos), rgba)
+    surface = compiled.mesh_surface(mesh, pose)  # of the model itself, or of a kind of file that only MuJoCo reads
+    return Visual(body, Polytope(surface.vertices, surface.faces), np.eye(3), np.zeros(3), rgba)

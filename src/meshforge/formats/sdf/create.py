@@ -7,14 +7,13 @@ from pathlib import Path
 import numpy as np
 
 from meshforge.common import join_names, pluralize
-from meshforge.formats import kinematic_tree, link_output, mesh_output, xml
+from meshforge.formats import element_edits, kinematic_tree, link_output, mesh_output, xml
 from meshforge.formats.base import Loss, Output
 from meshforge.formats.sdf import edit, elements
 from meshforge.formats.sdf.document import CONFIG, VISUAL_SUFFIXES
 from meshforge.formats.sdf.frames import WORLD
-from meshforge.formats.slots import Slot, assign_names, name_attribute_of
 from meshforge.geometry import Pose
-from meshforge.symbolic import Asset, FeatureKind, NonConvexPiece
+from meshforge.symbolic import Asset, FeatureKind, NonConvexPiece, Surface
 
 _VERSION, _WITH_COUPLINGS = (1, 8), "1.11"
 _MAIN = "model.sdf"
@@ -32,21 +31,22 @@ def create_sdf(asset: Asset, name: str) -> Output:
 class _Creator(link_output.LinkCreator):
     native = elements.SdfShape
     title = "SDF"
-    rules = kinematic_tree.JointRules(("fixed", "revolute", "prismatic", "ball", "floating"), world=True)
+    kinds = ("fixed", "revolute", "prismatic", "ball", "floating")
+    has_world = True
     visual_suffixes = VISUAL_SUFFIXES
     lead = 3 * elements.STEP
 
     def __init__(self, asset: Asset, name: str) -> None:
         self.name, stem = name, Path(name).stem
         self.model = asset.path.stem if name == _MAIN else stem
-        super().__init__(asset, edit.SdfElementMaker(b"", b"\n", mesh_output.HullFiles(stem), version=_VERSION))
+        super().__init__(asset, edit.SdfElementMaker("SDF 1.8", b"", mesh_output.HullFiles(stem), version=_VERSION))
         self.renamed: dict[str, str] = {}
-        for link, own in self.slots.items():
-            for slot in own:
-                self._rename(slot, self.links[link])
+        for link, own in self.outputs.items():
+            for output in own:
+                self._rename(output, self.links[link])
 
     def build_output(self) -> Output:
-        others = assign_names([slot for own in self.slots.values() for slot in own])
+        others = element_edits.assign_names([output for own in self.outputs.values() for output in own])
         names = {was: others.pop(name, name) for was, name in self.renamed.items()} | others
         inside = [line for link in self.links for line in self._link_lines(link)]
         if WORLD in self.links:  # what is part of the world does not fall
@@ -78,28 +78,20 @@ class _Creator(link_output.LinkCreator):
             names = {WORLD: kinematic_tree.claim_name(f"{WORLD}_link", taken), **names}
         return {link: _legal_name(name, taken) for link, name in names.items()} or {WORLD: f"{WORLD}_link"}
 
-    def _rename(self, slot: Slot, link: str) -> None:
-        slot.name = name_attribute_of(slot)
-        if link != slot.body:
-            names = tuple(f"{link}/{name.removeprefix(f'{slot.body}/')}" for name in slot.names)
-            self.renamed |= dict(zip(slot.names, names, strict=True))
-            slot.body, slot.names = link, names
+    def _rename(self, output: element_edits.OutputElement, link: str) -> None:
+        output.name = element_edits.name_attribute_of(output)
+        if link != output.body:
+            names = tuple(f"{link}/{name.removeprefix(f'{output.body}/')}" for name in output.names)
+            self.renamed |= dict(zip(output.names, names, strict=True))
+            output.body, output.names = link, names
 
-    def build_non_convex(self, piece: NonConvexPiece, root_t_link: Pose) -> list[Slot]:
-        """The collision of a non-convex piece; none where it has no surface."""
-        surface, link_t_root = piece.surface, root_t_link.inverse()
-        if piece.plane is not None:
-            plane = link_t_root @ piece.plane
-            kind = elements.nest("plane", elements.leaf("normal", "0 0 1"), elements.leaf("size", "100 100"))
-            return [Slot(piece.body, (piece.name,), text=elements.build_collision(plane, kind, self.lead, b"\n"))]
-        if surface is None:
-            return []
-        if not len(surface.faces):
-            self.lost.append(Loss(FeatureKind.NON_CONVEX, (piece.name,), "it has no triangle"))
-            return []
-        vertices = link_t_root.apply(np.asarray(surface.vertices))
-        kind = elements.mesh_lines(self.maker.files.add(piece.name, "", vertices, surface.faces))
-        return [Slot(piece.body, (piece.name,), text=elements.build_collision(Pose.identity(), kind, self.lead, b"\n"))]
+    def refuse_surface(self, surface: Surface) -> str:
+        return "" if len(surface.faces) else "it has no triangle"
+
+    def build_plane(self, piece: NonConvexPiece, link_t_plane: Pose) -> list[element_edits.OutputElement]:
+        kind = elements.nest("plane", elements.leaf("normal", "0 0 1"), elements.leaf("size", "100 100"))
+        text = self.maker.build_collision(link_t_plane, kind, self.lead)
+        return [element_edits.OutputElement(piece.body, (piece.name,), text=text)]
 
     def _link_lines(self, link: str) -> list[bytes]:
         frame = self.chain.frames[link]
@@ -108,7 +100,7 @@ class _Creator(link_output.LinkCreator):
         inside += elements.inertial_lines(inertial, base) if inertial else []
         for k, (visual, reference) in enumerate(self.shown[link]):
             inside += elements.visual_lines(f"visual{k}", visual, reference)
-        collisions = [slot.to_bytes(b"").split(b"\n") for slot in self.slots[link]]
+        collisions = [output.to_bytes(b"").split(b"\n") for output in self.outputs[link]]
         inside += [line.removeprefix(self.lead) for lines in collisions for line in lines]
         return elements.nest_with_name("link", self.links[link], *inside)
 
@@ -127,9 +119,7 @@ class _Creator(link_output.LinkCreator):
         renamed = [f"{link} as {name}" for link, name in self.links.items() if link != name]
         if renamed:
             notes.append(f"links that SDF has no such names for are written otherwise ({join_names(renamed, 3)})")
-        heavy = {*self.inertials, *self.chain.light}
-        weightless = [name for link, name in self.links.items() if link not in heavy]
-        if weightless:
+        if weightless := [self.links[link] for link in self.weightless]:
             links = pluralize(len(weightless), "link")
             notes.append(
                 f"{links} without a mass ({join_names(weightless, 3)}): Gazebo takes 1 kg, with moments of 1 kg m^2"

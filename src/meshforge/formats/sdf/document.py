@@ -13,7 +13,7 @@ from pathlib import Path
 from meshforge.common import AssetError, is_beyond_reach, is_file
 from meshforge.formats.collision_pieces import CollisionElement
 from meshforge.formats.references import Resolver, placement
-from meshforge.formats.xml import Element, XmlText, parse_numbers, parse_xml
+from meshforge.formats.xml import Element, SourceFile, XmlText, parse_numbers, parse_xml
 from meshforge.symbolic import Document
 
 Version = tuple[int, int]
@@ -36,11 +36,6 @@ CONFIG = "model.config"
 """The file that makes a folder a Gazebo model."""
 _USUAL_NAME = "model.sdf"
 
-GEOMETRY_TAGS = (
-    *("box", "sphere", "cylinder", "capsule", "ellipsoid", "cone"),
-    *("plane", "mesh", "polyline", "heightmap", "image", "empty"),
-)
-"""The elements of a `<geometry>` that there are."""
 _MAPS = (
     *("albedo_map", "normal_map", "roughness_map", "metalness_map", "emissive_map", "light_map"),
     *("environment_map", "ambient_occlusion_map", "glossiness_map", "specular_map", "diffuse", "normal"),
@@ -84,24 +79,11 @@ class SdfDocument(Document):
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class SdfSource:
-    """An authored file.
+class SdfSource(SourceFile):
+    """An authored file; resolver: finds what it refers to; count: how often it is included."""
 
-    path: absolute; place: where an output has it, relative to the main file's folder, None for one that is included by
-    an absolute path; reference: as the `<include>` has it, empty for the main file; count: how often it is included.
-    """
-
-    path: Path
-    place: str | None
-    reference: str
-    raw: bytes
     resolver: ModelResolver
     count: int = 1
-
-    @property
-    def text(self) -> XmlText:
-        """The text in which offsets of elements count."""
-        return XmlText.of(self.raw)
 
 
 @dataclass(frozen=True, slots=True)
@@ -212,14 +194,6 @@ def parse_root(data: bytes, where: str) -> tuple[Element, Version]:
         known = f"{'.'.join(map(str, OLDEST))} to {'.'.join(map(str, NEWEST))}"
         raise AssetError(f"SDF {text} is not read, only {known}", where=place, remedy="Convert it: gz sdf -p FILE.")
     return root, version
-
-
-def geometry_of(element: Element) -> Element | None:
-    """What the `<geometry>` of a collision or visual holds, None where there is nothing."""
-    geometry = element.first("geometry")
-    if geometry is None or not geometry.children:
-        return None
-    return next((child for child in geometry.children if child.tag in GEOMETRY_TAGS), geometry.children[0])
 
 
 def mesh_uri(mesh: Element) -> str:

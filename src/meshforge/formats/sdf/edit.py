@@ -9,20 +9,11 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from meshforge.common import AssetError, join_names
-from meshforge.formats import collision_pieces, mesh_output
+from meshforge.formats import element_edits, link_reader, mesh_output, xml
 from meshforge.formats.base import Mass, Output
 from meshforge.formats.references import add_copy, note_absolute
 from meshforge.formats.sdf import document, elements, shapes
-from meshforge.formats.slots import (
-    ElementMaker,
-    ElementPlan,
-    Slot,
-    assign_names,
-    name_attribute_of,
-    refuse_unknown_link,
-)
-from meshforge.formats.xml import Element, Splice, XmlText, apply_splices, indent_of, newline_of
-from meshforge.geometry import Capsule, Ellipsoid, Pose
+from meshforge.geometry import Capsule, Ellipsoid, Pose, Shape
 from meshforge.symbolic import Asset, Geom
 
 _REMEDY = "Rename one of them, or put both under one folder."
@@ -35,135 +26,124 @@ def write_sdf(asset: Asset, origin: document.SdfDocument, name: str, mass: Mass)
     there, a mesh file that changed since the asset was read, or a mass of which a part is not known.
     """
     for geom in asset.geoms:
-        refuse_unknown_link(geom, origin.links, str(asset.path))
-    edit = _FileEdits(asset, origin, Path(name).stem)
-    names = assign_names([slot for plan in edit.plans for slot in plan.slots])
-    texts = [edit.build_text(number, mass) for number in range(len(origin.sources))]
+        element_edits.refuse_unknown_link(geom, origin.links, str(asset.path))
+    meshes, taken = shapes.SdfMeshes(origin.digests), set[str]()
+    plans = []
+    for number, source in enumerate(origin.sources):
+        files = mesh_output.HullFiles(Path(name).stem, source.resolver, taken)
+        plans.append(_plan_source(asset, origin, number, files, meshes))
+    names = element_edits.assign_names([output for plan in plans for output in plan.outputs])
+    each = list(zip(plans, origin.sources, strict=True))
+    texts = [_build_text(asset, origin, plan, source, mass) for plan, source in each]
     copies, notes = list_copies(origin.sources, texts, name)
-    made = edit.mesh_files
-    for source, text in zip(origin.sources[1:], texts[1:], strict=True):
-        if source.place is not None:
-            made[source.place] = text
-    return Output(texts[0], made, copies, (*edit.notes, *notes), names)
+    made: dict[str, bytes] = {}
+    for plan, source in each:
+        folder = posixpath.dirname(source.place or "")
+        made |= {posixpath.normpath(posixpath.join(folder, key)): v for key, v in plan.maker.files.made.items()}
+    made |= {source.place: text for source, text in zip(origin.sources[1:], texts[1:], strict=True) if source.place}
+    return Output(texts[0], made, copies, (*(note for plan in plans for note in plan.maker.notes), *notes), names)
 
 
-class _FileEdits:
-    def __init__(self, asset: Asset, origin: document.SdfDocument, stem: str) -> None:
-        self.asset, self.document, self.stem = asset, origin, stem
-        self.kept = collision_pieces.SourceMeshes(origin.digests, str(asset.path), shapes.select_submesh)
-        self.taken: set[str] = set()
-        self.plans: list[ElementPlan] = []
-        self.makers: list[SdfElementMaker] = []
-        for number in range(len(origin.sources)):
-            self._plan_source(number)
-
-    @property
-    def mesh_files(self) -> dict[str, bytes]:
-        """The mesh files of all files' hulls, from the main one."""
-        found: dict[str, bytes] = {}
-        for maker, source in zip(self.makers, self.document.sources, strict=True):
-            folder = posixpath.dirname(source.place or "")
-            found |= {posixpath.normpath(posixpath.join(folder, key)): v for key, v in maker.files.made.items()}
-        return found
-
-    @property
-    def notes(self) -> list[str]:
-        return [note for maker in self.makers for note in maker.notes]
-
-    def build_text(self, number: int, mass: Mass) -> bytes:
-        """The text of a file. Raises AssetError where it cannot be edited."""
-        plan, source = self.plans[number], self.document.sources[number]
-        edits = plan.splices
-        if not edits:
-            return source.raw
-        self._refuse_fixed(source)
-        if mass == "keep":
-            edits += keep_masses(self.asset, self.document, plan)
-        data = apply_splices(plan.maker.data, edits)
-        return source.raw if data == plan.maker.data else source.text.encode(data)
-
-    def _plan_source(self, number: int) -> None:
-        source = self.document.sources[number]
-        data = source.text.data
-        root, version = document.parse_root(data, str(source.path))
-        at = {element.start: element for element in root.walk()}
-        own = [k for k, place in enumerate(self.document.at) if place.source == number]
-        links = {body: at[place.start] for body, place in self.document.links.items() if place.source == number}
-        files = mesh_output.HullFiles(self.stem, source.resolver, self.taken)
-        files.avoid(document.references(root))
-        folder = _first_mesh_folder(root, files)
-        maker = SdfElementMaker(data, newline_of(data), files, folder, self.kept, version=version)
-        asset = replace(self.asset, geoms=tuple(geom for geom in self.asset.geoms if geom.body in links))
-        authored, at_own = [self.document.authored[k] for k in own], [at[self.document.at[k].start] for k in own]
-        self.plans.append(ElementPlan(asset, authored, at_own, links, maker))
-        self.makers.append(maker)
-
-    def _refuse_fixed(self, source: document.SdfSource) -> None:
-        origin, where = self.document, str(self.asset.path)
-        if origin.worlds:
-            worlds = join_names(origin.worlds, 2)
-            remedy = "Put its <model> into a file of its own (<sdf><model>), and edit that."
-            raise AssetError(f"this is a world ({worlds}), which is only read", where=where, remedy=remedy)
-        if source.count > 1 or source.place is None:
-            why = f"is included {source.count} times" if source.count > 1 else "is included by an absolute path"
-            problem = f"{source.reference!r} {why}: it is not edited here"
-            raise AssetError(problem, where=where, remedy=f"Edit {source.path} itself.")
+def _plan_source(
+    asset: Asset,
+    origin: document.SdfDocument,
+    number: int,
+    files: mesh_output.HullFiles,
+    meshes: shapes.SdfMeshes,
+) -> element_edits.ElementEdits:
+    """The collision elements of one file."""
+    source = origin.sources[number]
+    data = source.text.data
+    root, version = document.parse_root(data, str(source.path))
+    at = {element.start: element for element in root.walk()}
+    own = [k for k, place in enumerate(origin.at) if place.source == number]
+    links = {body: at[place.start] for body, place in origin.links.items() if place.source == number}
+    files.avoid(document.references(root))
+    maker = SdfElementMaker(f"SDF {version[0]}.{version[1]}", data, files, meshes=meshes, version=version)
+    maker.folder = maker.find_folder(element for element in root.walk() if element.tag == "collision")
+    here = replace(asset, geoms=tuple(geom for geom in asset.geoms if geom.body in links))
+    authored, found = [origin.authored[k] for k in own], [at[origin.at[k].start] for k in own]
+    return element_edits.ElementEdits(here, authored, found, links, maker)
 
 
-def _first_mesh_folder(root: Element, files: mesh_output.HullFiles) -> str:
-    kinds = (document.geometry_of(element) for element in root.walk() if element.tag == "collision")
-    return files.folder_of(
-        next((document.mesh_uri(kind) for kind in kinds if kind is not None and kind.tag == "mesh"), None)
-    )
+def _build_text(
+    asset: Asset, origin: document.SdfDocument, plan: element_edits.ElementEdits, source: document.SdfSource, mass: Mass
+) -> bytes:
+    """The text of a file. Raises AssetError where it cannot be edited."""
+    edits, where = plan.splices, str(asset.path)
+    if not edits:
+        return source.raw
+    if origin.worlds:
+        worlds = join_names(origin.worlds, 2)
+        remedy = "Put its <model> into a file of its own (<sdf><model>), and edit that."
+        raise AssetError(f"this is a world ({worlds}), which is only read", where=where, remedy=remedy)
+    if source.count > 1 or source.place is None:
+        why = f"is included {source.count} times" if source.count > 1 else "is included by an absolute path"
+        problem = f"{source.reference!r} {why}: it is not edited here"
+        raise AssetError(problem, where=where, remedy=f"Edit {source.path} itself.")
+    if mass == "keep":
+        edits += keep_masses(asset, origin, plan)
+    data = xml.apply_splices(plan.maker.data, edits)
+    return source.raw if data == plan.maker.data else source.text.encode(data)
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class SdfElementMaker(ElementMaker):
+@dataclass(eq=False)
+class SdfElementMaker(element_edits.ElementMaker):
     """Makes elements for one file."""
 
     version: document.Version = field(kw_only=True)
 
-    @property
-    def title(self) -> str:
-        return f"SDF {'.'.join(map(str, self.version))}"
+    def reference_of(self, mesh: xml.Element) -> str:
+        return document.mesh_uri(mesh)
 
-    def find_mesh(self, collision: Element) -> str | None:
-        mesh = document.geometry_of(collision)
-        return document.mesh_uri(mesh) if mesh is not None and mesh.tag == "mesh" else None
-
-    def make_slot(self, geom: Geom, root_t_link: Pose, template: Element | None, lead: bytes) -> Slot:
-        shape = geom.shape.move(root_t_link.inverse())
+    def native_lines(self, shape: Shape) -> list[bytes] | None:
         is_known = self.version >= document.ROUND_SHAPES or not isinstance(shape, Capsule | Ellipsoid)
-        if isinstance(shape, elements.SdfShape) and is_known:
-            pose, kind = shape.pose, elements.native_lines(shape)
-        else:
-            pose, kind = Pose.identity(), elements.mesh_lines(self.make_mesh(geom, shape, template))
-        if template is None:
-            slot = Slot(geom.body, (geom.name,), text=elements.build_collision(pose, kind, lead, self.line_end))
-        else:
-            old = document.geometry_of(template)
-            assert old is not None  # only elements with pieces are copied
-            if b"\n" not in self.data[old.start : old.end]:  # all in one line
-                kind = [b"".join(line.strip() for line in kind)]
-            edits = elements.replace_geometry(self.data, template, pose, kind)
-            slot = Slot(geom.body, (geom.name,), None, template, edits, copy=True)
-        slot.name = name_attribute_of(slot)  # SDF asks for one
-        return slot
+        return elements.native_lines(shape) if isinstance(shape, elements.SdfShape) and is_known else None
 
-    def extract_piece(self, element: Element, name: str, k: int) -> tuple[Splice, ...]:
-        mesh = document.geometry_of(element)
+    def mesh_lines(self, reference: str) -> list[bytes]:
+        return elements.mesh_lines(reference)
+
+    def build_collision(self, pose: Pose, kind: Sequence[bytes], lead: bytes) -> bytes:
+        lines = elements.nest("collision", elements.pose_leaf(pose), *elements.nest("geometry", *kind))
+        return (xml.newline_of(self.data) + lead).join(lines)
+
+    def make_element(
+        self, geom: Geom, root_t_link: Pose, template: xml.Element | None, lead: bytes
+    ) -> element_edits.OutputElement:
+        made = super().make_element(geom, root_t_link, template, lead)
+        made.name = element_edits.name_attribute_of(made)  # SDF asks for one
+        return made
+
+    def replace_geometry(
+        self, collision: xml.Element, pose: Pose, kind: Sequence[bytes], reference: str | None
+    ) -> tuple[xml.Splice, ...]:
+        geometry, old = collision.first("geometry"), link_reader.geometry_of(collision)
+        assert geometry is not None and old is not None  # only elements with pieces are copied
+        if b"\n" not in self.data[old.start : old.end]:  # all in one line
+            kind = [b"".join(line.strip() for line in kind)]
+        made = xml.Splice(old.start, old.end, xml.line_gap(self.data, old.start).join(kind))
+        polylines = (child for child in geometry.children if child.tag == "polyline" and child is not old)
+        placed = xml.replace_or_insert(self.data, collision, "pose", "geometry", elements.pose_leaf(pose))
+        return (placed, made, *(xml.remove_element(self.data, child) for child in polylines))
+
+    def extract_piece(self, element: xml.Element, name: str, k: int) -> tuple[xml.Splice, ...]:
+        """Scale and place stay; the file is used whole."""
+        mesh = link_reader.geometry_of(element)
         assert mesh is not None  # only meshes have several pieces
         _, made = self.make_piece(document.mesh_uri(mesh), shapes.read_submesh(mesh), name, k)
-        return elements.replace_mesh_file(self.data, mesh, made)
+        uri, submesh = mesh.first("uri") or mesh.first("filename"), mesh.first("submesh")
+        assert uri is not None  # it has pieces
+        new = xml.Splice(uri.start, uri.end, elements.leaf(uri.tag, made))
+        return (new, xml.remove_element(self.data, submesh)) if submesh else (new,)
 
 
-def keep_masses(asset: Asset, origin: document.SdfDocument, plan: ElementPlan) -> list[Splice]:
+def keep_masses(asset: Asset, origin: document.SdfDocument, plan: element_edits.ElementEdits) -> list[xml.Splice]:
     """The edits that make computed masses of the links that are edited explicit.
 
     Raises AssetError for a link of which a collision is no hull, so that its mass is not known.
     """
-    edited = {slot.body for _, slots in plan.places for slot in slots if not slot.is_untouched}
-    edited |= {one.link for one, (_, slots) in zip(plan.authored, plan.places, strict=True) if not slots}
+    edited = {output.body for _, outputs in plan.places for output in outputs if not output.is_untouched}
+    edited |= {one.link for one, (_, outputs) in zip(plan.authored, plan.places, strict=True) if not outputs}
     edited |= plan.ends.keys()
     known = {inertial.body: inertial for inertial in asset.mechanism.inertials}
     edits = []
@@ -176,9 +156,9 @@ def keep_masses(asset: Asset, origin: document.SdfDocument, plan: ElementPlan) -
                 where=str(asset.path),
                 remedy="Leave it to the new collisions (--mass recompute), or say it in the file.",
             )
-        lead = indent_of(plan.maker.data, element.start) or b""
+        lead = xml.indent_of(plan.maker.data, element.start) or b""
         lines = elements.inertial_lines(known[body], asset.body_poses[body])
-        edits.append(Splice(element.start, element.end, (newline_of(plan.maker.data) + lead).join(lines)))
+        edits.append(xml.Splice(element.start, element.end, (xml.newline_of(plan.maker.data) + lead).join(lines)))
     return edits
 
 
@@ -210,6 +190,6 @@ def list_copies(
 
 
 def _find_references(source: document.SdfSource, text: bytes) -> list[tuple[str, Path]]:
-    root, _ = document.parse_root(XmlText.of(text).data, str(source.path))
+    root, _ = document.parse_root(xml.XmlText.of(text).data, str(source.path))
     found = [(reference, source.resolver.find(reference)) for reference in document.references(root)]
     return [(reference, path) for reference, path in found if path is not None] + list(document.find_scripts(source))

@@ -1,16 +1,14 @@
-"""XML text of SDF elements: collisions new or edited, joints, masses and visuals."""
+"""XML text of SDF elements: shapes, joints, masses and visuals."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import assert_never
 
 import numpy as np
 
 from meshforge.formats.kinematic_tree import LinkJoint, drop_rounding, name_moments, place_inertial
 from meshforge.formats.mesh_output import LinkVisual
-from meshforge.formats.sdf.document import geometry_of
-from meshforge.formats.xml import Element, Splice, escape, format_numbers, line_gap, remove_element, replace_or_insert
+from meshforge.formats.xml import escape, format_numbers
 from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Floats, Pose, Sphere
 from meshforge.symbolic import Coupling, Inertial
 
@@ -61,31 +59,6 @@ def mesh_lines(reference: str, scale: Floats | None = None) -> list[bytes]:
     """The lines of the element of a mesh file in metres."""
     scaled = [] if scale is None else [leaf("scale", format_numbers(scale))]
     return nest("mesh", leaf("uri", reference), *scaled)
-
-
-def build_collision(pose: Pose, kind: Sequence[bytes], lead: bytes, line_end: bytes) -> bytes:
-    """A `<collision>` without a name, whose lines but the first are indented by `lead`."""
-    return (line_end + lead).join(nest("collision", pose_leaf(pose), *nest("geometry", *kind)))
-
-
-def replace_geometry(data: bytes, collision: Element, pose: Pose, kind: Sequence[bytes]) -> tuple[Splice, ...]:
-    """The edits that give a copy of a collision another pose and geometry, all else of it being inherited."""
-    geometry, old = collision.first("geometry"), geometry_of(collision)
-    assert geometry is not None and old is not None  # only elements with pieces are copied
-    gap = line_gap(data, old.start)
-    others = (
-        remove_element(data, child) for child in geometry.children if child.tag == "polyline" and child is not old
-    )
-    placed = replace_or_insert(data, collision, "pose", "geometry", pose_leaf(pose))
-    return (placed, Splice(old.start, old.end, gap.join(kind)), *others)
-
-
-def replace_mesh_file(data: bytes, mesh: Element, reference: str) -> tuple[Splice, ...]:
-    """The edits that give a copy of a mesh another file, of the same scale and place, which is used whole."""
-    uri, submesh = mesh.first("uri") or mesh.first("filename"), mesh.first("submesh")
-    assert uri is not None  # only meshes have several pieces
-    new = Splice(uri.start, uri.end, leaf(uri.tag, reference))
-    return (new, remove_element(data, submesh)) if submesh else (new,)
 
 
 def nest_with_name(tag: str, name: str, *inside: bytes, more: bytes = b"") -> list[bytes]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -14,7 +13,7 @@ from meshforge.formats.sdf.frames import MODEL, WORLD, is_true, pose_of, read_va
 from meshforge.formats.sdf.models import ModelScope, ModelTree
 from meshforge.formats.xml import Element, parse_numbers
 from meshforge.geometry import Floats, Pose, combine_inertias, inertia
-from meshforge.symbolic import Body, Coupling, Geom, Inertial, Joint, JointKind, NonConvexPiece, unit_vector
+from meshforge.symbolic import Coupling, Geom, Inertial, Joint, JointKind, NonConvexPiece, unit_vector
 
 _KINDS: dict[str, tuple[JointKind, ...]] = {
     "fixed": ("fixed",),
@@ -32,50 +31,33 @@ _DENSITY = 1000.0  # [kg/m^3], libsdformat's default
 _UNIT_TENSOR = (1.0, 0.0, 0.0, 1.0, 0.0, 1.0)
 
 
-@dataclass(slots=True)
-class SdfJoints:
-    """The joints, the body of the world where one holds on to it, and what a user should know."""
-
-    joints: list[Joint] = field(default_factory=list)
-    world: tuple[Body, ...] = ()
-    notes: list[str] = field(default_factory=list)
-
-
-def read_joints(tree: ModelTree) -> SdfJoints:
-    """The joints of all models that make trees of their bodies; a note names those that would close rings."""
-    found = SdfJoints()
+def read_joints(tree: ModelTree) -> tuple[list[Joint], list[str]]:
+    """The joints of all models that make trees of their bodies, and notes, which name those that would close rings."""
+    joints, notes = list[Joint](), list[str]()
     parents: dict[str, str] = {}
-    unknown: list[str] = []
-    closing: list[str] = []
+    passed: dict[str, list[str]] = {"not understood": [], "which would close a ring": []}
     for scope in tree.scopes:
         for element in scope.element.each("joint"):
             name = f"{scope.prefix}{element.attributes.get('name', '')}"
             type_ = element.attributes.get("type", "")
             parent, child = (_find_body(tree, scope, text_of(element, role)) for role in ("parent", "child"))
             if type_ not in _KINDS or parent is None or child is None or child == WORLD or parent == child:
-                unknown.append(name)
-            elif child in parents or _is_below(parents, parent, child):
-                closing.append(name)
-            else:
-                parents[child] = parent
-                found.joints += _read_joint_parts(tree, scope, element, name, parent, child)
-                if type_ == "screw":
-                    found.notes.append(f"joint {name!r} is a screw: it is taken for one that turns only")
-    if any(joint.parent == WORLD for joint in found.joints):
-        found.world = (Body(WORLD, Pose.identity()),)
-    for why, names in (("not understood", unknown), ("which would close a ring", closing)):
+                passed["not understood"].append(name)
+                continue
+            above: str | None = parent
+            while above not in (None, child):
+                above = parents.get(above or "")
+            if child in parents or above == child:
+                passed["which would close a ring"].append(name)
+                continue
+            parents[child] = parent
+            joints += _read_joint_parts(tree, scope, element, name, parent, child)
+            if type_ == "screw":
+                notes.append(f"joint {name!r} is a screw: it is taken for one that turns only")
+    for why, names in passed.items():
         if names:
-            found.notes.append(f"{pluralize(len(names), 'joint')} passed over, {why} ({join_names(names, 3)})")
-    return found
-
-
-def _is_below(parents: dict[str, str], body: str, wanted: str) -> bool:
-    at: str | None = body
-    while at is not None:
-        if at == wanted:
-            return True
-        at = parents.get(at)
-    return False
+            notes.append(f"{pluralize(len(names), 'joint')} passed over, {why} ({join_names(names, 3)})")
+    return joints, notes
 
 
 def _find_body(tree: ModelTree, scope: ModelScope, name: str) -> str | None:

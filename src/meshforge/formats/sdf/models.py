@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from meshforge.common import AssetError
-from meshforge.formats import mesh_reader, references
+from meshforge.formats import link_reader, mesh_reader, references
 from meshforge.formats.sdf.document import ModelResolver, SdfSource, Version, parse_root
 from meshforge.formats.sdf.frames import MODEL, WORLD, FrameTable, SdfFrame, is_true, pose_of, text_of
 from meshforge.formats.xml import Element, XmlText
@@ -43,22 +43,10 @@ class ModelScope:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class SdfLink:
-    """A `<link>` as a body: its name in the asset, its scope, and root_T_link."""
+class SdfLink(link_reader.Link):
+    """A `<link>` of a model."""
 
-    body: str
     scope: ModelScope
-    element: Element
-    pose: Pose
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class SdfCollision:
-    """A `<collision>` of a link."""
-
-    link: SdfLink
-    element: Element
-    pose: Pose
 
 
 @dataclass(slots=True, eq=False)
@@ -75,14 +63,13 @@ class ModelTree:
     scopes: list[ModelScope] = field(default_factory=list)
     frames: FrameTable = field(default_factory=FrameTable)
     links: dict[str, SdfLink] = field(default_factory=dict)
-    collisions: list[SdfCollision] = field(default_factory=list)
 
-    def pose_in_link(self, link: SdfLink, element: Element) -> Pose:
+    def pose_in_link(self, link: link_reader.Link, element: Element) -> Pose:
         """root_T_element of something in a link, whose pose counts from the link or from a frame of its model."""
-        at = pose_of(element, link.scope.where)
+        at, scope = pose_of(element, link.where), self.links[link.body].scope
         if not at.base:
             return link.pose @ at.pose
-        return self.frames.pose_of(link.scope.path, at.base, f"{link.scope.where}:{at.line}") @ at.pose
+        return self.frames.pose_of(scope.path, at.base, f"{link.where}:{at.line}") @ at.pose
 
 
 def read_models(path: Path, roots: tuple[Path, ...]) -> ModelTree:
@@ -235,11 +222,8 @@ class _Composer:
         tree = self.tree
         for body, (scope, name, element) in self.links.items():
             pose = tree.frames.pose_of(scope.path, name, f"{scope.where}:{element.line}")
-            link = tree.links[body] = SdfLink(body, scope, element, pose)
-        for link in tree.links.values():
-            tree.collisions += [
-                SdfCollision(link, e, tree.pose_in_link(link, e)) for e in link.element.each("collision")
-            ]
+            resolver = self.sources[scope.source.number].resolver
+            tree.links[body] = SdfLink(body, element, pose, scope.where, resolver, scope)
 
 
 def _output_place(outer: SdfSource, uri: str, path: Path) -> str | None:

@@ -1,26 +1,19 @@
-"""Reading an SDF: from its files to an asset, with what its links show, other names of its collisions, the files it
+"""Read an SDF: from its files to an asset, with what its links show, other names of its collisions, the files it
 refers to, and notes."""
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
-
-from meshforge.common import MeshForgeError, join_names, plain_path, pluralize
-from meshforge.formats import base, collision_pieces, references, slots
+from meshforge.common import join_names, plain_path, pluralize
+from meshforge.formats import base, collision_pieces, link_reader, references
 from meshforge.formats.sdf import document, models, shapes
-from meshforge.formats.sdf.frames import text_of
+from meshforge.formats.sdf.frames import WORLD, read_floats, text_of
 from meshforge.formats.sdf.mechanism import compute_masses, has_computed_mass, read_joints, read_masses
-from meshforge.formats.visuals import Visual, VisualSurfaces
 from meshforge.formats.xml import Element, parse_numbers
-from meshforge.symbolic import Asset, Body, FileNote, Mechanism, Mentions, Rgba
-
-_UNIT = re.compile(rb"<unit\b[^>]*?\bmeter\s*=\s*[\"']\s*([0-9.eE+-]+)\s*[\"']")
-_HEAD_BYTES = 100_000  # bytes within which a file says its unit
+from meshforge.geometry import Floats, Pose
+from meshforge.symbolic import Asset, Body, FileNote, Mechanism, Rgba
 
 
 def read_sdf(path: Path, options: base.ReadOptions) -> Asset:
@@ -30,152 +23,88 @@ def read_sdf(path: Path, options: base.ReadOptions) -> Asset:
     collision mesh that is not there.
     """
     tree = models.read_models(plain_path(path), tuple(map(plain_path, options.package_roots)))
-    uses = _mesh_uses(tree)
-    collision_pieces.refuse_missing(use for use in uses if use)
-    meshes = collision_pieces.CollisionMeshes(shapes.select_submesh)
-    parts = [shapes.read_parts(one, use, meshes) for one, use in zip(tree.collisions, uses, strict=True)]
-    authored = slots.name_elements(_by_link(tree), [len(own) for own in parts])
-    mentions = [
-        meshes.mention_groups(use, mentions_of_element(one.link.element, one.element), len(own))
-        for one, use, own in zip(tree.collisions, uses, parts, strict=True)
-    ]
-    geoms = collision_pieces.geoms_of(authored, parts, mentions)
-    non_convex = collision_pieces.non_convex_of(authored, parts, mentions)
-    joints = read_joints(tree)
-    elements = {name: one.element for one, own in zip(tree.collisions, authored, strict=True) for name in own.names}
-    masses = (*read_masses(tree), *compute_masses(tree, elements, geoms, non_convex))
+    reader, links = _SdfReader(tree), tree.links
+    collisions = reader.read_collisions(links.values())
+    elements = [element for _, element in collisions.found]
+    numbers = {body: link.scope.source.number for body, link in links.items()}
+    own = {n: e for e, one in zip(elements, collisions.authored, strict=True) for n in one.names}
+    joints, notes = read_joints(tree)
+    world = [Body(WORLD, Pose.identity())] if any(joint.parent == WORLD for joint in joints) else []
+    masses = (*read_masses(tree), *compute_masses(tree, own, collisions.geoms, collisions.non_convex))
     files, missing = find_files(tree.sources)
     return Asset(
         path=path,
         format="sdf",
-        bodies=(*joints.world, *(Body(name, link.pose) for name, link in tree.links.items())),
-        geoms=geoms,
-        document=_build_document(tree, authored, meshes),
-        non_convex=non_convex,
-        visuals=read_visuals(tree),
+        bodies=(*world, *(Body(name, link.pose) for name, link in links.items())),
+        geoms=collisions.geoms,
+        document=document.SdfDocument(
+            tuple(tree.sources),
+            collisions.authored,
+            tuple(document.ElementPlace(numbers[link.body], element.start) for link, element in collisions.found),
+            {body: document.ElementPlace(numbers[body], link.element.start) for body, link in links.items()},
+            tuple(tree.worlds),
+            tuple(body for body, link in links.items() if has_computed_mass(link.element)),
+            collisions.digests,
+        ),
+        non_convex=collisions.non_convex,
+        visuals=reader.read_visuals(links.values()),
         files=files,
         missing=missing,
-        notes=(*tree.notes, *joints.notes, *collect_notes(tree)),
-        mechanism=Mechanism(tuple(joints.joints), masses),
+        notes=(*tree.notes, *notes, *_collect_notes(tree, elements)),
+        mechanism=Mechanism(tuple(joints), masses),
     )
 
 
-def _build_document(
-    tree: models.ModelTree,
-    authored: tuple[collision_pieces.CollisionElement, ...],
-    meshes: collision_pieces.CollisionMeshes,
-) -> document.SdfDocument:
-    return document.SdfDocument(
-        tuple(tree.sources),
-        authored,
-        tuple(document.ElementPlace(one.link.scope.source.number, one.element.start) for one in tree.collisions),
-        {
-            body: document.ElementPlace(link.scope.source.number, link.element.start)
-            for body, link in tree.links.items()
-        },
-        tuple(tree.worlds),
-        tuple(body for body, link in tree.links.items() if has_computed_mass(link.element)),
-        meshes.digests(),
-    )
+class _SdfReader(link_reader.LinkReader):
+    def __init__(self, tree: models.ModelTree) -> None:
+        super().__init__(shapes.SdfMeshes())
+        self.tree = tree
 
+    def place(self, link: link_reader.Link, element: Element) -> Pose:
+        return self.tree.pose_in_link(link, element)
 
-def _by_link(tree: models.ModelTree) -> list[tuple[str, Element]]:
-    return [(one.link.body, one.element) for one in tree.collisions]
+    def reference_of(self, mesh: Element) -> str:
+        return document.mesh_uri(mesh)
 
+    def part_of(self, mesh: Element) -> tuple[str, ...]:
+        return shapes.read_submesh(mesh)
 
-def _mesh_uses(tree: models.ModelTree) -> list[collision_pieces.MeshUse | None]:
-    """The mesh file of each collision, None where it has another geometry or none."""
-    uses: list[collision_pieces.MeshUse | None] = []
-    labels = slots.name_elements(_by_link(tree), [1] * len(tree.collisions))
-    for one, named in zip(tree.collisions, labels, strict=True):
-        kind = document.geometry_of(one.element)
-        if kind is None or kind.tag != "mesh":
-            uses.append(None)
-            continue
-        resolver = tree.sources[one.link.scope.source.number].resolver
-        place = f"{one.link.scope.where}:{kind.line}"
-        uses.append(
-            collision_pieces.MeshUse(
-                named.names[0], document.mesh_uri(kind), place, resolver, shapes.read_submesh(kind)
-            )
-        )
-    return uses
+    def unit_of(self, path: Path) -> float:
+        return shapes.collada_unit_of(path)
 
+    def read_scale(self, mesh: Element, where: str) -> tuple[Floats, str]:
+        return read_floats(mesh, "scale", where, (1.0, 1.0, 1.0)), f"<scale>{text_of(mesh, 'scale')}</scale>"
 
-def read_visuals(tree: models.ModelTree) -> VisualSurfaces:
-    """The visuals of all links; one that is not understood is left out, it never fails."""
-    return VisualSurfaces(
-        tuple(
-            replace(visual, rgba=_read_color(element))
-            for link in tree.links.values()
-            for element in link.element.each("visual")
-            for visual in _read_visual(tree, link, element)
-        )
-    )
-
-
-def _read_color(visual: Element) -> Rgba | None:
-    found = parse_numbers(text_of(visual.first("material"), "diffuse"))
-    if not found or len(found) not in (3, 4):
-        return None
-    red, green, blue, alpha = (min(1.0, max(0.0, share)) for share in [*found, 1.0][:4])
-    through = parse_numbers(text_of(visual, "transparency")) or [0.0]
-    return red, green, blue, alpha * (1.0 - min(1.0, max(0.0, through[0])))
-
-
-def _read_visual(tree: models.ModelTree, link: models.SdfLink, element: Element) -> Iterator[Visual]:
-    kind, where = document.geometry_of(element), link.scope.where
-    if kind is None:
-        return
-    try:
-        at = tree.pose_in_link(link, element)
-        if kind.tag == "mesh":
-            path = tree.sources[link.scope.source.number].resolver.find(document.mesh_uri(kind))
-            if path is not None:
-                scale = shapes.read_mesh_scale(kind, where, "visual") * collada_unit_of(path)
-                yield Visual(link.body, path, at.rotation * scale, at.translation)
-            return
+    def read_shape(self, element: Element, kind: Element, pose: Pose, where: str) -> collision_pieces.CollisionPiece:
         geometry = element.first("geometry")
         assert geometry is not None  # it holds the kind
-        if (shape := shapes.read_shape(geometry, kind, at, where).shape) is not None:
-            yield Visual(link.body, shape, np.eye(3), np.zeros(3))
-    except MeshForgeError:
-        return
+        return shapes.read_shape(geometry, kind, pose, where)
+
+    def place_mesh(
+        self, kind: Element, path: Path, linear: Floats, offset: Floats
+    ) -> list[collision_pieces.CollisionPiece]:
+        if kind.attributes.get("optimization") == "convex_hull":
+            return [shapes.hull_of(self.meshes.surfaces(path, self.part_of(kind)), linear, offset)]
+        return super().place_mesh(kind, path, linear, offset)
+
+    def read_color(self, visual: Element, where: str) -> Rgba | None:
+        found = parse_numbers(text_of(visual.first("material"), "diffuse"))
+        if not found or len(found) not in (3, 4):
+            return None
+        red, green, blue, alpha = (min(1.0, max(0.0, share)) for share in [*found, 1.0][:4])
+        through = parse_numbers(text_of(visual, "transparency")) or [0.0]
+        return red, green, blue, alpha * (1.0 - min(1.0, max(0.0, through[0])))
+
+    def identify_shape(self, element: Element, kind: Element) -> object:
+        sizes = tuple((child.tag, " ".join(child.text.split())) for child in kind.children)
+        return sizes, " ".join(text_of(element, "pose").split())
+
+    def material_of(self, element: Element) -> str:
+        material = element.first("material")
+        return text_of(material.first("script") if material else None, "name")
 
 
-def collada_unit_of(mesh: Path) -> float:
-    """The metres of the unit that a mesh file is in: as a Collada file says, 1 for all others."""
-    if mesh.suffix.lower() != ".dae":
-        return 1.0
-    try:
-        with mesh.open("rb") as stream:
-            found = _UNIT.search(stream.read(_HEAD_BYTES))
-        unit = float(found[1]) if found else 1.0
-    except (OSError, ValueError):
-        return 1.0
-    return unit if 0 < unit < float("inf") else 1.0
-
-
-def mentions_of_element(link: Element, collision: Element) -> Mentions:
-    """What is said of a `<collision>` of a link."""
-    return collision_pieces.collect_mentions(_names_of(collision), map(_names_of, link.each("visual")))
-
-
-def _names_of(element: Element) -> collision_pieces.ShapeNames | None:
-    """The names of a collision or visual element; of a collision without its own, which its hulls have."""
-    kind = document.geometry_of(element)
-    if kind is None:
-        return None
-    reference = document.mesh_uri(kind) if kind.tag == "mesh" else ""
-    sizes = tuple((child.tag, " ".join(child.text.split())) for child in kind.children)
-    shape = reference or (kind.tag, sizes, " ".join(text_of(element, "pose").split()))
-    material = element.first("material")
-    script = material.first("script") if material else None
-    name = "" if element.tag == "collision" else element.attributes.get("name", "")
-    return collision_pieces.ShapeNames(shape, name, collision_pieces.stem_of(reference), text_of(script, "name"))
-
-
-def collect_notes(tree: models.ModelTree) -> Iterator[str]:
+def _collect_notes(tree: models.ModelTree, collisions: Sequence[Element]) -> Iterator[str]:
     """Notes on worlds, older versions of a model, collisions without a shape, and what is decomposed when loaded."""
     path = tree.sources[0].path
     if tree.worlds:
@@ -190,7 +119,7 @@ def collect_notes(tree: models.ModelTree) -> Iterator[str]:
         )
     if actors := [actor.line for actor in tree.root.each("actor")]:
         yield f"{pluralize(len(actors), 'actor')}, the first on line {actors[0]}: passed over"
-    kinds = [(collision.element.line, document.geometry_of(collision.element)) for collision in tree.collisions]
+    kinds = [(collision.line, link_reader.geometry_of(collision)) for collision in collisions]
     if bare := [f"line {line}" for line, kind in kinds if kind is None]:
         yield f"{pluralize(len(bare), 'collision')} without geometry ({join_names(bare, 3)}): passed over"
     cut = [k for _, k in kinds if k is not None and k.attributes.get("optimization") == "convex_decomposition"]

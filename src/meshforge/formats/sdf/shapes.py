@@ -2,32 +2,27 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 
 from meshforge.common import AssetError, GeometryError, join_names
-from meshforge.formats.collision_pieces import (
-    CollisionMeshes,
-    CollisionPiece,
-    MeshUse,
-    build_primitive,
-    place_pieces,
-    refuse_zero_scale,
-    turn_z_to,
-)
+from meshforge.formats import collision_pieces, link_reader
 from meshforge.formats.meshfile.surface import RawSurface, join_surfaces
-from meshforge.formats.sdf import document, models
 from meshforge.formats.sdf.frames import is_true, read_floats, read_values, text_of
 from meshforge.formats.xml import Element
 from meshforge.geometry import Floats, Pose, convex_hull, hull_mesh
 
+_UNIT = re.compile(rb"<unit\b[^>]*?\bmeter\s*=\s*[\"']\s*([0-9.eE+-]+)\s*[\"']")
+_HEAD_BYTES = 100_000  # bytes within which a file says its unit
 _MOST_POINTS = 10_000  # points of a polyline
 _NO_HULLS = {"heightmap": "a height map is no hull", "image": "an image is no hull", "empty": "it is empty"}
 
 
-def read_shape(geometry: Element, kind: Element, pose: Pose, where: str) -> CollisionPiece:
+def read_shape(geometry: Element, kind: Element, pose: Pose, where: str) -> collision_pieces.CollisionPiece:
     """The shape of an element of a geometry that is no mesh; pose: root_T_geometry.
 
     What is left out has libsdformat's default. Raises AssetError with `where:line` for an unreadable number.
@@ -41,19 +36,21 @@ def read_shape(geometry: Element, kind: Element, pose: Pose, where: str) -> Coll
             radius = read_floats(kind, "radius", where, (1.0 if kind.tag == "cylinder" else 0.5,))
             sizes = np.concatenate([radius, read_floats(kind, "length", where, (1.0,))])
         case "plane":
-            turn = turn_z_to(read_floats(kind, "normal", where, (0, 0, 1)))
-            return CollisionPiece(None, "a plane has no end", plane=pose @ turn)
+            turn = collision_pieces.turn_z_to(read_floats(kind, "normal", where, (0, 0, 1)))
+            return collision_pieces.CollisionPiece(None, "a plane has no end", plane=pose @ turn)
         case "polyline":
             return _read_polylines(list(geometry.each("polyline")), pose, where)
         case _:
-            return CollisionPiece(None, _NO_HULLS.get(kind.tag, f"<{kind.tag}> is no geometry that is known"))
-    return build_primitive(kind.tag, sizes, pose)
+            return collision_pieces.CollisionPiece(
+                None, _NO_HULLS.get(kind.tag, f"<{kind.tag}> is no geometry that is known")
+            )
+    return collision_pieces.build_primitive(kind.tag, sizes, pose)
 
 
-def _read_polylines(lines: Sequence[Element], pose: Pose, where: str) -> CollisionPiece:
+def _read_polylines(lines: Sequence[Element], pose: Pose, where: str) -> collision_pieces.CollisionPiece:
     """Outlines of points, drawn up to a height: a hull where there is one that is convex."""
     if len(lines) > 1:
-        return CollisionPiece(None, f"{len(lines)} polylines in one")
+        return collision_pieces.CollisionPiece(None, f"{len(lines)} polylines in one")
     corners = list(lines[0].each("point"))
     if len(corners) > _MOST_POINTS:
         raise AssetError(f"a polyline of {len(corners):,} points", where=f"{where}:{lines[0].line}")
@@ -65,20 +62,12 @@ def _read_polylines(lines: Sequence[Element], pose: Pose, where: str) -> Collisi
     except GeometryError:
         hull = None
     if hull is None:
-        return CollisionPiece(None, "a polyline without volume")
+        return collision_pieces.CollisionPiece(None, "a polyline without volume")
     x, y = (outline - outline[0]).T
     volume = abs(float(x @ np.roll(y, -1) - y @ np.roll(x, -1))) / 2 * height
     if not np.isclose(volume, hull.volume, rtol=1e-6):
-        return CollisionPiece(None, "a polyline that is not convex")
-    return CollisionPiece(hull)
-
-
-def read_mesh_scale(mesh: Element, where: str, label: str) -> Floats:
-    """The factors (3,) by which a `<mesh>` is scaled. Raises AssetError naming `label`: a factor is zero."""
-    scale = read_floats(mesh, "scale", where, (1.0, 1.0, 1.0))
-    given = f"<scale>{text_of(mesh, 'scale')}</scale>"
-    refuse_zero_scale(scale, label, given, f"{where}:{mesh.line}")
-    return scale
+        return collision_pieces.CollisionPiece(None, "a polyline that is not convex")
+    return collision_pieces.CollisionPiece(hull)
 
 
 def read_submesh(mesh: Element) -> tuple[str, ...]:
@@ -90,44 +79,45 @@ def read_submesh(mesh: Element) -> tuple[str, ...]:
     return (name, "center") if is_true(text_of(submesh, "center")) else (name,)
 
 
-def select_submesh(surfaces: Sequence[RawSurface], part: tuple[str, ...]) -> Sequence[RawSurface]:
-    """What a part of `read_submesh` stands for, in metres: Gazebo obeys the unit of a Collada file.
+class SdfMeshes(link_reader.CollisionMeshes):
+    """The mesh files of an SDF, of which elements use submeshes."""
 
-    Raises AssetError: there is no such submesh.
-    """
-    found = [s for s in surfaces if not part or s.name == part[0]]
-    if not found:
-        names = [s.name for s in surfaces if s.name]
-        remedy = f"Its submeshes are {join_names(names, 5)}." if names else "None of its submeshes has a name."
-        raise AssetError(f"the mesh has no submesh {part[0]!r}", remedy=remedy)
-    scaled = [replace(s, vertices=s.vertices * s.unit, unit=1.0) if s.unit != 1.0 else s for s in found]
-    if "center" not in part[1:]:
-        return scaled
-    used = np.concatenate([s.vertices[np.unique(s.faces)] for s in scaled])
-    middle = (used.min(axis=0) + used.max(axis=0)) / 2
-    return [replace(s, vertices=s.vertices - middle) for s in scaled]
+    def select(self, surfaces: Sequence[RawSurface], part: tuple[str, ...]) -> Sequence[RawSurface]:
+        """What a part of `read_submesh` stands for, in metres: Gazebo obeys the unit of a Collada file.
+
+        Raises AssetError: there is no such submesh.
+        """
+        found = [s for s in surfaces if not part or s.name == part[0]]
+        if not found:
+            names = [s.name for s in surfaces if s.name]
+            remedy = f"Its submeshes are {join_names(names, 5)}." if names else "None of its submeshes has a name."
+            raise AssetError(f"the mesh has no submesh {part[0]!r}", remedy=remedy)
+        scaled = [replace(s, vertices=s.vertices * s.unit, unit=1.0) if s.unit != 1.0 else s for s in found]
+        if "center" not in part[1:]:
+            return scaled
+        used = np.concatenate([s.vertices[np.unique(s.faces)] for s in scaled])
+        middle = (used.min(axis=0) + used.max(axis=0)) / 2
+        return [replace(s, vertices=s.vertices - middle) for s in scaled]
 
 
-def hull_of(surfaces: Sequence[RawSurface], linear: Floats, offset: Floats) -> CollisionPiece:
+def hull_of(surfaces: Sequence[RawSurface], linear: Floats, offset: Floats) -> collision_pieces.CollisionPiece:
     """The convex hull of a mesh that says it is one (`optimization="convex_hull"`), under x -> linear @ x + offset."""
     whole = join_surfaces(surfaces)
     try:
         hull, fill = hull_mesh(whole.vertices, whole.faces)
-        return CollisionPiece(hull.transform(linear, offset), fill=fill)
+        return collision_pieces.CollisionPiece(hull.transform(linear, offset), fill=fill)
     except GeometryError as error:
-        return CollisionPiece(None, error.problem)
+        return collision_pieces.CollisionPiece(None, error.problem)
 
 
-def read_parts(collision: models.SdfCollision, use: MeshUse | None, meshes: CollisionMeshes) -> list[CollisionPiece]:
-    """The pieces of a collision, in the root frame; none where it has no geometry."""
-    kind, pose, where = document.geometry_of(collision.element), collision.pose, collision.link.scope.where
-    if kind is None:
-        return []
-    if use is not None:
-        linear = pose.rotation * read_mesh_scale(kind, where, use.label)
-        if kind.attributes.get("optimization") == "convex_hull":
-            return [hull_of(meshes.surfaces(use), linear, pose.translation)]
-        return place_pieces(meshes.pieces(use), linear, pose.translation, meshes.surfaces(use))
-    geometry = collision.element.first("geometry")
-    assert geometry is not None  # it holds the kind
-    return [read_shape(geometry, kind, pose, where)]
+def collada_unit_of(mesh: Path) -> float:
+    """The metres of the unit that a mesh file is in: as a Collada file says, 1 for all others."""
+    if mesh.suffix.lower() != ".dae":
+        return 1.0
+    try:
+        with mesh.open("rb") as stream:
+            found = _UNIT.search(stream.read(_HEAD_BYTES))
+        unit = float(found[1]) if found else 1.0
+    except (OSError, ValueError):
+        return 1.0
+    return unit if 0 < unit < float("inf") else 1.0

@@ -10,8 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from meshforge.common import AssetError, nearest_name
-from meshforge.formats.collision_pieces import CollisionElement
-from meshforge.formats.kinematic_tree import TENSOR_NAMES, read_numbers, tensor_of_moments
+from meshforge.formats import collision_pieces, kinematic_tree
 from meshforge.formats.references import Resolver
 from meshforge.formats.xml import Element, parse_xml
 from meshforge.geometry import Floats, Pose
@@ -19,8 +18,6 @@ from meshforge.symbolic import Coupling, Document, Inertial, Joint, JointKind, M
 
 VISUAL_SUFFIXES = (".obj", ".stl", ".dae")
 """The mesh files that ROS, PyBullet and others read."""
-GEOMETRY_TAGS = ("box", "sphere", "cylinder", "capsule", "plane", "mesh")
-"""The elements of a `<geometry>` that engines know."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -32,7 +29,7 @@ class UrdfDocument(Document):
     """
 
     source: bytes
-    authored: tuple[CollisionElement, ...]
+    authored: tuple[collision_pieces.CollisionElement, ...]
     resolver: Resolver
     digests: tuple[tuple[Path, str], ...] = ()
 
@@ -74,7 +71,7 @@ def read_floats(
     given = f"<{element.tag} {attribute}={text!r}>"
     if "${" in text:
         raise AssetError(f"{given} is a xacro expression", where=place, remedy="Expand the file with xacro first.")
-    return read_numbers(text, count, given, place)
+    return kinematic_tree.read_numbers(text, count, given, place)
 
 
 def read_origin(element: Element, where: str) -> Pose:
@@ -85,14 +82,6 @@ def read_origin(element: Element, where: str) -> Pose:
     zero = (0.0, 0.0, 0.0)
     xyz, rpy = (read_floats(place, attribute, 3, where, zero) for attribute in ("xyz", "rpy"))
     return Pose.from_rpy(list(xyz), list(rpy))
-
-
-def geometry_of(element: Element) -> Element | None:
-    """What the `<geometry>` of a collision or visual holds, None where there is nothing."""
-    geometry = element.first("geometry")
-    if geometry is None or not geometry.children:
-        return None
-    return next((child for child in geometry.children if child.tag in GEOMETRY_TAGS), geometry.children[0])
 
 
 _KINDS: dict[str, JointKind] = {
@@ -247,7 +236,9 @@ def _read_inertial(name: str, link: Element, root_t_link: Pose) -> Inertial | No
     except AssetError:
         pose = root_t_link
     tensor = element.first("inertia")
-    inertia = tensor_of_moments(_read_number(tensor, name) or 0.0 for name in TENSOR_NAMES)
+    inertia = kinematic_tree.tensor_of_moments(
+        _read_number(tensor, name) or 0.0 for name in kinematic_tree.TENSOR_NAMES
+    )
     return Inertial(name, mass, pose.translation, pose.rotation @ inertia @ pose.rotation.T)
 
 

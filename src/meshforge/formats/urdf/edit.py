@@ -3,19 +3,18 @@ XML text of elements: collisions new or edited, joints, masses and visuals."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import assert_never
 
 import numpy as np
 
-from meshforge.formats import base, collision_pieces, mesh_output, xml
-from meshforge.formats.kinematic_tree import LinkJoint, drop_rounding, name_moments, place_inertial
+from meshforge.formats import base, collision_pieces, element_edits, kinematic_tree, link_reader, mesh_output, xml
 from meshforge.formats.references import Resolver, add_copy, note_absolute, placement
-from meshforge.formats.slots import ElementMaker, ElementPlan, Slot, assign_names
-from meshforge.formats.urdf.document import UrdfDocument, collisions, geometry_of, parse_robot, references
+from meshforge.formats.urdf.document import UrdfDocument, collisions, parse_robot, references
 from meshforge.geometry import Box, Capsule, Cylinder, Pose, Shape, Sphere
-from meshforge.symbolic import Asset, Coupling, Geom, Inertial
+from meshforge.symbolic import Asset, Coupling, Inertial
 
 UrdfShape = Box | Cylinder | Sphere
 """The shapes that every reader of URDF knows."""
@@ -51,38 +50,11 @@ def origin_tag(pose: Pose) -> bytes:
     return b'<origin xyz="%s" rpy="%s"/>' % (_text_of(*pose.translation), _text_of(*pose.to_rpy()))
 
 
-def build_collision(pose: Pose, tag: bytes, lead: bytes, line_end: bytes) -> bytes:
-    """A `<collision>` without a name, whose lines but the first are indented by `lead`."""
-    return (line_end + lead).join(
-        [b"<collision>", *(b"  " + line for line in _place_lines(pose, tag)), b"</collision>"]
-    )
-
-
 def _place_lines(pose: Pose, tag: bytes) -> list[bytes]:
     return [origin_tag(pose), b"<geometry>", b"  " + tag, b"</geometry>"]
 
 
-def replace_geometry(data: bytes, collision: xml.Element, pose: Pose, tag: bytes) -> tuple[xml.Splice, ...]:
-    """The edits that give a copy of a collision element another pose and geometry, all else of it being inherited."""
-    kind = geometry_of(collision)
-    assert kind is not None  # only elements with pieces are copied
-    return _replace_origin(data, collision, pose), xml.Splice(kind.start, kind.end, tag)
-
-
-def replace_mesh(data: bytes, collision: xml.Element, pose: Pose, reference: str) -> tuple[xml.Splice, ...]:
-    """The edits that give a copy a mesh file in metres: where the element has a mesh, its other attributes stay."""
-    kind = geometry_of(collision)
-    if kind is None or kind.tag != "mesh":
-        return replace_geometry(data, collision, pose, mesh_tag(reference))
-    scale = [xml.set_attribute(data, kind, "scale", None)] if "scale" in kind.attributes else []
-    return (_replace_origin(data, collision, pose), xml.set_attribute(data, kind, "filename", reference), *scale)
-
-
-def _replace_origin(data: bytes, collision: xml.Element, pose: Pose) -> xml.Splice:
-    return xml.replace_or_insert(data, collision, "origin", "geometry", origin_tag(pose))
-
-
-def joint_lines(made: LinkJoint, coupling: Coupling | None) -> list[bytes]:
+def joint_lines(made: kinematic_tree.LinkJoint, coupling: Coupling | None) -> list[bytes]:
     """The lines of a `<joint>`, which may follow another one."""
     joint = made.joint
     kind = joint.kind if joint else "fixed"
@@ -94,7 +66,7 @@ def joint_lines(made: LinkJoint, coupling: Coupling | None) -> list[bytes]:
         b'    <child link="%s"/>' % xml.escape(made.child),
     ]
     if kind in ("revolute", "prismatic", "planar"):
-        lines.append(b'    <axis xyz="%s"/>' % _text_of(*drop_rounding(made.axis)))
+        lines.append(b'    <axis xyz="%s"/>' % _text_of(*kinematic_tree.drop_rounding(made.axis)))
     if joint and kind in ("revolute", "prismatic"):
         lower, upper = joint.limits or (-UNLIMITED_TRAVEL, UNLIMITED_TRAVEL)
         range_ = b"" if type_ == "continuous" else b'lower="%s" upper="%s" ' % (_text_of(lower), _text_of(upper))
@@ -112,8 +84,10 @@ def joint_lines(made: LinkJoint, coupling: Coupling | None) -> list[bytes]:
 
 def inertial_lines(inertial: Inertial, root_t_link: Pose) -> list[bytes]:
     """The lines of an `<inertial>`, its axes those of the link."""
-    centre, tensor = place_inertial(inertial, root_t_link)
-    moments = b" ".join(b'%s="%s"' % (name.encode(), _text_of(value)) for name, value in name_moments(tensor))
+    centre, tensor = kinematic_tree.place_inertial(inertial, root_t_link)
+    moments = b" ".join(
+        b'%s="%s"' % (name.encode(), _text_of(value)) for name, value in kinematic_tree.name_moments(tensor)
+    )
     return [
         b"    <inertial>",
         b"      " + origin_tag(Pose.of_translation(centre)),
@@ -155,25 +129,18 @@ def write_urdf(asset: Asset, document: UrdfDocument, name: str, *, capsules: boo
     robot = parse_robot(text.data, str(asset.path))
     files = mesh_output.HullFiles(Path(name).stem, document.resolver)
     files.avoid(references(robot))
-    meshes = collision_pieces.SourceMeshes(document.digests, str(asset.path))
-    folder = files.folder_of(_find_first_mesh(robot))
-    kinds = (geometry_of(collision) for _, collision in collisions(robot))
-    capsules = capsules or any(kind is not None and kind.tag == "capsule" for kind in kinds)
-    maker = UrdfElementMaker(text.data, xml.newline_of(text.data), files, folder, meshes, capsules=capsules)
+    meshes = link_reader.CollisionMeshes(document.digests)
+    elements = [element for _, element in collisions(robot)]
+    has_capsule = any(kind.tag == "capsule" for element in elements if (kind := link_reader.geometry_of(element)))
+    maker = UrdfElementMaker("URDF", text.data, files, meshes=meshes, capsules=capsules or has_capsule)
+    maker.folder = maker.find_folder(elements)
     links = {link.attributes["name"]: link for link in robot.each("link")}
-    plan = ElementPlan(asset, document.authored, [element for _, element in collisions(robot)], links, maker)
-    names = assign_names(plan.slots, unique=True)
+    plan = element_edits.ElementEdits(asset, document.authored, elements, links, maker)
+    names = element_edits.assign_names(plan.outputs, unique=True)
     data = xml.apply_splices(text.data, plan.splices)
     main = document.source if data == text.data else text.encode(data)
     copies, far = _list_copies(parse_robot(data, str(asset.path)), document.resolver)
     return base.Output(main, dict(files.made), copies, (*maker.notes, *far), names)
-
-
-def _find_first_mesh(robot: xml.Element) -> str | None:
-    """The reference of the first collision mesh, in whose folder hulls of no mesh's kin go."""
-    kinds = (geometry_of(collision) for _, collision in collisions(robot))
-    meshes = (kind.attributes.get("filename") for kind in kinds if kind is not None and kind.tag == "mesh")
-    return next(meshes, None)
 
 
 def _list_copies(robot: xml.Element, resolver: Resolver) -> tuple[dict[str, Path], list[str]]:
@@ -191,38 +158,43 @@ def _list_copies(robot: xml.Element, resolver: Resolver) -> tuple[dict[str, Path
     return copies, notes
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class UrdfElementMaker(ElementMaker):
+@dataclass(eq=False)
+class UrdfElementMaker(element_edits.ElementMaker):
     """Makes elements for one document; capsules: whether they are written as such."""
 
     capsules: bool = False
 
-    @property
-    def title(self) -> str:
-        return "URDF"
-
     def explain_hull(self, shape: Shape) -> str:
-        return CAPSULE_READERS if isinstance(shape, Capsule) else f"{self.title} has no {shape.kind}"
+        return CAPSULE_READERS if isinstance(shape, Capsule) else super().explain_hull(shape)
 
-    def find_mesh(self, collision: xml.Element) -> str | None:
-        mesh = geometry_of(collision)
-        return mesh.attributes.get("filename") if mesh is not None and mesh.tag == "mesh" else None
+    def reference_of(self, mesh: xml.Element) -> str:
+        return mesh.attributes.get("filename", "")
 
-    def make_slot(self, geom: Geom, root_t_link: Pose, template: xml.Element | None, lead: bytes) -> Slot:
-        shape = geom.shape.move(root_t_link.inverse())
-        if isinstance(shape, UrdfShape) or (self.capsules and isinstance(shape, Capsule)):
-            pose, tag = shape.pose, native_tag(shape)
-            edits = replace_geometry(self.data, template, pose, tag) if template else ()
-        else:
-            pose, reference = Pose.identity(), self.make_mesh(geom, shape, template)
-            tag = mesh_tag(reference)
-            edits = replace_mesh(self.data, template, pose, reference) if template else ()
-        if template:
-            return Slot(geom.body, (geom.name,), None, template, edits, copy=True)
-        return Slot(geom.body, (geom.name,), text=build_collision(pose, tag, lead, self.line_end))
+    def native_lines(self, shape: Shape) -> list[bytes] | None:
+        is_known = isinstance(shape, UrdfShape) or (self.capsules and isinstance(shape, Capsule))
+        return [native_tag(shape)] if is_known else None
+
+    def mesh_lines(self, reference: str) -> list[bytes]:
+        return [mesh_tag(reference)]
+
+    def build_collision(self, pose: Pose, kind: Sequence[bytes], lead: bytes) -> bytes:
+        lines = [b"<collision>", *(b"  " + line for line in _place_lines(pose, *kind)), b"</collision>"]
+        return (xml.newline_of(self.data) + lead).join(lines)
+
+    def replace_geometry(
+        self, collision: xml.Element, pose: Pose, kind: Sequence[bytes], reference: str | None
+    ) -> tuple[xml.Splice, ...]:
+        """Where the element has a mesh and gets one, the other attributes of that stay."""
+        old = link_reader.geometry_of(collision)
+        assert old is not None  # only elements with pieces are copied
+        origin = xml.replace_or_insert(self.data, collision, "origin", "geometry", origin_tag(pose))
+        if reference is None or old.tag != "mesh":
+            return origin, xml.Splice(old.start, old.end, *kind)
+        scale = [xml.set_attribute(self.data, old, "scale", None)] if "scale" in old.attributes else []
+        return (origin, xml.set_attribute(self.data, old, "filename", reference), *scale)
 
     def extract_piece(self, element: xml.Element, name: str, k: int) -> tuple[xml.Splice, ...]:
-        mesh = geometry_of(element)
+        mesh = link_reader.geometry_of(element)
         assert mesh is not None  # only meshes have several pieces
         piece, made = self.make_piece(mesh.attributes["filename"], (), name, k)
         if piece.shape is None and collision_pieces.is_flat(piece.vertices):

@@ -21,7 +21,7 @@ _LEAVES = (
 
 
 class UrdfFormat(base.Format):
-    """The Unified Robot Description base.Format."""
+    """The Unified Robot Description Format; has_capsules: whether it is written with them."""
 
     name = "urdf"
     engines = ("mujoco", "bullet")
@@ -38,6 +38,7 @@ class UrdfFormat(base.Format):
         FeatureKind.BALL_JOINTS: "written as three joints that turn about one point",
     }
     shown_files = VISUAL_SUFFIXES
+    has_capsules: ClassVar[bool] = False
 
     def read(self, path: Path, options: base.ReadOptions) -> Asset:
         from meshforge.formats.urdf import read  # lazy: only URDF needs it
@@ -49,12 +50,12 @@ class UrdfFormat(base.Format):
             raise AssetError("this asset was not read from a URDF", where=str(asset.path))
         from meshforge.formats.urdf import edit  # lazy: only URDF needs it
 
-        return edit.write_urdf(asset, asset.document, name)
+        return edit.write_urdf(asset, asset.document, name, capsules=self.has_capsules)
 
     def create(self, asset: Asset, name: str) -> base.Output:
         from meshforge.formats.urdf import create  # lazy: only URDF needs it
 
-        return create.create_urdf(asset, name)
+        return create.create_urdf(asset, name, capsules=self.has_capsules)
 
     def features(self, asset: Asset) -> Iterable[Feature]:
         return features_of(asset.document) if isinstance(asset.document, UrdfDocument) else ()
@@ -63,21 +64,11 @@ class UrdfFormat(base.Format):
 class UrdfWithCapsules(UrdfFormat):
     """URDF with `<capsule>`, which not all readers know."""
 
+    has_capsules = True
     holds = UrdfFormat.holds | {FeatureKind.CAPSULES}
     instead: ClassVar[Mapping[FeatureKind, str]] = {
         kind: text for kind, text in UrdfFormat.instead.items() if kind is not FeatureKind.CAPSULES
     }
-
-    def write(self, asset: Asset, name: str, mass: base.Mass = "keep") -> base.Output:
-        from meshforge.formats.urdf import edit  # lazy: only URDF needs it
-
-        assert isinstance(asset.document, UrdfDocument)
-        return edit.write_urdf(asset, asset.document, name, capsules=True)
-
-    def create(self, asset: Asset, name: str) -> base.Output:
-        from meshforge.formats.urdf import create  # lazy: only URDF needs it
-
-        return create.create_urdf(asset, name, capsules=True)
 
 
 def features_of(document: UrdfDocument) -> Iterator[Feature]:

@@ -8,17 +8,20 @@ from abc import ABC, abstractmethod
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
+import numpy as np
+
 from meshforge.common import AssetError, nearest_name, pluralize
 from meshforge.formats import collision_pieces, mesh_output, xml
+from meshforge.formats.link_reader import CollisionMeshes, geometry_of
 from meshforge.geometry import Piece, Polytope, Pose, Shape
-from meshforge.symbolic import Asset, Geom, unique_names
+from meshforge.symbolic import Asset, Geom, NonConvexPiece, Surface
 
 _MADE_UP = re.compile(r"geom\d+(#\d+)?(@\d+)?(~\d+)*")  # what a collision without a name is called, and hulls after it
 _TAG = re.compile(rb"<([^\s/>]+)")
 
 
 @dataclass(slots=True, eq=False)
-class Slot:
+class OutputElement:
     """One element of the output that holds collision geometry.
 
     names: what its pieces must read back as; name: its name attribute; source: the authored element that it is, or is
@@ -53,34 +56,43 @@ class Slot:
         return xml.strip_comments(text) if self.copy else text
 
 
-@dataclass(frozen=True, eq=False, slots=True)
+@dataclass(eq=False)
 class ElementMaker(ABC):
-    """Makes elements for one file of a format; data: its text; folder: for hulls whose parent has no mesh.
+    """Makes elements for one file of a format; title: as notes name that; data: the text of the file.
 
-    meshes: the files that the document refers to, where one may have to be split.
+    folder: for hulls whose parent has no mesh; meshes: the files of the document, of which one may be split.
     """
 
+    title: str
     data: bytes
-    line_end: bytes
     files: mesh_output.HullFiles
     folder: str = ""
-    meshes: collision_pieces.SourceMeshes | None = None
+    meshes: CollisionMeshes | None = None
     notes: list[str] = field(default_factory=list)
 
-    @property
     @abstractmethod
-    def title(self) -> str:
-        """The format, as notes name it."""
+    def reference_of(self, mesh: xml.Element) -> str:
+        """The reference of a `<mesh>`."""
 
     @abstractmethod
-    def find_mesh(self, collision: xml.Element) -> str | None:
-        """The reference of a collision's mesh, None where it has another geometry or none."""
+    def native_lines(self, shape: Shape) -> list[bytes] | None:
+        """The lines of a shape that the format has of its own, without its pose; None for others."""
 
     @abstractmethod
-    def make_slot(self, geom: Geom, root_t_link: Pose, template: xml.Element | None, lead: bytes) -> Slot:
-        """The element of a hull; template: that of its parent, all but pose and geometry of which is inherited.
+    def mesh_lines(self, reference: str) -> list[bytes]:
+        """The lines of a mesh file in metres."""
 
-        lead: the blanks before an element without a template.
+    @abstractmethod
+    def build_collision(self, pose: Pose, kind: Sequence[bytes], lead: bytes) -> bytes:
+        """A `<collision>` without a name, whose lines but the first are indented by `lead`."""
+
+    @abstractmethod
+    def replace_geometry(
+        self, collision: xml.Element, pose: Pose, kind: Sequence[bytes], reference: str | None
+    ) -> tuple[xml.Splice, ...]:
+        """The edits that give a copy of a collision another pose and geometry, all else of it being inherited.
+
+        reference: of a mesh.
         """
 
     @abstractmethod
@@ -91,23 +103,52 @@ class ElementMaker(ABC):
         """Why a native shape is written as a hull."""
         return f"{self.title} has no {shape.kind}"
 
+    def make_element(self, geom: Geom, root_t_link: Pose, template: xml.Element | None, lead: bytes) -> OutputElement:
+        """The element of a hull; template: that of its parent, all but pose and geometry of which is inherited.
+
+        lead: the blanks before an element without a template.
+        """
+        shape, reference = geom.shape.move(root_t_link.inverse()), None
+        kind, pose = self.native_lines(shape), shape.pose if not isinstance(shape, Polytope) else Pose.identity()
+        if kind is None:
+            reference, pose = self._make_mesh(geom, shape, template), Pose.identity()
+            kind = self.mesh_lines(reference)
+        if template is None:
+            return OutputElement(geom.body, (geom.name,), text=self.build_collision(pose, kind, lead))
+        edits = self.replace_geometry(template, pose, kind, reference)
+        return OutputElement(geom.body, (geom.name,), None, template, edits, copy=True)
+
+    def make_surface(self, piece: NonConvexPiece, root_t_link: Pose, surface: Surface, lead: bytes) -> OutputElement:
+        """The element of a non-convex surface as it is."""
+        vertices = root_t_link.inverse().apply(np.asarray(surface.vertices))
+        kind = self.mesh_lines(self.files.add(piece.name, "", vertices, surface.faces))
+        return OutputElement(piece.body, (piece.name,), text=self.build_collision(Pose.identity(), kind, lead))
+
     def make_piece(self, reference: str, part: tuple[str, ...], name: str, k: int) -> tuple[Piece, str]:
         """The k-th piece of a mesh, or of a part of it, and the reference to a file of its own, which is made."""
         assert self.files.resolver is not None and self.meshes is not None  # only meshes have several pieces
-        piece = self.meshes.pieces(reference, self.files.resolver, part)[k]
+        path = self.files.resolver.find(reference)
+        if path is None:
+            raise collision_pieces.change_error(f"the mesh {reference!r}", reference)
+        piece = self.meshes.pieces(path, part)[k]
         return piece, self.files.add(name, self.files.folder_of(reference), piece.vertices, piece.faces)
 
-    def make_mesh(self, geom: Geom, shape: Shape, template: xml.Element | None) -> str:
-        """The reference to the mesh file of a hull, which is made."""
+    def find_folder(self, collisions: Iterable[xml.Element]) -> str:
+        """The folder of the first mesh of some collisions, in which hulls go whose parents have none."""
+        meshes = (kind for element in collisions if (kind := geometry_of(element)) and kind.tag == "mesh")
+        first = next(meshes, None)
+        return self.files.folder_of(self.reference_of(first) if first else None)
+
+    def _make_mesh(self, geom: Geom, shape: Shape, template: xml.Element | None) -> str:
         if not isinstance(shape, Polytope):
             corners = pluralize(len(shape.vertices), "vertex", "vertices")
             self.notes.append(f"{self.explain_hull(shape)}: {geom.name!r} is written as a hull of {corners}")
-        beside = self.find_mesh(template) if template else None
-        folder = self.files.folder_of(beside) if beside else self.folder
+        own = geometry_of(template) if template else None
+        folder = self.find_folder([template]) if template and own and own.tag == "mesh" else self.folder
         return self.files.add(geom.name, folder, shape.vertices, shape.faces)
 
 
-class ElementPlan:
+class ElementEdits:
     """The collision elements of the output.
 
     places: each authored element, with what stands in its place; ends: what is added at the end of a link that has
@@ -123,8 +164,8 @@ class ElementPlan:
         maker: ElementMaker,
     ) -> None:
         self.asset, self.authored, self.links, self.maker = asset, authored, links, maker
-        self.places: list[tuple[xml.Element, list[Slot]]] = []
-        self.ends: dict[str, list[Slot]] = {}
+        self.places: list[tuple[xml.Element, list[OutputElement]]] = []
+        self.ends: dict[str, list[OutputElement]] = {}
         self._owner = {name: k for k, one in enumerate(authored) for name in one.names}
         self._elements = elements
         self._poses = asset.body_poses
@@ -134,35 +175,35 @@ class ElementPlan:
             self._place_made(geom)
 
     @property
-    def slots(self) -> list[Slot]:
+    def outputs(self) -> list[OutputElement]:
         """All collision elements in the order of the output."""
-        by_link: dict[str, list[Slot]] = {name: [] for name in self.links}
-        for (_, slots), authored in zip(self.places, self.authored, strict=True):
-            by_link[authored.link] += slots
-        for link, slots in self.ends.items():
-            by_link[link] += slots
-        return [slot for slots in by_link.values() for slot in slots]
+        by_link: dict[str, list[OutputElement]] = {name: [] for name in self.links}
+        for (_, outputs), authored in zip(self.places, self.authored, strict=True):
+            by_link[authored.link] += outputs
+        for link, outputs in self.ends.items():
+            by_link[link] += outputs
+        return [output for outputs in by_link.values() for output in outputs]
 
     @property
     def splices(self) -> list[xml.Splice]:
         """The edits of the document's text."""
         data = self.maker.data
         edited = (place for place in self.places if not (len(place[1]) == 1 and place[1][0].is_untouched))
-        edits = [replace_element(data, element, slots) for element, slots in edited]
-        return edits + [append_elements(data, self.links[link], slots) for link, slots in self.ends.items()]
+        edits = [replace_element(data, element, outputs) for element, outputs in edited]
+        return edits + [append_elements(data, self.links[link], outputs) for link, outputs in self.ends.items()]
 
     def _place_authored(self) -> None:
         kept = collision_pieces.names_to_keep(self.asset)
         for element, authored in zip(self._elements, self.authored, strict=True):
             staying = {k: name for k, name in enumerate(authored.names) if name in kept}
             if len(staying) == len(authored.names):
-                slots = [Slot(authored.link, authored.names, element.attributes.get("name"), element)]
+                outputs = [OutputElement(authored.link, authored.names, element.attributes.get("name"), element)]
             else:
-                slots = []  # an element for each piece, its triangles as authored in a file of their own
+                outputs = []  # an element for each piece, its triangles as authored in a file of their own
                 for k, name in staying.items():
                     edits, old = self.maker.extract_piece(element, name, k), element.attributes.get("name")
-                    slots.append(Slot(authored.link, (name,), old, element, edits, copy=bool(slots)))
-            self.places.append((element, slots))
+                    outputs.append(OutputElement(authored.link, (name,), old, element, edits, copy=bool(outputs)))
+            self.places.append((element, outputs))
 
     def _place_made(self, geom: Geom) -> None:
         """A new element after that of its parent, or else after the last one of its link."""
@@ -170,11 +211,11 @@ class ElementPlan:
         parent = self._owner.get(geom.parent or "")
         template = self._elements[parent] if parent is not None else None
         lead = child_indent_of(self.maker.data, self.links[geom.body])
-        slot = self.maker.make_slot(geom, self._poses[geom.body], template, lead)
+        output = self.maker.make_element(geom, self._poses[geom.body], template, lead)
         if not own:
-            self.ends.setdefault(geom.body, []).append(slot)
+            self.ends.setdefault(geom.body, []).append(output)
         else:
-            self.places[parent if parent in own else own[-1]][1].append(slot)
+            self.places[parent if parent in own else own[-1]][1].append(output)
 
 
 def refuse_unknown_link(geom: Geom, links: Collection[str], where: str) -> None:
@@ -188,24 +229,24 @@ def refuse_unknown_link(geom: Geom, links: Collection[str], where: str) -> None:
         )
 
 
-def replace_element(data: bytes, element: xml.Element, slots: Sequence[Slot]) -> xml.Splice:
+def replace_element(data: bytes, element: xml.Element, outputs: Sequence[OutputElement]) -> xml.Splice:
     """What stands in the place of an authored element; nothing takes its line away."""
-    if not slots:
+    if not outputs:
         return xml.remove_element(data, element)
-    return xml.Splice(element.start, element.end, _join_slots(data, slots, xml.indent_of(data, element.start)))
+    return xml.Splice(element.start, element.end, _join_outputs(data, outputs, xml.indent_of(data, element.start)))
 
 
-def append_elements(data: bytes, parent: xml.Element, slots: Sequence[Slot]) -> xml.Splice:
+def append_elements(data: bytes, parent: xml.Element, outputs: Sequence[OutputElement]) -> xml.Splice:
     """What is added at the end of an element."""
     line_end, before = xml.newline_of(data), xml.indent_of(data, parent.start) or b""
     if parent.children:
         last = parent.children[-1]
         lead = xml.indent_of(data, last.start)
         return xml.Splice(
-            last.end, last.end, (b"" if lead is None else line_end + lead) + _join_slots(data, slots, lead)
+            last.end, last.end, (b"" if lead is None else line_end + lead) + _join_outputs(data, outputs, lead)
         )
     lead = before + b"  "
-    added = lead + _join_slots(data, slots, lead) + line_end
+    added = lead + _join_outputs(data, outputs, lead) + line_end
     if data[parent.inside - 2 : parent.inside] == b"/>":
         closing_tag = b"</%s>" % parent.tag.encode()
         return xml.Splice(parent.inside - 2, parent.inside, b">" + line_end + added + before + closing_tag)
@@ -223,36 +264,12 @@ def child_indent_of(data: bytes, parent: xml.Element) -> bytes:
     return (xml.indent_of(data, parent.start) or b"") + b"  "
 
 
-def _join_slots(data: bytes, slots: Iterable[Slot], lead: bytes | None) -> bytes:
+def _join_outputs(data: bytes, outputs: Iterable[OutputElement], lead: bytes | None) -> bytes:
     gap = b"" if lead is None else xml.newline_of(data) + lead
-    return gap.join(slot.to_bytes(data) for slot in slots)
+    return gap.join(output.to_bytes(data) for output in outputs)
 
 
-def name_element_pieces(elements: Sequence[tuple[str | None, str | None, int]]) -> list[tuple[str, ...]]:
-    """The names that the pieces of collision elements read as; for each element its link, own name and pieces.
-
-    `link/name`, without a link for None; `geomK` for the K-th element of a link where it has no name; `#k` for one of
-    several pieces.
-    """
-    count: dict[str | None, int] = {}
-    bases = []
-    for link, name, _ in elements:
-        own = name or f"geom{count.get(link, 0)}"
-        bases.append(own if link is None else f"{link}/{own}")
-        count[link] = count.get(link, 0) + 1
-    return collision_pieces.name_pieces(zip(unique_names(bases), (pieces for _, _, pieces in elements), strict=True))
-
-
-def name_elements(
-    found: Iterable[tuple[str, xml.Element]], pieces: Iterable[int]
-) -> tuple[collision_pieces.CollisionElement, ...]:
-    """Collisions with the names of their pieces; found: of each its link and its element; pieces: how many it has."""
-    own = [(link, e.attributes.get("name"), count) for (link, e), count in zip(found, pieces, strict=True)]
-    named = zip(own, name_element_pieces(own), strict=True)
-    return tuple(collision_pieces.CollisionElement(link, names) for (link, _, _), names in named)
-
-
-def assign_names(slots: Sequence[Slot], *, unique: bool = False) -> dict[str, str]:
+def assign_names(outputs: Sequence[OutputElement], *, unique: bool = False) -> dict[str, str]:
     """Name the elements, given in the order of the output, that would else read back under other names.
 
     unique: whether a name that MeshForge made up is left out where another element of the file has it, as some engines
@@ -261,31 +278,29 @@ def assign_names(slots: Sequence[Slot], *, unique: bool = False) -> dict[str, st
     another.
     """
     for _ in range(4):
-        for slot, _names in _find_misread(slots):
-            slot.name = name_attribute_of(slot)
-    authored = {slot.source.attributes.get("name") for slot in slots if slot.source is not None and not slot.copy}
+        for output, _names in _find_misread(outputs):
+            output.name = name_attribute_of(output)
+    authored = {
+        output.source.attributes.get("name") for output in outputs if output.source is not None and not output.copy
+    }
     taken = set[str | None]()
-    for slot in slots if unique else ():
-        is_own = slot.source is not None and not slot.copy and slot.name == slot.source.attributes.get("name")
-        if slot.name and not is_own and _MADE_UP.fullmatch(slot.name) and slot.name in taken | authored:
-            slot.name = None
-        taken.add(slot.name)
+    for output in outputs if unique else ():
+        is_own = output.source is not None and not output.copy and output.name == output.source.attributes.get("name")
+        if output.name and not is_own and _MADE_UP.fullmatch(output.name) and output.name in taken | authored:
+            output.name = None
+        taken.add(output.name)
     return {
-        wanted: name for slot, names in _find_misread(slots) for wanted, name in zip(slot.names, names, strict=True)
+        wanted: name
+        for output, names in _find_misread(outputs)
+        for wanted, name in zip(output.names, names, strict=True)
     }
 
 
-def _find_misread(slots: Sequence[Slot]) -> list[tuple[Slot, tuple[str, ...]]]:
-    read = name_element_pieces([(slot.body, slot.name, len(slot.names)) for slot in slots])
-    return [(slot, names) for slot, names in zip(slots, read, strict=True) if names != slot.names]
+def _find_misread(outputs: Sequence[OutputElement]) -> list[tuple[OutputElement, tuple[str, ...]]]:
+    read = collision_pieces.name_element_pieces([(output.body, output.name, len(output.names)) for output in outputs])
+    return [(output, names) for output, names in zip(outputs, read, strict=True) if names != output.names]
 
 
-def name_attribute_of(slot: Slot) -> str:
-    """The name attribute under which a slot's pieces have their names."""
-    return own_name_of(slot.names, slot.body)
-
-
-def own_name_of(names: tuple[str, ...], body: str | None) -> str:
-    """The name of an element whose pieces are to have names: that of the first, without body and `#0`."""
-    name = names[0].removeprefix(f"{body}/")
-    return name if len(names) == 1 else name.removesuffix("#0")
+def name_attribute_of(output: OutputElement) -> str:
+    """The name attribute under which a output's pieces have their names."""
+    return collision_pieces.own_name_of(output.names, output.body)
