@@ -193,7 +193,7 @@ def _parse_faces(statements: list[bytes], words: list[bytes], vertex_at: Ints, w
                 problem = f"a face names vertex {corner}, {there}"
                 raise _error_at(problem, statements, k, where)
         polygons.append(indices)
-    at, triangles = surface.cut_fans(polygons)
+    at, triangles = surface.cut_fans(*surface.join_lists(polygons))
     return rows[at], triangles
 
 
@@ -276,18 +276,9 @@ def plain_faces(rows: Sequence[bytes], before: Ints, total: int) -> tuple[Ints, 
     corners = np.where(corners > 0, corners - 1, np.where(corners < 0, corners + np.repeat(before, counts), -1))
     if corners.min(initial=0) < 0 or corners.max(initial=-1) >= total:
         return None
-    return _cut_many_fans(corners, counts)
+    return surface.cut_fans(corners, counts)
 
 
 def _is_only_at_starts(words: list[bytes], word: bytes, width: int, count: int) -> bool:
     """Whether a word is every width-th one of others, and none besides."""
     return words[::width].count(word) == count == words.count(word)
-
-
-def _cut_many_fans(corners: Ints, counts: Ints) -> tuple[Ints, Ints]:
-    """Polygons of so many corners (n,), one after the other, as triangles (m, 3); first the polygon (m,) of each."""
-    triangles = np.maximum(counts - 2, 0)
-    polygon = np.repeat(np.arange(len(counts)), triangles)
-    first = np.repeat(np.cumsum(counts) - counts, triangles)
-    second = first + 1 + np.arange(len(first)) - np.repeat(np.cumsum(triangles) - triangles, triangles)
-    return polygon, corners[np.column_stack([first, second, second + 1])]

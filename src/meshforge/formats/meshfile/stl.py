@@ -47,15 +47,12 @@ class StlText:
 
     def surfaces(self, where: str) -> list[RawSurface]:
         """A surface for each solid, named where there are several. Raises AssetError."""
-        if len(self.solids) == 1:
-            return check_surfaces([_surface_of(None, self.corners)], where)
-        several = len(np.unique(self.solid)) > 1
-        names = [(name or None) if several else None for name in self.solids]
-        return check_surfaces([_surface_of(name, self.corners[self.solid == k]) for k, name in enumerate(names)], where)
-
-
-def _surface_of(name: str | None, corners: Floats) -> RawSurface:
-    return RawSurface(name, corners.reshape(-1, 3), np.arange(3 * len(corners), dtype=np.int64).reshape(-1, 3))
+        several = len(self.solids) > 1 and len(np.unique(self.solid)) > 1
+        found = []
+        for k, name in enumerate(self.solids):
+            own = self.corners[self.solid == k].reshape(-1, 3)
+            found.append(RawSurface((name or None) if several else None, own, np.arange(len(own)).reshape(-1, 3)))
+        return check_surfaces(found, where)
 
 
 def parse_stl(data: bytes, where: str) -> StlText:

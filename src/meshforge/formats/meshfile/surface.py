@@ -74,11 +74,22 @@ def to_doubles(values: npt.ArrayLike) -> Floats:
         return np.asarray(values).astype(np.float64)
 
 
-def cut_fans(polygons: Iterable[Sequence[int]]) -> tuple[Ints, Ints]:
-    """The polygon (m,) of each triangle, and the triangles (m, 3) of polygons, each cut into a fan about its start."""
-    triangles = [(k, p[0], b, c) for k, p in enumerate(polygons) for b, c in itertools.pairwise(p[1:])]
-    table = np.array(triangles, dtype=np.int64).reshape(-1, 4)
-    return table[:, 0].copy(), table[:, 1:].copy()
+def join_lists(lists: Sequence[Sequence[float]]) -> tuple[Ints, Ints]:
+    """Return whole numbers of several lists one after the other, and how many each list has."""
+    counts = np.array([len(own) for own in lists], dtype=np.int64)
+    return np.fromiter(itertools.chain.from_iterable(lists), np.int64, int(counts.sum())), counts
+
+
+def cut_fans(corners: Ints, counts: Ints) -> tuple[Ints, Ints]:
+    """Cut polygons of so many corners (n,), one after the other, into fans about their first ones.
+
+    Returns the polygon (m,) of each triangle, and the triangles (m, 3).
+    """
+    triangles = np.maximum(counts - 2, 0)
+    polygon = np.repeat(np.arange(len(counts)), triangles)
+    first = np.repeat(np.cumsum(counts) - counts, triangles)
+    second = first + 1 + np.arange(len(first)) - np.repeat(np.cumsum(triangles) - triangles, triangles)
+    return polygon, corners[np.column_stack([first, second, second + 1])]
 
 
 def stack_triangles(surfaces: Iterable[tuple[Floats, Ints]], start: int = 0) -> tuple[Floats, Ints]:

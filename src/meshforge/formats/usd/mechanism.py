@@ -1,4 +1,5 @@
-"""The joints of a stage, as far as they make trees of its bodies, and the masses of these, in the root frame."""
+"""The joints of a stage, as far as they make trees of its bodies, and the masses of these, in the root frame: by what
+they say themselves, or by their colliders."""
 
 from __future__ import annotations
 
@@ -8,10 +9,20 @@ from typing import Any
 
 import numpy as np
 
+from meshforge.formats.collision_pieces import CollisionPiece
 from meshforge.formats.libraries import pxr
-from meshforge.formats.usd.colliders import StageBodies
+from meshforge.formats.usd.colliders import PrimCollision, StageBodies, physics_material
 from meshforge.formats.usd.stage import BODY, UsdStage, rotation_of
-from meshforge.geometry import Floats, Pose, Shape, inertia, rotation_of_quaternion
+from meshforge.geometry import (
+    Floats,
+    Polytope,
+    Pose,
+    Shape,
+    combine_inertias,
+    inertia,
+    is_closed,
+    rotation_of_quaternion,
+)
 from meshforge.symbolic import Geom, Inertial, Joint, JointKind, Mechanism
 
 _KINDS: dict[str, JointKind] = {
@@ -24,6 +35,7 @@ _AXES = {"X": np.eye(3)[0], "Y": np.eye(3)[1], "Z": np.eye(3)[2]}
 _TURNS = {"rotX": "X", "rotY": "Y", "rotZ": "Z"}
 _SLIDES = {"transX": "X", "transY": "Y", "transZ": "Z"}
 _FREEDOMS = (*_TURNS, *_SLIDES)
+_DENSITY = 1000.0  # [kg/m^3], where nothing says another one
 _STILL = 1e-6  # rad, below which a turn is the rounding of single precision
 
 
@@ -222,3 +234,44 @@ def _rotation_of_value(quaternion: Any) -> Floats:
     parts = np.zeros(4) if quaternion is None else np.array([quaternion.GetReal(), *quaternion.GetImaginary()], float)
     length = np.linalg.norm(parts)
     return rotation_of_quaternion(parts) if np.isfinite(length) and length > 0 else np.eye(3)
+
+
+def weigh(scene: UsdStage, prim: Any, body: str, sources: Sequence[PrimCollision]) -> Inertial | None:
+    """What a body weighs by all that its stage says, colliders included; None where a volume is not known."""
+    pieces = [(source, _solids_of(source.parts)) for source in sources]
+    solids = [(source, shapes) for source, shapes in pieces if shapes]
+    if not solids or any(shapes is None for _, shapes in pieces):
+        return None
+    masses = [(shapes, _mass_of(scene, prim, source, shapes)) for source, shapes in solids]
+    weights = [(mass, *inertia(shapes, mass)) for shapes, mass in masses]
+    total, centre, summed = combine_inertias(weights, centre_of(scene, prim))
+    said, moments = read_number(scene, prim, "physics:mass"), moments_of(scene, prim)
+    mass = said * scene.kilograms if said is not None and said > 0 else total
+    return Inertial(body, mass, centre, mass / total * summed if moments is None else moments)
+
+
+def _solids_of(parts: Sequence[CollisionPiece]) -> list[Shape] | None:
+    """The solids of a prim's pieces, of closed non-convex ones too; None where one has no volume that is known."""
+    found: list[Shape] = []
+    for part in parts:
+        if part.shape is not None:
+            found.append(part.shape)
+        elif part.surface is not None and len(part.surface.faces) and is_closed(part.surface.faces):
+            found.append(Polytope(part.surface.vertices, part.surface.faces))
+        else:
+            return None
+    return found if all(shape.volume > 0 for shape in found) else None
+
+
+def _mass_of(scene: UsdStage, body: Any, source: PrimCollision, shapes: Sequence[Shape]) -> float:
+    """The mass [kg] of a collider: its own, else by density, its own, its body's or its material's."""
+    volume = sum(shape.volume for shape in shapes)
+    own = read_number(scene, source.prim, "physics:mass") if source.prim != body else None
+    if own is not None and own > 0:
+        return own * scene.kilograms
+    material = physics_material(source.prim)
+    for prim in (source.prim, body, *([material] if material else [])):
+        density = read_number(scene, prim, "physics:density")
+        if density is not None and density > 0:
+            return volume * density * scene.kilograms / scene.metres**3
+    return volume * _DENSITY

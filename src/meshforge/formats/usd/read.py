@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +14,8 @@ from meshforge.common.processes import call_isolated, report_progress
 from meshforge.formats import collision_pieces, mesh_reader
 from meshforge.formats.libraries import pxr
 from meshforge.formats.meshfile.surface import GAMMA
-from meshforge.formats.usd import colliders, guard
+from meshforge.formats.usd import colliders, layers
+from meshforge.formats.usd.colliders import PrimCollision
 from meshforge.formats.usd.mechanism import read_mechanism
 from meshforge.formats.usd.shapes import read_mesh, read_parts
 from meshforge.formats.usd.stage import PrimRecord, UsdDocument, UsdStage, usd
@@ -25,19 +26,6 @@ _LABELS = "SemanticsLabelsAPI:"
 _ISAAC = "SemanticsAPI:"
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class PrimCollision:
-    """A prim with collision: its pieces in the root frame."""
-
-    prim: Any
-    body: str
-    parts: Sequence[collision_pieces.CollisionPiece]
-
-    @property
-    def path(self) -> str:
-        return str(self.prim.GetPath())
-
-
 def read_usd(path: Path) -> Asset:
     """The asset in a USD file, the layers it refers to included.
 
@@ -45,11 +33,11 @@ def read_usd(path: Path) -> Asset:
     """
     source = mesh_reader.read_content(path)
     with usd(str(path)) as complaints:
-        guard.refuse_far_references(path, source)
+        layers.refuse_far_references(path, source)
         scene = UsdStage.open(path)
         asset = _build_asset(scene, source)
     with usd(str(path)):  # which complains about missing files once more
-        files, missing = find_files(path)
+        files, missing = _find_files(path)
     if complaints and not asset.geoms and not asset.opaque:
         raise AssetError(f"nothing in it collides; USD says: {complaints[0]}", where=str(path))
     more = [f"and {len(complaints) - 3} complaints more of USD"] if len(complaints) > 3 else []
@@ -62,9 +50,9 @@ def _build_asset(scene: UsdStage, source: bytes) -> Asset:
     bodies = colliders.StageBodies(scene, physics)
     notes: list[str] = []
     sources = list(read_collisions(scene, bodies, physics, notes))
-    authored = record_prims(sources, bodies)
+    authored = _record_prims(sources, bodies)
     visuals = StageSurfaces.of(scene, bodies) if physics else ()
-    mentions = [mentions_of_prim(source.prim) for source in sources]
+    mentions = [_mentions_of_prim(source.prim) for source in sources]
     geoms = tuple(_build_geoms(authored, sources, mentions))
     opaque = collision_pieces.opaque_of(
         [collision_pieces.CollisionElement(element.body, element.names) for element in authored],
@@ -77,10 +65,10 @@ def _build_asset(scene: UsdStage, source: bytes) -> Asset:
         format="usd",
         bodies=bodies.list_bodies(),
         geoms=geoms,
-        document=UsdDocument(source, physics, authored, tuple(bodies.names.items()), digests_of(scene)),
+        document=UsdDocument(source, physics, authored, _digests_of(scene)),
         opaque=opaque,
         visuals=visuals,
-        notes=(*collect_notes(scene, physics), *notes),
+        notes=(*_collect_notes(scene, physics), *notes),
         mechanism=mechanism,
         up=scene.up,
     )
@@ -97,7 +85,7 @@ def read_collisions(
             yield PrimCollision(prim, bodies.of(prim), parts)
 
 
-def record_prims(sources: Sequence[PrimCollision], bodies: colliders.StageBodies) -> tuple[PrimRecord, ...]:
+def _record_prims(sources: Sequence[PrimCollision], bodies: colliders.StageBodies) -> tuple[PrimRecord, ...]:
     """The sources with the names of their pieces."""
     bases = [(bodies.hull_name(source.path, source.body), len(source.parts)) for source in sources]
     return tuple(
@@ -118,7 +106,7 @@ def _build_geoms(
                 yield replace(geom, fill=part.fill)
 
 
-def find_files(path: Path) -> tuple[tuple[Path, ...], tuple[str, ...]]:
+def _find_files(path: Path) -> tuple[tuple[Path, ...], tuple[str, ...]]:
     """The files beside the main one that are there, in order of mention, and the references that lead nowhere."""
     layers, assets, unresolved = pxr.UsdUtils.ComputeAllDependencies(str(path))
     places = [*(layer.realPath for layer in layers), *assets]
@@ -128,7 +116,7 @@ def find_files(path: Path) -> tuple[tuple[Path, ...], tuple[str, ...]]:
     return tuple(dict.fromkeys(found)), tuple(dict.fromkeys(missing))
 
 
-def digests_of(scene: UsdStage) -> tuple[tuple[Path, str], ...]:
+def _digests_of(scene: UsdStage) -> tuple[tuple[Path, str], ...]:
     """The digests of the layers that the stage uses besides its own file."""
     own = scene.path.resolve()
     layers = [_file_of(layer.realPath) for layer in scene.stage.GetUsedLayers()]
@@ -143,7 +131,7 @@ def _file_of(place: Any) -> Path | None:
     return path if text and is_file(path) else None
 
 
-def mentions_of_prim(prim: Any) -> Mentions:
+def _mentions_of_prim(prim: Any) -> Mentions:
     """What is said of a prim with collision."""
     found = [("class", label) for each in (prim, prim.GetParent()) for label in _labels_of(each)]
     found += [("node", prim.GetName()), ("node", prim.GetParent().GetName())]
@@ -164,7 +152,7 @@ def _labels_of(prim: Any) -> Iterator[str]:
             yield str(data or "")
 
 
-def collect_notes(scene: UsdStage, physics: bool) -> Iterator[str]:
+def _collect_notes(scene: UsdStage, physics: bool) -> Iterator[str]:
     """The notes on a stage; physics: whether its prims say what collides."""
     if not physics:
         yield "no prim is marked as collision: all that is seen is taken for it"
