@@ -16,13 +16,14 @@ import numpy.typing as npt
 
 from meshforge.formats.base import Output
 from meshforge.formats.gltf.document import rewrite_json
+from meshforge.formats.meshfile.gltf_buffers import TYPES
 from meshforge.formats.meshfile.gltf_document import Container, Json, entries
 from meshforge.formats.meshfile.gltf_scene import GltfScene
 from meshforge.formats.references import find_companions
 from meshforge.geometry import Ints
 
 _VERTICES, _INDICES = 34962, 34963  # targets of buffer views
-_TYPES = {"i1": 5120, "u1": 5121, "i2": 5122, "u2": 5123, "u4": 5125, "f4": 5126}
+_NUMBERS = {kind.lstrip("<"): number for number, kind in TYPES.items()}
 _WIDTHS = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4"}
 
 
@@ -173,14 +174,11 @@ class GeometryBuffer:
         stride = row + -row % 4 if target == _VERTICES else row
         padded = np.zeros((len(rows), stride), np.uint8)
         padded[:, :row] = np.ascontiguousarray(rows).view(np.uint8).reshape(len(rows), row)
-        view: Json = {"buffer": self.buffer, "byteOffset": self._start + len(self.added), "byteLength": padded.size}
-        if stride != row:
-            view["byteStride"] = stride
-        view["target"] = target
-        self.added += padded.tobytes() + b"\0" * (-padded.size % 4)
-        kind = _TYPES[rows.dtype.str[1:]]
+        view = self.add_bytes(padded.tobytes())
+        self.tree["bufferViews"][view] |= {**({"byteStride": stride} if stride != row else {}), "target": target}
+        kind = _NUMBERS[rows.dtype.str[1:]]
         shape = {"componentType": kind, "count": len(rows), "type": _WIDTHS[rows.shape[1]]}
-        return self._append("accessors", {"bufferView": self._append("bufferViews", view), **shape})
+        return self._append("accessors", {"bufferView": view, **shape})
 
     def _append(self, key: str, value: Json) -> int:
         found: list[Any] = self.tree.setdefault(key, [])

@@ -11,10 +11,10 @@ from meshforge.common import join_names
 from meshforge.formats.base import Loss, Output
 from meshforge.formats.engine_names.bodies import EngineBodies, EngineBody, name_bodies
 from meshforge.formats.engine_names.conventions import CollisionNames, GodotBodyNames, claim_name
-from meshforge.formats.gltf.create import add_visuals, create_for_engine, draft_bodies, pack_bodies
+from meshforge.formats.gltf.create import add_visuals, create_for_engine, draft_bodies, pack_new
 from meshforge.formats.gltf.document import GltfDocument
 from meshforge.formats.gltf.draft import SceneDraft
-from meshforge.formats.gltf.physics import OMI, OMI_SHAPES, mass_keys
+from meshforge.formats.gltf.physics import mass_keys
 from meshforge.formats.gltf.physics_style import PhysicsStyle
 from meshforge.formats.gltf.styles import NewPiece
 from meshforge.formats.kinematic_tree import BodyTree
@@ -51,10 +51,10 @@ def _create_rigid_bodies(asset: Asset, tree: BodyTree, path: PurePosixPath) -> O
     welded = _weld_bodies(asset, carriers)
     moving = {name for name in tree.order if not tree.is_static(name)}
     found = name_bodies(welded, GodotBodyNames(), path.stem)
-    draft = draft_bodies(welded, found, path.suffix.lower() == ".glb")
+    draft = draft_bodies(welded, found.each, path)
     notes, pieces = _add_bodies(draft, welded, found, moving)
     bodies = tuple((node, family.body.name) for node, family in enumerate(found.each))
-    output = pack_bodies(welded, draft, GltfDocument(b"", "omi", (), bodies), found, path)
+    document = GltfDocument(b"", "omi", (), bodies)
     held = tuple(name for name in tree.order if carriers[name] != name)
     why = join_names([f"{name} to {carriers[name]}" for name in held], 3)
     still = tuple(i.body for i in welded.mechanism.inertials if i.body not in moving)
@@ -65,23 +65,16 @@ def _create_rigid_bodies(asset: Asset, tree: BodyTree, path: PurePosixPath) -> O
         Loss(FeatureKind.MASSES, still, _STILL),
         Loss(FeatureKind.BODIES, held, f"fixed joints hold {why}", "written as parts of others"),
     )
-    return replace(output, lost=tuple(loss for loss in losses if loss.count), notes=(*found.notes, *notes))
+    return pack_new(welded, draft, document, path, [loss for loss in losses if loss.count], (*found.notes, *notes))
 
 
 def _list_joints(asset: Asset) -> list[Loss]:
-    joints = [joint for joint in asset.mechanism.joints if joint.kind != "fixed"]
-    free = [joint for joint in joints if joint.kind == "floating"]
-    balls = [joint for joint in joints if joint.kind == "ball"]
-    others = [joint for joint in joints if joint.kind not in ("floating", "ball")]
-    rows = (
-        (FeatureKind.JOINTS, free, "a rigid body moves freely without one"),
-        (FeatureKind.BALL_JOINTS, balls, _JOINT),
-        (FeatureKind.JOINTS, others, _JOINT),
-    )
-    return [
-        Loss(kind, tuple(j.name for j in own if j.name), why, unnamed=sum(not j.name for j in own))
-        for kind, own, why in rows
-    ]
+    losses = []
+    for joint in (joint for joint in asset.mechanism.joints if joint.kind != "fixed"):
+        kind = FeatureKind.BALL_JOINTS if joint.kind == "ball" else FeatureKind.JOINTS
+        why = "a rigid body moves freely without one" if joint.kind == "floating" else _JOINT
+        losses.append(Loss(kind, (joint.name,) if joint.name else (), why, unnamed=not joint.name))
+    return losses  # which the report joins where they are alike
 
 
 def _weld_bodies(asset: Asset, carriers: Mapping[str, str]) -> Asset:
@@ -95,11 +88,12 @@ def _weld_bodies(asset: Asset, carriers: Mapping[str, str]) -> Asset:
     groups: dict[str, list[str]] = {}
     for body in asset.bodies:
         groups.setdefault(carriers[body.name], []).append(body.name)
-    sums = [
-        _add_inertials(carrier, [known[name] for name in own if name in known])
-        for carrier, own in groups.items()
-        if any(name in known for name in own) and all(name in known for name in own if name in heavy)
-    ]
+    sums = []
+    for carrier, own in groups.items():
+        parts = [known[name] for name in own if name in known]
+        if parts and all(name in known for name in own if name in heavy):
+            weights = [(part.mass, part.centre, part.inertia) for part in parts]
+            sums.append(Inertial(carrier, *(combine_inertias(weights) if len(weights) > 1 else weights[0])))
     return replace(
         asset,
         bodies=tuple(body for body in asset.bodies if carriers[body.name] == body.name),
@@ -110,12 +104,6 @@ def _weld_bodies(asset: Asset, carriers: Mapping[str, str]) -> Asset:
     )
 
 
-def _add_inertials(body: str, parts: Sequence[Inertial]) -> Inertial:
-    if len(parts) == 1:
-        return replace(parts[0], body=body)
-    return Inertial(body, *combine_inertias([(part.mass, part.centre, part.inertia) for part in parts]))
-
-
 def _add_bodies(draft: SceneDraft, asset: Asset, found: EngineBodies, moving: set[str]) -> tuple[list[str], list[str]]:
     """Add what Godot's importer (modules/gltf/extensions/physics) takes of bodies; notes, and pieces that it does not.
 
@@ -124,13 +112,13 @@ def _add_bodies(draft: SceneDraft, asset: Asset, found: EngineBodies, moving: se
     """
     style, names = PhysicsStyle(draft, "omi"), GodotBodyNames()
     taken, notes, lost = {family.name.lower() for family in found.each}, list[str](), list[str]()
-    for name in (OMI, OMI_SHAPES):
-        draft.declare_extension(name)
+    draft.declare_extension(style.marks.name)
+    draft.declare_extension(style.marks.shapes)
     for node, family in enumerate(found.each):
         motion: Json = {"type": "static"}
         if moves := family.body.name in moving:
             motion = {"type": "dynamic", **_weigh(asset, family, notes)}
-        draft.node(node)["extensions"] = {OMI: {"motion": motion}}
+        draft.node(node)["extensions"] = {style.marks.name: {"motion": motion}}
         if family.surfaces:
             seen = add_visuals(draft, family, node)
             draft.add_node({"name": f"{family.name}_visual", "mesh": seen}, node)

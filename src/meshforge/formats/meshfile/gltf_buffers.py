@@ -15,7 +15,8 @@ from meshforge.common import AssetError, is_beyond_reach
 from meshforge.formats.meshfile.gltf_document import Json, entries, entry, extension
 from meshforge.formats.meshfile.surface import to_doubles
 
-_TYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
+TYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
+"""The types of the numbers of an accessor, by its `componentType`."""
 _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
 _MESHOPT = ("EXT_meshopt_compression", "KHR_meshopt_compression")
 _MOST_ZEROS = 10_000_000  # values of an accessor without a buffer, which a few bytes ask for
@@ -113,7 +114,7 @@ class Buffers:
         count = sparse["count"]
         if not isinstance(count, int) or count < 0:
             raise ValueError(f"a sparse accessor of {count!r} values")
-        kind = np.dtype(_TYPES[sparse["indices"]["componentType"]])
+        kind = np.dtype(TYPES[sparse["indices"]["componentType"]])
         at = self._read_strided(sparse["indices"]["bufferView"], sparse["indices"], count, kind, 1).ravel()
         new = self._read_strided(sparse["values"]["bufferView"], sparse["values"], count, values.dtype, values.shape[1])
         values = values.copy()
@@ -143,9 +144,9 @@ class Buffers:
 
 def _layout_of(accessor: Json) -> tuple[int, int, np.dtype[Any]]:
     count, kind, width = accessor["count"], accessor["componentType"], accessor["type"]
-    if not isinstance(count, int) or count < 0 or kind not in _TYPES or width not in _WIDTHS:
+    if not isinstance(count, int) or count < 0 or kind not in TYPES or width not in _WIDTHS:
         raise ValueError(f"an accessor of {count!r} {width!r} of type {kind!r}")
-    return count, _WIDTHS[width], np.dtype(_TYPES[kind])
+    return count, _WIDTHS[width], np.dtype(TYPES[kind])
 
 
 def decode_data_uri(uri: str) -> bytes:

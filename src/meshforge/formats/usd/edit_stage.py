@@ -83,11 +83,10 @@ class HullEdit(LayerEdit):
                 self._mark(source)
         known = {name: k for k, element in enumerate(self.document.authored) for name in element.names}
         for geom in new_hulls(asset, known):
-            parent = known.get(geom.parent or "")
-            source = None if parent is None else sources[parent]
-            holder, space = self._find_holder(source, geom.body)
+            parent = sources[known[geom.parent]] if geom.parent in known else None
+            holder, space = self._find_holder(parent, geom.body)
             spec, approximation = self.add_geom(holder, geom, space)
-            self._finish(spec, geom.name, geom.body, source, approximation)
+            self._finish(spec, geom.name, geom.body, parent, approximation)
             self.changed.add(geom.body)
 
     @property
