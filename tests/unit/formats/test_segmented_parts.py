@@ -159,15 +159,6 @@ def test_labels_of_one_part_are_told(mesh: Path, tmp_path: Path) -> None:
 
 
 WRONG = {
-    "no class each": (
-        {"points": POINTS, "labels": KINDS[PLACES][:-1]},
-        "it has 4,000 points, but 3,999 classes\n  Each point needs one.",
-    ),
-    "nothing": ({"points": np.zeros((0, 3)), "labels": KINDS[:0]}, "there is nothing in this file that has a class"),
-    "not finite": (
-        {"points": np.where(np.arange(3) == 1, np.nan, POINTS), "labels": KINDS[PLACES]},
-        "a coordinate is not a finite number\n  Fix or export it again.",
-    ),
     "far": (
         {"points": POINTS + 5, "labels": KINDS[PLACES]},
         "its points do not lie where the asset does: they are in a box of 1 0.4 0.55 m around 5 5 4.78, the hulls in a "
@@ -183,10 +174,6 @@ WRONG = {
         "only 3% of the surface has labelled points near it\n"
         "  It may be turned, or of another asset. If it is right, say --align off.",
     ),
-    "classes that are no whole numbers": (
-        {"points": POINTS, "labels": KINDS[PLACES] + 0.5},
-        "the class of element 0 is 0.5, which is no whole number",
-    ),
 }
 
 
@@ -197,12 +184,6 @@ def test_labels_that_make_no_sense_have_one_message(tmp_path: Path, case: str) -
     with pytest.raises(AssetError) as caught:
         parts_of(path)
     assert caught.value.message == f"{path}: {text}"
-
-
-def test_classes_of_faces_are_refused_with_what_is_read(mesh: Path, tmp_path: Path) -> None:
-    put(tmp_path, vertices=VERTICES, faces=FACES, labels=KINDS)
-    with pytest.raises(AssetError, match="it has faces, and only points with a class each are read"):
-        decompose(mesh, QUICK, by="labels", cache=False)
 
 
 def test_without_labels_it_is_said_where_they_would_lie(mesh: Path) -> None:

@@ -13,9 +13,8 @@ import numpy as np
 from meshforge.common import AssetError
 from meshforge.formats.collision_pieces import leaves_volume
 from meshforge.formats.gltf import output, physics
-from meshforge.formats.meshfile.gltf_buffers import TYPES
 from meshforge.formats.meshfile.gltf_document import Json, entries, entry, extension
-from meshforge.formats.meshfile.gltf_meshes import DRACO, DracoMesh
+from meshforge.formats.meshfile.gltf_meshes import DRACO, TYPES, DracoMesh
 from meshforge.formats.meshfile.gltf_scene import GltfScene
 from meshforge.geometry import Floats, Ints, Shape
 from meshforge.symbolic import Geom, Opaque, Texture

@@ -12,7 +12,7 @@ from meshforge.engines import ENGINES
 from meshforge.formats.base import BODY_FEATURES, Mass, Output, ReadOptions, SceneFormat, feature_of_others
 from meshforge.formats.collision_pieces import is_edited
 from meshforge.formats.engine_names.conventions import CollisionNames, GodotNames, UnityNames, UnrealNames, fallbacks_of
-from meshforge.formats.gltf import create, edit, read, rigid_bodies
+from meshforge.formats.gltf import create, edit, read
 from meshforge.formats.gltf.document import Convention, GltfDocument
 from meshforge.formats.gltf.physics import KHR, explain_missing_mass, read_motion
 from meshforge.formats.meshfile.gltf_document import Json, entries, entry, extension, report_damage
@@ -116,7 +116,7 @@ class GltfForGodot(EngineGltf):
     engine = GodotNames()
 
     def create(self, asset: Asset, name: str) -> Output:
-        return rigid_bodies.create_for_godot(asset, name, self.engine)
+        return create.create_for_godot(asset, name, self.engine)
 
 
 class GltfForUnity(EngineGltf):

@@ -16,8 +16,8 @@ import numpy.typing as npt
 
 from meshforge.formats.base import Output
 from meshforge.formats.gltf.document import rewrite_json
-from meshforge.formats.meshfile.gltf_buffers import TYPES
 from meshforge.formats.meshfile.gltf_document import Container, Json, entries
+from meshforge.formats.meshfile.gltf_meshes import TYPES
 from meshforge.formats.meshfile.gltf_scene import GltfScene
 from meshforge.formats.references import find_companions
 from meshforge.geometry import Ints

@@ -12,8 +12,7 @@ from meshforge.formats.collision_pieces import CollisionPiece, build_round, buil
 from meshforge.formats.gltf.document import Convention
 from meshforge.formats.kinematic_tree import BodyTree, drop_rounding
 from meshforge.formats.meshfile.gltf_document import Json, entry, extension, number, numbers
-from meshforge.formats.meshfile.gltf_meshes import rotations_of
-from meshforge.formats.meshfile.gltf_scene import GltfScene, Placement
+from meshforge.formats.meshfile.gltf_scene import GltfScene, Placement, rotation_in
 from meshforge.geometry import Box, Pose, Shape, Sphere, inertia, principal_axes
 from meshforge.symbolic import Asset, Body, Inertial
 
@@ -172,7 +171,7 @@ def read_inertial(placement: Placement, body: str, hulls: Sequence[Shape]) -> In
         return Inertial(body, mass, *inertia(hulls, mass, centre[:3] if "centerOfMass" in motion else None))
     if "inertiaDiagonal" in motion:
         moments = numbers(motion, "inertiaDiagonal", 3, ())
-        axes = rotations_of(numbers(motion, "inertiaOrientation", 4, (0.0, 0.0, 0.0, 1.0)))
+        axes = rotation_in(motion, "inertiaOrientation")
     else:
         moments, axes = np.linalg.eigh(numbers(motion, "inertiaTensor", 9, ()).reshape(3, 3))
     if moments.min() <= 0:

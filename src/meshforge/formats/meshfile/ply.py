@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import codecs
+import itertools
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -16,7 +17,6 @@ from meshforge.formats.meshfile.surface import (
     RawSurface,
     check_surfaces,
     cut_fans,
-    join_lists,
     remedy_for,
     text_of,
     to_doubles,
@@ -274,5 +274,6 @@ def _find_faces(rows: list[PlyRows], count: int, where: str) -> tuple[Ints, Ints
             names = ", ".join(f"{c:g}" for c in corners[:8])
             problem = f"face {k} names vertices {names}, where the file has 0 to {count - 1}"
             raise AssetError(problem, where=where)
-    at, triangles = cut_fans(*join_lists(read))
+    counts = np.array([len(corners) for corners in read], dtype=np.int64)
+    at, triangles = cut_fans(np.fromiter(itertools.chain.from_iterable(read), np.int64, int(counts.sum())), counts)
     return triangles, at

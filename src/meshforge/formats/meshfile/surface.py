@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -72,12 +71,6 @@ def to_doubles(values: npt.ArrayLike) -> Floats:
     """Numbers in double precision; signalling NaN, which a damaged file may hold, stays NaN without a warning."""
     with np.errstate(invalid="ignore"):
         return np.asarray(values).astype(np.float64)
-
-
-def join_lists(lists: Sequence[Sequence[float]]) -> tuple[Ints, Ints]:
-    """Return whole numbers of several lists one after the other, and how many each list has."""
-    counts = np.array([len(own) for own in lists], dtype=np.int64)
-    return np.fromiter(itertools.chain.from_iterable(lists), np.int64, int(counts.sum())), counts
 
 
 def cut_fans(corners: Ints, counts: Ints) -> tuple[Ints, Ints]:
