@@ -158,32 +158,34 @@ def test_labels_of_one_part_are_told(mesh: Path, tmp_path: Path) -> None:
     assert made.asset and "its labels say one part only (all): decomposed as a whole" in made.asset.notes
 
 
+APART = "It may be turned, or of another asset. If it is right, say --align off."
 WRONG = {
     "far": (
         {"points": POINTS + 5, "labels": KINDS[PLACES]},
         "its points do not lie where the asset does: they are in a box of 1 0.4 0.55 m around 5 5 4.78, the hulls in a "
-        "box of 1 0.4 0.55 m around 0 0 -0.225\n  They would fit with --align box.",
+        "box of 1 0.4 0.55 m around 0 0 -0.225",
+        "They would fit with --align box.",
     ),
     "inside": (
         {"points": np.mgrid[-0.5:0.5:20j, -0.2:0.2:20j, -0.5:0.05:20j].reshape(3, -1).T, "labels": np.arange(8000) % 3},
-        "only 34% of its points are near the surface\n"
-        "  It may be turned, or of another asset. If it is right, say --align off.",
+        "only 34% of its points are near the surface",
+        APART,
     ),
     "two corners": (
         {"points": np.array([[-0.5, -0.2, -0.5], [0.5, 0.2, 0.05]]), "labels": np.array([0, 1])},
-        "only 3% of the surface has labelled points near it\n"
-        "  It may be turned, or of another asset. If it is right, say --align off.",
+        "only 3% of the surface has labelled points near it",
+        APART,
     ),
 }
 
 
 @pytest.mark.parametrize("case", WRONG)
 def test_labels_that_make_no_sense_have_one_message(tmp_path: Path, case: str) -> None:
-    arrays, text = WRONG[case]
+    arrays, problem, remedy = WRONG[case]
     path = put(tmp_path, **arrays)
     with pytest.raises(AssetError) as caught:
         parts_of(path)
-    assert caught.value.message == f"{path}: {text}"
+    assert (caught.value.where, caught.value.problem, caught.value.remedy) == (str(path), problem, remedy)
 
 
 def test_without_labels_it_is_said_where_they_would_lie(mesh: Path) -> None:

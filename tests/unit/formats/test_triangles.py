@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable
 from pathlib import Path
 
@@ -12,7 +11,8 @@ import pytest
 from meshforge.common import AssetError
 from meshforge.formats import RawSurface, read_triangles, split_into_pieces
 from meshforge.geometry import Floats
-from tests.mesh_files import KINDS, dae, glb, gltf, gltf_tree, wrl
+from tests.gltf_files import SceneFile
+from tests.mesh_files import KINDS, dae, glb, gltf, wrl
 from tests.soups import Soup, box, together
 
 Write = Callable[[Soup], bytes]
@@ -72,23 +72,20 @@ def test_transforms_of_gltf_nodes_are_applied(tmp_path: Path) -> None:
     assert bounds(surfaces(tmp_path / "b.glb", glb(box(), matrix=matrix))) == [[5, 0, 0], [6, 2, 3]]
 
 
-def test_strips_and_fans_of_gltf_are_cut_into_triangles(tmp_path: Path) -> None:
+@pytest.mark.parametrize(("mode", "faces"), [(5, [[0, 1, 2], [3, 2, 1]]), (6, [[0, 1, 2], [0, 2, 3]])])
+def test_strips_and_fans_of_gltf_are_cut_into_triangles(tmp_path: Path, mode: int, faces: list[list[int]]) -> None:
     quad = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0.0]]), np.array([[0, 1, 2, 3]])
-    tree, _ = gltf_tree(quad)
-    assert tree["meshes"] == [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}]
-    strip = gltf(quad).replace(b'"indices": 1', b'"indices": 1, "mode": 5')
-    fan = gltf(quad).replace(b'"indices": 1', b'"indices": 1, "mode": 6')
-    assert surfaces(tmp_path / "a.gltf", strip)[0].faces.tolist() == [[0, 1, 2], [3, 2, 1]]
-    assert surfaces(tmp_path / "b.gltf", fan)[0].faces.tolist() == [[0, 1, 2], [0, 2, 3]]
+    scene = SceneFile()
+    scene.node("quad", mesh=scene.mesh(scene.primitive(quad, mode=mode)))
+    assert surfaces(tmp_path / "a.gltf", scene.gltf())[0].faces.tolist() == faces
 
 
 def test_a_gltf_buffer_may_lie_beside_it_and_is_missed_by_name(tmp_path: Path) -> None:
-    tree, buffer = gltf_tree(box())
-    text = json.dumps({**tree, "buffers": [{"byteLength": len(buffer), "uri": "the%20box.bin"}]}).encode()
+    scene = SceneFile.of(("box", box()))
     with pytest.raises(AssetError, match=r"its buffer the%20box\.bin is not there"):
-        surfaces(tmp_path / "a.gltf", text)
-    (tmp_path / "the box.bin").write_bytes(buffer)
-    assert len(surfaces(tmp_path / "a.gltf", text)[0].faces) == 12
+        surfaces(tmp_path / "a.gltf", scene.gltf("the%20box.bin"))
+    (tmp_path / "the box.bin").write_bytes(scene.data)
+    assert len(surfaces(tmp_path / "a.gltf", scene.gltf("the%20box.bin"))[0].faces) == 12
 
 
 def test_transforms_and_names_of_vrml_are_applied(tmp_path: Path) -> None:

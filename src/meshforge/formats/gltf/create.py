@@ -220,7 +220,6 @@ def _weigh(asset: Asset, family: EngineBody, notes: list[str]) -> Json:
 
 
 def _new_draft(asset: Asset, path: PurePosixPath, nodes: list[Json]) -> SceneDraft:
-    """Return a draft of a new scene with some nodes."""
     scene = {"nodes": list(range(len(nodes)))} if nodes else {}
     tree = {"asset": {"version": "2.0", "generator": "MeshForge"}, "scene": 0, "scenes": [scene]}
     tree |= {"nodes": nodes} if nodes else {}
@@ -228,7 +227,6 @@ def _new_draft(asset: Asset, path: PurePosixPath, nodes: list[Json]) -> SceneDra
 
 
 def _draft_bodies(asset: Asset, bodies: Sequence[EngineBody], path: PurePosixPath) -> SceneDraft:
-    """Return a draft with a node for each body."""
     return _new_draft(asset, path, [{"name": family.name, **pose_keys(family.body.pose)} for family in bodies])
 
 

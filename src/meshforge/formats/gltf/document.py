@@ -79,7 +79,6 @@ def rewrite_json(text: str, new: Any) -> str:
 
 
 def _find_changes(text: str, at: int, end: int, old: Any, new: Any) -> Iterator[_Change]:
-    """The changes that make the value in [at, end) another one."""
     if old == new:
         return
     if isinstance(old, dict) and isinstance(new, dict) and old and new:

@@ -64,10 +64,13 @@ class SceneDraft:
                 remedy="Leave the hull as it is, or take the animation out of the file.",
             )
         gone: Json = {key: node.pop(key) for key in ("mesh", "skin", "weights") if key in node}
-        strokes = self._lines_and_points(gone["mesh"]) if "mesh" in gone else []
-        if strokes:
-            mesh = {**entry(self.scene.tree, "meshes", gone["mesh"]), "primitives": strokes}
-            node |= {**gone, "mesh": self.add_mesh(mesh, gone["mesh"])}
+        if "mesh" in gone:
+            mesh = entry(self.scene.tree, "meshes", gone["mesh"])
+            solid = {patch.index for patch in self.scene.mesh(gone["mesh"]).patches}
+            parts = enumerate(entries(mesh, "primitives"))
+            strokes = [copy.deepcopy(part) for k, part in parts if k not in solid]
+            if strokes:
+                node |= {**gone, "mesh": self.add_mesh({**mesh, "primitives": strokes}, gone["mesh"])}
         return gone
 
     def add_node(self, node: Json, holder: int | None, at: int | None = None) -> int:
@@ -138,11 +141,6 @@ class SceneDraft:
             if own.any():
                 parts.append(part if own.all() else self._keep_faces(part, patch.faces[own], patch.decoded))
         return {**mesh, "primitives": parts}
-
-    def _lines_and_points(self, index: int) -> list[Json]:
-        solid = {patch.index for patch in self.scene.mesh(index).patches}
-        parts = entries(entry(self.scene.tree, "meshes", index), "primitives")
-        return [copy.deepcopy(part) for k, part in enumerate(parts) if k not in solid]
 
     def _keep_faces(self, part: Json, faces: Ints, decoded: DracoMesh | None) -> Json:
         """A primitive with some of its triangles; one that Draco compressed is written plainly."""

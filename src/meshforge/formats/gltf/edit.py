@@ -51,7 +51,6 @@ def write_gltf(asset: Asset, document: GltfDocument, name: str) -> Output:
 
 
 def _note_lacking_shapes(style: Style, made: Iterable[Geom]) -> list[str]:
-    """Notes on hulls of shapes that a convention does not have."""
     lacking = (geom.shape.kind for geom in made if geom.shape.kind not in style.holds)
     return note_shapes_as_hulls(lacking, f"{style.lacks} {{}}")
 
@@ -85,7 +84,6 @@ def _edit_draft(
 
 
 def _own_name(piece: Geom | Opaque, document: GltfDocument) -> str:
-    """The name of a piece without its body."""
     return piece.name.removeprefix(f"{piece.body}/") if document.bodies else piece.name
 
 

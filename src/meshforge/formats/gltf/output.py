@@ -83,9 +83,11 @@ def pack_scene(base: EditBase, scene: GltfScene, geometry: GeometryBuffer | None
             chunk = geometry.chunk
         elif not embedded:
             made[own] = bytes(geometry.added)
-    text = _json_text(base.container.text, tree, base.is_binary)
+    source = base.container.text
+    text = rewrite_json(source.decode("utf-8-sig").rstrip("\0"), tree).encode()
     if not base.is_binary:
-        return Output(text, made, copies)
+        return Output((codecs.BOM_UTF8 if source.startswith(codecs.BOM_UTF8) else b"") + text, made, copies)
+    text = text.rstrip(b" ")
     container = Container(text, True, base.container.chunks, base.container.rest)
     return Output(container.with_text(text, chunk).as_bytes(), made, copies)
 
@@ -104,12 +106,6 @@ def _list_embedded(scene: GltfScene, base: EditBase) -> set[str]:
     uris = [uri for b in entries(scene.tree, "buffers") if isinstance(uri := b.get("uri"), str)]
     files = zip(scene.buffers.files(), [uri for uri in uris if not uri.startswith("data:")], strict=True)
     return {Path(file).relative_to(scene.path.parent).as_posix() for file, uri in files if uri not in there}
-
-
-def _json_text(source: bytes, tree: Json, is_binary: bool) -> bytes:
-    mark = codecs.BOM_UTF8 if source.startswith(codecs.BOM_UTF8) and not is_binary else b""
-    text = rewrite_json(source.decode("utf-8-sig").rstrip("\0"), tree).encode()
-    return text.rstrip(b" ") if is_binary else mark + text
 
 
 class GeometryBuffer:

@@ -62,11 +62,6 @@ def has_collider(node: Json, kind: Convention) -> bool:
     return bool(own) if kind == "khr" else isinstance(own, dict) and own.get("shape", -1) != -1
 
 
-def is_trigger(node: Json) -> bool:
-    """Whether a node detects bodies without colliding."""
-    return any("trigger" in (extension(node, name) or {}) for name in (KHR, OMI))
-
-
 def collider_of(placement: Placement, kind: Convention, scene: GltfScene) -> Collider:
     """Return what a node that has a collider collides with. Raises ValueError: something that is not there."""
     marks = EXTENSIONS[kind]

@@ -23,7 +23,7 @@ from meshforge.formats.meshfile.gltf_scene import GltfScene
 from meshforge.formats.meshfile.surface import GAMMA
 from meshforge.formats.visuals import LazySurfaces
 from meshforge.geometry import Floats, Ints, Pose
-from meshforge.symbolic import Asset, Body, FileNote, Mechanism, Mentions, NameProblem, Rgba, Surface, unique_names
+from meshforge.symbolic import Asset, Body, FileNote, Mechanism, Mentions, Rgba, Surface, unique_names
 
 _HOW: dict[Convention, str] = {
     "khr": "its colliders are those of KHR_physics_rigid_bodies",
@@ -66,7 +66,10 @@ def read_gltf(path: Path) -> Asset:
     moving = [Body(name, physics.rigid_pose_of(scene.placements[node])) for node, name in bodies.items()]
     files, missing = _find_files(scene, path)
     is_named = reader.convention not in physics.EXTENSIONS
-    problems = _find_name_problems(scene, reader.convention, [geom.name for geom in geoms]) if is_named else ()
+    names = [("mesh" in one.node, names_of(scene.tree, one.node)) for one in scene.placements.values()]
+    bare = [own[0] for has_mesh, own in names if own and not has_mesh]
+    meshes, first = [own for has_mesh, own in names if has_mesh], [geom.name for geom in geoms[:1]]
+    problems = find_name_problems(meshes, bare, reader.convention, *first) if is_named else ()
     return Asset(
         path=path,
         format="gltf",
@@ -89,12 +92,6 @@ def _refuse_drafts(tree: Json, path: Path) -> None:
     for name in (name for name in _DRAFTS if name in used or extension(tree, name) is not None):
         problem = f"its colliders are those of {name}, a draft of {_DRAFTS[name]}, which is not read"
         raise AssetError(problem, where=str(path), remedy=f"Export it with {_DRAFTS[name]}.")
-
-
-def _find_name_problems(scene: GltfScene, marks: str, hulls: Sequence[str]) -> Iterator[NameProblem]:
-    names = [("mesh" in one.node, names_of(scene.tree, one.node)) for one in scene.placements.values()]
-    bare = [own[0] for has_mesh, own in names if own and not has_mesh]
-    return find_name_problems([own for has_mesh, own in names if has_mesh], bare, marks, *hulls[:1])
 
 
 def _name_bodies(scene: GltfScene) -> tuple[dict[int, str], dict[int, str]]:
@@ -222,7 +219,10 @@ def _collect_notes(scene: GltfScene, convention: Convention) -> Iterator[str]:
     if len(entries(tree, "scenes")) > 1:
         default = "the default one" if "scene" in tree else "the first, as none is the default"
         yield f"of {len(entries(tree, 'scenes'))} scenes it is {default} that is read"
-    triggers = sum(physics.is_trigger(placement.node) for placement in placements.values())
+    triggers = sum(
+        any("trigger" in (extension(one.node, name) or {}) for name in (physics.KHR, physics.OMI))
+        for one in placements.values()
+    )
     if triggers:
         yield FileNote(f"{pluralize(triggers, 'trigger')} detect bodies without colliding: they are left as they are")
     shown = [placement.node for placement in placements.values() if "mesh" in placement.node]

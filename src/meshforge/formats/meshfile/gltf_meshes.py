@@ -39,7 +39,10 @@ class Buffers:
     def accessor(self, index: Any) -> npt.NDArray[Any]:
         """The values (count, width) of an accessor: floats where they are normalized or floats in the file."""
         accessor = entry(self.tree, "accessors", index)
-        count, width, kind = _layout_of(accessor)
+        count, number, shape = accessor["count"], accessor["componentType"], accessor["type"]
+        if not isinstance(count, int) or count < 0 or number not in TYPES or shape not in _WIDTHS:
+            raise ValueError(f"an accessor of {count!r} {shape!r} of type {number!r}")
+        width, kind = _WIDTHS[shape], np.dtype(TYPES[number])
         if "bufferView" in accessor:
             values = self._read_strided(accessor["bufferView"], accessor, count, kind, width)
         elif count > _MOST_ZEROS:
@@ -146,13 +149,6 @@ class Buffers:
                 where=str(self.path),
                 remedy="Export it again without mesh compression (gltfpack: without -c and -cc).",
             )
-
-
-def _layout_of(accessor: Json) -> tuple[int, int, np.dtype[Any]]:
-    count, kind, width = accessor["count"], accessor["componentType"], accessor["type"]
-    if not isinstance(count, int) or count < 0 or kind not in TYPES or width not in _WIDTHS:
-        raise ValueError(f"an accessor of {count!r} {width!r} of type {kind!r}")
-    return count, _WIDTHS[width], np.dtype(TYPES[kind])
 
 
 def decode_data_uri(uri: str) -> bytes:

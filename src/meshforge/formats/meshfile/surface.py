@@ -52,19 +52,17 @@ def check_surfaces(surfaces: Iterable[RawSurface], where: str) -> list[RawSurfac
     for surface in found:
         if surface.faces.min() < 0 or surface.faces.max() >= len(surface.vertices):
             raise AssetError("a face names a vertex that is not there", where=where)
-        if id(surface.vertices) not in fine:
-            _refuse_far(surface.vertices[np.unique(surface.faces)], where)
+        if id(surface.vertices) in fine:
+            continue
+        used = surface.vertices[np.unique(surface.faces)]
+        if not np.isfinite(used).all():
+            x, y, z = used[~np.isfinite(used).all(axis=1)][0]
+            problem = f"a coordinate is not a finite number, at the vertex {x:.6g} {y:.6g} {z:.6g}"
+            raise AssetError(problem, where=where, remedy="Fix or export it again.")
+        if (largest := float(np.abs(used).max())) > FARTHEST:
+            remedy = "No mesh is that large: fix or export it again."
+            raise AssetError(f"a coordinate is {largest:.3g}", where=where, remedy=remedy)
     return found
-
-
-def _refuse_far(used: Floats, where: str) -> None:
-    if not np.isfinite(used).all():
-        x, y, z = used[~np.isfinite(used).all(axis=1)][0]
-        problem = f"a coordinate is not a finite number, at the vertex {x:.6g} {y:.6g} {z:.6g}"
-        raise AssetError(problem, where=where, remedy="Fix or export it again.")
-    if (largest := float(np.abs(used).max())) > FARTHEST:
-        remedy = "No mesh is that large: fix or export it again."
-        raise AssetError(f"a coordinate is {largest:.3g}", where=where, remedy=remedy)
 
 
 def to_doubles(values: npt.ArrayLike) -> Floats:

@@ -47,11 +47,6 @@ class PrimCollision:
         return str(self.prim.GetPath())
 
 
-def has_physics(scene: UsdStage) -> bool:
-    """Whether any prim says that it collides or is a rigid body, switched off or not."""
-    return any(has_schema(prim, COLLISION) or has_schema(prim, RIGID_BODY) for prim in scene.prims())
-
-
 def has_schema(prim: Any, schema: str) -> bool:
     """Whether an applied schema is on a prim, of a library that is not installed too."""
     return schema in prim.GetPrimTypeInfo().GetAppliedAPISchemas()

@@ -46,11 +46,13 @@ def read_usd(path: Path) -> Asset:
 
 
 def _build_asset(scene: UsdStage, source: bytes) -> Asset:
-    physics = colliders.has_physics(scene)
+    marks = (colliders.COLLISION, colliders.RIGID_BODY)
+    physics = any(colliders.has_schema(prim, mark) for prim in scene.prims() for mark in marks)
     bodies = colliders.StageBodies(scene, physics)
     notes: list[str] = []
     sources = list(read_collisions(scene, bodies, physics, notes))
-    authored = _record_prims(sources, bodies)
+    names = collision_pieces.name_pieces((bodies.hull_name(one.path, one.body), len(one.parts)) for one in sources)
+    authored = tuple(PrimRecord(one.path, one.body, own) for one, own in zip(sources, names, strict=True))
     visuals = StageSurfaces.of(scene, bodies) if physics else ()
     mentions = [_mentions_of_prim(source.prim) for source in sources]
     geoms = tuple(_build_geoms(authored, sources, mentions))
@@ -60,12 +62,15 @@ def _build_asset(scene: UsdStage, source: bytes) -> Asset:
         [[own] * len(source.parts) for own, source in zip(mentions, sources, strict=True)],
     )
     mechanism = read_mechanism(scene, bodies, geoms)
+    own, layers_used = scene.path.resolve(), map(_file_of, (one.realPath for one in scene.stage.GetUsedLayers()))
+    others = dict.fromkeys(layer for layer in layers_used if layer is not None and layer.resolve() != own)
+    digests = tuple((layer, file_digest(layer)) for layer in others)
     return Asset(
         path=scene.path,
         format="usd",
         bodies=bodies.list_bodies(),
         geoms=geoms,
-        document=UsdDocument(source, physics, authored, _digests_of(scene)),
+        document=UsdDocument(source, physics, authored, digests),
         opaque=opaque,
         visuals=visuals,
         notes=(*_collect_notes(scene, physics), *notes),
@@ -83,15 +88,6 @@ def read_collisions(
             parts := read_parts(scene, prim, notes)
         ):
             yield PrimCollision(prim, bodies.of(prim), parts)
-
-
-def _record_prims(sources: Sequence[PrimCollision], bodies: colliders.StageBodies) -> tuple[PrimRecord, ...]:
-    """The sources with the names of their pieces."""
-    bases = [(bodies.hull_name(source.path, source.body), len(source.parts)) for source in sources]
-    return tuple(
-        PrimRecord(source.path, source.body, names)
-        for source, names in zip(sources, collision_pieces.name_pieces(bases), strict=True)
-    )
 
 
 def _build_geoms(
@@ -114,14 +110,6 @@ def _find_files(path: Path) -> tuple[tuple[Path, ...], tuple[str, ...]]:
     found = [file for file in map(_file_of, places) if file is not None and file.resolve() != own]
     missing = (text.removeprefix(f"{path.absolute().parent}/") for text in unresolved)
     return tuple(dict.fromkeys(found)), tuple(dict.fromkeys(missing))
-
-
-def _digests_of(scene: UsdStage) -> tuple[tuple[Path, str], ...]:
-    """The digests of the layers that the stage uses besides its own file."""
-    own = scene.path.resolve()
-    layers = [_file_of(layer.realPath) for layer in scene.stage.GetUsedLayers()]
-    others = dict.fromkeys(layer for layer in layers if layer is not None and layer.resolve() != own)
-    return tuple((layer, file_digest(layer)) for layer in others)
 
 
 def _file_of(place: Any) -> Path | None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -106,17 +105,14 @@ def _build_primitive(
         case "Sphere":
             radius = size("radius") * float(scales.max())
             return build_solid(kind, [radius], lambda: Sphere(pose, radius))
-        case "Capsule" | "Cylinder" | "Cone" | "Capsule_1" | "Cylinder_1":
-            bottom, top = (radius * float(wide.max()) for radius in _radii(kind, size))
-            return build_round(kind, pose, bottom, top, size("height") * long / 2)
-    return CollisionPiece(None, f"a collider of type {kind or 'none'} is not known")
-
-
-def _radii(kind: str, size: Callable[[str], float]) -> tuple[float, float]:
-    """The radii of the bottom and the top of a round shape."""
-    if kind.endswith("_1"):
-        return size("radiusBottom"), size("radiusTop")
-    return size("radius"), 0.0 if kind == "Cone" else size("radius")
+        case "Capsule" | "Cylinder" | "Cone":
+            bottom, top = size("radius"), 0.0 if kind == "Cone" else size("radius")
+        case "Capsule_1" | "Cylinder_1":
+            bottom, top = size("radiusBottom"), size("radiusTop")
+        case _:
+            return CollisionPiece(None, f"a collider of type {kind or 'none'} is not known")
+    widest = float(wide.max())
+    return build_round(kind, pose, bottom * widest, top * widest, size("height") * long / 2)
 
 
 def _axis_rotation(scene: UsdStage, prim: Any) -> Floats:
