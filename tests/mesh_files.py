@@ -123,8 +123,3 @@ KINDS: dict[str, tuple[str, Callable[[Soup], bytes]]] = {
     "glb": (".glb", glb),
 }
 """Of each kind, the suffix and what writes it."""
-
-
-def single(soup: Soup) -> Soup:
-    """The same surface rounded to single precision."""
-    return soup[0].astype(np.float32).astype(float), soup[1]

@@ -23,7 +23,7 @@ from meshforge.formats.meshfile.gltf_scene import GltfScene
 from meshforge.formats.meshfile.surface import GAMMA
 from meshforge.formats.visuals import LazySurfaces
 from meshforge.geometry import Floats, Ints, Pose
-from meshforge.symbolic import Asset, Body, FileNote, Mechanism, Mentions, Rgba, Surface, unique_names
+from meshforge.symbolic import Asset, Body, FileNote, Mechanism, Mentions, NameProblem, Rgba, Surface, unique_names
 
 _HOW: dict[Convention, str] = {
     "khr": "its colliders are those of KHR_physics_rigid_bodies",
@@ -66,10 +66,7 @@ def read_gltf(path: Path) -> Asset:
     moving = [Body(name, physics.rigid_pose_of(scene.placements[node])) for node, name in bodies.items()]
     files, missing = _find_files(scene, path)
     is_named = reader.convention not in physics.EXTENSIONS
-    names = [("mesh" in one.node, names_of(scene.tree, one.node)) for one in scene.placements.values()]
-    bare = [own[0] for has_mesh, own in names if own and not has_mesh]
-    meshes, first = [own for has_mesh, own in names if has_mesh], [geom.name for geom in geoms[:1]]
-    problems = find_name_problems(meshes, bare, reader.convention, *first) if is_named else ()
+    problems = _find_name_problems(scene, reader.convention, [geom.name for geom in geoms[:1]]) if is_named else ()
     return Asset(
         path=path,
         format="gltf",
@@ -85,6 +82,12 @@ def read_gltf(path: Path) -> Asset:
         up="y",
         name_problems=tuple(problems),
     )
+
+
+def _find_name_problems(scene: GltfScene, marks: str, first: Sequence[str]) -> Iterator[NameProblem]:
+    names = [("mesh" in one.node, names_of(scene.tree, one.node)) for one in scene.placements.values()]
+    bare = [own[0] for has_mesh, own in names if own and not has_mesh]
+    return find_name_problems([own for has_mesh, own in names if has_mesh], bare, marks, *first)
 
 
 def _refuse_drafts(tree: Json, path: Path) -> None:
