@@ -5,8 +5,6 @@ from __future__ import annotations
 import struct
 from collections.abc import Callable
 
-import numpy as np
-
 from tests.gltf_files import SceneFile
 from tests.soups import Soup
 

@@ -6,7 +6,6 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
 import trimesh
 
@@ -117,18 +116,6 @@ def test_a_second_run_reads_the_marked_hulls_and_does_not_double_them(folder: Pa
     again = folder / "again" / "scene.usda"
     assert len(marks(again)) == len(marks(first)) == 4
     assert_seen_alike(folder / "in" / "scene.usda", again)
-
-
-def test_hulls_that_no_edit_touched_keep_their_names_and_places(folder: Path) -> None:
-    (folder / "nothing.mf").write_text("labels leg, top, door\n\nIs(door) => Delete\n")
-    meshforge("apply", "nothing.mf", "in/scene.usda", "--out", "out", cwd=folder)
-    old, new = shapes(read(folder / "in" / "scene.usda")), shapes(read(folder / "out" / "scene.usda"))
-    assert old.keys() == new.keys()
-    for name, shape in old.items():
-        assert new[name].kind == shape.kind
-        np.testing.assert_allclose(
-            [new[name].aabb.min, new[name].aabb.max], [shape.aabb.min, shape.aabb.max], atol=1e-7
-        )
 
 
 def test_what_comes_from_a_shared_instance_stays_shared(tmp_path: Path) -> None:

@@ -10,7 +10,7 @@ from meshforge.common import AssetError
 from meshforge.formats import load, read
 from meshforge.geometry import Capsule, Pose, Shape, Sphere
 from meshforge.symbolic import Asset
-from tests.gltf_files import KHR, SceneFile
+from tests.gltf_files import KHR, SceneFile, glb_of
 from tests.soups import Soup, angle, box, together, turned
 
 HALF = float(np.sqrt(0.5))
@@ -75,26 +75,17 @@ def test_transforms_are_those_of_all_nodes_above(tmp_path: Path) -> None:
     assert shape.volume == pytest.approx(12)
 
 
-def test_only_the_default_scene_is_read_and_the_rest_is_told(tmp_path: Path) -> None:
-    scene = SceneFile.of(("first", box()), ("second", box((2, 0, 0))), ("nowhere", box((4, 0, 0))))
-    scene.tree |= {"scenes": [{"nodes": [0]}, {"nodes": [1]}], "scene": 1}
-    asset = asset_of(scene, tmp_path)
-    assert names(asset) == ["second"]
-    assert any(note.startswith("2 nodes with a mesh outside of the scene") for note in asset.notes)
-    assert any("of 2 scenes it is the default one" in note for note in asset.notes)
-
-
-def test_without_a_default_scene_it_is_the_first_and_without_scenes_all_that_are_no_children(tmp_path: Path) -> None:
-    scene = SceneFile.of(("first", box()))
-    child = scene.node("child", box((2, 0, 0)))
-    scene.node("parent", children=[child])
-    whole = scene.whole()
-    scene.tree = {**whole, "scenes": [{"nodes": [0]}, {"nodes": [2]}]}
-    del scene.tree["scene"]
-    scene.whole = lambda: scene.tree  # type: ignore[method-assign]
-    assert names(asset_of(scene, tmp_path)) == ["first"]
-    del scene.tree["scenes"]
-    assert names(asset_of(scene, tmp_path)) == ["first", "child"]
+def test_the_default_scene_is_read_else_the_first_else_all_that_are_no_children(tmp_path: Path) -> None:
+    scene = SceneFile.of(("first", box()), ("second", box((2, 0, 0))))
+    scene.node("parent", children=[scene.node("child", box((4, 0, 0)))])
+    two = {"scenes": [{"nodes": [0]}, {"nodes": [1]}]}
+    whole = scene.tree | {"buffers": [{"byteLength": len(scene.data)}]}
+    for more, expected in (({**two, "scene": 1}, ["second"]), (two, ["first"]), ({}, ["first", "second", "child"])):
+        (tmp_path / "a.glb").write_bytes(glb_of({**whole, **more}, scene.data))
+        asset = read(tmp_path / "a.glb")
+        assert names(asset) == expected
+        told = [note for note in asset.notes if "outside of the scene" in note or "of 2 scenes it is the" in note]
+        assert len(told) == (2 if more else 0)
 
 
 def test_quantized_and_normalized_positions_are_read_with_their_node(tmp_path: Path) -> None:
@@ -249,18 +240,7 @@ def test_godot_names_are_hulls_and_pieces(tmp_path: Path) -> None:
 
 
 def test_unreal_goes_before_godot_and_physics_before_both(tmp_path: Path) -> None:
-    scene = SceneFile()
-    for name, soup in {
-        "a-col": two_boxes(),
-        "b-convcol": two_boxes(),
-        "c-colonly": together(box(), turned(box((2, 0, 0)))),
-        "d-convcolonly.001": angle(),
-        "e_COL 2": angle(),
-        "f$colonly_x": box(),
-        "seen": box(),
-        "collar": box(),
-    }.items():
-        scene.node(name, soup)
+    scene = SceneFile.of(("a-col", box()), ("UCX_a", box()))
     assert names(asset_of(scene, tmp_path)) == ["UCX_a"]
     scene.collider("ball", {"type": "sphere", "sphere": {"radius": 2}})
     assert names(asset_of(scene, tmp_path)) == ["ball"]

@@ -12,7 +12,7 @@ from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Pose, Shape, S
 from meshforge.symbolic import Geom
 from tests.gltf_edited import Edited, brick, names, three_legs
 from tests.gltf_files import KHR, SHAPES, SceneFile
-from tests.soups import angle, box, together
+from tests.soups import angle, box
 
 HALF = float(np.sqrt(0.5))
 
@@ -49,25 +49,6 @@ def test_hulls_made_for_unreal_have_its_names_and_numbers(tmp_path: Path) -> Non
 
 
 # Godot
-
-
-def test_a_node_that_is_seen_and_collides_is_only_seen_when_its_hull_goes(tmp_path: Path) -> None:
-    scene = SceneFile()
-    scene.node("chair-col.001", together(box(), box((2, 0, 0))), extras={"a": 1})
-    scene.node("stool-convcolonly", box((5, 0, 0)))
-    case = Edited(scene, tmp_path)
-    assert names(case.edit(gone=["chair-col.001#0", "chair-col.001#1"])) == ["stool-convcolonly"]
-    before, after = case.trees
-    before["nodes"][0]["name"] = "chair"
-    assert after == before
-
-
-def test_a_node_that_is_seen_keeps_its_mesh_when_part_of_its_collision_goes(tmp_path: Path) -> None:
-    case = Edited(SceneFile.of(("chair-col", three_legs())), tmp_path)
-    after = case.edit(gone=["chair-col#1"])
-    assert names(after) == ["chair-colonly#0", "chair-colonly#1"]
-    assert case.saved.names == {"chair-col#0": "chair-colonly#0", "chair-col#2": "chair-colonly#1"}
-    assert [len(surface.faces) for surface in after.visuals] == [36]
 
 
 def test_collision_told_by_the_name_of_a_mesh_goes_from_one_node_only(tmp_path: Path) -> None:

@@ -15,14 +15,8 @@ import numpy as np
 
 from meshforge.common import join_names
 from meshforge.formats.base import Loss, Output, nothing_collides_error
+from meshforge.formats.engine_names import conventions
 from meshforge.formats.engine_names.bodies import EngineBodies, EngineBody, has_triangles, name_bodies
-from meshforge.formats.engine_names.conventions import (
-    CollisionNames,
-    GodotBodyNames,
-    claim_name,
-    godot_kind,
-    unreal_kind,
-)
 from meshforge.formats.gltf.document import BODY, GltfDocument
 from meshforge.formats.gltf.draft import SceneDraft
 from meshforge.formats.gltf.edit import assign_names, style_of
@@ -83,11 +77,11 @@ def _is_plain(asset: Asset) -> bool:
         and not len(asset.visuals)
         and not any(geom.shape.is_primitive for geom in asset.geoms)
         and not any(piece.plane for piece in asset.opaque)
-        and not any(unreal_kind(name) or godot_kind(name) for name in names)
+        and not any(conventions.unreal_kind(name) or conventions.godot_kind(name) for name in names)
     )
 
 
-def create_for_engine(asset: Asset, name: str, engine: CollisionNames) -> Output:
+def create_for_engine(asset: Asset, name: str, engine: conventions.CollisionNames) -> Output:
     """Return the files of an asset with the names of an engine.
 
     No node is scaled. For Unreal, the meshes of a body are in its frame, since its importers have not always obeyed the
@@ -106,7 +100,7 @@ def create_for_engine(asset: Asset, name: str, engine: CollisionNames) -> Output
     return _pack_new(asset, draft, GltfDocument(b"", engine.engine, ()), path, found.lost, found.notes)
 
 
-def create_for_godot(asset: Asset, name: str, names: CollisionNames) -> Output:
+def create_for_godot(asset: Asset, name: str, names: conventions.CollisionNames) -> Output:
     """The files of an asset: rigid bodies where anything moves, else nodes that Godot knows by their names."""
     tree = BodyTree.of(asset)
     if not all(map(tree.is_static, tree.order)):
@@ -128,7 +122,7 @@ def _create_rigid_bodies(asset: Asset, tree: BodyTree, path: PurePosixPath) -> O
             carriers[name] = carriers[joints[0].parent]
     welded = _weld_bodies(asset, carriers)
     moving = {name for name in tree.order if not tree.is_static(name)}
-    found = name_bodies(welded, GodotBodyNames(), path.stem)
+    found = name_bodies(welded, conventions.GodotBodyNames(), path.stem)
     draft = _draft_bodies(welded, found.each, path)
     notes, pieces = _add_bodies(draft, welded, found, moving)
     bodies = tuple((node, family.body.name) for node, family in enumerate(found.each))
@@ -188,7 +182,7 @@ def _add_bodies(draft: SceneDraft, asset: Asset, found: EngineBodies, moving: se
     It joins shapes to the body right above them, lets a body's own mesh go, and takes moments of inertia about the axes
     of the body only.
     """
-    style, names = PhysicsStyle(draft, "omi"), GodotBodyNames()
+    style, names = PhysicsStyle(draft, "omi"), conventions.GodotBodyNames()
     taken, notes, lost = {family.name.lower() for family in found.each}, list[str](), list[str]()
     draft.declare_extension(style.marks.name)
     draft.declare_extension(style.marks.shapes)
@@ -204,7 +198,7 @@ def _add_bodies(draft: SceneDraft, asset: Asset, found: EngineBodies, moving: se
             if moves and isinstance(piece, Opaque):
                 lost.append(piece.name)
             else:
-                style.add(NewPiece(piece, claim_name(names.body, own, taken), node))
+                style.add(NewPiece(piece, conventions.claim_name(names.body, own, taken), node))
     return notes, lost
 
 

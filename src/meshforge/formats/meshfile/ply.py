@@ -13,14 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from meshforge.common import AssetError
-from meshforge.formats.meshfile.surface import (
-    RawSurface,
-    check_surfaces,
-    cut_fans,
-    remedy_for,
-    text_of,
-    to_doubles,
-)
+from meshforge.formats.meshfile import surface
 from meshforge.geometry import Floats, Ints
 
 TYPES = {
@@ -83,9 +76,9 @@ class PlyText:
     faces: Ints
     face_at: Ints
 
-    def surfaces(self, where: str) -> list[RawSurface]:
+    def surfaces(self, where: str) -> list[surface.RawSurface]:
         """The one surface of the file. Raises AssetError."""
-        return check_surfaces([RawSurface(None, self.vertices, self.faces)], where)
+        return surface.check_surfaces([surface.RawSurface(None, self.vertices, self.faces)], where)
 
 
 def parse_ply(data: bytes, where: str) -> PlyText:
@@ -161,9 +154,9 @@ def _row_error(element: PlyElement, row: int, data: bytes, span: tuple[int, int]
     text = data[slice(*span)]
     if not text.strip():
         return _truncation_error(element, where)
-    problem = f"row {row} of {element.name} is cut short or damaged: {text_of(text.strip())[:_SHOWN]!r}"
+    problem = f"row {row} of {element.name} is cut short or damaged: {surface.text_of(text.strip())[:_SHOWN]!r}"
     line = data.count(b"\n", 0, span[0]) + 1
-    return AssetError(problem, where=f"{where}:{line}", remedy=remedy_for(text.split()))
+    return AssetError(problem, where=f"{where}:{line}", remedy=surface.remedy_for(text.split()))
 
 
 def _read_ascii(data: bytes, at: int, element: PlyElement, where: str) -> PlyRows:
@@ -244,7 +237,7 @@ def _find_vertices(rows: list[PlyRows], where: str) -> Floats:
         raise AssetError("there are no vertices with x, y and z in this file", where=where)
     if any(p.count for p in found.element.properties if p.name in ("x", "y", "z")):
         raise AssetError("its coordinates are lists, not numbers", where=where)
-    return np.column_stack([to_doubles(found.values[axis]) for axis in "xyz"]).reshape(-1, 3)
+    return np.column_stack([surface.to_doubles(found.values[axis]) for axis in "xyz"]).reshape(-1, 3)
 
 
 def _find_corners(rows: list[PlyRows], where: str) -> Any:
@@ -275,5 +268,6 @@ def _find_faces(rows: list[PlyRows], count: int, where: str) -> tuple[Ints, Ints
             problem = f"face {k} names vertices {names}, where the file has 0 to {count - 1}"
             raise AssetError(problem, where=where)
     counts = np.array([len(corners) for corners in read], dtype=np.int64)
-    at, triangles = cut_fans(np.fromiter(itertools.chain.from_iterable(read), np.int64, int(counts.sum())), counts)
+    flat = np.fromiter(itertools.chain.from_iterable(read), np.int64, int(counts.sum()))
+    at, triangles = surface.cut_fans(flat, counts)
     return triangles, at

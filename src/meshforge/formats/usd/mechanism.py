@@ -9,20 +9,12 @@ from typing import Any
 
 import numpy as np
 
+from meshforge import geometry
 from meshforge.formats.collision_pieces import CollisionPiece
 from meshforge.formats.libraries import pxr
 from meshforge.formats.usd.colliders import PrimCollision, StageBodies, physics_material
 from meshforge.formats.usd.stage import BODY, UsdStage, rotation_of
-from meshforge.geometry import (
-    Floats,
-    Polytope,
-    Pose,
-    Shape,
-    combine_inertias,
-    inertia,
-    is_closed,
-    rotation_of_quaternion,
-)
+from meshforge.geometry import Floats, Polytope, Pose, Shape
 from meshforge.symbolic import Geom, Inertial, Joint, JointKind, Mechanism
 
 _KINDS: dict[str, JointKind] = {
@@ -195,9 +187,9 @@ def read_inertial(scene: UsdStage, prim: Any, body: str, hulls: Sequence[Shape])
     mass *= scene.kilograms
     centre, moments = centre_of(scene, prim), moments_of(scene, prim)
     if moments is None:
-        return Inertial(body, mass, *inertia(hulls, mass, centre)) if hulls else None
+        return Inertial(body, mass, *geometry.inertia(hulls, mass, centre)) if hulls else None
     if centre is None:
-        centre = inertia(hulls, mass)[0] if hulls else scene.pose(prim).translation
+        centre = geometry.inertia(hulls, mass)[0] if hulls else scene.pose(prim).translation
     return Inertial(body, mass, centre, moments)
 
 
@@ -233,7 +225,7 @@ def _rotation_of_value(quaternion: Any) -> Floats:
     """The rotation (3, 3) of a quaternion of the library; none at all for None, and for one that is zero."""
     parts = np.zeros(4) if quaternion is None else np.array([quaternion.GetReal(), *quaternion.GetImaginary()], float)
     length = np.linalg.norm(parts)
-    return rotation_of_quaternion(parts) if np.isfinite(length) and length > 0 else np.eye(3)
+    return geometry.rotation_of_quaternion(parts) if np.isfinite(length) and length > 0 else np.eye(3)
 
 
 def weigh(scene: UsdStage, prim: Any, body: str, sources: Sequence[PrimCollision]) -> Inertial | None:
@@ -243,8 +235,8 @@ def weigh(scene: UsdStage, prim: Any, body: str, sources: Sequence[PrimCollision
     if not solids or any(shapes is None for _, shapes in pieces):
         return None
     masses = [(shapes, _mass_of(scene, prim, source, shapes)) for source, shapes in solids]
-    weights = [(mass, *inertia(shapes, mass)) for shapes, mass in masses]
-    total, centre, summed = combine_inertias(weights, centre_of(scene, prim))
+    weights = [(mass, *geometry.inertia(shapes, mass)) for shapes, mass in masses]
+    total, centre, summed = geometry.combine_inertias(weights, centre_of(scene, prim))
     said, moments = read_number(scene, prim, "physics:mass"), moments_of(scene, prim)
     mass = said * scene.kilograms if said is not None and said > 0 else total
     return Inertial(body, mass, centre, mass / total * summed if moments is None else moments)
@@ -256,7 +248,7 @@ def _solids_of(parts: Sequence[CollisionPiece]) -> list[Shape] | None:
     for part in parts:
         if part.shape is not None:
             found.append(part.shape)
-        elif part.surface is not None and len(part.surface.faces) and is_closed(part.surface.faces):
+        elif part.surface is not None and len(part.surface.faces) and geometry.is_closed(part.surface.faces):
             found.append(Polytope(part.surface.vertices, part.surface.faces))
         else:
             return None
