@@ -112,6 +112,13 @@ def test_an_edit_leaves_what_is_seen_and_marks_its_hulls_beside_it(folder: Path,
     assert errors([out]) == errors([source])
 
 
+def test_a_hull_that_no_edit_touched_is_the_one_that_was_read(folder: Path) -> None:
+    meshforge("apply", "p.mf", "in/scene.glb", "--out", "out", cwd=folder)
+    old = {geom.name: geom.shape for geom in read(folder / "in" / "scene.glb").geoms}
+    new = {geom.name: geom.shape for geom in read(folder / "out" / "scene.glb").geoms}
+    np.testing.assert_allclose(sorted(new["ball"].vertices.tolist()), sorted(old["ball"].vertices.tolist()), rtol=1e-12)
+
+
 def test_a_second_run_reads_the_marked_hulls_and_does_not_double_them(folder: Path) -> None:
     meshforge("apply", "p.mf", "in/scene.glb", "--out", "out", cwd=folder)
     first = folder / "out" / "scene.glb"

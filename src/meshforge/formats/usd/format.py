@@ -16,7 +16,10 @@ from meshforge.formats.usd.stage import UsdDocument, UsdStage, usd
 from meshforge.symbolic import Asset, Feature, FeatureKind, FileNote, Surface
 
 _FLAT = FileNote("read from a stage that differs from its files: flattened into one layer, which is what gets edited")
-_OTHERS = ("Material", "Camera", "SkelRoot", "PhysicsScene", "PhysicsCollisionGroup", "PhysicsDistanceJoint")
+_OTHERS = (
+    *("Material", "Camera", "SkelRoot", "PhysicsScene", "PhysicsCollisionGroup"),
+    *("PhysicsDistanceJoint", "PhysicsJoint"),
+)
 
 
 class UsdFormat(base.SceneFormat):

@@ -24,9 +24,6 @@ _KINDS: dict[str, JointKind] = {
     "PhysicsSphericalJoint": "ball",
 }
 _AXES = {"X": np.eye(3)[0], "Y": np.eye(3)[1], "Z": np.eye(3)[2]}
-_TURNS = {"rotX": "X", "rotY": "Y", "rotZ": "Z"}
-_SLIDES = {"transX": "X", "transY": "Y", "transZ": "Z"}
-_FREEDOMS = (*_TURNS, *_SLIDES)
 _DENSITY = 1000.0  # [kg/m^3], where nothing says another one
 _STILL = 1e-6  # rad, below which a turn is the rounding of single precision
 
@@ -41,7 +38,9 @@ def read_mechanism(scene: UsdStage, bodies: StageBodies, geoms: Sequence[Geom]) 
     named = [(prim, bodies.names[path]) for path, prim in bodies.prims.items()]
     found = (read_inertial(scene, prim, name, hulls[name]) for prim, name in named)
     inertials = tuple(inertial for inertial in found if inertial is not None)
-    joints = _keep_trees(joint for prim in joint_prims(scene) if (joint := _read_joint(scene, prim, bodies)))
+    prims = [prim for prim in scene.prims() if prim.IsA(pxr.UsdPhysics.Joint)]
+    enabled = [prim for prim in prims if scene.get(prim.GetAttribute("physics:jointEnabled")) is not False]
+    joints = _keep_trees(joint for prim in enabled if (joint := _read_joint(scene, prim, bodies)))
     bodies.used |= any(BODY in (joint.parent, joint.child) for joint in joints)
     return Mechanism(tuple(joints), inertials, _read_filtered_pairs(bodies))
 
@@ -54,12 +53,6 @@ def _read_filtered_pairs(bodies: StageBodies) -> tuple[tuple[str, str], ...]:
         targets = relationship.GetForwardedTargets() if relationship else []
         found += [(bodies.names[path], bodies.names[str(t)]) for t in targets if str(t) in bodies.names]
     return tuple(found)
-
-
-def joint_prims(scene: UsdStage) -> list[Any]:
-    """The prims that are joints and switched on."""
-    found = [prim for prim in scene.prims() if prim.IsA(pxr.UsdPhysics.Joint)]
-    return [prim for prim in found if scene.get(prim.GetAttribute("physics:jointEnabled")) is not False]
 
 
 def _read_joint(scene: UsdStage, prim: Any, bodies: StageBodies) -> Joint | None:
@@ -76,21 +69,7 @@ def _read_joint(scene: UsdStage, prim: Any, bodies: StageBodies) -> Joint | None
     if limits is not None:
         now = _joint_position(kind, axis, first, second, scene.metres)
         limits = limits[0] * unit - now, limits[1] * unit - now
-    drive = {"revolute": "angular", "prismatic": "linear"}.get(kind, "")
-    effort = read_number(scene, prim, f"drive:{drive}:physics:maxForce") if drive else None
-    damping = read_number(scene, prim, f"drive:{drive}:physics:damping") if drive else None
-    still = drive and not read_number(scene, prim, f"drive:{drive}:physics:stiffness")
-    return Joint(
-        prim.GetName(),
-        kind,
-        parent,
-        child,
-        second.translation,
-        first.rotation @ axis,
-        limits,
-        damping=damping * _force_unit(scene, kind) / unit if damping and still and np.isfinite(damping) else 0.0,
-        effort=effort * _force_unit(scene, kind) if effort else None,
-    )
+    return Joint(prim.GetName(), kind, parent, child, second.translation, first.rotation @ axis, limits)
 
 
 def _read_end(scene: UsdStage, prim: Any, side: str, bodies: StageBodies) -> tuple[str, Pose]:
@@ -111,28 +90,9 @@ def _read_freedom(scene: UsdStage, prim: Any) -> tuple[JointKind | None, Floats,
     """The kind of a joint, its axis (3,) in its own frame, and its limits in the units of the file."""
     kind = _KINDS.get(str(prim.GetTypeName()))
     axis = _AXES.get(str(scene.get(prim.GetAttribute("physics:axis")) or "X"), _AXES["X"])
-    if kind is not None:
-        low, high = (read_number(scene, prim, f"physics:{end}Limit") for end in ("lower", "upper"))
-        limited = kind in ("revolute", "prismatic") and low is not None and high is not None and low <= high
-        return kind, axis, (low, high) if limited and low is not None and high is not None else None
-    return _read_free_axis(scene, prim) if str(prim.GetTypeName()) == "PhysicsJoint" else (None, axis, None)
-
-
-def _read_free_axis(scene: UsdStage, prim: Any) -> tuple[JointKind | None, Floats, tuple[float, float] | None]:
-    """What `_read_freedom` returns, of a joint of six degrees by the limits on each; low above high locks one."""
-    bounds = {
-        name: tuple(read_number(scene, prim, f"limit:{name}:physics:{e}") for e in ("low", "high"))
-        for name in _FREEDOMS
-    }
-    free = [name for name, (low, high) in bounds.items() if low is None or high is None or low < high]
-    if not free:
-        return "fixed", _AXES["X"], None
-    if len(free) == 1:
-        low, high = bounds[free[0]]
-        kind: JointKind = "revolute" if free[0] in _TURNS else "prismatic"
-        axis = _AXES[(_TURNS | _SLIDES)[free[0]]]
-        return kind, axis, (low, high) if low is not None and high is not None else None
-    return ("ball", _AXES["X"], None) if set(free) == set(_TURNS) else (None, _AXES["X"], None)
+    low, high = (read_number(scene, prim, f"physics:{end}Limit") for end in ("lower", "upper"))
+    limited = kind in ("revolute", "prismatic") and low is not None and high is not None and low <= high
+    return kind, axis, (low, high) if limited and low is not None and high is not None else None
 
 
 def _joint_position(kind: JointKind, axis: Floats, first: Pose, second: Pose, metres: float) -> float:
@@ -143,10 +103,6 @@ def _joint_position(kind: JointKind, axis: Floats, first: Pose, second: Pose, me
     sine = axis @ np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]]) / 2
     angle = float(np.arctan2(sine, (np.trace(turn) - 1) / 2))
     return angle if abs(angle) > _STILL else 0.0
-
-
-def _force_unit(scene: UsdStage, kind: JointKind) -> float:
-    return scene.kilograms * scene.metres ** (2 if kind == "revolute" else 1)
 
 
 def _keep_trees(joints: Iterable[Joint]) -> list[Joint]:
