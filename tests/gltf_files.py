@@ -27,6 +27,14 @@ class SceneFile:
     tree: Tree = field(default_factory=lambda: {"asset": {"version": "2.0"}})
     data: bytes = b""
 
+    @staticmethod
+    def of(*nodes: tuple[str | None, Soup]) -> SceneFile:
+        """A scene of nodes by their names, each with a mesh."""
+        scene = SceneFile()
+        for name, soup in nodes:
+            scene.node(name, soup)
+        return scene
+
     def view(self, content: bytes, **rest: object) -> int:
         """A buffer view of bytes."""
         view = {"buffer": 0, "byteOffset": len(self.data), "byteLength": len(content), **rest}

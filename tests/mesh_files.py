@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import base64
-import json
 import struct
 from collections.abc import Callable
 
-import numpy as np
-
+from tests.gltf_files import SceneFile
 from tests.soups import Soup
 
 ROOM = """\
@@ -97,40 +94,18 @@ def dae(soup: Soup, *, unit: float = 1.0, node: str = "") -> bytes:
 </visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>""".encode()
 
 
-def gltf_tree(soup: Soup, **node: object) -> tuple[dict[str, object], bytes]:
-    """The JSON of a glTF file without its buffer, and the buffer."""
-    points, corners = soup[0].astype("<f4").tobytes(), soup[1].astype("<u2").tobytes()
-    tree: dict[str, object] = {
-        "asset": {"version": "2.0"},
-        "scene": 0,
-        "scenes": [{"nodes": [0]}],
-        "nodes": [{"name": "part", "mesh": 0, **node}],
-        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
-        "accessors": [
-            {"bufferView": 0, "componentType": 5126, "count": len(soup[0]), "type": "VEC3"},
-            {"bufferView": 1, "componentType": 5123, "count": soup[1].size, "type": "SCALAR"},
-        ],
-        "bufferViews": [
-            {"buffer": 0, "byteLength": len(points)},
-            {"buffer": 0, "byteOffset": len(points), "byteLength": len(corners)},
-        ],
-    }
-    return tree, points + corners
-
-
 def gltf(soup: Soup, **node: object) -> bytes:
-    tree, buffer = gltf_tree(soup, **node)
-    uri = "data:application/octet-stream;base64," + base64.b64encode(buffer).decode()
-    return json.dumps({**tree, "buffers": [{"byteLength": len(buffer), "uri": uri}]}).encode()
+    return _scene(soup, node).gltf()
 
 
 def glb(soup: Soup, **node: object) -> bytes:
-    tree, buffer = gltf_tree(soup, **node)
-    text = json.dumps({**tree, "buffers": [{"byteLength": len(buffer)}]}).encode()
-    text += b" " * (-len(text) % 4)
-    buffer += b"\0" * (-len(buffer) % 4)
-    chunks = struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(buffer), b"BIN\0") + buffer
-    return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
+    return _scene(soup, node).glb()
+
+
+def _scene(soup: Soup, node: dict[str, object]) -> SceneFile:
+    scene = SceneFile()
+    scene.node("part", soup, **node)
+    return scene
 
 
 KINDS: dict[str, tuple[str, Callable[[Soup], bytes]]] = {
@@ -146,8 +121,3 @@ KINDS: dict[str, tuple[str, Callable[[Soup], bytes]]] = {
     "glb": (".glb", glb),
 }
 """Of each kind, the suffix and what writes it."""
-
-
-def single(soup: Soup) -> Soup:
-    """The same surface rounded to single precision."""
-    return soup[0].astype(np.float32).astype(float), soup[1]

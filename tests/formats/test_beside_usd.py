@@ -6,7 +6,6 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
 import trimesh
 
@@ -107,12 +106,6 @@ def test_an_edit_leaves_what_is_seen_and_marks_its_hulls_beside_it(folder: Path,
     assert len(physics_shapes(out)) == 4 and complaints(out) == complaints(source)
 
 
-def test_comments_of_a_text_are_lost_and_that_is_told(folder: Path) -> None:
-    told = meshforge("apply", "p.mf", "in/scene.usda", "--out", "out", cwd=folder).out
-    assert "comments in its text are lost" in told
-    assert "# a leg of oak" not in (folder / "out" / "scene.usda").read_text()
-
-
 def test_a_second_run_reads_the_marked_hulls_and_does_not_double_them(folder: Path) -> None:
     meshforge("apply", "p.mf", "in/scene.usda", "--out", "out", cwd=folder)
     first = folder / "out" / "scene.usda"
@@ -123,18 +116,6 @@ def test_a_second_run_reads_the_marked_hulls_and_does_not_double_them(folder: Pa
     again = folder / "again" / "scene.usda"
     assert len(marks(again)) == len(marks(first)) == 4
     assert_seen_alike(folder / "in" / "scene.usda", again)
-
-
-def test_hulls_that_no_edit_touched_keep_their_names_and_places(folder: Path) -> None:
-    (folder / "nothing.mf").write_text("labels leg, top, door\n\nIs(door) => Delete\n")
-    meshforge("apply", "nothing.mf", "in/scene.usda", "--out", "out", cwd=folder)
-    old, new = shapes(read(folder / "in" / "scene.usda")), shapes(read(folder / "out" / "scene.usda"))
-    assert old.keys() == new.keys()
-    for name, shape in old.items():
-        assert new[name].kind == shape.kind
-        np.testing.assert_allclose(
-            [new[name].aabb.min, new[name].aabb.max], [shape.aabb.min, shape.aabb.max], atol=1e-7
-        )
 
 
 def test_what_comes_from_a_shared_instance_stays_shared(tmp_path: Path) -> None:
@@ -176,9 +157,3 @@ def test_a_stage_becomes_a_glb_that_shows_it_and_has_its_hulls_beside(folder: Pa
     assert [m["pbrMetallicRoughness"]["baseColorFactor"] for m in tree["materials"]] == [[1, 0, 0, 1]]
     meshforge("convert", "scene.glb", "back.usda", cwd=folder)
     assert {how for how, _ in marks(folder / "back.usda").values()} == {None, "convexHull", "none"}
-
-
-def test_names_of_an_engine_are_refused_in_one_line(folder: Path) -> None:
-    told = meshforge("apply", "p.mf", "in", "--out", "out", "--names", "unity", cwd=folder, code=2).err
-    assert "in/scene.usda: USD files cannot be named for Unity" in told and told.count("error") == 1
-    assert not (folder / "out").exists()

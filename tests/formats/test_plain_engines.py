@@ -65,18 +65,6 @@ def test_bullet_collides_with_each_hull_and_not_between_them(tmp_path: Path) -> 
         assert [world.hits(np.array(p)) for p in inside + outside] == [True] * 3 + [False] * 3
 
 
-@pytest.mark.parametrize("name", ["a.obj", "plain.obj", "binary.stl"])
-def test_bullet_sees_no_vertex_of_a_deleted_hull(tmp_path: Path, name: str) -> None:
-    with Bullet(edited(tmp_path, name)) as world:
-        np.testing.assert_allclose(world.bounds, [[0, 0, 0], [4, 5, 1]], atol=0.05)
-
-
-@pytest.mark.parametrize("name", ["a.obj", "plain.obj", "binary.stl"])
-def test_mujoco_sees_no_vertex_of_a_deleted_hull(tmp_path: Path, name: str) -> None:
-    points = mujoco_hull(edited(tmp_path, name))
-    np.testing.assert_allclose([points.min(axis=0), points.max(axis=0)], [[0, 0, 0], [4, 5, 1]], atol=1e-6)
-
-
 @pytest.mark.parametrize("suffix", [".obj", ".stl"])
 def test_mujoco_reads_every_file_of_a_folder_as_the_hull_it_is(tmp_path: Path, suffix: str) -> None:
     (tmp_path / "in").mkdir()

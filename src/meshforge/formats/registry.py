@@ -26,8 +26,7 @@ from meshforge.formats.sdf.format import SdfFormat
 from meshforge.formats.segmentation.reader import is_segmentation
 from meshforge.formats.urdf.format import UrdfFormat, UrdfWithCapsules
 from meshforge.formats.urdf.xacro import XacroFormat
-from meshforge.formats.usd.format import UsdFormat
-from meshforge.formats.usd.live_stage import StageObject, read_stage
+from meshforge.formats.usd.format import StageObject, UsdFormat, read_stage
 
 _HEAD = 4096  # bytes by which a format tells its assets from other files of its suffix
 _UNREAD = {".mjb": "is a model compiled for one version of MuJoCo: open the XML it was made from"}

@@ -41,27 +41,21 @@ class Visual:
         offset = pose.rotation @ self.offset + pose.translation
         return replace(self, linear=pose.rotation @ self.linear, offset=offset)
 
-    def surfaces(self) -> list[Surface]:
-        """Its surfaces; none where the file cannot be read."""
+    def read(self) -> list[Surface]:
+        """Return its surfaces. Raises MeshForgeError: the file cannot be read."""
         if isinstance(self.what, Shape):
             return [Surface(self.what.vertices, self.what.faces, self.body, self.rgba)]
-        try:
-            read = mesh_reader.read_triangles(self.what)
-        except MeshForgeError:
-            return []
         return [
             replace(self._place(s.vertices, s.faces), rgba=self.rgba, parts=parts_of_surfaces([s], self.what.stem))
-            for s in read
+            for s in mesh_reader.read_triangles(self.what)
         ]
 
-    def explain_absence(self) -> str:
-        """Why it has no surfaces: what is wrong with its file."""
-        assert isinstance(self.what, Path)
+    def surfaces(self) -> list[Surface]:
+        """Return its surfaces; none where the file cannot be read."""
         try:
-            mesh_reader.read_triangles(self.what)
-        except MeshForgeError as error:
-            return error.sentence
-        return f"{self.what}: it has no triangles"
+            return self.read()
+        except MeshForgeError:
+            return []
 
     def surfaces_with_materials(self) -> list[Surface]:
         """Its surfaces with the base colours and pictures of their file, unless it has a colour itself."""
@@ -111,19 +105,23 @@ class VisualSurfaces(LazySurfaces):
 
     def __init__(self, visuals: tuple[Visual, ...]) -> None:
         self.visuals = visuals
-        self._absent = list[Visual]()
+        self._absent = list[tuple[str, str]]()
 
     def _make(self) -> Iterator[Surface]:
         self._absent = []
         for visual in self.visuals:
-            own = visual.surfaces()
-            self._absent += [] if any(len(surface.faces) for surface in own) else [visual]
+            own, why = list[Surface](), f"{visual.what}: it has no triangles"
+            try:
+                own = visual.read()
+            except MeshForgeError as error:
+                why = error.sentence
+            self._absent += [] if any(len(surface.faces) for surface in own) else [(visual.body, why)]
             yield from own
 
     def explain_absent(self) -> list[tuple[str, str]]:
-        """The body of each visual that shows nothing, and why."""
+        """Return the body of each visual that shows nothing, and why."""
         assert self._surfaces is not None  # looked for now
-        return [(visual.body, visual.explain_absence()) for visual in self._absent]
+        return self._absent
 
 
 def visuals_of(asset: Asset) -> list[tuple[str, Visual | Surface]]:

@@ -71,14 +71,6 @@ def test_a_group_of_unreal_is_one_hull_whatever_its_pieces(tmp_path: Path) -> No
     assert asset.geoms[1].shape.aabb.max[2] == 6
 
 
-def test_a_mesh_that_is_not_what_its_prefix_says_is_a_hull_and_told(tmp_path: Path) -> None:
-    corner = convex_hull(np.eye(4, 3))
-    text = SEEN + group((corner.vertices, corner.faces), 12, "o UBX_SM_crate_00")
-    asset = read(crate(tmp_path, text))
-    assert [geom.shape.kind for geom in asset.geoms] == ["polytope"]
-    assert asset.notes[1:] == ("'UBX_SM_crate_00' is no box: it is read as a hull",)
-
-
 def test_a_flat_group_of_unreal_is_opaque(tmp_path: Path) -> None:
     flat: Soup = (np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0.0]]), np.array([[0, 1, 2]]))
     asset = read(crate(tmp_path, SEEN + HULLS + group(flat, 28, "o UCX_SM_crate_02")))
@@ -260,9 +252,8 @@ def test_hulls_made_for_unity_lie_below_the_same_node(tmp_path: Path) -> None:
 
 
 def test_pieces_that_an_edit_puts_below_their_node_do_not_make_a_file_one_for_unity(tmp_path: Path) -> None:
-    scene = SceneFile()
-    scene.node("top", box((0, 5, 0)))
-    scene.node("all_colliders", together(box(), box((2, 0, 0)), box((4, 0, 0))))
+    three = together(box(), box((2, 0, 0)), box((4, 0, 0)))
+    scene = SceneFile.of(("top", box((0, 5, 0))), ("all_colliders", three))
     asset = read(scene.write(tmp_path / "a.gltf"))
     left = [geom for geom in asset.geoms if geom.name != "all_colliders#1"]
     after = read(save(asset.with_geoms(left), tmp_path / "out" / "a.gltf", collision="replace").path)
@@ -276,10 +267,7 @@ def test_pieces_that_an_edit_puts_below_their_node_do_not_make_a_file_one_for_un
     ("place", "engine", "message"),
     [
         ("a.obj", "godot", "OBJ files cannot be named for Godot\n  Formats that can: .glb, .gltf."),
-        ("a.obj", "unity", "OBJ files cannot be named for Unity\n  Formats that can: .glb, .gltf."),
         ("a.urdf", "unreal", "URDF files cannot be named for Unreal\n  Formats that can: .glb, .gltf, .obj."),
-        ("a.stl", "unity", "STL files cannot be named for Unity\n  Formats that can: .glb, .gltf."),
-        ("a.obj", "khr", "OBJ files cannot be marked by KHR_physics_rigid_bodies\n  Formats that can: .glb, .gltf."),
         ("a.gltf", "usd", "glTF files cannot be marked by UsdPhysics\n  Formats that can: .usda, .usd, .usdc, .usdz."),
         ("a.usda", "unity", "USD files cannot be named for Unity\n  Formats that can: .glb, .gltf."),
         ("a", "unreal", "a folder of mesh files cannot be named for Unreal\n  Formats that can: .glb, .gltf, .obj."),

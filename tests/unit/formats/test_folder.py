@@ -48,11 +48,6 @@ def test_hulls_are_named_after_their_files_in_the_order_people_count(folder: Pat
     assert [f.name for f in asset.files] == ["base.ply", "handle.obj", "hull_2.stl", "hull_10.stl"]
 
 
-def test_files_of_one_stem_are_told_apart(folder: Path) -> None:
-    (folder / "base.stl").write_bytes(stl_binary(box((0, 0, 8))))
-    assert names(read(folder))[:2] == ["base", "base@2"]
-
-
 def test_an_unedited_folder_is_copied_byte_for_byte(folder: Path, tmp_path: Path) -> None:
     (folder / "a.mtl").write_text("newmtl oak\n")
     saved = save(read(folder), tmp_path / "out")
@@ -131,17 +126,6 @@ def test_a_new_folder_appears_whole_or_not_at_all(
     with pytest.raises(KeyboardInterrupt):
         save(asset, tmp_path / "new" / "out")
     assert list((tmp_path / "new").iterdir()) == []
-
-
-def test_a_folder_without_meshes_is_no_asset(tmp_path: Path) -> None:
-    with pytest.raises(AssetError, match="there is no mesh file in this folder"):
-        read(tmp_path)
-
-
-def test_a_broken_file_in_a_folder_is_named(folder: Path) -> None:
-    (folder / "hull_2.stl").write_bytes(b"")
-    with pytest.raises(AssetError, match=r"hull_2\.stl: the file is empty"):
-        read(folder)
 
 
 def test_labels_of_a_folder_lie_beside_it(folder: Path) -> None:

@@ -11,7 +11,7 @@ from meshforge.common import AssetError
 from meshforge.formats import read, save
 from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Sphere
 from meshforge.symbolic import PRIMITIVE_FEATURES, Asset, FeatureKind
-from tests.gltf_files import KHR, SHAPES, SceneFile, Tree
+from tests.gltf_files import KHR, SceneFile, Tree
 from tests.soups import angle, box, together
 
 
@@ -283,8 +283,7 @@ def test_bodies_of_omi_are_told_by_motion_or_by_type(tmp_path: Path) -> None:
 def test_drafts_of_the_extensions_are_refused_with_what_they_are_called_now(
     tmp_path: Path, draft: str, standard: str
 ) -> None:
-    scene = SceneFile()
-    scene.node("box", box())
+    scene = SceneFile.of(("box", box()))
     scene.uses(draft)
     with pytest.raises(AssetError) as caught:
         asset_of(scene, tmp_path)
@@ -292,11 +291,3 @@ def test_drafts_of_the_extensions_are_refused_with_what_they_are_called_now(
         f"{tmp_path / 'a.glb'}: its colliders are those of {draft}, a draft of {standard}, which is not read\n"
         f"  Export it with {standard}."
     )
-
-
-def test_a_collider_of_a_shape_that_is_not_there_is_an_error(tmp_path: Path) -> None:
-    scene = SceneFile()
-    scene.collider("box", {"type": "box"})
-    scene.tree["extensions"][SHAPES]["shapes"].clear()
-    with pytest.raises(Exception, match=r"a\.glb: this glTF file is damaged: there is no 0 in its 'shapes'"):
-        asset_of(scene, tmp_path)

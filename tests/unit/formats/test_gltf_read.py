@@ -10,7 +10,7 @@ from meshforge.common import AssetError
 from meshforge.formats import load, read
 from meshforge.geometry import Capsule, Pose, Shape, Sphere
 from meshforge.symbolic import Asset
-from tests.gltf_files import KHR, SceneFile
+from tests.gltf_files import KHR, SceneFile, glb_of
 from tests.soups import Soup, angle, box, together, turned
 
 HALF = float(np.sqrt(0.5))
@@ -41,11 +41,7 @@ def two_boxes() -> Soup:
 
 
 def test_without_any_mark_each_convex_piece_of_each_node_is_a_hull(tmp_path: Path) -> None:
-    scene = SceneFile()
-    scene.node("legs", two_boxes())
-    scene.node("top", box((0, 0, 5)))
-    scene.node("corner", angle())
-    asset = asset_of(scene, tmp_path)
+    asset = asset_of(SceneFile.of(("legs", two_boxes()), ("top", box((0, 0, 5))), ("corner", angle())), tmp_path)
     assert names(asset) == ["legs#0", "legs#1", "top"]
     assert [(o.name, o.reason[:10]) for o in asset.non_convex] == [("corner", "not convex")]
     assert [body.name for body in asset.bodies] == ["body"]
@@ -56,15 +52,13 @@ def test_without_any_mark_each_convex_piece_of_each_node_is_a_hull(tmp_path: Pat
 
 
 def test_that_textured_meshes_are_taken_for_collision_is_told(tmp_path: Path) -> None:
-    scene = SceneFile()
-    scene.node("chair", box())
+    scene = SceneFile.of(("chair", box()))
     scene.tree["materials"] = [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}]
     assert "all meshes are taken for it" in asset_of(scene, tmp_path).notes[0]
 
 
 def test_nodes_are_named_after_themselves_then_their_mesh_then_their_number(tmp_path: Path) -> None:
-    scene = SceneFile()
-    scene.node(None, box())
+    scene = SceneFile.of((None, box()))
     scene.node(None, mesh=scene.mesh(box((2, 0, 0)), name="leg"))
     scene.node("leg", box((4, 0, 0)))
     scene.node(None, box((6, 0, 0)))
@@ -81,64 +75,17 @@ def test_transforms_are_those_of_all_nodes_above(tmp_path: Path) -> None:
     assert shape.volume == pytest.approx(12)
 
 
-def test_one_mesh_in_several_nodes_is_a_hull_in_each(tmp_path: Path) -> None:
-    scene = SceneFile()
-    mesh = scene.mesh(box(), name="leg")
-    for x in (0, 2, 4):
-        scene.node(f"leg{x}", mesh=mesh, translation=[x, 0, 0])
-    asset = asset_of(scene, tmp_path)
-    assert [bounds(geom.shape)[0][0] for geom in asset.geoms] == [0, 2, 4]
-
-
-def test_a_node_scaled_to_nothing_is_opaque(tmp_path: Path) -> None:
-    scene = SceneFile()
-    scene.node("there", box())
-    scene.node("gone", box(), scale=[1, 0, 1])
-    asset = asset_of(scene, tmp_path)
-    assert names(asset) == ["there"]
-    assert [(o.name, o.reason) for o in asset.non_convex] == [("gone", "it is scaled to nothing")]
-
-
-def test_only_the_default_scene_is_read_and_the_rest_is_told(tmp_path: Path) -> None:
-    scene = SceneFile()
-    scene.node("first", box())
-    scene.node("second", box((2, 0, 0)))
-    scene.node("nowhere", box((4, 0, 0)))
-    scene.tree |= {"scenes": [{"nodes": [0]}, {"nodes": [1]}], "scene": 1}
-    asset = asset_of(scene, tmp_path)
-    assert names(asset) == ["second"]
-    assert any(note.startswith("2 nodes with a mesh outside of the scene") for note in asset.notes)
-    assert any("of 2 scenes it is the default one" in note for note in asset.notes)
-
-
-def test_without_a_default_scene_it_is_the_first_and_without_scenes_all_that_are_no_children(tmp_path: Path) -> None:
-    scene = SceneFile()
-    scene.node("first", box())
-    child = scene.node("child", box((2, 0, 0)))
-    scene.node("parent", children=[child])
-    whole = scene.whole()
-    scene.tree = {**whole, "scenes": [{"nodes": [0]}, {"nodes": [2]}]}
-    del scene.tree["scene"]
-    scene.whole = lambda: scene.tree  # type: ignore[method-assign]
-    assert names(asset_of(scene, tmp_path)) == ["first"]
-    del scene.tree["scenes"]
-    assert names(asset_of(scene, tmp_path)) == ["first", "child"]
-
-
-def test_points_and_lines_are_passed_over(tmp_path: Path) -> None:
-    scene = SceneFile()
-    line = scene.primitive(box(), mode=1)
-    del line["indices"]
-    scene.node("mixed", mesh=scene.mesh(line, box()))
-    scene.node("lines", mesh=scene.mesh(line))
-    assert names(asset_of(scene, tmp_path)) == ["mixed"]
-
-
-def test_primitives_of_a_mesh_are_one_surface(tmp_path: Path) -> None:
-    scene = SceneFile()
-    points, faces = box()
-    scene.node("box", mesh=scene.mesh((points, faces[:6]), (points, faces[6:])))
-    assert names(asset_of(scene, tmp_path)) == ["box"]
+def test_the_default_scene_is_read_else_the_first_else_all_that_are_no_children(tmp_path: Path) -> None:
+    scene = SceneFile.of(("first", box()), ("second", box((2, 0, 0))))
+    scene.node("parent", children=[scene.node("child", box((4, 0, 0)))])
+    two = {"scenes": [{"nodes": [0]}, {"nodes": [1]}]}
+    whole = scene.tree | {"buffers": [{"byteLength": len(scene.data)}]}
+    for more, expected in (({**two, "scene": 1}, ["second"]), (two, ["first"]), ({}, ["first", "second", "child"])):
+        (tmp_path / "a.glb").write_bytes(glb_of({**whole, **more}, scene.data))
+        asset = read(tmp_path / "a.glb")
+        assert names(asset) == expected
+        told = [note for note in asset.notes if "outside of the scene" in note or "of 2 scenes it is the" in note]
+        assert len(told) == (2 if more else 0)
 
 
 def test_quantized_and_normalized_positions_are_read_with_their_node(tmp_path: Path) -> None:
@@ -188,16 +135,6 @@ def test_a_skinned_mesh_is_taken_in_the_pose_of_its_joints(tmp_path: Path) -> No
     assert any("1 skinned mesh" in note for note in asset.notes)
 
 
-def test_morph_targets_are_told_and_not_applied(tmp_path: Path) -> None:
-    scene = SceneFile()
-    part = scene.primitive(box())
-    part["targets"] = [{"POSITION": scene.accessor(np.ones((8, 3), "<f4"))}]
-    scene.node("face", mesh=scene.mesh(part, weights=[1.0]))
-    asset = asset_of(scene, tmp_path)
-    assert bounds(asset.geoms[0].shape) == [[0, 0, 0], [1, 1, 1]]
-    assert any("1 mesh with morph targets" in note for note in asset.notes)
-
-
 def test_nodes_that_show_a_mesh_many_times_are_refused_with_the_remedy(tmp_path: Path) -> None:
     scene = SceneFile()
     scene.node("many", box(), extensions={"EXT_mesh_gpu_instancing": {"attributes": {}}})
@@ -209,18 +146,8 @@ def test_nodes_that_show_a_mesh_many_times_are_refused_with_the_remedy(tmp_path:
     )
 
 
-def test_what_the_file_asks_for_and_is_not_known_is_told(tmp_path: Path) -> None:
-    scene = SceneFile()
-    scene.node("box", box())
-    scene.tree["extensionsRequired"] = ["KHR_texture_transform", "ACME_bend"]
-    assert [note for note in asset_of(scene, tmp_path).notes if "asks for" in note] == [
-        "the file asks for ACME_bend, which is not known: its geometry may be meant otherwise"
-    ]
-
-
 def test_files_beside_it_are_found_and_missing_pictures_told(tmp_path: Path) -> None:
-    scene = SceneFile()
-    scene.node("box", box())
+    scene = SceneFile.of(("box", box()))
     scene.tree["images"] = [{"uri": "a%20b.png"}, {"uri": "gone.png"}]
     (tmp_path / "a b.png").write_bytes(b"")
     asset = asset_of(scene, tmp_path, ".gltf")
@@ -237,9 +164,7 @@ def soup_of(shape: Shape) -> Soup:
 
 def test_unreal_names_are_hulls_boxes_spheres_and_capsules(tmp_path: Path) -> None:
     capsule, ball = Capsule(Pose.identity(), 0.5, 1.0), Sphere(Pose.identity(), 1.0)
-    scene = SceneFile()
-    scene.node("table", angle())
-    scene.node("UCX_table_01", two_boxes())
+    scene = SceneFile.of(("table", angle()), ("UCX_table_01", two_boxes()))
     scene.node("ubx_table_02", box((0, 0, 3)), rotation=[0.2, 0.1, 0, float(np.sqrt(0.95))])
     scene.node("USP_table", soup_of(ball), translation=[5, 0, 0], scale=[2, 2, 2])
     scene.node("UCP_table", soup_of(capsule))
@@ -274,14 +199,11 @@ def test_a_mesh_that_is_not_what_its_unreal_name_says_is_a_hull_and_told(tmp_pat
 
 
 def test_a_cube_is_no_sphere_though_its_corners_are_all_as_far_from_the_middle(tmp_path: Path) -> None:
-    scene = SceneFile()
-    scene.node("USP_a", box())
-    assert asset_of(scene, tmp_path).geoms[0].shape.kind == "polytope"
+    assert asset_of(SceneFile.of(("USP_a", box())), tmp_path).geoms[0].shape.kind == "polytope"
 
 
 def test_a_flat_ucx_is_opaque(tmp_path: Path) -> None:
-    scene = SceneFile()
-    scene.node("UCX_a", box())
+    scene = SceneFile.of(("UCX_a", box()))
     points, faces = box()
     scene.node("UCX_b", (points * [1, 1, 0], faces))
     assert [o.name for o in asset_of(scene, tmp_path).non_convex] == ["UCX_b"]
@@ -291,15 +213,16 @@ def test_a_flat_ucx_is_opaque(tmp_path: Path) -> None:
 
 
 def test_godot_names_are_hulls_and_pieces(tmp_path: Path) -> None:
-    scene = SceneFile()
-    scene.node("a-col", two_boxes())
-    scene.node("b-convcol", two_boxes())
-    scene.node("c-colonly", together(box(), turned(box((2, 0, 0)))))
-    scene.node("d-convcolonly.001", angle())
-    scene.node("e_COL 2", angle())
-    scene.node("f$colonly_x", box())
-    scene.node("seen", box())
-    scene.node("collar", box())
+    scene = SceneFile.of(
+        ("a-col", two_boxes()),
+        ("b-convcol", two_boxes()),
+        ("c-colonly", together(box(), turned(box((2, 0, 0))))),
+        ("d-convcolonly.001", angle()),
+        ("e_COL 2", angle()),
+        ("f$colonly_x", box()),
+        ("seen", box()),
+        ("collar", box()),
+    )
     scene.node(None, mesh=scene.mesh(box(), name="g-col"))
     asset = asset_of(scene, tmp_path)
     assert names(asset) == [
@@ -317,18 +240,14 @@ def test_godot_names_are_hulls_and_pieces(tmp_path: Path) -> None:
 
 
 def test_unreal_goes_before_godot_and_physics_before_both(tmp_path: Path) -> None:
-    scene = SceneFile()
-    scene.node("a-col", box())
-    scene.node("UCX_a", box())
+    scene = SceneFile.of(("a-col", box()), ("UCX_a", box()))
     assert names(asset_of(scene, tmp_path)) == ["UCX_a"]
     scene.collider("ball", {"type": "sphere", "sphere": {"radius": 2}})
     assert names(asset_of(scene, tmp_path)) == ["ball"]
 
 
 def test_a_node_that_is_only_the_shape_of_a_collider_is_not_said_to_be_outside_of_the_scene(tmp_path: Path) -> None:
-    scene = SceneFile()
-    scene.node("shape", box())
-    scene.node("nowhere", box((4, 0, 0)))
+    scene = SceneFile.of(("shape", box()), ("nowhere", box((4, 0, 0))))
     scene.node("wall", extensions={KHR: {"collider": {"geometry": {"node": 0, "convexHull": True}}}})
     scene.tree |= {"scenes": [{"nodes": [2]}], "scene": 0}
     asset = asset_of(scene, tmp_path)

@@ -12,7 +12,7 @@ from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Pose, Shape, S
 from meshforge.symbolic import Geom
 from tests.gltf_edited import Edited, brick, names, three_legs
 from tests.gltf_files import KHR, SHAPES, SceneFile
-from tests.soups import angle, box, together
+from tests.soups import angle, box
 
 HALF = float(np.sqrt(0.5))
 
@@ -21,11 +21,7 @@ HALF = float(np.sqrt(0.5))
 
 
 def crate() -> SceneFile:
-    scene = SceneFile()
-    scene.node("crate", angle())
-    scene.node("UCX_crate_01", box())
-    scene.node("UBX_crate_02", box((2, 0, 0)))
-    return scene
+    return SceneFile.of(("crate", angle()), ("UCX_crate_01", box()), ("UBX_crate_02", box((2, 0, 0))))
 
 
 def test_hulls_made_for_unreal_have_its_names_and_numbers(tmp_path: Path) -> None:
@@ -52,45 +48,7 @@ def test_hulls_made_for_unreal_have_its_names_and_numbers(tmp_path: Path) -> Non
     assert "crate" not in kinds and len(after.visuals) == 1
 
 
-def test_a_mesh_seen_keeps_to_itself_when_its_unreal_hull_goes(tmp_path: Path) -> None:
-    case = Edited(crate(), tmp_path)
-    assert names(case.edit(gone=["UCX_crate_01"])) == ["UBX_crate_02"]
-    before, after = case.trees
-    assert after["nodes"][0] == before["nodes"][0]
-    assert after["scenes"][0]["nodes"] == [0, 2]
-
-
 # Godot
-
-
-def test_a_node_that_is_seen_and_collides_is_only_seen_when_its_hull_goes(tmp_path: Path) -> None:
-    scene = SceneFile()
-    scene.node("chair-col.001", together(box(), box((2, 0, 0))), extras={"a": 1})
-    scene.node("stool-convcolonly", box((5, 0, 0)))
-    case = Edited(scene, tmp_path)
-    assert names(case.edit(gone=["chair-col.001#0", "chair-col.001#1"])) == ["stool-convcolonly"]
-    before, after = case.trees
-    before["nodes"][0]["name"] = "chair"
-    assert after == before
-
-
-def test_a_node_that_is_seen_keeps_its_mesh_when_part_of_its_collision_goes(tmp_path: Path) -> None:
-    scene = SceneFile()
-    scene.node("chair-col", three_legs())
-    case = Edited(scene, tmp_path)
-    after = case.edit(gone=["chair-col#1"])
-    assert names(after) == ["chair-colonly#0", "chair-colonly#1"]
-    assert case.saved.names == {"chair-col#0": "chair-colonly#0", "chair-col#2": "chair-colonly#1"}
-    assert [len(surface.faces) for surface in after.visuals] == [36]
-
-
-def test_a_node_that_only_collides_goes_whole_or_in_part(tmp_path: Path) -> None:
-    scene = SceneFile()
-    scene.node("chair-colonly", three_legs())
-    scene.node("stool-convcolonly", box((9, 0, 0)))
-    case = Edited(scene, tmp_path)
-    assert names(case.edit(gone=["chair-colonly#0", "stool-convcolonly"])) == ["chair-colonly#0", "chair-colonly#1"]
-    assert case.trees[1]["scenes"][0]["nodes"] == [0]
 
 
 def test_collision_told_by_the_name_of_a_mesh_goes_from_one_node_only(tmp_path: Path) -> None:
@@ -107,9 +65,7 @@ def test_collision_told_by_the_name_of_a_mesh_goes_from_one_node_only(tmp_path: 
 
 
 def test_hulls_made_for_godot_are_convex_and_not_seen(tmp_path: Path) -> None:
-    scene = SceneFile()
-    scene.node("chair-col", box())
-    case = Edited(scene, tmp_path)
+    case = Edited(SceneFile.of(("chair-col", box())), tmp_path)
     after = case.edit(gone=["chair-col"], made=[brick((3, 0, 0), "chair-col~1", "chair-col")])
     assert case.saved.names == {"chair-col~1": "chair~1-convcolonly"}
     assert names(after) == ["chair~1-convcolonly"]

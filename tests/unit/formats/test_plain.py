@@ -57,24 +57,6 @@ def test_hulls_without_names_are_counted_in_file_order(tmp_path: Path, suffix: s
     assert volumes(read(put(tmp_path, suffix, write(box())))) == {"geom0": 1}
 
 
-@pytest.mark.parametrize(("suffix", "write"), EDITABLE.values(), ids=EDITABLE.keys())
-def test_hulls_go_and_come_and_are_known_by_the_names_they_read_back_as(
-    tmp_path: Path, suffix: str, write: Write
-) -> None:
-    asset = read(put(tmp_path, suffix, write(LEGS)))
-    saved = save(without(asset, "geom0#1", add=[hull("geom0#1~1")]), tmp_path / f"b{suffix}")
-    back = volumes(read(saved.path))
-    wanted = {"geom0#0": 1, "geom0#2": 2, "geom0#1~1": 0.125}
-    assert {saved.names.get(name, name): volume for name, volume in wanted.items()} == back
-    if suffix == ".obj":
-        assert saved.names == {}
-    else:
-        assert saved.names == {"geom0#2": "geom0#1", "geom0#1~1": "geom0#2"}
-        assert saved.notes[0] == (
-            "hulls are called otherwise in what is written: geom0#2 is now geom0#1, geom0#1~1 is now geom0#2"
-        )
-
-
 def test_a_binary_stl_keeps_title_records_and_attributes(tmp_path: Path) -> None:
     data = stl_binary(LEGS, b"made by hand")
     asset = read(put(tmp_path, ".stl", data))

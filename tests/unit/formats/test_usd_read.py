@@ -9,9 +9,8 @@ import numpy as np
 import pytest
 
 from meshforge.checks.physics.simulation import simulate
-from meshforge.common import AssetError
 from meshforge.formats import read
-from meshforge.geometry import Box, Capsule, Cylinder, Sphere
+from meshforge.geometry import Box, Capsule
 from meshforge.symbolic import Asset, SymbolicMesh
 from tests.usd_stages import COLLIDES, CONVEX, CUP, mesh, physics_shapes, stage, table, written
 
@@ -45,11 +44,6 @@ def test_units_of_the_stage_become_metres(tmp_path: Path) -> None:
     assert np.allclose(side.pose.translation, [0, 0, 0.1])
     assert isinstance(handle, Capsule) and np.allclose([handle.radius, handle.half_length], [0.005, 0.015])
     assert np.allclose(np.abs(handle.pose.rotation[:, 2]), [1, 0, 0])
-
-
-def test_a_stage_without_a_unit_is_in_centimetres_and_y_is_up(tmp_path: Path) -> None:
-    asset = read(written(tmp_path, '#usda 1.0\ndef Cube "a"\n{\n}\n'))
-    assert asset.up == "y" and np.allclose(asset.geoms[0].shape.aabb.max, 0.01)
 
 
 @pytest.mark.parametrize("kind", ["Sphere", "Capsule", "Cylinder", "Cone"])
@@ -86,16 +80,6 @@ def test_an_approximation_makes_one_shape_or_leaves_the_mesh(
     kinds = {"convexHull": "polytope", "boundingCube": "box", "boundingSphere": "sphere"}
     assert [geom.shape.kind for geom in asset.geoms] == [kinds[approximation] for _ in range(hulls)]
     assert all(piece.surface is not None for piece in asset.non_convex)
-
-
-def test_a_mesh_of_convex_pieces_that_is_not_hulled_is_so_many_hulls(tmp_path: Path) -> None:
-    two = """
-    point3f[] points = [(0,0,0),(1,0,0),(0,1,0),(0,0,1),(5,0,0),(6,0,0),(5,1,0),(5,0,1)]
-    int[] faceVertexCounts = [3,3,3,3,3,3,3,3]
-    int[] faceVertexIndices = [0,2,1, 0,1,3, 1,2,3, 0,3,2, 4,6,5, 4,5,7, 5,6,7, 4,7,6]
-    """
-    asset = of(tmp_path, mesh("two", api=COLLIDES, points=two))
-    assert [geom.name for geom in asset.geoms] == ["two#0", "two#1"]
 
 
 def test_a_mirrored_or_left_handed_mesh_is_a_hull_with_its_faces_outside(tmp_path: Path) -> None:
@@ -243,15 +227,3 @@ def test_what_the_library_complains_about_is_a_note_and_not_printed(
     assert any("nope.usda" in note for note in asset.notes) and asset.missing == ("nope.usda",)
     assert not any(str(tmp_path) in note for note in asset.notes)
     assert capfd.readouterr() == ("", "")
-
-
-def test_nothing_but_missing_references_is_refused_by_name(tmp_path: Path) -> None:
-    with pytest.raises(AssetError, match=r"nothing in it collides.*nope\.usda"):
-        of(tmp_path, 'def "gone" ( references = @./nope.usda@ )\n{\n}\n')
-
-
-def test_cylinders_and_spheres_are_native(tmp_path: Path) -> None:
-    (tube,) = of(tmp_path, primitive("Cylinder", "double radius = 2\ndouble height = 5")).geoms
-    (ball,) = of(tmp_path, primitive("Sphere", "double radius = 2")).geoms
-    assert isinstance(tube.shape, Cylinder) and tube.shape.half_length == 2.5
-    assert isinstance(ball.shape, Sphere) and ball.shape.radius == 2

@@ -32,9 +32,8 @@ class CollisionNames(ABC):
     """The names of one engine.
 
     title: the engine's name for people; holds: what a scene says by them; shows: whether collision counts only where
-    its body has a mesh to be seen; takes_opaque: whether a mesh that is no hull can collide as it is; centred: whether
-    the mesh of a hull may lie about its own middle, and its node in place; in_bodies: whether names of hulls are read
-    as those below their body.
+    its body has a mesh to be seen; takes_opaque: whether a mesh that is no hull can collide as it is; in_bodies:
+    whether names of hulls are read as those below their body.
     """
 
     engine: ClassVar[EngineName]
@@ -44,7 +43,6 @@ class CollisionNames(ABC):
     )
     shows: ClassVar[bool] = False
     takes_non_convex: ClassVar[bool] = True
-    centred: ClassVar[bool] = True
     in_bodies: ClassVar[bool] = False
 
     @abstractmethod
@@ -148,7 +146,6 @@ class UnrealNames(CollisionNames):
     }
     shows: ClassVar[bool] = True
     takes_non_convex: ClassVar[bool] = False
-    centred: ClassVar[bool] = False  # its older importers take no notice of where a collision node is
 
     def body(self, wanted: str) -> str:
         """No prefix in it, nor a number at its end: `leg_01` would take the hull `UCX_leg_01` of `leg`."""

@@ -1,41 +1,73 @@
 """Making a glTF file from an asset of another format: a node for each body and hull, with colliders of an extension,
-plain, or named for an engine."""
+plain, or named for an engine; for Godot, where anything moves, rigid bodies of OMI_physics_body."""
 
 from __future__ import annotations
 
 import copy
 import json
-from pathlib import Path, PurePosixPath
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from pathlib import PurePosixPath
 from typing import Literal
 from urllib.parse import quote
 
 import numpy as np
 
-from meshforge.formats.base import Output, nothing_collides_error
+from meshforge.common import join_names
+from meshforge.formats.base import Loss, Output, nothing_collides_error
+from meshforge.formats.engine_names import conventions
 from meshforge.formats.engine_names.bodies import EngineBodies, EngineBody, has_triangles, name_bodies
-from meshforge.formats.engine_names.conventions import CollisionNames, godot_kind, unreal_kind
-from meshforge.formats.gltf.document import BODY, Convention, GltfDocument
+from meshforge.formats.gltf.document import BODY, GltfDocument
 from meshforge.formats.gltf.draft import SceneDraft
 from meshforge.formats.gltf.edit import assign_names, style_of
-from meshforge.formats.gltf.physics import KHR, motion_of
+from meshforge.formats.gltf.physics import KHR, mass_keys, motion_of
 from meshforge.formats.gltf.physics_style import PhysicsStyle, pose_keys
-from meshforge.formats.gltf.styles import NewPiece, PlainStyle
+from meshforge.formats.gltf.styles import NewPiece
+from meshforge.formats.kinematic_tree import BodyTree
 from meshforge.formats.meshfile.gltf_document import Container, Json
 from meshforge.formats.meshfile.gltf_scene import GltfScene
-from meshforge.formats.visuals import linear_color, read_visual_surfaces
-from meshforge.symbolic import Asset, Geom, NonConvexPiece, Surface
+from meshforge.formats.visuals import VisualSurfaces, linear_color, read_visual_surfaces
+from meshforge.geometry import combine_inertias
+from meshforge.symbolic import Asset, FeatureKind, Geom, Inertial, NonConvexPiece, Surface
+
+_STILL = "in Godot, what stands still has none"
+_STRAIGHT = [0.0, 0.0, 0.0, 1.0]
+_JOINT = "join the bodies in Godot, by a HingeJoint3D, SliderJoint3D, PinJoint3D or Generic6DOFJoint3D"
 
 
 def create_gltf(asset: Asset, name: str, convention: Literal["plain", "khr"] | None = None) -> Output:
-    """The files of an asset that came from another format.
+    """Return the files of an asset that came from another format.
 
     One body of nothing but hull meshes becomes plain nodes. Else colliders of KHR_physics_rigid_bodies hold bodies and
     native shapes; where the asset shows nothing, a mesh on each collider's node shows that.
     convention: one of the two, whatever the asset is.
     """
-    is_binary = PurePosixPath(name).suffix.lower() == ".glb"
-    chosen = convention or ("plain" if _is_plain(asset) else "khr")
-    return _Creator(asset, chosen, is_binary).build_output(PurePosixPath(name).stem)
+    path, marks = PurePosixPath(name), convention or ("plain" if _is_plain(asset) else "khr")
+    is_khr = marks == "khr"
+    bodies = [body for body in asset.bodies if is_khr and body.name != BODY]  # which all formats without bodies have
+    motions = [{"extensions": {KHR: {"motion": motion_of(asset, body)}}} for body in bodies]
+    places = [{"name": body.name, **pose_keys(body.pose)} for body in bodies]
+    draft = _new_draft(asset, path, [place | motion for place, motion in zip(places, motions, strict=True)])
+    seen, lost = read_visual_surfaces(asset) if is_khr else ([], [])
+    if is_khr:
+        draft.declare_extension(KHR)
+    style = PhysicsStyle(draft, marks, drawn=not seen) if is_khr else style_of(marks, draft, path.stem)
+    nodes = {body.name: node for node, body in enumerate(bodies)}
+    non_convex = [piece for piece in asset.non_convex if has_triangles(piece) or (piece.plane and is_khr)]
+    pieces: list[Geom | NonConvexPiece] = [*asset.geoms, *non_convex]
+    for piece in pieces:
+        own = piece.name.removeprefix(f"{piece.body}/") if nodes else piece.name
+        style.add(NewPiece(piece, own, nodes.get(piece.body)))
+    if not draft.expected:
+        raise nothing_collides_error(asset)
+    for body_name, surface in seen:
+        holder, called = nodes.get(body_name), f"{body_name}-visual"
+        points = draft.points_in(np.asarray(surface.vertices), holder)
+        material = _add_material(draft, surface)
+        mesh, middle = draft.add_surface_mesh(points, surface.faces, called, material, surface.texture)
+        draft.add_node({"name": called, "mesh": mesh, "translation": middle.tolist()}, holder)
+    document = GltfDocument(b"", marks, (), tuple((node, body) for body, node in nodes.items()))
+    return _pack_new(asset, draft, document, path, lost, renames=True)
 
 
 def _is_plain(asset: Asset) -> bool:
@@ -45,128 +77,173 @@ def _is_plain(asset: Asset) -> bool:
         and not len(asset.visuals)
         and not any(geom.shape.is_primitive for geom in asset.geoms)
         and not any(piece.plane for piece in asset.non_convex)
-        and not any(unreal_kind(name) or godot_kind(name) for name in names)
+        and not any(conventions.unreal_kind(name) or conventions.godot_kind(name) for name in names)
     )
 
 
-class _Creator:
-    def __init__(self, asset: Asset, convention: Convention, is_binary: bool) -> None:
-        self.asset, self.convention, self.is_binary = asset, convention, is_binary
-        tree = self._build_tree()
-        self.nodes: dict[str, int] = {node["name"]: k for k, node in enumerate(tree.get("nodes", []))}
-        self.draft = new_draft(tree, asset.path, is_binary)
-
-    def build_output(self, stem: str) -> Output:
-        seen, lost = read_visual_surfaces(self.asset) if self.convention == "khr" else ([], [])
-        style = PlainStyle(self.draft) if self.convention == "plain" else PhysicsStyle(self.draft, "khr", not seen)
-        non_convex = [
-            piece
-            for piece in self.asset.non_convex
-            if has_triangles(piece) or (piece.plane and self.convention == "khr")
-        ]
-        pieces: list[Geom | NonConvexPiece] = [*self.asset.geoms, *non_convex]
-        for piece in pieces:
-            own = piece.name.removeprefix(f"{piece.body}/") if self.nodes else piece.name
-            style.add(NewPiece(piece, own, self.nodes.get(piece.body)))
-        if not self.draft.expected:
-            raise nothing_collides_error(self.asset)
-        for body, surface in seen:
-            self._add_visual(body, surface)
-        bodies = tuple((node, body) for body, node in self.nodes.items())
-        names = assign_names(self.draft, GltfDocument(b"", self.convention, (), bodies), renames=True)
-        hulls = {geom.name for geom in self.asset.geoms}
-        renamed = {old: now for old, now in names.items() if old in hulls}
-        main, made = pack_new(self.draft, stem, self.is_binary)
-        return Output(main, made, names=renamed, lost=tuple(lost))
-
-    def _build_tree(self) -> Json:
-        """A tree with a node for each body but the one that all formats without bodies have."""
-        tree = new_tree()
-        if self.convention == "plain":
-            return tree
-        tree["extensionsUsed"] = [KHR]
-        moving = [body for body in self.asset.bodies if body.name != BODY]
-        nodes = [
-            {"name": body.name, **pose_keys(body.pose), "extensions": {KHR: {"motion": motion_of(self.asset, body)}}}
-            for body in moving
-        ]
-        if nodes:
-            tree["scenes"][0]["nodes"] = list(range(len(nodes)))
-            tree["nodes"] = nodes
-        return tree
-
-    def _add_visual(self, body: str, surface: Surface) -> None:
-        holder, name = self.nodes.get(body), f"{body}-visual"
-        points = self.draft.points_in(np.asarray(surface.vertices), holder)
-        material = add_material(self.draft, surface)
-        mesh, middle = self.draft.add_surface_mesh(points, surface.faces, name, material, surface.texture)
-        self.draft.add_node({"name": name, "mesh": mesh, "translation": middle.tolist()}, holder)
-
-
-def create_for_engine(asset: Asset, name: str, engine: CollisionNames) -> Output:
-    """The files of an asset with the names of an engine.
+def create_for_engine(asset: Asset, name: str, engine: conventions.CollisionNames) -> Output:
+    """Return the files of an asset with the names of an engine.
 
     No node is scaled. For Unreal, the meshes of a body are in its frame, since its importers have not always obeyed the
     places of nodes with collision; for others they lie about their own middle, so that single precision is fine.
     """
     path = PurePosixPath(name)
-    is_binary = path.suffix.lower() == ".glb"
     found = name_bodies(asset, engine, path.stem)
-    draft = draft_bodies(asset, found, is_binary)
+    draft = _draft_bodies(asset, found.each, path)
     for node, family in enumerate(found.each):
         if family.surfaces:
-            draft.node(node)["mesh"] = add_visuals(draft, family, node)
+            draft.node(node)["mesh"] = _add_visuals(draft, family, node)
     style = style_of(engine.engine, draft, path.stem)
     for node, family in enumerate(found.each):
         for piece, own in family.pieces:
             style.add(NewPiece(piece, own, node))
-    return pack_bodies(asset, draft, GltfDocument(b"", engine.engine, ()), found, path)
+    return _pack_new(asset, draft, GltfDocument(b"", engine.engine, ()), path, found.lost, found.notes)
 
 
-def draft_bodies(asset: Asset, found: EngineBodies, is_binary: bool) -> SceneDraft:
-    """A draft with a node for each body."""
-    tree = new_tree()
-    tree["scenes"][0]["nodes"] = list(range(len(found.each)))
-    tree["nodes"] = [{"name": family.name, **pose_keys(family.body.pose)} for family in found.each]
-    return new_draft(tree, asset.path, is_binary)
+def create_for_godot(asset: Asset, name: str, names: conventions.CollisionNames) -> Output:
+    """The files of an asset: rigid bodies where anything moves, else nodes that Godot knows by their names."""
+    tree = BodyTree.of(asset)
+    if not all(map(tree.is_static, tree.order)):
+        return _create_rigid_bodies(asset, tree, PurePosixPath(name))
+    made = create_for_engine(asset, name, names)
+    bodies, masses = [body.name for body in asset.bodies], [i.body for i in asset.mechanism.inertials]
+    losses = [Loss(FeatureKind.MASSES, tuple(masses), _STILL)]
+    if len(bodies) > 1:
+        losses.append(Loss(FeatureKind.BODIES, tuple(bodies), "none of them moves", "written as nodes"))
+    return replace(made, lost=(*made.lost, *(loss for loss in losses if loss.count)))
 
 
-def add_visuals(draft: SceneDraft, family: EngineBody, node: int) -> int:
-    """One mesh of all that is seen of a body, a part for each surface."""
+def _create_rigid_bodies(asset: Asset, tree: BodyTree, path: PurePosixPath) -> Output:
+    """The files of an asset that moves. A body that only fixed joints hold is part of the one above."""
+    carriers = {name: name for name in tree.order}
+    for name in tree.order:  # each after its parent
+        joints = tree.joints[name]
+        if joints and all(joint.kind == "fixed" for joint in joints) and not tree.is_static(name):
+            carriers[name] = carriers[joints[0].parent]
+    welded = _weld_bodies(asset, carriers)
+    moving = {name for name in tree.order if not tree.is_static(name)}
+    found = name_bodies(welded, conventions.GodotBodyNames(), path.stem)
+    draft = _draft_bodies(welded, found.each, path)
+    notes, pieces = _add_bodies(draft, welded, found, moving)
+    bodies = tuple((node, family.body.name) for node, family in enumerate(found.each))
+    document = GltfDocument(b"", "omi", (), bodies)
+    held = tuple(name for name in tree.order if carriers[name] != name)
+    why = join_names([f"{name} to {carriers[name]}" for name in held], 3)
+    still = tuple(i.body for i in welded.mechanism.inertials if i.body not in moving)
+    losses = (
+        *found.lost,
+        *_list_joints(asset),
+        Loss(FeatureKind.NON_CONVEX, tuple(pieces), "in Godot a mesh that is no hull cannot move"),
+        Loss(FeatureKind.MASSES, still, _STILL),
+        Loss(FeatureKind.BODIES, held, f"fixed joints hold {why}", "written as parts of others"),
+    )
+    return _pack_new(welded, draft, document, path, [loss for loss in losses if loss.count], (*found.notes, *notes))
+
+
+def _list_joints(asset: Asset) -> list[Loss]:
+    losses = []
+    for joint in (joint for joint in asset.mechanism.joints if joint.kind != "fixed"):
+        kind = FeatureKind.BALL_JOINTS if joint.kind == "ball" else FeatureKind.JOINTS
+        why = "a rigid body moves freely without one" if joint.kind == "floating" else _JOINT
+        losses.append(Loss(kind, (joint.name,) if joint.name else (), why, unnamed=not joint.name))
+    return losses  # which the report joins where they are alike
+
+
+def _weld_bodies(asset: Asset, carriers: Mapping[str, str]) -> Asset:
+    if isinstance(asset.visuals, VisualSurfaces):
+        shown = (replace(visual, body=carriers.get(visual.body, visual.body)) for visual in asset.visuals.visuals)
+        visuals: Sequence[Surface] = VisualSurfaces(tuple(shown))
+    else:
+        visuals = tuple(replace(s, body=carriers.get(s.body or "", s.body)) for s in asset.visuals)
+    known = {inertial.body: inertial for inertial in asset.mechanism.inertials}
+    heavy = {geom.body for geom in asset.geoms} | known.keys()
+    groups: dict[str, list[str]] = {}
+    for body in asset.bodies:
+        groups.setdefault(carriers[body.name], []).append(body.name)
+    sums = []
+    for carrier, own in groups.items():
+        parts = [known[name] for name in own if name in known]
+        if parts and all(name in known for name in own if name in heavy):
+            weights = [(part.mass, part.centre, part.inertia) for part in parts]
+            sums.append(Inertial(carrier, *(combine_inertias(weights) if len(weights) > 1 else weights[0])))
+    return replace(
+        asset,
+        bodies=tuple(body for body in asset.bodies if carriers[body.name] == body.name),
+        geoms=tuple(replace(g, body=carriers[g.body], shape=g.shape.tessellate()) for g in asset.geoms),
+        non_convex=tuple(replace(piece, body=carriers[piece.body]) for piece in asset.non_convex),
+        visuals=visuals,
+        mechanism=replace(asset.mechanism, inertials=tuple(sums)),
+    )
+
+
+def _add_bodies(draft: SceneDraft, asset: Asset, found: EngineBodies, moving: set[str]) -> tuple[list[str], list[str]]:
+    """Add what Godot's importer (modules/gltf/extensions/physics) takes of bodies; notes, and pieces that it does not.
+
+    It joins shapes to the body right above them, lets a body's own mesh go, and takes moments of inertia about the axes
+    of the body only.
+    """
+    style, names = PhysicsStyle(draft, "omi"), conventions.GodotBodyNames()
+    taken, notes, lost = {family.name.lower() for family in found.each}, list[str](), list[str]()
+    draft.declare_extension(style.marks.name)
+    draft.declare_extension(style.marks.shapes)
+    for node, family in enumerate(found.each):
+        motion: Json = {"type": "static"}
+        if moves := family.body.name in moving:
+            motion = {"type": "dynamic", **_weigh(asset, family, notes)}
+        draft.node(node)["extensions"] = {style.marks.name: {"motion": motion}}
+        if family.surfaces:
+            seen = _add_visuals(draft, family, node)
+            draft.add_node({"name": f"{family.name}_visual", "mesh": seen}, node)
+        for piece, own in family.pieces:
+            if moves and isinstance(piece, NonConvexPiece):
+                lost.append(piece.name)
+            else:
+                style.add(NewPiece(piece, conventions.claim_name(names.body, own, taken), node))
+    return notes, lost
+
+
+def _weigh(asset: Asset, family: EngineBody, notes: list[str]) -> Json:
+    motion = mass_keys(asset, family.body)
+    if not motion:
+        notes.append(f"the mass of {family.name} is not known: Godot takes 1 kg")
+    if motion.pop("inertiaOrientation", _STRAIGHT) != _STRAIGHT:
+        del motion["inertiaDiagonal"]
+        why = "it takes none about turned axes"
+        notes.append(f"Godot computes the moments of inertia of {family.name} from its shapes: {why}")
+    return motion
+
+
+def _new_draft(asset: Asset, path: PurePosixPath, nodes: list[Json]) -> SceneDraft:
+    scene = {"nodes": list(range(len(nodes)))} if nodes else {}
+    tree = {"asset": {"version": "2.0", "generator": "MeshForge"}, "scene": 0, "scenes": [scene]}
+    tree |= {"nodes": nodes} if nodes else {}
+    return SceneDraft(GltfScene(copy.deepcopy(tree), None, asset.path), tree, b"" if _is_binary(path) else None)
+
+
+def _draft_bodies(asset: Asset, bodies: Sequence[EngineBody], path: PurePosixPath) -> SceneDraft:
+    return _new_draft(asset, path, [{"name": family.name, **pose_keys(family.body.pose)} for family in bodies])
+
+
+def _add_visuals(draft: SceneDraft, family: EngineBody, node: int) -> int:
+    """Add one mesh of all that is seen of a body, a part for each surface."""
     parts = []
     for surface in family.surfaces:
         points = draft.points_in(np.asarray(surface.vertices), node)
-        material = add_material(draft, surface)
-        parts.append(draft.build_primitive(points, surface.faces, material, surface.texture))
+        parts.append(draft.build_primitive(points, surface.faces, _add_material(draft, surface), surface.texture))
     return draft.add_mesh({"name": family.name, "primitives": parts})
 
 
-def pack_bodies(
-    asset: Asset, draft: SceneDraft, document: GltfDocument, found: EngineBodies, path: PurePosixPath
-) -> Output:
-    """The files of a draft of bodies, with the names that hulls read back as."""
-    hulls = {geom.name for geom in asset.geoms}
-    names = {old: now for old, now in assign_names(draft, document, renames=False).items() if old in hulls}
-    main, made = pack_new(draft, path.stem, path.suffix.lower() == ".glb")
-    return Output(main, made, names=names, lost=found.lost, notes=found.notes)
-
-
-def new_tree() -> Json:
-    """The tree of a scene without nodes."""
-    return {"asset": {"version": "2.0", "generator": "MeshForge"}, "scene": 0, "scenes": [{}]}
-
-
-def new_draft(tree: Json, path: Path, is_binary: bool) -> SceneDraft:
-    """A draft of a tree that has nodes without meshes alone; path: for messages."""
-    return SceneDraft(GltfScene(copy.deepcopy(tree), None, path), tree, b"" if is_binary else None)
-
-
-def add_material(draft: SceneDraft, surface: Surface) -> int | None:
+def _add_material(draft: SceneDraft, surface: Surface) -> int | None:
     """The number of a material of the colour or picture of a surface, which is added where it is not there yet."""
     shading: Json = {"metallicFactor": 0.0}
     wanted: Json = {"pbrMetallicRoughness": shading}
     if surface.texture is not None:
-        shading["baseColorTexture"] = {"index": _add_picture(draft, surface.texture.picture)}
+        picture = surface.texture.picture  # a PNG, which is in the buffer once
+        if picture not in draft.pictures:
+            image = {"bufferView": draft.geometry.add_bytes(picture), "mimeType": "image/png"}
+            draft.pictures[picture] = _number_of(draft.tree, "images", image)
+        texture = _number_of(draft.tree, "textures", {"source": draft.pictures[picture]})
+        shading["baseColorTexture"] = {"index": texture}
     elif surface.rgba is not None:
         shading["baseColorFactor"] = [*linear_color(surface.rgba), float(surface.rgba[3])]
         if surface.rgba[3] < 1:
@@ -176,14 +253,6 @@ def add_material(draft: SceneDraft, surface: Surface) -> int | None:
     return _number_of(draft.tree, "materials", wanted)
 
 
-def _add_picture(draft: SceneDraft, picture: bytes) -> int:
-    """The number of a texture of a picture, a PNG, which is in the buffer once."""
-    if picture not in draft.pictures:
-        image = {"bufferView": draft.geometry.add_bytes(picture), "mimeType": "image/png"}
-        draft.pictures[picture] = _number_of(draft.tree, "images", image)
-    return _number_of(draft.tree, "textures", {"source": draft.pictures[picture]})
-
-
 def _number_of(tree: Json, key: str, wanted: Json) -> int:
     found: list[Json] = tree.setdefault(key, [])
     if wanted not in found:
@@ -191,12 +260,28 @@ def _number_of(tree: Json, key: str, wanted: Json) -> int:
     return found.index(wanted)
 
 
-def pack_new(draft: SceneDraft, stem: str, is_binary: bool) -> tuple[bytes, dict[str, bytes]]:
-    """The main file of a new scene, and the one of its buffer."""
-    geometry, made = draft.geometry, dict[str, bytes]()
-    geometry.finish(embed=False, uri=quote(f"{stem}.bin"))
-    if is_binary:
+def _pack_new(
+    asset: Asset,
+    draft: SceneDraft,
+    document: GltfDocument,
+    path: PurePosixPath,
+    lost: Sequence[Loss],
+    notes: Sequence[str] = (),
+    *,
+    renames: bool = False,
+) -> Output:
+    """Return the files of a new scene, with the names that hulls read back as; renames: as for `assign_names`."""
+    hulls, buffer = {geom.name for geom in asset.geoms}, f"{path.stem}.bin"
+    names = {old: now for old, now in assign_names(draft, document, renames=renames).items() if old in hulls}
+    draft.geometry.finish(embed=False, uri=quote(buffer))
+    if _is_binary(path):
         text = json.dumps(draft.tree, separators=(",", ":")).encode()
-        return Container(text, True).with_text(text, geometry.chunk).as_bytes(), made
-    made[f"{stem}.bin"] = bytes(geometry.added)
-    return (json.dumps(draft.tree, indent=2) + "\n").encode(), made
+        main, made = Container(text, True).with_text(text, draft.geometry.chunk).as_bytes(), {}
+    else:
+        main = (json.dumps(draft.tree, indent=2) + "\n").encode()
+        made = {buffer: bytes(draft.geometry.added)}
+    return Output(main, made, names=names, lost=tuple(lost), notes=tuple(notes))
+
+
+def _is_binary(path: PurePosixPath) -> bool:
+    return path.suffix.lower() == ".glb"

@@ -52,13 +52,8 @@ _BLANKS = re.compile(r"[ \t\r\n]*")
 _decode = json.JSONDecoder().raw_decode
 
 
-@dataclass(frozen=True, slots=True)
-class _Change:
-    """New text in place of [start, end)."""
-
-    start: int
-    end: int
-    text: str
+_Change = tuple[int, int, str]
+"""New text in place of [start, end)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,14 +72,13 @@ def rewrite_json(text: str, new: Any) -> str:
     at = _skip_blanks(text, 0)
     old, end = _decode(text, at)
     out, done = [], 0
-    for change in sorted(_find_changes(text, at, end, old, new), key=lambda c: (c.start, c.end)):
-        out += [text[done : change.start], change.text]
-        done = change.end
+    for start, stop, more in sorted(_find_changes(text, at, end, old, new), key=lambda change: change[:2]):
+        out += [text[done:start], more]
+        done = stop
     return "".join([*out, text[done:]])
 
 
 def _find_changes(text: str, at: int, end: int, old: Any, new: Any) -> Iterator[_Change]:
-    """The changes that make the value in [at, end) another one."""
     if old == new:
         return
     if isinstance(old, dict) and isinstance(new, dict) and old and new:
@@ -92,7 +86,7 @@ def _find_changes(text: str, at: int, end: int, old: Any, new: Any) -> Iterator[
     elif isinstance(old, list) and isinstance(new, list) and old and new:
         yield from _change_array(text, end, list(_parse_items(text, at, keyed=False)), new)
     else:
-        yield _Change(at, end, json.dumps(new))
+        yield at, end, json.dumps(new)
 
 
 def _change_object(text: str, end: int, items: Sequence[_Item], new: dict[str, Any]) -> Iterator[_Change]:
@@ -100,12 +94,9 @@ def _change_object(text: str, end: int, items: Sequence[_Item], new: dict[str, A
     yield from _remove_items(items, kept)
     for item in (item for item, stays in zip(items, kept, strict=True) if stays):
         yield from _find_changes(text, item.at, item.end, item.value, new[str(item.key)])
-    there = {item.key for item in items}
-    added = {key: value for key, value in new.items() if key not in there}
-    style = _Layout.of(text, items, end)
-    yield from _add_items(
-        items, kept, [f"{json.dumps(k)}{style.colon}{style.format(v)}" for k, v in added.items()], style
-    )
+    there, style = {item.key for item in items}, _Layout.of(text, items, end)
+    added = [f"{json.dumps(key)}{style.colon}{style.format(value)}" for key, value in new.items() if key not in there]
+    yield from _add_items(items, kept, added, style)
 
 
 def _change_array(text: str, end: int, items: Sequence[_Item], new: Sequence[Any]) -> Iterator[_Change]:
@@ -113,7 +104,7 @@ def _change_array(text: str, end: int, items: Sequence[_Item], new: Sequence[Any
     if len(new) < len(items):
         kept = _subsequence([item.value for item in items], new)
         if kept is None:
-            yield _Change(items[0].start, items[-1].end, style.between.join(style.format(value) for value in new))
+            yield items[0].start, items[-1].end, style.between.join(style.format(value) for value in new)
         else:
             yield from _remove_items(items, kept)
         return
@@ -134,20 +125,20 @@ def _subsequence(old: Sequence[Any], new: Sequence[Any]) -> list[bool] | None:
 
 def _remove_items(items: Sequence[_Item], kept: Sequence[bool]) -> Iterator[_Change]:
     if not any(kept):
-        yield _Change(items[0].start, items[-1].end, "")
+        yield items[0].start, items[-1].end, ""
         return
     last = max(k for k, stays in enumerate(kept) if stays)
     for k, item in enumerate(items[:last]):
         if not kept[k]:
-            yield _Change(item.start, items[k + 1].start, "")
+            yield item.start, items[k + 1].start, ""
     if last + 1 < len(items):
-        yield _Change(items[last].end, items[-1].end, "")
+        yield items[last].end, items[-1].end, ""
 
 
 def _add_items(items: Sequence[_Item], kept: Sequence[bool], texts: Sequence[str], style: _Layout) -> Iterator[_Change]:
     if texts:
         first = "" if not any(kept) else style.between
-        yield _Change(items[-1].end, items[-1].end, first + style.between.join(texts))
+        yield items[-1].end, items[-1].end, first + style.between.join(texts)
 
 
 @dataclass(frozen=True, slots=True)

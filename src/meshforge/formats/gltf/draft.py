@@ -5,7 +5,7 @@ from __future__ import annotations
 import copy
 import re
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 import numpy as np
@@ -14,11 +14,11 @@ from meshforge.common import AssetError
 from meshforge.formats.collision_pieces import leaves_volume
 from meshforge.formats.gltf import output, physics
 from meshforge.formats.meshfile.gltf_document import Json, entries, entry, extension
+from meshforge.formats.meshfile.gltf_meshes import DRACO, TYPES, DracoMesh
 from meshforge.formats.meshfile.gltf_scene import GltfScene
 from meshforge.geometry import Floats, Ints, Shape
 from meshforge.symbolic import Geom, NonConvexPiece, Texture
 
-_KINDS = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}  # by componentType
 _POINTER = re.compile(r"/nodes/(\d+)(/.*)?")
 
 
@@ -64,10 +64,13 @@ class SceneDraft:
                 remedy="Leave the hull as it is, or take the animation out of the file.",
             )
         gone: Json = {key: node.pop(key) for key in ("mesh", "skin", "weights") if key in node}
-        strokes = self._lines_and_points(gone["mesh"]) if "mesh" in gone else []
-        if strokes:
-            mesh = {**entry(self.scene.tree, "meshes", gone["mesh"]), "primitives": strokes}
-            node |= {**gone, "mesh": self.add_mesh(mesh, gone["mesh"])}
+        if "mesh" in gone:
+            mesh = entry(self.scene.tree, "meshes", gone["mesh"])
+            solid = {patch.index for patch in self.scene.mesh(gone["mesh"]).patches}
+            parts = enumerate(entries(mesh, "primitives"))
+            strokes = [copy.deepcopy(part) for k, part in parts if k not in solid]
+            if strokes:
+                node |= {**gone, "mesh": self.add_mesh({**mesh, "primitives": strokes}, gone["mesh"])}
         return gone
 
     def add_node(self, node: Json, holder: int | None, at: int | None = None) -> int:
@@ -117,11 +120,12 @@ class SceneDraft:
         part["indices"] = self.geometry.add_triangles(faces)
         return part if material is None else {**part, "material": material}
 
-    def extract_pieces(self, index: int, owner: Ints, kept: Iterable[int], *, strokes: bool = False) -> Json:
-        """A mesh of some pieces only: with the vertices, attributes and materials of the whole.
+    def extract_pieces(self, index: int, owner: Ints | None, kept: Iterable[int], *, strokes: bool = False) -> Json:
+        """Return a mesh of some pieces only: with the vertices, attributes and materials of the whole.
 
         strokes: whether its points and lines, which are no part of a piece, stay in it.
         """
+        assert owner is not None  # only meshes have several pieces
         mesh = copy.deepcopy(entry(self.scene.tree, "meshes", index))
         stays = np.isin(owner, list(kept))
         patches = self.scene.mesh(index).patches
@@ -138,18 +142,20 @@ class SceneDraft:
                 parts.append(part if own.all() else self._keep_faces(part, patch.faces[own], patch.decoded))
         return {**mesh, "primitives": parts}
 
-    def _lines_and_points(self, index: int) -> list[Json]:
-        solid = {patch.index for patch in self.scene.mesh(index).patches}
-        parts = entries(entry(self.scene.tree, "meshes", index), "primitives")
-        return [copy.deepcopy(part) for k, part in enumerate(parts) if k not in solid]
-
-    def _keep_faces(self, part: Json, faces: Ints, decoded: Any) -> Json:
+    def _keep_faces(self, part: Json, faces: Ints, decoded: DracoMesh | None) -> Json:
         """A primitive with some of its triangles; one that Draco compressed is written plainly."""
         part = {**part, "indices": self.geometry.add_triangles(faces)}
         part.pop("mode", None)
-        if decoded is not None:
-            unpack_draco(part, decoded.attributes, self.tree, self.geometry)
-        return part
+        if decoded is None:
+            return part
+        part["attributes"] = dict(part["attributes"])
+        for name, values in decoded.attributes.items():  # of the types that their accessors have
+            accessor = entry(self.tree, "accessors", part["attributes"][name])
+            rows, normalized = values.astype(TYPES[accessor["componentType"]]), bool(accessor.get("normalized"))
+            new = self.geometry.add_vertex_data(rows, bounds=name == "POSITION", normalized=normalized)
+            part["attributes"][name] = new
+        extensions = {key: value for key, value in part.pop("extensions").items() if key != DRACO}
+        return {**part, "extensions": extensions} if extensions else part
 
     def holder_of(self, body: int | None, source: int | None) -> int | None:
         """The node below which a new hull goes, None for the root of the scene.
@@ -173,7 +179,7 @@ class SceneDraft:
         """A shape of the root frame in the space of a node."""
         if holder is None:
             return shape
-        inverse: Floats = np.linalg.inv(self.scene.placements[holder].world).astype(np.float64)
+        inverse = self.matrix_below(None, holder)
         return shape.transform(inverse[:3, :3], inverse[:3, 3])
 
     def triangles_in(self, what: Geom | NonConvexPiece, holder: int | None) -> tuple[Floats, Ints]:
@@ -188,11 +194,13 @@ class SceneDraft:
         """Points (n, 3) of the root frame in the space of a node."""
         if holder is None:
             return points
-        inverse = np.linalg.inv(self.scene.placements[holder].world)
+        inverse = self.matrix_below(None, holder)
         return np.asarray(points @ inverse[:3, :3].T + inverse[:3, 3], dtype=np.float64)
 
     def matrix_below(self, node: int | None, holder: int | None) -> Floats:
         """The place (4, 4) of a node in the space of another one; None is the root frame."""
+        if node is None and holder is not None:
+            return np.asarray(np.linalg.inv(self.scene.placements[holder].world), dtype=np.float64)
         world = np.eye(4) if node is None else self.scene.placements[node].world
         return world if holder is None else np.asarray(np.linalg.solve(self.scene.placements[holder].world, world))
 
@@ -202,9 +210,8 @@ class SceneDraft:
         holders += [(scene, "nodes") for scene in entries(self.tree, "scenes")]
         for holder, key in holders:
             if index in holder.get(key, ()):
-                left = [child for child in holder[key] if child != index]
-                holder[key] = left
-                if not left:
+                holder[key] = [child for child in holder[key] if child != index]
+                if not holder[key]:
                     del holder[key]  # an empty list is not allowed
 
 
@@ -212,28 +219,6 @@ def name_of(thing: Json) -> str:
     """The name of a node, mesh or material, empty where it has none."""
     name = thing.get("name")
     return name if isinstance(name, str) else ""
-
-
-def unpack_draco(part: Json, attributes: dict[str, Any], tree: Json, geometry: output.GeometryBuffer) -> None:
-    """Give a primitive that Draco compressed plain attributes, of the types that its accessors have."""
-    part["attributes"] = dict(part["attributes"])
-    for name, values in attributes.items():
-        accessor = entry(tree, "accessors", part["attributes"][name])
-        rows, normalized = values.astype(_KINDS[accessor["componentType"]]), bool(accessor.get("normalized"))
-        part["attributes"][name] = geometry.add_vertex_data(rows, bounds=name == "POSITION", normalized=normalized)
-    extensions = {key: value for key, value in part["extensions"].items() if key != "KHR_draco_mesh_compression"}
-    part.pop("extensions")
-    if extensions:
-        part["extensions"] = extensions
-
-
-def material_without_texture(tree: Json, mesh: int) -> int | None:
-    """The material of a mesh, for a hull in its stead; None for one that needs texture coordinates."""
-    parts: Sequence[Json] = entries(entry(tree, "meshes", mesh), "primitives")
-    found = next((part["material"] for part in parts if "material" in part), None)
-    if found is None or "Texture" in str(entry(tree, "materials", found)):
-        return None
-    return int(found)
 
 
 class SceneReferences:

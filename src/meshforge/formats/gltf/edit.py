@@ -46,12 +46,11 @@ def write_gltf(asset: Asset, document: GltfDocument, name: str) -> Output:
         style = style_of(document.convention, draft, Path(name).stem)
         names = _edit_draft(style, document, kept, made, asset.path)
         output = pack_scene(base, scene, draft.geometry, name)
-    notes = note_lacking_shapes(style, made)
+    notes = _note_lacking_shapes(style, made)
     return replace(output, notes=(*notes, *note_renames(names)), names=names)
 
 
-def note_lacking_shapes(style: Style, made: Iterable[Geom]) -> list[str]:
-    """Notes on hulls of shapes that a convention does not have."""
+def _note_lacking_shapes(style: Style, made: Iterable[Geom]) -> list[str]:
     lacking = (geom.shape.kind for geom in made if geom.shape.kind not in style.holds)
     return note_shapes_as_hulls(lacking, f"{style.lacks} {{}}")
 
@@ -60,7 +59,7 @@ def _edit_draft(
     style: Style, document: GltfDocument, kept: set[str], made: Sequence[Geom], path: Path
 ) -> dict[str, str]:
     """Edit a draft; kept: the pieces that stay; made: the hulls that come. The names that read back otherwise."""
-    draft = style.draft
+    draft, nodes = style.draft, {name: node for node, name in document.bodies}
     for element in document.authored:
         staying = [k for k, piece in enumerate(element.names) if piece in kept]
         if len(staying) == len(element.names):
@@ -70,7 +69,11 @@ def _edit_draft(
         else:
             style.remove(element)
     for geom in made:
-        _place_hull(style, geom, document, path)
+        if geom.body not in {BODY, *nodes, *(element.body for element in document.authored)}:
+            raise AssetError(f"hull {geom.name!r} is on {geom.body!r}, which is no body of the file", where=str(path))
+        parent = next((e for e in document.authored if geom.parent in e.names and e.body == geom.body), None)
+        holder = draft.holder_of(nodes.get(geom.body), parent.node if parent else None)
+        style.add(NewPiece(geom, _own_name(geom, document), holder, parent))
     if not draft.expected:
         raise AssetError(
             "the edit leaves no collision in this file",
@@ -80,22 +83,15 @@ def _edit_draft(
     return assign_names(draft, document, renames=style.renames)
 
 
+def _own_name(piece: Geom | NonConvexPiece, document: GltfDocument) -> str:
+    return piece.name.removeprefix(f"{piece.body}/") if document.bodies else piece.name
+
+
 def style_of(convention: Convention, draft: SceneDraft, stem: str) -> Style:
     """What writes hulls in a convention; stem: of the file."""
     if convention in _ENGINES:
         return _ENGINES[convention](draft, stem)
-    return PlainStyle(draft) if convention == "plain" else PhysicsStyle(draft, convention)
-
-
-def _place_hull(style: Style, geom: Geom, document: GltfDocument, path: Path) -> None:
-    nodes = {name: node for node, name in document.bodies}
-    bodies = {element.body for element in document.authored} | {"body"}
-    if geom.body not in nodes and geom.body not in bodies:
-        raise AssetError(f"hull {geom.name!r} is on {geom.body!r}, which is no body of the file", where=str(path))
-    parent = next((e for e in document.authored if geom.parent in e.names and e.body == geom.body), None)
-    own = geom.name.removeprefix(f"{geom.body}/") if document.bodies else geom.name
-    holder = style.draft.holder_of(nodes.get(geom.body), parent.node if parent else None)
-    style.add(NewPiece(geom, own, holder, parent))
+    return PlainStyle(draft, stem) if convention == "plain" else PhysicsStyle(draft, convention)
 
 
 def assign_names(draft: SceneDraft, document: GltfDocument, *, renames: bool) -> dict[str, str]:
@@ -158,7 +154,7 @@ def add_gltf_colliders(asset: Asset, document: GltfDocument, name: str, engine: 
         output = pack_scene(base, scene, draft.geometry, name)
     hulls = {geom.name for geom in asset.geoms}
     renamed = {old: now for old, now in names.items() if old in hulls}
-    notes = (*note_lacking_shapes(style, asset.geoms), *(() if engine else note_renames(renamed)), *style.notes)
+    notes = (*_note_lacking_shapes(style, asset.geoms), *(() if engine else note_renames(renamed)), *style.notes)
     losses = [lose_non_convex(engine, lost, is_seen=True)] if engine and lost else []
     return replace(output, notes=notes, names=renamed, lost=tuple(losses))
 
@@ -174,9 +170,8 @@ def _list_pieces(asset: Asset, document: GltfDocument, draft: SceneDraft) -> Ite
         element, part = sources.get(origin or "", (None, None))
         if element is not None and element.body != what.body:
             element = None
-        own = what.name.removeprefix(f"{what.body}/") if document.bodies else what.name
         holder = _holder_of(draft, element, nodes.get(what.body))
-        yield NewPiece(what, own, holder, element, part if stays else None)
+        yield NewPiece(what, _own_name(what, document), holder, element, part if stays else None)
 
 
 def _holder_of(draft: SceneDraft, element: NodeRecord | None, body: int | None) -> int | None:

@@ -12,12 +12,15 @@ from meshforge.engines import ENGINES
 from meshforge.formats.base import BODY_FEATURES, Mass, Output, ReadOptions, SceneFormat, feature_of_others
 from meshforge.formats.collision_pieces import is_edited
 from meshforge.formats.engine_names.conventions import CollisionNames, GodotNames, UnityNames, UnrealNames, fallbacks_of
-from meshforge.formats.gltf.document import GltfDocument
+from meshforge.formats.gltf import create, edit, read
+from meshforge.formats.gltf.document import Convention, GltfDocument
+from meshforge.formats.gltf.physics import KHR, explain_missing_mass, read_motion
 from meshforge.formats.meshfile.gltf_document import Json, entries, entry, extension, report_damage
+from meshforge.formats.meshfile.gltf_scene import GltfScene
 from meshforge.symbolic import Asset, Feature, FeatureKind, Surface
 
 _LISTS = ("materials", "textures", "animations", "skins", "cameras")
-_LIGHTS, _PHYSICS = "KHR_lights_punctual", "KHR_physics_rigid_bodies"
+_LIGHTS = "KHR_lights_punctual"
 
 
 class GltfFormat(SceneFormat):
@@ -27,27 +30,27 @@ class GltfFormat(SceneFormat):
     title = "glTF"
     suffixes = (".glb", ".gltf")
     up = "y"
-    marks = f"as colliders of {_PHYSICS}"
+    marks = f"as colliders of {KHR}"
     engine: ClassVar[CollisionNames | None] = None
+    convention: ClassVar[Convention | None] = None
     has_pictures = True
     holds = BODY_FEATURES | {FeatureKind.CAPSULES, FeatureKind.NON_CONVEX, FeatureKind.PLANES}
     instead: ClassVar[Mapping[FeatureKind, str]] = {FeatureKind.ELLIPSOIDS: "written as triangles"}
 
     def read(self, path: Path, options: ReadOptions) -> Asset:
-        from meshforge.formats.gltf import read  # lazy: only glTF needs it
-
         return read.read_gltf(path)
+
+    def can_write_back(self, asset: Asset) -> bool:
+        if self.convention is None:
+            return super().can_write_back(asset)
+        return isinstance(asset.document, GltfDocument) and asset.document.convention == self.convention
 
     def write(self, asset: Asset, name: str, mass: Mass = "keep") -> Output:
         if not isinstance(asset.document, GltfDocument):
             raise AssetError("this asset was not read from a glTF file", where=str(asset.path))
-        from meshforge.formats.gltf import edit  # lazy: only glTF needs it
-
         return edit.write_gltf(asset, asset.document, name)
 
     def create(self, asset: Asset, name: str) -> Output:
-        from meshforge.formats.gltf import create  # lazy: only glTF needs it
-
         return create.create_gltf(asset, name)
 
     def engines_of(self, asset: Asset) -> tuple[str, ...]:
@@ -55,7 +58,11 @@ class GltfFormat(SceneFormat):
         return (marks,) if marks in ENGINES and self.can_write_back(asset) else self.engines
 
     def features(self, asset: Asset) -> Iterable[Feature]:
-        return features_of(asset.document, asset) if isinstance(asset.document, GltfDocument) else ()
+        if not isinstance(asset.document, GltfDocument):
+            return ()
+        with report_damage(str(asset.path)):
+            tree = GltfScene.of(asset.document.source, asset.path).tree
+            return [*_list_features(tree), *_list_missing_masses(tree, asset.document, asset)]
 
     def is_unmarked(self, asset: Asset) -> bool:
         return isinstance(asset.document, GltfDocument) and asset.document.convention == "plain"
@@ -66,28 +73,20 @@ class GltfFormat(SceneFormat):
 
     def surfaces_of(self, asset: Asset) -> Sequence[Surface]:
         assert isinstance(asset.document, GltfDocument)
-        from meshforge.formats.gltf import read  # lazy: only glTF needs it
-
         return read.read_scene_surfaces(asset, asset.document)
 
     def add_colliders(self, asset: Asset, name: str) -> Output:
         assert isinstance(asset.document, GltfDocument)
-        from meshforge.formats.gltf import edit  # lazy: only glTF needs it
-
         return edit.add_gltf_colliders(asset, asset.document, name, self.engine)
 
 
 class PhysicsGltf(GltfFormat):
     """glTF whose collision is marked by KHR_physics_rigid_bodies."""
 
-    title = f"glTF with {_PHYSICS}"
-
-    def can_write_back(self, asset: Asset) -> bool:
-        return isinstance(asset.document, GltfDocument) and asset.document.convention == "khr"
+    title = f"glTF with {KHR}"
+    convention = "khr"
 
     def create(self, asset: Asset, name: str) -> Output:
-        from meshforge.formats.gltf import create  # lazy: only glTF needs it
-
         return create.create_gltf(asset, name, "khr")
 
 
@@ -98,14 +97,10 @@ class EngineGltf(GltfFormat):
 
     def __init_subclass__(cls) -> None:
         name, cls.engines, cls.holds = cls.engine.title, (cls.engine.engine,), cls.engine.holds
+        cls.convention = cls.engine.engine
         cls.title, cls.marks, cls.instead = f"glTF for {name}", f"under names for {name}", fallbacks_of(cls.engine)
 
-    def can_write_back(self, asset: Asset) -> bool:
-        return isinstance(asset.document, GltfDocument) and asset.document.convention == self.engine.engine
-
     def create(self, asset: Asset, name: str) -> Output:
-        from meshforge.formats.gltf import create  # lazy: only glTF needs it
-
         return create.create_for_engine(asset, name, self.engine)
 
 
@@ -121,9 +116,7 @@ class GltfForGodot(EngineGltf):
     engine = GodotNames()
 
     def create(self, asset: Asset, name: str) -> Output:
-        from meshforge.formats.gltf import rigid_bodies  # lazy: only glTF needs it
-
-        return rigid_bodies.create_for_godot(asset, name, self.engine)
+        return create.create_for_godot(asset, name, self.engine)
 
 
 class GltfForUnity(EngineGltf):
@@ -132,34 +125,23 @@ class GltfForUnity(EngineGltf):
     engine = UnityNames()
 
 
-def features_of(document: GltfDocument, asset: Asset) -> list[Feature]:
-    """The features of a glTF file that its asset does not have. Raises AssetError: what lists them is damaged."""
-    from meshforge.formats.meshfile.gltf_scene import GltfScene  # lazy: only glTF needs it
-
-    with report_damage(str(asset.path)):
-        tree = GltfScene.of(document.source, asset.path).tree
-        return [*_list_features(tree), *_list_missing_masses(tree, document, asset)]
-
-
 def _list_features(tree: Json) -> Iterator[Feature]:
     others = [key.removesuffix("s") for key in _LISTS for _ in entries(tree, key)]
     others += ["light"] * len(entries(extension(tree, _LIGHTS) or {}, "lights"))
     parts = [part for mesh in entries(tree, "meshes") for part in entries(mesh, "primitives")]
     for name in ("COLOR_0", "TEXCOORD_0"):
         others += [name] * sum(name in part.get("attributes", {}) for part in parts)
-    physics = extension(tree, _PHYSICS) or {}
+    physics = extension(tree, KHR) or {}
     others += ["contact setting" for key in ("physicsMaterials", "collisionFilters") for _ in entries(physics, key)]
     yield feature_of_others(others)
-    nodes = entries(tree, "nodes")
-    joined = [
-        n for n in nodes if "joint" in (extension(n, _PHYSICS) or {}) or extension(n, "OMI_physics_joint") is not None
+    joints = [
+        "joint" in (extension(node, KHR) or {}) or extension(node, "OMI_physics_joint") is not None
+        for node in entries(tree, "nodes")
     ]
-    yield Feature(FeatureKind.JOINTS, unnamed=len(joined))
+    yield Feature(FeatureKind.JOINTS, unnamed=sum(joints))
 
 
 def _list_missing_masses(tree: Json, document: GltfDocument, asset: Asset) -> Iterator[Feature]:
-    from meshforge.formats.gltf.physics import explain_missing_mass, read_motion  # lazy: only glTF needs it
-
     known = {inertial.body for inertial in asset.mechanism.inertials}
     motions = {name: read_motion(entry(tree, "nodes", node)) for node, name in document.bodies if name not in known}
     reasons = {name: explain_missing_mass(motion) for name, motion in motions.items() if "mass" in motion}

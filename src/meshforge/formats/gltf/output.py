@@ -17,12 +17,13 @@ import numpy.typing as npt
 from meshforge.formats.base import Output
 from meshforge.formats.gltf.document import rewrite_json
 from meshforge.formats.meshfile.gltf_document import Container, Json, entries
+from meshforge.formats.meshfile.gltf_meshes import TYPES
 from meshforge.formats.meshfile.gltf_scene import GltfScene
 from meshforge.formats.references import find_companions
 from meshforge.geometry import Ints
 
 _VERTICES, _INDICES = 34962, 34963  # targets of buffer views
-_TYPES = {"i1": 5120, "u1": 5121, "i2": 5122, "u2": 5123, "u4": 5125, "f4": 5126}
+_NUMBERS = {kind.lstrip("<"): number for number, kind in TYPES.items()}
 _WIDTHS = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4"}
 
 
@@ -82,9 +83,11 @@ def pack_scene(base: EditBase, scene: GltfScene, geometry: GeometryBuffer | None
             chunk = geometry.chunk
         elif not embedded:
             made[own] = bytes(geometry.added)
-    text = _json_text(base.container.text, tree, base.is_binary)
+    source = base.container.text
+    text = rewrite_json(source.decode("utf-8-sig").rstrip("\0"), tree).encode()
     if not base.is_binary:
-        return Output(text, made, copies)
+        return Output((codecs.BOM_UTF8 if source.startswith(codecs.BOM_UTF8) else b"") + text, made, copies)
+    text = text.rstrip(b" ")
     container = Container(text, True, base.container.chunks, base.container.rest)
     return Output(container.with_text(text, chunk).as_bytes(), made, copies)
 
@@ -103,12 +106,6 @@ def _list_embedded(scene: GltfScene, base: EditBase) -> set[str]:
     uris = [uri for b in entries(scene.tree, "buffers") if isinstance(uri := b.get("uri"), str)]
     files = zip(scene.buffers.files(), [uri for uri in uris if not uri.startswith("data:")], strict=True)
     return {Path(file).relative_to(scene.path.parent).as_posix() for file, uri in files if uri not in there}
-
-
-def _json_text(source: bytes, tree: Json, is_binary: bool) -> bytes:
-    mark = codecs.BOM_UTF8 if source.startswith(codecs.BOM_UTF8) and not is_binary else b""
-    text = rewrite_json(source.decode("utf-8-sig").rstrip("\0"), tree).encode()
-    return text.rstrip(b" ") if is_binary else mark + text
 
 
 class GeometryBuffer:
@@ -173,14 +170,11 @@ class GeometryBuffer:
         stride = row + -row % 4 if target == _VERTICES else row
         padded = np.zeros((len(rows), stride), np.uint8)
         padded[:, :row] = np.ascontiguousarray(rows).view(np.uint8).reshape(len(rows), row)
-        view: Json = {"buffer": self.buffer, "byteOffset": self._start + len(self.added), "byteLength": padded.size}
-        if stride != row:
-            view["byteStride"] = stride
-        view["target"] = target
-        self.added += padded.tobytes() + b"\0" * (-padded.size % 4)
-        kind = _TYPES[rows.dtype.str[1:]]
+        view = self.add_bytes(padded.tobytes())
+        self.tree["bufferViews"][view] |= {**({"byteStride": stride} if stride != row else {}), "target": target}
+        kind = _NUMBERS[rows.dtype.str[1:]]
         shape = {"componentType": kind, "count": len(rows), "type": _WIDTHS[rows.shape[1]]}
-        return self._append("accessors", {"bufferView": self._append("bufferViews", view), **shape})
+        return self._append("accessors", {"bufferView": view, **shape})
 
     def _append(self, key: str, value: Json) -> int:
         found: list[Any] = self.tree.setdefault(key, [])

@@ -12,19 +12,33 @@ from meshforge.formats.collision_pieces import CollisionPiece, build_round, buil
 from meshforge.formats.gltf.document import Convention
 from meshforge.formats.kinematic_tree import BodyTree, drop_rounding
 from meshforge.formats.meshfile.gltf_document import Json, entry, extension, number, numbers
-from meshforge.formats.meshfile.gltf_meshes import rotations_of
-from meshforge.formats.meshfile.gltf_scene import GltfScene, Placement
-from meshforge.geometry import Box, Floats, Pose, Shape, Sphere, inertia, principal_axes
+from meshforge.formats.meshfile.gltf_scene import GltfScene, Placement, rotation_in
+from meshforge.geometry import Box, Pose, Shape, Sphere, inertia, principal_axes
 from meshforge.symbolic import Asset, Body, Inertial
 
-KHR, SHAPES = "KHR_physics_rigid_bodies", "KHR_implicit_shapes"
-OMI, OMI_SHAPES = "OMI_physics_body", "OMI_physics_shape"
+KHR, OMI = "KHR_physics_rigid_bodies", "OMI_physics_body"
 _MESHES = ("mesh", "convex", "trimesh")
-_KHR_DEFAULT = (0.25, 0.5, 0.5)
-_OMI_DEFAULT = (0.5, 2.0, 1.0)
 
 Z_TO_Y = Pose([[1, 0, 0], [0, 0, 1], [0, -1, 0]], np.zeros(3))
 """Takes the axis of our own shapes, Z, to that of glTF's."""
+
+
+@dataclass(frozen=True, slots=True)
+class PhysicsExtension:
+    """An extension that marks bodies and colliders; shapes: the one that lists their shapes.
+
+    defaults: radius of cylinders and capsules, height of cylinders, height of capsules.
+    """
+
+    name: str
+    shapes: str
+    defaults: tuple[float, float, float]
+
+
+EXTENSIONS: dict[Convention, PhysicsExtension] = {
+    "khr": PhysicsExtension(KHR, "KHR_implicit_shapes", (0.25, 0.5, 0.5)),
+    "omi": PhysicsExtension(OMI, "OMI_physics_shape", (0.5, 2.0, 1.0)),
+}
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -37,51 +51,34 @@ class Collider:
 
 
 def physics_extension_of(scene: GltfScene) -> Convention | None:
-    """The extension that marks the colliders of a file: the first that any node of the scene uses."""
+    """Return the extension that marks the colliders of a file: the first that any node of the scene uses."""
     nodes = [placement.node for placement in scene.placements.values()]
-    found: tuple[Convention, ...] = ("khr", "omi")
-    return next((kind for kind in found if any(has_collider(node, kind) for node in nodes)), None)
+    return next((kind for kind in EXTENSIONS if any(has_collider(node, kind) for node in nodes)), None)
 
 
 def has_collider(node: Json, kind: Convention) -> bool:
     """Whether a node collides, by that extension; a trigger does not."""
-    if kind == "khr":
-        return bool((extension(node, KHR) or {}).get("collider"))
-    own = (extension(node, OMI) or {}).get("collider")
-    return kind == "omi" and isinstance(own, dict) and own.get("shape", -1) != -1
-
-
-def is_trigger(node: Json) -> bool:
-    """Whether a node detects bodies without colliding."""
-    return any("trigger" in (extension(node, name) or {}) for name in (KHR, OMI))
+    own = (extension(node, EXTENSIONS[kind].name) or {}).get("collider")
+    return bool(own) if kind == "khr" else isinstance(own, dict) and own.get("shape", -1) != -1
 
 
 def collider_of(placement: Placement, kind: Convention, scene: GltfScene) -> Collider:
-    """What a node that has a collider collides with. Raises ValueError: something that is not there."""
+    """Return what a node that has a collider collides with. Raises ValueError: something that is not there."""
+    marks = EXTENSIONS[kind]
+    geometry = _require_object(extension(placement.node, marks.name) or {}, "collider")
     if kind == "khr":
-        return _read_khr_collider(_require_object(extension(placement.node, KHR) or {}, "collider"), scene)
-    shapes = extension(scene.tree, OMI_SHAPES) or {}
-    index = _require_object(extension(placement.node, OMI) or {}, "collider")["shape"]
-    return _collider_of_shape(entry(shapes, "shapes", index), _OMI_DEFAULT)
-
-
-def _read_khr_collider(collider: Json, scene: GltfScene) -> Collider:
-    geometry = _require_object(collider, "geometry")
-    convex = bool(geometry.get("convexHull", False))
-    if "mesh" in geometry:
-        return Collider(mesh=geometry["mesh"], convex=convex)
-    if "node" in geometry:
-        return Collider(mesh=entry(scene.tree, "nodes", geometry["node"]).get("mesh"), convex=convex)
-    shape = entry(extension(scene.tree, SHAPES) or {}, "shapes", geometry["shape"])
-    return _collider_of_shape(shape, _KHR_DEFAULT, convex=convex)
-
-
-def _collider_of_shape(shape: Json, default: tuple[float, float, float], *, convex: bool = False) -> Collider:
-    kind = shape["type"]
-    own = _require_object(shape, kind) if kind in shape else {}
-    if kind in _MESHES:
-        return Collider(mesh=own.get("mesh"), convex=convex or kind == "convex")
-    return Collider(shape=read_shape(str(kind), own, default))
+        geometry = _require_object(geometry, "geometry")
+        convex = bool(geometry.get("convexHull", False))
+        if "mesh" in geometry:
+            return Collider(mesh=geometry["mesh"], convex=convex)
+        if "node" in geometry:
+            return Collider(mesh=entry(scene.tree, "nodes", geometry["node"]).get("mesh"), convex=convex)
+    shape = entry(extension(scene.tree, marks.shapes) or {}, "shapes", geometry["shape"])
+    what = shape["type"]
+    own = _require_object(shape, what) if what in shape else {}
+    if what in _MESHES:
+        return Collider(mesh=own.get("mesh"), convex=what == "convex" or bool(geometry.get("convexHull", False)))
+    return Collider(shape=_read_shape(str(what), own, marks.defaults))
 
 
 def _require_object(owner: Json, key: str) -> Json:
@@ -91,11 +88,11 @@ def _require_object(owner: Json, key: str) -> Json:
     return found
 
 
-def read_shape(kind: str, own: Json, default: tuple[float, float, float]) -> CollisionPiece:
+def _read_shape(kind: str, own: Json, default: tuple[float, float, float]) -> CollisionPiece:
     """The shape of a type with its parameters; a tapered one, which no engine has natively, as a polytope.
 
-    default: radius of cylinders and capsules, height of cylinders, height of capsules, which the specifications set
-    apart; a capsule with one `radius` (an older form) says its whole height. Raises ValueError: no number.
+    default: see `PhysicsExtension`; a capsule with one `radius` (an older form) says its whole height. Raises
+    ValueError: no number.
     """
     match kind:
         case "box":
@@ -105,21 +102,17 @@ def read_shape(kind: str, own: Json, default: tuple[float, float, float]) -> Col
             radius = number(own, "radius", 0.5)
             return build_solid("sphere", [radius], lambda: Sphere(Pose.identity(), radius))
         case "cylinder" | "capsule":
-            return _build_round(kind, own, default)
+            radius, height = default[0], default[1 if kind == "cylinder" else 2]
+            if "radius" in own:
+                top = bottom = number(own, "radius", radius)
+                height = number(own, "height", 2.0) - (2 * top if kind == "capsule" else 0.0)
+            else:
+                top, bottom = number(own, "radiusTop", radius), number(own, "radiusBottom", radius)
+                height = number(own, "height", height)
+            return build_round(kind, Z_TO_Y, bottom, top, height / 2)
         case "plane":
             return CollisionPiece(None, "a plane has no end", plane=Z_TO_Y)
     return CollisionPiece(None, f"a shape of type {kind!r} is not known")
-
-
-def _build_round(kind: str, own: Json, default: tuple[float, float, float]) -> CollisionPiece:
-    radius, of_cylinder, of_capsule = default
-    if "radius" in own:
-        top = bottom = number(own, "radius", radius)
-        height = number(own, "height", 2.0) - (2 * top if kind == "capsule" else 0.0)
-    else:
-        top, bottom = number(own, "radiusTop", radius), number(own, "radiusBottom", radius)
-        height = number(own, "height", of_cylinder if kind == "cylinder" else of_capsule)
-    return build_round(kind, Z_TO_Y, bottom, top, height / 2)
 
 
 _SIZES = {"inertiaDiagonal": 3, "inertiaTensor": 9}
@@ -127,8 +120,8 @@ _SIZES = {"inertiaDiagonal": 3, "inertiaTensor": 9}
 
 def motion_of(asset: Asset, body: Body) -> Json:
     """The `motion` of a body: kinematic where it is the fixed part of something with joints; its mass where known."""
-    kinematic = asset.mechanism.joints and BodyTree.of(asset).is_static(body.name)
-    return {"isKinematic": True, **mass_keys(asset, body)} if kinematic else mass_keys(asset, body)
+    is_kinematic = asset.mechanism.joints and BodyTree.of(asset).is_static(body.name)
+    return {**({"isKinematic": True} if is_kinematic else {}), **mass_keys(asset, body)}
 
 
 def mass_keys(asset: Asset, body: Body) -> Json:
@@ -171,7 +164,11 @@ def read_inertial(placement: Placement, body: str, hulls: Sequence[Shape]) -> In
     centre = placement.world @ np.array([*numbers(motion, "centerOfMass", 3, (0.0, 0.0, 0.0)), 1.0])
     if not has_inertia:
         return Inertial(body, mass, *inertia(hulls, mass, centre[:3] if "centerOfMass" in motion else None))
-    moments, axes = _principal_axes(motion)
+    if "inertiaDiagonal" in motion:
+        moments = numbers(motion, "inertiaDiagonal", 3, ())
+        axes = rotation_in(motion, "inertiaOrientation")
+    else:
+        moments, axes = np.linalg.eigh(numbers(motion, "inertiaTensor", 9, ()).reshape(3, 3))
     if moments.min() <= 0:
         return None  # zero stands for endless
     axes = rigid_pose_of(placement).rotation @ axes
@@ -182,15 +179,6 @@ def explain_missing_mass(motion: Json) -> str:
     """Why a body that says its mass has none in the asset."""
     is_endless = number(motion, "mass", 0.0) <= 0 or _SIZES.keys() & motion.keys()
     return "they or their inertia are endless" if is_endless else "no hull of these bodies gives their inertia"
-
-
-def _principal_axes(motion: Json) -> tuple[Floats, Floats]:
-    """The moments (3,) that a motion says, and their axes (3, 3) in the frame of the body."""
-    if "inertiaDiagonal" in motion:
-        turn = rotations_of(numbers(motion, "inertiaOrientation", 4, (0.0, 0.0, 0.0, 1.0)))
-        return numbers(motion, "inertiaDiagonal", 3, ()), turn
-    moments, axes = np.linalg.eigh(numbers(motion, "inertiaTensor", 9, ()).reshape(3, 3))
-    return moments, axes
 
 
 def body_nodes(scene: GltfScene) -> dict[int, int]:
@@ -208,7 +196,5 @@ def body_nodes(scene: GltfScene) -> dict[int, int]:
 def rigid_pose_of(placement: Placement) -> Pose:
     """The pose of a node without its scale: the rotation nearest to its map."""
     left, _, right = np.linalg.svd(placement.linear)
-    rotation = left @ right
-    if np.linalg.det(rotation) < 0:
-        rotation = left @ np.diag([1.0, 1.0, -1.0]) @ right
-    return Pose(rotation, placement.offset)
+    left[:, 2] *= np.sign(np.linalg.det(left @ right))
+    return Pose(left @ right, placement.offset)

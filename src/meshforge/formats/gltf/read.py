@@ -12,10 +12,9 @@ import numpy as np
 from meshforge.common import AssetError, MeshForgeError, file_digest, pluralize
 from meshforge.formats import collision_pieces, mesh_reader, references
 from meshforge.formats.collision_pieces import CollisionElement, drop_repeats, geoms_of, non_convex_of, place_surface
-from meshforge.formats.engine_names.conventions import godot_kind, unreal_kind
 from meshforge.formats.engine_names.name_problems import find_name_problems
 from meshforge.formats.gltf import physics
-from meshforge.formats.gltf.colliders import CollisionReader, NodeCollision, convention_of, nodes_below_colliders
+from meshforge.formats.gltf.colliders import CollisionReader, NodeCollision, convention_of, names_of, visible_nodes
 from meshforge.formats.gltf.document import BODY, Convention, GltfDocument, NodeRecord
 from meshforge.formats.gltf.draft import name_of
 from meshforge.formats.meshfile.gltf_document import Json, entries, entry, extension, report_damage
@@ -26,8 +25,6 @@ from meshforge.formats.visuals import LazySurfaces
 from meshforge.geometry import Floats, Ints, Pose
 from meshforge.symbolic import Asset, Body, FileNote, Mechanism, Mentions, NameProblem, Rgba, Surface, unique_names
 
-_DAMAGE = (ValueError, LookupError, TypeError, AttributeError)
-
 _HOW: dict[Convention, str] = {
     "khr": "its colliders are those of KHR_physics_rigid_bodies",
     "omi": "its colliders are those of OMI_physics_body",
@@ -37,7 +34,6 @@ _HOW: dict[Convention, str] = {
 }
 _HARMLESS = ("KHR_materials_", "KHR_texture_", "EXT_texture_", "KHR_lights_", "MSFT_texture_")
 _KNOWN = ("KHR_draco_mesh_compression", "KHR_mesh_quantization")
-_PHYSICS = ("KHR_physics_rigid_bodies", "KHR_implicit_shapes", "OMI_physics_body", "OMI_physics_shape")
 _DRAFTS = {"OMI_collider": "OMI_physics_shape", "KHR_collision_shapes": "KHR_implicit_shapes"}
 """What physics extensions were called in drafts of them."""
 
@@ -53,33 +49,30 @@ def read_gltf(path: Path) -> Asset:
         _refuse_drafts(scene.tree, path)
         reader = CollisionReader(scene)
         sources = reader.read()
-        bodies = name_bodies(scene)
+        owners, bodies = _name_bodies(scene)
         nodes = [*(source.node for source in sources), *visible_nodes(scene, reader.convention)]
-        fixed = not bodies or any(node not in bodies for node in nodes)  # something is part of no rigid body
-        notes = [*collect_notes(scene, reader.convention), *reader.notes]
-        authored = record_nodes(sources, bodies)
-        mentions = [mentions_of_node(scene, source) for source in sources]
-        pieces = (
-            [CollisionElement(element.body, element.names) for element in authored],
-            [s.parts for s in sources],
-            mentions,
-        )
+        fixed = not bodies or any(node not in owners for node in nodes)  # something is part of no rigid body
+        notes = [*_collect_notes(scene, reader.convention), *reader.notes]
+        authored = _record_nodes(sources, owners)
+        elements = [CollisionElement(element.body, element.names) for element in authored]
+        pieces = elements, [s.parts for s in sources], [_mentions_of_node(scene, source) for source in sources]
         geoms = geoms_of(*pieces)
-        hulls = {name: [geom.shape for geom in geoms if geom.body == name] for _, name in _nodes_of(bodies)}
-        found = (physics.read_inertial(scene.placements[node], name, hulls[name]) for node, name in _nodes_of(bodies))
+        hulls = {name: [geom.shape for geom in geoms if geom.body == name] for name in bodies.values()}
+        found = (physics.read_inertial(scene.placements[k], name, hulls[name]) for k, name in bodies.items())
         masses = tuple(inertial for inertial in found if inertial is not None)
         digests = tuple((file, file_digest(file)) for file in scene.buffers.files() if file.is_file())
     if not sources:
         raise AssetError("there is no mesh and no collider in its scene", where=str(path))
-    moving = [Body(name, physics.rigid_pose_of(scene.placements[node])) for node, name in _nodes_of(bodies)]
-    owners = {node: name for node, (_, name) in bodies.items()}
+    moving = [Body(name, physics.rigid_pose_of(scene.placements[node])) for node, name in bodies.items()]
     files, missing = _find_files(scene, path)
+    is_named = reader.convention not in physics.EXTENSIONS
+    problems = _find_name_problems(scene, reader.convention, [geom.name for geom in geoms[:1]]) if is_named else ()
     return Asset(
         path=path,
         format="gltf",
         bodies=(*([Body(BODY, Pose.identity())] if fixed else []), *moving),
         geoms=geoms,
-        document=GltfDocument(source, reader.convention, authored, _nodes_of(bodies), digests),
+        document=GltfDocument(source, reader.convention, authored, tuple(bodies.items()), digests),
         non_convex=non_convex_of(*pieces),
         visuals=() if reader.convention == "plain" else SceneSurfaces(source, path, owners),
         files=files,
@@ -87,10 +80,14 @@ def read_gltf(path: Path) -> Asset:
         notes=tuple(notes),
         mechanism=Mechanism(inertials=masses),
         up="y",
-        name_problems=()
-        if physics.physics_extension_of(scene)
-        else tuple(_find_name_problems(scene, reader.convention, [geom.name for geom in geoms])),
+        name_problems=tuple(problems),
     )
+
+
+def _find_name_problems(scene: GltfScene, marks: str, first: Sequence[str]) -> Iterator[NameProblem]:
+    names = [("mesh" in one.node, names_of(scene.tree, one.node)) for one in scene.placements.values()]
+    bare = [own[0] for has_mesh, own in names if own and not has_mesh]
+    return find_name_problems([own for has_mesh, own in names if has_mesh], bare, marks, *first)
 
 
 def _refuse_drafts(tree: Json, path: Path) -> None:
@@ -100,39 +97,23 @@ def _refuse_drafts(tree: Json, path: Path) -> None:
         raise AssetError(problem, where=str(path), remedy=f"Export it with {_DRAFTS[name]}.")
 
 
-def _find_name_problems(scene: GltfScene, marks: str, hulls: Sequence[str]) -> Iterator[NameProblem]:
-    nodes = [placement.node for placement in scene.placements.values()]
-    things = [[n, entry(scene.tree, "meshes", n["mesh"])] if "mesh" in n else [n] for n in nodes]
-    names = [[name for one in own if isinstance(name := one.get("name"), str)] for own in things]
-    bare = [own[0] for node, own in zip(nodes, names, strict=True) if own and "mesh" not in node]
-    meshes = [own for node, own in zip(nodes, names, strict=True) if "mesh" in node]
-    return find_name_problems(meshes, bare, marks, *hulls[:1])
-
-
-def name_bodies(scene: GltfScene) -> dict[int, tuple[int, str]]:
-    """For each node in a rigid body, the node that is the body, and the body's name."""
+def _name_bodies(scene: GltfScene) -> tuple[dict[int, str], dict[int, str]]:
+    """Return the body of each node in a rigid body, and that of each node that is one, by their names."""
     owners = physics.body_nodes(scene)
     nodes = list(dict.fromkeys(owners.values()))
-    own = [scene.placements[node].node.get("name") for node in nodes]
-    wanted = [name if isinstance(name, str) and name else f"body{k}" for k, name in enumerate(own)]
+    wanted = [name_of(scene.placements[node].node) or f"body{k}" for k, node in enumerate(nodes)]
     names = dict(zip(nodes, unique_names([BODY, *wanted])[1:], strict=True))
-    return {node: (owner, names[owner]) for node, owner in owners.items()}
+    return {node: names[owner] for node, owner in owners.items()}, names
 
 
-def record_nodes(sources: Sequence[NodeCollision], bodies: Mapping[int, tuple[int, str]]) -> tuple[NodeRecord, ...]:
+def _record_nodes(sources: Sequence[NodeCollision], bodies: Mapping[int, str]) -> tuple[NodeRecord, ...]:
     """The sources with the names of their pieces; names begin with the body where the file has rigid bodies."""
-    own = [bodies[source.node][1] if source.node in bodies else BODY for source in sources]
-    named = [
-        (body if bodies else None, source.name, len(source.parts)) for body, source in zip(own, sources, strict=True)
-    ]
+    own = [bodies.get(source.node, BODY) for source in sources]
+    named = [(body if bodies else None, s.name, len(s.parts)) for body, s in zip(own, sources, strict=True)]
     return tuple(
         NodeRecord(source.node, body, names, source.owner)
         for source, body, names in zip(sources, own, collision_pieces.name_element_pieces(named), strict=True)
     )
-
-
-def _nodes_of(bodies: Mapping[int, tuple[int, str]]) -> tuple[tuple[int, str], ...]:
-    return tuple(dict.fromkeys(bodies.values()))
 
 
 def _find_files(scene: GltfScene, path: Path) -> tuple[tuple[Path, ...], tuple[str, ...]]:
@@ -147,8 +128,7 @@ def _find_files(scene: GltfScene, path: Path) -> tuple[tuple[Path, ...], tuple[s
 def read_scene_surfaces(asset: Asset, document: GltfDocument) -> SceneSurfaces:
     """What a scene shows in which all meshes are taken for collision."""
     with report_damage(str(asset.path)):
-        bodies = name_bodies(GltfScene.of(document.source, asset.path))
-    owners = {node: name for node, (_, name) in bodies.items()}
+        owners, _ = _name_bodies(GltfScene.of(document.source, asset.path))
     return SceneSurfaces(document.source, asset.path, owners, unmarked=True)
 
 
@@ -199,57 +179,25 @@ def _read_color(material: Json) -> Rgba | None:
     return round(red, 4), round(green, 4), round(blue, 4), float(factor[3])
 
 
-def visible_nodes(scene: GltfScene, convention: Convention) -> list[int]:
-    """The nodes of meshes that are there to be seen; none where all meshes are taken for collision."""
-    if convention == "plain":
-        return []
-    colliding = nodes_below_colliders(scene) if convention == "unity" else frozenset()
-    return [
-        index
-        for index, placement in scene.placements.items()
-        if "mesh" in placement.node and index not in colliding and not _is_only_collision(scene, index, convention)
-    ]
-
-
-def _is_only_collision(scene: GltfScene, index: int, convention: Convention) -> bool:
-    node = scene.placements[index].node
-    names = [node.get("name"), entry(scene.tree, "meshes", node["mesh"]).get("name")]
-    if convention == "unreal":
-        return any(unreal_kind(name) for name in names)
-    kind = next((kind for kind in map(godot_kind, names) if kind), None)
-    return convention == "godot" and kind in ("colonly", "convcolonly")
-
-
-def mentions_of_node(scene: GltfScene, source: NodeCollision) -> list[Mentions]:
+def _mentions_of_node(scene: GltfScene, source: NodeCollision) -> list[Mentions]:
     """What is said of each piece of a node with collision; nothing where that is damaged, which hurts no one."""
-    try:
-        return _collect_mentions(scene, source)
-    except _DAMAGE:
-        return [()] * len(source.parts)
-
-
-def _collect_mentions(scene: GltfScene, source: NodeCollision) -> list[Mentions]:
     placement = scene.placements[source.node]
-    node, parent = placement.node, placement.parent
-    common = [("node", name_of(node))]
-    mesh = entry(scene.tree, "meshes", node["mesh"]) if "mesh" in node else {}
-    common += [("mesh", name_of(mesh))]
-    common += [("node", name_of(scene.placements[parent].node))] if parent is not None else []
-    materials = [name_of(material) for material in _materials(scene.tree, mesh)]
-    own = _materials_of_pieces(scene, source, node, materials)
-    return [drop_repeats([*common, *(("material", name) for name in names)]) for names in own]
-
-
-def _materials_of_pieces(
-    scene: GltfScene, source: NodeCollision, node: Json, materials: Sequence[str]
-) -> list[list[str]]:
-    if source.owner is None or "mesh" not in node:
-        return [list(materials)] * len(source.parts)
-    patches = scene.mesh(node["mesh"]).patches
-    of_face = np.repeat([patch.index for patch in patches], [len(patch.faces) for patch in patches])
-    if len(of_face) != len(source.owner):
-        return [list(materials)] * len(source.parts)
-    return [[materials[k] for k in np.unique(of_face[source.owner == part])] for part in range(len(source.parts))]
+    node, parent, count = placement.node, placement.parent, len(source.parts)
+    try:
+        mesh = entry(scene.tree, "meshes", node["mesh"]) if "mesh" in node else {}
+        above = name_of(scene.placements[parent].node) if parent is not None else ""
+        common = [("node", name_of(node)), ("mesh", name_of(mesh)), ("node", above)]
+        materials = [name_of(material) for material in _materials(scene.tree, mesh)]
+        of_piece = [materials] * count
+        if source.owner is not None and mesh:
+            patches = scene.mesh(node["mesh"]).patches
+            of_face = np.repeat([patch.index for patch in patches], [len(patch.faces) for patch in patches])
+            if len(of_face) == len(source.owner):
+                used = [np.unique(of_face[source.owner == part]).tolist() for part in range(count)]
+                of_piece = [[materials[k] for k in own] for own in used]
+        return [drop_repeats([*common, *(("material", name) for name in names)]) for names in of_piece]
+    except (ValueError, LookupError, TypeError, AttributeError):
+        return [()] * count
 
 
 def _materials(tree: Json, mesh: Json) -> Iterator[Json]:
@@ -257,16 +205,14 @@ def _materials(tree: Json, mesh: Json) -> Iterator[Json]:
         yield entry(tree, "materials", part["material"]) if "material" in part else {}
 
 
-def collect_notes(scene: GltfScene, convention: Convention) -> Iterator[str]:
+def _collect_notes(scene: GltfScene, convention: Convention) -> Iterator[str]:
     """The notes on a scene, whose collision was read by a convention."""
     if convention in _HOW:
         yield FileNote(_HOW[convention])
     elif "Texture" in str(entries(scene.tree, "materials")):  # else it is a mesh file as any other
         yield "no node is marked as collision: all meshes are taken for it"
     placements, tree = scene.placements, scene.tree
-    colliders = [
-        (extension(placement.node, physics.KHR) or {}).get("collider") or {} for placement in placements.values()
-    ]
+    colliders = [(extension(one.node, physics.KHR) or {}).get("collider") or {} for one in placements.values()]
     shapes = {(collider.get("geometry") or {}).get("node") for collider in colliders}  # their meshes collide
     nodes = entries(tree, "nodes")
     outside = [k for k, node in enumerate(nodes) if k not in placements and k not in shapes and "mesh" in node]
@@ -276,7 +222,10 @@ def collect_notes(scene: GltfScene, convention: Convention) -> Iterator[str]:
     if len(entries(tree, "scenes")) > 1:
         default = "the default one" if "scene" in tree else "the first, as none is the default"
         yield f"of {len(entries(tree, 'scenes'))} scenes it is {default} that is read"
-    triggers = sum(physics.is_trigger(placement.node) for placement in placements.values())
+    triggers = sum(
+        any("trigger" in (extension(one.node, name) or {}) for name in (physics.KHR, physics.OMI))
+        for one in placements.values()
+    )
     if triggers:
         yield FileNote(f"{pluralize(triggers, 'trigger')} detect bodies without colliding: they are left as they are")
     shown = [placement.node for placement in placements.values() if "mesh" in placement.node]
@@ -285,6 +234,7 @@ def collect_notes(scene: GltfScene, convention: Convention) -> Iterator[str]:
     meshes = [entries(entry(tree, "meshes", node["mesh"]), "primitives") for node in shown]
     if morphed := sum(any(part.get("targets") for part in parts) for parts in meshes):
         yield f"{pluralize(morphed, 'mesh', 'meshes')} with morph targets are taken without them"
+    known = (*_KNOWN, *(name for one in physics.EXTENSIONS.values() for name in (one.name, one.shapes)))
     for name in entries(tree, "extensionsRequired"):
-        if name not in (*_KNOWN, *_PHYSICS) and not str(name).startswith(_HARMLESS):
+        if name not in known and not str(name).startswith(_HARMLESS):
             yield f"the file asks for {name}, which is not known: its geometry may be meant otherwise"

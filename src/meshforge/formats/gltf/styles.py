@@ -12,9 +12,9 @@ import numpy as np
 
 from meshforge.common import join_names
 from meshforge.formats.engine_names import conventions
-from meshforge.formats.gltf.colliders import nodes_below_colliders
+from meshforge.formats.gltf.colliders import names_of, nodes_below_colliders
 from meshforge.formats.gltf.document import NodeRecord
-from meshforge.formats.gltf.draft import SceneDraft, material_without_texture, name_of
+from meshforge.formats.gltf.draft import SceneDraft, name_of
 from meshforge.formats.meshfile.gltf_document import Json, entries, entry
 from meshforge.geometry import Floats
 from meshforge.symbolic import Geom, NonConvexPiece
@@ -70,86 +70,76 @@ class Style(ABC):
 
 
 class PlainStyle(Style):
-    """A hull is a node with a mesh, and is seen."""
+    """A hull is a node with a mesh, and is seen.
 
-    renames = True
-
-    def remove(self, element: NodeRecord) -> None:
-        self.draft.empty_node(element.node)
-
-    def keep_pieces(self, element: NodeRecord, kept: Sequence[int]) -> None:
-        """The pieces stay in the node where they keep their names; else each goes to a node of its own below it."""
-        draft, mesh = self.draft, self.draft.node(element.node)["mesh"]
-        names = tuple(element.names[k] for k in kept)
-        if len(kept) > 1 and list(kept) == list(range(len(kept))):
-            assert element.owner is not None  # only meshes have several pieces
-            part = draft.extract_pieces(mesh, element.owner, kept, strokes=True)
-            draft.node(element.node)["mesh"] = draft.add_mesh(part, mesh)
-            draft.expected[element.node] = names
-        else:
-            node = draft.node(element.node)
-            if conventions.holds_colliders(node.get("name")):  # else what lies below would be all that collides
-                node["name"] += "_"
-            self._split_node(element, kept, mesh)
-
-    def _split_node(self, element: NodeRecord, kept: Sequence[int], mesh: int) -> None:
-        """Take the mesh from a node, and give it a child for each kept piece of that, ahead of others."""
-        draft, gone = self.draft, self.draft.remove_mesh(element.node)
-        assert element.owner is not None  # only meshes have several pieces
-        for at, k in enumerate(kept):
-            part = draft.add_mesh(draft.extract_pieces(mesh, element.owner, [k]), mesh)
-            node = draft.add_node({"name": element.names[k], **gone, "mesh": part}, element.node, at)
-            draft.expected[node] = (element.names[k],)
-
-    def add(self, piece: NewPiece) -> None:
-        draft = self.draft
-        source = draft.scene.placements[piece.source.node].node if piece.source else {}
-        material = material_without_texture(draft.scene.tree, source["mesh"]) if "mesh" in source else None
-        points, faces = draft.triangles_in(piece.what, piece.holder)
-        mesh, middle = draft.add_surface_mesh(points, faces, piece.own, material)
-        node = {"name": piece.own, "mesh": mesh, "translation": middle.tolist()}
-        draft.expected[draft.add_node(node, piece.holder)] = (piece.what.name,)
-
-
-class EngineStyle(PlainStyle):
-    """A hull is a node with a mesh, by whose name, or that of a node above it, an engine takes it for collision.
-
-    stem: of the file, after which a body without a name is called.
+    stem: of the file, after which a body without a name is called; taken: names of nodes and meshes, lower case;
+    centred: whether the mesh of a hull lies about its own middle, so that single precision is fine.
     """
 
-    names: conventions.CollisionNames
+    renames = True
+    centred = True
 
     def __init__(self, draft: SceneDraft, stem: str) -> None:
         super().__init__(draft)
         self.stem = stem
         self.taken = {name_of(thing).lower() for key in ("nodes", "meshes") for thing in entries(draft.tree, key)}
 
+    def remove(self, element: NodeRecord) -> None:
+        self.draft.empty_node(element.node)
+
+    def keep_pieces(self, element: NodeRecord, kept: Sequence[int]) -> None:
+        """The pieces stay in the node where they keep their names; else each goes to a node of its own below it."""
+        if len(kept) > 1 and list(kept) == list(range(len(kept))):
+            self.keep_in_mesh(element, kept)
+            return
+        draft, node = self.draft, self.draft.node(element.node)
+        mesh = node["mesh"]
+        if conventions.holds_colliders(node.get("name")):  # else what lies below would be all that collides
+            node["name"] += "_"
+        gone = draft.remove_mesh(element.node)
+        for at, k in enumerate(kept):  # ahead of other children
+            part = draft.add_mesh(draft.extract_pieces(mesh, element.owner, [k]), mesh)
+            child = draft.add_node({"name": element.names[k], **gone, "mesh": part}, element.node, at)
+            draft.expected[child] = (element.names[k],)
+
+    def keep_in_mesh(self, element: NodeRecord, kept: Sequence[int]) -> None:
+        """Leave some pieces in the mesh of a node."""
+        draft, node = self.draft, self.draft.node(element.node)
+        part = draft.extract_pieces(node["mesh"], element.owner, kept, strokes=True)
+        node["mesh"] = draft.add_mesh(part, node["mesh"])
+        draft.expected[element.node] = tuple(element.names[k] for k in kept)
+
     def add(self, piece: NewPiece) -> None:
-        """The mesh lies about its own middle, so that single precision is fine, unless the engine wants otherwise."""
-        draft, holder, space = self.draft, self.holder_of(piece), self.space_of(piece)
+        draft, space = self.draft, self.space_of(piece)
         points, faces = draft.triangles_in(piece.what, space)
         middle, reach = (points.min(axis=0) + points.max(axis=0)) / 2, np.ptp(points, axis=0).max()
-        if not self.names.centred and np.abs(middle).max() < _FAR * reach:
+        if not self.centred and np.abs(middle).max() < _FAR * reach:
             middle = np.zeros(3)
-        name = self.name_piece(piece)
-        mesh = draft.add_mesh({"name": name, "primitives": [draft.build_primitive(points - middle, faces)]})
+        name, primitive = self.name_piece(piece), draft.build_primitive(points - middle, faces, self.material_of(piece))
+        mesh = draft.add_mesh({"name": name, "primitives": [primitive]})
         node = {"name": name, "mesh": mesh, **self._place_of(space, piece.holder, middle)}
-        draft.expected[draft.add_node(node, holder)] = (piece.what.name,)
+        draft.expected[draft.add_node(node, self.holder_of(piece))] = (piece.what.name,)
 
     def holder_of(self, piece: NewPiece) -> int | None:
-        """The node below which the node of a piece goes."""
+        """Return the node below which the node of a piece goes."""
         return piece.holder
 
     def space_of(self, piece: NewPiece) -> int | None:
-        """The node in whose space the mesh of a piece is."""
+        """Return the node in whose space the mesh of a piece is."""
         return piece.holder
 
     def name_piece(self, piece: NewPiece) -> str:
-        """A name for a piece that nothing else in the file has."""
-        what, names = piece.what, self.names
-        if isinstance(what, NonConvexPiece):
-            return conventions.claim_name(names.non_convex, piece.own, self.taken)
-        return conventions.claim_name(lambda own: names.hull("", what, 0, own), piece.own, self.taken)
+        """Return the name of the node and the mesh of a piece."""
+        return piece.own
+
+    def material_of(self, piece: NewPiece) -> int | None:
+        """Return the material of the mesh that a piece takes after; None for one that needs texture coordinates."""
+        tree, source = self.draft.scene.tree, piece.source and self.draft.scene.placements[piece.source.node].node
+        if not source or "mesh" not in source:
+            return None
+        parts = entries(entry(tree, "meshes", source["mesh"]), "primitives")
+        found = next((part["material"] for part in parts if "material" in part), None)
+        return None if found is None or "Texture" in str(entry(tree, "materials", found)) else int(found)
 
     def _place_of(self, space: int | None, holder: int | None, middle: Floats) -> Json:
         """Where a node is whose mesh is about a middle (3,) in the space of another node than its holder."""
@@ -158,6 +148,22 @@ class EngineStyle(PlainStyle):
         matrix = self.draft.matrix_below(space, holder)
         matrix = np.column_stack([matrix[:, :3], matrix @ [*middle, 1.0]])
         return {} if np.array_equal(matrix, np.eye(4)) else {"matrix": matrix.T.ravel().tolist()}
+
+
+class EngineStyle(PlainStyle):
+    """A hull is a node with a mesh, by whose name, or that of a node above it, an engine takes it for collision."""
+
+    names: conventions.CollisionNames
+
+    def name_piece(self, piece: NewPiece) -> str:
+        """Return a name that nothing else in the file has."""
+        what, names = piece.what, self.names
+        if isinstance(what, NonConvexPiece):
+            return conventions.claim_name(names.non_convex, piece.own, self.taken)
+        return conventions.claim_name(lambda own: names.hull("", what, 0, own), piece.own, self.taken)
+
+    def material_of(self, piece: NewPiece) -> int | None:
+        return None
 
 
 class UnityStyle(EngineStyle):
@@ -194,24 +200,19 @@ class GodotStyle(EngineStyle):
 
     def keep_pieces(self, element: NodeRecord, kept: Sequence[int]) -> None:
         """The pieces that are left stay in one mesh; where the whole is seen, they get a node of their own."""
-        draft, mesh = self.draft, self.draft.node(element.node)["mesh"]
-        assert element.owner is not None  # only meshes have several pieces
-        names = tuple(element.names[k] for k in kept)
-        if self._is_visible(element):
-            base = self._strip_suffix(element)
-            skinned = {key: draft.node(element.node)[key] for key in ("skin",) if key in draft.node(element.node)}
-            part = draft.add_mesh({**draft.extract_pieces(mesh, element.owner, kept), "name": f"{base}-colonly"})
-            node = draft.add_node({"name": f"{base}-colonly", "mesh": part, **skinned}, element.node)
-            draft.expected[node] = names
-        else:
-            left = draft.extract_pieces(mesh, element.owner, kept, strokes=True)
-            draft.node(element.node)["mesh"] = draft.add_mesh(left, mesh)
-            draft.expected[element.node] = names
+        if not self._is_visible(element):
+            self.keep_in_mesh(element, kept)
+            return
+        draft, node = self.draft, self.draft.node(element.node)
+        mesh, name = node["mesh"], f"{self._strip_suffix(element)}-colonly"
+        skinned = {"skin": node["skin"]} if "skin" in node else {}
+        part = draft.add_mesh({**draft.extract_pieces(mesh, element.owner, kept), "name": name})
+        child = draft.add_node({"name": name, "mesh": part, **skinned}, element.node)
+        draft.expected[child] = tuple(element.names[k] for k in kept)
 
     def _is_visible(self, element: NodeRecord) -> bool:
-        node = self.draft.scene.placements[element.node].node
-        names = (node.get("name"), entry(self.draft.scene.tree, "meshes", node["mesh"]).get("name"))
-        return next((kind for kind in map(conventions.godot_kind, names) if kind), None) in ("col", "convcol")
+        names = names_of(self.draft.scene.tree, self.draft.scene.placements[element.node].node)
+        return next(filter(None, map(conventions.godot_kind, names)), None) in ("col", "convcol")
 
     def _strip_suffix(self, element: NodeRecord) -> str:
         """Take the suffix from the name of a node, or of its mesh; the name without it."""
@@ -222,13 +223,14 @@ class GodotStyle(EngineStyle):
         if conventions.godot_kind(mesh.get("name")):
             renamed = {**copy.deepcopy(mesh), "name": conventions.strip_godot_suffix(mesh["name"])}
             node["mesh"] = self.draft.add_mesh(renamed, node["mesh"])
-        return str(node.get("name") or entry(self.draft.tree, "meshes", node["mesh"]).get("name") or "collision")
+        return next(filter(None, names_of(self.draft.tree, node)), "collision")
 
 
 class UnrealStyle(EngineStyle):
     """A hull is called after the mesh it stands for: `UCX_table_02`; Unreal takes no notice of where its node is."""
 
     renames = False
+    centred = False  # its older importers take no notice of where a collision node is
     holds = ("polytope", *conventions.NATIVE_SHAPES)
     lacks = "Unreal has no"
     names = conventions.UnrealNames()
@@ -248,7 +250,7 @@ class UnrealStyle(EngineStyle):
         return [f"{what}: rename those that have none, or share one ({join_names(many, 3)})"] if many else []
 
     def space_of(self, piece: NewPiece) -> int | None:
-        """The space of the mesh that it stands for, but of a skinned one."""
+        """Return the space of the mesh that it stands for, but of a skinned one."""
         if piece.source is None or not self.draft.keeps_volume(piece.source.node):
             return piece.holder
         return piece.holder if "skin" in self.draft.scene.placements[piece.source.node].node else piece.source.node
@@ -268,10 +270,9 @@ class UnrealStyle(EngineStyle):
             holder = {} if piece.holder is None else self.draft.node(piece.holder)
             others = self.names.body(self.stem), *self.rendered[:1]
             return name_of(holder) if "mesh" in holder else others[-1]
-        node, tree = self.draft.scene.placements[piece.source.node].node, self.draft.scene.tree
-        own = [name_of(entry(tree, "meshes", node["mesh"])), name_of(node)]
-        if mark := next(filter(conventions.unreal_kind, own), ""):
+        own = names_of(self.draft.scene.tree, self.draft.scene.placements[piece.source.node].node)
+        if mark := next(filter(conventions.unreal_kind, reversed(own)), ""):
             return conventions.visible_mesh_of(mark, self.rendered)
-        name = own[0] or own[1]
+        name = next(filter(None, reversed(own)), "")  # that of the mesh, if it has one
         self.stood_for.setdefault(name, set()).add(piece.source.node)
         return name or self.names.body(self.stem)

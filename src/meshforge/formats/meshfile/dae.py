@@ -18,7 +18,7 @@ import numpy as np
 from meshforge.common import AssetError, pluralize
 from meshforge.formats.meshfile.surface import RawSurface, check_surfaces, stack_triangles
 from meshforge.formats.xml import XmlText, blank_markup
-from meshforge.geometry import Floats, Ints
+from meshforge.geometry import Floats
 
 _NOT_FINITE = re.compile(r"\b(nan|inf)", re.I)
 
@@ -27,8 +27,9 @@ def parse_dae(data: bytes, where: str) -> list[RawSurface]:
     """The surfaces of a Collada file. Raises AssetError: not such a file, or no scene in it."""
     with _report_damage(where):
         document = _open_document(data, where)
-        unit = float(document.assetInfo.unitmeter or 1.0)
-        found = [s for bound, name in _list_geometries(document) for s in _read_surface(bound, name, unit)]
+        unit, roots = float(document.assetInfo.unitmeter or 1.0), document.scene.nodes if document.scene else []
+        placed = (one for node in roots for one in _list_geometries(node, np.eye(4)))
+        found = [surface for bound, name in placed for surface in _read_surface(bound, name, unit)]
     if not found and document.geometries:
         problem = f"its scene shows no triangle of {pluralize(len(document.geometries), 'geometry', 'geometries')}"
         raise AssetError(problem, where=where)
@@ -61,13 +62,8 @@ def _report_damage(where: str) -> Iterator[None]:
         raise AssetError(problem, where=where, remedy="Export it again.") from error
 
 
-def _list_geometries(document: Any) -> Iterator[tuple[Any, str | None]]:
-    """Each geometry in the scene as its node places it, with the name of the node."""
-    for node in document.scene.nodes if document.scene else []:
-        yield from _walk(node, np.eye(4))
-
-
-def _walk(node: Any, world: Floats) -> Iterator[tuple[Any, str | None]]:
+def _list_geometries(node: Any, world: Floats) -> Iterator[tuple[Any, str | None]]:
+    """Each geometry below a node as its nodes place it, with the name of the last."""
     from collada.scene import GeometryNode, Node, NodeNode  # lazy: as collada
 
     if isinstance(node, NodeNode):
@@ -75,7 +71,7 @@ def _walk(node: Any, world: Floats) -> Iterator[tuple[Any, str | None]]:
     inside = world @ node.matrix
     for child in node.children:
         if isinstance(child, Node | NodeNode):
-            yield from _walk(child, inside)
+            yield from _list_geometries(child, inside)
         elif isinstance(child, GeometryNode):
             _refuse_numbers(child.geometry)
             for bound in child.objects("geometry", inside):
@@ -94,7 +90,10 @@ def _refuse_numbers(geometry: Any) -> None:
 def _read_surface(bound: Any, name: str | None, unit: float) -> Iterator[RawSurface]:
     """The surface of a geometry; its sets of triangles, one a material, are joined."""
     listed = list(_list_triangles(bound))
-    parts = [_read_triangles(triangles) for _, triangles in listed]
+    parts = [
+        (np.asarray(found.vertex, dtype=np.float64), np.asarray(found.vertex_index, dtype=np.int64))
+        for _, found in listed
+    ]
     if parts:
         names = [str(getattr(part.original, "material", None) or "") for part, _ in listed]
         known = ("", *dict.fromkeys(filter(None, names)))
@@ -114,7 +113,3 @@ def _list_triangles(bound: Any) -> Iterator[tuple[Any, Any]]:
             continue
         if triangles.vertex_index.shape[1] == 3:
             yield part, triangles
-
-
-def _read_triangles(triangles: Any) -> tuple[Floats, Ints]:
-    return np.asarray(triangles.vertex, dtype=np.float64), np.asarray(triangles.vertex_index, dtype=np.int64)

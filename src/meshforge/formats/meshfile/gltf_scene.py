@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from meshforge.common import AssetError
-from meshforge.formats.meshfile import gltf_buffers, gltf_meshes
+from meshforge.formats.meshfile import gltf_meshes
 from meshforge.formats.meshfile.gltf_document import (
     Container,
     Json,
@@ -24,7 +24,7 @@ from meshforge.formats.meshfile.gltf_document import (
     report_damage,
 )
 from meshforge.formats.meshfile.surface import RawSurface, check_surfaces
-from meshforge.geometry import Floats, Ints
+from meshforge.geometry import Floats, Ints, rotation_of_quaternion
 
 _INSTANCING = "EXT_mesh_gpu_instancing"
 _PLACED = frozenset(("matrix", "translation", "rotation", "scale"))
@@ -89,7 +89,7 @@ class GltfScene:
 
     def __init__(self, tree: Json, binary: bytes | None, path: Path) -> None:
         self.tree, self.path = tree, path
-        self.buffers = gltf_buffers.Buffers(tree, binary, path)
+        self.buffers = gltf_meshes.Buffers(tree, binary, path)
         self._meshes: dict[int, gltf_meshes.GltfMesh] = {}
 
     @staticmethod
@@ -122,9 +122,8 @@ class GltfScene:
             if not np.isfinite(world).all():
                 raise ValueError(f"the place of node {index} is not finite")
             if extension(node, _INSTANCING) is not None:
-                problem = (
-                    f"node {node.get('name') or index!r} shows a mesh many times by {_INSTANCING}, which is not read"
-                )
+                name = node.get("name") or index
+                problem = f"node {name!r} shows a mesh many times by {_INSTANCING}, which is not read"
                 raise AssetError(problem, where=str(self.path), remedy="Give each a node: gltf-transform uninstance.")
             found[index] = Placement(index, node, world, parent)
             waiting += [(child, index, world) for child in reversed(entries(node, "children"))]
@@ -154,10 +153,17 @@ def matrix_of(node: Json) -> Floats:
         return matrix
     if "matrix" in node:
         return numbers(node, "matrix", 16, ()).reshape(4, 4).T
-    quaternion = numbers(node, "rotation", 4, (0.0, 0.0, 0.0, 1.0))
-    matrix[:3, :3] = gltf_meshes.rotations_of(quaternion) * numbers(node, "scale", 3, (1.0, 1.0, 1.0))
+    matrix[:3, :3] = rotation_in(node, "rotation") * numbers(node, "scale", 3, (1.0, 1.0, 1.0))
     matrix[:3, 3] = numbers(node, "translation", 3, (0.0, 0.0, 0.0))
     return matrix
+
+
+def rotation_in(owner: Json, key: str) -> Floats:
+    """Return the rotation (3, 3) under a key, a quaternion x y z w of any length. Raises ValueError."""
+    x, y, z, w = numbers(owner, key, 4, (0.0, 0.0, 0.0, 1.0)).tolist()
+    if not any((x, y, z, w)):
+        raise ValueError("a rotation of all zeros")
+    return rotation_of_quaternion([w, x, y, z])
 
 
 def _ancestors_of(found: dict[int, Placement], index: int | None) -> set[int]:

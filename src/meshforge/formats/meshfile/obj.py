@@ -1,5 +1,5 @@
-"""Read Wavefront OBJ: vertices, faces and groups, each with its statement, so that edits keep the text. Plain
-statements are read many at once, ten times as fast as the rest, which goes one by one and knows its line."""
+"""Read Wavefront OBJ: vertices, faces and groups, each with its statement, so that edits keep the text. Statements are
+read many at once; those with comments, joined lines or several lengths are made plain first."""
 
 from __future__ import annotations
 
@@ -154,47 +154,47 @@ def _refuse_others(statements: list[bytes], words: list[bytes], where: str) -> N
 
 
 def _parse_vertices(statements: list[bytes], at: Ints, where: str) -> Floats:
-    plain = plain_vertices([statements[k] for k in at.tolist()])
-    if plain is not None:
-        return plain
-    rows = [arguments(statements[k])[:3] for k in at]
-    try:
-        if any(b"_" in word for row in rows for word in row):  # Python's own digit separators, which no one else reads
-            raise ValueError
-        return np.array([[float(x) for x in row] for row in rows], dtype=np.float64).reshape(len(rows), 3)
-    except ValueError:
-        k = next(
-            int(k) for k, row in zip(at, rows, strict=True) if len(row) < 3 or not all(map(surface.is_number, row))
-        )
-        problem = f"a vertex needs three numbers, here is {_quote(statements[k])}"
-        raise _error_at(problem, statements, k, where, surface.remedy_for(arguments(statements[k]))) from None
+    rows = [statements[k] for k in at.tolist()]
+    found = _plain_vertices(rows)
+    if found is None:
+        found = _plain_vertices([b"v " + b" ".join(arguments(row)[:3]) + b"\n" for row in rows])
+    if found is not None:
+        return found
+    words = (arguments(row)[:3] for row in rows)
+    k = next(int(k) for k, row in zip(at, words, strict=True) if len(row) < 3 or not all(map(surface.is_number, row)))
+    problem = f"a vertex needs three numbers, here is {_quote(statements[k])}"
+    raise _error_at(problem, statements, k, where, surface.remedy_for(arguments(statements[k])))
 
 
 def _parse_faces(statements: list[bytes], words: list[bytes], vertex_at: Ints, where: str) -> tuple[Ints, Ints]:
     """The statement of each triangle, and the triangles (m, 3)."""
-    rows = np.array([k for k, word in enumerate(words) if word in (b"f", b"fo")], dtype=np.int64)
-    ahead = np.searchsorted(vertex_at, rows)
-    plain = plain_faces([statements[k] for k in rows.tolist()], ahead, len(vertex_at))
-    if plain is not None:
-        return rows[plain[0]], plain[1]
-    polygons: list[list[int]] = []
-    for k, before in zip(rows.tolist(), ahead.tolist(), strict=True):
-        try:
-            if b"_" in statements[k]:
-                raise ValueError
-            corners = [int(w.partition(b"/")[0]) for w in arguments(statements[k])]
-        except ValueError:
-            problem = f"a face needs vertex numbers, here is {_quote(statements[k])}"
-            raise _error_at(problem, statements, k, where) from None
-        indices = [c - 1 if c > 0 else before + c for c in corners]
-        for corner, index in zip(corners, indices, strict=True):
-            if corner == 0 or not 0 <= index < len(vertex_at):
-                there = f"the file has {len(vertex_at)}" if corner >= 0 else f"{before} lie ahead of it"
-                problem = f"a face names vertex {corner}, {there}"
-                raise _error_at(problem, statements, k, where)
-        polygons.append(indices)
-    at, triangles = surface.cut_fans(polygons)
-    return rows[at], triangles
+    at = np.array([k for k, word in enumerate(words) if word in (b"f", b"fo")], dtype=np.int64)
+    rows, ahead = [statements[k] for k in at.tolist()], np.searchsorted(vertex_at, at)
+    found = _plain_faces(rows, ahead, len(vertex_at))
+    if found is None:
+        corners = ([word.partition(b"/")[0] or b"?" for word in arguments(row)] for row in rows)
+        found = _plain_faces([b"f " + b" ".join(row) + b"\n" for row in corners], ahead, len(vertex_at))
+    if found is not None:
+        return at[found[0]], found[1]
+    for k, before in zip(at.tolist(), ahead.tolist(), strict=True):
+        _check_face(statements, k, before, len(vertex_at), where)
+    raise AssertionError("one of the faces is odd")
+
+
+def _check_face(statements: list[bytes], k: int, before: int, total: int, where: str) -> None:
+    """Raise AssetError where a face has a corner that is no number, or names a vertex that is not there."""
+    words = [word.partition(b"/")[0] for word in arguments(statements[k])]
+    try:
+        if any(b"_" in word for word in words):  # digit separators of Python, which no one else reads
+            raise ValueError
+        corners = list(map(int, words))
+    except ValueError:
+        problem = f"a face needs vertex numbers, here is {_quote(statements[k])}"
+        raise _error_at(problem, statements, k, where) from None
+    for corner in corners:
+        if corner == 0 or not 0 <= (corner - 1 if corner > 0 else before + corner) < total:
+            there = f"the file has {total}" if corner >= 0 else f"{before} lie ahead of it"
+            raise _error_at(f"a face names vertex {corner}, {there}", statements, k, where)
 
 
 def _parse_groups(statements: list[bytes], words: list[bytes], at: Ints) -> tuple[list[ObjGroup], Ints]:
@@ -235,14 +235,14 @@ def keyword(statement: bytes) -> bytes:
     return words[0] if words else b""
 
 
-def plain_vertices(rows: Sequence[bytes]) -> Floats | None:
+def _plain_vertices(rows: Sequence[bytes]) -> Floats | None:
     """The vertices (n, 3) of `v` statements; None where these are not plain, or not of the same length."""
     text = b"".join(rows)
-    if not rows or any(mark in text for mark in _UNUSUAL):
+    if any(mark in text for mark in _UNUSUAL):
         return None
     words = text.split()
-    width = len(words) // len(rows)
-    if width < 4 or len(words) != width * len(rows) or not _is_only_at_starts(words, b"v", width, len(rows)):
+    width = len(words) // max(len(rows), 1)
+    if len(words) != width * len(rows) or (rows and (width < 4 or not _is_only_at_starts(words, b"v", width))):
         return None
     try:
         return np.column_stack([np.array(list(map(float, words[k::width]))) for k in (1, 2, 3)])
@@ -250,23 +250,23 @@ def plain_vertices(rows: Sequence[bytes]) -> Floats | None:
         return None
 
 
-def plain_faces(rows: Sequence[bytes], before: Ints, total: int) -> tuple[Ints, Ints] | None:
+def _plain_faces(rows: Sequence[bytes], before: Ints, total: int) -> tuple[Ints, Ints] | None:
     """The statement (m,) of each triangle of `f` statements, and the triangles (m, 3), polygons cut into fans.
 
     before: (n,) the vertices ahead of each statement, from which negative numbers count; total: those of the file.
     None where the statements are not plain, or name a vertex that is not there.
     """
     text = b"".join(rows)
-    if not rows or any(mark in text for mark in _UNUSUAL):
+    if any(mark in text for mark in _UNUSUAL):
         return None
     words = (_BEHIND.sub(b"", text) if b"/" in text else text).split()
-    width = len(words) // len(rows)
-    if len(words) == width * len(rows) and _is_only_at_starts(words, b"f", width, len(rows)):
+    width = len(words) // max(len(rows), 1)
+    if rows and len(words) == width * len(rows) and _is_only_at_starts(words, b"f", width):
         del words[::width]
         counts = np.full(len(rows), width - 1)
     else:
         words = [word for word in words if word != b"f"]
-        counts = np.array([len(row.split()) - 1 for row in rows])
+        counts = np.array([len(row.split()) - 1 for row in rows], dtype=np.int64)
     try:
         corners = np.array(list(map(int, words)), dtype=np.int64)
     except (ValueError, OverflowError):
@@ -276,18 +276,9 @@ def plain_faces(rows: Sequence[bytes], before: Ints, total: int) -> tuple[Ints, 
     corners = np.where(corners > 0, corners - 1, np.where(corners < 0, corners + np.repeat(before, counts), -1))
     if corners.min(initial=0) < 0 or corners.max(initial=-1) >= total:
         return None
-    return _cut_many_fans(corners, counts)
+    return surface.cut_fans(corners, counts)
 
 
-def _is_only_at_starts(words: list[bytes], word: bytes, width: int, count: int) -> bool:
+def _is_only_at_starts(words: list[bytes], word: bytes, width: int) -> bool:
     """Whether a word is every width-th one of others, and none besides."""
-    return words[::width].count(word) == count == words.count(word)
-
-
-def _cut_many_fans(corners: Ints, counts: Ints) -> tuple[Ints, Ints]:
-    """Polygons of so many corners (n,), one after the other, as triangles (m, 3); first the polygon (m,) of each."""
-    triangles = np.maximum(counts - 2, 0)
-    polygon = np.repeat(np.arange(len(counts)), triangles)
-    first = np.repeat(np.cumsum(counts) - counts, triangles)
-    second = first + 1 + np.arange(len(first)) - np.repeat(np.cumsum(triangles) - triangles, triangles)
-    return polygon, corners[np.column_stack([first, second, second + 1])]
+    return words[::width].count(word) == len(words) // width == words.count(word)

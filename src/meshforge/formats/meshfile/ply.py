@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import codecs
+import itertools
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -12,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from meshforge.common import AssetError
-from meshforge.formats.meshfile.surface import RawSurface, check_surfaces, cut_fans, remedy_for, text_of, to_doubles
+from meshforge.formats.meshfile import surface
 from meshforge.geometry import Floats, Ints
 
 TYPES = {
@@ -22,7 +23,6 @@ TYPES = {
 }
 _ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
 _SHOWN = 60  # characters of a row, or a line of the header, in a message
-NEWLINE = b"\n"
 INDEX_NAMES = ("vertex_indices", "vertex_index")
 """The names under which files keep the corners of a face."""
 
@@ -76,9 +76,9 @@ class PlyText:
     faces: Ints
     face_at: Ints
 
-    def surfaces(self, where: str) -> list[RawSurface]:
+    def surfaces(self, where: str) -> list[surface.RawSurface]:
         """The one surface of the file. Raises AssetError."""
-        return check_surfaces([RawSurface(None, self.vertices, self.faces)], where)
+        return surface.check_surfaces([surface.RawSurface(None, self.vertices, self.faces)], where)
 
 
 def parse_ply(data: bytes, where: str) -> PlyText:
@@ -90,11 +90,11 @@ def parse_ply(data: bytes, where: str) -> PlyText:
         if element.rows > len(data) - at:  # before any memory is taken for them
             raise _truncation_error(element, where)
         try:
-            rows.append((_read_binary if header.order else _read_ascii)(data, at, element, header.order))
-        except _RowError as error:
-            raise error.describe(element, data, where) from None
+            is_text = not header.order
+            read = _read_ascii(data, at, element, where) if is_text else _read_binary(data, at, element, header.order)
         except (ValueError, IndexError):
             raise _truncation_error(element, where) from None
+        rows.append(read)
         at = int(rows[-1].spans[-1, 1]) if element.rows else at
     vertices = _find_vertices(rows, where)
     faces, face_at = _find_faces(rows, len(vertices), where)
@@ -144,51 +144,43 @@ def _parse_property(words: list[str]) -> PlyProperty:
     raise ValueError(words)
 
 
-class _RowError(Exception):
-    """A row of an ASCII file that is not as its element says: its number, its place in the file, its text."""
-
-    def __init__(self, row: int, at: int, text: bytes) -> None:
-        super().__init__(row)
-        self.row, self.at, self.text = row, at, text
-
-    def describe(self, element: PlyElement, data: bytes, where: str) -> AssetError:
-        if not self.text.strip():
-            return _truncation_error(element, where)
-        place = f"{where}:{data.count(NEWLINE, 0, self.at) + 1}"
-        shown = text_of(self.text.strip())[:_SHOWN]
-        problem = f"row {self.row} of {element.name} is cut short or damaged: {shown!r}"
-        return AssetError(problem, where=place, remedy=remedy_for(self.text.split()))
-
-
 def _truncation_error(element: PlyElement, where: str) -> AssetError:
     problem = f"the file is cut short or damaged: its {element.rows} rows of {element.name} are not all there"
     return AssetError(problem, where=where, remedy="Export it again.")
 
 
-def _read_ascii(data: bytes, at: int, element: PlyElement, _: str) -> PlyRows:
-    spans = np.empty((element.rows, 2), dtype=np.int64)
-    read: list[list[float]] = []
-    for k in range(element.rows):
+def _row_error(element: PlyElement, row: int, data: bytes, span: tuple[int, int], where: str) -> AssetError:
+    """The error on a row of an ASCII file that is not as its element says."""
+    text = data[slice(*span)]
+    if not text.strip():
+        return _truncation_error(element, where)
+    problem = f"row {row} of {element.name} is cut short or damaged: {surface.text_of(text.strip())[:_SHOWN]!r}"
+    line = data.count(b"\n", 0, span[0]) + 1
+    return AssetError(problem, where=f"{where}:{line}", remedy=surface.remedy_for(text.split()))
+
+
+def _read_ascii(data: bytes, at: int, element: PlyElement, where: str) -> PlyRows:
+    spans: list[tuple[int, int]] = []
+    values: dict[str, Any] = {p.name: [] for p in element.properties}
+    for _ in range(element.rows):
         stop = _line_end_of(data, at)
         while element.properties and stop < len(data) and not data[at:stop].strip():  # blank lines between rows
             at, stop = stop, _line_end_of(data, stop)
-        spans[k] = at, stop
-        try:
-            read.append([float(word) for word in data[at:stop].split()])
-        except ValueError:
-            raise _RowError(k, at, data[at:stop]) from None
+        spans.append((at, stop))
         at = stop
-    values: dict[str, Any] = {p.name: [] for p in element.properties}
-    for k, row in enumerate(read):
-        place = 0
-        for p in element.properties:
-            length = _to_whole(row[place : place + 1]) if p.count else 1
-            place += 1 if p.count else 0
-            if length < 0 or place + length > len(row):
-                raise _RowError(k, int(spans[k, 0]), data[slice(*spans[k])])
-            values[p.name].append(row[place : place + length] if p.count else row[place])
-            place += length
-    return PlyRows(element, spans, values)
+    for k, span in enumerate(spans):
+        try:
+            row, place = [float(word) for word in data[slice(*span)].split()], 0
+            for p in element.properties:
+                length = _to_whole(row[place : place + 1]) if p.count else 1
+                place += 1 if p.count else 0
+                if length < 0 or place + length > len(row):
+                    raise ValueError(length)
+                values[p.name].append(row[place : place + length] if p.count else row[place])
+                place += length
+        except ValueError:
+            raise _row_error(element, k, data, span, where) from None
+    return PlyRows(element, np.array(spans, dtype=np.int64).reshape(-1, 2), values)
 
 
 def _line_end_of(data: bytes, at: int) -> int:
@@ -202,33 +194,22 @@ def _to_whole(values: Sequence[float]) -> int:
 
 
 def _read_binary(data: bytes, at: int, element: PlyElement, order: str) -> PlyRows:
-    if not any(p.count for p in element.properties):
-        return _read_table(data, at, element, np.dtype([(p.name, order + p.type) for p in element.properties]))
-    return _read_triangle_rows(data, at, element, order) or _read_one_by_one(data, at, element, order)
-
-
-def _read_table(data: bytes, at: int, element: PlyElement, row: np.dtype[Any]) -> PlyRows:
-    table = np.frombuffer(data, row, element.rows, at)
-    starts = at + row.itemsize * np.arange(element.rows, dtype=np.int64)
-    spans = np.column_stack([starts, starts + row.itemsize])
-    return PlyRows(element, spans, {p.name: table[p.name] for p in element.properties})
-
-
-def _read_triangle_rows(data: bytes, at: int, element: PlyElement, order: str) -> PlyRows | None:
-    """The rows where all their lists are three long, as those of triangles are; else None."""
+    """The rows: all at once where all their lists are three long, as those of triangles are, else one by one."""
     fields: list[tuple[Any, ...]] = []
+    lists = [f"{p.name}:count" for p in element.properties if p.count]
     for p in element.properties:
         if p.count:
             fields += [(f"{p.name}:count", order + p.count), (p.name, order + p.type, (3,))]
         else:
             fields.append((p.name, order + p.type))
     row = np.dtype(fields)
-    if at + row.itemsize * element.rows > len(data):
-        return None
-    table: npt.NDArray[Any] = np.frombuffer(data, row, element.rows, at)
-    if any((table[f"{p.name}:count"] != 3).any() for p in element.properties if p.count):
-        return None
-    return _read_table(data, at, element, row)
+    if not lists or at + row.itemsize * element.rows <= len(data):
+        table: npt.NDArray[Any] = np.frombuffer(data, row, element.rows, at)
+        if all((table[name] == 3).all() for name in lists):
+            starts = at + row.itemsize * np.arange(element.rows, dtype=np.int64)
+            spans = np.column_stack([starts, starts + row.itemsize])
+            return PlyRows(element, spans, {p.name: table[p.name] for p in element.properties})
+    return _read_one_by_one(data, at, element, order)
 
 
 def _read_one_by_one(data: bytes, at: int, element: PlyElement, order: str) -> PlyRows:
@@ -256,7 +237,7 @@ def _find_vertices(rows: list[PlyRows], where: str) -> Floats:
         raise AssetError("there are no vertices with x, y and z in this file", where=where)
     if any(p.count for p in found.element.properties if p.name in ("x", "y", "z")):
         raise AssetError("its coordinates are lists, not numbers", where=where)
-    return np.column_stack([to_doubles(found.values[axis]) for axis in "xyz"]).reshape(-1, 3)
+    return np.column_stack([surface.to_doubles(found.values[axis]) for axis in "xyz"]).reshape(-1, 3)
 
 
 def _find_corners(rows: list[PlyRows], where: str) -> Any:
@@ -281,12 +262,12 @@ def _find_faces(rows: list[PlyRows], count: int, where: str) -> tuple[Ints, Ints
         table = read.astype(np.int64)  # first, since -1 is out of bounds for a type without sign
         if table.min(initial=0) >= 0 and table.max(initial=-1) < count:
             return table, np.arange(len(table))
-    polygons: list[list[int]] = []
     for k, corners in enumerate(read):
         if not all(0 <= c < count and c == int(c) for c in corners):
             names = ", ".join(f"{c:g}" for c in corners[:8])
             problem = f"face {k} names vertices {names}, where the file has 0 to {count - 1}"
             raise AssetError(problem, where=where)
-        polygons.append([int(c) for c in corners])
-    at, triangles = cut_fans(polygons)
+    counts = np.array([len(corners) for corners in read], dtype=np.int64)
+    flat = np.fromiter(itertools.chain.from_iterable(read), np.int64, int(counts.sum()))
+    at, triangles = surface.cut_fans(flat, counts)
     return triangles, at

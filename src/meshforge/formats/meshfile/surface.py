@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -53,19 +52,17 @@ def check_surfaces(surfaces: Iterable[RawSurface], where: str) -> list[RawSurfac
     for surface in found:
         if surface.faces.min() < 0 or surface.faces.max() >= len(surface.vertices):
             raise AssetError("a face names a vertex that is not there", where=where)
-        if id(surface.vertices) not in fine:
-            _refuse_far(surface.vertices[np.unique(surface.faces)], where)
+        if id(surface.vertices) in fine:
+            continue
+        used = surface.vertices[np.unique(surface.faces)]
+        if not np.isfinite(used).all():
+            x, y, z = used[~np.isfinite(used).all(axis=1)][0]
+            problem = f"a coordinate is not a finite number, at the vertex {x:.6g} {y:.6g} {z:.6g}"
+            raise AssetError(problem, where=where, remedy="Fix or export it again.")
+        if (largest := float(np.abs(used).max())) > FARTHEST:
+            remedy = "No mesh is that large: fix or export it again."
+            raise AssetError(f"a coordinate is {largest:.3g}", where=where, remedy=remedy)
     return found
-
-
-def _refuse_far(used: Floats, where: str) -> None:
-    if not np.isfinite(used).all():
-        x, y, z = used[~np.isfinite(used).all(axis=1)][0]
-        problem = f"a coordinate is not a finite number, at the vertex {x:.6g} {y:.6g} {z:.6g}"
-        raise AssetError(problem, where=where, remedy="Fix or export it again.")
-    if (largest := float(np.abs(used).max())) > FARTHEST:
-        remedy = "No mesh is that large: fix or export it again."
-        raise AssetError(f"a coordinate is {largest:.3g}", where=where, remedy=remedy)
 
 
 def to_doubles(values: npt.ArrayLike) -> Floats:
@@ -74,11 +71,16 @@ def to_doubles(values: npt.ArrayLike) -> Floats:
         return np.asarray(values).astype(np.float64)
 
 
-def cut_fans(polygons: Iterable[Sequence[int]]) -> tuple[Ints, Ints]:
-    """The polygon (m,) of each triangle, and the triangles (m, 3) of polygons, each cut into a fan about its start."""
-    triangles = [(k, p[0], b, c) for k, p in enumerate(polygons) for b, c in itertools.pairwise(p[1:])]
-    table = np.array(triangles, dtype=np.int64).reshape(-1, 4)
-    return table[:, 0].copy(), table[:, 1:].copy()
+def cut_fans(corners: Ints, counts: Ints) -> tuple[Ints, Ints]:
+    """Cut polygons of so many corners (n,), one after the other, into fans about their first ones.
+
+    Returns the polygon (m,) of each triangle, and the triangles (m, 3).
+    """
+    triangles = np.maximum(counts - 2, 0)
+    polygon = np.repeat(np.arange(len(counts)), triangles)
+    first = np.repeat(np.cumsum(counts) - counts, triangles)
+    second = first + 1 + np.arange(len(first)) - np.repeat(np.cumsum(triangles) - triangles, triangles)
+    return polygon, corners[np.column_stack([first, second, second + 1])]
 
 
 def stack_triangles(surfaces: Iterable[tuple[Floats, Ints]], start: int = 0) -> tuple[Floats, Ints]:

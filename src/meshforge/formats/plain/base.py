@@ -34,7 +34,7 @@ from meshforge.formats.plain.parts import (
     to_parts,
 )
 from meshforge.formats.surface_parts import parts_of_groups
-from meshforge.geometry import Ints, Piece, Pose, Shape, distinct, hull_mesh, split_pieces
+from meshforge.geometry import Piece, Pose, Shape, distinct, hull_mesh, split_pieces
 from meshforge.symbolic import PRIMITIVE_FEATURES, Asset, Body, FeatureKind, Geom, Mentions, NonConvexPiece, Surface
 
 BODY = "body"
@@ -87,7 +87,7 @@ class PlainFormat(Format):
         """The bytes of a new file of these parts."""
 
     def read(self, path: Path, options: ReadOptions) -> Asset:
-        document, found, soup = self._parse(mesh_reader.read_content(path), path)
+        document, found, soup = self.parse(mesh_reader.read_content(path), path)
         named = [(name, piece, _mentions_of(soup, piece)) for name, piece in zip(document.names, found, strict=True)]
         shapes, notes = self.interpret_hulls(document, found)
         own = [[name for name, piece, _ in named if piece.group == group] for group in range(len(soup.names))]
@@ -124,16 +124,12 @@ class PlainFormat(Format):
         """The names that made hulls get in a file."""
         return [geom.name for geom in geoms]
 
-    def parse_document(self, data: bytes, path: Path) -> tuple[PlainDocument, list[Piece]]:
-        """The document of a file's bytes, and its pieces. Raises AssetError naming the path."""
-        document, found, _ = self._parse(data, path)
-        return document, found
-
-    def _parse(self, data: bytes, path: Path) -> tuple[PlainDocument, list[Piece], Soup]:
+    def parse(self, data: bytes, path: Path) -> tuple[PlainDocument, list[Piece], Soup]:
+        """Return the document of a file's bytes, its pieces and triangles. Raises AssetError naming the path."""
         soup = self.parse_soup(data, path)
         try:
             if soup.marked:
-                found = hull_groups(soup)
+                found = [_hull_group(soup, group) for group in range(len(soup.names))]
             else:
                 found = split_pieces(soup.vertices, soup.faces, name=str(path), groups=soup.group)
         except GeometryError as error:
@@ -195,7 +191,7 @@ class PlainFormat(Format):
         self, data: bytes, path: Path, wanted: TargetTriangles, hulls: Collection[str], where: Path
     ) -> dict[str, str]:
         """The names that a written file reads back otherwise. Raises AssetError where it reads back as other hulls."""
-        document, found, soup = self._parse(data, path)
+        document, found, soup = self.parse(data, path)
         return find_renamed_hulls(document, found, soup, wanted, hulls, str(where))
 
 
@@ -219,12 +215,9 @@ def _visual_surface(soup: Soup) -> tuple[Surface, ...]:
     return (Surface(soup.vertices[used], numbers.reshape(-1, 3), BODY),)
 
 
-def hull_groups(soup: Soup) -> list[Piece]:
-    """The hulls of a file with marks: each the convex hull of its group, whatever that looks like, as Unreal has it."""
-    return [_hull_group(soup, np.flatnonzero(soup.group == k), k) for k in range(len(soup.names))]
-
-
-def _hull_group(soup: Soup, own: Ints, group: int) -> Piece:
+def _hull_group(soup: Soup, group: int) -> Piece:
+    """The convex hull of a group of a file with marks, whatever that looks like, as Unreal has it."""
+    own = np.flatnonzero(soup.group == group)
     used, numbers = np.unique(soup.faces[own], return_inverse=True)
     vertices, faces = soup.vertices[used], numbers.reshape(-1, 3)
     try:

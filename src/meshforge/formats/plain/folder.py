@@ -177,7 +177,7 @@ class FolderWriter:
 
     def _put_file(self, file: str, data: bytes) -> None:
         self.made[file] = data
-        self.documents[file] = self.format_of(Path(file)).parse_document(data, Path(file))[0]
+        self.documents[file] = self.format_of(Path(file)).parse(data, Path(file))[0]
 
     def _find_free_name(self, name: str, suffix: str) -> str:
         safe = re.sub(r"[^\w.#~@ +-]+", "_", name)[:_LONGEST].strip(". ") or "hull"

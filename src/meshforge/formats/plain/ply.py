@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import itertools
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from meshforge.common import AssetError
 from meshforge.formats.base import feature_of_others
@@ -84,16 +82,13 @@ class _PlyEditor:
         self.kept = np.ones(len(text.vertices), dtype=bool)
         self.kept[np.unique(text.faces[~edit.stays])] = False
         self.kept[np.unique(text.faces[edit.stays])] = True
-        self.kept[self._corners_of_bare_faces(first["face"])] = True
+        bare = set(range(first["face"].element.rows)).difference(text.face_at.tolist())  # of fewer corners than three
+        lists = [first["face"].values[key] for key in INDEX_NAMES if key in first["face"].values]
+        self.kept[[int(corner) for read in lists for k in bare for corner in read[k]]] = True
         self.number = np.cumsum(self.kept) - 1
         self.gone = set(text.face_at[~edit.stays].tolist())
         self.vertices, self.faces = _stack_parts(edit.parts, int(self.kept.sum()))
         self._refuse_misfits()
-
-    def _corners_of_bare_faces(self, faces: PlyRows) -> list[int]:
-        bare = set(range(faces.element.rows)).difference(self.text.face_at.tolist())
-        lists = [faces.values[key] for key in INDEX_NAMES if key in faces.values]
-        return [int(corner) for read in lists for k in bare for corner in read[k]]
 
     def to_bytes(self) -> bytes:
         head = self.edit.document.data[: self.text.header.size]
@@ -106,71 +101,39 @@ class _PlyEditor:
         return head + body
 
     def _refuse_misfits(self) -> None:
+        """Raise AssetError where the type of a property cannot hold a made hull; coordinates may lose digits."""
         made = {
             "vertex": dict(zip("xyz", self.vertices.T, strict=True)),
             "face": dict.fromkeys(INDEX_NAMES, self.faces),
         }
         for element in (rows.element for rows in self.text.rows):
             columns = made.get(element.name, {})
-            for kind in (p for p in element.properties if p.name in columns):
-                if (wrong := find_misfits(kind, columns[kind.name])).size:
+            for kind in (p for p in element.properties if p.name in columns and (p.count or p.type[0] != "f")):
+                values = columns[kind.name]
+                with np.errstate(invalid="ignore"):
+                    wrong = values[values.astype(kind.type) != values]
+                if wrong.size:
                     problem = f"a made hull needs {wrong[0]:.6g} in the property {kind.name}, whose type cannot hold it"
                     raise AssetError(problem, where=str(self.edit.path), remedy="Convert it to OBJ first.")
 
     def _edit_rows(self, rows: PlyRows) -> Iterator[bytes]:
         data, order, properties = self.edit.document.data, self.text.header.order, rows.element.properties
-        cut = [data[start:stop] for start, stop in rows.spans.tolist()]
         if rows.element.name == "vertex":
-            kept = itertools.compress(cut, self.kept.tolist())
-            yield from (row if order or row.endswith(b"\n") else row + b"\n" for row in kept)  # the last may lack it
-            yield from (make_row({"x": x, "y": y, "z": z}, properties, order) for x, y, z in self.vertices.tolist())
+            for start, stop in rows.spans[self.kept].tolist():
+                row = data[start:stop]
+                yield row if order or row.endswith(b"\n") else row + b"\n"  # the last may lack it
+            yield from (_make_row({"x": x, "y": y, "z": z}, properties, order) for x, y, z in self.vertices.tolist())
         elif rows.element.name == "face":
-            for row in (row for k, row in enumerate(cut) if k not in self.gone):
-                if order:
-                    yield _renumber_bytes(row, properties, order, self.number)
-                else:
-                    yield _renumber_text(row, properties, self.number)
-            yield from (make_row(dict.fromkeys(INDEX_NAMES, face), properties, order) for face in self.faces.tolist())
+            for k in range(rows.element.rows):
+                if k not in self.gone:
+                    own = {p.name: rows.values[p.name][k] for p in properties}
+                    own |= {key: self.number[np.asarray(own[key], np.int64)] for key in INDEX_NAMES if key in own}
+                    yield _make_row(own, properties, order)
+            yield from (_make_row(dict.fromkeys(INDEX_NAMES, face), properties, order) for face in self.faces.tolist())
 
 
-def _renumber_text(row: bytes, properties: Sequence[PlyProperty], number: Ints) -> bytes:
-    words, at = row.split(), 0
-    for kind in properties:
-        length = int(words[at]) if kind.count else 0
-        if kind.name in INDEX_NAMES:
-            words[at + 1 : at + 1 + length] = [
-                b"%d" % number[int(float(word))] for word in words[at + 1 : at + 1 + length]
-            ]
-        at += 1 + length
-    return b" ".join(words) + (row[len(row.rstrip()) :] or b"\n")
-
-
-def _renumber_bytes(row: bytes, properties: Sequence[PlyProperty], order: str, number: Ints) -> bytes:
-    out, at = row, 0
-    for kind in properties:
-        length = 1
-        if kind.count:
-            length = int(np.frombuffer(row, order + kind.count, 1, at)[0])
-            at += np.dtype(kind.count).itemsize
-        stop = at + length * np.dtype(kind.type).itemsize
-        if kind.name in INDEX_NAMES and length:
-            corners = np.frombuffer(row, order + kind.type, length, at).astype(np.int64)
-            out = out[:at] + number[corners].astype(order + kind.type).tobytes() + out[stop:]
-        at = stop
-    return out
-
-
-def find_misfits(kind: PlyProperty, values: npt.NDArray[Any]) -> npt.NDArray[Any]:
-    """The new values that the type of a property cannot hold; a coordinate may be rounded to single precision."""
-    if kind.type[0] == "f" and not kind.count:
-        return values[:0]
-    with np.errstate(invalid="ignore"):
-        wrong: npt.NDArray[np.bool_] = values.astype(kind.type) != values
-    return values[wrong]
-
-
-def make_row(values: Mapping[str, Any], properties: Sequence[PlyProperty], order: str) -> bytes:
-    """A new row; colours that are not given are full, the rest is zero."""
+def _make_row(values: Mapping[str, Any], properties: Sequence[PlyProperty], order: str) -> bytes:
+    """A row; of values that are not given, colours are full, the rest is zero."""
     cells = []
     for kind in properties:
         default: Any = [] if kind.count else 0

@@ -31,12 +31,7 @@ class StlFormat(PlainFormat):
     suffixes = (".stl",)
 
     def parse_soup(self, data: bytes, path: Path) -> Soup:
-        text = parse_stl(data, str(path))
-        text.surfaces(str(path))  # raises where there is nothing to read
-        corners = text.corners.reshape(-1, 3)
-        several = len(text.solids) > 1 and len(np.unique(text.solid)) > 1
-        names = tuple((name or None) if several else None for name in text.solids)
-        return Soup(corners, np.arange(len(corners)).reshape(-1, 3), text.solid, names)
+        return join_surfaces(parse_stl(data, str(path)).surfaces(str(path)))
 
     def apply_edit(self, edit: MeshFileEdit) -> bytes:
         data = edit.document.data

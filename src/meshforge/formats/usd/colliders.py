@@ -3,9 +3,11 @@ inherits from them."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from typing import Any
 
+from meshforge.formats.collision_pieces import CollisionPiece
 from meshforge.formats.libraries import pxr
 from meshforge.formats.usd.stage import BODY, UsdStage
 from meshforge.geometry import Pose
@@ -32,9 +34,17 @@ _INHERITED_SCHEMAS = ("PhysxCollisionAPI", "PhysxConvexHullCollisionAPI", "Newto
 _MATERIAL_BINDING = "material:binding"
 
 
-def has_physics(scene: UsdStage) -> bool:
-    """Whether any prim says that it collides or is a rigid body, switched off or not."""
-    return any(has_schema(prim, COLLISION) or has_schema(prim, RIGID_BODY) for prim in scene.prims())
+@dataclass(frozen=True, eq=False, slots=True)
+class PrimCollision:
+    """A prim with collision: its pieces in the root frame."""
+
+    prim: Any
+    body: str
+    parts: Sequence[CollisionPiece]
+
+    @property
+    def path(self) -> str:
+        return str(self.prim.GetPath())
 
 
 def has_schema(prim: Any, schema: str) -> bool:
@@ -46,8 +56,7 @@ def is_collider(scene: UsdStage, prim: Any) -> bool:
     """Whether a prim of a stage with physics collides: not switched off, and no trigger."""
     if not has_schema(prim, COLLISION) or has_schema(prim, TRIGGER):
         return False
-    enabled = scene.get(prim.GetAttribute("physics:collisionEnabled"))
-    return enabled is not False
+    return scene.get(prim.GetAttribute("physics:collisionEnabled")) is not False
 
 
 def is_drawn(prim: Any) -> bool:
@@ -72,17 +81,6 @@ def body_of(scene: UsdStage, prim: Any) -> Any:
     return None
 
 
-def instances_around(prim: Any) -> Any:
-    """The instances that a prim is in, the outermost first, none where it is in none."""
-    found = []
-    prim = prim.GetParent()
-    while prim and not prim.IsPseudoRoot():
-        if prim.IsInstance():
-            found.append(prim)
-        prim = prim.GetParent()
-    return found[::-1]
-
-
 class StageBodies:
     """The rigid bodies of a stage by path, in its order; used: whether the body of all else is needed."""
 
@@ -95,14 +93,13 @@ class StageBodies:
         self.used = not self.prims
 
     def of(self, prim: Any) -> str:
-        """The name of the body that a prim is part of."""
-        own = body_of(self.scene, prim)
-        path = str(own.GetPath()) if own else ""
-        self.used |= path not in self.names
-        return self.names.get(path, BODY)
+        """Return the name of the body that a prim is part of."""
+        name = self.of_joint(prim)
+        self.used |= name == BODY
+        return name
 
     def of_joint(self, prim: Any) -> str:
-        """The name of the body that a joint holds by a prim; it does not count as used, since it may show nothing."""
+        """Return the name of the body that a joint holds by a prim; it does not count as used: it may show nothing."""
         own = body_of(self.scene, prim)
         return self.names.get(str(own.GetPath()), BODY) if own else BODY
 
@@ -129,14 +126,11 @@ class StageBodies:
 
 def contact_attributes(prim: Any) -> tuple[tuple[str, str], ...]:
     """Names and values of what is authored on a prim, its physics material by path, in order of name."""
-    found = {}
-    for attribute in prim.GetAuthoredAttributes():
-        name = attribute.GetName()
-        if name.lower().startswith(_CONTACT_PREFIXES) and attribute.Get() is not None:
-            found[name] = str(attribute.Get())
-    material = physics_material(prim)
-    if material:
-        found[_PHYSICS_MATERIAL] = str(material.GetPath())
+    values = {attribute.GetName(): attribute.Get() for attribute in prim.GetAuthoredAttributes()}
+    if material := physics_material(prim):
+        values[_PHYSICS_MATERIAL] = material.GetPath()
+    wanted = (*_CONTACT_PREFIXES, _PHYSICS_MATERIAL)
+    found = {name: str(v) for name, v in values.items() if name.lower().startswith(wanted) and v is not None}
     return tuple(sorted(found.items()))
 
 
@@ -167,7 +161,7 @@ def _has_physics_material(prim: Any) -> bool:
     """Whether the plain material binding of a prim leads to a material with physics."""
     targets = prim.GetRelationship(_MATERIAL_BINDING).GetTargets() if prim.HasRelationship(_MATERIAL_BINDING) else []
     materials = [prim.GetStage().GetPrimAtPath(path) for path in targets]
-    return any(m and "PhysicsMaterialAPI" in m.GetPrimTypeInfo().GetAppliedAPISchemas() for m in materials)
+    return any(material and has_schema(material, "PhysicsMaterialAPI") for material in materials)
 
 
 def _copy_property(spec: Any, source: Any) -> None:

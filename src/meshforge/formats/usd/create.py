@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from pathlib import PurePosixPath
 from typing import Any
 
@@ -14,10 +13,11 @@ from meshforge.formats.kinematic_tree import BodyTree
 from meshforge.formats.libraries import pxr
 from meshforge.formats.usd import prims
 from meshforge.formats.usd.colliders import apply_schemas
-from meshforge.formats.usd.stage import BODY, export_layer, is_crate_wanted, pack_usdz, usd
+from meshforge.formats.usd.layers import PACKAGE_SUFFIX, export_layer, is_crate_wanted, pack_usdz
+from meshforge.formats.usd.stage import BODY, usd
 from meshforge.formats.visuals import linear_color, read_visual_surfaces
 from meshforge.geometry import Pose
-from meshforge.symbolic import Asset, Geom, NonConvexPiece, Surface
+from meshforge.symbolic import Asset, Geom, NonConvexPiece
 
 _ROOT = prims.PrimSpace(np.eye(3), np.zeros(3))
 _WORLDS = (BODY, "world")
@@ -40,10 +40,9 @@ class _Creator:
         fixed = {root for root in BodyTree.of(asset).roots if root in _WORLDS and root not in weights}
         self.poses = {body.name: body.pose for body in asset.bodies if body.name not in fixed}
         self.layer = pxr.Sdf.Layer.CreateAnonymous(".usda")
-        self.root = prims.add_prim(self.layer.pseudoRoot, prims.free_prim_name(name.stem, ()), "Xform")
+        self.root = prims.add_prim(self.layer.pseudoRoot, prims.prim_name(name.stem), "Xform")
         self.bodies: dict[str, Any] = {}
         self.names: dict[str, str] = {}
-        self.lost: list[Loss] = []
         self.drawn = not len(asset.visuals)
 
     def build_output(self) -> Output:
@@ -56,15 +55,17 @@ class _Creator:
             self._add_hull(geom)
         for piece in self.asset.non_convex:
             self._add_non_convex(piece)
-        self._add_visuals()
+        lost = self._add_visuals()
         suffix, stem = self.name.suffix.lower(), self.name.stem
         main = export_layer(self.layer, crate=is_crate_wanted(suffix, None))
-        if suffix == ".usdz":
+        if suffix == PACKAGE_SUFFIX:
             main = pack_usdz({f"{stem}.usdc": main})
-        return Output(main, notes=tuple(self._collect_notes()), names=self.names, lost=tuple(self.lost))
+        which = f"{pluralize(len(self.bodies), 'body', 'bodies')} free to fall ({join_names(list(self.bodies), 3)})"
+        note = f"{which}: for one that stands fast, join it to the world with a PhysicsFixedJoint"
+        return Output(main, notes=(note,) if self.bodies else (), names=self.names, lost=tuple(lost))
 
     def _add_body(self, body: str, pose: Pose) -> None:
-        spec = prims.add_prim(self.root, self._free_name(self.root, body), "Xform")
+        spec = prims.add_prim(self.root, prims.free_prim_name(self.root, body), "Xform")
         prims.set_place(spec, pose.translation, pose.rotation)
         apply_schemas(spec, ["PhysicsRigidBodyAPI"])
         self.bodies[body] = spec
@@ -86,13 +87,13 @@ class _Creator:
     def _add_non_convex(self, piece: NonConvexPiece) -> None:
         """Add a piece as its triangles, or as a plane; the report names one that is neither."""
         if piece.plane is not None:  # which USD does not let move
-            name = self._free_name(self.root, piece.name.rsplit("/", 1)[-1])
+            name = prims.free_prim_name(self.root, piece.name.rsplit("/", 1)[-1])
             spec = prims.add_plane(self.root, name, piece.plane.translation, piece.plane.rotation)
             prims.mark_collider(spec, None)
             return
-        holder, name = self._find_holder(piece.name, piece.body)
-        space = self._space(piece.body)
         if piece.surface is not None and len(piece.surface.faces):
+            holder, name = self._find_holder(piece.name, piece.body)
+            space = self._space(piece.body)
             spec = prims.add_mesh(holder, name, np.asarray(piece.surface.vertices), piece.surface.faces, space)
             prims.mark_collider(spec, "convexDecomposition" if piece.body in self.bodies else "none", drawn=self.drawn)
 
@@ -101,44 +102,28 @@ class _Creator:
         holder = self.bodies.get(body, self.root)
         *above, own = name.removeprefix(f"{body}/").split("/")
         for k, part in enumerate(above):
-            found = holder.nameChildren.get(prims.free_prim_name(part, ()))
+            found = holder.nameChildren.get(prims.prim_name(part))
             if found is not None and found.typeName != "Scope":
                 own = "_".join([*above[k:], own])
                 break
-            holder = found or prims.add_prim(holder, prims.free_prim_name(part, ()), "Scope")
-        return holder, self._free_name(holder, own)
+            holder = found or prims.add_prim(holder, prims.prim_name(part), "Scope")
+        return holder, prims.free_prim_name(holder, own)
 
-    def _add_visuals(self) -> None:
+    def _add_visuals(self) -> list[Loss]:
+        """Add meshes that are seen and do not collide, with their display colours; what cannot be read."""
         shown, lost = read_visual_surfaces(self.asset)
         for body, surface in shown:
             holder = self.bodies.get(body, self.root)
-            add_visual(holder, self._free_name(holder, "visual"), surface, self._space(body))
-        self.lost += lost
-
-    def _collect_notes(self) -> Iterator[str]:
-        if self.bodies:
-            yield (
-                f"{pluralize(len(self.bodies), 'body', 'bodies')} free to fall ({join_names(list(self.bodies), 3)}): "
-                "for one that stands fast, join it to the world with a PhysicsFixedJoint"
-            )
+            points, name = np.asarray(surface.vertices), prims.free_prim_name(holder, "visual")
+            spec = prims.add_mesh(holder, name, points, surface.faces, self._space(body))
+            if surface.rgba is not None:
+                color = pxr.Vt.Vec3fArray([pxr.Gf.Vec3f(*linear_color(surface.rgba))])
+                prims.set_value(spec, "primvars:displayColor", "Color3fArray", color)
+                if surface.rgba[3] < 1:
+                    opacity = pxr.Vt.FloatArray([float(surface.rgba[3])])
+                    prims.set_value(spec, "primvars:displayOpacity", "FloatArray", opacity)
+        return lost
 
     def _space(self, body: str) -> prims.PrimSpace:
         pose = self.poses.get(body)
         return prims.PrimSpace(pose.rotation, pose.translation) if pose else _ROOT
-
-    @staticmethod
-    def _free_name(holder: Any, wanted: str) -> str:
-        return prims.free_prim_name(wanted, [child.name for child in holder.nameChildren])
-
-
-def add_visual(holder: Any, name: str, surface: Surface, space: prims.PrimSpace) -> None:
-    """A mesh that is seen and does not collide, with its display colour."""
-    spec = prims.add_mesh(holder, name, np.asarray(surface.vertices), surface.faces, space)
-    color = surface.rgba
-    if color is None:
-        return
-    prims.set_value(
-        spec, "primvars:displayColor", "Color3fArray", pxr.Vt.Vec3fArray([pxr.Gf.Vec3f(*linear_color(color))])
-    )
-    if color[3] < 1:
-        prims.set_value(spec, "primvars:displayOpacity", "FloatArray", pxr.Vt.FloatArray([float(color[3])]))

@@ -1,19 +1,25 @@
-"""The format USD as the registry has it, what a stage can hold, and what one holds besides hulls, bodies, joints,
-masses and visuals."""
+"""The format USD as the registry has it, what a stage holds besides hulls, bodies, joints, masses and visuals, and a
+`Usd.Stage` that is open in memory: its file where that says it all, else the stage as it is, flattened."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Protocol, runtime_checkable
 
 from meshforge.common import AssetError
 from meshforge.common.processes import call_isolated
 from meshforge.formats import base
+from meshforge.formats.libraries import make_folder
 from meshforge.formats.usd.stage import UsdDocument, UsdStage, usd
-from meshforge.symbolic import Asset, Feature, FeatureKind, Surface
+from meshforge.symbolic import Asset, Feature, FeatureKind, FileNote, Surface
 
-_OTHERS = ("Material", "Camera", "SkelRoot", "PhysicsScene", "PhysicsCollisionGroup", "PhysicsDistanceJoint")
+_FLAT = FileNote("read from a stage that differs from its files: flattened into one layer, which is what gets edited")
+_OTHERS = (
+    *("Material", "Camera", "SkelRoot", "PhysicsScene", "PhysicsCollisionGroup"),
+    *("PhysicsDistanceJoint", "PhysicsJoint"),
+)
 
 
 class UsdFormat(base.SceneFormat):
@@ -56,9 +62,7 @@ class UsdFormat(base.SceneFormat):
 
     def is_edited(self, asset: Asset) -> bool:
         assert isinstance(asset.document, UsdDocument)
-        from meshforge.formats.usd import edit  # lazy: only USD needs it
-
-        return edit.is_stage_edited(asset, asset.document)
+        return asset.document.is_edited(asset)
 
     def surfaces_of(self, asset: Asset) -> Sequence[Surface]:
         assert isinstance(asset.document, UsdDocument)
@@ -68,9 +72,9 @@ class UsdFormat(base.SceneFormat):
 
     def add_colliders(self, asset: Asset, name: str) -> base.Output:
         assert isinstance(asset.document, UsdDocument)
-        from meshforge.formats.usd import add_colliders  # lazy: only USD needs it
+        from meshforge.formats.usd import edit  # lazy: only USD needs it
 
-        return call_isolated(add_colliders.add_usd_colliders, asset, asset.document, name, where=str(asset.path))
+        return call_isolated(edit.add_usd_colliders, asset, asset.document, name, where=str(asset.path))
 
 
 def _read_features(path: Path) -> list[Feature]:
@@ -91,3 +95,48 @@ def _list_others(prim: Any) -> Iterator[str]:
         yield "contact setting"
     if any(name.startswith("drive:") for name in names):
         yield "drive"
+
+
+@runtime_checkable
+class StageObject(Protocol):
+    """A `Usd.Stage`."""
+
+    def GetRootLayer(self) -> Any:  # noqa: N802
+        """Its root layer."""
+
+    def GetUsedLayers(self) -> Any:  # noqa: N802
+        """All its layers."""
+
+    def GetSessionLayer(self) -> Any:  # noqa: N802
+        """The layer of what is changed for this session only."""
+
+    def Flatten(self) -> Any:  # noqa: N802
+        """All of it in one layer."""
+
+
+def read_stage(stage: StageObject) -> Asset:
+    """The asset in a stage.
+
+    A stage as its saved files have it is read from these, so that an edit keeps all the rest of them. One that is made
+    in memory, or has unsaved changes, is flattened, references resolved, in a folder that lasts as long as the process.
+    Raises AssetError as reading a file does.
+    """
+    from meshforge.formats.usd import read  # lazy: only USD needs it
+
+    root = stage.GetRootLayer()
+    name = Path(str(root.GetDisplayName() or "stage")).stem or "stage"
+    with usd(name):
+        if _is_saved(stage):
+            path, flat = Path(str(root.realPath)), False
+        else:
+            path, flat = make_folder() / f"{name}.usda", True
+            stage.Flatten().Export(str(path))
+    asset = call_isolated(read.read_usd, path, where=str(path))
+    return replace(asset, notes=(_FLAT, *asset.notes)) if flat else asset
+
+
+def _is_saved(stage: StageObject) -> bool:
+    session = stage.GetSessionLayer()
+    layers = [layer for layer in stage.GetUsedLayers() if layer != session]
+    is_pure = session is None or session.empty
+    return is_pure and all(layer.realPath and not layer.dirty and Path(layer.realPath).is_file() for layer in layers)

@@ -1,4 +1,5 @@
-"""The joints of a stage, as far as they make trees of its bodies, and the masses of these, in the root frame."""
+"""The joints of a stage, as far as they make trees of its bodies, and the masses of these, in the root frame: by what
+they say themselves, or by their colliders."""
 
 from __future__ import annotations
 
@@ -8,10 +9,12 @@ from typing import Any
 
 import numpy as np
 
+from meshforge import geometry
+from meshforge.formats.collision_pieces import CollisionPiece
 from meshforge.formats.libraries import pxr
-from meshforge.formats.usd.colliders import StageBodies
+from meshforge.formats.usd.colliders import PrimCollision, StageBodies, physics_material
 from meshforge.formats.usd.stage import BODY, UsdStage, rotation_of
-from meshforge.geometry import Floats, Pose, Shape, inertia, rotation_of_quaternion
+from meshforge.geometry import Floats, Polytope, Pose, Shape
 from meshforge.symbolic import Geom, Inertial, Joint, JointKind, Mechanism
 
 _KINDS: dict[str, JointKind] = {
@@ -21,9 +24,7 @@ _KINDS: dict[str, JointKind] = {
     "PhysicsSphericalJoint": "ball",
 }
 _AXES = {"X": np.eye(3)[0], "Y": np.eye(3)[1], "Z": np.eye(3)[2]}
-_TURNS = {"rotX": "X", "rotY": "Y", "rotZ": "Z"}
-_SLIDES = {"transX": "X", "transY": "Y", "transZ": "Z"}
-_FREEDOMS = (*_TURNS, *_SLIDES)
+_DENSITY = 1000.0  # [kg/m^3], where nothing says another one
 _STILL = 1e-6  # rad, below which a turn is the rounding of single precision
 
 
@@ -37,7 +38,9 @@ def read_mechanism(scene: UsdStage, bodies: StageBodies, geoms: Sequence[Geom]) 
     named = [(prim, bodies.names[path]) for path, prim in bodies.prims.items()]
     found = (read_inertial(scene, prim, name, hulls[name]) for prim, name in named)
     inertials = tuple(inertial for inertial in found if inertial is not None)
-    joints = _keep_trees(joint for prim in joint_prims(scene) if (joint := _read_joint(scene, prim, bodies)))
+    prims = [prim for prim in scene.prims() if prim.IsA(pxr.UsdPhysics.Joint)]
+    enabled = [prim for prim in prims if scene.get(prim.GetAttribute("physics:jointEnabled")) is not False]
+    joints = _keep_trees(joint for prim in enabled if (joint := _read_joint(scene, prim, bodies)))
     bodies.used |= any(BODY in (joint.parent, joint.child) for joint in joints)
     return Mechanism(tuple(joints), inertials, _read_filtered_pairs(bodies))
 
@@ -50,12 +53,6 @@ def _read_filtered_pairs(bodies: StageBodies) -> tuple[tuple[str, str], ...]:
         targets = relationship.GetForwardedTargets() if relationship else []
         found += [(bodies.names[path], bodies.names[str(t)]) for t in targets if str(t) in bodies.names]
     return tuple(found)
-
-
-def joint_prims(scene: UsdStage) -> list[Any]:
-    """The prims that are joints and switched on."""
-    found = [prim for prim in scene.prims() if prim.IsA(pxr.UsdPhysics.Joint)]
-    return [prim for prim in found if scene.get(prim.GetAttribute("physics:jointEnabled")) is not False]
 
 
 def _read_joint(scene: UsdStage, prim: Any, bodies: StageBodies) -> Joint | None:
@@ -72,21 +69,7 @@ def _read_joint(scene: UsdStage, prim: Any, bodies: StageBodies) -> Joint | None
     if limits is not None:
         now = _joint_position(kind, axis, first, second, scene.metres)
         limits = limits[0] * unit - now, limits[1] * unit - now
-    drive = {"revolute": "angular", "prismatic": "linear"}.get(kind, "")
-    effort = read_number(scene, prim, f"drive:{drive}:physics:maxForce") if drive else None
-    damping = read_number(scene, prim, f"drive:{drive}:physics:damping") if drive else None
-    still = drive and not read_number(scene, prim, f"drive:{drive}:physics:stiffness")
-    return Joint(
-        prim.GetName(),
-        kind,
-        parent,
-        child,
-        second.translation,
-        first.rotation @ axis,
-        limits,
-        damping=damping * _force_unit(scene, kind) / unit if damping and still and np.isfinite(damping) else 0.0,
-        effort=effort * _force_unit(scene, kind) if effort else None,
-    )
+    return Joint(prim.GetName(), kind, parent, child, second.translation, first.rotation @ axis, limits)
 
 
 def _read_end(scene: UsdStage, prim: Any, side: str, bodies: StageBodies) -> tuple[str, Pose]:
@@ -107,28 +90,9 @@ def _read_freedom(scene: UsdStage, prim: Any) -> tuple[JointKind | None, Floats,
     """The kind of a joint, its axis (3,) in its own frame, and its limits in the units of the file."""
     kind = _KINDS.get(str(prim.GetTypeName()))
     axis = _AXES.get(str(scene.get(prim.GetAttribute("physics:axis")) or "X"), _AXES["X"])
-    if kind is not None:
-        low, high = (read_number(scene, prim, f"physics:{end}Limit") for end in ("lower", "upper"))
-        limited = kind in ("revolute", "prismatic") and low is not None and high is not None and low <= high
-        return kind, axis, (low, high) if limited and low is not None and high is not None else None
-    return _read_free_axis(scene, prim) if str(prim.GetTypeName()) == "PhysicsJoint" else (None, axis, None)
-
-
-def _read_free_axis(scene: UsdStage, prim: Any) -> tuple[JointKind | None, Floats, tuple[float, float] | None]:
-    """What `_read_freedom` returns, of a joint of six degrees by the limits on each; low above high locks one."""
-    bounds = {
-        name: tuple(read_number(scene, prim, f"limit:{name}:physics:{e}") for e in ("low", "high"))
-        for name in _FREEDOMS
-    }
-    free = [name for name, (low, high) in bounds.items() if low is None or high is None or low < high]
-    if not free:
-        return "fixed", _AXES["X"], None
-    if len(free) == 1:
-        low, high = bounds[free[0]]
-        kind: JointKind = "revolute" if free[0] in _TURNS else "prismatic"
-        axis = _AXES[(_TURNS | _SLIDES)[free[0]]]
-        return kind, axis, (low, high) if low is not None and high is not None else None
-    return ("ball", _AXES["X"], None) if set(free) == set(_TURNS) else (None, _AXES["X"], None)
+    low, high = (read_number(scene, prim, f"physics:{end}Limit") for end in ("lower", "upper"))
+    limited = kind in ("revolute", "prismatic") and low is not None and high is not None and low <= high
+    return kind, axis, (low, high) if limited and low is not None and high is not None else None
 
 
 def _joint_position(kind: JointKind, axis: Floats, first: Pose, second: Pose, metres: float) -> float:
@@ -139,10 +103,6 @@ def _joint_position(kind: JointKind, axis: Floats, first: Pose, second: Pose, me
     sine = axis @ np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]]) / 2
     angle = float(np.arctan2(sine, (np.trace(turn) - 1) / 2))
     return angle if abs(angle) > _STILL else 0.0
-
-
-def _force_unit(scene: UsdStage, kind: JointKind) -> float:
-    return scene.kilograms * scene.metres ** (2 if kind == "revolute" else 1)
 
 
 def _keep_trees(joints: Iterable[Joint]) -> list[Joint]:
@@ -183,9 +143,9 @@ def read_inertial(scene: UsdStage, prim: Any, body: str, hulls: Sequence[Shape])
     mass *= scene.kilograms
     centre, moments = centre_of(scene, prim), moments_of(scene, prim)
     if moments is None:
-        return Inertial(body, mass, *inertia(hulls, mass, centre)) if hulls else None
+        return Inertial(body, mass, *geometry.inertia(hulls, mass, centre)) if hulls else None
     if centre is None:
-        centre = inertia(hulls, mass)[0] if hulls else scene.pose(prim).translation
+        centre = geometry.inertia(hulls, mass)[0] if hulls else scene.pose(prim).translation
     return Inertial(body, mass, centre, moments)
 
 
@@ -221,4 +181,45 @@ def _rotation_of_value(quaternion: Any) -> Floats:
     """The rotation (3, 3) of a quaternion of the library; none at all for None, and for one that is zero."""
     parts = np.zeros(4) if quaternion is None else np.array([quaternion.GetReal(), *quaternion.GetImaginary()], float)
     length = np.linalg.norm(parts)
-    return rotation_of_quaternion(parts) if np.isfinite(length) and length > 0 else np.eye(3)
+    return geometry.rotation_of_quaternion(parts) if np.isfinite(length) and length > 0 else np.eye(3)
+
+
+def weigh(scene: UsdStage, prim: Any, body: str, sources: Sequence[PrimCollision]) -> Inertial | None:
+    """What a body weighs by all that its stage says, colliders included; None where a volume is not known."""
+    pieces = [(source, _solids_of(source.parts)) for source in sources]
+    solids = [(source, shapes) for source, shapes in pieces if shapes]
+    if not solids or any(shapes is None for _, shapes in pieces):
+        return None
+    masses = [(shapes, _mass_of(scene, prim, source, shapes)) for source, shapes in solids]
+    weights = [(mass, *geometry.inertia(shapes, mass)) for shapes, mass in masses]
+    total, centre, summed = geometry.combine_inertias(weights, centre_of(scene, prim))
+    authored_value, moments = read_number(scene, prim, "physics:mass"), moments_of(scene, prim)
+    mass = authored_value * scene.kilograms if authored_value is not None and authored_value > 0 else total
+    return Inertial(body, mass, centre, mass / total * summed if moments is None else moments)
+
+
+def _solids_of(parts: Sequence[CollisionPiece]) -> list[Shape] | None:
+    """The solids of a prim's pieces, of closed non-convex ones too; None where one has no volume that is known."""
+    found: list[Shape] = []
+    for part in parts:
+        if part.shape is not None:
+            found.append(part.shape)
+        elif part.surface is not None and len(part.surface.faces) and geometry.is_closed(part.surface.faces):
+            found.append(Polytope(part.surface.vertices, part.surface.faces))
+        else:
+            return None
+    return found if all(shape.volume > 0 for shape in found) else None
+
+
+def _mass_of(scene: UsdStage, body: Any, source: PrimCollision, shapes: Sequence[Shape]) -> float:
+    """The mass [kg] of a collider: its own, else by density, its own, its body's or its material's."""
+    volume = sum(shape.volume for shape in shapes)
+    own = read_number(scene, source.prim, "physics:mass") if source.prim != body else None
+    if own is not None and own > 0:
+        return own * scene.kilograms
+    material = physics_material(source.prim)
+    for prim in (source.prim, body, *([material] if material else [])):
+        density = read_number(scene, prim, "physics:density")
+        if density is not None and density > 0:
+            return volume * density * scene.kilograms / scene.metres**3
+    return volume * _DENSITY

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
+from meshforge.formats.collision_pieces import leaves_volume
 from meshforge.formats.kinematic_tree import claim_name, drop_rounding
 from meshforge.formats.libraries import pxr
 from meshforge.formats.usd.colliders import COLLISION, DRAWN, MESH_COLLISION, apply_schemas
-from meshforge.formats.usd.stage import rotation_of
+from meshforge.formats.usd.stage import UsdStage, rotation_of
 from meshforge.geometry import Box, Capsule, Cylinder, Floats, Ints, Pose, Shape, Sphere, principal_axes
 from meshforge.symbolic import Inertial
 
@@ -27,6 +27,16 @@ class PrimSpace:
 
     linear: Floats
     offset: Floats
+
+    @staticmethod
+    def of(scene: UsdStage, prim: Any) -> PrimSpace:
+        """Return the space of a prim of a stage."""
+        return PrimSpace(*scene.placement(prim))
+
+    def holds_volume(self) -> bool:
+        """Whether what is put into it keeps its volume."""
+        is_finite = bool(np.isfinite(self.linear).all() and np.isfinite(self.offset).all())
+        return is_finite and leaves_volume(self.linear, 1e-9)
 
     def to_local(self, points: Floats) -> Floats:
         """Points (n, 3) of the root frame in this space."""
@@ -49,12 +59,17 @@ def add_prim(holder: Any, name: str, kind: str) -> Any:
     return pxr.Sdf.PrimSpec(holder, name, pxr.Sdf.SpecifierDef, kind)
 
 
-def free_prim_name(wanted: str, taken: Iterable[str]) -> str:
-    """An identifier like the wanted name that is not taken."""
+def prim_name(wanted: str) -> str:
+    """Return an identifier like the wanted name."""
     plain = _NOT_IN_NAMES.sub("_", wanted).strip("_") or "hull"
-    if plain[0].isdigit():
-        plain = f"_{plain}"
-    return claim_name(plain, set(taken))
+    return f"_{plain}" if plain[0].isdigit() else plain
+
+
+def free_prim_name(holder: Any, wanted: str, stage: Any = None) -> str:
+    """Return an identifier like the wanted name that no child of a spec has, nor of its prim in a stage."""
+    prim = stage.GetPrimAtPath(holder.path) if stage else None
+    taken = {child.GetName() for child in prim.GetAllChildren()} if prim else set()
+    return claim_name(prim_name(wanted), {*taken, *(child.name for child in holder.nameChildren)})
 
 
 def set_value(spec: Any, name: str, kind: str, default: Any, *, uniform: bool = False) -> None:
@@ -84,8 +99,8 @@ def set_place(spec: Any, translation: Floats, rotation: Floats | None = None, sc
 
 
 def add_shape(holder: Any, name: str, shape: Shape, space: PrimSpace) -> tuple[Any, str | None]:
-    """The prim of a shape, and the approximation by which it collides where it is a mesh."""
-    spec = add_native(holder, name, shape, space)
+    """Add the prim of a shape; return it, and the approximation by which it collides where it is a mesh."""
+    spec = _add_native(holder, name, shape, space)
     if spec is not None:
         return spec, None
     return add_mesh(holder, name, np.asarray(shape.vertices), shape.faces, space), "convexHull"
@@ -98,7 +113,7 @@ def add_plane(holder: Any, name: str, translation: Floats, rotation: Floats) -> 
     return spec
 
 
-def add_native(holder: Any, name: str, shape: Shape, space: PrimSpace) -> Any | None:
+def _add_native(holder: Any, name: str, shape: Shape, space: PrimSpace) -> Any:
     """The prim of a box, sphere, cylinder or capsule; None where USD lacks the shape, or would shear it here."""
     if not isinstance(shape, Box | Sphere | Cylinder | Capsule):
         return None
@@ -110,8 +125,7 @@ def add_native(holder: Any, name: str, shape: Shape, space: PrimSpace) -> Any | 
     factor, left = (float(scales.mean()), np.ones(3)) if even else (1.0, scales)
     if isinstance(shape, Box):
         return _add_cube(add_prim(holder, name, "Cube"), at, turn, 2 * shape.half * (factor * left))
-    kind = type(shape).__name__
-    spec = add_prim(holder, name, kind)
+    spec = add_prim(holder, name, type(shape).__name__)
     set_place(spec, at, turn, left)
     radius = shape.radius * factor
     set_value(spec, "radius", "Double", radius)
@@ -169,12 +183,8 @@ def _add_cube(spec: Any, at: Floats, turn: Floats, sides: Floats) -> Any:
 
 
 def _set_extent(spec: Any, low: Floats, high: Floats) -> None:
-    set_value(
-        spec,
-        "extent",
-        "Float3Array",
-        pxr.Vt.Vec3fArray([pxr.Gf.Vec3f(*map(float, low)), pxr.Gf.Vec3f(*map(float, high))]),
-    )
+    ends = [pxr.Gf.Vec3f(*map(float, end)) for end in (low, high)]
+    set_value(spec, "extent", "Float3Array", pxr.Vt.Vec3fArray(ends))
 
 
 def write_mass(spec: Any, inertial: Inertial, body: PrimSpace, metres: float = 1.0, kilograms: float = 1.0) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +14,8 @@ from meshforge.common.processes import call_isolated, report_progress
 from meshforge.formats import collision_pieces, mesh_reader
 from meshforge.formats.libraries import pxr
 from meshforge.formats.meshfile.surface import GAMMA
-from meshforge.formats.usd import colliders, guard
+from meshforge.formats.usd import colliders, layers
+from meshforge.formats.usd.colliders import PrimCollision
 from meshforge.formats.usd.mechanism import read_mechanism
 from meshforge.formats.usd.shapes import read_mesh, read_parts
 from meshforge.formats.usd.stage import PrimRecord, UsdDocument, UsdStage, usd
@@ -25,19 +26,6 @@ _LABELS = "SemanticsLabelsAPI:"
 _ISAAC = "SemanticsAPI:"
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class PrimCollision:
-    """A prim with collision: its pieces in the root frame."""
-
-    prim: Any
-    body: str
-    parts: Sequence[collision_pieces.CollisionPiece]
-
-    @property
-    def path(self) -> str:
-        return str(self.prim.GetPath())
-
-
 def read_usd(path: Path) -> Asset:
     """The asset in a USD file, the layers it refers to included.
 
@@ -45,11 +33,11 @@ def read_usd(path: Path) -> Asset:
     """
     source = mesh_reader.read_content(path)
     with usd(str(path)) as complaints:
-        guard.refuse_far_references(path, source)
+        layers.refuse_far_references(path, source)
         scene = UsdStage.open(path)
         asset = _build_asset(scene, source)
     with usd(str(path)):  # which complains about missing files once more
-        files, missing = find_files(path)
+        files, missing = _find_files(path)
     if complaints and not asset.geoms and not asset.non_convex:
         raise AssetError(f"nothing in it collides; USD says: {complaints[0]}", where=str(path))
     more = [f"and {len(complaints) - 3} complaints more of USD"] if len(complaints) > 3 else []
@@ -58,13 +46,15 @@ def read_usd(path: Path) -> Asset:
 
 
 def _build_asset(scene: UsdStage, source: bytes) -> Asset:
-    physics = colliders.has_physics(scene)
+    marks = (colliders.COLLISION, colliders.RIGID_BODY)
+    physics = any(colliders.has_schema(prim, mark) for prim in scene.prims() for mark in marks)
     bodies = colliders.StageBodies(scene, physics)
     notes: list[str] = []
     sources = list(read_collisions(scene, bodies, physics, notes))
-    authored = record_prims(sources, bodies)
+    names = collision_pieces.name_pieces((bodies.hull_name(one.path, one.body), len(one.parts)) for one in sources)
+    authored = tuple(PrimRecord(one.path, one.body, own) for one, own in zip(sources, names, strict=True))
     visuals = StageSurfaces.of(scene, bodies) if physics else ()
-    mentions = [mentions_of_prim(source.prim) for source in sources]
+    mentions = [_mentions_of_prim(source.prim) for source in sources]
     geoms = tuple(_build_geoms(authored, sources, mentions))
     non_convex = collision_pieces.non_convex_of(
         [collision_pieces.CollisionElement(element.body, element.names) for element in authored],
@@ -72,15 +62,18 @@ def _build_asset(scene: UsdStage, source: bytes) -> Asset:
         [[own] * len(source.parts) for own, source in zip(mentions, sources, strict=True)],
     )
     mechanism = read_mechanism(scene, bodies, geoms)
+    own, layers_used = scene.path.resolve(), map(_file_of, (one.realPath for one in scene.stage.GetUsedLayers()))
+    others = dict.fromkeys(layer for layer in layers_used if layer is not None and layer.resolve() != own)
+    digests = tuple((layer, file_digest(layer)) for layer in others)
     return Asset(
         path=scene.path,
         format="usd",
         bodies=bodies.list_bodies(),
         geoms=geoms,
-        document=UsdDocument(source, physics, authored, tuple(bodies.names.items()), digests_of(scene)),
+        document=UsdDocument(source, physics, authored, digests),
         non_convex=non_convex,
         visuals=visuals,
-        notes=(*collect_notes(scene, physics), *notes),
+        notes=(*_collect_notes(scene, physics), *notes),
         mechanism=mechanism,
         up=scene.up,
     )
@@ -97,15 +90,6 @@ def read_collisions(
             yield PrimCollision(prim, bodies.of(prim), parts)
 
 
-def record_prims(sources: Sequence[PrimCollision], bodies: colliders.StageBodies) -> tuple[PrimRecord, ...]:
-    """The sources with the names of their pieces."""
-    bases = [(bodies.hull_name(source.path, source.body), len(source.parts)) for source in sources]
-    return tuple(
-        PrimRecord(source.path, source.body, names)
-        for source, names in zip(sources, collision_pieces.name_pieces(bases), strict=True)
-    )
-
-
 def _build_geoms(
     authored: Sequence[PrimRecord], sources: Sequence[PrimCollision], mentions: Sequence[Mentions]
 ) -> Iterator[Geom]:
@@ -118,7 +102,7 @@ def _build_geoms(
                 yield replace(geom, fill=part.fill)
 
 
-def find_files(path: Path) -> tuple[tuple[Path, ...], tuple[str, ...]]:
+def _find_files(path: Path) -> tuple[tuple[Path, ...], tuple[str, ...]]:
     """The files beside the main one that are there, in order of mention, and the references that lead nowhere."""
     layers, assets, unresolved = pxr.UsdUtils.ComputeAllDependencies(str(path))
     places = [*(layer.realPath for layer in layers), *assets]
@@ -128,14 +112,6 @@ def find_files(path: Path) -> tuple[tuple[Path, ...], tuple[str, ...]]:
     return tuple(dict.fromkeys(found)), tuple(dict.fromkeys(missing))
 
 
-def digests_of(scene: UsdStage) -> tuple[tuple[Path, str], ...]:
-    """The digests of the layers that the stage uses besides its own file."""
-    own = scene.path.resolve()
-    layers = [_file_of(layer.realPath) for layer in scene.stage.GetUsedLayers()]
-    others = dict.fromkeys(layer for layer in layers if layer is not None and layer.resolve() != own)
-    return tuple((layer, file_digest(layer)) for layer in others)
-
-
 def _file_of(place: Any) -> Path | None:
     """The file of a resolved place; of something within a package, the package."""
     text = str(place).split("[", 1)[0]
@@ -143,7 +119,7 @@ def _file_of(place: Any) -> Path | None:
     return path if text and is_file(path) else None
 
 
-def mentions_of_prim(prim: Any) -> Mentions:
+def _mentions_of_prim(prim: Any) -> Mentions:
     """What is said of a prim with collision."""
     found = [("class", label) for each in (prim, prim.GetParent()) for label in _labels_of(each)]
     found += [("node", prim.GetName()), ("node", prim.GetParent().GetName())]
@@ -164,7 +140,7 @@ def _labels_of(prim: Any) -> Iterator[str]:
             yield str(data or "")
 
 
-def collect_notes(scene: UsdStage, physics: bool) -> Iterator[str]:
+def _collect_notes(scene: UsdStage, physics: bool) -> Iterator[str]:
     """The notes on a stage; physics: whether its prims say what collides."""
     if not physics:
         yield "no prim is marked as collision: all that is seen is taken for it"

@@ -2,23 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
 from meshforge.common import GeometryError
-from meshforge.formats.collision_pieces import (
-    CollisionPiece,
-    build_round,
-    build_solid,
-    place_pieces,
-    place_surface,
-)
+from meshforge.formats.collision_pieces import CollisionPiece, build_round, build_solid, place_pieces, place_surface
 from meshforge.formats.libraries import pxr
-from meshforge.formats.meshfile.surface import FARTHEST, RawSurface
+from meshforge.formats.meshfile.surface import FARTHEST, RawSurface, cut_fans
 from meshforge.formats.usd.stage import UsdStage, rotation_of
-from meshforge.geometry import Box, Floats, Ints, Pose, Sphere, hull_mesh, split_pieces
+from meshforge.geometry import Box, Floats, Pose, Sphere, hull_mesh, split_pieces
 
 _FLAT = 1e-12  # of the largest stretch of a map; below, it is a projection
 _LEAST = 1e-100  # of any stretch; below, its square is zero
@@ -29,7 +22,7 @@ _TO_Z = {
     "Z": np.eye(3),
 }
 """Rotations that take Z to the axis of a prim's shape."""
-WHOLE = ("convexHull", "boundingCube", "boundingSphere")
+_WHOLE = ("convexHull", "boundingCube", "boundingSphere")
 """The approximations that make one shape of a mesh, whatever its pieces."""
 
 
@@ -49,19 +42,18 @@ def read_parts(scene: UsdStage, prim: Any, notes: list[str]) -> list[CollisionPi
 
 def _parts_of_mesh(scene: UsdStage, prim: Any, linear: Floats, offset: Floats) -> list[CollisionPiece]:
     """A mesh as its approximation has it: one shape, or its pieces."""
+    mesh = None
     try:
         mesh = read_mesh(scene, prim)
         if len(mesh.faces) and np.abs(mesh.vertices[np.unique(mesh.faces)]).max() > FARTHEST:
             return [CollisionPiece(None, "its coordinates are out of all bounds")]
         how = str(scene.get(prim.GetAttribute("physics:approximation")) or "none")
-        if how in WHOLE and len(mesh.faces):
+        if how in _WHOLE and len(mesh.faces):
             return [_build_whole(how, mesh, linear, offset)]
-        found = split_pieces(mesh.vertices, mesh.faces, name=str(prim.GetPath()))
+        return place_pieces(split_pieces(mesh.vertices, mesh.faces, name=str(prim.GetPath())), linear, offset)
     except GeometryError as error:
-        if "mesh" in locals() and len(mesh.faces):
-            return [CollisionPiece(None, error.problem, place_surface(mesh.vertices, mesh.faces, linear, offset))]
-        return [CollisionPiece(None, error.problem)]
-    return place_pieces(found, linear, offset)
+        surface = place_surface(mesh.vertices, mesh.faces, linear, offset) if mesh and len(mesh.faces) else None
+        return [CollisionPiece(None, error.problem, surface)]
 
 
 def _build_whole(how: str, mesh: RawSurface, linear: Floats, offset: Floats) -> CollisionPiece:
@@ -113,17 +105,14 @@ def _build_primitive(
         case "Sphere":
             radius = size("radius") * float(scales.max())
             return build_solid(kind, [radius], lambda: Sphere(pose, radius))
-        case "Capsule" | "Cylinder" | "Cone" | "Capsule_1" | "Cylinder_1":
-            bottom, top = (radius * float(wide.max()) for radius in _radii(kind, size))
-            return build_round(kind, pose, bottom, top, size("height") * long / 2)
-    return CollisionPiece(None, f"a collider of type {kind or 'none'} is not known")
-
-
-def _radii(kind: str, size: Callable[[str], float]) -> tuple[float, float]:
-    """The radii of the bottom and the top of a round shape."""
-    if kind.endswith("_1"):
-        return size("radiusBottom"), size("radiusTop")
-    return size("radius"), 0.0 if kind == "Cone" else size("radius")
+        case "Capsule" | "Cylinder" | "Cone":
+            bottom, top = size("radius"), 0.0 if kind == "Cone" else size("radius")
+        case "Capsule_1" | "Cylinder_1":
+            bottom, top = size("radiusBottom"), size("radiusTop")
+        case _:
+            return CollisionPiece(None, f"a collider of type {kind or 'none'} is not known")
+    widest = float(wide.max())
+    return build_round(kind, pose, bottom * widest, top * widest, size("height") * long / 2)
 
 
 def _axis_rotation(scene: UsdStage, prim: Any) -> Floats:
@@ -153,7 +142,10 @@ def read_mesh(scene: UsdStage, prim: Any) -> RawSurface:
     points = np.asarray(scene.get(mesh.GetPointsAttr()) or [], dtype=np.float64).reshape(-1, 3)
     corners = np.asarray(scene.get(mesh.GetFaceVertexIndicesAttr()) or [], dtype=np.int64)
     counts = np.asarray(scene.get(mesh.GetFaceVertexCountsAttr()) or [], dtype=np.int64)
-    faces = triangulate(corners, counts, np.asarray(scene.get(mesh.GetHoleIndicesAttr()) or [], dtype=np.int64))
+    if (counts < 0).any() or counts.sum() != len(corners):
+        raise GeometryError(f"its faces count {int(counts.sum())} corners, it has {len(corners)}")
+    polygon, faces = cut_fans(corners, counts)
+    faces = faces[~np.isin(polygon, np.asarray(scene.get(mesh.GetHoleIndicesAttr()) or [], dtype=np.int64))]
     where = str(prim.GetPath())
     if len(faces) and (faces.min() < 0 or faces.max() >= len(points)):
         raise GeometryError("a face names a vertex that is not there", where=where)
@@ -162,17 +154,3 @@ def read_mesh(scene: UsdStage, prim: Any) -> RawSurface:
     if scene.get(mesh.GetOrientationAttr()) == pxr.UsdGeom.Tokens.leftHanded:
         faces = faces[:, ::-1]
     return RawSurface(None, points, faces)
-
-
-def triangulate(corners: Ints, counts: Ints, holes: Ints) -> Ints:
-    """The triangles (m, 3) of polygons of so many corners each, without those that are holes.
-
-    Raises GeometryError: there are more or fewer corners than the counts say.
-    """
-    if (counts < 0).any() or counts.sum() != len(corners):
-        raise GeometryError(f"its faces count {int(counts.sum())} corners, it has {len(corners)}")
-    solid = np.maximum(counts - 2, 0)
-    solid[holes[(holes >= 0) & (holes < len(counts))]] = 0
-    first = np.repeat(np.cumsum(counts) - counts, solid)
-    step = np.arange(solid.sum()) - np.repeat(np.cumsum(solid) - solid, solid)
-    return np.stack([corners[first], corners[first + step + 1], corners[first + step + 2]], axis=1)

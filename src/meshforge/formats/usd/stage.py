@@ -1,16 +1,12 @@
-"""OpenUSD, the library, used by one asset at a time; what is kept of a stage to write it back; layers as bytes: text,
-crate, or a package of them; and an open stage: its prims in order, and where they are in metres.
+"""OpenUSD, the library, used by one asset at a time; what is kept of a stage to write it back; and an open stage: its
+prims in order, and where they are in metres.
 """
 
 from __future__ import annotations
 
-import io
 import re
-import struct
-import tempfile
 import threading
-import zipfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
@@ -22,17 +18,14 @@ import numpy as np
 
 from meshforge.common import AssetError
 from meshforge.common.processes import report_progress
+from meshforge.formats.collision_pieces import is_edited
 from meshforge.formats.libraries import pxr
+from meshforge.formats.usd.layers import REMEDY
 from meshforge.geometry import Floats, Pose
-from meshforge.symbolic import Document
+from meshforge.symbolic import Asset, Document
 
-_CRATE_MARK = b"PXR-USDC"
 BODY = "body"
 """The name of the body of all collision that is part of no rigid body."""
-
-_ALIGNMENT = 64
-_HEADER = 30  # bytes of a local header before the name
-_PADDING = 0x1986  # the id of the extra field that holds nothing
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,72 +42,23 @@ class UsdDocument(Document):
     """The source of an asset read from a USD file.
 
     source: the bytes of the file; physics: whether prims say that they collide, else all meshes count;
-    bodies: the prims that are bodies, with the names of those; digests: of the layers besides the root layer.
+    digests: of the layers besides the root layer.
     """
 
     source: bytes
     physics: bool
     authored: tuple[PrimRecord, ...]
-    bodies: tuple[tuple[str, str], ...] = ()
     digests: tuple[tuple[Path, str], ...] = ()
 
-
-def is_crate(data: bytes) -> bool:
-    """Whether bytes are a layer in the binary form."""
-    return data.startswith(_CRATE_MARK)
-
-
-def export_layer(layer: Any, *, crate: bool) -> bytes:
-    """A layer as a file of its own."""
-    if not crate:
-        text: str = layer.ExportToString()
-        return text.encode()
-    with tempfile.TemporaryDirectory(prefix="meshforge-") as folder:
-        path = Path(folder) / "layer.usdc"
-        layer.Export(str(path))
-        return path.read_bytes()
-
-
-def is_crate_wanted(suffix: str, source: bytes | None) -> bool:
-    """Whether a file of a suffix is binary; `.usd` is what its source was, and binary where it is new."""
-    if suffix == ".usd":
-        return source is None or is_crate(source)
-    return suffix != ".usda"
-
-
-def pack_usdz(files: Mapping[str, bytes]) -> bytes:
-    """A package of files by their names, in that order."""
-    stream = io.BytesIO()
-    with zipfile.ZipFile(stream, "w", zipfile.ZIP_STORED) as archive:
-        for name, data in files.items():
-            info = zipfile.ZipInfo(name, (1980, 1, 1, 0, 0, 0))
-            info.external_attr = 0o644 << 16
-            info.extra = _padding(stream.tell() + _HEADER + len(name.encode()))
-            archive.writestr(info, data)
-    return stream.getvalue()
-
-
-def unpack_usdz(data: bytes) -> dict[str, bytes]:
-    """The files of a package by their names, in their order."""
-    with zipfile.ZipFile(io.BytesIO(data)) as archive:
-        return {info.filename: archive.read(info) for info in archive.infolist() if not info.is_dir()}
-
-
-def _padding(start: int) -> bytes:
-    """The extra field after which the data begins on a multiple of 64; start: where that field begins."""
-    missing = -start % _ALIGNMENT
-    if missing == 0:
-        return b""
-    if missing < 4:  # a field is four bytes at least
-        missing += _ALIGNMENT
-    return struct.pack("<HH", _PADDING, missing - 4) + bytes(missing - 4)
+    def is_edited(self, asset: Asset) -> bool:
+        """Whether the hulls of an asset are not those of its stage."""
+        return is_edited(asset, (piece for element in self.authored for piece in element.names))
 
 
 _LOCK = threading.RLock()
 """Layers are shared in a process: while one asset is edited in memory, nobody may read it."""
 _STAGE = re.compile(r"\s*\((?:instantiating|recomposing) stage on stage .*\)\s*$", re.S)
 _DAMAGE = (ValueError, LookupError, TypeError, AttributeError, OverflowError, MemoryError)
-_REMEDY = "Repair the file, or export it anew."
 _INSIDE = re.compile(r"\bpxrInternal\w*::|@anon:0x[0-9a-f]+:[^@]*@,?")  # the library's names for parts of its own
 _LONGEST = 300  # characters of a complaint in a message
 
@@ -141,10 +85,10 @@ def usd(where: str) -> Iterator[list[str]]:
         except pxr.Tf.ErrorException as error:
             comment = next(filter(None, map(_text_of, error.args)), "it gives no reason")
             problem = f"USD cannot read it: {shorten(comment, where)}"
-            raise AssetError(problem, where=where, remedy=_REMEDY) from None
+            raise AssetError(problem, where=where, remedy=REMEDY) from None
         except _DAMAGE as error:  # names that are no text, values of types that their schema does not know
             problem = f"this USD file is damaged: {shorten(str(error), where)}"
-            raise AssetError(problem, where=where, remedy=_REMEDY) from error
+            raise AssetError(problem, where=where, remedy=REMEDY) from error
         finally:
             found = [shorten(_text_of(item), where) for item in delegate.TakeUncoalescedDiagnostics()]
             complaints += dict.fromkeys(found)
