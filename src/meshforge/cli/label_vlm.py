@@ -24,7 +24,6 @@ from meshforge.labels import (
     approve_host,
     check_approved,
     describe_sending,
-    endpoint_of,
     is_approved,
 )
 from meshforge.project import Project
@@ -113,7 +112,7 @@ def _ask_model(
 ) -> tuple[Sequence[LabelOutcome], VlmResult]:
     """Ask for labels; the first Ctrl-C ends the asking, and what is under way is waited for."""
     settings, waiting = options.settings(project), "stopping: waiting for the answers that are under way"
-    endpoint, typed = endpoint_of(settings), (options.base_url,) if options.base_url else ()
+    endpoint, typed = Endpoint(settings), (options.base_url,) if options.base_url else ()
     _ask_approval(endpoint, typed)
     check_approved(endpoint, typed)
     remark(describe_sending(endpoint))
@@ -125,7 +124,7 @@ def _ask_model(
 
 def _ask_approval(endpoint: Endpoint, typed: Sequence[str]) -> None:
     """Ask a person at the terminal for a host that is not approved; where nobody can be asked, it stays that."""
-    if endpoint.base_url in typed or is_approved(endpoint) or not (sys.stdin.isatty() and sys.stderr.isatty()):
+    if endpoint.settings.base_url in typed or is_approved(endpoint) or not (sys.stdin.isatty() and sys.stderr.isatty()):
         return
     if typer.confirm(f"For the first time, {describe_sending(endpoint)}. Is that right?", err=True):
         approve_host(endpoint.host)

@@ -23,9 +23,8 @@ __getattr__, __all__ = export_lazily(
         "registry": "LABELERS make_labeler",
         "spans": "HullSpan SpanReport",
         "summary": "Proposal Proposals SourceTally Tally describe_label_plan tally_labels write_contact_sheets",
-        "vlm.approval": "approve_host check_approved describe_sending is_approved",
-        "vlm.endpoint": "Endpoint endpoint_of",
+        "vlm.endpoint": "Endpoint approve_host check_approved describe_sending is_approved",
         "vlm.label_by_vlm": "VlmForecast VlmLabeler VlmResult check_vlm_settings forecast_vlm",
-        "vlm.limits": "Usage",
+        "vlm.cost": "Usage",
     },
 )
