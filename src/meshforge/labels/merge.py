@@ -4,7 +4,7 @@ that follow hulls which others replace."""
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from meshforge import label_model, rendering, symbolic
 from meshforge.common import ProjectError, file_state, join_names, suggest_aside
@@ -25,7 +25,7 @@ class LabelOutcome:
 
     taken: written; same: those the hulls have already; kept: not written, since a person's label stands there.
     problems: a sentence for each label that was left out; unlabelled: hulls that still have none; unsure: those whose
-    label is less certain than not.
+    label is less certain than not; open: why the source left hulls without one, by hull, where that is known.
     """
 
     asset: str
@@ -35,6 +35,7 @@ class LabelOutcome:
     unlabelled: int = 0
     unsure: int = 0
     problems: tuple[str, ...] = ()
+    open: Mapping[str, str] = field(default_factory=dict)
 
 
 def set_labels(

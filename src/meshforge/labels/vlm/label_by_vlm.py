@@ -70,12 +70,11 @@ def check_vlm_settings(settings: VlmSettings, vocabulary: Sequence[str], typed: 
 class VlmResult:
     """How asking a model went. usage: what was asked, and its cost.
 
-    open: why hulls that were asked about have no label from it, by asset and hull; unasked: assets that were not
-    reached, and ended: why, None where all were; blind: the model did not name the colour of a red picture.
+    unasked: assets that were not reached, and ended: why, None where all were; blind: the model did not name the colour
+    of a red picture.
     """
 
     usage: Usage
-    open: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
     unasked: tuple[str, ...] = ()
     ended: str | None = None
     blind: bool = False
@@ -95,23 +94,22 @@ class VlmLabeler(Labeler):
     work = "asking"
 
     def __init__(self, settings: VlmSettings | None = None, typed: Collection[str] = ()) -> None:
-        self._settings, self._typed = settings, typed
+        self.settings, self.typed = settings, typed
         self.result = VlmResult(Usage())
 
     def propose(self, family: LabelFamily) -> LabelProposal:
-        settings = self._settings or family.store.settings.vlm
-        check_approved(Endpoint(settings), self._typed)
+        settings = self.settings or family.store.settings.vlm
+        check_approved(Endpoint(settings), self.typed)
         return LabelProposal(self._ask(family, PromptConfig(family.vocabulary, settings)))
 
     def _ask(self, family: LabelFamily, config: PromptConfig) -> Generator[AssetLabels, None, None]:
         store, stop = family.store, family.execution.stop or (lambda: False)
-        pending = dict[str, tuple[_DrawnAsset, OpenAnswers]]()
-        reached, left = set[str](), dict[str, Mapping[str, str]]()
+        pending, reached = dict[str, tuple[_DrawnAsset, OpenAnswers]](), set[str]()
         with _open_asker(store, config, replace(family.execution, stop=None), stop) as (client, asker, drawn):
 
             def finish(assets: Iterable[str]) -> Iterator[AssetLabels]:
                 for asset in assets:
-                    if labels := _read_answers(store, client, *pending.pop(asset), left):
+                    if labels := _read_answers(store, client, *pending.pop(asset)):
                         reached.add(asset)
                         yield labels
 
@@ -123,25 +121,21 @@ class VlmLabeler(Labeler):
             raise client.end
         unasked = tuple(asset for asset in store.assets() if asset not in reached)
         ended = client.end.message if client.end else "stopped" if unasked else None
-        self.result = VlmResult(client.usage, left, unasked, ended, client.is_blind)
+        self.result = VlmResult(client.usage, unasked, ended, client.is_blind)
 
 
-def _read_answers(
-    store: Store, client: Client, drawn: _DrawnAsset, pending: OpenAnswers, left: dict[str, Mapping[str, str]]
-) -> AssetLabels | None:
+def _read_answers(store: Store, client: Client, drawn: _DrawnAsset, pending: OpenAnswers) -> AssetLabels | None:
     """The labels of an asset when all its answers are there; None where asking ended before any."""
     if drawn.error:
         return AssetLabels(drawn.asset, error=drawn.error)
     answers, end = pending.result(), client.end
     if end and answers.failed and not answers.labels:
         return None  # the result says once that asking ended, and which assets were not reached
-    if answers.open:
-        left[drawn.asset] = answers.open
     if answers.asked:
         write_page(store.layout.vlm, drawn.asset, answers)
     failed = tuple(problem for problem in answers.failed if end is None or problem != end.sentence)
     reasons = {hull: ("model", hull) for hull in answers.labels}
-    return AssetLabels(drawn.asset, drawn.hulls, answers.labels, reasons, failed)
+    return AssetLabels(drawn.asset, drawn.hulls, answers.labels, reasons, failed, answers.open)
 
 
 @contextmanager
