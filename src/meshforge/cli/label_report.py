@@ -30,7 +30,7 @@ _SOURCE_WORDS = {
     "name": "names",
     "propagated": "propagation",
     "consensus": "consensus",
-    "split": "splits of hulls",
+    "rebuild": "rebuilt bodies",
     "vlm": "a model",
     "edit": "edits",
     "plugin": "plug-ins",

@@ -204,11 +204,11 @@ def can_fill_gap(current: Label | None, given: Label | None) -> bool:
 def can_replace_less_certain(current: Label | None, given: Label) -> bool:
     """Whether a label may be replaced: an earlier one of that machine, or one that another was less sure of.
 
-    That of a part of a hull stays: the surface, or a person's split, says more than the shape of the part.
+    That of a part of a hull stays: the surface, or a person's cut, says more than the shape of the part.
     """
     if current is None or current.source == given.source:
         return True
-    return current.source not in symbolic.GIVEN_SOURCES | {"split"} and current.confidence < given.confidence
+    return current.source not in symbolic.GIVEN_SOURCES | {"rebuild"} and current.confidence < given.confidence
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -253,7 +253,7 @@ def label_new_hulls(
     followed = symbolic.transfer_labels(rest, mesh).mesh
     taken = {name: label for name, label in fresh.items() if label and not followed.hull_of(name).annotation}
     notes = [f"labels of {join_names([*gone])} went to {join_names([*taken])}"] if taken and gone else []
-    owed = {label.name for label in labels.values() if label.source != "split"}  # those follow from the split
+    owed = {label.name for label in labels.values() if label.source != "rebuild"}  # those follow from the rebuild
     lost = sorted(owed - {label.name for label in taken.values()})
     notes += [f"no hull takes over the label {join_names(lost)}"] if lost else []
     away = tuple(name for name in gone if name not in taken)

@@ -86,7 +86,7 @@ class FamilyTrial:
 
     def _with_flips(self, posterior: FamilyPosterior) -> FamilyTrial:
         """The same with the probabilities of labels, and what other labels would change."""
-        posterior, labels = posterior.doubt_splits(), posterior.seen.labels
+        posterior, labels = posterior.doubt_rebuilt(), posterior.seen.labels
         rows = enumerate(zip(self.trials, self.state.meshes.values(), strict=True))
         trials = tuple(
             replace(trial, flips=find_flips(trial, mesh, self.program, labels, posterior.chances_of(place)))

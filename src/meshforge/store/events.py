@@ -6,7 +6,15 @@ from abc import abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Annotated, Any, Literal, NamedTuple, Self, TypeVar
 
-from pydantic import ConfigDict, Field, SerializerFunctionWrapHandler, TypeAdapter, ValidationError, model_serializer
+from pydantic import (
+    BeforeValidator,
+    ConfigDict,
+    Field,
+    SerializerFunctionWrapHandler,
+    TypeAdapter,
+    ValidationError,
+    model_serializer,
+)
 
 from meshforge import symbolic, synthesis
 from meshforge.batch import RuleSelection
@@ -108,7 +116,7 @@ class LabelBefore(JsonFile):
     """The label that a hull had, by whom, and how sure that was; given: see `Label`, left out where there is none."""
 
     label: str
-    source: symbolic.LabelSource
+    source: Annotated[symbolic.LabelSource, BeforeValidator(symbolic.current_source)]
     confidence: Probability
     given: LabelBefore | None = None
 
