@@ -38,7 +38,7 @@ _ONLY_FOR = {
     "classes": ("file",),
     "align": ("file",),
     "points_up": ("file",),
-    "pattern": ("file", "names"),
+    "pattern": ("names", "file"),
     "model": ("vlm",),
     "base_url": ("vlm",),
     "mode": ("vlm",),

@@ -24,8 +24,8 @@ class AssetLabels:
     """The labels that are proposed for the hulls of one asset.
 
     hulls: digests by name, in order; given: the label by hull, None to remove the one it has; reasons: by hull;
-    problems: a sentence for each label that was left out; open: why hulls have none, by hull, where that is known;
-    error: why there are no labels for this asset.
+    problems: a sentence for each label that was left out; error: why there are no labels for this asset; open: why
+    hulls have none, by hull, where that is known.
     """
 
     asset: str
@@ -33,8 +33,8 @@ class AssetLabels:
     given: Mapping[str, Label | None] = field(default_factory=dict)
     reasons: Mapping[str, LabelReason] = field(default_factory=dict)
     problems: Sequence[str] = ()
-    open: Mapping[str, str] = field(default_factory=dict)
     error: str | None = None
+    open: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)

@@ -135,7 +135,7 @@ def _read_answers(store: Store, client: Client, drawn: _DrawnAsset, pending: Ope
         write_page(store.layout.vlm, drawn.asset, answers)
     failed = tuple(problem for problem in answers.failed if end is None or problem != end.sentence)
     reasons = {hull: ("model", hull) for hull in answers.labels}
-    return AssetLabels(drawn.asset, drawn.hulls, answers.labels, reasons, failed, answers.open)
+    return AssetLabels(drawn.asset, drawn.hulls, answers.labels, reasons, failed, open=answers.open)
 
 
 @contextmanager
