@@ -31,7 +31,7 @@ class RunOptions:
 
     def settings(self) -> VlmSettings | None:
         """Whom to ask and how. Raises UsageError: no such file, no such table, or a field that does not fit."""
-        from meshforge.labels import endpoint_of
+        from meshforge.labels import Endpoint
         from meshforge.store.settings import VlmSettings
 
         if self.vlm is None:
@@ -48,5 +48,5 @@ class RunOptions:
             raise UsageError(f"this is no TOML: {error}", where=where) from error
         except ValidationError as error:
             raise UsageError(first_validation_error(error), where=where) from error
-        endpoint_of(settings).key()
+        Endpoint(settings).key()
         return settings if self.max_cost is None else settings.model_copy(update={"max_cost": self.max_cost})

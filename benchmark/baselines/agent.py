@@ -14,7 +14,7 @@ from benchmark.tasks import Task
 from meshforge import language
 from meshforge.common import MeshForgeError, ProgramError
 from meshforge.geometry import digest
-from meshforge.labels.vlm.request import Message
+from meshforge.labels.vlm.question import Message
 from meshforge.language import Program, RunResult, from_canonical_frame, show, to_canonical_frame
 from meshforge.symbolic import SymbolicMesh
 

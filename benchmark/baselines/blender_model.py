@@ -15,7 +15,7 @@ from benchmark.baselines.blender.process import Blender
 from benchmark.baselines.refinement import Trial, find_code
 from benchmark.baselines.replay import Replay
 from benchmark.tasks import Task
-from meshforge.labels.vlm.request import Message, Part
+from meshforge.labels.vlm.question import Message, Part
 from meshforge.language import show
 from meshforge.symbolic import EPSILON, Hull, SymbolicMesh
 

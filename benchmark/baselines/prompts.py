@@ -14,7 +14,7 @@ from meshforge.symbolic import Hull, SymbolicMesh
 if TYPE_CHECKING:
     from PIL.Image import Image
 
-    from meshforge.labels.vlm.request import Part
+    from meshforge.labels.vlm.question import Part
 
 _PICTURES, _SIZE = 2, 768  # numbered ones of a mesh; [px]
 _PAIR = (640, 560)

@@ -9,8 +9,7 @@ from typing import Any
 
 from meshforge.labels.vlm.client import Client
 from meshforge.labels.vlm.endpoint import TokenCount
-from meshforge.labels.vlm.request import Message, Part, VlmQuestion
-from meshforge.labels.vlm.transport import Reply
+from meshforge.labels.vlm.question import Message, Part, Reply, VlmQuestion
 
 ROUNDS = 5
 """Answers that a model may give: the first, and four that mend it."""

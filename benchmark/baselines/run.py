@@ -23,8 +23,8 @@ from benchmark.report import Tell
 from benchmark.study import Bench, Session, open_bench
 from benchmark.tasks import Task
 from meshforge.labels.vlm.client import Client
-from meshforge.labels.vlm.endpoint import QuestionError, endpoint_of
-from meshforge.labels.vlm.request import Message
+from meshforge.labels.vlm.endpoint import Endpoint, QuestionError
+from meshforge.labels.vlm.question import Message
 from meshforge.store.settings import VlmSettings
 
 ANSWERS = "vlm"
@@ -92,7 +92,7 @@ def vlm_blender(python: Path) -> Baseline:
 def run_baseline(baseline: Baseline, taught: Sequence[Session], settings: VlmSettings, tell: Tell) -> BaselineRun:
     """Ask a model in all sessions, and judge what it wrote; nothing is judged where some session is missing."""
     taught = sorted(taught, key=lambda row: (row.task, row.setting))  # so that a task's meshes are read once
-    client = Client(endpoint_of(settings), JOURNALS / ANSWERS, max_cost=settings.max_cost)
+    client = Client(Endpoint(settings), JOURNALS / ANSWERS, max_cost=settings.max_cost)
     with closing(client):
         answers = list(_answers(baseline, taught, client, baseline.room + settings.room, tell))
     missing = [answer for answer in answers if isinstance(answer, QuestionError)]
@@ -114,7 +114,7 @@ def _answers(
 ) -> Iterator[Answer | QuestionError]:
     """What came of asking, session by session; task by task, so that meshes are read once."""
     count = 0
-    with ThreadPoolExecutor(client.endpoint.concurrency) as pool:
+    with ThreadPoolExecutor(client.endpoint.settings.concurrency) as pool:
         for (name, setting), rows in groupby(taught, key=lambda row: (row.task, row.setting)):
             bench = open_bench(name, setting)
             for answer in pool.map(partial(_answer, baseline, bench, client, room), list(rows)):

@@ -19,7 +19,7 @@ from benchmark.evaluation.sessions import sessions
 from benchmark.options import RunOptions
 from benchmark.report import Cell, Result, Table, Tell
 from benchmark.study import FLAT, TRUE, Session
-from meshforge.labels import endpoint_of
+from meshforge.labels import Endpoint
 from meshforge.store.settings import VlmSettings
 
 _CONDITIONS = (TRUE, FLAT)
@@ -54,7 +54,7 @@ def measure(tell: Tell, quick: bool, given: RunOptions | None = None) -> Result:
         ),
     )
     whole = [(row.name, row.whole, row.name == agent.NAME) for row in rows if row.whole]
-    is_priced = settings is not None and endpoint_of(settings).is_priced
+    is_priced = settings is not None and Endpoint(settings).is_priced
     return Result(
         "comparison",
         "RQ2: comparison",
@@ -129,6 +129,6 @@ def _notes(rows: Sequence[_Row], settings: VlmSettings | None) -> Iterator[str]:
             "what one run may spend on each baseline."
         )
     else:
-        endpoint = endpoint_of(settings)
-        yield f"The model asked: {endpoint.model}, at temperature 0."
+        endpoint = Endpoint(settings)
+        yield f"The model asked: {endpoint.settings.model}, at temperature 0."
     yield paper.CONDITIONS

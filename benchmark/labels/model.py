@@ -11,13 +11,11 @@ from time import perf_counter
 from benchmark.journal import JOURNALS
 from benchmark.labels.families import Family
 from benchmark.labels.methods import LabellerOutput, Labels, Method
-from meshforge.labels.vlm.answer import VlmAnswers
 from meshforge.labels.vlm.client import Client
-from meshforge.labels.vlm.endpoint import Endpoint, endpoint_of
-from meshforge.labels.vlm.mesh_asker import MeshAsker
-from meshforge.labels.vlm.prompt import build_questions, prompt_config_of
-from meshforge.labels.vlm.request import VlmQuestion
-from meshforge.labels.vlm.transport import Reply
+from meshforge.labels.vlm.endpoint import Endpoint
+from meshforge.labels.vlm.mesh_asker import MeshAsker, VlmAnswers
+from meshforge.labels.vlm.prompt import PromptConfig, build_questions
+from meshforge.labels.vlm.question import Reply, VlmQuestion
 from meshforge.store.settings import VlmSettings
 from meshforge.symbolic import SymbolicMesh
 
@@ -50,9 +48,9 @@ class ModelLabeller:
 
     def _ask(self, family: Family, repeat: int) -> LabellerOutput:
         """Each repeat has its own answers on disk, so that it is asked anew, yet goes on where it was interrupted."""
-        endpoint, most = endpoint_of(self.settings), self.settings.max_cost
+        endpoint, most = Endpoint(self.settings), self.settings.max_cost
         left = None if most is None else max(0.0, most - self.spent)
-        manner = prompt_config_of(self.settings.model_copy(update={"about": "", "descriptions": {}}), family.vocabulary)
+        manner = PromptConfig(family.vocabulary, self.settings.model_copy(update={"about": "", "descriptions": {}}))
         started = perf_counter()
         client = CostClient(endpoint, JOURNALS / "vlm" / f"labels-{repeat}", left)
         with closing(client), closing(MeshAsker(client, manner)) as asker:

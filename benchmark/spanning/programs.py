@@ -135,7 +135,7 @@ def rebuild_sample(sample: Sample, posterior: SpanPosterior) -> tuple[Sample, Pa
     made = posterior.rebuild(0, np.arange(len(sample.mesh.hulls)))
     rebuilt = replace_hulls(sample, [one.shape for one in made])
     rows = zip(rebuilt.mesh.hulls, made, strict=True)
-    return rebuilt, {hull.name: Label(one.label, round(one.share, 3), "split") for hull, one in rows}
+    return rebuilt, {hull.name: Label(one.label, round(one.share, 3), "rebuild") for hull, one in rows}
 
 
 def _reviews_of(rows: Sequence[dict[str, Any]], setting: str, spanning: str) -> list[Review]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import math
 import threading
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
@@ -31,15 +30,13 @@ class Server:
     """What it answers and how, and what it was asked.
 
     fault: what goes wrong with a request, None where nothing does. schema: honoured, silently ignored, or refused;
-    logprobs: likewise, with `chance` for each token; thinks: a model that takes neither max_tokens nor temperature;
+    thinks: a model that takes neither max_tokens nor temperature;
     sees: a model that takes pictures; tells: whether usage is told. slow [s]: how long a slow request takes.
     """
 
     answer: Answering
     fault: Callable[[Asked], Fault | None] = lambda asked: None
     schema: Literal["honoured", "ignored", "refused"] = "honoured"
-    logprobs: Literal["given", "ignored", "refused"] = "ignored"
-    chance: float = 0.9
     thinks: bool = False
     sees: bool = True
     tells: bool = True
@@ -110,8 +107,6 @@ class Server:
             return status(400, "Unsupported value: 'temperature' does not support 0 with this model.")
         if self.schema == "refused" and "response_format" in body:
             return status(400, "unknown field response_format")
-        if self.logprobs == "refused" and "logprobs" in body:
-            return status(400, "logprobs are not available")
         return None
 
     def _completion(self, asked: Asked, *, cut: bool) -> dict[str, Any]:
@@ -119,9 +114,7 @@ class Server:
         if cut:
             text = text[: len(text) * 2 // 3]
         message = {"role": "assistant", "content": text}
-        choice: dict[str, Any] = {"index": 0, "message": message, "finish_reason": "length" if cut else "stop"}
-        if self.logprobs == "given" and asked.body.get("logprobs"):
-            choice["logprobs"] = {"content": [self._token(text[k : k + _TOKEN]) for k in range(0, len(text), _TOKEN)]}
+        choice = {"index": 0, "message": message, "finish_reason": "length" if cut else "stop"}
         given = len(asked.text) // _TOKEN + _PICTURE * len(asked.pictures)
         made = len(text) // _TOKEN + 1
         with self._lock:
@@ -131,10 +124,6 @@ class Server:
 
     def _probed(self, asked: Asked) -> str:
         return '{"colour": "red"}' if self.schema == "honoured" and asked.schema else "Red."
-
-    def _token(self, text: str) -> dict[str, Any]:
-        chance = math.log(self.chance)
-        return {"token": text, "logprob": chance, "top_logprobs": [{"token": text, "logprob": chance}]}
 
 
 @contextmanager

@@ -2,21 +2,49 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 import typer
+from pydantic import ValidationError
 
+from meshforge.batch import ExecutionOptions
 from meshforge.cli import options
-from meshforge.cli.label_by_hand import label_by_hand, refuse_sources
-from meshforge.cli.label_report import LabelPrinter, LabelReport
-from meshforge.cli.label_sources import SourceOptions, label_by, preview
-from meshforge.cli.label_vlm import VLM, VlmOptions, forecast, label_with_vlm
-from meshforge.cli.terminal import remark
-from meshforge.common import UsageError
-from meshforge.labels import LABELERS, approve_host
+from meshforge.cli.console import progress
+from meshforge.cli.label_by_hand import label_by_hand
+from meshforge.cli.label_changes import print_changes, print_proposals
+from meshforge.cli.label_report import LabelPrinter
+from meshforge.cli.label_vlm import label_with_vlm, print_forecast
+from meshforge.cli.terminal import print_json, remark
+from meshforge.common import UsageError, first_validation_error
+from meshforge.labels import (
+    LABELERS,
+    FileLabeler,
+    Labeler,
+    LabelFileOptions,
+    NameLabeler,
+    PointAlignment,
+    VlmLabeler,
+    approve_host,
+    make_labeler,
+)
 from meshforge.project import Project
+from meshforge.store import VlmSettings
+
+_BY_HAND = ("project", "asset", "hulls", "vocabulary", "json")
+_ONLY_FOR = {
+    "labels": ("file",),
+    "classes": ("file",),
+    "align": ("file",),
+    "points_up": ("file",),
+    "pattern": ("names", "file"),
+    "model": ("vlm",),
+    "base_url": ("vlm",),
+    "mode": ("vlm",),
+    "max_cost": ("vlm",),
+}
+"""The sources of labels that an option is for."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,11 +85,22 @@ class LabelArguments:
         Path | None,
         typer.Option(
             "--sheets",
-            help="A folder for contact sheets of all assets; without it, one of those with most that is in doubt is "
-            "written into the project's `pictures`.",
+            help="A folder for contact sheets of all assets, hulls coloured by label.",
         ),
     ] = None
-    vlm: VlmOptions = VLM
+    model: Annotated[str | None, typer.Option("--model", help="The model that --with vlm asks.")] = None
+    base_url: Annotated[str | None, typer.Option("--base-url", help="Where it is, for example .../v1.")] = None
+    mode: Annotated[
+        Literal["cheap", "balanced", "exact"] | None,
+        typer.Option("--mode", help="How many pictures and questions --with vlm takes for a hull.", show_default=False),
+    ] = None
+    max_cost: Annotated[
+        float | None, typer.Option("--max-cost", min=0, help="Dollars that --with vlm may spend.", show_default=False)
+    ] = None
+    approve_host: Annotated[
+        str | None,
+        typer.Option("--approve-host", metavar="HOST", help="Let pictures and a key be sent to this host from now on."),
+    ] = None
     pattern: Annotated[
         list[str] | None,
         typer.Option(
@@ -91,6 +130,40 @@ class LabelArguments:
     execution: options.ExecutionArguments = options.EXECUTION
     json: options.Json = False
 
+    def to_labeler(self, project: Project) -> Labeler:
+        """Return what gives the labels. Raises UsageError for an option that it does not know, or a wrong one."""
+        labeler = make_labeler(self.source)
+        for name, option in options.list_typed(self.context):
+            sources = _ONLY_FOR.get(name, (self.source,))
+            if self.source not in sources:
+                wanted = " and ".join(f"--with {one}" for one in sources)
+                raise UsageError(f"{option} is for {wanted}", remedy="Leave it out.")
+        meanings = tuple(map(_parse_meaning, self.pattern or ()))
+        if isinstance(labeler, NameLabeler):
+            return NameLabeler(meanings)
+        if isinstance(labeler, FileLabeler):
+            classes = tuple(word.strip() for word in self.classes.split(",")) if self.classes else ()
+            alignment = PointAlignment(self.align or "check", self.points_up)
+            return FileLabeler(self.labels, LabelFileOptions(meanings, classes, alignment))
+        if isinstance(labeler, VlmLabeler):
+            return VlmLabeler(self._read_vlm_settings(project), (self.base_url,) if self.base_url else ())
+        return labeler
+
+    def _read_vlm_settings(self, project: Project) -> VlmSettings:
+        names = ("model", "base_url", "mode", "max_cost")
+        given = {name: value for name in names if (value := getattr(self, name)) is not None}
+        try:
+            return VlmSettings.model_validate(project.settings.vlm.model_dump() | given)
+        except ValidationError as error:
+            raise UsageError(first_validation_error(error)) from error
+
+
+def _parse_meaning(text: str) -> tuple[str, str]:
+    pattern, sign, label = text.rpartition("=")
+    if not sign or not pattern.strip():
+        raise UsageError(f"--pattern {text}: it needs a pattern and a label", remedy='Write it so: "*knob*=handle".')
+    return pattern.strip(), label.strip()
+
 
 @options.takes(LabelArguments)
 def label(given: LabelArguments) -> None:
@@ -100,36 +173,45 @@ def label(given: LabelArguments) -> None:
     Labels are written asset by asset; a run that was stopped or killed goes on where it was: the same command again.
     Exit code 1 when some labels could not be taken, or an asset could not be read (each named); the others are done.
     """
-    source, words = given.source, options.split_words(given.vocabulary) if given.vocabulary else None
-    if given.vlm.approve_host:
-        approve_host(given.vlm.approve_host)
-        remark(f"pictures and a key may be sent to {given.vlm.approve_host} from now on")
-        if source != "vlm":
+    words = options.split_words(given.vocabulary) if given.vocabulary else None
+    if given.approve_host:
+        approve_host(given.approve_host)
+        remark(f"pictures and a key may be sent to {given.approve_host} from now on")
+        if given.source != "vlm":
             return
+    project = Project.open(given.project)
     if given.asset is not None:
-        refuse_sources(given.context)
-        label_by_hand(Project.open(given.project), given.asset, given.hulls or (), words, json=given.json)
+        for name, option in options.list_typed(given.context):
+            if name not in _BY_HAND:
+                raise UsageError(f"{option} says nothing on labels by hand", remedy="Leave it out, or ASSET.")
+        label_by_hand(project, given.asset, given.hulls or (), words, json=given.json)
         return
-    sources = SourceOptions(source, given.labels, given.pattern or (), given.classes, given.align, given.points_up)
-    labeler = sources.to_labeler()
-    if source != "vlm" and given.vlm.first_option:
-        raise UsageError(f"{given.vlm.first_option} is for --with vlm", remedy="Leave it out.")
     if given.report and given.dry_run:
         raise UsageError(options.NOTHING_TO_SHOW, remedy="Leave out --report.")
-    project = Project.open(given.project)
-    execution = given.execution.to_options()
-    if given.dry_run and source == "vlm":
-        forecast(project, given.vlm, words, execution, json=given.json)
-        return
-    if given.dry_run:
-        preview(project, labeler, words, execution, json=given.json)
-        return
-    if words is not None:
-        project.set_vocabulary(words)
-    page = LabelReport(given.report, labeler) if given.report else None
-    printer = LabelPrinter(given.sheets, page, json=given.json)
-    if source == "vlm":
-        label_with_vlm(project, given.vlm, execution, printer)
+    labeler, execution = given.to_labeler(project), given.execution.to_options()
+    if given.dry_run and isinstance(labeler, VlmLabeler):
+        print_forecast(project, labeler, words, execution, json=given.json)
+    elif given.dry_run:
+        found = project.label(labeler, vocabulary=words, dry_run=True, execution=execution, stage=progress).proposals
+        print_proposals(found, json=given.json)
     else:
-        label_by(project, labeler, execution, printer)
-    raise typer.Exit(int(printer.failed))
+        if words is not None:
+            project.set_vocabulary(words)
+        printer = LabelPrinter(project, labeler, given.sheets, given.report, json=given.json)
+        if isinstance(labeler, VlmLabeler):
+            label_with_vlm(project, labeler, execution, printer)
+        else:
+            _label(project, labeler, execution, printer)
+        raise typer.Exit(int(printer.failed))
+
+
+def _label(project: Project, labeler: Labeler, execution: ExecutionOptions, printer: LabelPrinter) -> None:
+    if len(project.assets()) > 1:
+        remark(project.plan_labels())
+    result = project.label(labeler, execution=execution, stage=progress, report=printer.print)
+    printer.summarize()
+    if not printer.json:
+        print_changes(project, labeler, result)
+    elif labeler.replaces:
+        more = {"alike": result.alike, "next": result.next} if labeler.name == "consensus" else {}
+        print_json({"changes": [asdict(change) for change in result.changes]} | more, compact=True)

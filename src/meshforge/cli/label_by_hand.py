@@ -9,22 +9,13 @@ from pathlib import Path
 import typer
 
 from meshforge.cli.hulls import find_hulls
-from meshforge.cli.options import asset_id, list_typed
+from meshforge.cli.options import asset_id
 from meshforge.cli.terminal import print_json
 from meshforge.common import UsageError, escape_name, pluralize, quote_path, suggest_among
 from meshforge.labels import label_command
 from meshforge.project import Project
 from meshforge.store import History
 from meshforge.symbolic import Label, SymbolicMesh
-
-_OWN = ("project", "asset", "hulls", "vocabulary", "json")
-
-
-def refuse_sources(context: typer.Context) -> None:
-    """Raise UsageError for an option that is for labels from elsewhere."""
-    for name, option in list_typed(context):
-        if name not in _OWN:
-            raise UsageError(f"{option} says nothing on labels by hand", remedy="Leave it out, or ASSET.")
 
 
 def label_by_hand(

@@ -2,7 +2,6 @@
 
 from meshforge.inspection.decomposition import advise_decomposition
 from meshforge.inspection.difference import Difference, diff
-from meshforge.inspection.findings import check
-from meshforge.inspection.picture import render
+from meshforge.inspection.look import check, render
 
 __all__ = ["Difference", "advise_decomposition", "check", "diff", "render"]

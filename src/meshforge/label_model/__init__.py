@@ -15,6 +15,7 @@ __getattr__, __all__ = export_lazily(
         "sides": "correct_upright find_doubtful_sides",
         "similar": "find_similar",
         "spans": "RebuiltHull SpanModel SpanPosterior",
-        "table": "FamilyTable Observations evidence_beside_splits evidence_of metric_weights reference_label",
+        "table": "FamilyTable Observations evidence_beside_rebuilt evidence_of metric_weights reference_label",
+        "ties": "pick_evenly",
     },
 )

@@ -20,7 +20,8 @@ from meshforge.label_model.spans import SpanModel as SpanModel
 from meshforge.label_model.spans import SpanPosterior as SpanPosterior
 from meshforge.label_model.table import FamilyTable as FamilyTable
 from meshforge.label_model.table import Observations as Observations
-from meshforge.label_model.table import evidence_beside_splits as evidence_beside_splits
+from meshforge.label_model.table import evidence_beside_rebuilt as evidence_beside_rebuilt
 from meshforge.label_model.table import evidence_of as evidence_of
 from meshforge.label_model.table import metric_weights as metric_weights
 from meshforge.label_model.table import reference_label as reference_label
+from meshforge.label_model.ties import pick_evenly as pick_evenly

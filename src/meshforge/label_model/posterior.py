@@ -9,7 +9,7 @@ from functools import cache, cached_property, lru_cache
 
 import numpy as np
 
-from meshforge.geometry import Floats, Ints
+from meshforge.geometry import Floats
 from meshforge.label_model.consensus import infer_chances
 from meshforge.label_model.describe import SHAPE_COLUMNS, MeshDescriber, describe_mesh, digest_mesh
 from meshforge.label_model.sides import choose_sides, find_doubtful_sides
@@ -48,16 +48,15 @@ class FamilyPosterior:
             return FamilyPosterior(table, seen, nothing, nothing)
         return FamilyPosterior(table, seen, *infer_chances(table, seen))
 
-    def discount_splits(self) -> FamilyPosterior:
-        """The same, with the label of a part of a split hull no surer than the split was, or than what is said of other
-        hulls makes it.
+    def doubt_rebuilt(self) -> FamilyPosterior:
+        """Return the same, with the label of a rebuilt hull no surer than the rebuild was, or than others make it.
 
-        Labels of such parts follow from one inference over the family: where it errs, they agree in their error.
+        Labels of a rebuild follow from one inference over the family: where it errs, they agree in their error.
         """
-        if not self.seen.split.any():
+        if not self.seen.rebuilt.any():
             return self
-        others = infer_chances(self.table, self.seen.without_splits())[0]
-        return replace(self, chances=_bound_splits(self.seen, self.chances, others))
+        others = infer_chances(self.table, self.seen.without_rebuilt())[0]
+        return replace(self, chances=_bound_rebuilt(self.seen, self.chances, others))
 
     def weigh(self, evidence: Floats) -> FamilyPosterior:
         """The same with more evidence (n, labels) [nats] on the labels of hulls, which counts for look-alikes too."""
@@ -142,21 +141,21 @@ class FamilyPosterior:
         from scipy.spatial.distance import cdist  # lazy: 0.5 s, half of all imports
 
         table, seen = self.table, self.seen
-        open_meshes = pick_evenly(np.unique(table.owner[~seen.given]), _MESHES)
+        open_meshes = pick_evenly(np.unique(table.owner[~seen.given]).tolist(), _MESHES)
         rows = table.rows[:, SHAPE_COLUMNS]
-        compared = pick_evenly(np.arange(len(rows)), _HULLS)
+        compared = pick_evenly([*range(len(rows))], _HULLS)
         some, reason = rows[compared], 1 + _AT_LEAST - self.chances[compared].max(axis=1, initial=0.0)
         if not len(open_meshes):
             return []
         near = max(float(np.median(cdist(some, some))) * _NEAR, 1e-9)
 
-        def alike(hulls: slice | Ints) -> Floats:
+        def alike(hulls: slice | Sequence[int]) -> Floats:
             """How much the best of some hulls is like each that is compared."""
             found: Floats = np.exp(-((cdist(rows[hulls], some) / near) ** 2) / 2).max(axis=0, initial=0.0)
             return found
 
-        covered = alike(pick_evenly(np.flatnonzero(seen.given), _HULLS))
-        stands = np.stack([alike(table.spans[mesh]) for mesh in open_meshes.tolist()])
+        covered = alike(pick_evenly(np.flatnonzero(seen.given).tolist(), _HULLS))
+        stands = np.stack([alike(table.spans[mesh]) for mesh in open_meshes])
         found: list[int] = []
         for _ in range(min(count, len(open_meshes))):
             gains = (np.maximum(stands - covered, 0.0) * reason).sum(axis=1)
@@ -166,9 +165,9 @@ class FamilyPosterior:
         return [int(open_meshes[place]) for place in found]
 
 
-def _bound_splits(seen: Observations, chances: Floats, others: Floats) -> Floats:
-    """Chances (n, labels) with those of what splits said at most what splits had, or others (n, labels) have."""
-    bounded, rows = chances.copy(), np.flatnonzero(seen.split)
+def _bound_rebuilt(seen: Observations, chances: Floats, others: Floats) -> Floats:
+    """Chances (n, labels) with those of rebuilt hulls at most what the rebuild had, or others (n, labels) have."""
+    bounded, rows = chances.copy(), np.flatnonzero(seen.rebuilt)
     codes = seen.codes[rows]
     observed, most = chances[rows, codes], np.maximum(seen.confidence[rows], others[rows, codes])
     less = observed > most

@@ -161,14 +161,14 @@ class Observations:
         return found
 
     @property
-    def split(self) -> Bools:
-        """Whether what is said follows from the split of a hull (n,)."""
-        found: Bools = self.known & (self.sources == LABEL_SOURCES.index("split"))
+    def rebuilt(self) -> Bools:
+        """Whether what is said follows from the rebuild of a body (n,)."""
+        found: Bools = self.known & (self.sources == LABEL_SOURCES.index("rebuild"))
         return found
 
-    def without_splits(self) -> Observations:
-        """The same, where nothing is said of parts of split hulls."""
-        return replace(self, codes=np.where(self.split, NO_LABEL, self.codes))
+    def without_rebuilt(self) -> Observations:
+        """Return the same, where nothing is said of hulls of rebuilt bodies."""
+        return replace(self, codes=np.where(self.rebuilt, NO_LABEL, self.codes))
 
 
 def evidence_of(label: Label | None) -> Label | None:
@@ -178,10 +178,10 @@ def evidence_of(label: Label | None) -> Label | None:
     return label
 
 
-def evidence_beside_splits(label: Label | None) -> Label | None:
-    """The same but for labels of parts of hulls that were split, which follow from others by the surface."""
+def evidence_beside_rebuilt(label: Label | None) -> Label | None:
+    """Return the same but for labels of rebuilt bodies, which follow from others by the surface."""
     known = evidence_of(label)
-    return None if known is None or known.source == "split" else known
+    return None if known is None or known.source == "rebuild" else known
 
 
 def reference_label(label: Label | None) -> str | None:

@@ -123,7 +123,7 @@ class _LabelRun:
             return LabelOutcome(found.asset, problems=(error.message,))
         self._count(merged)
         self._free += len(found.hulls) - sum(label.source in HUMAN_SOURCES for label in merged.before.values())
-        return replace(merged.outcome, problems=(*merged.outcome.problems, *found.problems))
+        return replace(merged.outcome, problems=(*merged.outcome.problems, *found.problems), open=found.open)
 
     def _count(self, merged: LabelMerge) -> None:
         pairs = Counter(_iterate_renames(merged))

@@ -9,12 +9,17 @@ from pathlib import Path
 
 from meshforge import batch
 from meshforge.common import file_digest, relative_name
-from meshforge.labels.from_files.label_by_files import FileLabeler
-from meshforge.labels.from_files.read import LabelFileOptions, find_file_in_mirror, label_file_beside, read_label_file
-from meshforge.labels.label_by_plugin import AssetLabeler, label_mesh
+from meshforge.labels.from_files.label_by_files import (
+    FileLabeler,
+    LabelFileOptions,
+    find_file_in_mirror,
+    label_file_beside,
+    read_label_file,
+)
 from meshforge.labels.labeler import Labeler
 from meshforge.labels.merge import LabelOutcome, can_fill_gap, can_replace_less_certain, merge_labels
 from meshforge.labels.names.label_by_names import NameLabeler, match_names, name_patterns, names_of_mesh, to_label
+from meshforge.labels.registry import AssetLabeler, label_mesh
 from meshforge.store import JsonFile, Settings, Store, read_json, write_json
 from meshforge.symbolic import Label, SymbolicMesh
 

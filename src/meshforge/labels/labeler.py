@@ -24,7 +24,8 @@ class AssetLabels:
     """The labels that are proposed for the hulls of one asset.
 
     hulls: digests by name, in order; given: the label by hull, None to remove the one it has; reasons: by hull;
-    problems: a sentence for each label that was left out; error: why there are no labels for this asset.
+    problems: a sentence for each label that was left out; error: why there are no labels for this asset; open: why
+    hulls have none, by hull, where that is known.
     """
 
     asset: str
@@ -33,6 +34,7 @@ class AssetLabels:
     reasons: Mapping[str, LabelReason] = field(default_factory=dict)
     problems: Sequence[str] = ()
     error: str | None = None
+    open: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,7 +4,7 @@ that follow hulls which others replace."""
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from meshforge import label_model, rendering, symbolic
 from meshforge.common import ProjectError, file_state, join_names, suggest_match
@@ -25,7 +25,7 @@ class LabelOutcome:
 
     taken: written; same: those the hulls have already; kept: not written, since a person's label stands there.
     problems: a sentence for each label that was left out; unlabelled: hulls that still have none; unsure: those whose
-    label is less certain than not.
+    label is less certain than not; open: why the source left hulls without one, by hull, where that is known.
     """
 
     asset: str
@@ -35,6 +35,7 @@ class LabelOutcome:
     unlabelled: int = 0
     unsure: int = 0
     problems: tuple[str, ...] = ()
+    open: Mapping[str, str] = field(default_factory=dict)
 
 
 def set_labels(
@@ -203,11 +204,11 @@ def can_fill_gap(current: Label | None, given: Label | None) -> bool:
 def can_replace_less_certain(current: Label | None, given: Label) -> bool:
     """Whether a label may be replaced: an earlier one of that machine, or one that another was less sure of.
 
-    That of a part of a hull stays: the surface, or a person's split, says more than the shape of the part.
+    That of a part of a hull stays: the surface, or a person's cut, says more than the shape of the part.
     """
     if current is None or current.source == given.source:
         return True
-    return current.source not in symbolic.GIVEN_SOURCES | {"split"} and current.confidence < given.confidence
+    return current.source not in symbolic.GIVEN_SOURCES | {"rebuild"} and current.confidence < given.confidence
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -252,7 +253,7 @@ def label_new_hulls(
     followed = symbolic.transfer_labels(rest, mesh).mesh
     taken = {name: label for name, label in fresh.items() if label and not followed.hull_of(name).annotation}
     notes = [f"labels of {join_names([*gone])} went to {join_names([*taken])}"] if taken and gone else []
-    needed = {label.name for label in labels.values() if label.source != "split"}  # those follow from the split
+    needed = {label.name for label in labels.values() if label.source != "rebuild"}  # those follow from the rebuild
     lost = sorted(needed - {label.name for label in taken.values()})
     notes += [f"no hull takes over the label {join_names(lost)}"] if lost else []
     away = tuple(name for name in gone if name not in taken)

@@ -6,7 +6,7 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from meshforge.common import MeshForgeError, file_state
-from meshforge.labels.from_files.read import kind_of, label_file_beside
+from meshforge.labels.from_files.label_by_files import kind_of, label_file_beside
 from meshforge.labels.merge import is_protected
 from meshforge.labels.names.label_by_names import NamePattern, match_names, name_patterns, names_of_facts, to_label
 from meshforge.store import AssetFacts, Store, iterate_asset_index

@@ -4,14 +4,13 @@ so that what is found of one does not depend on the others, nor on how many ther
 from __future__ import annotations
 
 import json
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TypeVar
 
 from meshforge import batch
 from meshforge.geometry import PieceEngine
-from meshforge.label_model import AssetPieces, SpanModel, evidence_beside_splits, model_family
+from meshforge.label_model import AssetPieces, SpanModel, evidence_beside_rebuilt, model_family, pick_evenly
 from meshforge.label_model.describe import describe_mesh, digest_mesh
 from meshforge.labels.family_comparison import Stage
 from meshforge.labels.spans import FinePieces, SpanReport, decompose_surfaces, find_pieces, is_given
@@ -57,7 +56,7 @@ class ReferenceFamily:
         if not own.mesh.hulls:
             return SpanReport(mesh, None, own)
         assets = [AssetPieces(mesh, own.mesh), *self.pieces.values()]
-        labels = [evidence_beside_splits(hull.annotation) for one in assets for hull in one.mesh.hulls]
+        labels = [evidence_beside_rebuilt(hull.annotation) for one in assets for hull in one.mesh.hulls]
         return SpanReport(mesh, SpanModel(assets).infer(labels), own)
 
     def without(self, asset: str) -> ReferenceFamily:
@@ -75,7 +74,7 @@ class ReferenceFamily:
         return {hull.name: label for hull, label in rows if label and not hull.annotation}
 
     def _speak(self, label: Label | None) -> Label | None:
-        known = evidence_beside_splits(label)
+        known = evidence_beside_rebuilt(label)
         return known if known and known.name in self.words else None
 
 
@@ -97,7 +96,7 @@ def read_reference_family(
     meshes = {
         asset: mesh
         for asset, mesh in store.meshes_by_id(chosen)
-        if any(evidence_beside_splits(hull.annotation) for hull in mesh.hulls)
+        if any(evidence_beside_rebuilt(hull.annotation) for hull in mesh.hulls)
     }
     if not meshes:
         return None
@@ -110,18 +109,10 @@ def read_reference_family(
     return ReferenceFamily(meshes, pieces, store.vocabulary, engine, lost)
 
 
-Item = TypeVar("Item")
-
-
-def pick_evenly(items: Sequence[Item], most: int) -> Sequence[Item]:
-    """The items in their order; of more than `most` so many, the first among them."""
-    return [items[place * len(items) // most] for place in range(most)] if len(items) > most else items
-
-
 def choose_labelled(files: Mapping[str, LabelFile], most: int = MOST_COMPARED) -> list[str]:
     """The assets that new ones are compared with, in the order of the project."""
     observed = {
-        asset: [label for own in file.labels.values() if (label := evidence_beside_splits(own))]
+        asset: [label for own in file.labels.values() if (label := evidence_beside_rebuilt(own))]
         for asset, file in files.items()
     }
     by_people = [asset for asset, labels in observed.items() if any(one.source in HUMAN_SOURCES for one in labels)]

@@ -219,7 +219,7 @@ def _matches(hull: str, body: str, how: RebuildSettings) -> bool:
 
 
 def _label_hull(hull: RebuiltHull) -> Label:
-    return Label(hull.label, round(hull.share, _DIGITS), "split")
+    return Label(hull.label, round(hull.share, _DIGITS), "rebuild")
 
 
 def describe_labels(labels: Iterable[Label]) -> str:

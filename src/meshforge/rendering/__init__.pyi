@@ -25,13 +25,13 @@ from meshforge.rendering.colors import color_hulls as color_hulls
 from meshforge.rendering.colors import label_color as label_color
 from meshforge.rendering.colors import label_colors as label_colors
 from meshforge.rendering.id_buffer import ThumbnailPixels as ThumbnailPixels
+from meshforge.rendering.id_buffer import render_revealing as render_revealing
 from meshforge.rendering.id_buffer import render_thumbnail as render_thumbnail
 from meshforge.rendering.labeling.picture import LabelingPicture as LabelingPicture
 from meshforge.rendering.labeling.series import draw_labeling_pictures as draw_labeling_pictures
 from meshforge.rendering.labeling.series import hull_numbers as hull_numbers
 from meshforge.rendering.picture import render as render
 from meshforge.rendering.picture import up_axis as up_axis
-from meshforge.rendering.reveal import render_revealing as render_revealing
 from meshforge.rendering.scene import RenderMesh as RenderMesh
 from meshforge.rendering.scene import to_render_mesh as to_render_mesh
 from meshforge.rendering.turntable import draw_turn as draw_turn

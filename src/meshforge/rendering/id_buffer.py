@@ -1,4 +1,5 @@
-"""Which hull each pixel shows, as numbers: thumbnails to be coloured by who shows them."""
+"""Which hull each pixel shows, as numbers: thumbnails to be coloured by who shows them; also those in which certain
+hulls can be seen, from a side where little hides them, else through what hides them."""
 
 from __future__ import annotations
 
@@ -9,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from meshforge.geometry import Aabb, Floats, Ints, Pose
+from meshforge.rendering.annotation import count_pixels
 from meshforge.rendering.camera import Camera, Floats32, View, aim_camera
 from meshforge.rendering.light import shade
 from meshforge.rendering.paint import BORDER, CREASE, SILHOUETTE, trace_lines
@@ -22,6 +24,12 @@ Number = TypeVar("Number", np.int64, np.float32)
 
 _LARGE = 100_000  # pixels, from which on each is seen by fewer rays
 _GREY, _FULL = 0.72, 0.80  # a surface before light falls on it, and what then counts as full light
+_SIDES: tuple[View, ...] = (
+    "iso", "front-left-above", "iso-back", "back-right-above", "front-right-below", "front-left-below",
+)  # fmt: skip
+"""From the usual side to those from which one seldom looks; the first that is good enough is taken."""
+_TRIAL_SIZE = (160, 120)  # of the pictures in which that is found out
+_ENOUGH = 0.35  # of a hull, that is to be seen
 _DARKER = {CREASE: 0.16, BORDER: 0.62, SILHOUETTE: 0.62}  # by how much lines take light away
 
 
@@ -40,8 +48,8 @@ def render_thumbnail(
     """
     shown = Pose.identity() if pose is None else pose
     non_convex = [piece.surface for piece in mesh.asset.non_convex if piece.surface] if mesh.asset else []
-    hulls = [turn_render_mesh(one, shown) for one in render_meshes_of(mesh.hulls)]
-    others = [turn_render_mesh(one, shown) for one in map(to_render_mesh, non_convex) if len(one.faces)]
+    hulls = [_turn_render_mesh(one, shown) for one in render_meshes_of(mesh.hulls)]
+    others = [_turn_render_mesh(one, shown) for one in map(to_render_mesh, non_convex) if len(one.faces)]
     points = points_to_frame(hulls, others)
     if not len(points):
         return np.zeros((size[1], size[0], 4), np.uint8)
@@ -66,7 +74,7 @@ def _look_through(
     return np.where(shown, own, item), np.where(shown, _measure_light(behind, frame, camera), light)
 
 
-def turn_render_mesh(one: RenderMesh, pose: Pose) -> RenderMesh:
+def _turn_render_mesh(one: RenderMesh, pose: Pose) -> RenderMesh:
     """Triangles in another frame; pose: shown_T_incoming."""
     normals = None if one.normals is None else one.normals @ pose.rotation.T
     return RenderMesh(pose.apply(one.vertices), one.faces, normals)
@@ -109,3 +117,44 @@ def _encode(seen: Ints, light: Floats32, hulls: int) -> ThumbnailPixels:
     item = np.where(picked < hulls, picked, -1) + 1
     shade = np.rint(255 * light.sum(axis=0) / np.maximum(count, 1))
     return np.stack([item // 256, item % 256, shade, np.rint(255 * count / len(seen))], axis=2).astype(np.uint8)
+
+
+def render_revealing(
+    mesh: SymbolicMesh, hulls: Collection[str], pose: Pose | None = None, size: tuple[int, int] = (240, 180)
+) -> ThumbnailPixels:
+    """Return a picture as `render_thumbnail` encodes it, in which hulls of some known names can be seen.
+
+    It is from the first side on which enough of each is seen, or else from that with the most of them, where those that
+    are hidden are seen through what hides them. pose: shown_T_incoming.
+    """
+    view, hidden = _choose_side(mesh, hulls, pose)
+    return render_thumbnail(mesh, pose, size, view, through=hidden)
+
+
+def _choose_side(mesh: SymbolicMesh, hulls: Collection[str], pose: Pose | None) -> tuple[View, list[int]]:
+    """The side from which hulls of some names are seen best, and the places of those that are hidden there."""
+    wanted = sorted(mesh.index[name] for name in set(hulls) if name in mesh.index)
+    if not wanted:
+        return _SIDES[0], []
+    shown = Pose.identity() if pose is None else pose
+    turned = [_turn_render_mesh(one, shown) for one in render_meshes_of(mesh.hulls)]
+    best, shares = _SIDES[0], np.zeros(len(wanted))
+    for view in _SIDES:
+        seen = _shares_seen(turned, wanted, view)
+        if (seen >= _ENOUGH).all():
+            return view, []
+        if np.minimum(seen, _ENOUGH).sum() > np.minimum(shares, _ENOUGH).sum() + 1e-9:
+            best, shares = view, seen
+    return best, [k for k, share in zip(wanted, shares, strict=True) if share < _ENOUGH]
+
+
+def _shares_seen(hulls: list[RenderMesh], wanted: list[int], view: View) -> Floats:
+    """How much of each wanted hull (k,) is seen, of what would be without the hulls that are not wanted."""
+    points = np.concatenate([one.vertices for one in hulls])
+    frame = ViewFrame(Aabb.of_points(points), up_vector("Z"))
+    camera = aim_camera(view, "Z", _TRIAL_SIZE, frame.to_unit(points))
+    whole = cast_layer(DrawLayer(hulls, np.zeros((0, 3))), frame, camera).item
+    alone = cast_layer(DrawLayer([hulls[k] for k in wanted], np.zeros((0, 3))), frame, camera).item
+    seen = count_pixels(whole, len(hulls))[wanted]
+    shares: Floats = seen / np.maximum(count_pixels(alone, len(wanted)), 1)
+    return shares

@@ -8,6 +8,7 @@ from typing import Annotated, Any, Literal, NamedTuple, Self, TypeVar
 
 from pydantic import (
     AliasChoices,
+    BeforeValidator,
     ConfigDict,
     Field,
     SerializerFunctionWrapHandler,
@@ -116,7 +117,7 @@ class LabelBefore(JsonFile):
     """The label that a hull had, by whom, and how sure that was; given: see `Label`, left out where there is none."""
 
     label: str
-    source: symbolic.LabelSource
+    source: Annotated[symbolic.LabelSource, BeforeValidator(symbolic.current_source)]
     confidence: Probability
     given: LabelBefore | None = None
 

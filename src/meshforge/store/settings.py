@@ -25,10 +25,17 @@ TomlValue = str | float | Sequence[str]
 
 
 class VlmSettings(BaseModel):
-    """The table [vlm]: the fields of `Endpoint` and `PromptConfig`, which say what they mean.
+    """The table [vlm]: which model is asked, and how. The key is never written here.
 
-    Prices are in dollars a million tokens. The key is never written here. max_cost: the most that one run may cost [$];
-    examples: ids of labelled assets that the model is shown.
+    key_env: the environment variable that holds the key, empty for none; None takes that of a host that is known.
+    mode: how many pictures and questions; about: a line on what the meshes are; descriptions: a line on some labels;
+    examples: ids of labelled assets that the model is shown; names: whether it is given the names of assets and hulls;
+    repeats: how often each question is asked. Prices are in dollars a million tokens, None where they are not known;
+    max_cost: the most that one run may cost [$].
+    room: tokens for an answer besides those it needs, of which a model that thinks first needs more; size: of pictures
+    [px], None for that of the mode. concurrency: questions under way at once; timeout [s] for one attempt; retries:
+    further attempts after a fault that passes; wait [s]: before the first of them, doubled each time. extra: further
+    fields of every request, for what a server wants besides.
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True)

@@ -8,13 +8,18 @@ from typing import Any, Literal, get_args
 from meshforge.geometry import Aabb, Floats, Ints, Pose, Shape
 from meshforge.symbolic.trimesh_export import make_trimesh
 
-LabelSource = Literal["vlm", "propagated", "consensus", "split", "name", "file", "user", "repair", "edit", "plugin"]
+LabelSource = Literal["vlm", "propagated", "consensus", "rebuild", "name", "file", "user", "repair", "edit", "plugin"]
 LABEL_SOURCES: tuple[str, ...] = get_args(LabelSource)
 HUMAN_SOURCES = frozenset({"user", "repair"})
 INFERRED_SOURCES = frozenset({"propagated", "consensus"})
 """Sources of labels that follow from those of other hulls."""
 GIVEN_SOURCES = HUMAN_SOURCES | {"file"}
 """Sources of labels that are not guessed: a person, or a file that somebody made."""
+
+
+def current_source(source: Any) -> Any:
+    """Return what a source of labels is called now; projects of earlier versions say `split` for `rebuild`."""
+    return "rebuild" if source == "split" else source
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,7 +14,7 @@ from typing import Any
 
 from meshforge.common import AssetError, suggest_name, write_atomically
 from meshforge.geometry import digest
-from meshforge.symbolic.hull import INFERRED_SOURCES, LABEL_SOURCES, Label
+from meshforge.symbolic.hull import INFERRED_SOURCES, LABEL_SOURCES, Label, current_source
 from meshforge.symbolic.mesh import SymbolicMesh
 
 _MOST_FILES = 256  # contents of labels files that stay in memory
@@ -176,7 +176,7 @@ def _parse_confidence(name: str, rest: Mapping[Any, Any], path: Path) -> float:
 
 
 def _parse_source(name: str, rest: Mapping[Any, Any], path: Path) -> Any:
-    value = rest.get("source", "file")
+    value = current_source(rest.get("source", "file"))
     if value not in LABEL_SOURCES:
         remedy = f"It is one of: {', '.join(LABEL_SOURCES)}."
         raise AssetError(f"the source of hull {name!r} is {value!r}", where=str(path), remedy=remedy)

@@ -65,7 +65,7 @@ class SymbolicMesh:
 
     def _repr_html_(self) -> str:
         """A picture and a table of the hulls, which notebooks show."""
-        html: str = _find_above("inspection.notebook", "to_html")(self)
+        html: str = _find_above("inspection.display", "to_html")(self)
         return html
 
     def show(self, *, port: int | None = None, browser: bool = True, wait: bool | None = None) -> Any:
@@ -75,7 +75,7 @@ class SymbolicMesh:
         but not in a notebook or an interactive session.
         Raises MeshForgeError where viser is not installed: `pip install 'meshforge[viewer]'`.
         """
-        return _find_above("inspection.viewer", "show")(self, port=port, browser=browser, wait=wait)
+        return _find_above("inspection.display", "show")(self, port=port, browser=browser, wait=wait)
 
     def to_trimesh(self) -> Any:
         """A `trimesh.Scene` with a mesh for each hull, under its name. Raises MeshForgeError without trimesh."""

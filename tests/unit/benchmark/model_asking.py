@@ -10,6 +10,7 @@ import pytest
 
 from meshforge.labels.vlm.client import Client
 from meshforge.labels.vlm.endpoint import Endpoint
+from meshforge.store import VlmSettings
 from tests.loopback import Asked, Server, serving
 from tests.loopback.server import KEY, MODEL
 
@@ -30,7 +31,9 @@ def asking(
 ) -> Iterator[tuple[Server, Client]]:
     """A server and a client of it."""
     with serving(answer, **how) as server:
-        one = Client(Endpoint(server.base_url, MODEL, VARIABLE, *PRICES, wait=0.01, retries=1), folder)
+        where = VlmSettings(base_url=server.base_url, model=MODEL, key_env=VARIABLE, wait=0.01, retries=1)
+        where = where.model_copy(update={"input_price": PRICES[0], "output_price": PRICES[1]})
+        one = Client(Endpoint(where), folder)
         try:
             yield server, one
         finally:

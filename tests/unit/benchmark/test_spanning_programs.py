@@ -71,7 +71,7 @@ def test_a_session_begins_with_labels_by_hand_of_the_known_assets_and_those_of_s
     known = [rows[place].name for place in choose_known(6)]
     split = next(row for row in rows if row.name not in known)
     part = split.mesh.hulls[0].name
-    told = Label("handle", 0.6, "split")
+    told = Label("handle", 0.6, "rebuild")
     bench = name_by_files(open_bench(task("cup-medium"), [(row, {part: told} if row is split else {}) for row in rows]))
     with open_project(bench.desk("propagated", 0)) as project:
         by_hand, _ = begin_by_hand(TaskClient(project), bench, 3)

@@ -51,12 +51,10 @@ a model          0       34        0
 consensus        2        0        0
 no label                           0
 
-pictures: p/pictures/labels-001.png
 1 hull got a label; 1 label was replaced:
     leg -> top: 1 hull in 1 asset
 If some are wrong, label or correct this one next:"""
 BACK = """\
-pictures: p/pictures/labels-001.png
 1 hull lost a label that was inferred; 1 label was replaced:
     top -> leg: 1 hull in 1 asset"""
 

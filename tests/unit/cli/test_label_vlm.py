@@ -146,7 +146,7 @@ def test_the_limit_of_the_command_line_ends_it_with_what_is_left(run: Run, serve
         (("--model", "another"), "there is no model 'another' here: The model `another` does not exist"),
         (("--model", ""), "no model is named"),
         (("--base-url", "loopback"), "'loopback' is no address"),
-        (("--labels", "x"), "--labels names labels files, which --with vlm does not read"),
+        (("--labels", "x"), "--labels is for --with file"),
     ],
 )
 def test_what_does_not_fit_is_one_message(run: Run, server: Server, words: tuple[str, ...], message: str) -> None:

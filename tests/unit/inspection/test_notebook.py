@@ -78,7 +78,7 @@ def test_the_methods_are_found_in_a_process_that_only_unpickled_a_mesh(tmp_path:
     (tmp_path / "mesh.pickle").write_bytes(pickle.dumps(table()))
     code = (
         "import pickle, sys; mesh = pickle.load(open(sys.argv[1], 'rb')); import meshforge.symbolic.mesh as own;"
-        "print(len(mesh._repr_html_()) > 1000, callable(own._find_above('inspection.viewer', 'show')))"
+        "print(len(mesh._repr_html_()) > 1000, callable(own._find_above('inspection.display', 'show')))"
     )
     words = [sys.executable, "-c", code, str(tmp_path / "mesh.pickle")]
     assert subprocess.run(words, capture_output=True, text=True, check=True).stdout == "True True\n"

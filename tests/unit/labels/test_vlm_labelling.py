@@ -111,7 +111,7 @@ def test_two_hundred_meshes_with_a_fifth_of_faults_are_all_labelled_or_named(tmp
         return sometimes(0.2)(asked)
 
     told = []
-    with serving(lying, fault=fault, slow=60.0, logprobs="given") as server:
+    with serving(lying, fault=fault, slow=60.0) as server:
         how = settings(server, concurrency=8, timeout=2.0, retries=6)
         found = label_with_vlm(project, how, report=lambda outcome: told.append(outcome.asset))
         assert len(told) == MANY

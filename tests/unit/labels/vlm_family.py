@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -69,6 +69,11 @@ class Labelling(VlmResult):
 
     outcomes: tuple[LabelOutcome, ...] = ()
 
+    @property
+    def open(self) -> dict[str, Mapping[str, str]]:
+        """Why hulls have no label, by asset and hull."""
+        return {outcome.asset: outcome.open for outcome in self.outcomes if outcome.open}
+
 
 def label_with_vlm(
     project: Project,
@@ -83,7 +88,7 @@ def label_with_vlm(
     labeler = VlmLabeler(settings)
     done = project.label(labeler, execution=replace(execution, stop=stop), report=report, write_block=write_block)
     result = labeler.result
-    return Labelling(result.usage, result.open, result.unasked, result.ended, result.blind, done.outcomes)
+    return Labelling(result.usage, result.unasked, result.ended, result.blind, done.outcomes)
 
 
 def truth(asset: str) -> dict[str, str]:

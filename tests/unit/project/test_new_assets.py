@@ -75,7 +75,7 @@ def test_a_new_body_with_a_hull_that_spans_parts_is_rebuilt_and_labelled(folder:
     assert str(rebuilt).startswith(f"base/h0 holds seat and leg, {format_share(rebuilt.chance)}: base rebuilt into ")
     labels = read_labels(folder / "aside/labels/c.urdf.json").labels
     assert [label.name for label in labels.values()].count("seat") == 1 and len(labels) == 5
-    assert {label.source for label in labels.values()} == {"split"}, "no guess passes for a fact"
+    assert {label.source for label in labels.values()} == {"rebuild"}, "no guess passes for a fact"
     kept = read_preparation(folder / "aside/prepared/c.urdf")
     assert kept is not None and [step.do for step in kept.steps] == ["rebuild"]
     assert kept.steps[0].settings["rebuilt"] == ["base"]
@@ -195,7 +195,7 @@ def test_what_comes_later_to_a_project_is_kept_in_it_and_undone(folder: Path) ->
     assert len(found.rebuilt) == 1
     mesh = project.mesh("c.urdf")
     assert sorted(hull.label or "" for hull in mesh.hulls) == sorted(PARTS)
-    assert {hull.source for hull in mesh.hulls} == {"split"}
+    assert {hull.source for hull in mesh.hulls} == {"rebuild"}
     project.unprepare("c.urdf")
     assert list(project.prepare_new()) == [], "what was taken back is not done again"
     assert [hull.name for hull in project.mesh("c.urdf").hulls] == ["base/h0", "base/h1", "base/h2", "base/h3"]

@@ -129,10 +129,10 @@ def test_a_broken_asset_does_not_stop_the_others(project: Project, tmp_path: Pat
 def test_propagation_leaves_what_the_surface_says_of_parts(project: Project) -> None:
     made = rebuild(project)[2].hulls
     project.set_labels("c.urdf", dict.fromkeys(made))
-    project.set_labels("c.urdf", dict.fromkeys(made, "leg"), source="split", confidence=0.3)
+    project.set_labels("c.urdf", dict.fromkeys(made, "leg"), source="rebuild", confidence=0.3)
     project.label("propagate")
     after = project.mesh("c.urdf")
-    assert all(after.hull_of(name).annotation == Label("leg", 0.3, "split") for name in made)
+    assert all(after.hull_of(name).annotation == Label("leg", 0.3, "rebuild") for name in made)
 
 
 def test_a_body_is_rebuilt_part_by_part_and_taken_back_to_the_last_byte(project: Project) -> None:
@@ -154,7 +154,7 @@ def test_labels_that_a_person_gave_stay_a_persons_when_a_body_is_rebuilt(project
     project.set_labels("c.urdf", {legs[0].name: "leg"})
     rebuild(project, "c.urdf")
     sources = {hull.name.split("#")[0]: hull.source for hull in project.mesh("c.urdf").hulls}
-    assert sources[legs[0].name] == "user" and sources[legs[1].name] == "split"
+    assert sources[legs[0].name] == "user" and sources[legs[1].name] == "rebuild"
 
 
 @pytest.mark.slow

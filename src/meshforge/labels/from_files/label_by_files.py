@@ -1,17 +1,178 @@
-"""Labels for the hulls of a project from files."""
+"""Labels for the hulls of a project from files: which file says what the hulls of an asset are, and what it says; a
+labels file, segmented points, or PartNet's semantics of links."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import closing
+from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Literal
 
-from meshforge.common import ProjectError
-from meshforge.labels.from_files import read
-from meshforge.labels.from_files.links import read_semantics
-from meshforge.labels.from_files.points import read_class_names
+from meshforge.batch import AssetSet, ExecutionOptions, WorkerFailure, execute, read_prepared
+from meshforge.common import MeshForgeError, ProjectError, UsageError, describe_error
+from meshforge.formats import POINTS_SUFFIXES, PointAlignment, labels_beside, points_beside
+from meshforge.labels.from_files.base import FileLabels
+from meshforge.labels.from_files.links import SEMANTICS_FILE, label_by_links, read_semantics, semantics_beside
+from meshforge.labels.from_files.points import label_by_points, read_class_names
 from meshforge.labels.labeler import AssetLabels, Labeler, LabelFamily, LabelProposal
-from meshforge.labels.names.label_by_names import name_patterns
-from meshforge.symbolic import Label, read_labels
+from meshforge.labels.names.label_by_names import NamePattern, PatternPairs, name_patterns
+from meshforge.store import AssetFacts, Store, hull_digests, iterate_asset_index
+from meshforge.symbolic import Label, SymbolicMesh, match_labels, read_labels
+
+LabelFileKind = Literal["labels file", "points", "semantics"]
+
+
+def find_label_files(found: AssetSet, source: Path | None) -> dict[str, Path]:
+    """The file of each asset that has one; beside each asset: labels file, then points, then semantics.
+
+    source: a file for a single asset, or a folder that mirrors the assets; None for those beside them.
+    Raises UsageError: nothing there, a kind of file that says no labels, or one file for several assets.
+    """
+    if source is None:
+        files = {asset: label_file_beside(path) for asset, path in found.ids.items()}
+    elif source.is_file():
+        kind_of(source)
+        if len(found) > 1:
+            problem = f"one file cannot serve {len(found)} assets"
+            raise UsageError(problem, where=str(source), remedy="Give a folder that mirrors theirs.")
+        files = dict.fromkeys(found.ids, source)
+    elif source.is_dir():
+        files = {asset: find_file_in_mirror(source / asset, path) for asset, path in found.ids.items()}
+    else:
+        raise UsageError("there is no such labels file or folder", where=str(source))
+    return {asset: file for asset, file in files.items() if file}
+
+
+def kind_of(file: Path) -> LabelFileKind:
+    """What a file is by its name. Raises UsageError for one that says no labels."""
+    match file.suffix.lower():
+        case ".json":
+            return "labels file"
+        case ".txt":
+            return "semantics"
+        case suffix if suffix in POINTS_SUFFIXES:
+            return "points"
+    remedy = f"Labels files are .json, segmented points .ply or .npz; PartNet's are {SEMANTICS_FILE}."
+    raise UsageError("this is no kind of file that labels are read from", where=str(file), remedy=remedy)
+
+
+def label_file_beside(asset: Path) -> Path | None:
+    """The file beside an asset, None where there is none."""
+    labels = labels_beside(asset)
+    return labels if labels.is_file() else points_beside(labels) or semantics_beside(asset)
+
+
+def find_file_in_mirror(place: Path, asset: Path) -> Path | None:
+    """The file in a folder of them; place: where the asset would be there, which may be where it is."""
+    labels = labels_beside(place)
+    plain = (place.with_name(place.name + ".json"), labels)
+    others = (place.with_suffix(suffix) for suffix in POINTS_SUFFIXES)
+    return (
+        next((path for path in plain if path.is_file()), None)
+        or points_beside(labels)
+        or next((path for path in others if path != asset and path.is_file()), None)
+        or semantics_beside(place)
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class LabelFileOptions:
+    """How files are read. meanings: what names of classes mean, besides the patterns of the project, which they
+    precede; of segmented points, classes: the names of classes 0, 1, ..., or `vocabulary` alone where they are those of
+    the vocabulary, none where files say them; placing: how points come into the frame of an asset."""
+
+    meanings: PatternPairs = ()
+    classes: tuple[str, ...] = ()
+    placing: PointAlignment = field(default_factory=PointAlignment)
+
+
+@dataclass(frozen=True, slots=True)
+class LabelFileContent:
+    """What a file says of an asset. hulls: digests by name, in order; error: why the asset or its file is not read."""
+
+    hulls: Mapping[str, str] = field(default_factory=dict)
+    given: FileLabels = field(default_factory=FileLabels)
+    error: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class _Work:
+    """An asset, the folder of its preparation, and a file that only its mesh makes sense of."""
+
+    path: Path
+    preparation: Path
+    file: Path
+    options: LabelFileOptions
+    vocabulary: tuple[str, ...]
+    patterns: tuple[NamePattern, ...]
+
+
+def read_label_files(
+    store: Store,
+    files: Mapping[str, Path],
+    options: LabelFileOptions,
+    vocabulary: Sequence[str],
+    patterns: Sequence[NamePattern],
+    execution: ExecutionOptions,
+) -> Iterator[tuple[str, LabelFileContent]]:
+    """What the file of each asset says, in their order, as soon as it is known; read in worker processes."""
+    plain = {asset for asset, file in files.items() if kind_of(file) == "labels file"}
+    layout, words, known = store.layout, tuple(vocabulary), tuple(patterns)
+    work = [
+        _Work(store.path(asset), layout.preparation(asset), file, options, words, known)
+        for asset, file in files.items()
+        if asset not in plain
+    ]
+    with (
+        closing(iterate_asset_index(store.found, layout, plain, execution=execution)) as facts,
+        closing(execute(_read_by_mesh, work, execution)) as others,
+    ):
+        for asset, file in files.items():
+            if asset in plain:
+                yield asset, _read_by_facts(next(facts)[1], file)
+            else:
+                content = next(others)
+                if isinstance(content, WorkerFailure):
+                    content = LabelFileContent(error=f"{store.path(asset)}: {content.why}")
+                yield asset, content
+
+
+def _read_by_facts(facts: AssetFacts, file: Path) -> LabelFileContent:
+    if facts.error:
+        return LabelFileContent(error=facts.error)
+    try:
+        return LabelFileContent(facts.hulls, _take_labels_file(file, facts.hulls))
+    except MeshForgeError as error:
+        return LabelFileContent(facts.hulls, error=error.message)
+
+
+def _take_labels_file(file: Path, hulls: Mapping[str, str]) -> FileLabels:
+    labels_file = read_labels(file)
+    homes = match_labels(labels_file, hulls)
+    present = {name: homes.labels[name] for name in hulls if name in homes.labels}
+    return FileLabels({name: labels_file.labels[name] for name in homes.gone} | present)
+
+
+def _read_by_mesh(work: _Work) -> LabelFileContent:
+    try:
+        mesh = SymbolicMesh.of(read_prepared(work.path, work.preparation))
+        given = read_label_file(mesh, work.file, work.options, work.vocabulary, work.patterns)
+        return LabelFileContent(hull_digests(mesh), given)
+    except Exception as error:  # one asset never stops the others
+        return LabelFileContent(error=describe_error(error, str(work.path)))
+
+
+def read_label_file(
+    mesh: SymbolicMesh, file: Path, how: LabelFileOptions, vocabulary: Sequence[str], patterns: Sequence[NamePattern]
+) -> FileLabels:
+    """What a file of any kind says of the hulls of an asset. Raises AssetError where it cannot be read."""
+    match kind_of(file):
+        case "labels file":
+            return _take_labels_file(file, hull_digests(mesh))
+        case "points":
+            return label_by_points(mesh, file, how.classes, how.placing, vocabulary, patterns)
+    return label_by_links(mesh, file, vocabulary, patterns)
 
 
 class FileLabeler(Labeler):
@@ -26,36 +187,36 @@ class FileLabeler(Labeler):
     name = "file"
     about = "labels taken over from files"
 
-    def __init__(self, source: Path | None = None, options: read.LabelFileOptions | None = None) -> None:
-        self.source, self.options = source, options or read.LabelFileOptions()
+    def __init__(self, source: Path | None = None, options: LabelFileOptions | None = None) -> None:
+        self.source, self.options = source, options or LabelFileOptions()
 
     def propose(self, family: LabelFamily) -> LabelProposal:
         store = family.store
-        files = read.find_label_files(store.found, self.source)
+        files = find_label_files(store.found, self.source)
         if not files:
             remedy = "Put a labels file beside each asset, or name a folder of them that mirrors the assets."
             raise ProjectError("there is no labels file for any asset", where=str(store.folder), remedy=remedy)
         words = family.vocabulary or _read_vocabulary(files, self.options)
         patterns = name_patterns(store.folder, store.settings, words, self.options.meanings)
-        contents = read.read_label_files(store, files, self.options, words, patterns, family.execution)
+        contents = read_label_files(store, files, self.options, words, patterns, family.execution)
         return LabelProposal((_to_labels(*one, files) for one in contents), vocabulary=words)
 
     def can_replace(self, current: Label | None, given: Label | None) -> bool:
         return given is not None
 
 
-def _to_labels(asset: str, content: read.LabelFileContent, files: Mapping[str, Path]) -> AssetLabels:
+def _to_labels(asset: str, content: LabelFileContent, files: Mapping[str, Path]) -> AssetLabels:
     file, names = files[asset], content.given.names
-    reasons = {hull: (read.kind_of(file), names.get(hull) or file.name) for hull in content.given.labels}
+    reasons = {hull: (kind_of(file), names.get(hull) or file.name) for hull in content.given.labels}
     return AssetLabels(asset, content.hulls, content.given.labels, reasons, content.given.problems, content.error)
 
 
-def _read_vocabulary(files: Mapping[str, Path], options: read.LabelFileOptions) -> tuple[str, ...]:
+def _read_vocabulary(files: Mapping[str, Path], options: LabelFileOptions) -> tuple[str, ...]:
     return tuple(dict.fromkeys(word for file in files.values() for word in _read_words(file, options)))
 
 
-def _read_words(file: Path, options: read.LabelFileOptions) -> Iterable[str]:
-    match read.kind_of(file):
+def _read_words(file: Path, options: LabelFileOptions) -> Iterable[str]:
+    match kind_of(file):
         case "labels file":
             labels_file = read_labels(file)
             return (*labels_file.vocabulary, *(label.name for label in labels_file.labels.values()))

@@ -1,18 +1,18 @@
-"""Where a model is asked: the address, the model, the place of the key, prices; and what can go wrong."""
+"""Where a model is asked: the address, the model, the place of the key, prices; and which hosts a user has approved."""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
-from dataclasses import dataclass, field, fields
+import sys
+from collections.abc import Collection
+from dataclasses import dataclass
 from ipaddress import ip_address
-from typing import Any
+from pathlib import Path
 from urllib.parse import urlsplit
 
-from meshforge.common import MeshForgeError, UsageError
+from meshforge.common import MeshForgeError, UsageError, write_atomically
 from meshforge.store import VlmSettings
 
-OPENAI = "https://api.openai.com/v1"
 _KEYS = {
     "api.openai.com": "OPENAI_API_KEY",
     "generativelanguage.googleapis.com": "GEMINI_API_KEY",
@@ -20,7 +20,7 @@ _KEYS = {
 }
 """The environment variable of the key of each host that is known; no key is ever sent to another host unasked."""
 _KEY_SUFFIX = "_API_KEY"
-_MILLION = 1_000_000
+_HEAD = "# Hosts that MeshForge may send pictures of assets and a key to, one a line.\n"
 
 
 class QuestionError(MeshForgeError):
@@ -35,114 +35,6 @@ class EndError(QuestionError):
     """No further question would get an answer: a wrong key, no such model, nobody there, no money left, or stopped."""
 
 
-class TransientError(Exception):
-    """A fault of one attempt, after which another one is worth it.
-
-    after: what the server wants waited [s], None where it does not say; charged: whether the attempt may have been
-    charged for all the same; unreachable: whether there was no server at all.
-    """
-
-    def __init__(
-        self, problem: str, after: float | None = None, *, charged: bool = False, unreachable: bool = False
-    ) -> None:
-        super().__init__(problem)
-        self.after = after
-        self.charged = charged
-        self.unreachable = unreachable
-
-
-@dataclass(frozen=True, slots=True)
-class Endpoint:
-    """An OpenAI-compatible server and a model on it. Raises UsageError for values that do not fit.
-
-    key_env: the environment variable that holds the key, empty for none; None takes that of a host that is known.
-    input_price, output_price: in dollars a million tokens, None where they are not known.
-    concurrency: questions under way at once; timeout [s] for one attempt; retries: further attempts after a fault that
-    passes; wait [s]: before the first of them, doubled each time.
-    extra: further fields of every request, for what a server wants besides.
-    """
-
-    base_url: str = OPENAI
-    model: str = ""
-    key_env: str | None = None
-    input_price: float | None = None
-    output_price: float | None = None
-    concurrency: int = 4
-    timeout: float = 120.0
-    retries: int = 5
-    wait: float = 1.0
-    extra: Mapping[str, Any] = field(default_factory=dict)
-
-    def __post_init__(self) -> None:
-        parts = urlsplit(self.base_url)
-        if parts.scheme not in ("http", "https") or not parts.hostname:
-            raise UsageError(f"{self.base_url!r} is no address", remedy=f"Give it like {OPENAI}.")
-        if parts.username or parts.password or parts.query:
-            remedy = "Put the key into an environment variable, and name that as key_env."
-            raise UsageError("a base_url holds no key, name or query", where=self.place, remedy=remedy)
-        if self.key_name and not self.key_name.endswith(_KEY_SUFFIX):
-            remedy = f"Name a variable that ends in {_KEY_SUFFIX}: no other one is ever sent."
-            raise UsageError(f"key_env names {self.key_name}", where=self.place, remedy=remedy)
-        if self.key_name and parts.scheme == "http" and not self.is_loopback:
-            problem = f"the key in {self.key_name} would be sent where others can read it"
-            raise UsageError(problem, where=self.place, remedy='Give an https address, or key_env = "" for no key.')
-        if not self.model:
-            raise UsageError("no model is named", where=self.place, remedy="Name one: --model NAME, or model in [vlm].")
-
-    @property
-    def host(self) -> str:
-        """The name of the machine, with the port where one is given."""
-        parts = urlsplit(self.base_url)
-        return f"{parts.hostname}:{parts.port}" if parts.port else parts.hostname or ""
-
-    @property
-    def is_loopback(self) -> bool:
-        """Whether the host is this machine."""
-        name = urlsplit(self.base_url).hostname or ""
-        try:
-            return name == "localhost" or ip_address(name).is_loopback
-        except ValueError:
-            return False
-
-    @property
-    def place(self) -> str:
-        """The address without anything secret."""
-        parts = urlsplit(self.base_url)
-        return f"{parts.scheme}://{self.host}{parts.path.rstrip('/')}"
-
-    @property
-    def key_name(self) -> str:
-        """The environment variable of the key, empty where the server wants none."""
-        return _KEYS.get(urlsplit(self.base_url).hostname or "", "") if self.key_env is None else self.key_env
-
-    def key(self) -> str:
-        """The key, empty where the server wants none. Raises UsageError where its variable is not set."""
-        name = self.key_name
-        key = os.environ.get(name, "").strip() if name else ""
-        if name and not key:
-            remedy = f'Set it: export {name}=...; for a server that wants no key write key_env = "" in [vlm].'
-            raise UsageError(f"the environment variable {name}, which holds the key, is not set", remedy=remedy)
-        return key
-
-    @property
-    def has_key(self) -> bool:
-        """Whether the key is there, or none is wanted."""
-        return not self.key_name or bool(os.environ.get(self.key_name, "").strip())
-
-    @property
-    def is_priced(self) -> bool:
-        return self.input_price is not None and self.output_price is not None
-
-    def price(self, usage: TokenCount) -> float:
-        """What so many tokens cost, in dollars; a price that is not known counts as none."""
-        return ((self.input_price or 0) * usage.input + (self.output_price or 0) * usage.output) / _MILLION
-
-
-def endpoint_of(settings: VlmSettings) -> Endpoint:
-    """The endpoint that the table [vlm] names. Raises UsageError: no address, or no model named."""
-    return Endpoint(**{field.name: getattr(settings, field.name) for field in fields(Endpoint)})
-
-
 @dataclass(frozen=True, slots=True)
 class TokenCount:
     """Tokens that went in and came out; estimated: the server named no number."""
@@ -153,3 +45,125 @@ class TokenCount:
 
     def __add__(self, other: TokenCount) -> TokenCount:
         return TokenCount(self.input + other.input, self.output + other.output, self.estimated or other.estimated)
+
+
+@dataclass(frozen=True, slots=True)
+class Endpoint:
+    """An OpenAI-compatible server and a model on it, as the table [vlm] names them.
+
+    Raises UsageError for values that do not fit.
+    """
+
+    settings: VlmSettings
+
+    def __post_init__(self) -> None:
+        parts = urlsplit(self.settings.base_url)
+        if parts.scheme not in ("http", "https") or not parts.hostname:
+            raise UsageError(
+                f"{self.settings.base_url!r} is no address", remedy="Give it like https://api.openai.com/v1."
+            )
+        if parts.username or parts.password or parts.query:
+            remedy = "Put the key into an environment variable, and name that as key_env."
+            raise UsageError("a base_url holds no key, name or query", where=self.place, remedy=remedy)
+        if self.key_name and not self.key_name.endswith(_KEY_SUFFIX):
+            remedy = f"Name a variable that ends in {_KEY_SUFFIX}: no other one is ever sent."
+            raise UsageError(f"key_env names {self.key_name}", where=self.place, remedy=remedy)
+        if self.key_name and parts.scheme == "http" and not self.is_loopback:
+            problem = f"the key in {self.key_name} would be sent where others can read it"
+            raise UsageError(problem, where=self.place, remedy='Give an https address, or key_env = "" for no key.')
+        if not self.settings.model:
+            raise UsageError("no model is named", where=self.place, remedy="Name one: --model NAME, or model in [vlm].")
+
+    @property
+    def host(self) -> str:
+        """The name of the machine, with the port where one is given."""
+        parts = urlsplit(self.settings.base_url)
+        return f"{parts.hostname}:{parts.port}" if parts.port else parts.hostname or ""
+
+    @property
+    def is_loopback(self) -> bool:
+        """Whether the host is this machine."""
+        name = urlsplit(self.settings.base_url).hostname or ""
+        try:
+            return name == "localhost" or ip_address(name).is_loopback
+        except ValueError:
+            return False
+
+    @property
+    def place(self) -> str:
+        """The address without anything secret."""
+        parts = urlsplit(self.settings.base_url)
+        return f"{parts.scheme}://{self.host}{parts.path.rstrip('/')}"
+
+    @property
+    def key_name(self) -> str:
+        """The environment variable of the key, empty where the server wants none."""
+        named = self.settings.key_env
+        return _KEYS.get(urlsplit(self.settings.base_url).hostname or "", "") if named is None else named
+
+    @property
+    def has_key(self) -> bool:
+        """Whether the key is there, or none is wanted."""
+        return not self.key_name or bool(os.environ.get(self.key_name, "").strip())
+
+    def key(self) -> str:
+        """Return the key, empty where the server wants none. Raises UsageError where its variable is not set."""
+        name = self.key_name
+        if not self.has_key:
+            remedy = f'Set it: export {name}=...; for a server that wants no key write key_env = "" in [vlm].'
+            raise UsageError(f"the environment variable {name}, which holds the key, is not set", remedy=remedy)
+        return os.environ[name].strip() if name else ""
+
+    @property
+    def is_priced(self) -> bool:
+        return None not in (self.settings.input_price, self.settings.output_price)
+
+    def price(self, usage: TokenCount) -> float:
+        """Return what so many tokens cost [$]; a price that is not known counts as none."""
+        prices = self.settings.input_price or 0, self.settings.output_price or 0
+        return (prices[0] * usage.input + prices[1] * usage.output) / 1_000_000
+
+
+def approve_host(host: str) -> None:
+    """Approve a host, such as `api.openai.com` or `example.org:8443`, from now on. Raises UsageError: no host."""
+    parts = urlsplit(f"//{host}")
+    if not parts.hostname or parts.netloc != host or "@" in host or len(host.split()) != 1:
+        raise UsageError(f"{host!r} is no host", remedy="Give it like api.openai.com, or example.org:8443.")
+    lines = sorted({*_read_approved(), host.lower()})
+    write_atomically(_approvals_path(), _HEAD + "".join(f"{line}\n" for line in lines))
+
+
+def is_approved(endpoint: Endpoint) -> bool:
+    """Tell whether pictures and a key may be sent: to this machine always, elsewhere where the user said so."""
+    return endpoint.is_loopback or endpoint.host in _read_approved()
+
+
+def check_approved(endpoint: Endpoint, typed: Collection[str] = ()) -> None:
+    """Raise UsageError where an endpoint is not approved. typed: addresses that the user typed for this run."""
+    if endpoint.settings.base_url not in typed and not is_approved(endpoint):
+        problem = f"you have not approved {endpoint.host} yet: {describe_sending(endpoint)}"
+        remedy = f"If you trust it: meshforge label PROJECT --approve-host {endpoint.host}"
+        raise UsageError(problem, remedy=remedy)
+
+
+def describe_sending(endpoint: Endpoint) -> str:
+    """Return a sentence on what is sent where."""
+    key = f" and the key in the environment variable {endpoint.key_name}" if endpoint.key_name else ""
+    return f"pictures of the assets{key} are sent to {endpoint.host}"
+
+
+def _approvals_path() -> Path:
+    """The file of approved hosts, outside of all projects, where the platform keeps what a user configures."""
+    folder = {
+        "win32": Path(os.environ.get("APPDATA") or Path.home() / "AppData" / "Roaming"),
+        "darwin": Path.home() / "Library" / "Application Support",
+    }.get(sys.platform, Path.home() / ".config")
+    return Path(os.environ.get("XDG_CONFIG_HOME") or folder) / "meshforge" / "approved_hosts"
+
+
+def _read_approved() -> set[str]:
+    try:
+        lines = _approvals_path().read_text("utf-8").splitlines()
+    except FileNotFoundError:
+        return set()
+    return {line.strip().lower() for line in lines if line.strip() and not line.startswith("#")}

@@ -2,33 +2,51 @@
 
 from __future__ import annotations
 
+import json
 import threading
 from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
 
+from meshforge.common import relative_name, write_atomically
 from meshforge.labels.vlm import prompt
-from meshforge.labels.vlm.answer import LabelVote, VlmAnswers, decide_label, label_chances, read_answer
+from meshforge.labels.vlm.answer import LabelVote, decide_label, read_answer
 from meshforge.labels.vlm.client import Client
 from meshforge.labels.vlm.endpoint import QuestionError
 from meshforge.labels.vlm.prompt import HullQuestion, PromptConfig
-from meshforge.labels.vlm.request import Message, VlmQuestion
-from meshforge.rendering import draw_labeling_pictures
+from meshforge.labels.vlm.question import Message
 from meshforge.symbolic import Label, SymbolicMesh
 
 _WAITING = 4  # questions for each thread that are under way or wait; asking more blocks until there is room
+_UNANSWERED = "the question got no answer"
 _QUOTED = 4000  # characters of an answer that are put before the model when it is asked again
-_UNSEEN, _UNASKED = "no picture shows it", "it was not asked about"
 
 
 @dataclass(frozen=True, slots=True)
-class _Response:
-    """What came of one question: votes by hull, or why there are none."""
+class VlmAnswers:
+    """What a model said of a mesh. labels: by hull; open: why others that were asked about have none, by hull.
 
-    votes: Mapping[str, LabelVote] = field(default_factory=dict)
+    failed: complaints about questions that got no answer, in their order, each once; asked: the digests of all
+    questions that got one.
+    """
+
+    labels: Mapping[str, Label] = field(default_factory=dict)
     open: Mapping[str, str] = field(default_factory=dict)
-    failed: str | None = None
+    failed: tuple[str, ...] = ()
     asked: tuple[str, ...] = ()
+
+
+@dataclass(slots=True)
+class _Response:
+    """What came of one question: votes by hull, and why others have none."""
+
+    votes: dict[str, LabelVote] = field(default_factory=dict)
+    open: dict[str, str] = field(default_factory=dict)
+    failed: str | None = None
+    asked: list[str] = field(default_factory=list)
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,23 +55,29 @@ class OpenAnswers:
 
     names: Sequence[str]
     vocabulary: Sequence[str]
-    answers: Sequence[Future[_Response]]
+    responses: Sequence[Future[_Response]]
 
     def is_done(self) -> bool:
-        return all(answer.done() for answer in self.answers)
+        return all(response.done() for response in self.responses)
 
     def result(self) -> VlmAnswers:
-        """What the model said, when all of it is there."""
-        responses = [answer.result() for answer in self.answers]
+        """Return what the model said, when all of it is there."""
+        responses = [response.result() for response in self.responses]
         labels, left = dict[str, Label](), dict[str, str]()
         for hull in self.names:
-            found = decide_label([one.votes[hull] for one in responses if hull in one.votes], self.vocabulary)
-            if found:
+            votes = [one.votes[hull] for one in responses if hull in one.votes]
+            if found := decide_label(votes, self.vocabulary):
                 labels[hull] = Label(*found, "vlm")
             else:
-                left[hull] = _explain_gap(hull, responses)
+                left[hull] = "the model does not know" if votes else _explain_gap(hull, responses)
         failed = tuple(dict.fromkeys(response.failed for response in responses if response.failed))
         return VlmAnswers(labels, left, failed, tuple(digest for response in responses for digest in response.asked))
+
+
+def _explain_gap(hull: str, responses: Sequence[_Response]) -> str:
+    failed = any(response.failed for response in responses)
+    missing = "it was not asked about" if failed else "no picture shows it"
+    return next((one.open[hull] for one in responses if hull in one.open), missing)
 
 
 class MeshAsker:
@@ -64,9 +88,10 @@ class MeshAsker:
 
     def __init__(self, client: Client, config: PromptConfig, examples: Iterable[SymbolicMesh] = ()) -> None:
         self.config, self._client = config, client
-        self._examples = tuple(m for mesh in examples for m in example_messages(mesh, config))
-        self._threads = ThreadPoolExecutor(client.endpoint.concurrency, "asking")
-        self._room = threading.BoundedSemaphore(_WAITING * client.endpoint.concurrency)
+        self._examples = tuple(m for mesh in examples for m in prompt.example_messages(mesh, config))
+        concurrency = client.endpoint.settings.concurrency
+        self._threads = ThreadPoolExecutor(concurrency, "asking")
+        self._room = threading.BoundedSemaphore(_WAITING * concurrency)
 
     def close(self) -> None:
         """Ask no more; what is under way is kept when its answer comes, yet not waited for."""
@@ -74,75 +99,57 @@ class MeshAsker:
 
     def ask(self, names: Sequence[str], questions: Iterable[HullQuestion]) -> OpenAnswers:
         """Ask about some hulls of a mesh, as they come. Waits where many questions are under way already."""
-        answers = []
+        responses = []
         for hull_question in questions:
             self._room.acquire()
-            answers.append(self._threads.submit(self._ask_about, self.add_examples(hull_question)))
-            answers[-1].add_done_callback(lambda _: self._room.release())
+            responses.append(self._threads.submit(self._ask_about, self.add_examples(hull_question)))
+            responses[-1].add_done_callback(lambda _: self._room.release())
             if self._client.end:  # what is drawn from here on would not be asked
                 break
-        return OpenAnswers(names, self.config.vocabulary, answers)
+        return OpenAnswers(names, self.config.vocabulary, responses)
 
     def add_examples(self, hull_question: HullQuestion) -> HullQuestion:
-        """A question as it is sent, behind the examples."""
+        """Return a question as it is sent, behind the examples."""
         return hull_question.show_examples(self._examples) if self._examples else hull_question
 
     def _ask_about(self, hull_question: HullQuestion) -> _Response:
         """The votes of one question; what its answer leaves open is asked once more."""
-        endpoint = self._client.endpoint
-        asked: tuple[str, ...] = (hull_question.question.digest(endpoint),)
-        try:
-            votes, left, second = self._collect_votes(hull_question, hull_question.question)
-        except QuestionError as error:
-            gaps = dict.fromkeys(hull_question.hulls.values(), "the question got no answer")
-            return _Response(open=gaps, failed=error.sentence)
-        failed = None
-        if second:
+        found, hulls, question = _Response(), hull_question.hulls, hull_question.question
+        left: Sequence[int] = list(hulls)
+        for _ in range(2):
             try:
-                rest = replace(hull_question, hulls={n: hull_question.hulls[n] for n in left})
-                more, left, _ = self._collect_votes(rest, second)
-                votes, asked = votes | more, (*asked, second.digest(endpoint))
+                reply = self._client.ask(question)
             except QuestionError as error:
-                failed = error.sentence
-        return _Response(votes, {hull_question.hulls[n]: why for n, why in left.items()}, failed, asked)
-
-    def _collect_votes(
-        self, hull_question: HullQuestion, question: VlmQuestion
-    ) -> tuple[dict[str, LabelVote], dict[int, str], VlmQuestion | None]:
-        """The votes of an answer by hull, why numbers are left open, and the question that asks for these again."""
-        reply = self._client.ask(question)
-        vocabulary, unknown = self.config.vocabulary, self.config.unknown
-        answer = read_answer(reply.text, hull_question.hulls.keys(), vocabulary, unknown)
-        sure = label_chances(reply, answer, vocabulary, unknown)
-        votes = {
-            (hull := hull_question.hulls[number]): LabelVote(label, hull_question.weights[hull], sure.get(number))
-            for number, label in answer.given.items()
-        }
-        if not answer.open:
-            return votes, {}, None
-        why = "the answer was cut off" if reply.is_cut and not answer.unrecognised else answer.problem
-        back = (Message.assistant(reply.text[:_QUOTED] or "-"), prompt.retry_message(answer.open, answer.unrecognised))
-        limit = question.limit * 2 if reply.is_cut else question.limit
-        second = replace(question, messages=(*question.messages, *back), limit=limit)
-        return votes, dict.fromkeys(answer.open, why), second
+                found.failed = error.sentence
+                return found if found.asked else replace(found, open=dict.fromkeys(hulls.values(), _UNANSWERED))
+            found.asked.append(question.digest(self._client.endpoint))
+            answer = read_answer(reply.text, left, self.config.vocabulary, self.config.unknown)
+            found.votes |= {hulls[n]: (label, hull_question.weights[n]) for n, label in answer.labels.items()}
+            why = "the answer was cut off" if reply.is_cut and not answer.unrecognised else answer.problem
+            left, found.open = answer.open, {hulls[number]: why for number in answer.open}
+            if not left:
+                break
+            back = Message.assistant(reply.text[:_QUOTED] or "-"), prompt.retry_message(left, answer.unrecognised)
+            limit = question.limit * 2 if reply.is_cut else question.limit
+            question = replace(question, messages=(*question.messages, *back), limit=limit)
+        return found
 
 
-def _explain_gap(hull: str, responses: Sequence[_Response]) -> str:
-    if any(hull in response.votes for response in responses):
-        return "the model does not know"
-    failed = any(response.failed for response in responses)
-    return next((one.open[hull] for one in responses if hull in one.open), _UNASKED if failed else _UNSEEN)
+def write_page(folder: Path, name: str, answers: VlmAnswers) -> None:
+    """Write `pages/NAME.html` into a folder of answers; name: that of the mesh, maybe with folders."""
+    from jinja2 import Environment, StrictUndefined  # lazy: 0.05 s, only answers of a model need it
+
+    path = folder / "pages" / f"{name}.html"
+    kept = [_read_kept(folder / "answers" / f"{digest}.json") for digest in answers.asked]
+    source = (files("meshforge.labels.vlm") / "page.html.j2").read_text("utf-8")
+    template = Environment(autoescape=True, undefined=StrictUndefined, trim_blocks=True).from_string(source)
+    pictures = relative_name(folder / "pictures", path.parent)
+    write_atomically(path, template.render(name=name, answers=answers, kept=kept, pictures=pictures))
 
 
-def example_messages(mesh: SymbolicMesh, config: PromptConfig) -> tuple[Message, ...]:
-    """A labelled mesh as a question with its answer; nothing where no hull has a label of the vocabulary."""
-    labelled = [hull.name for hull in mesh.hulls if hull.label in config.vocabulary][: config.picture_mode.hulls]
-    if not labelled:
-        return ()
-    taken = draw_labeling_pictures(
-        mesh, hulls=labelled, most=min(2, config.picture_mode.pictures), size=config.picture_mode.size
-    )
-    shown = frozenset[str]().union(*(shot.numbered for shot in taken))
-    numbers = {hull: mesh.index[hull] for hull in labelled if hull in shown}
-    given = {number: mesh.hull_of(hull).label or config.unknown for hull, number in numbers.items()}
-    return prompt.question_message(taken, 0, numbers), prompt.example_answer(given)
+def _read_kept(file: Path) -> Any:
+    """A question with its answer, None where it cannot be read."""
+    try:
+        return json.loads(file.read_bytes())
+    except (OSError, ValueError):
+        return None

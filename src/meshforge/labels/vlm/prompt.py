@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import json
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 from meshforge.common import UsageError
 from meshforge.labels.vlm.answer import clearness
-from meshforge.labels.vlm.request import Message, Part, VlmQuestion
+from meshforge.labels.vlm.question import Message, Part, VlmQuestion
 from meshforge.rendering import LabelingPicture, draw_labeling_pictures, encode_png, up_axis
 from meshforge.store import VlmSettings
 from meshforge.symbolic import SymbolicMesh
@@ -67,70 +67,50 @@ MODES: Mapping[ModeName, PictureMode] = {
 
 @dataclass(frozen=True, slots=True)
 class PromptConfig:
-    """vocabulary: the labels; descriptions: a line on some of them, by label; about: a line on what the meshes are.
-
-    names: whether the model is given the names of assets and hulls; repeats: how often each question is asked; room:
-    tokens for an answer besides those it needs, of which a model that thinks first needs more; size: of pictures [px],
-    None for that of the mode. Raises UsageError for values that do not fit.
-    """
+    """How hulls are asked about: the labels, and what the table [vlm] says. Raises UsageError for what does not fit."""
 
     vocabulary: tuple[str, ...]
-    mode: ModeName = "balanced"
-    descriptions: Mapping[str, str] = field(default_factory=dict)
-    about: str = ""
-    names: bool = False
-    repeats: int = 1
-    room: int = 1000
-    size: int | None = None
+    settings: VlmSettings
 
     def __post_init__(self) -> None:
         if not self.vocabulary:
             raise UsageError("the vocabulary is empty", remedy="Say first what hulls can be: --vocabulary a,b,c.")
-        unrecognised = next((label for label in self.descriptions if label not in self.vocabulary), None)
+        unrecognised = next((label for label in self.settings.descriptions if label not in self.vocabulary), None)
         if unrecognised is not None:
             raise UsageError(f"the label {unrecognised!r} is described, but is not in the vocabulary")
 
     @property
     def picture_mode(self) -> PictureMode:
         """The mode, with pictures of the size that was chosen."""
-        mode = MODES[self.mode]
-        return mode if self.size is None else replace(mode, size=self.size)
+        mode, size = MODES[self.settings.mode], self.settings.size
+        return mode if size is None else replace(mode, size=size)
 
     @property
     def unknown(self) -> str:
         """What a model says of a hull that it does not know."""
         return next(word for word in _UNKNOWN if word not in self.vocabulary)
 
-    def words(self, repeat: int = 0) -> Sequence[str]:
-        """The labels; each repeat lists them in another order, since the order must not matter."""
+    def words(self, repeat: int) -> Sequence[str]:
+        """Return the labels; each repeat lists them in another order, since the order must not matter."""
         turn = repeat % len(self.vocabulary)
         return (*self.vocabulary[turn:], *self.vocabulary[:turn])
 
 
-def prompt_config_of(settings: VlmSettings, vocabulary: Sequence[str]) -> PromptConfig:
-    """What the table [vlm] says on asking. Raises UsageError: no vocabulary, or a description of what is no label."""
-    _, *own = fields(PromptConfig)
-    return PromptConfig(tuple(vocabulary), **{field.name: getattr(settings, field.name) for field in own})
-
-
-def task_message(config: PromptConfig, up: str, repeat: int = 0) -> Message:
+def _task_message(config: PromptConfig, up: str, repeat: int) -> Message:
     """What the task is; up: the axis that points up, as `+Z`."""
-    words = config.words(repeat)
-    labels = [
-        f"- {word}: {_to_line(config.descriptions[word])}" if word in config.descriptions else f"- {word}"
-        for word in words
-    ]
-    about = f". The objects are: {_to_line(config.about)}" if config.about else ""
+    words, known, about = config.words(repeat), config.settings.descriptions, config.settings.about
+    labels = [f"- {word}: {_to_line(known[word])}" if word in known else f"- {word}" for word in words]
+    about = f". The objects are: {_to_line(about)}" if about else ""
     text = _TASK.format(labels="\n".join(labels), unknown=config.unknown, up=up, about=about, example=words[0])
     return Message.system(text)
 
 
-def question_message(
-    shots: Sequence[LabelingPicture], plain: int, numbers: Mapping[str, int], name: str = ""
+def _question_message(
+    shots: Sequence[LabelingPicture], plain: int, hulls: Mapping[int, str], name: str = ""
 ) -> Message:
     """Pictures, and the numbers that are asked about.
 
-    plain: of how many of the first pictures the same without numbers is shown; numbers: by hull;
+    plain: of how many of the first pictures the same without numbers is shown; hulls: by number, in order;
     name: that of the asset, empty where the model is given no names.
     """
     parts: list[Part] = [f"This is {name!r}." if name else "This is the object."]
@@ -138,21 +118,33 @@ def question_message(
         parts += [f"Picture: {shot.name}.", encode_png(shot.marked)]
         if k < plain:
             parts += ["The same without numbers.", encode_png(shot.plain)]
-    options = ", ".join(
-        f"{n} ({hull!r})" if name else str(n) for hull, n in sorted(numbers.items(), key=lambda row: row[1])
-    )
-    parts.append(f"Which part does each of these pieces belong to: {options}?")
+    listed = ", ".join(f"{number} ({hull!r})" if name else str(number) for number, hull in hulls.items())
+    parts.append(f"Which part does each of these pieces belong to: {listed}?")
     return Message("user", tuple(parts))
 
 
-def example_answer(labels: Mapping[int, str]) -> Message:
-    """The right answer about an asset that is shown as an example."""
-    rows = ", ".join(f'{{"number": {number}, "label": {_quote(label)}}}' for number, label in sorted(labels.items()))
-    return Message.assistant(f'{{"hulls": [{rows}]}}')
+def example_messages(mesh: SymbolicMesh, config: PromptConfig) -> tuple[Message, ...]:
+    """Return a labelled mesh as a question with its answer; nothing where no hull has a label of the vocabulary."""
+    mode = config.picture_mode
+    labelled = [hull.name for hull in mesh.hulls if hull.label in config.vocabulary][: mode.hulls]
+    if not labelled:
+        return ()
+    shots = draw_labeling_pictures(mesh, hulls=labelled, most=min(2, mode.pictures), size=mode.size)
+    hulls = _number_hulls(mesh, labelled, shots)
+    rows = ", ".join(
+        f'{{"number": {number}, "label": {_quote(mesh.hull_of(hull).label or config.unknown)}}}'
+        for number, hull in hulls.items()
+    )
+    return _question_message(shots, 0, hulls), Message.assistant(f'{{"hulls": [{rows}]}}')
+
+
+def _number_hulls(mesh: SymbolicMesh, hulls: Sequence[str], shots: Sequence[LabelingPicture]) -> dict[int, str]:
+    """Those of some hulls, in the order of the mesh, that have their number in a picture."""
+    return {mesh.index[hull]: hull for hull in hulls if any(hull in shot.numbered for shot in shots)}
 
 
 def retry_message(numbers: Sequence[int], unrecognised: Sequence[str]) -> Message:
-    """The words that ask once more for what an answer left open; odd: words in it that are no labels."""
+    """Return the words that ask once more for what an answer left open; odd: words in it that are no labels."""
     why = (
         f" ({', '.join(map(_quote, unrecognised))} {'is no label' if len(unrecognised) == 1 else 'are no labels'})"
         if unrecognised
@@ -161,8 +153,7 @@ def retry_message(numbers: Sequence[int], unrecognised: Sequence[str]) -> Messag
     return Message.user(_AGAIN.format(why=why, numbers=", ".join(map(str, numbers))))
 
 
-def answer_schema(config: PromptConfig, repeat: int = 0) -> dict[str, Any]:
-    """The JSON schema of an answer."""
+def _answer_schema(config: PromptConfig, repeat: int) -> dict[str, Any]:
     labels = {"type": "string", "enum": [*config.words(repeat), config.unknown]}
     entry = {"number": {"type": "integer"}, "label": labels}
     row = {"type": "object", "properties": entry, "required": list(entry), "additionalProperties": False}
@@ -188,8 +179,7 @@ class HullQuestion:
 
     question: VlmQuestion
     hulls: Mapping[int, str]
-    weights: Mapping[str, float]
-    repeat: int
+    weights: Mapping[int, float]
 
     @property
     def expected(self) -> int:
@@ -197,7 +187,7 @@ class HullQuestion:
         return _EXPECTED_TOKENS * (len(self.hulls) + 1)
 
     def show_examples(self, examples: tuple[Message, ...]) -> HullQuestion:
-        """The same question with messages that show labelled assets before its own pictures."""
+        """Return the same question with messages that show labelled assets before its own pictures."""
         instructions, *pictures = self.question.messages
         return replace(self, question=replace(self.question, messages=(instructions, *examples, *pictures)))
 
@@ -205,40 +195,34 @@ class HullQuestion:
 def build_questions(
     mesh: SymbolicMesh, wanted: Collection[str], config: PromptConfig, name: str = ""
 ) -> Iterator[HullQuestion]:
-    """The questions about a mesh. Groups in which no hull is wanted are passed over.
+    """Yield the questions about a mesh. Groups in which no hull is wanted are passed over.
 
     The groups do not depend on what is wanted, so that answers can be found again when some hulls have a label by then.
     name: that of the asset, which the model is given where the config says so.
     """
-    mode = config.picture_mode
-    for group in _group_names([hull.name for hull in mesh.hulls], mode.hulls):
+    mode, names = config.picture_mode, list(mesh.index)
+    count = -(-len(names) // mode.hulls)
+    for k in range(count):
+        group = names[k * len(names) // count : (k + 1) * len(names) // count]
         if set(group).isdisjoint(wanted):
             continue
-        pictures = draw_labeling_pictures(mesh, hulls=group, most=mode.pictures, size=mode.size)
-        parts = min(mode.questions, len(pictures))
+        shots = draw_labeling_pictures(mesh, hulls=group, most=mode.pictures, size=mode.size)
+        parts = min(mode.questions, len(shots))
         for part in range(parts):
-            yield from _ask_in_repeats(mesh, pictures[part::parts], group, config, name if config.names else "")
+            yield from _ask_in_repeats(mesh, shots[part::parts], group, config, name if config.settings.names else "")
 
 
 def _ask_in_repeats(
-    mesh: SymbolicMesh, shots: tuple[LabelingPicture, ...], group: Collection[str], config: PromptConfig, name: str
+    mesh: SymbolicMesh, shots: Sequence[LabelingPicture], group: Sequence[str], config: PromptConfig, name: str
 ) -> Iterator[HullQuestion]:
-    shown = frozenset[str]().union(*(shot.numbered for shot in shots))
-    numbers = {hull: mesh.index[hull] for hull in group if hull in shown}
-    if not numbers:
+    hulls, mode = _number_hulls(mesh, group, shots), config.picture_mode
+    if not hulls:
         return
-    pictures = question_message(shots, config.picture_mode.plain, numbers, name)
-    pixels = {hull: sum(shot.visible_pixels[hull] for shot in shots if hull in shot.numbered) for hull in numbers}
-    weights = {hull: clearness(count, config.picture_mode.size) for hull, count in pixels.items()}
-    limit = config.room + _ENTRY_TOKENS * len(numbers)
-    for repeat in range(config.repeats):
-        messages = task_message(config, f"+{up_axis(mesh, None)}", repeat), pictures
-        question = VlmQuestion(messages, answer_schema(config, repeat), limit, repeat=repeat)
-        yield HullQuestion(question, {number: hull for hull, number in numbers.items()}, weights, repeat)
-
-
-def _group_names(names: list[str], most: int) -> Iterator[list[str]]:
-    """Names in their order, in as few groups as can be, of about one size."""
-    count = -(-len(names) // most)
-    for k in range(count):
-        yield names[k * len(names) // count : (k + 1) * len(names) // count]
+    pictures = _question_message(shots, mode.plain, hulls, name)
+    pixels = {n: sum(shot.visible_pixels[hull] for shot in shots if hull in shot.numbered) for n, hull in hulls.items()}
+    weights = {number: clearness(count, mode.size) for number, count in pixels.items()}
+    limit = config.settings.room + _ENTRY_TOKENS * len(hulls)
+    for repeat in range(config.settings.repeats):
+        messages = _task_message(config, f"+{up_axis(mesh, None)}", repeat), pictures
+        question = VlmQuestion(messages, _answer_schema(config, repeat), limit, repeat=repeat)
+        yield HullQuestion(question, hulls, weights)

@@ -212,7 +212,7 @@ def start_ask(session: Session, request: AskJob) -> Job:
         result = project.label(labeler, execution=execution, stage=progress.stage, write_block=record)
         found = labeler.result
         for outcome in result.outcomes:
-            bare = list(found.open.get(outcome.asset, {}))
+            bare = list(outcome.open)
             progress.add_line(_labels_line(outcome, [f"none for {join_names(bare, most=3)}"] if bare else []))
         text = _describe_answers(result, found)
         if found.ended and not progress.is_stopped():
@@ -251,7 +251,7 @@ def _labels_line(report: LabelOutcome, notes: list[str]) -> JobLine:
 
 def _describe_answers(result: LabelResult, found: VlmResult) -> str:
     taken, spent = sum(outcome.taken for outcome in result.outcomes), found.usage
-    bare = sum(map(len, found.open.values()))
+    bare = sum(len(outcome.open) for outcome in result.outcomes)
     cost = f"{spent.usage.input + spent.usage.output:,} tokens" if spent.cost is None else f"${spent.cost:.4f}"
     parts = [f"{pluralize(taken, 'label')} taken"]
     parts += [f"{pluralize(bare, 'hull')} left without"] if bare else []

@@ -8,7 +8,7 @@ from dataclasses import replace
 from importlib.util import find_spec
 
 from meshforge.common import MeshForgeError, pluralize
-from meshforge.labels import check_vlm_settings, endpoint_of
+from meshforge.labels import Endpoint, check_vlm_settings
 from meshforge.language import BaseExtractor, Is, Orient, explain, show_label
 from meshforge.project import (
     AssetStatus,
@@ -213,7 +213,7 @@ def model_of(project: Project) -> Model | None:
         return None
     host, why = "", None
     try:
-        host = endpoint_of(settings).host
+        host = Endpoint(settings).host
         check_vlm_settings(settings, project.vocabulary)
     except MeshForgeError as error:
         why = error.message

@@ -11,7 +11,8 @@ from meshforge.labels.vlm.client import Client
 from meshforge.labels.vlm.endpoint import Endpoint
 from meshforge.labels.vlm.mesh_asker import MeshAsker, OpenAnswers
 from meshforge.labels.vlm.prompt import build_questions
-from meshforge.labels.vlm.request import Message, VlmQuestion
+from meshforge.labels.vlm.question import Message, VlmQuestion
+from meshforge.store import VlmSettings
 from meshforge.symbolic import SymbolicMesh
 from tests.loopback import KEY, Server
 
@@ -27,7 +28,7 @@ SCHEMA = {
 def client(
     server: Server, folder: Path | None = None, *, max_cost: float | None = None, stop: Any = None, **how: Any
 ) -> Client:
-    """A client that does not wait long; how: fields of its endpoint."""
+    """A client that does not wait long; how: fields of its settings."""
     told: dict[str, Any] = {
         "model": server.model,
         "key_env": VARIABLE,
@@ -35,8 +36,12 @@ def client(
         "timeout": 5.0,
         "retries": 4,
     } | how
-    endpoint = Endpoint(server.base_url, **told)
+    endpoint = Endpoint(VlmSettings(base_url=server.base_url, **told))
     return Client(endpoint, folder, max_cost=max_cost, stop=stop or (lambda: False))
+
+
+def endpoint(address: str, key: str | None = "") -> Endpoint:
+    return Endpoint(VlmSettings(base_url=address, model="m", key_env=key))
 
 
 def question(text: str = "Say a word.", *pictures: bytes, **how: Any) -> VlmQuestion:

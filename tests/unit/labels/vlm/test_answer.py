@@ -3,14 +3,16 @@ from __future__ import annotations
 import json
 
 import pytest
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from meshforge.labels.vlm.answer import HullAnswer, read_answer
+from meshforge.labels.vlm.answer import HullAnswer, LabelVote, clearness, decide_label, read_answer
 
 WORDS = ("leg", "table top", "drawer_front", "Füße")
 RIGHT = '{"hulls": [{"number": 0, "label": "leg"}, {"number": 2, "label": "table top"}]}'
 ANSWERS = {0: "leg", 2: "table top"}
+PARTS = ("leg", "panel", "drawer")
+VOTES = st.lists(st.tuples(st.sampled_from([*PARTS, None]), st.floats(0.01, 1)), min_size=1, max_size=8)
 
 
 def read(text: str, asked: tuple[int, ...] = (0, 2)) -> HullAnswer:
@@ -74,9 +76,9 @@ def test_words_that_are_no_labels_are_told() -> None:
 @given(text=st.text(alphabet=st.sampled_from('{}[]":, 02leg\\nunkwhs'), max_size=60) | st.text(max_size=60))
 def test_whatever_is_said_each_number_is_said_of_or_left_open(text: str) -> None:
     answer = read(text)
-    assert set(answer.given).isdisjoint(answer.open)
-    assert set(answer.given) | set(answer.open) == {0, 2}
-    assert all(label is None or label in WORDS for label in answer.given.values())
+    assert set(answer.labels).isdisjoint(answer.open)
+    assert set(answer.labels) | set(answer.open) == {0, 2}
+    assert all(label is None or label in WORDS for label in answer.labels.values())
 
 
 @given(
@@ -87,11 +89,56 @@ def test_whatever_is_said_each_number_is_said_of_or_left_open(text: str) -> None
 def test_an_answer_is_found_in_any_chatter(said: dict[int, str], before: str, after: str) -> None:
     rows = [{"number": number, "label": label} for number, label in said.items()]
     answer = read(before + json.dumps({"hulls": rows}) + after, tuple(said))
-    assert answer.given == said
+    assert answer.labels == said
 
 
 @given(said=st.dictionaries(st.integers(0, 30), st.sampled_from(WORDS), min_size=1), share=st.floats(0, 1))
 def test_a_cut_answer_never_says_another_label(said: dict[int, str], share: float) -> None:
     text = json.dumps({"hulls": [{"number": number, "label": label} for number, label in said.items()]})
     answer = read(text[: int(share * len(text))], tuple(said))
-    assert answer.given.items() <= said.items()
+    assert answer.labels.items() <= said.items()
+
+
+def test_votes_that_agree_make_a_label_surer() -> None:
+    found = [decide_label([("leg", 1.0)] * count, PARTS) for count in (1, 2, 5)]
+    assert found == [("leg", 0.7143), ("leg", 0.8333), ("leg", 0.9259)]
+    assert decide_label([("leg", 1.0), ("leg", 1.0), ("panel", 1.0)], PARTS) == (
+        "leg",
+        0.5882,
+    )
+
+
+def test_a_hull_that_was_hardly_seen_is_unsure() -> None:
+    found = decide_label([("leg", clearness(30, 1024))], PARTS)
+    assert found and found[0] == "leg" and found[1] < 0.25
+    assert clearness(30, 512) == clearness(120, 1024)
+    assert clearness(0, 1024) == 0
+    assert clearness(300, 1024) == 0.5
+
+
+def test_where_unknown_has_most_there_is_no_label() -> None:
+    assert decide_label([(None, 1.0), ("leg", 0.9)], PARTS) is None
+    assert decide_label([(None, 0.9), ("leg", 1.0)], PARTS) == ("leg", 0.4348)
+    assert decide_label([], PARTS) is None
+
+
+@given(votes=VOTES)
+def test_the_order_of_votes_does_not_matter_and_confidence_is_a_share(votes: list[LabelVote]) -> None:
+    found = decide_label(votes, PARTS)
+    back = decide_label(votes[::-1], PARTS)
+    if found is None or back is None:
+        assert found == back or abs(sum(weight for label, weight in votes if label is None)) > 0
+        return
+    assert 0 < found[1] < 1
+    assert found[1] == pytest.approx(back[1], abs=2e-4)
+
+
+@given(votes=VOTES, weight=st.floats(0.01, 1))
+def test_one_more_vote_for_the_winner_never_makes_it_less_sure(votes: list[LabelVote], weight: float) -> None:
+    found = decide_label(votes, PARTS)
+    assume(found is not None)
+    assert found is not None
+    more = decide_label([*votes, (found[0], weight)], PARTS)
+    assert more is not None
+    assert more[0] == found[0]
+    assert more[1] >= found[1] - 1e-4

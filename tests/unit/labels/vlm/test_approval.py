@@ -15,6 +15,7 @@ from meshforge.store import VlmSettings
 from tests.loopback import KEY
 from tests.unit.cli.in_process import Run, runner
 from tests.unit.cli.terminal import Terminal
+from tests.unit.labels.vlm.asking import endpoint
 from tests.unit.labels.vlm_family import VARIABLE, family
 
 EVIL = "https://evil.example/v1"
@@ -42,7 +43,7 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     addresses = list[str]()
 
     def refuse(endpoint: Endpoint, *words: object, **more: object) -> None:
-        addresses.append(endpoint.base_url)
+        addresses.append(endpoint.settings.base_url)
         raise UsageError("opened")
 
     monkeypatch.setattr(label_by_vlm, "Client", refuse)
@@ -70,7 +71,7 @@ def test_an_approved_host_is_one_line_in_the_users_folder(project: Project, run:
     done = run("label", "p", "--with", "vlm")
     assert asked == [EVIL]
     assert f"the key in the environment variable {VARIABLE} are sent to evil.example" in done.err
-    assert not is_approved(Endpoint("https://evil.example:8443/v1", "m", key_env=""))
+    assert not is_approved(endpoint("https://evil.example:8443/v1"))
 
 
 def test_an_approval_in_the_project_counts_for_nothing(project: Project, run: Run, asked: list[str]) -> None:
@@ -84,7 +85,7 @@ def test_an_approval_in_the_project_counts_for_nothing(project: Project, run: Ru
 def test_an_address_that_is_typed_is_approved_for_that_run(project: Project, run: Run, asked: list[str]) -> None:
     _lead_to(project, "https://other.example/v1")
     run("label", "p", "--with", "vlm", "--base-url", EVIL)
-    assert asked == [EVIL] and not is_approved(Endpoint(EVIL, "m", key_env=""))
+    assert asked == [EVIL] and not is_approved(endpoint(EVIL))
 
 
 @pytest.mark.parametrize("key", ["AWS_SECRET", "HOME", "API_KEY_OF_MINE"])
@@ -97,13 +98,13 @@ def test_only_variables_of_keys_are_sent(project: Project, run: Run, asked: list
 
 def test_no_key_is_sent_in_clear_but_to_this_machine() -> None:
     with pytest.raises(UsageError, match="would be sent where others can read it"):
-        Endpoint("http://evil.example/v1", "m", key_env=VARIABLE)
-    Endpoint("http://evil.example/v1", "m", key_env="")
+        endpoint("http://evil.example/v1", VARIABLE)
+    endpoint("http://evil.example/v1")
     for host in ("localhost", "127.0.0.1:80", "127.9.9.9", "[::1]:8000"):
-        check_approved(Endpoint(f"http://{host}/v1", "m", key_env=VARIABLE))
+        check_approved(endpoint(f"http://{host}/v1", VARIABLE))
     for host in ("localhost.evil.example", "127.0.0.1.evil.example", "evil.example"):
         with pytest.raises(UsageError):
-            check_approved(Endpoint(f"https://{host}/v1", "m", key_env=""))
+            check_approved(endpoint(f"https://{host}/v1"))
 
 
 def test_python_and_the_studio_refuse_alike(project: Project, asked: list[str]) -> None:

@@ -7,15 +7,17 @@ import sys
 import threading
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from meshforge.common import MeshForgeError, UsageError
-from meshforge.labels.vlm.endpoint import EndError, Endpoint, QuestionError, RefusalError, TokenCount
-from meshforge.labels.vlm.request import ServerFeatures
+from meshforge.labels.vlm.client import LONGEST, Client, ServerFeatures
+from meshforge.labels.vlm.endpoint import EndError, QuestionError, RefusalError, TokenCount
+from meshforge.labels.vlm.question import Reply
 from tests.loopback import DROP, FAULTS, GARBAGE, SLOW, Asked, Fault, serving, status
-from tests.unit.labels.vlm.asking import SCHEMA, VARIABLE, client, key, question
+from tests.unit.labels.vlm.asking import SCHEMA, VARIABLE, client, endpoint, key, question
 
 __all__ = ["key"]
 pytestmark = pytest.mark.usefixtures("key")
@@ -43,43 +45,28 @@ def test_an_answer_is_counted_and_kept_and_not_asked_for_again(tmp_path: Path) -
 
 
 @pytest.mark.parametrize("schema", ["honoured", "ignored", "refused"])
-@pytest.mark.parametrize("logprobs", ["given", "ignored", "refused"])
 @pytest.mark.parametrize("thinks", [False, True])
-def test_only_what_the_server_understands_is_asked_of_it(schema: str, logprobs: str, thinks: bool) -> None:
-    with serving(lambda asked: "leg", schema=schema, logprobs=logprobs, thinks=thinks) as server:
+def test_what_the_server_refuses_is_not_asked_of_it(schema: str, thinks: bool) -> None:
+    with serving(lambda asked: "leg", schema=schema, thinks=thinks) as server:
         one = client(server)
-        reply = one.ask(question(schema=SCHEMA))
+        assert one.ask(question(schema=SCHEMA)).text == "leg"
         limit = "max_completion_tokens" if thinks else "max_tokens"
-        assert one.features() == ServerFeatures(schema == "honoured", logprobs == "given", not thinks, limit)
+        assert one.features() == ServerFeatures(schema != "refused", not thinks, limit)
         (asked,) = server.answered
-        sent = {"response_format", "logprobs", "temperature", "max_tokens", "max_completion_tokens"} & asked.body.keys()
-        wanted = {"response_format"} if schema == "honoured" else set()
-        wanted |= {"logprobs"} if logprobs == "given" else set()
-        assert sent == wanted | ({limit} if thinks else {limit, "temperature"})
+        sent = {"response_format", "temperature", "max_tokens", "max_completion_tokens"} & asked.body.keys()
+        wanted = {limit} | (set() if schema == "refused" else {"response_format"})
+        assert sent == wanted | (set() if thinks else {"temperature"})
         assert asked.body.get("temperature", 0) == 0
-        assert (reply.tokens is not None) == (logprobs == "given")
 
 
-def test_a_model_that_forbids_logprobs_is_asked_without_them() -> None:
-    def fault(asked: Asked) -> Fault | None:
-        return status(403, "You are not allowed to request logprobs.") if "logprobs" in asked.body else None
-
-    with serving(lambda asked: "leg", fault=fault, thinks=True) as server:
-        one = client(server)
-        assert one.ask(question()).text == "leg"
-        assert one.features() == ServerFeatures(logprobs=False, temperature=False, limit="max_completion_tokens")
-
-
-def test_a_server_is_probed_once_even_by_many_at_one_time_and_in_later_runs(tmp_path: Path) -> None:
+def test_a_server_is_probed_once_even_by_many_at_one_time(tmp_path: Path) -> None:
     with serving(lambda asked: "leg", delay=0.02) as server:
         one = client(server, tmp_path, concurrency=8)
         with ThreadPoolExecutor(8) as pool:
             list(pool.map(one.ask, [question(str(k)) for k in range(8)]))
-        client(server, tmp_path).ask(question("another"))
         assert sum(asked.is_probe for asked, _, _ in server.asked) == 1
         client(server, tmp_path, extra={"top_k": 1}).ask(question())
         assert server.answered[-1].body["top_k"] == 1
-        assert sum(asked.is_probe for asked, _, _ in server.asked) == 2
 
 
 def test_pictures_arrive_as_they_are_and_are_kept_beside_the_answer(tmp_path: Path) -> None:
@@ -170,7 +157,7 @@ def test_a_server_that_is_not_there_is_told_soon() -> None:
 
 
 def test_a_model_without_eyes_ends_it_where_there_are_pictures_only() -> None:
-    from meshforge.labels.vlm.request import probe_question
+    from meshforge.labels.vlm.client import probe_question
 
     (picture,) = probe_question(True).pictures
     with serving(lambda asked: "leg", sees=False) as server:
@@ -224,8 +211,8 @@ def test_a_key_is_sent_only_where_it_belongs(monkeypatch: pytest.MonkeyPatch, ke
         "https://api.anthropic.com/v1/": "ANTHROPIC_API_KEY",
         "http://localhost:11434/v1": "",
     }
-    assert {url: Endpoint(url, "m").key_name for url in names} == names
-    assert Endpoint("https://api.openai.com/v1", "m", key_env="MINE_API_KEY").key_name == "MINE_API_KEY"
+    assert {url: endpoint(url, None).key_name for url in names} == names
+    assert endpoint("https://api.openai.com/v1", "MINE_API_KEY").key_name == "MINE_API_KEY"
 
 
 def test_a_key_that_is_not_there_is_told_by_its_variable(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -249,7 +236,7 @@ def test_a_key_that_is_not_there_is_told_by_its_variable(monkeypatch: pytest.Mon
 )
 def test_an_address_that_cannot_be_is_told_without_its_secrets(url: str, message: str) -> None:
     with pytest.raises(UsageError, match=message) as raised:
-        Endpoint(url, "m")
+        endpoint(url)
     assert "secret" not in raised.value.message
 
 
@@ -261,10 +248,9 @@ def test_no_more_than_so_many_are_under_way_at_once() -> None:
         assert server.most_at_once == 3
 
 
-@pytest.mark.parametrize("kept", [True, False])
-def test_the_same_question_at_one_time_is_asked_once(tmp_path: Path, kept: bool) -> None:
+def test_the_same_question_at_one_time_is_asked_once(tmp_path: Path) -> None:
     with serving(lambda asked: "leg", delay=0.1) as server:
-        one = client(server, tmp_path if kept else None, concurrency=4)
+        one = client(server, tmp_path, concurrency=4)
         one.features()
         together = threading.Barrier(4)
 
@@ -290,9 +276,6 @@ DAMAGES: dict[str, Callable[[str], str]] = {
     "cut": lambda text: text[: len(text) // 2],
     "another thing": lambda text: "[1, 2]",
     "no answer": lambda text: text.replace('"answered"', '"unanswered"'),
-    "another question": lambda text: text.replace("Say a word.", "Say two words."),
-    "odd tokens": lambda text: text.replace('"tokens": null', '"tokens": [["x", "y", 3]]'),
-    "odd characters": lambda text: text.replace('"tokens": null', '"tokens": [["\\u2026", 0.5, {}]]'),
 }
 
 
@@ -310,21 +293,16 @@ def test_a_damaged_answer_is_asked_for_again(tmp_path: Path, damage: str) -> Non
         assert path.read_text() == whole
 
 
-def test_damaged_knowledge_of_a_server_is_found_out_again(tmp_path: Path) -> None:
-    with serving(lambda asked: "leg") as server:
-        client(server, tmp_path).ask(question())
-        (path,) = (tmp_path / "servers").iterdir()
-        for text in ("", "{}", '{"features": {"wings": true}}'):
-            path.write_text(text)
-            client(server, tmp_path).ask(question(text))
-        assert sum(asked.is_probe for asked, _, _ in server.asked) == 4
-
-
-def test_tokens_come_back_from_disk_as_they_were(tmp_path: Path) -> None:
-    with serving(lambda asked: "Füße und €", logprobs="given") as server:
-        asked = client(server, tmp_path).ask(question())
-        known = client(server, tmp_path).find_answer(question())
-        assert known and known.tokens == asked.tokens and known.tokens
+def test_an_answer_of_an_earlier_version_is_read(tmp_path: Path) -> None:
+    """The digest of a question, and how its answer was kept with the chances of its tokens."""
+    made = replace(question("Look.", b"picture", schema=SCHEMA), repeat=2)
+    one = Client(endpoint("https://me.example/v1"), tmp_path)
+    digest = "42edb4e1914cb76ddd003c11e9fcc38d"
+    assert made.digest(one.endpoint) == digest
+    kept = {"text": "leg", "finish": "stop", "input_tokens": 7, "output_tokens": 2, "cost": 0.5}
+    (tmp_path / "answers").mkdir()
+    (tmp_path / "answers" / f"{digest}.json").write_text(json.dumps({"answered": kept, "tokens": [["leg", 0.5]]}))
+    assert one.find_answer(made) == Reply("leg", "stop", TokenCount(7, 2), 0.5, cached=True)
 
 
 def test_a_server_that_tells_no_tokens_is_told_to_be_estimated() -> None:
@@ -346,6 +324,49 @@ def test_a_stop_ends_the_asking_before_and_between_attempts() -> None:
         with pytest.raises(EndError, match="stopped"):
             one.ask(question("another"))
         assert len(server.asked) == before
+
+
+class Clock:
+    """Time that passes only when somebody sleeps, and how long they slept."""
+
+    def __init__(self) -> None:
+        self.now = 100.0
+
+    def monotonic(self) -> float:
+        return self.now
+
+    def sleep(self, seconds: float) -> None:
+        self.now += seconds
+
+
+@pytest.fixture
+def clock(monkeypatch: pytest.MonkeyPatch) -> Clock:
+    made = Clock()
+    monkeypatch.setattr("meshforge.labels.vlm.client.time", made)
+    return made
+
+
+def test_each_wait_is_twice_the_last_up_to_the_longest(clock: Clock) -> None:
+    times = list[float]()
+
+    def fault(asked: Asked) -> Fault | None:
+        times.append(clock.now)
+        return None if asked.is_probe or len(times) > 10 else status(500)
+
+    with serving(lambda asked: "leg", fault=fault) as server:
+        client(server, wait=1.0, retries=9).ask(question())
+    waits = [after - before for before, after in itertools.pairwise(times)]
+    assert waits == pytest.approx([0, 1, 2, 4, 8, 16, 32, LONGEST, LONGEST, LONGEST])
+
+
+def test_what_the_server_wants_waited_holds_for_all_questions(clock: Clock) -> None:
+    with serving(lambda asked: "leg", fault=first(status(429, headers={"Retry-After": "20"}))) as server:
+        one = client(server, wait=0.1, retries=0)
+        with pytest.raises(QuestionError, match="429"):
+            one.ask(question())
+        assert clock.now == pytest.approx(100)
+        one.ask(question("another"))
+        assert clock.now == pytest.approx(120)
 
 
 def test_garbage_that_tells_what_it_cost_is_counted() -> None:

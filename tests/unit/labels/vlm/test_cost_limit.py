@@ -7,9 +7,9 @@ import pytest
 
 from meshforge.common import UsageError
 from meshforge.labels.vlm.client import Client
-from meshforge.labels.vlm.endpoint import EndError, Endpoint, QuestionError
+from meshforge.labels.vlm.endpoint import EndError, QuestionError
 from tests.loopback import FAULTS, Server, serving, sometimes
-from tests.unit.labels.vlm.asking import client, key, question
+from tests.unit.labels.vlm.asking import client, endpoint, key, question
 
 __all__ = ["key"]
 pytestmark = pytest.mark.usefixtures("key")
@@ -31,7 +31,7 @@ def ask_all(one: Client, count: int, **how: int) -> int:
             return False
         return True
 
-    with ThreadPoolExecutor(one.endpoint.concurrency) as pool:
+    with ThreadPoolExecutor(one.endpoint.settings.concurrency) as pool:
         return sum(pool.map(ask, range(count)))
 
 
@@ -73,7 +73,7 @@ def test_other_questions_under_way_are_waited_for_and_do_not_end_it(tmp_path: Pa
 
 def test_a_limit_without_prices_is_refused() -> None:
     with pytest.raises(UsageError, match="a limit on the cost needs to know the prices"):
-        Client(Endpoint("http://localhost/v1", "m", input_price=1.0), max_cost=1.0)
+        Client(endpoint("http://localhost/v1"), max_cost=1.0)
 
 
 def test_without_prices_tokens_are_counted_and_no_cost_is_told() -> None:

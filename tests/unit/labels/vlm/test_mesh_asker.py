@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 
 from meshforge.geometry import Box, Pose, Shape
-from meshforge.labels.vlm.answer import VlmAnswers
-from meshforge.labels.vlm.mesh_asker import MeshAsker
+from meshforge.labels.vlm.mesh_asker import MeshAsker, VlmAnswers
 from meshforge.labels.vlm.prompt import MODES, ModeName, PromptConfig, build_questions
 from meshforge.symbolic import Hull, Label, SymbolicMesh
 from tests.loopback import CUT, Asked, Server, labels_as_json, serving, status
@@ -50,13 +49,12 @@ def right(shown: SymbolicMesh) -> Callable[[Asked], str]:
 def labelling(
     answer: Callable[[Asked], str], mode: ModeName = "cheap", folder: Path | None = None, **how: Any
 ) -> Iterator[tuple[MeshAsker, Server]]:
-    """A labeller with small pictures; how: fields of `PromptConfig`, `Server` and `Endpoint`, as they are called."""
-    told = {name: how.pop(name) for name in ("fault", "schema", "logprobs", "chance", "delay") if name in how}
-    asking = {name: how.pop(name) for name in ("concurrency", "retries") if name in how}
+    """A labeller with small pictures; how: fields of `Server` and of the settings, as they are called."""
+    told = {name: how.pop(name) for name in ("fault", "schema", "delay") if name in how}
     examples = how.pop("examples", ())
     with serving(answer, **told) as server:
-        one = client(server, folder, **asking)
-        labeller = MeshAsker(one, PromptConfig(WORDS, mode=mode, size=SMALL, **how), examples)
+        one = client(server, folder, mode=mode, size=SMALL, **how)
+        labeller = MeshAsker(one, PromptConfig(WORDS, one.endpoint.settings), examples)
         yield labeller, server
         labeller.close()
         one.close()
@@ -71,10 +69,9 @@ def true_names(shown: SymbolicMesh) -> dict[str, str]:
 
 
 @pytest.mark.parametrize("mode", MODES)
-@pytest.mark.parametrize("logprobs", ["given", "ignored"])
-def test_a_right_model_labels_all_and_surer_with_more_looks(mode: ModeName, logprobs: str) -> None:
+def test_a_right_model_labels_all_and_surer_with_more_looks(mode: ModeName) -> None:
     shown = table()
-    with labelling(right(shown), mode, logprobs=logprobs) as (labeller, server):
+    with labelling(right(shown), mode) as (labeller, server):
         said = begin(labeller, shown).result()
         assert names(said) == true_names(shown)
         assert (said.open, said.failed) == ({}, ())
@@ -185,7 +182,8 @@ def test_a_vocabulary_with_the_word_unknown_has_another_word_for_not_knowing() -
     shown = table()
     words = ("unknown", "leg")
     with serving(lambda asked: labels_as_json({n: ("unknown", "cannot tell")[n % 2] for n in asked.numbers})) as server:
-        labeller = MeshAsker(client(server), PromptConfig(words, mode="cheap", size=SMALL))
+        one = client(server, mode="cheap", size=SMALL)
+        labeller = MeshAsker(one, PromptConfig(words, one.endpoint.settings))
         said = begin(labeller, shown).result()
         labeller.close()
     assert set(names(said).values()) == {"unknown"}

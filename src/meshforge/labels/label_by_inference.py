@@ -1,14 +1,54 @@
-"""Labels of all sources weighed together; and the labels that the sources gave, restored."""
+"""Labels that follow from other labels of a family: of a few assets propagated to all, of all sources weighed together;
+and the labels that the sources gave, restored."""
 
 from __future__ import annotations
 
-from collections.abc import Generator
+from collections.abc import Callable, Generator, Sequence
 
 from meshforge import label_model, symbolic
 from meshforge.common import AssetError
-from meshforge.labels.family_comparison import compare_assets
-from meshforge.labels.label_by_propagation import share_labels
+from meshforge.labels.family_comparison import FamilyComparison, compare_assets
 from meshforge.labels.labeler import AssetLabels, Labeler, LabelFamily, LabelProposal
+from meshforge.symbolic import Label
+
+
+class PropagationLabeler(Labeler):
+    """Propagates the labels of a few assets to all others; labels of people and files stay.
+
+    Descriptions of the hulls are kept in the project, so that the next time is quick.
+    Raises ProjectError: no vocabulary, no label to begin with; StoppedError on a stop.
+    """
+
+    name = "propagate"
+    about = "labels of a few assets propagated to all others"
+
+    def propose(self, family: LabelFamily) -> LabelProposal:
+        compared = compare_assets(family.store, family.vocabulary, _as_evidence, family.execution, family.stage)
+        found = compared.found
+        labels = [label for place in range(len(compared.assets)) for label in found.labels(place)]
+        return LabelProposal(_share_labels(family, compared, labels, lambda current, label: "likeness"), compared.next)
+
+
+def _share_labels(
+    family: LabelFamily,
+    compared: FamilyComparison,
+    labels: Sequence[Label | None],
+    kind_of: Callable[[Label | None, Label], str],
+) -> Generator[AssetLabels, None, None]:
+    """Each asset with its share of the labels of all hulls; kind_of: the kind of reason for replacing one."""
+    shares = dict(compared.share_out(labels))
+    for asset in family.store.assets():
+        if asset in compared.lost:
+            yield AssetLabels(asset, error=compared.lost[asset])
+            continue
+        current, given = compared.current[asset], shares[asset]
+        reasons = {hull: (kind_of(current.get(hull), label), hull) for hull, label in given.items()}
+        yield AssetLabels(asset, compared.hulls[asset], given, reasons)
+
+
+def _as_evidence(label: Label | None) -> Label | None:
+    """A label that others may be taken from."""
+    return label if label_model.reference_label(label) else None
 
 
 class ConsensusLabeler(Labeler):
@@ -28,15 +68,15 @@ class ConsensusLabeler(Labeler):
             family.store, family.vocabulary, label_model.evidence_of, family.execution, family.stage
         )
         labels = compared.found.agree(compared.observed)
-        assets = share_labels(family, compared, labels, _name_kind)
+        assets = _share_labels(family, compared, labels, _name_kind)
         return LabelProposal(assets, compared.next, compared.found.find_alike_labels())
 
-    def can_replace(self, current: symbolic.Label | None, given: symbolic.Label | None) -> bool:
+    def can_replace(self, current: Label | None, given: Label | None) -> bool:
         """Whether what the label was inferred from is still the evidence on its hull."""
         return label_model.evidence_of(current) == label_model.evidence_of(given)
 
 
-def _name_kind(current: symbolic.Label | None, label: symbolic.Label) -> str:
+def _name_kind(current: Label | None, label: Label) -> str:
     """What a label follows from, hulls that look alike or its own source; and which label it replaces."""
     by = "consensus" if label.source == "consensus" else "its source"
     return f"{by}, not {current.name}" if current and current.name != label.name else by
@@ -55,7 +95,7 @@ class SourceRestorer(Labeler):
     def propose(self, family: LabelFamily) -> LabelProposal:
         return LabelProposal(_restore(family))
 
-    def can_replace(self, current: symbolic.Label | None, given: symbolic.Label | None) -> bool:
+    def can_replace(self, current: Label | None, given: Label | None) -> bool:
         return label_model.evidence_of(current) == given
 
 

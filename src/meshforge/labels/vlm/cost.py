@@ -1,0 +1,125 @@
+"""What asking costs, and the limit on it: no attempt is made that could pass it."""
+
+from __future__ import annotations
+
+import math
+import threading
+from collections import deque
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+
+from meshforge.common import UsageError
+from meshforge.labels.vlm.endpoint import EndError, Endpoint, TokenCount
+from meshforge.labels.vlm.question import VlmQuestion
+
+_CHARACTERS = 3.0  # of a text for a token; English has about four, other languages fewer
+_PIXELS = 700.0  # of a picture for a token: models that name it take one for 750 (Claude) to 1370 (GPT-4o)
+_PICTURE = 100  # tokens of a picture, however small
+_REMEMBERED = 20  # answers by which the estimate is corrected
+_MARGIN = 1.1
+_ADDED = ("answered", "cached", "retries", "usage", "perhaps", "lost")
+
+
+@dataclass(frozen=True, slots=True)
+class Usage:
+    """What was asked, and what it cost. answered: questions that got an answer for money; cached: those that had one.
+
+    retries: attempts beyond the first of a question; usage: tokens of all answers, also of those of no use;
+    cost: of these [$], None where prices are not known; perhaps: what attempts that were lost on the way may cost [$]
+    at most, should the server charge for them, and lost their number.
+    """
+
+    answered: int = 0
+    cached: int = 0
+    retries: int = 0
+    usage: TokenCount = field(default_factory=TokenCount)
+    cost: float | None = None
+    perhaps: float = 0.0
+    lost: int = 0
+
+    def __add__(self, other: Usage) -> Usage:
+        cost = None if self.cost is None else self.cost + (other.cost or 0.0)
+        rest = {name: getattr(self, name) + getattr(other, name) for name in _ADDED}
+        return Usage(cost=cost, **rest)
+
+
+class CostLimiter:
+    """Counts and limits; safe to use from several threads. most: what may be spent [$], None for all."""
+
+    def __init__(self, endpoint: Endpoint, most: float | None = None) -> None:
+        if most is not None and not endpoint.is_priced:
+            remedy = "Write them into [vlm], in dollars a million tokens: input_price = ..., output_price = ..."
+            raise UsageError("a limit on the cost needs to know the prices", remedy=remedy)
+        self.usage = Usage(cost=0.0 if endpoint.is_priced else None)
+        self._endpoint, self._most = endpoint, math.inf if most is None else most
+        self._changed = threading.Condition()
+        self._reserved = 0.0
+        self._ratios: deque[float] = deque(maxlen=_REMEMBERED)
+        self._first_ratio = 1.0
+
+    def upper_bound(self, question: VlmQuestion) -> float:
+        """Return what a question may cost at most [$], as far as can be known."""
+        with self._changed:
+            ratio = max(self._ratios, default=self._first_ratio)
+        expected = estimate_tokens(question)
+        return self._endpoint.price(TokenCount(int(expected * max(1.0, ratio) * _MARGIN), question.limit))
+
+    @contextmanager
+    def reserve(self, bound: float, stop: Callable[[], bool]) -> Iterator[None]:
+        """Keep so much [$] back while a question is under way. Raises EndError where it could pass the limit.
+
+        Where only other questions under way are in its way, it waits for these; stop: whether to wait no longer.
+        """
+        with self._changed:
+            while self._spent + bound <= self._most < self._spent + bound + self._reserved and not stop():
+                self._changed.wait(0.1)
+            if self._spent + bound > self._most:
+                spent = f"${self._spent:.4f} of ${self._most:g} are spent"
+                remedy = "Raise --max-cost to go on; what was answered is not paid for again."
+                raise EndError(f"the next question could cost up to ${bound:.4f}, and {spent}", remedy=remedy)
+            self._reserved += bound
+        try:
+            yield
+        finally:
+            with self._changed:
+                self._reserved -= bound
+                self._changed.notify_all()
+
+    def charge(
+        self, question: VlmQuestion, usage: TokenCount | None, *, is_probe: bool = False
+    ) -> tuple[TokenCount, float]:
+        """Count an answer, also one of no use. Return its tokens, estimated where the server names none, and cost [$].
+
+        is_probe: a small question, which tells how the server counts until others do.
+        """
+        expected = estimate_tokens(question)
+        counted = usage or TokenCount(expected, 0, estimated=True)
+        price = self._endpoint.price(counted)
+        with self._changed:
+            if usage and is_probe:
+                self._first_ratio = usage.input / expected
+            elif usage:
+                self._ratios.append(usage.input / expected)
+        self.count(Usage(answered=1, usage=counted, cost=price))
+        return counted, price
+
+    def count(self, more: Usage) -> None:
+        """Add to what was asked and spent."""
+        with self._changed:
+            self.usage += more
+            self._changed.notify_all()
+
+    @property
+    def _spent(self) -> float:
+        return (self.usage.cost or 0.0) + self.usage.perhaps
+
+
+def estimate_tokens(question: VlmQuestion) -> int:
+    """Return about how many tokens a question has; models differ widely in how they count pictures."""
+    pictures = sum(_PICTURE + width * height / _PIXELS for width, height in map(_png_size, question.pictures))
+    return int(len(question.text) / _CHARACTERS + pictures) + 1
+
+
+def _png_size(picture: bytes) -> tuple[int, int]:
+    return int.from_bytes(picture[16:20], "big"), int.from_bytes(picture[20:24], "big")
