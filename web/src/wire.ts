@@ -22,7 +22,6 @@ export type AnyEdit =
   | ExcludeAssets
   | CorrectByHand
   | DropCorrections
-  | LeaveOut
   | RemoveAssets;
 export type Event =
   | Start
@@ -117,7 +116,6 @@ export interface Everything {
   LabelUpdate: LabelUpdate;
   LabelUpdateChanged: LabelUpdateChanged;
   LanguageView: LanguageView;
-  LeaveOut: LeaveOut;
   Mark: Mark;
   Model: Model;
   MoveRule: MoveRule;
@@ -527,14 +525,6 @@ export interface CorrectByHand {
 export interface DropCorrections {
   asset: string;
   kind: "drop-corrections";
-}
-/**
- * Leave assets out of the family, or put them back; what is kept for them stays.
- */
-export interface LeaveOut {
-  kind: "leave-out";
-  ids: string[];
-  out?: boolean;
 }
 /**
  * Remove assets from the project, with their labels, demonstrations and corrections; their own files stay.

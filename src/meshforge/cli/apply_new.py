@@ -66,7 +66,7 @@ def prepare_given(
     plan = read_preparation_plan(project)
     if plan.unclear:
         remark(plan.unclear)
-    known = {path: asset for asset, path in project.found.ids.items()}
+    known = {path: asset for asset, path in project.every.ids.items()}
     given = batch.make_jobs(batch.expand(assets), labels)
     ours = {job.path: job for job in project.jobs({known[job.path] for job in given if job.path in known})}
     jobs = [replace(ours[job.path], id=job.id, base=job.base) if job.path in ours else job for job in given]

@@ -148,7 +148,7 @@ def _work_of_project(given: ApplyArguments, stack: ExitStack) -> ApplyWork:
     new = prepare_later(project, folder, new_options)
     held = _hold_back(project, out, given.min_confidence) if given.min_confidence is not None else ()
     program, jobs, templates = project.work()
-    if away := [f"{asset} ({one.reason})" for asset, one in project.feedback().exclusions.items()]:
+    if away := [f"{asset} ({why})" for asset, why in project.exclusions().items() if asset in project.every.ids]:
         remark(f"excluded, and not edited: {join_names(away)}")
     names = {one.asset for one in held}
     rest = [job for job in new.update(jobs) if job.id not in names]

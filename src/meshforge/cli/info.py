@@ -38,8 +38,8 @@ def _describe_standing(asset: Path, folder: Path | None) -> dict[str, Any]:
 
     project = Project.open(folder)
     name = asset_id(asset, project)
-    (found,) = (one for one in project.status().assets if one.id == name)
-    return found.confidence_to_json()
+    found = (one.confidence_to_json() for one in project.status().assets if one.id == name)
+    return next(found, {})  # of none that is not of the family
 
 
 def describe_asset(mesh: symbolic.SymbolicMesh, asset: str, *, geometry: bool = False) -> dict[str, Any]:

@@ -53,9 +53,6 @@ class FamilyStateReader:
         shown = _Verdicts({asset: some for asset, some in every.items() if asset in demos})
         actions = actions_of(demo.steps for demo in demos.values())
         program = self.program or store.program()
-        given_up = {
-            asset: one.reason for asset, one in feedback.exclusions.items() if one.reason and asset in store.found.ids
-        }
         return ReviewState(
             self.meshes,
             self._read_frame(),
@@ -71,7 +68,7 @@ class FamilyStateReader:
             corrected=found.list_corrected(program) | shown.list_corrected(program),
             wrong=found.list_wrong(program),
             edited=frozenset(self.meshes.keys() & store.layout.corrections.ids),
-            excluded=given_up,
+            excluded={asset: why for asset, why in store.exclusions().items() if asset in store.every.ids},
             snoozed=frozenset(feedback.snoozed),
         )
 

@@ -48,8 +48,6 @@ class HullMapping:
         layout, events = store.layout, files.load_events(store.layout)
         known = [one for one in store.feedback().answers_and_fixes.values() if one.asset == asset]
         after = tuple(one for event in events for one in (self._map_event(event) if event in known else (event,)))
-        if after != events:
-            store.migrate()
         return [
             *_map_steps(layout.demonstration(asset), DemonstrationFile, self._map_step),
             *_map_steps(layout.corrections(asset), CorrectionsFile, self._map_edit),

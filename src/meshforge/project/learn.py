@@ -12,7 +12,6 @@ from meshforge import labels as labelling
 from meshforge.common import MeshForgeError, ProgramError, ProjectError, file_digest, write_atomically
 from meshforge.project import demonstrations
 from meshforge.project.evidence import list_accepted, list_rejections, list_wrong, soften, sort_answers
-from meshforge.signoff.question import NOT_OF_FAMILY
 from meshforge.store import ProgramRecord, Settings, Store
 
 MOST_ASSETS = 400
@@ -26,9 +25,7 @@ MOST_COMPARED = 100
 
 def select_assets(store: Store) -> tuple[str, ...]:
     """The assets to learn from: all, or of very many those that a person said something about, and some evenly."""
-    feedback = store.feedback()
-    foreign = {asset for asset, one in feedback.exclusions.items() if one.reason == NOT_OF_FAMILY}
-    every = tuple(asset for asset in store.assets() if asset not in foreign)
+    feedback, every = store.feedback(), store.assets()
     if len(every) <= MOST_ASSETS:
         return every
     known = {line.asset for line in feedback.answers.values()} | feedback.verdicts.keys()

@@ -47,7 +47,9 @@ def compute_status(
     """
     for asset in only or ():
         store.path(asset)
-    settings, ids, work, said = store.settings, store.found.ids, build_jobs(store, only), store.feedback()
+    settings, ids, said = store.settings, store.found.ids, store.feedback()
+    only = None if only is None else [asset for asset in only if asset in ids]
+    work = build_jobs(store, only)
     execution = batch.ExecutionOptions(workers=workers, stop=stop)
     facts = dict(iterate_survey(store.found, store.layout, only, execution=execution, progress=progress, verify=verify))
     outputs = find_outputs(store.layout, facts, verify=verify)
@@ -64,7 +66,9 @@ def compute_status(
         rows.append(_asset_status(store, job, one, outputs[job.id], edit, said.verdict_on(job.id)))
     last, lacks = store.assessment(), "asset" if task else "templates" if program else "program"
     current = last if last and last.holds(digest_lesson(store), edits) else None
-    standings = Standings(find_bases(store, edits, outputs), lacks, said, store.sign_offs(), current)
+    standings = Standings(
+        find_bases(store, edits, outputs), lacks, said, store.exclusions(), store.sign_offs(), current
+    )
     assets = tuple(map(standings.add_to, rows))
     state = program_state_of(store, program)
     rules = len(program.rules) if program else None
@@ -90,6 +94,7 @@ def compute_status(
         state.outdated,
         problem,
         _find_lost_ids(store),
+        tuple(sorted(store.every.ids.keys() - ids.keys())),
         choose_next_step(family),
         family,
         state.question,
@@ -219,4 +224,4 @@ def _find_lost_ids(store: Store) -> tuple[str, ...]:
     layout = store.layout
     kinds = (layout.labels, layout.demonstration, layout.corrections, layout.preparation)
     kept = {asset for kind in kinds for asset in kind.ids}
-    return tuple(sorted(kept - {*store.assets(), *store.found.left_out}))
+    return tuple(sorted(kept - store.every.ids.keys()))

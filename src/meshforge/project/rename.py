@@ -27,7 +27,6 @@ def rename_label(store: Store, old: str, new: str) -> None:
     with store.lock():
         settings = store.settings
         _check_names(store, settings.vocabulary, old, new)
-        store.migrate()
         texts = dict(_rewrite_files(store, old, new))
         program = store.program()
         after = _rename_in_settings(store, settings, old, new)

@@ -21,7 +21,7 @@ from meshforge.project.hull_mapping import describe_replaced
 from meshforge.project.sign_offs import AssessmentBasis, Clock, keep_assessment, now_utc, renew_sign_offs
 from meshforge.signoff import BAR, Assessment, AssetConfidence, Doubt, EditMeasures, ResultQuestion, ReviewState
 from meshforge.signoff.outliers import describe_odd_results
-from meshforge.signoff.question import NOT_OF_FAMILY, YES_OR_NO, identify
+from meshforge.signoff.question import YES_OR_NO, identify
 from meshforge.signoff.review import EXCLUDE_CHOICES, review_family
 from meshforge.store import Store
 from meshforge.symbolic import SymbolicMesh
@@ -114,8 +114,7 @@ def assess_family(
 
 def _read_meshes(store: Store) -> tuple[dict[str, SymbolicMesh], dict[str, str]]:
     meshes, lost = dict[str, SymbolicMesh](), dict[str, str]()
-    away = {asset for asset, one in store.feedback().exclusions.items() if one.reason == NOT_OF_FAMILY}
-    for asset in (name for name in store.assets() if name not in away):
+    for asset in store.assets():
         try:
             meshes[asset] = store.mesh(asset)
         except MeshForgeError as error:

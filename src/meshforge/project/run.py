@@ -34,7 +34,7 @@ def build_jobs(store: Store, only: Collection[str] | None = None) -> tuple[batch
             layout.preparation(asset) if (layout.preparation(asset) / batch.RECORD_FILE).exists() else None,
             find_selections(feedback, asset),
         )
-        for asset, path in store.found.choose(only).items()
+        for asset, path in (store.found if only is None else store.every).choose(only).items()
     )
 
 
@@ -62,7 +62,7 @@ def build_work(
     if program is None:
         remedy = f"Learn it: meshforge synthesize {store.folder}"
         raise ProjectError("there is no program yet, and nothing is prepared", where=str(store.folder), remedy=remedy)
-    away = store.feedback().exclusions.keys() - set(only or ())
+    away = store.exclusions().keys() - set(only or ())
     jobs = tuple(job for job in build_jobs(store, only) if job.id not in away)
     return program, jobs, build_task(store, program).templates
 
@@ -174,8 +174,7 @@ def review_assets(
     names = (assets,) if isinstance(assets, str) else tuple(assets)
     with store.lock():
         events = [_judge(store, asset, verdict, note, selections, said, alone=len(names) == 1) for asset in names]
-        away = store.feedback().exclusions
-        more = [ExclusionEvent(asset=asset) for asset in names if asset in away]
+        more = [ExclusionEvent(asset=asset) for asset in names if asset in store.feedback().exclusions]
         given = dict.fromkeys(names, labels) if labels else {}
         store.add_events_before(lambda: set_labels_of(store, given), *events, *more)
 

@@ -49,9 +49,8 @@ def format_status(found: Status) -> str:
     """How far a project is signed off by its last review, and what is not, the least sure first."""
     waits = found.count(lambda asset: asset.sign_off == "sure")
     done = waits + found.count(lambda asset: asset.sign_off == "signed off")
-    excluded = [asset.excluded for asset in found.assets if asset.excluded]
-    total = len(found.assets) - excluded.count(NOT_OF_FAMILY)
-    lines = [format_counts(done, total, len(found.open_assets), excluded, found.bar)]
+    excluded = [asset.excluded for asset in found.assets if asset.excluded] + [NOT_OF_FAMILY] * len(found.not_of_family)
+    lines = [format_counts(done, len(found.assets), len(found.open_assets), excluded, found.bar)]
     if waits:
         lines.append(f"  {waits} of them will be signed off when their outputs are up to date (meshforge apply)")
     lines += _format_held([_hold_of_status(asset) for asset in found.open_assets], MOST_HELD)

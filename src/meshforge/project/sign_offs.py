@@ -15,7 +15,6 @@ from meshforge.batch import EXECUTION_DEFAULTS
 from meshforge.project import run
 from meshforge.project.hull_mapping import describe_replaced
 from meshforge.project.learn import digest_demonstrations, digest_learning_inputs, digest_settings
-from meshforge.signoff.question import NOT_OF_FAMILY
 from meshforge.store import (
     SAID,
     AssessmentFile,
@@ -131,9 +130,7 @@ def keep_assessment(
         if name in basis.inputs
     }
     wrong = tuple(sorted(found.wrong))
-    foreign = tuple(sorted(name for name, why in found.excluded.items() if why == NOT_OF_FAMILY))
-    kept = AssessmentFile(bar=found.bar, lesson=basis.lesson, wrong=wrong, foreign=foreign, assets=lines)
-    store.write_assessment(kept)
+    store.write_assessment(AssessmentFile(bar=found.bar, lesson=basis.lesson, wrong=wrong, assets=lines))
     return True
 
 
@@ -164,7 +161,7 @@ def renew_sign_offs(
         if alarms:
             last = last.with_alarms(alarms)
             store.write_assessment(last)
-        before, away = store.sign_offs(), {*last.wrong, *store.feedback().exclusions}
+        before, away = store.sign_offs(), {*last.wrong, *store.exclusions()}
         kept, lost = dict[str, SignOff](), dict[str, str]()
         for name in [*last.assets, *(before.keys() & store.found.ids.keys() - last.assets.keys())]:
             old, now, line = before.get(name), bases.get(name), last.assets.get(name)

@@ -7,26 +7,28 @@ from dataclasses import dataclass, replace
 
 from meshforge.common import format_share
 from meshforge.project.status import AssetStatus, SignOffState
+from meshforge.signoff import ExclusionReason
 from meshforge.store import AssessmentFile, ConfidenceLine, Feedback, SignOff, SignOffBasis
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Standings:
     """What is kept of a review. bases: what sign-offs would rest on now, of assets that can be edited; lacks: what is
-    not there of the others; feedback: of people; signed: what is signed off; last: what the last review found, None
-    where something changed since.
+    not there of the others; feedback: of people; exclusions: why assets are excluded; signed: what is signed off;
+    last: what the last review found, None where something changed since.
     """
 
     bases: Mapping[str, SignOffBasis]
     lacks: str
     feedback: Feedback
+    exclusions: Mapping[str, ExclusionReason]
     signed: Mapping[str, SignOff]
     last: AssessmentFile | None
 
     def add_to(self, asset: AssetStatus) -> AssetStatus:
         """An asset with how it stands."""
         line = self.last.assets.get(asset.id) if self.last else None
-        sign_off, excluded = self.signed.get(asset.id), self.feedback.exclusions.get(asset.id)
+        sign_off = self.signed.get(asset.id)
         void = self._find_void(asset, sign_off)
         state = self._find_state(asset, line, bool(sign_off), bool(void))
         by = sign_off.by if sign_off and not _is_accepted(asset) else "person"
@@ -37,7 +39,7 @@ class Standings:
             signed_by=by if state == "signed off" else None,
             void=void if state == "void" else (),
             found_since=self._find_news(line) if state == "signed off" else (),
-            excluded=excluded.reason if excluded else None,
+            excluded=self.exclusions.get(asset.id),
             probability=found.probability if found else None,
             doubts=found.doubts if found else (),
         )
@@ -52,7 +54,7 @@ class Standings:
     def _find_state(
         self, asset: AssetStatus, line: ConfidenceLine | None, is_signed: bool, is_void: bool
     ) -> SignOffState:
-        if asset.id in self.feedback.exclusions:
+        if asset.id in self.exclusions:
             return "excluded"
         verdict = self.feedback.verdict_on(asset.id)
         is_wrong = asset.review == "wrong" and not (verdict and verdict.meant)

@@ -4,13 +4,14 @@ at last."""
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Literal
 
 from pydantic import Field
 
 from meshforge import signoff
 from meshforge.batch import OutputInputs
-from meshforge.store.events import Probability, list_lines, parse_line
+from meshforge.store.events import Probability, list_lines, parse_line, read_lines
 from meshforge.store.layout import JsonFile
 
 SAID = "what people showed and said"
@@ -54,9 +55,10 @@ class SignOff(JsonFile):
         return self.by == "person" or self.probability >= bar
 
 
-def parse_sign_offs(text: str, where: str) -> dict[str, SignOff]:
-    """The sign-offs of a file by asset, one JSON object a line. Raises ProjectError, naming the line, for another."""
-    found = (parse_line(SignOff.model_validate_json, line, number, where) for number, line in list_lines(text))
+def load_sign_offs(path: Path) -> dict[str, SignOff]:
+    """Read the sign-offs of a file by asset. Raises ProjectError, naming the line, for one that is none."""
+    lines = list_lines(read_lines(path))
+    found = (parse_line(SignOff.model_validate_json, line, number, str(path)) for number, line in lines)
     return {one.asset: one for one in found}
 
 
@@ -117,14 +119,12 @@ class ConfidenceLine(JsonFile):
 
 class AssessmentFile(JsonFile):
     """What was found last. bar: the probability from which on an asset is signed off; lesson: the digest of what was
-    learned from and of all verdicts; wrong: assets of which a person said that the result is wrong; foreign: those of
-    which they said that they are not of the family.
+    learned from and of all verdicts; wrong: assets of which a person said that the result is wrong.
     """
 
     bar: float
     lesson: str
     wrong: tuple[str, ...] = ()
-    foreign: tuple[str, ...] = ()
     assets: dict[str, ConfidenceLine] = Field(default_factory=dict)
 
     def with_alarms(self, alarms: Mapping[str, Sequence[str]]) -> AssessmentFile:
@@ -135,9 +135,7 @@ class AssessmentFile(JsonFile):
     def holds(self, lesson: str, inputs: Mapping[str, OutputInputs]) -> bool:
         """Whether nothing changed since; inputs: of the edits of all assets that can be read, or of some."""
         return lesson == self.lesson and all(
-            name in self.assets and not find_changes(now, self.assets[name].rests_on)
-            for name, now in inputs.items()
-            if name not in self.foreign
+            name in self.assets and not find_changes(now, self.assets[name].rests_on) for name, now in inputs.items()
         )
 
 

@@ -74,7 +74,7 @@ class FileSync:
 
     def reopen(self) -> None:
         """Look for assets that came or went; the vocabulary is shown at once, as keys have a meaning by it."""
-        self.project = replace(self.project, found=Project.open(self.project.folder).found)
+        self.project = replace(self.project, every=Project.open(self.project.folder).every)
         self._pages.set_vocabulary(vocabulary_view(self.project.settings.vocabulary, self._pages.cards))
         self._queue.add(self._pages.set_assets(self.project.assets()), later=True)
 
@@ -107,7 +107,9 @@ class FileSync:
             for asset in before.verdicts.keys() | now.verdicts.keys()
             if before.verdict_on(asset) != now.verdict_on(asset)
         }
-        about |= before.exclusions.keys() ^ now.exclusions.keys()
+        if away := before.exclusions.keys() ^ now.exclusions.keys():
+            about |= away
+            self.reopen()
         learns = bool(about) or before.answers_and_fixes != now.answers_and_fixes
         assets = changes.assets | (about & self.project.found.ids.keys())
         changes = replace(changes, assets=assets)
