@@ -11,6 +11,7 @@ from meshforge.batch import OutputInputs, RuleSelection, read_stamp, selections_
 from meshforge.common import MeshForgeError
 from meshforge.language import Program, Template
 from meshforge.project.demonstrations import actions_of, shows
+from meshforge.project.hull_mapping import describe_replaced
 from meshforge.project.run import number_selections, output_digest
 from meshforge.project.sign_offs import is_written
 from meshforge.signoff import ReviewState
@@ -24,12 +25,14 @@ from meshforge.synthesis import Demonstration, memoize
 class FamilyStateReader:
     """Reads it from a store.
 
-    meshes: all assets that can be read, by id; program: the one that is reviewed, None where there is none; by_hand:
-    whether a person wrote it, so that demonstrations say nothing about it; inputs: of the edits that it makes.
+    meshes: all assets that can be read, by id; lost: why others cannot be; program: the one that is reviewed, None
+    where there is none; by_hand: whether a person wrote it, so that demonstrations say nothing about it; inputs: of the
+    edits that it makes.
     """
 
     store: Store
     meshes: Mapping[str, SymbolicMesh]
+    lost: Mapping[str, str]
     program: Program | None
     by_hand: bool
     inputs: Mapping[str, OutputInputs]
@@ -70,7 +73,14 @@ class FamilyStateReader:
             edited=frozenset(self.meshes.keys() & store.layout.corrections.ids),
             excluded={asset: why for asset, why in store.exclusions().items() if asset in store.every.ids},
             snoozed=frozenset(feedback.snoozed),
+            lost=self.lost,
+            unconfirmed={} if self.by_hand else {a: tuple(describe_replaced(store, a)) for a in self._shown_ids},
         )
+
+    @property
+    def _shown_ids(self) -> Iterator[str]:
+        known = self.meshes.keys() | self.lost.keys()
+        return (asset for asset in self.store.demonstration_ids() if asset in known)
 
     def _read_frame(self) -> Program:
         settings, limits = self.store.settings, self.store.settings.thresholds

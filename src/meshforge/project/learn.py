@@ -157,6 +157,23 @@ def digest_demonstrations(store: Store) -> str:
     )
 
 
+def renew_program(
+    store: Store, meshes: Mapping[str, symbolic.SymbolicMesh]
+) -> tuple[synthesis.LearningOutcome | None, bool]:
+    """Learn what becomes the project's program, unless a person wrote one in its place; the outcome, and whether so."""
+    if by_hand := program_by_hand(store):
+        return by_hand, True
+    if not store.demonstration_ids():
+        return None, False
+    program, inputs, some = store.program(), digest_learning_inputs(store), set(select_assets(store))
+    outcome = learn_program(store, accept=False, meshes={name: mesh for name, mesh in meshes.items() if name in some})
+    if isinstance(outcome, synthesis.Found | synthesis.Ambiguous):
+        is_same = program is not None and batch.program_digest(program) == batch.program_digest(outcome.program)
+        if not is_same or program_state_of(store, program).outdated:
+            accept_outcome(store, outcome, inputs)
+    return outcome, False
+
+
 Confirm = Callable[[synthesis.Repair], bool]
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import exp, log, prod
@@ -12,32 +12,29 @@ import numpy as np
 
 from meshforge.geometry import Floats
 from meshforge.label_model import FamilyPosterior
-from meshforge.language import EXTREMITY, Program, show
-from meshforge.signoff.assessment import (
-    CALLED_WRONG,
-    CALLED_WRONG_BEFORE,
-    CONTRADICTED,
-    EDITED_SINCE,
-    MOST_DOUBTS,
-    AssetConfidence,
-    Doubt,
-    DoubtKind,
-    ReviewState,
-)
-from meshforge.signoff.confidence import NO_EDIT, AssetEvidence, read_calibration
-from meshforge.signoff.readings import RuleReadings, compare_readings
+from meshforge.language import EXTREMITY, Program
+from meshforge.signoff.assessment import ReviewState
+from meshforge.signoff.confidence import AssetEvidence, read_calibration
 from meshforge.signoff.slips import RuleSlip, find_slips
-from meshforge.signoff.trial import RULE_OF_FRAME, Flip, Trial, find_flips, select_by, try_program, weigh_labels
+from meshforge.signoff.trial import (
+    Flip,
+    RuleReadings,
+    Trial,
+    compare_readings,
+    find_flips,
+    select_by,
+    try_program,
+)
+from meshforge.symbolic import mask_of
 from meshforge.synthesis import Reading
 
-SURE_OF_DEMONSTRATED = 0.999
 ALIKE = 14.0
 """The distance of descriptions up to which hulls look alike."""
-_WORTH_TELLING = 0.01  # the probability that an edit is wrong for one reason, from which on it is told
 _WRONG_BY_CHANCE, _MOST_EXPECTED = 0.27, 0.995
 """The share of a program's right results that are called wrong where it is wrong nearly everywhere, and the most that
 a result can be expected to be right."""
-_MOST_MISTRUST = 0.03  # in a program, above which it is told
+_WRONG_BY_RIGHT, _WRONG_BY_CORRECTED = 0.08, 0.24
+"""Of labels that follow from results that are as meant, and from corrected ones, so many are wrong (measured)."""
 _UNLIKE = 1.5  # what is so much farther than usual, as a logarithm, is unlike the rest
 
 
@@ -66,7 +63,7 @@ class FamilyTrial:
         trials = [try_program(name, mesh, program, state.templates) for name, mesh in state.meshes.items()]
         compared, slips = compare_readings(program, readings, trials), tuple(find_slips(state, program, trials))
         found = FamilyTrial(state, program, posterior, tuple(trials), compared, slips, alarms)._with_flips(posterior)
-        evidence = weigh_labels(state, found.trials, posterior)
+        evidence = _weigh_labels(state, found.trials, posterior)
         found = found if evidence is None else found._with_flips(posterior.weigh(evidence))
         return replace(found, readings=found._weigh_readings())
 
@@ -212,91 +209,10 @@ class FamilyTrial:
             found[place] = max(0.0, np.log(worst / max(usual, 1e-9)) - _UNLIKE) if 0 < worst < np.inf else 0.0
         return found
 
-    def confidence_of(self, place: int) -> AssetConfidence:
-        """One asset, with its doubts."""
-        trial, evidence, state = self.trials[place], self.evidence[place], self.state
-        if trial.error and trial.asset not in state.accepted:
-            return AssetConfidence(trial.asset, NO_EDIT, (self._doubt_of_error(place),))
-        if trial.asset in self.contradicted:
-            return AssetConfidence(trial.asset, NO_EDIT, (Doubt("reading", CONTRADICTED, share=1.0),))
-        if trial.asset in state.wrong and trial.selected == state.failed.get(trial.asset):
-            why = EDITED_SINCE if trial.asset in state.edited else CALLED_WRONG
-            return AssetConfidence(trial.asset, NO_EDIT, (Doubt("reading", why, share=1.0),))
-        if trial.asset in state.reviewed_assets:
-            return AssetConfidence(trial.asset, SURE_OF_DEMONSTRATED)
-        doubts = [*self._reading_doubts(place), *self._label_doubts(place), *self._odd_doubts(place)]
-        doubts += self._program_doubts
-        weightiest = sorted(doubts, key=lambda one: -one.share)[:MOST_DOUBTS]
-        if trial.asset in state.wrong:  # it needs review for this, however probable it is now
-            weightiest = [Doubt("reading", CALLED_WRONG_BEFORE), *weightiest[: MOST_DOUBTS - 1]]
-        return AssetConfidence(trial.asset, evidence.probability, tuple(weightiest))
-
-    def _doubt_of_error(self, place: int) -> Doubt:
-        trial = self.trials[place]
-        return Doubt(
-            "label" if trial.meshes else "orientation",
-            f"the program cannot run: {trial.error}",
-            (),
-            len(trial.meshes) or None,
-            1.0,
-        )
-
-    @cached_property
-    def _program_doubts(self) -> tuple[Doubt, ...]:
-        """Whether too many of the results that were looked at were wrong."""
-        share = 1 - self.trust_in_program()
-        right, wrong = map(len, self.results)
-        text = f"{wrong} of the {right + wrong} results that were looked at are wrong"
-        return (Doubt("reading", text, share=share),) if wrong and share > _MOST_MISTRUST else ()
-
-    def _reading_doubts(self, place: int) -> list[Doubt]:
-        found, trial = [], self.trials[place]
-        for known in self.readings:
-            other = np.flatnonzero(known.kinds[:, place])
-            if not len(other) or 1 - known.agreement[place] < _WORTH_TELLING:
-                continue
-            best = int(other[np.argmax(known.beliefs[other])])
-            ours, theirs = trial.selections[known.rule - 1], self.select(known, best, place)
-            change = _describe_change(trial, known.rule, ours, theirs)
-            text = f"rule {known.rule} may mean {show(known.extractors[best])}, which {change}"
-            hulls = trial.names(known.rule, ours ^ theirs)
-            found.append(Doubt("reading", text, hulls, known.rule, float(1 - known.agreement[place])))
-        for slip in (one for one in self.slips if one.differs[place]):
-            text = f"rule {slip.rule} may mean {show(slip.slip.extractor)}, if there was a slip on {slip.slip.asset}"
-            found.append(Doubt("reading", text, (), slip.rule, slip.slip.share))
-        return found
-
     def select(self, known: RuleReadings, reading: int, place: int) -> int:
         """What a reading of a rule selects on the asset at a place, as a bit set; nothing where it is not reached."""
         delta = EXTREMITY if self.program.extremity is None else self.program.extremity
         return select_by(self.trials[place], known.rule, known.extractors[reading], delta) or 0
-
-    def _label_doubts(self, place: int) -> list[Doubt]:
-        grouped = defaultdict[tuple[str | None, str, tuple[int, ...]], list[Flip]](list)
-        for flip in self.trials[place].flips:
-            grouped[flip.was, flip.to, flip.rules].append(flip)
-        found = []
-        for (was, to, rules), flips in grouped.items():
-            share = 1 - prod(1 - flip.chance for flip in flips)
-            if share < _WORTH_TELLING:
-                continue
-            names = tuple(flip.hull for flip in flips)
-            said = f"called {was}" if was else "without a label"
-            turned = rules[0] == RULE_OF_FRAME
-            what = "the asset would be turned otherwise" if turned else f"rule {rules[0]} would select otherwise"
-            text = f"{_join(names)} {'is' if len(names) == 1 else 'are'} {said}, and may be {to} ({share:.0%}): {what}"
-            kind: DoubtKind = "orientation" if rules[0] == RULE_OF_FRAME else "label"
-            found.append(Doubt(kind, text, names, rules[0] or None, share))
-        return found
-
-    def _odd_doubts(self, place: int) -> list[Doubt]:
-        trial, evidence = self.trials[place], self.evidence[place]
-        plain = replace(evidence, unlike=0.0, alarms=0.0).probability
-        share = plain - evidence.probability
-        found = [Doubt("alarm", text, share=share) for text in self.alarms.get(trial.asset, ())]
-        if evidence.unlike > 0 and share >= _WORTH_TELLING:
-            found.append(Doubt("unlike", "unlike the rest: no other asset has such hulls", share=share))
-        return found
 
 
 def cluster(rows: Floats) -> list[int]:
@@ -318,13 +234,36 @@ def flip_shares(flips: Sequence[Flip]) -> dict[str, float]:
     return {hull: min(share, 1.0) for hull, share in found.items()}
 
 
-def _describe_change(trial: Trial, rule: int, ours: int, theirs: int) -> str:
-    more, less = trial.names(rule, theirs & ~ours), trial.names(rule, ours & ~theirs)
-    parts = [f"would select {_join(more)} too"] if more else []
-    parts += [f"would leave {_join(less)} out"] if less else []
-    return " and ".join(parts)
+def _weigh_labels(state: ReviewState, trials: Sequence[Trial], posterior: FamilyPosterior) -> Floats | None:
+    """The evidence (hulls of all meshes, labels) [nats] of results on labels, None where there is none (abduction, as
+    in repair): where a result is as it was meant, labels that would change it are less probable; where it is not, those
+    that would make it so are more.
+
+    trials: of all assets, with their flips; posterior: by all other evidence.
+    """
+    codes = {label: code for code, label in enumerate(posterior.seen.labels)}
+    found, said = np.zeros(posterior.chances.shape), False
+    for place, trial in enumerate(trials):
+        if trial.asset not in state.meant or trial.error:
+            continue
+        start, index = posterior.table.spans[place].start, state.meshes[trial.asset].index
+        for flip, nats in _weigh_flips(state, trial):
+            found[start + index[flip.hull], codes[flip.to]] += nats
+            said = True
+    return found if said else None
 
 
-def _join(names: Sequence[str], most: int = 3) -> str:
-    shown = ", ".join(names[:most])
-    return f"{shown} and {len(names) - most} more" if len(names) > most else shown
+def _weigh_flips(state: ReviewState, trial: Trial) -> Iterator[tuple[Flip, float]]:
+    """How much more probable each other label is by what rules are to select on an asset."""
+    meant = [
+        mask_of(mesh.index[hull] for hull in select if hull in mesh.index)
+        for mesh, select in zip(trial.meshes, state.meant[trial.asset], strict=False)
+    ]
+    for flip in trial.flips:
+        pairs = [(meant[rule - 1], now) for rule, now in zip(flip.rules, flip.selections, strict=True) if rule > 0]
+        before = sum((trial.selections[rule - 1] ^ meant[rule - 1]).bit_count() for rule in flip.rules if rule > 0)
+        after = sum((wanted ^ now).bit_count() for wanted, now in pairs)
+        if after < before:
+            yield flip, log((1 - _WRONG_BY_CORRECTED) / _WRONG_BY_CORRECTED)
+        elif after > before:
+            yield flip, -log((1 - _WRONG_BY_RIGHT) / _WRONG_BY_RIGHT)

@@ -192,7 +192,8 @@ class Store:
             verdicts = [VerdictEvent(asset=asset) for asset in assets if said.verdict_on(asset)]
             excluded = (*meant, *(asset for asset in assets if asset in said.exclusions and asset not in meant))
             reasons = (ExclusionEvent(asset=one, reason=NOT_OF_FAMILY if one in meant else None) for one in excluded)
-            if events := (*verdicts, *reasons):
+            events: list[Event] = [*verdicts, *reasons]
+            if events:
                 self.add_events(*events)
             forget_assets(self.layout, assets)
 

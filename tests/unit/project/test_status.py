@@ -330,18 +330,6 @@ def test_in_a_clone_elsewhere_a_learned_program_is_a_learned_one_and_its_record_
     assert (clone.folder / "learned.json").read_bytes() == record
 
 
-def test_what_a_program_was_learned_from_is_read_where_it_was_kept_before_and_moved_by_the_next_write(
-    tmp_path: Path,
-) -> None:
-    project = learned(tmp_path)
-    here, before = project.folder / "learned.json", project.folder / ".meshforge/learned.json"
-    here.rename(before)
-    assert project.program_state() == ProgramState()
-    project.synthesize()
-    assert here.exists() and not before.exists()
-    assert project.program_state() == ProgramState()
-
-
 def test_only_some_assets_are_edited_where_that_is_asked(tmp_path: Path) -> None:
     project = learned(tmp_path)
     assert [outcome.asset for outcome in project.apply([THIRD, FIRST], execution=IN_PROCESS)] == [FIRST, THIRD]
