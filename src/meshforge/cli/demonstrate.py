@@ -16,7 +16,7 @@ from meshforge.cli.options import asset_id
 from meshforge.cli.terminal import remark
 from meshforge.common import escape_name, join_names, pluralize
 from meshforge.language import Program, Replay, RuleTrace
-from meshforge.project import Project
+from meshforge.project import Project, format_next
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Step
 
@@ -57,7 +57,7 @@ def demonstrate(
         if results.get(step.rule):
             remark(f"   {results[step.rule]}")
     if steps:
-        remark(f"Next: meshforge synthesize {project}")
+        remark(format_next("demonstrated", project))
     elif not opened.steps(asset):
         remark(f"{escape_name(asset)}: nothing is demonstrated yet")
 

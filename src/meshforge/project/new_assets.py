@@ -22,8 +22,7 @@ from meshforge.labels import ReferenceFamily, ignore_stage, read_reference_famil
 from meshforge.labels.family_comparison import Stage
 from meshforge.labels.label_sources import FamilyLabelSources
 from meshforge.labels.merge import LabelWriter, can_fill_gap
-from meshforge.project.new_asset_memory import NewAssetFolder, digest_basis
-from meshforge.project.new_asset_result import NewAssetResult
+from meshforge.project.new_asset_result import NewAssetFolder, NewAssetResult, digest_basis
 from meshforge.project.preparation_plan import PreparationPlan, RebuildSettings, extend_plan, find_new_assets
 from meshforge.project.prepare import exchange_preparation
 from meshforge.project.rebuild import Rebuild, plan_rebuild

@@ -5,13 +5,77 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING, Literal
 
 from meshforge.common import pluralize, quote_path
-from meshforge.labels import label_command
-from meshforge.project.status import AssetStatus, FamilyState, NextStep, StepKind
-from meshforge.store import Layout
+
+if TYPE_CHECKING:
+    from meshforge.project.status import AssetStatus, FamilyState
+
+StepKind = Literal[
+    "wait",
+    "decompose",
+    "label-files",
+    "label-names",
+    "vocabulary",
+    "label",
+    "propagate",
+    "check-labels",
+    "demonstrate",
+    "learn",
+    "answer",
+    "fix-program",
+    "apply",
+    "review",
+    "correct",
+    "export",
+]
+
+
+@dataclass(frozen=True, slots=True)
+class NextStep:
+    """What to do next, in words. asset: the one to open; command: what to type; note: what helps to type it."""
+
+    kind: StepKind
+    text: str
+    asset: str | None = None
+    command: str | None = None
+    note: str | None = None
+
+
+Done = Literal["made", "demonstrated", "forgot", "learned", "left open", "signed off", "prepared", "prepared all"]
+"""What a command did: it learned a program, or left a question open; it prepared assets beside a program, or all that
+there is to do without one."""
+_AFTER: Mapping[Done, tuple[str, str]] = {
+    "made": ("status", ""),
+    "demonstrated": ("synthesize", ""),
+    "forgot": ("synthesize", ""),
+    "learned": ("apply", ""),
+    "left open": ("review", ""),
+    "signed off": ("apply", ""),
+    "prepared": ("apply", " runs the program on it"),
+    "prepared all": ("apply", " writes what is prepared, also without a program"),
+}
+
+
+def format_next(done: Done, folder: str | Path) -> str:
+    """Return the line by which a command names the one that follows it, without a look at the whole family."""
+    command, what = _AFTER[done]
+    return f"Next: meshforge {command} {quote_path(Path(folder))}{what}"
+
+
+def format_first(family: str, pattern: Path, vocabulary: Iterable[str]) -> str:
+    """Return the line that names the command which makes a project of a bundled family."""
+    return f"Next: meshforge new {family} {quote_path(pattern)} --vocabulary {','.join(vocabulary)}"
+
+
+def format_step(step: NextStep) -> str:
+    """Return the step that is chosen for a whole family, with what to type."""
+    lines = (step.command, *(step.note or "").splitlines())
+    return "\n  ".join([f"Next: {step.text}", *(line for line in lines if line)])
 
 
 def choose_next_step(state: FamilyState) -> NextStep:
@@ -63,6 +127,8 @@ def _take_files(state: FamilyState, bare: Sequence[AssetStatus]) -> NextStep | N
 
 
 def _label_by_hand(state: FamilyState, asset: AssetStatus, text: str, kind: StepKind = "label") -> NextStep:
+    from meshforge.labels import label_command  # lazy: most commands only name the next one
+
     hull = next(name for name, label in zip(asset.names, asset.labels, strict=True) if label is None)
     command = label_command(state.folder, asset.id, hull, state.vocabulary)
     return NextStep(kind, text, asset.id, command, _explain_names(state, asset.id))
@@ -248,6 +314,8 @@ def _end(state: FamilyState) -> NextStep:
         what = "result is" if len(flagged) == 1 else "results are"
         text = f"{len(flagged)} {what} flagged: edit by hand, first {flagged[0]}."
         return _step(state, "correct", text, "studio", flagged[0])
+    from meshforge.store import Layout  # lazy: as above
+
     edited = quote_path(Layout(state.folder).edited)
     count = pluralize(sum(not asset.excluded for asset in state.assets), "result")
     return NextStep("export", f"{count} signed off: check and export.", None, f"meshforge check {edited}")

@@ -14,9 +14,8 @@ from meshforge.common import MeshForgeError, ProjectError
 from meshforge.label_model import model_family
 from meshforge.labels.descriptor_cache import recall_descriptors
 from meshforge.language import Program
-from meshforge.project.family_state import FamilyStateReader
+from meshforge.project.family_state import FamilyStateReader, measure_results
 from meshforge.project.learn import renew_program
-from meshforge.project.result_measures import measure_results
 from meshforge.project.sign_offs import AssessmentBasis, Clock, keep_assessment, now_utc, renew_sign_offs
 from meshforge.signoff import BAR, Assessment, EditMeasures, ReviewState, describe_odd_results, review_family
 from meshforge.store import Store

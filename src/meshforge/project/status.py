@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from meshforge import labels, rendering, signoff, symbolic
+from meshforge.project.next_step import NextStep
 from meshforge.signoff import BAR
 
 SignOffState = Literal["signed off", "sure", "held", "void", "excluded", "unknown"]
@@ -89,37 +90,6 @@ class AssetStatus:
         """How sure its edit is, as `status`, `apply` and `info` say it in JSON."""
         share = None if self.probability is None else round(self.probability, 4)
         return {"probability": share, "doubts": [doubt.to_json() for doubt in self.doubts]}
-
-
-StepKind = Literal[
-    "wait",
-    "decompose",
-    "label-files",
-    "label-names",
-    "vocabulary",
-    "label",
-    "propagate",
-    "check-labels",
-    "demonstrate",
-    "learn",
-    "answer",
-    "fix-program",
-    "apply",
-    "review",
-    "correct",
-    "export",
-]
-
-
-@dataclass(frozen=True, slots=True)
-class NextStep:
-    """What to do next, in words. asset: the one to open; command: what to type; note: what helps to type it."""
-
-    kind: StepKind
-    text: str
-    asset: str | None = None
-    command: str | None = None
-    note: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
