@@ -20,7 +20,8 @@ __getattr__, __all__ = export_lazily(
         "run": "make_correction output_digest run_with_corrections",
         "run_report": "add_standings build_run_report format_review format_standing format_status summarize_outputs",
         "sign_offs": "AssessmentBasis digest_lesson",
-        "next_step": "NextStep choose_next_step format_first format_next format_step",
+        "family_step": "choose_next_step",
+        "next_step": "NextStep format_first format_next format_step",
         "status": (
             "AssetStatus FamilyState LastRun LearnStatus OpenQuestion OutputState PropagationState SignOffState Status"
         ),

@@ -36,8 +36,8 @@ from meshforge.project.run_report import format_status as format_status
 from meshforge.project.run_report import summarize_outputs as summarize_outputs
 from meshforge.project.sign_offs import AssessmentBasis as AssessmentBasis
 from meshforge.project.sign_offs import digest_lesson as digest_lesson
+from meshforge.project.family_step import choose_next_step as choose_next_step
 from meshforge.project.next_step import NextStep as NextStep
-from meshforge.project.next_step import choose_next_step as choose_next_step
 from meshforge.project.next_step import format_first as format_first
 from meshforge.project.next_step import format_next as format_next
 from meshforge.project.next_step import format_step as format_step

@@ -9,9 +9,9 @@ from functools import partial
 from meshforge import batch, labels, language, symbolic
 from meshforge.common import MeshForgeError, format_share, relative_name
 from meshforge.project.demonstrations import find_unknown_hulls
+from meshforge.project.family_step import choose_next_step
 from meshforge.project.hull_mapping import describe_replaced
 from meshforge.project.learn import ProgramState, program_state_of, suggest_first_demonstration
-from meshforge.project.next_step import choose_next_step
 from meshforge.project.run import build_jobs, build_task, make_empty_program, output_digest
 from meshforge.project.sign_offs import digest_lesson, find_bases
 from meshforge.project.status import AssetStatus, FamilyState, OpenQuestion, SignOffState, Status
