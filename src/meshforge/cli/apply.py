@@ -16,8 +16,7 @@ from meshforge.batch import apply as run_program
 from meshforge.checks import CheckOptions
 from meshforge.cli import options
 from meshforge.cli.apply_work import Alarms, ApplyArguments, ApplyWork
-from meshforge.cli.console import progress
-from meshforge.cli.notes import NoteLog
+from meshforge.cli.console import NoteLog, progress
 from meshforge.cli.report import NOTHING_WRITTEN, describe_failure, write_report_page
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import UsageError, escape_name, join_names, pluralize

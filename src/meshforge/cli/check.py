@@ -13,8 +13,7 @@ import typer
 from meshforge import batch
 from meshforge.checks import MEASURES, CheckOptions
 from meshforge.cli import options
-from meshforge.cli.console import progress
-from meshforge.cli.notes import NoteLog
+from meshforge.cli.console import NoteLog, progress
 from meshforge.cli.report import CheckReport, describe_changes
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import UsageError, escape_name, pluralize

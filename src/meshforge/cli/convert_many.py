@@ -11,8 +11,7 @@ from time import perf_counter
 import typer
 
 from meshforge import batch
-from meshforge.cli.console import progress
-from meshforge.cli.notes import NoteLog
+from meshforge.cli.console import NoteLog, progress
 from meshforge.cli.report import NOTHING_WRITTEN, describe_failure, write_report_page
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import escape_name, pluralize

@@ -10,8 +10,7 @@ from typing import Annotated
 import typer
 
 from meshforge.cli.console import progress
-from meshforge.cli.extractors import is_extractor, labels_of_project, select_hulls
-from meshforge.cli.hulls import find_hulls
+from meshforge.cli.hulls import find_hulls, is_extractor, labels_of_project, select_hulls
 from meshforge.cli.options import asset_id
 from meshforge.cli.terminal import remark
 from meshforge.common import escape_name, join_names, pluralize

@@ -8,7 +8,7 @@ from typing import Annotated, Any
 import typer
 
 from meshforge import symbolic
-from meshforge.cli.notes import fold_notes
+from meshforge.cli.console import fold_notes
 from meshforge.cli.options import AssetFile, InProject, Json, LabelsPath, asset_id, open_asset
 from meshforge.cli.terminal import print_json
 from meshforge.common import escape_name, pluralize

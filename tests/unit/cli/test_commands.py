@@ -70,7 +70,7 @@ def test_help_loads_no_command(run: Run) -> None:
     code += "print(*(name for name in sys.modules if name.startswith('meshforge.')))"
     shown = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
     assert set(shown.splitlines()[-1].split()) == {
-        *("meshforge.cli", "meshforge.cli.main", "meshforge.cli.parameters", "meshforge.cli.terminal")
+        *("meshforge.cli", "meshforge.cli.main", "meshforge.cli.command", "meshforge.cli.terminal")
     }
 
 
