@@ -11,14 +11,14 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
 from meshforge import batch
-from meshforge.checks import CheckOptions
 from meshforge.common import format_share, join_names
-from meshforge.language import Program
 from meshforge.project.status import AssetStatus, Status
 from meshforge.signoff import AssetConfidence, ExclusionReason
 from meshforge.signoff.question import NOT_OF_FAMILY, NOT_SOLVED
 
 if TYPE_CHECKING:
+    from meshforge.checks import CheckOptions
+    from meshforge.language import Program
     from meshforge.project.project import Project
     from meshforge.project.review import ProjectReview
 
