@@ -78,7 +78,7 @@ def _run(given: ApplyArguments, work: ApplyWork, measures: CheckOptions | None) 
         raise
     alarms = summary.find_alarms()
     if not given.dry_run:
-        for asset, why in work.finish(alarms).items():
+        for asset, why in work.renew_sign_offs(alarms).items():
             remark(f"{escape_name(asset)} is no longer signed off: {why}")
     _print_lines(done, alarms, work.describe_standings() if done else {})
     if work.new:

@@ -99,21 +99,11 @@ def _with_stage(options: NewAssetOptions) -> NewAssetOptions:
     return replace(options, execution=execution, stage=progress)
 
 
-def hold_new(confidences: Mapping[str, AssetConfidence], bar: float, out: Path) -> tuple[batch.Held, ...]:
-    """The new assets whose edits are less sure than a bar, the least sure first."""
-    unsure = sorted((one for one in confidences.values() if one.probability < bar), key=lambda one: one.probability)
-    return tuple(hold(one.asset, one, out) for one in unsure)
-
-
-def hold(asset: str, found: AssetConfidence | None, out: Path, why: str | None = None) -> batch.Held:
-    """An asset that is held back, since its edit is not sure enough; why: another reason."""
-    written = batch.read_stamp(out, asset)
+def hold(found: AssetConfidence, out: Path) -> batch.Held:
+    """Hold an asset back, since its edit is not sure enough."""
+    written = batch.read_stamp(out, found.asset)
     kept = str(out / written.out) if written and written.out else None
-    if found and not why:
-        doubt = found.doubts[0].text if found.doubts else "no single doubt stands out"
-        why = f"{format_share(found.probability)} sure; {doubt}"
-    why = why or ""
-    if kept:
-        why += "; the output of an earlier run stays as it is"
-    doubts = tuple(doubt.to_json() for doubt in found.doubts) if found else ()
-    return batch.Held(asset, found.probability if found else 0.0, doubts, why, kept)
+    doubt = found.doubts[0].text if found.doubts else "no single doubt stands out"
+    why = f"{format_share(found.probability)} sure; {doubt}"
+    why += "; the output of an earlier run stays as it is" if kept else ""
+    return batch.Held(found.asset, found.probability, tuple(doubt.to_json() for doubt in found.doubts), why, kept)

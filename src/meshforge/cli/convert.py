@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 class ConvertArguments:
     """What is typed after `meshforge convert`."""
 
+    context: typer.Context
     paths: Annotated[
         list[str],
         typer.Argument(
@@ -70,10 +71,7 @@ def convert(given: ConvertArguments) -> None:
         raise UsageError("there is nothing to write to", remedy="meshforge convert ASSET OUT")
     *sources, out = given.paths
     if given.to is None:
-        if given.dry_run:
-            raise UsageError("--dry-run is for --to", remedy="meshforge convert ASSETS... OUT --to SUFFIX --dry-run")
-        if given.report:
-            raise UsageError("--report is for --to", remedy="meshforge convert ASSETS... OUT --to SUFFIX --report FILE")
+        options.refuse_options(given.context, ("dry_run", "report"), "--to SUFFIX")
         if len(sources) > 1:
             raise UsageError("several assets and no format", remedy="meshforge convert ASSETS... OUT --to SUFFIX")
         _convert_one(Path(sources[0]), Path(out), given)

@@ -62,7 +62,6 @@ def demonstrate(
 
 
 def _record_steps(project: Project, asset: str, texts: Sequence[str]) -> list[tuple[Step, str]]:
-    """The steps, each with what it does to the hulls, in words."""
     replay = Replay.begin(project.mesh(asset), project.orientation, project.settings.thresholds.contact)
     numbered, recorded = tuple(replay.mesh.index), []
     for number, text in enumerate(texts, 1):

@@ -31,7 +31,6 @@ def info(
 
 
 def _describe_standing(asset: Path, folder: Path | None) -> dict[str, Any]:
-    """How sure the edit of a project's asset is; nothing without a project."""
     if folder is None:
         return {}
     from meshforge.project import Project  # lazy: 500 modules that only --project needs

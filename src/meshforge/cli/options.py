@@ -267,7 +267,7 @@ def list_typed(context: typer.Context) -> Iterator[tuple[str, str]]:
     for parameter in context.command.params:
         source = context.get_parameter_source(parameter.name or "")
         if parameter.name and source is not None and source.name == "COMMANDLINE":
-            yield parameter.name, parameter.opts[0]
+            yield parameter.name, parameter.opts[-1]
 
 
 def _parse_value(text: str, value: str, kind: type) -> Any:

@@ -41,7 +41,6 @@ def _write(path: Path, picture: Image) -> Path:
 
 
 def _draw(project: Project, found: ProjectReview, question: ReviewQuestion) -> Iterator[tuple[str, Image]]:
-    """Give each picture with its name."""
     name, asset, meshes = question.id, question.asset, found.state.meshes
     program, words = found.outcome.program if found.outcome else None, project.vocabulary
     if question.hulls:
@@ -74,7 +73,6 @@ def _draw_sheet(meshes: Mapping[str, SymbolicMesh], hulls: tuple[HullPlace, ...]
 
 
 def _draw_result(project: Project, asset: str, mesh: SymbolicMesh, program: Program) -> Image:
-    """An asset before and after a program and its edits by hand."""
     before, pose = to_canonical_frame(mesh, program.orient, program.contact)
     after = run_with_corrections(project, asset, mesh, program).mesh
     turned = after.with_hulls(hull.move(pose) for hull in after.hulls)

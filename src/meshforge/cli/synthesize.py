@@ -89,7 +89,6 @@ def synthesize(given: SynthesizeArguments) -> None:
 
 
 def _print_outcome(outcome: synthesis.LearningOutcome, about: synthesize_text.LearningContext) -> None:
-    """The result to stdout, remarks to stderr."""
     typer.echo(synthesize_text.format_result(outcome, about))
     if outcome.followed:
         typer.echo("\n" + "\n".join(outcome.followed))

@@ -114,7 +114,6 @@ class FamilyStateReader:
         return now is not None and is_written(stamp, now)
 
     def _select(self, asset: str, program: Program | None) -> tuple[RuleSelection, ...] | None:
-        """What the rules select on an asset; None where the program cannot run."""
         mesh = self.meshes.get(asset)
         if program is None or mesh is None:
             return None
@@ -157,7 +156,6 @@ class _Verdicts:
 
 
 def _is_wrong_as_shown(demo: Demonstration, verdicts: Sequence[VerdictEvent]) -> bool:
-    """Whether the last word is that a result is wrong which is just what the demonstration shows."""
     last = verdicts[-1]
     return last.verdict == "wrong" and not last.meant and shows(demo.steps, last.seen)
 

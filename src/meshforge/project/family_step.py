@@ -77,7 +77,6 @@ def _explain_names(state: FamilyState, asset: str) -> str:
 
 
 def _complete_labels(state: FamilyState) -> NextStep | None:
-    """Propagate, label or look at labels, before anything is demonstrated."""
     bare = [asset for asset in state.assets if asset.hulls and not asset.labelled]
     if step := _take_files(state, bare):
         return step
@@ -96,7 +95,6 @@ def _propagate(state: FamilyState, why: str) -> NextStep:
 
 
 def _label_rest(state: FamilyState) -> NextStep | None:
-    """Label what has no label yet, on the asset that lacks least of those that are begun."""
     lacking = [asset for asset in state.assets if asset.labelled < len(asset.names)]
     if not lacking:
         return None
@@ -176,7 +174,6 @@ def _learn(state: FamilyState) -> NextStep | None:
 
 
 def _label_new_assets(state: FamilyState) -> NextStep | None:
-    """Label assets that came after the program, which selects by labels."""
     bare = [a for a in state.assets if a.hulls and not a.labelled and not a.is_done and not a.excluded]
     if not state.asks_labels or not bare:
         return None
@@ -191,7 +188,6 @@ def _label_new_assets(state: FamilyState) -> NextStep | None:
 
 
 def _answer(state: FamilyState) -> NextStep | None:
-    """Answer what makes most results right for a person's time."""
     asked = state.question
     if asked is None:
         return None
@@ -221,7 +217,6 @@ def _apply(state: FamilyState) -> NextStep | None:
 
 
 def _review(state: FamilyState) -> NextStep | None:
-    """Judge what was called wrong, then what shows best whether the program is right, then what is least sure."""
     wrong = [asset for asset in state.assets if asset.review == "wrong" and not asset.excluded]
     if wrong:
         text = f"{pluralize(len(wrong), 'result')} wrong: correct them, first {wrong[0].id}."

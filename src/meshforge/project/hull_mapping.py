@@ -58,7 +58,6 @@ class HullMapping:
         return self._map_line(line, line.select or (), {"select": line.select and self.map_names(line.select)})
 
     def _map_edit(self, line: CorrectionLine) -> CorrectionLine:
-        """An edit by hand of hulls that are as it knows them."""
         meant = [name for name, value in line.hulls.items() if self.digests.get(name) == value]
         pairs = [(name, self.parts.get(name, (name,)) if name in meant else (name,)) for name in line.hulls]
         hulls = {part: line.hulls[name] if part == name else self.digests[part] for name, own in pairs for part in own}

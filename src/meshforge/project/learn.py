@@ -242,7 +242,6 @@ def learn_program(
 
 
 def _ask_once(confirm: Confirm) -> Confirm:
-    """Asks about each correction once, however often something is learned."""
     answers: dict[synthesis.LabelCorrection, bool] = {}
 
     def ask(repair: synthesis.Repair) -> bool:

@@ -176,7 +176,6 @@ def prepare_aside(
 
 
 def _keep_aside(home: NewAssetFolder, basis: str, found: _WorkerOutcome) -> NewAssetResult:
-    """Write what was done to an asset, and last what became of it."""
     home.forget()
     batch.write_preparation(home.preparation, found.preparation)
     if found.mesh.labels:
@@ -242,7 +241,6 @@ def _build_mesh(
 def _take_labels(
     task: _Task, work: NewAsset, mesh: SymbolicMesh
 ) -> tuple[SymbolicMesh, Mapping[str, Label], Sequence[str]]:
-    """A mesh with the labels that files, names and plug-ins give to its hulls without one; these labels, and notes."""
     taken, odd = task.sources.label(work.id, work.path, mesh) if task.sources else ({}, ())
     return mesh.with_labels(taken), taken, odd
 

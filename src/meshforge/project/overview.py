@@ -108,7 +108,6 @@ def compute_status(
 
 
 def _find_question(state: ProgramState, assets: Sequence[AssetStatus]) -> OpenQuestion | None:
-    """The question that was open when the program was learned; none for who has applied the program as it is."""
     if not state.question or all(asset.is_done or asset.excluded for asset in assets):
         return None
     rule, _, asset = state.question.partition(":")
@@ -253,7 +252,6 @@ class Standings:
         void = self._find_void(asset, sign_off)
         state = self._find_state(asset, line, bool(sign_off), bool(void))
         by = sign_off.by if sign_off and not _is_accepted(asset) else "person"
-        found = line.to_confidence(asset.id) if line else None
         return replace(
             asset,
             sign_off=state,
@@ -261,8 +259,8 @@ class Standings:
             void=void if state == "void" else (),
             found_since=self._find_news(line) if state == "signed off" else (),
             excluded=self.exclusions.get(asset.id),
-            probability=found.probability if found else None,
-            doubts=found.doubts if found else (),
+            probability=line.probability if line else None,
+            doubts=line.doubts if line else (),
         )
 
     def _find_void(self, asset: AssetStatus, sign_off: SignOff | None) -> tuple[str, ...]:

@@ -61,7 +61,6 @@ def _is_writable(label: str) -> bool:
 
 
 def _rewrite_files(store: Store, old: str, new: str) -> Iterator[tuple[Path, str]]:
-    """The files that say the label, except for program and settings, with what they say then."""
     layout = store.layout
     for path in map(layout.labels, layout.labels.ids):
         file = read_labels(path)

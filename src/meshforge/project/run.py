@@ -216,7 +216,6 @@ def _judge(
 
 
 def _run_for_selections(store: Store, asset: str, verdict: Verdict) -> tuple[batch.RuleSelection, ...]:
-    """What the program selects on an asset whose result is wrong and not written as it is; nothing where it fails."""
     program = store.program()
     if verdict != "wrong" or program is None:
         return ()

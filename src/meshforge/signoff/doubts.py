@@ -81,7 +81,6 @@ def _refuse(asset: str, why: Doubt) -> AssetConfidence:
 
 
 def _doubt_program(family: FamilyTrial) -> Iterator[Doubt]:
-    """Whether too many of the results that were looked at were wrong."""
     share = 1 - family.trust_in_program()
     right, wrong = map(len, family.results)
     if wrong and share > _MOST_MISTRUST:

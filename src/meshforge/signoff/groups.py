@@ -134,7 +134,6 @@ def _ask_group(family: FamilyTrial, group: _LookalikeGroup) -> GroupQuestion:
 
 
 def _find_other_label(family: FamilyTrial, group: _LookalikeGroup) -> str | None:
-    """What the hulls most probably are if not what they are asked about; None where no other label is known."""
     posterior, places = family.posterior, family.places
     rows = [
         posterior.table.spans[places[asset]].start + family.state.meshes[asset].index[hull]

@@ -62,7 +62,6 @@ def find_slips(state: ReviewState, program: Program, trials: Sequence[Trial]) ->
 
 
 def _list_examples(state: ReviewState, trials: Mapping[str, Trial], rule: int) -> Iterator[Example]:
-    """What is known to be meant by a rule, as it meets the meshes; what was shown first."""
     for name in dict.fromkeys([*state.demos, *(one.asset for one in state.answers), *state.meant]):
         select, trial = _read_selection(state, name, rule), trials.get(name)
         if select is None or trial is None or rule > len(trial.meshes):

@@ -62,23 +62,13 @@ def load_sign_offs(path: Path) -> dict[str, SignOff]:
     return {one.asset: one for one in found}
 
 
-class DoubtLine(JsonFile):
-    """One doubt about an edit, as `signoff.Doubt` has it."""
-
-    kind: signoff.DoubtKind
-    text: str
-    hulls: tuple[str, ...] = ()
-    rule: int | None = None
-    share: float = 0.0
-
-
 class ConfidenceLine(JsonFile):
     """How an asset stood when the family was looked at last; rests_on: digests of all that decides its edit; looked_at:
     whether a person showed its edit, or accepted it; stands_out: whether its output has alarms that the probability
     does not know; measures: of its edit, None where it has none."""
 
     probability: Probability
-    doubts: tuple[DoubtLine, ...] = ()
+    doubts: tuple[signoff.Doubt, ...] = ()
     rests_on: OutputInputs
     looked_at: bool = False
     stands_out: bool = False
@@ -94,7 +84,7 @@ class ConfidenceLine(JsonFile):
         if self.looked_at or len(alarms) <= sum(doubt.kind == "alarm" for doubt in self.doubts):
             return self
         others = tuple(doubt for doubt in self.doubts if doubt.kind != "alarm")
-        doubts = tuple(DoubtLine(kind="alarm", text=text) for text in alarms)
+        doubts = tuple(signoff.Doubt("alarm", text) for text in alarms)
         return self.model_copy(update={"doubts": (*doubts, *others), "stands_out": True})
 
     @staticmethod
@@ -104,17 +94,13 @@ class ConfidenceLine(JsonFile):
         looked_at: bool,
         measures: signoff.EditMeasures | None = None,
     ) -> ConfidenceLine:
-        doubts = tuple(
-            DoubtLine(kind=one.kind, text=one.text, hulls=one.hulls, rule=one.rule, share=one.share)
-            for one in found.doubts
-        )
         return ConfidenceLine(
-            probability=found.probability, doubts=doubts, rests_on=rests_on, looked_at=looked_at, measures=measures
+            probability=found.probability,
+            doubts=found.doubts,
+            rests_on=rests_on,
+            looked_at=looked_at,
+            measures=measures,
         )
-
-    def to_confidence(self, asset: str) -> signoff.AssetConfidence:
-        doubts = tuple(signoff.Doubt(one.kind, one.text, one.hulls, one.rule, one.share) for one in self.doubts)
-        return signoff.AssetConfidence(asset, self.probability, doubts)
 
 
 class AssessmentFile(JsonFile):
