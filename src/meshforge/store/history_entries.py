@@ -1,5 +1,5 @@
-"""What a history keeps on disk: its entries, the one under way, and contents of files as they were, by digest, which are
-taken before a change and written back to undo it."""
+"""What a history keeps on disk: its entries, the one under way, and contents of files as they were, by digest, taken
+before a change and written back to undo it."""
 
 from __future__ import annotations
 
