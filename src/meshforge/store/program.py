@@ -140,7 +140,10 @@ def write_steps(path: Path, asset: str, steps: Sequence[synthesis.Step]) -> None
 
 
 def write_corrections(path: Path, asset: str, corrections: Sequence[Correction]) -> None:
-    """Write the edits by hand of a corrections file."""
+    """Write the edits by hand of a corrections file; without any the file is removed."""
+    if not corrections:
+        path.unlink(missing_ok=True)
+        return
     kept = read_json(path, CorrectionsFile) or CorrectionsFile(asset=asset, steps=())
     lines = [CorrectionLine(hulls=dict(c.hulls), action=action_text(c.action, c.label)) for c in corrections]
     write_json(path, kept.model_copy(update={"steps": tuple(lines)}))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass, field
@@ -28,7 +27,7 @@ from meshforge.store.events import Event, ExclusionEvent, SnoozeEvent, VerdictEv
 from meshforge.store.feedback import Feedback, load_events, load_feedback, save_events
 from meshforge.store.layout import Layout, read_derived, read_json, write_json
 from meshforge.store.mesh_cache import MeshCache
-from meshforge.store.meshes import AssetFiles, read_labels_file
+from meshforge.store.meshes import AssetFiles, format_labels_file, read_labels_file
 from meshforge.store.preparation_plan import forget_assets
 from meshforge.store.sign_off import AssessmentFile, SignOff, load_sign_offs
 
@@ -226,15 +225,8 @@ class Store:
         vocabulary: Sequence[str],
         away: Collection[str] = (),
     ) -> str | None:
-        """What `write_labels` writes; None where the file is to be removed."""
-        path, present = self.layout.labels(asset), {name: labels[name] for name in hulls if name in labels}
-        text = symbolic.format_labels(symbolic.LabelFile(tuple(vocabulary), present, hulls))
-        if gone := [name for name in symbolic.match_labels(self.labels(asset), hulls).gone if name not in away]:
-            old, new = json.loads(path.read_text(encoding="utf-8")), json.loads(text)
-            new["hulls"] |= {name: old["hulls"][name] for name in gone}
-            new["vocabulary"] = list(dict.fromkeys([*new["vocabulary"], *old.get("vocabulary", [])]))
-            text = json.dumps(new, ensure_ascii=False, indent=2) + "\n"
-        return text if present or gone else None
+        """Return what `write_labels` writes; None where the file is to be removed."""
+        return format_labels_file(self.layout.labels(asset), hulls, labels, vocabulary, away)
 
     def write_labels_files(self, texts: Mapping[str, str | None]) -> None:
         """Write labels files, by asset, under the lock that the caller holds; None removes one."""
@@ -271,14 +263,9 @@ class Store:
         return program_files.read_corrections(self.layout.corrections(asset))
 
     def write_corrections(self, asset: str, corrections: Sequence[batch.Correction]) -> None:
-        """Write the edits by hand of an asset."""
+        """Write the edits by hand of an asset; without any its file is removed."""
         with self.lock():
             program_files.write_corrections(self.layout.corrections(asset), asset, corrections)
-
-    def drop_corrections(self, asset: str) -> None:
-        """Remove all edits by hand of an asset."""
-        with self.lock():
-            self.layout.corrections(asset).unlink(missing_ok=True)
 
     # The program
 

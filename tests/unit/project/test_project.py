@@ -265,7 +265,7 @@ def test_an_edit_by_hand_is_replayed_after_the_program(tmp_path: Path) -> None:
     assert {h.name: h.label for h in mesh.hulls} == {"top": "top", "left_low~2": "top"}
     project.correct(SECOND, ["left_low~2"], Delete())
     assert len(project.corrections(SECOND)) == 2
-    project.drop_corrections(SECOND)
+    project.write_corrections(SECOND, ())
     assert project.corrections(SECOND) == ()
 
 

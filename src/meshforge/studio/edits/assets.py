@@ -224,7 +224,7 @@ class DropCorrections(_CorrectionEdit):
     kind: Literal["drop-corrections"] = "drop-corrections"
 
     def apply(self, project: Project) -> None:
-        project.drop_corrections(self.asset)
+        project.write_corrections(self.asset, ())
 
     def describe(self, project: Project) -> str:
         return f"edits by hand of {self.asset} taken away"
