@@ -7,7 +7,9 @@ from meshforge.common.exports import export_lazily
 __getattr__, __all__ = export_lazily(
     __name__,
     {
-        "learn": "ProgramState program_by_hand sees_whole_family select_assets suggest_first_demonstration",
+        "learn": (
+            "ProgramState learn_program program_by_hand sees_whole_family select_assets suggest_first_demonstration"
+        ),
         "new_asset_result": "NewAssetResult assess_new_assets describe_new",
         "new_assets": "NewAsset NewAssetOptions list_new prepare_aside",
         "overview": "compute_status find_offers",

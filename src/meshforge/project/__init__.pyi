@@ -1,5 +1,6 @@
 # Written by `python -m script.stubs`.
 from meshforge.project.learn import ProgramState as ProgramState
+from meshforge.project.learn import learn_program as learn_program
 from meshforge.project.learn import program_by_hand as program_by_hand
 from meshforge.project.learn import sees_whole_family as sees_whole_family
 from meshforge.project.learn import select_assets as select_assets
