@@ -22,7 +22,7 @@ from meshforge.language import Program, Template
 from meshforge.project import run
 from meshforge.project.demonstrations import actions_of, shows
 from meshforge.project.hull_mapping import describe_replaced
-from meshforge.project.run import number_selections, output_digest
+from meshforge.project.run import output_digest
 from meshforge.project.sign_offs import is_written
 from meshforge.signoff import EditMeasures, ReviewState, measure_edit
 from meshforge.signoff.question import Selections
@@ -109,19 +109,10 @@ class FamilyStateReader:
         if verdict.output != output_digest(stamp):
             return False
         if verdict.seen and not verdict.meant:
-            return self._select(asset, program) == verdict.seen
+            mesh = self.meshes.get(asset)
+            return bool(program and mesh and run.run_for_selections(self.store, program, lambda: mesh) == verdict.seen)
         now = self.inputs.get(asset)
         return now is not None and is_written(stamp, now)
-
-    def _select(self, asset: str, program: Program | None) -> tuple[RuleSelection, ...] | None:
-        mesh = self.meshes.get(asset)
-        if program is None or mesh is None:
-            return None
-        try:
-            trace = program.run(mesh, self._read_templates(program), memo=memoize).trace
-        except MeshForgeError:
-            return None
-        return number_selections(program, {r.rule: r.selected for r in trace})
 
 
 @dataclass(frozen=True, eq=False, slots=True)
