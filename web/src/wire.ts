@@ -21,8 +21,7 @@ export type AnyEdit =
   | ReviewAssets
   | ExcludeAssets
   | CorrectByHand
-  | DropManualEdits
-  | LeaveOut
+  | DropCorrections
   | RemoveAssets;
 export type Event =
   | Start
@@ -116,8 +115,6 @@ export interface Everything {
   LabelUpdate: LabelUpdate;
   LabelUpdateChanged: LabelUpdateChanged;
   LanguageView: LanguageView;
-  LeaveOut: LeaveOut;
-  ManualEditView: ManualEditView;
   Mark: Mark;
   Model: Model;
   MoveRule: MoveRule;
@@ -527,14 +524,6 @@ export interface CorrectByHand {
 export interface DropManualEdits {
   asset: string;
   kind: "drop-manual-edits";
-}
-/**
- * Leave assets out of the family, or put them back; what is kept for them stays.
- */
-export interface LeaveOut {
-  kind: "leave-out";
-  ids: string[];
-  out?: boolean;
 }
 /**
  * Remove assets from the project, with their labels, demonstrations and corrections; their own files stay.

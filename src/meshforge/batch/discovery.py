@@ -5,7 +5,7 @@ from __future__ import annotations
 import glob
 import os
 from collections.abc import Collection, Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
@@ -29,14 +29,12 @@ ADDED = "added"
 class AssetSet:
     """Assets in sorted order without repetition; base: the common folder of the arguments, from which ids count.
 
-    home: the folder of a project whose assets lie elsewhere; the ids of those in its `added/` count from it. left_out:
-    the ids of assets that a project keeps, but not as part of the family.
+    home: the folder of a project whose assets lie elsewhere; the ids of those in its `added/` count from it.
     """
 
     base: Path
     paths: tuple[Path, ...]
     home: Path | None = None
-    left_out: tuple[str, ...] = ()
 
     def __iter__(self) -> Iterator[Path]:
         return iter(self.paths)
@@ -55,6 +53,22 @@ class AssetSet:
             return self.ids
         some = frozenset(only)
         return {key: path for key, path in self.ids.items() if key in some}
+
+    def without(self, away: Collection[str]) -> AssetSet:
+        """Return these but for those of some ids."""
+        gone = frozenset(self.ids.keys() & away)
+        if not gone:
+            return self
+        found = self._rest.get(gone)
+        if found is None:
+            found = replace(self, paths=tuple(path for key, path in self.ids.items() if key not in gone))
+            self._rest.clear()  # asked for again and again: of the last ones the answer is kept
+            self._rest[gone] = found
+        return found
+
+    @cached_property
+    def _rest(self) -> dict[frozenset[str], AssetSet]:
+        return {}
 
     @cached_property
     def suffixes(self) -> frozenset[str]:

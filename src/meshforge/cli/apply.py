@@ -16,8 +16,7 @@ from meshforge.batch import apply as run_program
 from meshforge.checks import CheckOptions
 from meshforge.cli import options
 from meshforge.cli.apply_work import Alarms, ApplyArguments, ApplyWork
-from meshforge.cli.console import progress
-from meshforge.cli.notes import NoteLog
+from meshforge.cli.console import NoteLog, progress
 from meshforge.cli.report import NOTHING_WRITTEN, describe_failure, write_report_page
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import UsageError, escape_name, join_names, pluralize
@@ -79,7 +78,7 @@ def _run(given: ApplyArguments, work: ApplyWork, measures: CheckOptions | None) 
         raise
     alarms = summary.find_alarms()
     if not given.dry_run:
-        for asset, why in work.finish(alarms).items():
+        for asset, why in work.renew_sign_offs(alarms).items():
             remark(f"{escape_name(asset)} is no longer signed off: {why}")
     _print_lines(done, alarms, work.describe_result_statuses() if done else {})
     if work.new:

@@ -66,7 +66,7 @@ def prepare_given(
     plan = read_preparation_plan(project)
     if plan.unclear:
         remark(plan.unclear)
-    known = {path: asset for asset, path in project.found.ids.items()}
+    known = {path: asset for asset, path in project.every.ids.items()}
     given = batch.make_jobs(batch.expand(assets), labels)
     ours = {job.path: job for job in project.jobs({known[job.path] for job in given if job.path in known})}
     jobs = [replace(ours[job.path], id=job.id, base=job.base) if job.path in ours else job for job in given]
@@ -99,25 +99,13 @@ def _with_stage(options: NewAssetOptions) -> NewAssetOptions:
     return replace(options, execution=execution, stage=progress)
 
 
-def list_unsure_new(
-    confidences: Mapping[str, AssetConfidence], threshold: float, out: Path
-) -> tuple[batch.NeedsReview, ...]:
-    """The new assets whose edits are less sure than a bar, the least sure first."""
-    unsure = sorted(
-        (one for one in confidences.values() if one.probability < threshold), key=lambda one: one.probability
-    )
-    return tuple(to_needs_review(one.asset, one, out) for one in unsure)
-
-
-def to_needs_review(asset: str, found: AssetConfidence | None, out: Path, why: str | None = None) -> batch.NeedsReview:
-    """An asset that is not written, since its edit is not sure enough; why: another reason."""
-    written = batch.read_stamp(out, asset)
+def to_needs_review(found: AssetConfidence, out: Path) -> batch.NeedsReview:
+    """Hold an asset back, since its edit is not sure enough."""
+    written = batch.read_stamp(out, found.asset)
     kept = str(out / written.out) if written and written.out else None
-    if found and not why:
-        reason = found.reasons[0].text if found.reasons else "no single doubt stands out"
-        why = f"{format_share(found.probability)} sure; {reason}"
-    why = why or ""
-    if kept:
-        why += "; the output of an earlier run stays as it is"
-    reasons = tuple(reason.to_json() for reason in found.reasons) if found else ()
-    return batch.NeedsReview(asset, found.probability if found else 0.0, reasons, why, kept)
+    reason = found.reasons[0].text if found.reasons else "no single doubt stands out"
+    why = f"{format_share(found.probability)} sure; {reason}"
+    why += "; the output of an earlier run stays as it is" if kept else ""
+    return batch.NeedsReview(
+        found.asset, found.probability, tuple(reason.to_json() for reason in found.reasons), why, kept
+    )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass, field, replace
 from functools import partial
@@ -14,7 +14,7 @@ import typer
 
 from meshforge import batch
 from meshforge.cli import options
-from meshforge.cli.apply_new import list_unsure_new, prepare_given, prepare_later, to_needs_review
+from meshforge.cli.apply_new import prepare_given, prepare_later, to_needs_review
 from meshforge.cli.console import progress
 from meshforge.cli.terminal import remark
 from meshforge.common import UsageError, join_names, suggest_name
@@ -82,24 +82,17 @@ Alarms = Mapping[str, Sequence[str]]
 """Sentences about results that stand out, by asset."""
 
 
-def _sign_nothing_off(alarms: Alarms) -> Mapping[str, str]:
-    return {}
-
-
 @dataclass(frozen=True, slots=True)
 class ApplyWork:
-    """What is to be run on what. readers: of assets before the run, by id; need_review: those that are not written;
-    finish: called with all alarms when all is written, says what is no longer signed off, and why, by asset; project:
-    None where its own assets are not meant; new: what was done to new assets before, by id; failed: those of them that
-    could not be prepared; confidences: how sure the edits of assets are that are not the project's, as far as asked."""
+    """What is to be run on what. held: assets that are held back; project: None where its own assets are not meant;
+    new: what was done to new assets before, by id; failed: those of them that could not be prepared; confidences: how
+    sure the edits of assets are that are not the project's, as far as asked."""
 
     program: Program
     jobs: Sequence[batch.AssetJob]
     out: Path
     templates: Mapping[str, Template]
-    readers: Callable[[Iterable[str]], Sequence[batch.MeshReader]]
     need_review: Sequence[batch.NeedsReview] = ()
-    finish: Callable[[Alarms], Mapping[str, str]] = _sign_nothing_off
     project: Project | None = None
     new: Mapping[str, NewAssetResult] = field(default_factory=dict)
     failed: Sequence[batch.Failed] = ()
@@ -109,6 +102,18 @@ class ApplyWork:
     def of(given: ApplyArguments, stack: ExitStack) -> ApplyWork:
         """What was asked for; stack: keeps a folder for as long as the run takes."""
         return _work_of_project(given, stack) if given.program.is_dir() else _work_of_program(given)
+
+    def readers(self, assets: Iterable[str]) -> Sequence[batch.MeshReader]:
+        """Return functions that read assets as they were before the run."""
+        if self.project:
+            return self.project.readers(assets)
+        by_id = {job.id: job for job in self.jobs}
+        return [partial(batch.read_job, by_id[asset]) for asset in assets]
+
+    def renew_sign_offs(self, alarms: Alarms) -> Mapping[str, str]:
+        """Sign off what may be of the project's own outputs; say what is no longer signed off, and why, by asset."""
+        is_own = self.project and self.out.absolute() == self.project.layout.edited
+        return self.project.renew_sign_offs(alarms) if self.project and is_own else {}
 
     def describe_result_statuses(self) -> dict[str, dict[str, Any]]:
         """How sure each edit of a project is, as far as its last review holds, by asset."""
@@ -150,14 +155,11 @@ def _work_of_project(given: ApplyArguments, stack: ExitStack) -> ApplyWork:
     new = prepare_later(project, folder, new_options)
     need_review = _list_unsure(project, out, given.min_confidence) if given.min_confidence is not None else ()
     program, jobs, templates = project.work()
-    if away := [f"{asset} ({one.reason})" for asset, one in project.feedback().exclusions.items()]:
+    if away := [f"{asset} ({why})" for asset, why in project.exclusions().items() if asset in project.every.ids]:
         remark(f"excluded, and not edited: {join_names(away)}")
     names = {one.asset for one in need_review}
     rest = [job for job in new.update(jobs) if job.id not in names]
-    finish = project.renew_sign_offs if out.absolute() == project.layout.edited else _sign_nothing_off
-    return ApplyWork(
-        program, rest, out, templates, project.readers, need_review, finish, project, new.results, new.failed
-    )
+    return ApplyWork(program, rest, out, templates, need_review, project, new.results, new.failed)
 
 
 def _work_of_others(
@@ -179,20 +181,11 @@ def _work_of_others(
     need_review: tuple[batch.NeedsReview, ...] = ()
     if review and given.min_confidence is not None:
         found = assess_new_assets(project, review, jobs, new.results, new_options.execution)
-        need_review = list_unsure_new(found, given.min_confidence, out)
+        unsure = (one for one in found.values() if one.probability < given.min_confidence)
+        need_review = tuple(to_needs_review(one, out) for one in sorted(unsure, key=lambda one: one.probability))
     names = {one.asset for one in need_review}
-    by_id = {job.id: job for job in jobs}
-    return ApplyWork(
-        program,
-        [job for job in jobs if job.id not in names],
-        out,
-        templates,
-        lambda assets: [partial(batch.read_job, by_id[asset]) for asset in assets],
-        need_review,
-        new=new.results,
-        failed=new.failed,
-        confidences=found,
-    )
+    rest = [job for job in jobs if job.id not in names]
+    return ApplyWork(program, rest, out, templates, need_review, new=new.results, failed=new.failed, confidences=found)
 
 
 def _review(project: Project, threshold: float) -> ProjectReview:
@@ -205,9 +198,8 @@ def _review(project: Project, threshold: float) -> ProjectReview:
 
 
 def _list_unsure(project: Project, out: Path, threshold: float) -> tuple[batch.NeedsReview, ...]:
-    """The assets of a project whose edits are less sure than a bar, the least sure first."""
     assessment = _review(project, threshold).assessment
-    return tuple(to_needs_review(name, assessment.assets.get(name), out) for name in assessment.need_review)
+    return tuple(to_needs_review(assessment.assets[name], out) for name in assessment.need_review)
 
 
 def _work_of_program(given: ApplyArguments) -> ApplyWork:
@@ -225,7 +217,4 @@ def _work_of_program(given: ApplyArguments) -> ApplyWork:
     program = Program.read(given.program)
     templates = batch.load_templates(program, batch.template_folders(given.program))
     jobs = batch.make_jobs(batch.expand(given.assets), given.labels)
-    by_id = {job.id: job for job in jobs}
-    return ApplyWork(
-        program, jobs, given.out, templates, lambda assets: [partial(batch.read_job, by_id[asset]) for asset in assets]
-    )
+    return ApplyWork(program, jobs, given.out, templates)

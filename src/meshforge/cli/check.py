@@ -13,8 +13,7 @@ import typer
 from meshforge import batch
 from meshforge.checks import MEASURES, CheckOptions
 from meshforge.cli import options
-from meshforge.cli.console import progress
-from meshforge.cli.notes import NoteLog
+from meshforge.cli.console import NoteLog, progress
 from meshforge.cli.report import CheckReport, describe_changes
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import UsageError, escape_name, pluralize
@@ -26,6 +25,7 @@ _FEW = 5  # assets whose results one sees at a glance
 class CheckArguments:
     """What is typed after `meshforge check`."""
 
+    context: typer.Context
     assets: options.AssetFiles
     engine: Annotated[
         options.EngineName | None,
@@ -136,23 +136,15 @@ def check(given: CheckArguments) -> None:
 
 
 def _refuse_stray_options(given: CheckArguments, measures: CheckOptions) -> None:
-    """Raise UsageError for an option that was given without the one that it belongs to."""
     if given.fix and not ((measures.engine or given.max_vertices) and given.out):
         remedy = "meshforge check ASSETS... --engine NAME --fix --out DIR"
         raise UsageError("--fix needs --engine or --max-vertices, and --out", remedy=remedy)
-    on_grid = any(check.has_cells for check in measures.checks)
-    compares = any(check.compares for check in measures.checks)
-    for option, is_given, is_allowed, without in (
-        ("--out", given.out is not None, given.fix, "--fix"),
-        ("--tolerance", given.tolerance is not None, given.fix, "--fix"),
-        ("--overwrite", given.overwrite, given.fix, "--fix"),
-        ("--max-vertices", given.max_vertices is not None, given.fix, "--fix"),
-        ("--cell", given.cell is not None, on_grid, "--fit or --clearance"),
-        ("--pictures", given.pictures is not None, on_grid, "--fit or --clearance"),
-        ("--against", given.against is not None, compares, "--clearance or --physics"),
-    ):
-        if is_given and not is_allowed:
-            raise UsageError(f"{option} says nothing without {without}", remedy="Give it too, or leave this one out.")
+    if not given.fix:
+        options.refuse_options(given.context, ("out", "tolerance", "overwrite", "max_vertices"), "--fix")
+    if not any(check.has_cells for check in measures.checks):
+        options.refuse_options(given.context, ("cell", "pictures"), "--fit or --clearance")
+    if not any(check.compares for check in measures.checks):
+        options.refuse_options(given.context, ("against",), "--clearance or --physics")
 
 
 def _to_row(journal: batch.CheckJournal | None, asset: str, outcome: batch.CheckOutcome | None) -> dict[str, Any]:

@@ -3,26 +3,31 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from time import perf_counter
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
 from meshforge import formats
 from meshforge.cli import options
-from meshforge.cli.console import progress
-from meshforge.cli.notes import fold_notes
+from meshforge.cli.console import NoteLog, fold_notes, progress
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import UsageError, escape_name, pluralize
 from meshforge.formats import FORMATS_BY_SUFFIX, Loss, SaveResult
 from meshforge.symbolic import Feature, SymbolicMesh
+
+if TYPE_CHECKING:
+    from meshforge import batch
 
 
 @dataclass(frozen=True, slots=True)
 class ConvertArguments:
     """What is typed after `meshforge convert`."""
 
+    context: typer.Context
     paths: Annotated[
         list[str],
         typer.Argument(
@@ -66,10 +71,7 @@ def convert(given: ConvertArguments) -> None:
         raise UsageError("there is nothing to write to", remedy="meshforge convert ASSET OUT")
     *sources, out = given.paths
     if given.to is None:
-        if given.dry_run:
-            raise UsageError("--dry-run is for --to", remedy="meshforge convert ASSETS... OUT --to SUFFIX --dry-run")
-        if given.report:
-            raise UsageError("--report is for --to", remedy="meshforge convert ASSETS... OUT --to SUFFIX --report FILE")
+        options.refuse_options(given.context, ("dry_run", "report"), "--to SUFFIX")
         if len(sources) > 1:
             raise UsageError("several assets and no format", remedy="meshforge convert ASSETS... OUT --to SUFFIX")
         _convert_one(Path(sources[0]), Path(out), given)
@@ -79,20 +81,65 @@ def convert(given: ConvertArguments) -> None:
     if given.overwrite:
         raise UsageError("--overwrite is for one asset", remedy="Outputs of an earlier run are replaced as it is.")
     suffix = _parse_suffix(given.to)
-    from meshforge.batch import ApplyOptions  # lazy: 250 modules that only --to needs
-    from meshforge.cli.convert_many import convert_many  # lazy: 250 modules that only --to needs
+    _convert_many(sources, Path(out), given, suffix)
 
-    run_options = ApplyOptions(
-        link=given.link,
-        dry_run=given.dry_run,
-        to=suffix,
-        names=given.names,
-        collision=given.collision,
-        concave=given.concave,
-        urdf_capsules=given.urdf_capsules,
+
+def _convert_many(sources: Sequence[str], out: Path, given: ConvertArguments, suffix: str) -> None:
+    """Write all assets below a folder in another format, as a run without a program; leave with 1 where some failed."""
+    from meshforge import batch  # lazy: 250 modules that only --to needs; also below
+    from meshforge.cli.report import NOTHING_WRITTEN, describe_failure  # lazy: as batch
+    from meshforge.language import Program  # lazy: as batch
+
+    jobs, summary, started = batch.make_jobs(batch.expand(sources), given.labels), batch.RunSummary(), perf_counter()
+    log, run_options = (
+        NoteLog(len(jobs) > 2),
+        batch.ApplyOptions(
+            link=given.link,
+            dry_run=given.dry_run,
+            to=suffix,
+            names=given.names,
+            collision=given.collision,
+            concave=given.concave,
+            urdf_capsules=given.urdf_capsules,
+        ),
     )
-    execution = given.execution.to_options()
-    convert_many(sources, Path(out), given.labels, run_options, execution, given.report, json=given.json)
+    if len(jobs) > 1:
+        remark(str(batch.plan_run(jobs, out)))
+    with progress(len(jobs), "converting") as advance:
+        execution = replace(given.execution.to_options(), progress=advance)
+        for outcome in batch.apply(Program(), jobs, out, options=run_options, execution=execution):
+            summary.add(outcome)
+            if given.json:
+                print_json(batch.to_json_line(outcome), compact=True)
+            elif isinstance(outcome, batch.Failed):
+                typer.echo(describe_failure(outcome))
+            else:
+                word = "skipped" if isinstance(outcome, batch.Skipped) else "written"
+                line = f"{word:10} {escape_name(outcome.out)}: {pluralize(outcome.after, 'hull')}"
+                typer.echo(log.describe(outcome.asset, line, outcome.notes))
+    if not given.json:
+        log.print_repeated()
+        typer.echo(str(summary).replace("unchanged", "written", 1) + NOTHING_WRITTEN * given.dry_run)
+    if given.report:
+        _write_report(given.report, f"{out.resolve().name} as {suffix}", jobs, summary, perf_counter() - started)
+    raise typer.Exit(int(summary.counts["failed"] > 0))
+
+
+def _write_report(
+    path: Path, title: str, jobs: Sequence[batch.AssetJob], summary: batch.RunSummary, seconds: float
+) -> None:
+    from meshforge import batch  # lazy: as above
+    from meshforge.cli.report import write_report_page  # lazy: as above
+    from meshforge.language import Program  # lazy: as above
+
+    by_id = {job.id: job for job in jobs}
+    readers = [partial(batch.read_job, by_id[outcome.asset]) for outcome in summary.outcomes_to_show]
+    shown = batch.compare_outcomes(summary.outcomes_to_show, Program(), readers)
+    about = "Each asset as it was read, and as what was written of it reads."
+    figures = batch.RunFigures.of_run(summary, {"unchanged": "written"})
+    assets = [replace(asset, status="written") if asset.status == "unchanged" else asset for asset in shown]
+    options = batch.ReportOptions(changes=False)  # the target may have other names
+    write_report_page(path, batch.ReportHeader(title, about, seconds, figures), assets, options=options)
 
 
 def _parse_suffix(to: str) -> str:

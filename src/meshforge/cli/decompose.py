@@ -10,8 +10,7 @@ import typer
 
 from meshforge import formats
 from meshforge.cli import options
-from meshforge.cli.console import progress
-from meshforge.cli.notes import fold_notes
+from meshforge.cli.console import fold_notes, progress
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import UsageError, escape_name, pluralize
 from meshforge.geometry import DecomposeSettings

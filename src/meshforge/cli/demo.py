@@ -106,7 +106,6 @@ def _print_result(assets: Sequence[ReportAsset], seconds: float, project: Projec
 
 
 def _relative_path(path: Path) -> Path:
-    """A path as a person here would type it."""
     path, here = path.absolute(), Path.cwd()
     return path.relative_to(here) if path.is_relative_to(here) else path
 

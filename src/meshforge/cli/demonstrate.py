@@ -10,13 +10,12 @@ from typing import Annotated
 import typer
 
 from meshforge.cli.console import progress
-from meshforge.cli.extractors import is_extractor, labels_of_project, select_hulls
-from meshforge.cli.hulls import find_hulls
+from meshforge.cli.hulls import find_hulls, is_extractor, labels_of_project, select_hulls
 from meshforge.cli.options import asset_id
 from meshforge.cli.terminal import remark
 from meshforge.common import escape_name, join_names, pluralize
 from meshforge.language import Program, Replay, RuleTrace
-from meshforge.project import Project
+from meshforge.project import Project, format_next
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Step
 
@@ -57,13 +56,12 @@ def demonstrate(
         if results.get(step.rule):
             remark(f"   {results[step.rule]}")
     if steps:
-        remark(f"Next: meshforge synthesize {project}")
+        remark(format_next("demonstrated", project))
     elif not opened.steps(asset):
         remark(f"{escape_name(asset)}: nothing is demonstrated yet")
 
 
 def _record_steps(project: Project, asset: str, texts: Sequence[str]) -> list[tuple[Step, str]]:
-    """The steps, each with what it does to the hulls, in words."""
     replay = Replay.begin(project.mesh(asset), project.orientation, project.settings.thresholds.contact)
     numbered, recorded = tuple(replay.mesh.index), []
     for number, text in enumerate(texts, 1):

@@ -1,13 +1,22 @@
-"""Hulls as people type them: names, patterns and numbers with commas between."""
+"""Hulls as people type them: names, patterns and numbers with commas between, and extractors; and labels that no asset
+has."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Sequence
 from fnmatch import fnmatchcase
 from functools import partial
+from itertools import chain
+from typing import TYPE_CHECKING
 
-from meshforge.common import UsageError, suggest_name
+from meshforge.common import UsageError, join_names, suggest_among, suggest_name
+from meshforge.language import EXTRACTORS, EXTREMITY, Extractor, labels_of, list_operators, parse_extractor, show
+from meshforge.symbolic import SymbolicMesh
+
+if TYPE_CHECKING:
+    from meshforge.project import Project
+
 
 LISTING = "meshforge info ASSET"
 """The command that lists the names and numbers of hulls."""
@@ -70,3 +79,57 @@ def _find_number(part: str, hulls: Collection[str], where: str, listing: str, nu
     if numbered[place] not in hulls:
         raise UsageError(f"{where}: {part} is {numbered[place]}, which an earlier step took away")
     return numbered[place]
+
+
+def is_extractor(text: str, hulls: Collection[str]) -> bool:
+    """Whether a text begins as an extractor does, right or wrong, in whatever case; none of its parts names a hull."""
+    found = re.match(r"\s*(\w+)\s*(\(|$)", text)
+    if found is None or any(part.strip() in hulls for part in text.split(",")):
+        return False
+    if found[2]:
+        return found[1].lower() in map(str.lower, list_operators())
+    return found[1].lower() == "all" or found[1] in EXTRACTORS.plugin_names
+
+
+def select_hulls(
+    text: str, mesh: SymbolicMesh, known: Callable[[], Collection[str]], where: str, extremity: float | None = None
+) -> frozenset[str]:
+    """The names of the hulls that an extractor selects in a mesh; where: what an error is about.
+
+    known: as of `find_absent_labels`. Raises ProgramError where the text is no extractor; UsageError for a label that
+    no asset has, and where nothing is selected.
+    """
+    extractor = parse_extractor(text, where)
+    absent = find_absent_labels(extractor, mesh, known, where)
+    chosen = extractor.select(mesh, EXTREMITY if extremity is None else extremity)
+    if not chosen:
+        why = f": no hull here is labelled {join_names(absent)}" if absent else ""
+        remedy = "Name hulls, or write `nothing` where this asset has nothing to select."
+        raise UsageError(f"{where}: {show(extractor)} selects nothing here{why}", remedy=remedy)
+    return frozenset(mesh.hulls[k].name for k in chosen)
+
+
+def find_absent_labels(
+    extractor: Extractor, mesh: SymbolicMesh, known: Callable[[], Collection[str]], where: str
+) -> list[str]:
+    """The labels that an extractor asks for and only this mesh lacks, as an asset need not have all of its family's.
+
+    known: the labels of the family, asked for where this mesh lacks one. Raises UsageError, naming the nearest one, for
+    a label that no asset has.
+    """
+    here = {hull.label for hull in mesh.hulls if hull.label}
+    absent = [label for label in labels_of(extractor) if label not in here]
+    words = sorted({*here, *known()}) if absent else ()
+    for label in absent:
+        if label not in words:
+            remedy = (
+                suggest_among(label, words, "Labels are") if words else "Give labels: meshforge label, or --labels."
+            )
+            raise UsageError(f"{where}: no hull is labelled {label!r}", remedy=remedy)
+    return absent
+
+
+def labels_of_project(project: Project) -> Collection[str]:
+    """The labels that hulls of a project can have: its vocabulary, or, without one, those that its assets have."""
+    every = (project.labels(asset).labels.values() for asset in project.layout.labels.ids)
+    return project.vocabulary or {label.name for label in chain.from_iterable(every)}

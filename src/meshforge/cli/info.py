@@ -8,7 +8,7 @@ from typing import Annotated, Any
 import typer
 
 from meshforge import symbolic
-from meshforge.cli.notes import fold_notes
+from meshforge.cli.console import fold_notes
 from meshforge.cli.options import AssetFile, InProject, Json, LabelsPath, asset_id, open_asset
 from meshforge.cli.terminal import print_json
 from meshforge.common import escape_name, pluralize
@@ -31,15 +31,14 @@ def info(
 
 
 def _describe_result_status(asset: Path, folder: Path | None) -> dict[str, Any]:
-    """How sure the edit of a project's asset is; nothing without a project."""
     if folder is None:
         return {}
     from meshforge.project import Project  # lazy: 500 modules that only --project needs
 
     project = Project.open(folder)
     name = asset_id(asset, project)
-    (found,) = (one for one in project.status().assets if one.id == name)
-    return found.confidence_to_json()
+    found = (one.confidence_to_json() for one in project.status().assets if one.id == name)
+    return next(found, {})  # of none that is not of the family
 
 
 def describe_asset(mesh: symbolic.SymbolicMesh, asset: str, *, geometry: bool = False) -> dict[str, Any]:

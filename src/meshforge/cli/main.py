@@ -16,7 +16,7 @@ import typer
 from typer.core import TyperCommand, TyperGroup
 
 import meshforge
-from meshforge.cli.parameters import read_plainly
+from meshforge.cli.command import Command, read_plainly
 from meshforge.cli.terminal import escape_output
 
 COMMANDS = {
@@ -72,8 +72,6 @@ class CommandGroup(TyperGroup):
 
 def load_command(name: str) -> TyperCommand:
     """The command of a name, from its module."""
-    from meshforge.cli.command import Command  # lazy: the list of commands needs none
-
     app = typer.Typer(add_completion=False, pretty_exceptions_enable=False, rich_markup_mode=None)
     function: Callable[..., None] = getattr(import_module(f"meshforge.cli.{name}"), name)
     app.command(name, cls=Command, context_settings=_HELP_OPTIONS)(function)

@@ -10,7 +10,7 @@ import typer
 from meshforge.cli import options
 from meshforge.cli.prepare import decompose_assets
 from meshforge.common import pluralize
-from meshforge.project import Project
+from meshforge.project import Project, format_next
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,5 +62,5 @@ def new(given: NewArguments) -> None:
             workers=given.workers,
             timeout=given.timeout,
         )
-    typer.echo(f"Next: meshforge status {given.project}")
+    typer.echo(format_next("made", given.project))
     raise typer.Exit(failed)

@@ -267,7 +267,7 @@ def list_typed(context: typer.Context) -> Iterator[tuple[str, str]]:
     for parameter in context.command.params:
         source = context.get_parameter_source(parameter.name or "")
         if parameter.name and source is not None and source.name == "COMMANDLINE":
-            yield parameter.name, parameter.opts[0]
+            yield parameter.name, parameter.opts[-1]
 
 
 def _parse_value(text: str, value: str, kind: type) -> Any:
@@ -303,7 +303,7 @@ def asset_id(asset: str | Path, project: Project) -> str:
     A path that is no file is taken by its last name, where one asset has it. Raises UsageError, naming them, where
     several are meant; ProjectError, naming the nearest, where none is.
     """
-    ids, path = project.found.ids, Path(asset)
+    ids, path = project.every.ids, Path(asset)
     by_path = {plain_path(file): key for key, file in ids.items()}
     text, place = path.as_posix(), plain_path(path)
     if place in by_path or text in ids:

@@ -16,9 +16,17 @@ from meshforge.batch import ExecutionOptions
 from meshforge.cli import options
 from meshforge.cli.console import progress
 from meshforge.cli.terminal import print_json, remark
-from meshforge.common import UsageError, describe_error, escape_name, pluralize, quote_path
+from meshforge.common import UsageError, describe_error, escape_name, pluralize
 from meshforge.geometry import DecomposeSettings
-from meshforge.project import MADE_ANEW, REBUILD_DEFAULTS, PreparationResult, Project, RebuildSettings, forget_plan
+from meshforge.project import (
+    MADE_ANEW,
+    REBUILD_DEFAULTS,
+    PreparationResult,
+    Project,
+    RebuildSettings,
+    forget_plan,
+    format_next,
+)
 from meshforge.project.prepare import count_pieces
 
 
@@ -172,9 +180,7 @@ def print_results(project: Project, results: Iterable[PreparationResult], json: 
         else:
             _print_one(result)
     if has_made and not json:
-        has_program = project.layout.program.exists()
-        what = "runs the program on it" if has_program else "writes what is prepared, also without a program"
-        remark(f"Next: meshforge apply {quote_path(project.folder)} {what}")
+        remark(format_next("prepared" if project.layout.program.exists() else "prepared all", project.folder))
     return int(failed)
 
 

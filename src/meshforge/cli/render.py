@@ -11,13 +11,12 @@ import typer
 
 from meshforge import inspection, rendering
 from meshforge.cli.console import progress
-from meshforge.cli.options import AssetFile, InProject, LabelsPath, open_asset, takes
+from meshforge.cli.options import AssetFile, InProject, LabelsPath, open_asset, refuse_with, takes
 from meshforge.cli.terminal import remark
 from meshforge.common import UsageError, escape_name, pluralize
 from meshforge.symbolic import SymbolicMesh
 
 _LABELLING = "labelling"
-_PLAIN = "iso"
 
 _SHEET_COLUMNS = 4  # a numbered picture and its plain one, twice
 
@@ -26,6 +25,7 @@ _SHEET_COLUMNS = 4  # a numbered picture and its plain one, twice
 class RenderArguments:
     """What is typed after `meshforge render`."""
 
+    context: typer.Context
     asset: AssetFile
     out: Annotated[
         Path | None,
@@ -49,7 +49,7 @@ class RenderArguments:
             "front-right-above, back-left-below and so on; or `labelling`: views chosen so that each hull is seen and "
             "numbered in one, each beside the asset as it looks.",
         ),
-    ] = _PLAIN
+    ] = "iso"
     size: Annotated[
         str | None,
         typer.Option(
@@ -73,7 +73,8 @@ def render(given: RenderArguments) -> None:
     if given.out is None:
         raise UsageError("nothing says what to write", remedy="Give --out FILE.png, or --turntable FILE.gif.")
     if given.views.strip() == _LABELLING:
-        _refuse_looks(given)
+        other = f"--views {_LABELLING}, which has its own colours and numbers"
+        refuse_with(given.context, ("color_by", "ghost", "names"), other)
         if _is_sheet(given.out):
             rendering.check_picture_path(given.out)
         side = _parse_side(given.size or "1024x1024")
@@ -94,15 +95,7 @@ def render(given: RenderArguments) -> None:
 
 def _write_turntable(given: RenderArguments, path: Path) -> None:
     """Write the GIF. Raises UsageError for what does not go with one, and where it cannot be written."""
-    has_views = given.views.strip() != _PLAIN
-    for option, value in {
-        "--out": given.out,
-        "--views": has_views,
-        "--ghost": given.ghost,
-        "--names": given.names,
-    }.items():
-        if value:
-            raise UsageError(f"{option} does not go with --turntable", remedy="Leave it out.")
+    refuse_with(given.context, ("out", "views", "ghost", "names"), "--turntable")
     if path.suffix.lower() != ".gif":
         raise UsageError("a turntable is a GIF", where=str(path), remedy="Give it a name that ends in .gif.")
     size = _parse_pixels(given.size or "480x400")
@@ -114,17 +107,6 @@ def _write_turntable(given: RenderArguments, path: Path) -> None:
             [image for (image,) in rendering.draw_turn([mesh], rendering.list_turns(), size=size, color_by=color_by)],
         )
     remark(f"wrote {escape_name(str(path))}")
-
-
-def _refuse_looks(given: RenderArguments) -> None:
-    """Raise UsageError for an option that pictures for labelling have no use for."""
-    options = {"--color-by": given.color_by, "--ghost": given.ghost, "--names": given.names}
-    for option, value in options.items():
-        if value:
-            raise UsageError(
-                f"{option} does not go with --views {_LABELLING}, which has its own colours and numbers",
-                remedy="Leave it out.",
-            )
 
 
 def _parse_side(text: str) -> int:

@@ -12,13 +12,12 @@ from typing import Annotated, Any
 import typer
 
 from meshforge.cli import options
-from meshforge.cli.review_answers import read_replies
+from meshforge.cli.review_answers import format_question, format_reply_help, read_replies
 from meshforge.cli.review_pictures import draw_question
 from meshforge.cli.review_session import ReviewSession
-from meshforge.cli.review_text import format_question, format_reply_help
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import escape_name, join_names, pluralize
-from meshforge.project import Project, ProjectReview, format_review
+from meshforge.project import Project, ProjectReview, format_next, format_review
 from meshforge.signoff import THRESHOLD
 from meshforge.store import AnswerEvent, LabelFixEvent
 
@@ -91,7 +90,7 @@ def _print_review(project: Project, found: ProjectReview, word: str, *, asked: b
     if question is None and found.assessment.need_review and project.feedback().snoozed:
         remark(f"Some questions are snoozed: meshforge review {word} --again asks them.")
     if found.assessment.is_done and project.program() and not _is_written(project):
-        remark(f"Next: meshforge apply {word}")
+        remark(format_next("signed off", project.folder))
 
 
 def _is_written(project: Project) -> bool:
@@ -158,4 +157,4 @@ def _forget_answers(project: Project, folder: Path, ids: Sequence[str]) -> None:
             typer.echo(f"taken back: {answer_id}")
     for note in notes:
         remark(note)
-    remark(f"Next: meshforge synthesize {shlex.quote(str(folder))}")
+    remark(format_next("forgot", folder))

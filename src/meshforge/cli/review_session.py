@@ -10,9 +10,15 @@ from dataclasses import replace
 import typer
 
 from meshforge.cli.console import progress
-from meshforge.cli.review_answers import ScriptReply, find_contradictions, parse_reply
+from meshforge.cli.review_answers import (
+    ScriptReply,
+    find_contradictions,
+    format_prompt,
+    format_question,
+    format_reply_help,
+    parse_reply,
+)
 from meshforge.cli.review_pictures import draw_question
-from meshforge.cli.review_text import format_prompt, format_question, format_reply_help
 from meshforge.cli.terminal import remark
 from meshforge.common import MeshForgeError, UsageError
 from meshforge.project import Project, ProjectReview, format_review

@@ -7,8 +7,9 @@ from typing import Annotated
 
 import typer
 
-from meshforge.common import UsageError, pluralize, quote_path
-from meshforge.samples import FAMILIES, SampleFamily, family_of, write_family
+from meshforge.common import UsageError, pluralize
+from meshforge.project.next_step import format_first
+from meshforge.samples import FAMILIES, family_of, write_family
 
 
 def samples(
@@ -33,9 +34,4 @@ def samples(
     written = write_family(wanted, folder)
     done = f"wrote {pluralize(written, 'file')}" if written else "all files are there already"
     typer.echo(f"{folder}: {wanted.about}; {done}")
-    typer.echo(f"Next: {_format_next(wanted, folder)}")
-
-
-def _format_next(family: SampleFamily, folder: Path) -> str:
-    pattern = quote_path(folder.absolute() / family.pattern)
-    return f"meshforge new {family.name} {pattern} --vocabulary {','.join(family.vocabulary)}"
+    typer.echo(format_first(wanted.name, folder.absolute() / wanted.pattern, wanted.vocabulary))

@@ -9,7 +9,7 @@ from typing import Annotated
 
 import typer
 
-from meshforge.cli.extractors import find_absent_labels, labels_of_project
+from meshforge.cli.hulls import find_absent_labels, labels_of_project
 from meshforge.cli.options import AssetFile, InProject, Json, LabelsPath, open_asset
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import escape_name

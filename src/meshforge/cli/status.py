@@ -11,7 +11,7 @@ from meshforge.cli.console import print_table, progress
 from meshforge.cli.options import Json
 from meshforge.cli.terminal import print_json
 from meshforge.common import escape_name, pluralize
-from meshforge.project import AssetStatus, Status, compute_status, format_status
+from meshforge.project import AssetStatus, Status, compute_status, format_status, format_step
 from meshforge.store import Store
 
 
@@ -56,8 +56,7 @@ def _print_status(found: Status, folder: Path) -> None:
         typer.echo(f"kept for an asset that is not there: {escape_name(asset)}")
     if found.rules is not None:
         typer.echo(f"\n{format_status(found)}")
-    lines = (found.next.command, *(found.next.note or "").splitlines())
-    typer.echo("\n  ".join([f"\nNext: {found.next.text}", *(line for line in lines if line)]))
+    typer.echo(f"\n{format_step(found.next)}")
 
 
 def _to_row(asset: AssetStatus) -> tuple[object, ...]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -14,7 +14,8 @@ from meshforge.cli.console import progress
 from meshforge.cli.options import Json, takes
 from meshforge.cli.terminal import catch_interrupt, print_json, remark
 from meshforge.common import UsageError
-from meshforge.project import Project, select_assets
+from meshforge.project import learn_program, select_assets
+from meshforge.store import MeshCache, Store
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,7 +51,7 @@ def synthesize(given: SynthesizeArguments) -> None:
     Ctrl-C ends the search. Exit code 1 when no program was found; then the nearest one is named, and where it differs.
     What the demonstrations leave open, and labels that are probably wrong, `meshforge review` asks about.
     """
-    project = Project.open(given.project).with_cache()
+    project = replace(Store.open(given.project), cache=MeshCache())
     asked = tuple(given.extractors or ())
     if asked and given.strategy == "paper":
         raise UsageError("--with does not go with --strategy paper, which knows the extractors of the paper only")
@@ -66,7 +67,7 @@ def synthesize(given: SynthesizeArguments) -> None:
     )
     meshes = dict(project.meshes_by_id(select_assets(project)))
     with progress(None, "learning"), catch_interrupt() as stop:
-        outcome = project.synthesize(accept=not given.dry_run, options=options, stop=stop, meshes=meshes)
+        outcome = learn_program(project, accept=not given.dry_run, options=options, stop=stop, meshes=meshes)
         stopped = stop()
     if given.json:
         print_json(synthesis.outcome_to_json(outcome))
@@ -89,7 +90,6 @@ def synthesize(given: SynthesizeArguments) -> None:
 
 
 def _print_outcome(outcome: synthesis.LearningOutcome, about: synthesize_text.LearningContext) -> None:
-    """The result to stdout, remarks to stderr."""
     typer.echo(synthesize_text.format_result(outcome, about))
     if outcome.followed:
         typer.echo("\n" + "\n".join(outcome.followed))

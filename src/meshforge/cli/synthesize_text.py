@@ -11,6 +11,7 @@ from typing import assert_never
 from meshforge import synthesis
 from meshforge.common import join_names, pluralize
 from meshforge.language import show
+from meshforge.project import format_next
 from meshforge.store import orientation_text, toml_value
 
 _OVERRULED = "its result was accepted, which no program keeps that does what is demonstrated"
@@ -61,8 +62,7 @@ def format_remarks(outcome: synthesis.LearningOutcome, about: LearningContext) -
         took = f"learned in {sum(outcome.seconds.values()):.2f} s{_describe_inputs(about)}"
         lines += [f"{took}, kept as {about.folder / 'program.mf'}" if about.kept else took]
         lines += [*_describe_suggestion(outcome, "may be meant"), *_describe_agreement(outcome, about)]
-        command = "review" if outcome.open_rule else "apply"
-        lines += [f"Next: meshforge {command} {about.folder_word}"] if about.kept else []
+        lines += [format_next("left open" if outcome.open_rule else "learned", about.folder)] if about.kept else []
     return "\n".join(lines)
 
 
@@ -162,7 +162,7 @@ def _describe_repairs(outcome: synthesis.NeedsRepair, about: LearningContext) ->
     if outcome.proposed:
         yield "With that, the program is:"
         yield from (f"  {rule}" for rule in outcome.proposed.rules)
-    yield f"Next: meshforge review {about.folder_word}"
+    yield format_next("left open", about.folder)
 
 
 def describe_change(repair: synthesis.Repair) -> str:

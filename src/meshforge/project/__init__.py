@@ -7,7 +7,9 @@ from meshforge.common.exports import export_lazily
 __getattr__, __all__ = export_lazily(
     __name__,
     {
-        "learn": "ProgramState program_by_hand sees_whole_family select_assets suggest_first_demonstration",
+        "learn": (
+            "ProgramState learn_program program_by_hand sees_whole_family select_assets suggest_first_demonstration"
+        ),
         "new_asset_result": "NewAssetResult assess_new_assets describe_new",
         "new_assets": "NewAsset NewAssetOptions list_new prepare_new_assets",
         "overview": "compute_status find_offers",
@@ -18,13 +20,12 @@ __getattr__, __all__ = export_lazily(
         "replies": "has_agreed_labels",
         "review": "FamilyAssessment ProjectReview assess_family",
         "run": "make_manual_edit output_digest run_with_manual_edits",
-        "run_report": "add_result_status build_run_report summarize_outputs",
-        "sign_off_text": "format_review format_result_status format_status",
+        "run_report": "add_result_status build_run_report format_review format_result_status format_status summarize_outputs",
         "sign_offs": "AssessmentBasis digest_inputs",
-        "next_step": "choose_next_step",
+        "family_step": "choose_next_step",
+        "next_step": "NextStep format_first format_next format_step",
         "status": (
-            "AssetStatus FamilyState LastRun LearnStatus NextStep OpenQuestion OutputState PropagationState "
-            "SignOffState Status"
+            "AssetStatus FamilyState LastRun LearnStatus OpenQuestion OutputState PropagationState SignOffState Status"
         ),
     },
 )

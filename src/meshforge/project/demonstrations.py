@@ -138,7 +138,6 @@ def _write_reordered(store: Store, kept: Mapping[Path, files.DemonstrationFile],
 
 
 def _actions_by_rule(kept: Mapping[Path, files.DemonstrationFile]) -> dict[int, str]:
-    """What each rule does, as the first demonstration that shows it says, or that at least mentions it."""
     lines = [line for file in [*kept.values()][::-1] for line in file.steps]
     return {line.rule: line.action for line in sorted(lines, key=lambda line: bool(line.select))}
 
@@ -146,7 +145,6 @@ def _actions_by_rule(kept: Mapping[Path, files.DemonstrationFile]) -> dict[int, 
 def _reorder(
     lines: Sequence[files.StepLine], order: Sequence[int], actions: Mapping[int, str]
 ) -> tuple[files.StepLine, ...]:
-    """The steps in another order; those that are missing before the last one are open."""
     own = {line.rule: line for line in lines}
     last = max((place for place, rule in enumerate(order, 1) if rule in own), default=0)
     open_steps = {rule: files.StepLine(rule=rule, select=None, action=action) for rule, action in actions.items()}

@@ -1,21 +1,32 @@
 """What a project knows of its family, as a review sees it: meshes, demonstrations, answers, and what a person said of
-results, as far as that counts under the program as it is now.
-"""
+results, as far as that counts under the program as it is now; and measures of the results, by which some stand out:
+what is not written yet is made in memory for that."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from meshforge.batch import OutputInputs, RuleSelection, read_stamp, selections_of
+from meshforge.batch import (
+    ApplyTask,
+    OutputInputs,
+    RuleSelection,
+    program_digest,
+    read_stamp,
+    replay_manual_edits,
+    selections_of,
+    template_digests,
+)
 from meshforge.common import MeshForgeError
 from meshforge.language import Program, Template
+from meshforge.project import run
 from meshforge.project.demonstrations import actions_of, shows
-from meshforge.project.run import number_selections, output_digest
+from meshforge.project.hull_mapping import describe_replaced
+from meshforge.project.run import output_digest
 from meshforge.project.sign_offs import is_written
-from meshforge.signoff import ReviewState
+from meshforge.signoff import EditMeasures, ReviewState, measure_edit
 from meshforge.signoff.question import Selections
-from meshforge.store import Store, VerdictEvent
+from meshforge.store import ConfidenceLine, Feedback, Store, VerdictEvent
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Demonstration, memoize
 
@@ -24,12 +35,14 @@ from meshforge.synthesis import Demonstration, memoize
 class FamilyStateReader:
     """Reads it from a store.
 
-    meshes: all assets that can be read, by id; program: the one that is reviewed, None where there is none; by_hand:
-    whether a person wrote it, so that demonstrations say nothing about it; inputs: of the edits that it makes.
+    meshes: all assets that can be read, by id; lost: why others cannot be; program: the one that is reviewed, None
+    where there is none; by_hand: whether a person wrote it, so that demonstrations say nothing about it; inputs: of the
+    edits that it makes.
     """
 
     store: Store
     meshes: Mapping[str, SymbolicMesh]
+    lost: Mapping[str, str]
     program: Program | None
     by_hand: bool
     inputs: Mapping[str, OutputInputs]
@@ -53,9 +66,6 @@ class FamilyStateReader:
         shown = _Verdicts({asset: some for asset, some in every.items() if asset in demos})
         actions = actions_of(demo.steps for demo in demos.values())
         program = self.program or store.program()
-        given_up = {
-            asset: one.reason for asset, one in feedback.exclusions.items() if one.reason and asset in store.found.ids
-        }
         return ReviewState(
             self.meshes,
             self._read_frame(),
@@ -71,9 +81,16 @@ class FamilyStateReader:
             corrected=found.list_corrected(program) | shown.list_corrected(program),
             wrong=found.list_wrong(program),
             edited=frozenset(self.meshes.keys() & store.layout.manual_edits.ids),
-            excluded=given_up,
+            excluded={asset: why for asset, why in store.exclusions().items() if asset in store.every.ids},
             snoozed=frozenset(feedback.snoozed),
+            lost=self.lost,
+            unconfirmed={} if self.by_hand else {a: tuple(describe_replaced(store, a)) for a in self._shown_ids},
         )
+
+    @property
+    def _shown_ids(self) -> Iterator[str]:
+        known = self.meshes.keys() | self.lost.keys()
+        return (asset for asset in self.store.demonstration_ids() if asset in known)
 
     def _read_frame(self) -> Program:
         settings, limits = self.store.settings, self.store.settings.thresholds
@@ -92,20 +109,10 @@ class FamilyStateReader:
         if verdict.output != output_digest(stamp):
             return False
         if verdict.seen and not verdict.meant:
-            return self._select(asset, program) == verdict.seen
+            mesh = self.meshes.get(asset)
+            return bool(program and mesh and run.run_for_selections(self.store, program, lambda: mesh) == verdict.seen)
         now = self.inputs.get(asset)
         return now is not None and is_written(stamp, now)
-
-    def _select(self, asset: str, program: Program | None) -> tuple[RuleSelection, ...] | None:
-        """What the rules select on an asset; None where the program cannot run."""
-        mesh = self.meshes.get(asset)
-        if program is None or mesh is None:
-            return None
-        try:
-            trace = program.run(mesh, self._read_templates(program), memo=memoize).trace
-        except MeshForgeError:
-            return None
-        return number_selections(program, {r.rule: r.selected for r in trace})
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -140,7 +147,6 @@ class _Verdicts:
 
 
 def _is_wrong_as_shown(demo: Demonstration, verdicts: Sequence[VerdictEvent]) -> bool:
-    """Whether the last word is that a result is wrong which is just what the demonstration shows."""
     last = verdicts[-1]
     return last.verdict == "wrong" and not last.meant and shows(demo.steps, last.seen)
 
@@ -150,3 +156,67 @@ def _fit(rows: Iterable[tuple[str, Sequence[RuleSelection]]], program: Program |
         return {}
     fitting = ((asset, selections_of(some, program)) for asset, some in rows)
     return {asset: tuple(found[rule] for rule in sorted(found)) for asset, found in fitting if found}
+
+
+def measure_results(
+    store: Store,
+    program: Program,
+    meshes: Mapping[str, SymbolicMesh],
+    inputs: Mapping[str, OutputInputs],
+    stop: Callable[[], bool] = lambda: False,
+) -> dict[str, EditMeasures]:
+    """The measures of the results of a program, by asset; of some only once `stop` says so.
+
+    meshes: of the family, by id; inputs: of the edits as they are now. What is known of an output, or of the last
+    review, is not measured again while it is up to date; an asset on which the program cannot run has no result.
+    """
+    plan = _Plan.of(store, program)
+    found = dict[str, EditMeasures]()
+    for asset, mesh in meshes.items():
+        if stop():
+            break
+        try:
+            found[asset] = plan.recall(asset, inputs.get(asset)) or plan.measure(asset, mesh)
+        except MeshForgeError:
+            continue
+    return found
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Plan:
+    """What `apply` would do to each asset. last: what the last review found, by asset; digest: of the program; key: two
+    with the same do the same."""
+
+    store: Store
+    task: ApplyTask
+    last: Mapping[str, ConfidenceLine]
+    digest: str
+    key: str
+    feedback: Feedback
+
+    @staticmethod
+    def of(store: Store, program: Program) -> _Plan:
+        task, last = run.build_task(store, program), store.assessment()
+        digest = program_digest(program)
+        key = f"{digest} {template_digests(task.templates)}"
+        return _Plan(store, task, last.assets if last else {}, digest, key, store.feedback())
+
+    def recall(self, asset: str, now: OutputInputs | None) -> EditMeasures | None:
+        """The measures of an output or of the last review, None where neither is as this program would make it now."""
+        if now is None or now.program != self.digest:
+            return None
+        stamp, line = read_stamp(self.store.layout.edited, asset), self.last.get(asset)
+        if stamp and stamp.measures and is_written(stamp, now):
+            return stamp.measures
+        return line.measures if line and line.rests_on == now else None
+
+    def measure(self, asset: str, mesh: SymbolicMesh) -> EditMeasures:
+        """The measures of an edit with what was done by hand after it; cached with the mesh."""
+        manual_edits, meant = self.store.manual_edits(asset), run.find_selections(self.feedback, asset)
+        program, templates = self.task.program, self.task.templates
+
+        def make() -> EditMeasures:
+            after = program.run(mesh, templates, selections=selections_of(meant, program), memo=memoize).mesh
+            return measure_edit(mesh, replay_manual_edits(manual_edits, mesh, after, program, templates)[0])
+
+        return memoize(mesh, ("measures", self.key, *map(str, (*manual_edits, *meant))), EditMeasures, make)

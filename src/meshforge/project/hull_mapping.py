@@ -48,8 +48,6 @@ class HullMapping:
         layout, events = store.layout, files.load_events(store.layout)
         known = [one for one in store.feedback().answers_and_fixes.values() if one.asset == asset]
         after = tuple(one for event in events for one in (self._map_event(event) if event in known else (event,)))
-        if after != events:
-            store.migrate()
         return [
             *_map_steps(layout.demonstration(asset), DemonstrationFile, self._map_step),
             *_map_steps(layout.manual_edits(asset), ManualEditsFile, self._map_edit),
@@ -60,7 +58,6 @@ class HullMapping:
         return self._map_line(line, line.select or (), {"select": line.select and self.map_names(line.select)})
 
     def _map_edit(self, line: ManualEditLine) -> ManualEditLine:
-        """An edit by hand of hulls that are as it knows them."""
         meant = [name for name, value in line.hulls.items() if self.digests.get(name) == value]
         pairs = [(name, self.parts.get(name, (name,)) if name in meant else (name,)) for name in line.hulls]
         hulls = {part: line.hulls[name] if part == name else self.digests[part] for name, own in pairs for part in own}

@@ -12,7 +12,6 @@ from meshforge import labels as labelling
 from meshforge.common import MeshForgeError, ProgramError, ProjectError, file_digest, write_atomically
 from meshforge.project import demonstrations
 from meshforge.project.evidence import list_accepted, list_rejections, list_wrong, soften, sort_answers
-from meshforge.signoff.question import NOT_OF_FAMILY
 from meshforge.store import ProgramRecord, Settings, Store
 
 MOST_ASSETS = 400
@@ -26,9 +25,7 @@ MOST_COMPARED = 100
 
 def select_assets(store: Store) -> tuple[str, ...]:
     """The assets to learn from: all, or of very many those that a person said something about, and some evenly."""
-    feedback = store.feedback()
-    others = {asset for asset, one in feedback.exclusions.items() if one.reason == NOT_OF_FAMILY}
-    every = tuple(asset for asset in store.assets() if asset not in others)
+    feedback, every = store.feedback(), store.assets()
     if len(every) <= MOST_ASSETS:
         return every
     known = {line.asset for line in feedback.answers.values()} | feedback.verdicts.keys()
@@ -162,6 +159,23 @@ def digest_demonstrations(store: Store) -> str:
     )
 
 
+def renew_program(
+    store: Store, meshes: Mapping[str, symbolic.SymbolicMesh]
+) -> tuple[synthesis.LearningOutcome | None, bool]:
+    """Learn what becomes the project's program, unless a person wrote one in its place; the outcome, and whether so."""
+    if by_hand := program_by_hand(store):
+        return by_hand, True
+    if not store.demonstration_ids():
+        return None, False
+    program, inputs, some = store.program(), digest_learning_inputs(store), set(select_assets(store))
+    outcome = learn_program(store, accept=False, meshes={name: mesh for name, mesh in meshes.items() if name in some})
+    if isinstance(outcome, synthesis.Found | synthesis.Ambiguous):
+        is_same = program is not None and batch.program_digest(program) == batch.program_digest(outcome.program)
+        if not is_same or program_state_of(store, program).outdated:
+            accept_outcome(store, outcome, inputs)
+    return outcome, False
+
+
 Confirm = Callable[[synthesis.Repair], bool]
 
 
@@ -230,7 +244,6 @@ def learn_program(
 
 
 def _ask_once(confirm: Confirm) -> Confirm:
-    """Asks about each correction once, however often something is learned."""
     answers: dict[synthesis.LabelFix, bool] = {}
 
     def ask(repair: synthesis.Repair) -> bool:

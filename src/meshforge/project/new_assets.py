@@ -22,8 +22,7 @@ from meshforge.labels import ReferenceFamily, ignore_stage, read_reference_famil
 from meshforge.labels.family_comparison import Stage
 from meshforge.labels.label_sources import FamilyLabelSources
 from meshforge.labels.merge import LabelWriter, can_fill_gap
-from meshforge.project.new_asset_memory import NewAssetFolder, digest_basis
-from meshforge.project.new_asset_result import NewAssetResult
+from meshforge.project.new_asset_result import NewAssetFolder, NewAssetResult, digest_basis
 from meshforge.project.preparation_plan import PreparationPlan, RebuildSettings, extend_plan, find_new_assets
 from meshforge.project.prepare import exchange_preparation
 from meshforge.project.rebuild import Rebuild, plan_rebuild
@@ -177,7 +176,6 @@ def prepare_new_assets(
 
 
 def _keep_result(home: NewAssetFolder, basis: str, found: _WorkerOutcome) -> NewAssetResult:
-    """Write what was done to an asset, and last what became of it."""
     home.forget()
     batch.write_preparation(home.preparation, found.preparation)
     if found.mesh.labels:
@@ -243,7 +241,6 @@ def _build_mesh(
 def _take_labels(
     task: _Task, work: NewAsset, mesh: SymbolicMesh
 ) -> tuple[SymbolicMesh, Mapping[str, Label], Sequence[str]]:
-    """A mesh with the labels that files, names and plug-ins give to its hulls without one; these labels, and notes."""
     taken, notes_of_labels = task.sources.label(work.id, work.path, mesh) if task.sources else ({}, ())
     return mesh.with_labels(taken), taken, notes_of_labels
 

@@ -1,267 +1,72 @@
-"""The next sensible step in a project: the first that is missing on the way from assets to results that are signed off.
-
-`status`, the commands and the studio show the same step, in the same words.
-"""
+"""A step that is sensible next, and the lines by which commands name it: all of them come from here."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Literal
 
-from meshforge.common import pluralize, quote_path
-from meshforge.labels import label_command
-from meshforge.project.status import AssetStatus, FamilyState, NextStep, StepKind
-from meshforge.store import Layout
+from meshforge.common import quote_path
 
-
-def choose_next_step(state: FamilyState) -> NextStep:
-    """The first thing that is missing."""
-    return (
-        _decompose(state)
-        or (None if state.is_begun else _label_first(state) or _complete_labels(state) or _demonstrate(state))
-        or _explain_last_run(state)
-        or _fix_program(state)
-        or _learn(state)
-        or _label_new_assets(state)
-        or _answer(state)
-        or _apply(state)
-        or _review(state)
-        or _end(state)
-    )
-
-
-def _decompose(state: FamilyState) -> NextStep | None:
-    bare = [asset for asset in state.assets if asset.hulls == 0 and asset.sources]
-    if not bare:
-        return None
-    text = f"{_count_assets(bare, 'has', 'have')} no hulls: decompose what has none."
-    return _step(state, "decompose", text, "prepare --decompose coacd", bare[0].id)
+StepKind = Literal[
+    "wait",
+    "decompose",
+    "label-files",
+    "label-names",
+    "vocabulary",
+    "label",
+    "propagate",
+    "check-labels",
+    "demonstrate",
+    "learn",
+    "answer",
+    "fix-program",
+    "apply",
+    "review",
+    "correct",
+    "export",
+]
 
 
-def _label_first(state: FamilyState) -> NextStep | None:
-    """Take labels that are there already, where no hull has one yet; else those of an asset of usual size by hand."""
-    if any(asset.labelled for asset in state.assets):
-        return None
-    if step := _take_files(state, state.assets):
-        return step
-    if named := state.find_offers().named:
-        text = f"The names of {pluralize(named, 'hull')} contain a label: take their labels."
-        return _step(state, "label-names", text, "label --with names")
-    sizes = sorted(len(asset.names) for asset in state.assets if asset.names)
-    if not sizes:
-        return _step(state, "wait", "No asset has hulls that can be read: fix what the remarks name.")
-    usual = next(asset for asset in state.assets if len(asset.names) == sizes[(len(sizes) - 1) // 2])
-    kind: StepKind = "label" if state.vocabulary else "vocabulary"
-    first = "" if state.vocabulary else "name what hulls can be, and "
-    return _label_by_hand(state, usual, f"No hull has a label yet: {first}label those of {usual.id}.", kind)
+@dataclass(frozen=True, slots=True)
+class NextStep:
+    """What to do next, in words. asset: the one to open; command: what to type; note: what helps to type it."""
+
+    kind: StepKind
+    text: str
+    asset: str | None = None
+    command: str | None = None
+    note: str | None = None
 
 
-def _take_files(state: FamilyState, bare: Sequence[AssetStatus]) -> NextStep | None:
-    files = {asset.id for asset in bare} & set(state.find_offers().files) if bare else ()
-    text = f"Labels files lie beside {pluralize(len(files), 'asset')}: take their labels."
-    return _step(state, "label-files", text, "label --with file") if files else None
+Done = Literal["made", "demonstrated", "forgot", "learned", "left open", "signed off", "prepared", "prepared all"]
+"""What a command did: it learned a program, or left a question open; it prepared assets beside a program, or all that
+there is to do without one."""
+_AFTER: Mapping[Done, tuple[str, str]] = {
+    "made": ("status", ""),
+    "demonstrated": ("synthesize", ""),
+    "forgot": ("synthesize", ""),
+    "learned": ("apply", ""),
+    "left open": ("review", ""),
+    "signed off": ("apply", ""),
+    "prepared": ("apply", " runs the program on it"),
+    "prepared all": ("apply", " writes what is prepared, also without a program"),
+}
 
 
-def _label_by_hand(state: FamilyState, asset: AssetStatus, text: str, kind: StepKind = "label") -> NextStep:
-    hull = next(name for name, label in zip(asset.names, asset.labels, strict=True) if label is None)
-    command = label_command(state.folder, asset.id, hull, state.vocabulary)
-    return NextStep(kind, text, asset.id, command, _explain_names(state, asset.id))
+def format_next(done: Done, folder: str | Path) -> str:
+    """Return the line by which a command names the one that follows it, without a look at the whole family."""
+    command, what = _AFTER[done]
+    return f"Next: meshforge {command} {quote_path(Path(folder))}{what}"
 
 
-def _explain_names(state: FamilyState, asset: str) -> str:
-    note = f"Names of hulls: meshforge info {quote_path(Path(asset))} --project {quote_path(state.folder)}"
-    if not state.has_program and any(one.prepared and not one.is_done for one in state.assets):
-        note += f"\nOr write what is prepared, without a program: meshforge apply {quote_path(state.folder)}"
-    return note
+def format_first(family: str, pattern: Path, vocabulary: Iterable[str]) -> str:
+    """Return the line that names the command which makes a project of a bundled family."""
+    return f"Next: meshforge new {family} {quote_path(pattern)} --vocabulary {','.join(vocabulary)}"
 
 
-def _complete_labels(state: FamilyState) -> NextStep | None:
-    """Propagate, label or look at labels, before anything is demonstrated."""
-    bare = [asset for asset in state.assets if asset.hulls and not asset.labelled]
-    if step := _take_files(state, bare):
-        return step
-    if bare and _has_whole(state):
-        return _propagate(state, f"{_count_assets(bare, 'has', 'have')} no label")
-    return _label_rest(state) or _check_labels(state)
-
-
-def _has_whole(state: FamilyState) -> bool:
-    """Whether people or files labelled all hulls of an asset, so that its labels can be propagated."""
-    return any(asset.hulls and asset.given == asset.hulls for asset in state.assets)
-
-
-def _propagate(state: FamilyState, why: str) -> NextStep:
-    return _step(state, "propagate", f"{why}: propagate labels.", "label --with propagate")
-
-
-def _label_rest(state: FamilyState) -> NextStep | None:
-    """Label what has no label yet, on the asset that lacks least of those that are begun."""
-    lacking = [asset for asset in state.assets if asset.labelled < len(asset.names)]
-    if not lacking:
-        return None
-    lack = sum(len(asset.names) - asset.labelled for asset in lacking)
-    every = sum(len(asset.names) for asset in state.assets)
-    why = f"{lack} of {pluralize(every, 'hull')} {'has' if lack == 1 else 'have'} no label"
-    if state.propagation is None and _has_whole(state):
-        return _propagate(state, why)
-    begun = [asset for asset in lacking if asset.labelled] or lacking
-    best = min(begun, key=lambda asset: len(asset.names) - asset.labelled)
-    return _label_by_hand(state, best, f"{why}: label those of {best.id}.")
-
-
-def _check_labels(state: FamilyState) -> NextStep | None:
-    unsure = sum(len(asset.unsure) for asset in state.assets)
-    if not unsure:
-        return None
-    last = state.propagation
-    if last and last.unused >= unsure:
-        return _propagate(state, f"{pluralize(last.unused, 'label')} of yours not used yet")
-    are = "1 label is unsure" if unsure == 1 else f"{unsure} labels are unsure"
-    best = next((asset for asset in state.assets if last and asset.id == last.next), None)
-    if best and len(best.names) - best.given < unsure:
-        return _step(state, "check-labels", f"{are}: label {best.id} next.", "studio", best.id)
-    first = next(asset.id for asset in state.assets if asset.unsure)
-    return _step(state, "check-labels", f"{are}: look at them, first on {first}.", "studio", first)
-
-
-def _demonstrate(state: FamilyState) -> NextStep:
-    labelled = [asset.id for asset in state.assets if asset.labelled]
-    best = state.suggest_first(labelled)
-    example = best or next(iter(labelled or [asset.id for asset in state.assets]))
-    text = f"Show the steps of the edit on an asset or two{f', best first on {best}' if best else ''}."
-    note = _explain_names(state, example)
-    return _step(
-        state, "demonstrate", text, f"demonstrate {quote_path(Path(example))} 'HULLS => ACTION' ...", example, note
-    )
-
-
-def _explain_last_run(state: FamilyState) -> NextStep | None:
-    """What to do where learning gave no program; the run itself explains why."""
-    run = state.last_run
-    if run is None:
-        return None
-    if run.repairs:
-        return _step(state, "answer", f"{pluralize(run.repairs, 'label')} may be wrong: answer the question.", "review")
-    rule, asset = run.nearest or (0, None)
-    if run.status == "error":
-        text = "Learning failed: see why, then learn again."
-    elif run.status == "timeout":
-        text = "Learning was stopped: learn again, or show the steps on another asset."
-    elif run.status == "none" and asset:
-        text = f"No selection fits rule {rule} yet: see what comes nearest."
-    elif run.status == "none":
-        text = "No program does all that is demonstrated: see why, and what may help."
-    else:
-        return None
-    return _step(state, "learn", text, "synthesize", asset)
-
-
-def _fix_program(state: FamilyState) -> NextStep | None:
-    if not state.problem:
-        return None
-    problem, *more = state.problem.split("\n", 1)
-    return _step(state, "fix-program", f"The program cannot be applied: {problem}", note="".join(more))
-
-
-def _learn(state: FamilyState) -> NextStep | None:
-    if not state.has_program:
-        return _step(state, "learn", "Learn the program from what is demonstrated.", "synthesize")
-    if not state.outdated:
-        return None
-    if not any(asset.demonstrated for asset in state.assets):
-        return _demonstrate(state)
-    text = "Labels, demonstrations, replies or settings changed since the program was learned: learn it again."
-    return _step(state, "learn", text, "synthesize")
-
-
-def _label_new_assets(state: FamilyState) -> NextStep | None:
-    """Label assets that came after the program, which selects by labels."""
-    bare = [a for a in state.assets if a.hulls and not a.labelled and not a.is_done and not a.excluded]
-    if not state.asks_labels or not bare:
-        return None
-    if step := _take_files(state, bare):
-        return step
-    why = f"{_count_assets(bare, 'has', 'have')} no label"
-    if _has_whole(state):
-        return _propagate(state, why)
-    return _label_by_hand(
-        state, bare[0], f"{_count_assets(bare, 'has', 'have')} no label: label those of {bare[0].id}."
-    )
-
-
-def _answer(state: FamilyState) -> NextStep | None:
-    """Answer what makes most results right for a person's time."""
-    asked = state.question
-    if asked is None:
-        return None
-    need = _count_open(state)
-    match asked.kind:
-        case "result":
-            return _step(state, "review", f"{need}: look at one result, {asked.asset}.", "review", asked.asset)
-        case "demonstrate":
-            return _step(state, "answer", f"{need}: demonstrate one more asset, {asked.asset}.", "review", asked.asset)
-        case "other":
-            return _step(state, "answer", f"{need}: answer the question{asked.about}.", "review", asked.asset)
-
-
-def _apply(state: FamilyState) -> NextStep | None:
-    counted = [asset for asset in state.assets if not asset.excluded]
-    behind = [a for a in counted if not a.is_done and (a.output != "failed" or a.stale)]
-    if any(asset.hulls is not None for asset in behind):
-        return _step(
-            state, "apply", f"Apply the program: {_count_assets(behind, 'is', 'are')} not up to date.", "apply"
-        )
-    failed = [asset for asset in counted if asset.output == "failed" or asset in behind]
-    if not failed:
-        return None
-    some = f"{len(failed)} of {pluralize(len(state.assets), 'asset')}, first on {failed[0].id}"
-    text = f"The program fails on {some}: fix what is named, then apply it again."
-    return _step(state, "apply", text, "apply", failed[0].id)
-
-
-def _review(state: FamilyState) -> NextStep | None:
-    """Judge what was called wrong, then what shows best whether the program is right, then what is least sure."""
-    wrong = [asset for asset in state.assets if asset.review == "wrong" and not asset.excluded]
-    if wrong:
-        text = f"{pluralize(len(wrong), 'result')} wrong: correct them, first {wrong[0].id}."
-        return _step(state, "review", text, "review", wrong[0].id)
-    left = [asset for asset in state.assets if asset.needs_review]
-    if not left:
-        return None
-    best = [asset for asset in (state.last_run.sample if state.last_run else ()) if asset in {one.id for one in left}]
-    if best and all(asset.probability is None for asset in left):
-        what = pluralize(len(best), "result that shows", "results that show")
-        text = f"Look at {what} best whether the program is right{', first' if len(best) > 1 else ':'} {best[0]}."
-        return _step(state, "review", text, "review", best[0])
-    least = min(left, key=lambda asset: asset.probability if asset.probability is not None else -1.0)
-    return _step(state, "review", f"{_count_open(state)}: look at them, first {least.id}.", "review", least.id)
-
-
-def _count_open(state: FamilyState) -> str:
-    need = sum(asset.needs_review for asset in state.assets)
-    every = pluralize(sum(not asset.excluded for asset in state.assets), "result")
-    return f"{need} of {every} {'needs' if need == 1 else 'need'} review"
-
-
-def _end(state: FamilyState) -> NextStep:
-    if flagged := [asset.id for asset in state.assets if asset.flags]:
-        what = "result is" if len(flagged) == 1 else "results are"
-        text = f"{len(flagged)} {what} flagged: edit by hand, first {flagged[0]}."
-        return _step(state, "correct", text, "studio", flagged[0])
-    edited = quote_path(Layout(state.folder).edited)
-    count = pluralize(sum(not asset.excluded for asset in state.assets), "result")
-    return NextStep("export", f"{count} signed off: check and export.", None, f"meshforge check {edited}")
-
-
-def _count_assets(assets: Sequence[AssetStatus], one: str, many: str) -> str:
-    """The asset by its id, or how many there are, with the verb."""
-    return f"{assets[0].id} {one}" if len(assets) == 1 else f"{pluralize(len(assets), 'asset')} {many}"
-
-
-def _step(
-    state: FamilyState, kind: StepKind, text: str, command: str = "", asset: str | None = None, note: str = ""
-) -> NextStep:
-    """A step. command: its name and what follows the project in it, or empty."""
-    name, *more = command.split(" ", 1)
-    typed = " ".join(["meshforge", name, quote_path(state.folder), *more]) if command else None
-    return NextStep(kind, text, asset, typed, note or None)
+def format_step(step: NextStep) -> str:
+    """Return the step that is chosen for a whole family, with what to type."""
+    lines = (step.command, *(step.note or "").splitlines())
+    return "\n  ".join([f"Next: {step.text}", *(line for line in lines if line)])

@@ -2,24 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import partial
 
 from meshforge import batch, labels, language, symbolic
-from meshforge.common import MeshForgeError, relative_name
+from meshforge.common import MeshForgeError, format_share, relative_name
 from meshforge.project.demonstrations import find_unknown_hulls
+from meshforge.project.family_step import choose_next_step
 from meshforge.project.hull_mapping import describe_replaced
 from meshforge.project.learn import ProgramState, program_state_of, suggest_first_demonstration
-from meshforge.project.next_step import choose_next_step
-from meshforge.project.result_status import ResultStatuses
 from meshforge.project.run import build_jobs, build_task, make_empty_program, output_digest
 from meshforge.project.sign_offs import digest_inputs, find_bases
-from meshforge.project.status import AssetStatus, FamilyState, OpenQuestion, Status
-from meshforge.signoff import THRESHOLD
+from meshforge.project.status import AssetStatus, FamilyState, OpenQuestion, SignOffState, Status
+from meshforge.signoff import THRESHOLD, ExclusionReason
 from meshforge.store import (
+    AssessmentFile,
     AssetFacts,
     AssetOutput,
+    ConfidenceLine,
+    Feedback,
     History,
+    SignOff,
+    SignOffBasis,
     Store,
     VerdictEvent,
     find_outputs,
@@ -47,7 +52,9 @@ def compute_status(
     """
     for asset in only or ():
         store.path(asset)
-    settings, ids, work, feedback = store.settings, store.found.ids, build_jobs(store, only), store.feedback()
+    settings, ids, feedback = store.settings, store.found.ids, store.feedback()
+    only = None if only is None else [asset for asset in only if asset in ids]
+    work = build_jobs(store, only)
     execution = batch.ExecutionOptions(workers=workers, stop=stop)
     facts = dict(
         iterate_asset_index(store.found, store.layout, only, execution=execution, progress=progress, verify=verify)
@@ -66,7 +73,9 @@ def compute_status(
         rows.append(_asset_status(store, job, one, outputs[job.id], edit, feedback.verdict_on(job.id)))
     last, lacks = store.assessment(), "asset" if task else "templates" if program else "program"
     current = last if last and last.holds(digest_inputs(store), edits) else None
-    result_statuses = ResultStatuses(find_bases(store, edits, outputs), lacks, feedback, store.sign_offs(), current)
+    result_statuses = ResultStatuses(
+        find_bases(store, edits, outputs), lacks, feedback, store.exclusions(), store.sign_offs(), current
+    )
     assets = tuple(map(result_statuses.add_to, rows))
     state = program_state_of(store, program)
     rules = len(program.rules) if program else None
@@ -92,6 +101,7 @@ def compute_status(
         state.outdated,
         problem,
         _find_lost_ids(store),
+        tuple(sorted(store.every.ids.keys() - ids.keys())),
         choose_next_step(family),
         family,
         state.question,
@@ -100,7 +110,6 @@ def compute_status(
 
 
 def _find_question(state: ProgramState, assets: Sequence[AssetStatus]) -> OpenQuestion | None:
-    """The question that was open when the program was learned; none for who has applied the program as it is."""
     if not state.question or all(asset.is_done or asset.excluded for asset in assets):
         return None
     rule, _, asset = state.question.partition(":")
@@ -221,4 +230,76 @@ def _find_lost_ids(store: Store) -> tuple[str, ...]:
     layout = store.layout
     kinds = (layout.labels, layout.demonstration, layout.manual_edits, layout.preparation)
     kept = {asset for kind in kinds for asset in kind.ids}
-    return tuple(sorted(kept - {*store.assets(), *store.found.left_out}))
+    return tuple(sorted(kept - store.every.ids.keys()))
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class ResultStatuses:
+    """What is kept of a review. bases: what sign-offs would rest on now, of assets that can be edited; lacks: what is
+    not there of the others; feedback: of people; exclusions: why assets are excluded; signed: what is signed off;
+    last: what the last review found, None where something changed since.
+    """
+
+    bases: Mapping[str, SignOffBasis]
+    lacks: str
+    feedback: Feedback
+    exclusions: Mapping[str, ExclusionReason]
+    signed: Mapping[str, SignOff]
+    last: AssessmentFile | None
+
+    def add_to(self, asset: AssetStatus) -> AssetStatus:
+        """An asset with how it stands."""
+        line = self.last.assets.get(asset.id) if self.last else None
+        sign_off = self.signed.get(asset.id)
+        void = self._find_void(asset, sign_off)
+        state = self._find_state(asset, line, bool(sign_off), bool(void))
+        by = sign_off.by if sign_off and not _is_accepted(asset) else "person"
+        return replace(
+            asset,
+            sign_off=state,
+            signed_by=by if state == "signed off" else None,
+            void=void if state == "void" else (),
+            found_since=self._find_news(line) if state == "signed off" else (),
+            excluded=self.exclusions.get(asset.id),
+            probability=line.probability if line else None,
+            reasons=line.reasons if line else (),
+        )
+
+    def _find_void(self, asset: AssetStatus, sign_off: SignOff | None) -> tuple[str, ...]:
+        """What changed of all that a sign-off rests on, or, where there is none, since a person accepted the result."""
+        if _is_accepted(asset) or (not sign_off and asset.review == "accepted"):
+            return _list_changes(asset)
+        now = self.bases.get(asset.id)
+        return () if not sign_off else now.changes(sign_off.rests_on) if now else (self.lacks,)
+
+    def _find_state(
+        self, asset: AssetStatus, line: ConfidenceLine | None, is_signed: bool, is_void: bool
+    ) -> SignOffState:
+        if asset.id in self.exclusions:
+            return "excluded"
+        verdict = self.feedback.verdict_on(asset.id)
+        is_wrong = asset.review == "wrong" and not (verdict and verdict.meant)
+        if asset.id in self.last.wrong if self.last else is_wrong:
+            return "held"
+        if is_signed or asset.review == "accepted":
+            return "void" if is_void else "signed off"
+        if not line or not self.last:
+            return "unknown"
+        return "sure" if line.passes(self.last.threshold) else "held"
+
+    def _find_news(self, line: ConfidenceLine | None) -> tuple[str, ...]:
+        """What was found after an asset was signed off, and no person has answered."""
+        if not line or not self.last or line.passes(self.last.threshold):
+            return ()
+        sure = f"it is {format_share(line.probability)} sure now"
+        weighty = (one.text for one in line.reasons if one.kind == "alarm" or one.share > 1 - self.last.threshold)
+        return tuple(weighty) or (line.reasons[0].text if line.reasons else sure,)
+
+
+def _is_accepted(asset: AssetStatus) -> bool:
+    return asset.review == "accepted" and not _list_changes(asset)
+
+
+def _list_changes(asset: AssetStatus) -> tuple[str, ...]:
+    """What changed since the output was made, but for the version of this software."""
+    return tuple(one for one in asset.stale if one != "software")

@@ -239,7 +239,6 @@ def decompose(
 
 
 def _decompose_one(work: _DecomposeWork) -> tuple[batch.DecompositionResult, str | None] | str:
-    """What a worker makes of an asset and the digest of the preparation it saw, or why it failed."""
     try:
         seen = batch.record_digest(work.folder)
         before = batch.read_preparation(work.folder) or batch.Preparation()

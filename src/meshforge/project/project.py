@@ -54,7 +54,9 @@ class Project(Store):
     def add_assets(self, paths: Iterable[str | Path]) -> Project:
         """The project with more assets: files below the folder that ids count from. Raises ProjectError for others."""
         with self.lock():
-            add_assets(self.folder, self.found, paths)
+            added = add_assets(self.folder, self.every, paths)
+            if away := [asset for asset in added if asset in self.exclusions()]:
+                Project.open(self.folder).exclude(away, None)
         return Project.open(self.folder)
 
     # Labels

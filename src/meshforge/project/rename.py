@@ -27,7 +27,6 @@ def rename_label(store: Store, old: str, new: str) -> None:
     with store.lock():
         settings = store.settings
         _check_names(store, settings.vocabulary, old, new)
-        store.migrate()
         texts = dict(_rewrite_files(store, old, new))
         program = store.program()
         after = _rename_in_settings(store, settings, old, new)
@@ -62,7 +61,6 @@ def _is_writable(label: str) -> bool:
 
 
 def _rewrite_files(store: Store, old: str, new: str) -> Iterator[tuple[Path, str]]:
-    """The files that say the label, except for program and settings, with what they say then."""
     layout = store.layout
     for path in map(layout.labels, layout.labels.ids):
         file = read_labels(path)

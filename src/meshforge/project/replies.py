@@ -129,7 +129,6 @@ def _judge(store: Store, question: signoff.ResultQuestion, choice: ReviewChoice 
 
 
 def _make_output(store: Store, asset: str) -> None:
-    """Make the output that a verdict is about, where it is not there as it would be now."""
     program, jobs, templates = run.build_work(store, {asset})
     for outcome in batch.apply(program, jobs, store.layout.edited, templates=templates, execution=IN_PROCESS):
         if isinstance(outcome, Failed):

@@ -7,7 +7,7 @@ to it. Who accepts many at once says nothing of each.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
 from types import MappingProxyType
@@ -34,7 +34,7 @@ def build_jobs(store: Store, only: Collection[str] | None = None) -> tuple[batch
             layout.preparation(asset) if (layout.preparation(asset) / batch.RECORD_FILE).exists() else None,
             find_selections(feedback, asset),
         )
-        for asset, path in store.found.choose(only).items()
+        for asset, path in (store.found if only is None else store.every).choose(only).items()
     )
 
 
@@ -62,7 +62,7 @@ def build_work(
     if program is None:
         remedy = f"Learn it: meshforge synthesize {store.folder}"
         raise ProjectError("there is no program yet, and nothing is prepared", where=str(store.folder), remedy=remedy)
-    away = store.feedback().exclusions.keys() - set(only or ())
+    away = store.exclusions().keys() - set(only or ())
     jobs = tuple(job for job in build_jobs(store, only) if job.id not in away)
     return program, jobs, build_task(store, program).templates
 
@@ -102,7 +102,7 @@ def correct(store: Store, asset: str, select: Iterable[str], action: language.Ac
         before = run_with_manual_edits(store, asset, store.mesh(asset), store.program())
         added = make_manual_edit(before.mesh, asset, sorted(set(select)), action, label)
         if not before.manual_edits:
-            seen = number_selections(before.program, {line.rule: line.selected for line in before.run.trace})
+            seen = number_selections(before.program, before.run.trace)
             meant = find_selections(store.feedback(), asset)  # what was edited by hand was made with these
             store.add_events(VerdictEvent(asset=asset, verdict="wrong", note="edited by hand", seen=seen, meant=meant))
         store.write_manual_edits(asset, (*before.manual_edits, added))
@@ -174,8 +174,7 @@ def review_assets(
     names = (assets,) if isinstance(assets, str) else tuple(assets)
     with store.lock():
         events = [_judge(store, asset, verdict, note, selections, origin, alone=len(names) == 1) for asset in names]
-        away = store.feedback().exclusions
-        more = [ExclusionEvent(asset=asset) for asset in names if asset in away]
+        more = [ExclusionEvent(asset=asset) for asset in names if asset in store.feedback().exclusions]
         given = dict.fromkeys(names, labels) if labels else {}
         store.add_events_before(lambda: set_labels_of(store, given), *events, *more)
 
@@ -208,7 +207,9 @@ def _judge(
     if verdict == "accepted" and not output:
         remedy = f"Make it: meshforge apply {store.folder}"
         raise ProjectError(f"{asset} has no output to be accepted", where=str(store.folder), remedy=remedy)
-    seen = (_read_selections(store, stamp) or _run_for_selections(store, asset, verdict)) if verdict and alone else ()
+    program, seen = store.program(), _read_selections(store, stamp) if verdict and alone else ()
+    if verdict == "wrong" and alone and program and not seen:  # what it selects is not written as it is
+        seen = run_for_selections(store, program, lambda: store.mesh(asset)) or ()
     before = find_selections(store.feedback(), asset) if verdict == "accepted" else ()  # it is made with these
     meant = _replace_selections(store, asset, seen, selections) if selections else before
     return VerdictEvent(
@@ -216,16 +217,15 @@ def _judge(
     )
 
 
-def _run_for_selections(store: Store, asset: str, verdict: Verdict) -> tuple[batch.RuleSelection, ...]:
-    """What the program selects on an asset whose result is wrong and not written as it is; nothing where it fails."""
-    program = store.program()
-    if verdict != "wrong" or program is None:
-        return ()
+def run_for_selections(
+    store: Store, program: language.Program, read: Callable[[], symbolic.SymbolicMesh]
+) -> tuple[batch.RuleSelection, ...] | None:
+    """Return what the rules of a program select on an asset; None where it cannot be read, or the program not run."""
     try:
-        trace = program.run(store.mesh(asset), store.templates(program.templates), memo=synthesis.memoize).trace
+        trace = program.run(read(), store.templates(program.templates), memo=synthesis.memoize).trace
     except MeshForgeError:
-        return ()
-    return number_selections(program, {line.rule: line.selected for line in trace})
+        return None
+    return number_selections(program, trace)
 
 
 def _replace_selections(
@@ -262,17 +262,15 @@ def _read_selections(store: Store, stamp: batch.Stamp | None) -> tuple[batch.Rul
     made, program = stamp and stamp.inputs, store.program()
     if not stamp or not made or not program or made.manual_edits or made.program != batch.program_digest(program):
         return ()
-    return number_selections(program, {line.rule: line.selected for line in stamp.rules})
+    return number_selections(program, stamp.rules)
 
 
 def number_selections(
-    program: language.Program, selected: Mapping[int, Iterable[str]]
+    program: language.Program, trace: Iterable[language.RuleTrace | batch.RuleEffect]
 ) -> tuple[batch.RuleSelection, ...]:
-    """What the rules of a program do to which hulls; selected: names of hulls, by the number of the rule."""
-    actions = {
-        number: batch.action_text_without_each(rule.action, rule.label) for number, rule in enumerate(program.rules, 1)
-    }
-    return tuple(batch.RuleSelection(rule, actions[rule], tuple(sorted(hulls))) for rule, hulls in selected.items())
+    """Return what the rules of a program did to which hulls, by what was noted of each."""
+    actions = [batch.action_text_without_each(rule.action, rule.label) for rule in program.rules]
+    return tuple(batch.RuleSelection(line.rule, actions[line.rule - 1], tuple(sorted(line.selected))) for line in trace)
 
 
 def output_digest(stamp: batch.Stamp | None) -> str | None:

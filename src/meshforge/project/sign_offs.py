@@ -15,7 +15,6 @@ from meshforge.batch import EXECUTION_DEFAULTS
 from meshforge.project import run
 from meshforge.project.hull_mapping import describe_replaced
 from meshforge.project.learn import digest_demonstrations, digest_learning_inputs, digest_settings
-from meshforge.signoff.question import NOT_OF_FAMILY
 from meshforge.store import (
     ANSWERS,
     AssessmentFile,
@@ -131,15 +130,9 @@ def keep_assessment(
         if name in basis.inputs
     }
     wrong = tuple(sorted(found.wrong))
-    not_of_family = tuple(sorted(name for name, why in found.excluded.items() if why == NOT_OF_FAMILY))
-    kept = AssessmentFile(
-        threshold=found.threshold,
-        inputs_digest=basis.inputs_digest,
-        wrong=wrong,
-        not_of_family=not_of_family,
-        assets=lines,
+    store.write_assessment(
+        AssessmentFile(threshold=found.threshold, inputs_digest=basis.inputs_digest, wrong=wrong, assets=lines)
     )
-    store.write_assessment(kept)
     return True
 
 
@@ -170,7 +163,7 @@ def renew_sign_offs(
         if alarms:
             last = last.with_alarms(alarms)
             store.write_assessment(last)
-        before, away = store.sign_offs(), {*last.wrong, *store.feedback().exclusions}
+        before, away = store.sign_offs(), {*last.wrong, *store.exclusions()}
         kept, lost = dict[str, SignOff](), dict[str, str]()
         for name in [*last.assets, *(before.keys() & store.found.ids.keys() - last.assets.keys())]:
             old, now, line = before.get(name), bases.get(name), last.assets.get(name)

@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any, Literal
 
 from meshforge import labels, rendering, signoff, symbolic
+from meshforge.project.next_step import NextStep
 from meshforge.signoff import THRESHOLD
-from meshforge.signoff.question import NOT_OF_FAMILY
 
 SignOffState = Literal["signed off", "sure", "needs review", "void", "excluded", "unknown"]
 """Sure: sure enough to be signed off, once its output is up to date; void: signed off, but something changed since;
@@ -92,37 +92,6 @@ class AssetStatus:
         return {"probability": share, "reasons": [reason.to_json() for reason in self.reasons]}
 
 
-StepKind = Literal[
-    "wait",
-    "decompose",
-    "label-files",
-    "label-names",
-    "vocabulary",
-    "label",
-    "propagate",
-    "check-labels",
-    "demonstrate",
-    "learn",
-    "answer",
-    "fix-program",
-    "apply",
-    "review",
-    "correct",
-    "export",
-]
-
-
-@dataclass(frozen=True, slots=True)
-class NextStep:
-    """What to do next, in words. asset: the one to open; command: what to type; note: what helps to type it."""
-
-    kind: StepKind
-    text: str
-    asset: str | None = None
-    command: str | None = None
-    note: str | None = None
-
-
 @dataclass(frozen=True, slots=True)
 class PropagationState:
     """The last propagation of labels. unused: how many labels people and files gave since; next: the asset that would
@@ -187,7 +156,8 @@ class Status:
     outdated: whether it was learned from other demonstrations, labels, replies or settings than there are now.
     problem: why the program cannot be applied at all.
 
-    lost: ids that have labels, demonstrations or corrections, but no asset.
+    lost: ids that have labels, demonstrations or corrections, but no asset; not_of_family: those of assets that are
+    excluded as not of the family.
     family: all that the next step depends on; question: the id of the one that was open when the program was learned.
     """
 
@@ -198,6 +168,7 @@ class Status:
     outdated: bool
     problem: str | None
     lost: tuple[str, ...]
+    not_of_family: tuple[str, ...]
     next: NextStep
     family: FamilyState = field(compare=False)
     question: str | None = None
@@ -214,13 +185,12 @@ class Status:
     @property
     def is_signed_off(self) -> bool:
         """Whether every asset of the family is signed off, and there is one."""
-        counted = [asset.sign_off == "signed off" for asset in self.assets if asset.excluded != NOT_OF_FAMILY]
-        return bool(counted) and all(counted)
+        return bool(self.assets) and all(asset.sign_off == "signed off" for asset in self.assets)
 
     @property
     def is_signed_off_but_unsolved(self) -> bool:
         """Whether every asset of the family is signed off or given up, and some are signed off."""
-        states = {asset.sign_off for asset in self.assets if asset.excluded != NOT_OF_FAMILY}
+        states = {asset.sign_off for asset in self.assets}
         return "signed off" in states and states <= {"signed off", "excluded"}
 
     def count(self, holds: Callable[[AssetStatus], bool]) -> int:
@@ -239,6 +209,7 @@ class Status:
             "signed_off": self.count(lambda asset: asset.sign_off == "signed off"),
             "assets": [_asset_json(asset) for asset in self.assets],
             "lost": list(self.lost),
+            "not_of_family": list(self.not_of_family),
             "next": asdict(self.next),
         }
 

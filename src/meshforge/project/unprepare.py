@@ -121,7 +121,6 @@ def _merge_log(were: bytes, became: bytes, path: Path, asset: str) -> bytes | No
 
 
 def _read_preparation(folder: Path, files: Mapping[Path, bytes | None]) -> batch.Preparation:
-    """The preparation in a folder whose files have other contents."""
     now = {path: path.read_bytes() for path in folder.iterdir() if path.is_file()}
     with TemporaryDirectory() as draft:
         for path, content in {**now, **files}.items():
@@ -139,7 +138,6 @@ def _conflict_error(store: Store, asset: str, conflicts: Sequence[FileConflict])
 
 
 def _restore(store: Store, asset: str, history: History, snapshot: _Snapshot) -> tuple[str, ...]:
-    """Write what was there before; notes on what else that means."""
     layout, title = store.layout, f"preparation of {asset} undone"
     notes = [f"{one}, and stays as it is" for one in snapshot.conflicts]
     try:

@@ -4,16 +4,6 @@ needed."""
 from __future__ import annotations
 
 from meshforge.common.exports import export_lazily
-from meshforge.rendering.compare import (
-    LengthUnit,
-    compare,
-    draw_before_after,
-    draw_changes,
-    draw_difference,
-    draw_heat_map,
-    draw_volumes,
-    find_replaced,
-)
 
 __getattr__, __all__ = export_lazily(
     __name__,
@@ -21,6 +11,9 @@ __getattr__, __all__ = export_lazily(
         "camera": "VIEWS Up View",
         "canvas": "check_picture_path encode_png encode_webp make_contact_sheet write_picture write_png",
         "colors": "DIFFERENCE_COLORS SELECTED UNLABELLED UNSURE ColorBy color_hulls label_color label_colors",
+        "comparison": (
+            "LengthUnit compare draw_before_after draw_changes draw_difference draw_heat_map draw_volumes find_replaced"
+        ),
         "id_buffer": "ThumbnailPixels render_revealing render_thumbnail",
         "labeling.picture": "LabelingPicture",
         "labeling.series": "draw_labeling_pictures hull_numbers",
@@ -29,5 +22,3 @@ __getattr__, __all__ = export_lazily(
         "turntable": "draw_turn encode_gif list_turns write_gif",
     },
 )
-__all__ += ["LengthUnit", "compare", "draw_before_after", "draw_changes"]
-__all__ += ["draw_difference", "draw_heat_map", "draw_volumes", "find_replaced"]

@@ -1,12 +1,4 @@
 # Written by `python -m script.stubs`.
-from meshforge.rendering.compare import LengthUnit as LengthUnit
-from meshforge.rendering.compare import compare as compare
-from meshforge.rendering.compare import draw_before_after as draw_before_after
-from meshforge.rendering.compare import draw_changes as draw_changes
-from meshforge.rendering.compare import draw_difference as draw_difference
-from meshforge.rendering.compare import draw_heat_map as draw_heat_map
-from meshforge.rendering.compare import draw_volumes as draw_volumes
-from meshforge.rendering.compare import find_replaced as find_replaced
 from meshforge.rendering.camera import VIEWS as VIEWS
 from meshforge.rendering.camera import Up as Up
 from meshforge.rendering.camera import View as View
@@ -24,6 +16,14 @@ from meshforge.rendering.colors import ColorBy as ColorBy
 from meshforge.rendering.colors import color_hulls as color_hulls
 from meshforge.rendering.colors import label_color as label_color
 from meshforge.rendering.colors import label_colors as label_colors
+from meshforge.rendering.comparison import LengthUnit as LengthUnit
+from meshforge.rendering.comparison import compare as compare
+from meshforge.rendering.comparison import draw_before_after as draw_before_after
+from meshforge.rendering.comparison import draw_changes as draw_changes
+from meshforge.rendering.comparison import draw_difference as draw_difference
+from meshforge.rendering.comparison import draw_heat_map as draw_heat_map
+from meshforge.rendering.comparison import draw_volumes as draw_volumes
+from meshforge.rendering.comparison import find_replaced as find_replaced
 from meshforge.rendering.id_buffer import ThumbnailPixels as ThumbnailPixels
 from meshforge.rendering.id_buffer import render_revealing as render_revealing
 from meshforge.rendering.id_buffer import render_thumbnail as render_thumbnail

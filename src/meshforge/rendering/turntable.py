@@ -12,7 +12,7 @@ from meshforge.geometry import Floats
 from meshforge.rendering.camera import aim_orbit
 from meshforge.rendering.canvas import Canvas, write_file
 from meshforge.rendering.colors import ColorBy, HullColors, color_hulls
-from meshforge.rendering.compare import joint_bounds
+from meshforge.rendering.comparison import joint_bounds
 from meshforge.rendering.paint import paint
 from meshforge.rendering.picture import Subject, build_subject
 from meshforge.rendering.raycast import ViewFrame, up_vector

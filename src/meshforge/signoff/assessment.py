@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
@@ -17,13 +17,15 @@ from meshforge.synthesis import Answer, Demonstration
 class ReviewState:
     """All that is known of a family.
 
-    meshes: of the family, by name, with the labels that they have; frame: the program without its rules; templates: by
-    the paths that actions name; demos: of some of the meshes, by name; by_hand: whether a person wrote the program;
+    meshes: of the family, by name, with the labels that they have; lost: why others cannot be read; frame: the program
+    without its rules; templates: by the paths that actions name; demos: of some of the meshes, by name; by_hand:
+    whether a person wrote the program;
     answers: to questions of learning; meant: what each rule is to select by what a person said of results, by asset;
     failed: what it did select on results that they called wrong; accepted, corrected: assets whose result they accepted
     as it is now, or said what it is to be; wrong: those of which they only said that it is wrong; edited: those with
-    edits by hand after the program; excluded: those that are given up; snoozed: ids of questions that are not asked
-    again.
+    edits by hand after the program; excluded: those that are given up; unconfirmed: sentences on what was shown on an
+    asset and follows hulls that took the place of others, while no person has confirmed that; snoozed: ids of questions
+    that are not asked again.
     """
 
     meshes: Mapping[str, SymbolicMesh]
@@ -40,6 +42,8 @@ class ReviewState:
     edited: frozenset[str] = frozenset()
     excluded: Mapping[str, ExclusionReason] = field(default_factory=dict)
     snoozed: frozenset[str] = frozenset()
+    lost: Mapping[str, str] = field(default_factory=dict)
+    unconfirmed: Mapping[str, Sequence[str]] = field(default_factory=dict)
 
     @property
     def reviewed_assets(self) -> frozenset[str]:
@@ -49,12 +53,6 @@ class ReviewState:
 
 THRESHOLD = read_calibration().threshold
 """The probability from which on an asset is signed off without being looked at, unless a person chooses another."""
-CALLED_WRONG = "a person said that this result is wrong"
-CALLED_WRONG_BEFORE = "a person said that a result here was wrong, and nobody has looked at it since"
-EDITED_SINCE = "it was edited by hand, and nobody has accepted that"
-CONTRADICTED = "the program does something else than was shown here"
-"""The doubts of such an asset."""
-
 MOST_REASONS = 6
 """Doubts of an asset that are named."""
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import exp, log, prod
@@ -12,40 +12,29 @@ import numpy as np
 
 from meshforge.geometry import Floats
 from meshforge.label_model import FamilyPosterior
-from meshforge.language import EXTREMITY, Program, show
-from meshforge.signoff.assessment import (
-    CALLED_WRONG,
-    CALLED_WRONG_BEFORE,
-    CONTRADICTED,
-    EDITED_SINCE,
-    MOST_REASONS,
-    AssetConfidence,
-    Reason,
-    ReasonKind,
-    ReviewState,
-)
-from meshforge.signoff.candidates import RuleCandidates, compare_candidates
-from meshforge.signoff.confidence import NO_EDIT, AssetEvidence, read_calibration
+from meshforge.language import EXTREMITY, Program
+from meshforge.signoff.assessment import ReviewState
+from meshforge.signoff.confidence import AssetEvidence, read_calibration
 from meshforge.signoff.likely_mistakes import RuleMistake, find_mistakes
 from meshforge.signoff.program_run import (
-    RULE_OF_FRAME,
     AlternativeLabel,
     ProgramRun,
+    RuleCandidates,
+    compare_candidates,
     find_alternatives,
     run_on_asset,
     select_by,
-    weigh_labels,
 )
+from meshforge.symbolic import mask_of
 from meshforge.synthesis import CandidateProgram
 
-SURE_OF_DEMONSTRATED = 0.999
 ALIKE = 14.0
 """The distance of descriptions up to which hulls look alike."""
-_WORTH_TELLING = 0.01  # the probability that an edit is wrong for one reason, from which on it is told
 _WRONG_BY_CHANCE, _MOST_EXPECTED = 0.27, 0.995
 """The share of a program's right results that are called wrong where it is wrong nearly everywhere, and the most that
 a result can be expected to be right."""
-_MOST_MISTRUST = 0.03  # in a program, above which it is told
+_WRONG_BY_RIGHT, _WRONG_BY_CORRECTED = 0.08, 0.24
+"""Of labels that follow from results that are as meant, and from corrected ones, so many are wrong (measured)."""
 _OUTLIER_FROM = 1.5  # what is so much farther than usual, as a logarithm, is unlike the rest
 
 
@@ -76,7 +65,7 @@ class FamilyRun:
         found = FamilyRun(state, program, posterior, tuple(runs), compared, mistakes, alarms)._with_alternatives(
             posterior
         )
-        evidence = weigh_labels(state, found.runs, posterior)
+        evidence = _weigh_labels(state, found.runs, posterior)
         found = found if evidence is None else found._with_alternatives(posterior.weigh(evidence))
         return replace(found, candidates=found._weigh_candidates())
 
@@ -222,94 +211,10 @@ class FamilyRun:
             found[place] = max(0.0, np.log(worst / max(usual, 1e-9)) - _OUTLIER_FROM) if 0 < worst < np.inf else 0.0
         return found
 
-    def confidence_of(self, place: int) -> AssetConfidence:
-        """One asset, with its reasons."""
-        run, evidence, state = self.runs[place], self.evidence[place], self.state
-        if run.error and run.asset not in state.accepted:
-            return AssetConfidence(run.asset, NO_EDIT, (self._reason_of_error(place),))
-        if run.asset in self.contradicted:
-            return AssetConfidence(run.asset, NO_EDIT, (Reason("candidate", CONTRADICTED, share=1.0),))
-        if run.asset in state.wrong and run.selected == state.failed.get(run.asset):
-            why = EDITED_SINCE if run.asset in state.edited else CALLED_WRONG
-            return AssetConfidence(run.asset, NO_EDIT, (Reason("candidate", why, share=1.0),))
-        if run.asset in state.reviewed_assets:
-            return AssetConfidence(run.asset, SURE_OF_DEMONSTRATED)
-        reasons = [*self._candidate_reasons(place), *self._label_reasons(place), *self._outlier_reasons(place)]
-        reasons += self._program_reasons
-        weightiest = sorted(reasons, key=lambda one: -one.share)[:MOST_REASONS]
-        if run.asset in state.wrong:  # it needs review for this, however probable it is now
-            weightiest = [Reason("candidate", CALLED_WRONG_BEFORE), *weightiest[: MOST_REASONS - 1]]
-        return AssetConfidence(run.asset, evidence.probability, tuple(weightiest))
-
-    def _reason_of_error(self, place: int) -> Reason:
-        run = self.runs[place]
-        return Reason(
-            "label" if run.meshes else "orientation",
-            f"the program cannot run: {run.error}",
-            (),
-            len(run.meshes) or None,
-            1.0,
-        )
-
-    @cached_property
-    def _program_reasons(self) -> tuple[Reason, ...]:
-        """Whether too many of the results that were looked at were wrong."""
-        share = 1 - self.trust_in_program()
-        right, wrong = map(len, self.results)
-        text = f"{wrong} of the {right + wrong} results that were looked at are wrong"
-        return (Reason("candidate", text, share=share),) if wrong and share > _MOST_MISTRUST else ()
-
-    def _candidate_reasons(self, place: int) -> list[Reason]:
-        found, run = [], self.runs[place]
-        for known in self.candidates:
-            other = np.flatnonzero(known.kinds[:, place])
-            if not len(other) or 1 - known.agreement[place] < _WORTH_TELLING:
-                continue
-            best = int(other[np.argmax(known.beliefs[other])])
-            ours, theirs = run.selections[known.rule - 1], self.select(known, best, place)
-            change = _describe_change(run, known.rule, ours, theirs)
-            text = f"rule {known.rule} may mean {show(known.extractors[best])}, which {change}"
-            hulls = run.names(known.rule, ours ^ theirs)
-            found.append(Reason("candidate", text, hulls, known.rule, float(1 - known.agreement[place])))
-        for mistake in (one for one in self.mistakes if one.differs[place]):
-            likely = mistake.mistake
-            text = f"rule {mistake.rule} may mean {show(likely.extractor)}, if {likely.asset} was shown by mistake"
-            found.append(Reason("candidate", text, (), mistake.rule, likely.share))
-        return found
-
     def select(self, known: RuleCandidates, candidate: int, place: int) -> int:
         """What a reading of a rule selects on the asset at a place, as a bit set; nothing where it is not reached."""
         delta = EXTREMITY if self.program.extremity is None else self.program.extremity
         return select_by(self.runs[place], known.rule, known.extractors[candidate], delta) or 0
-
-    def _label_reasons(self, place: int) -> list[Reason]:
-        grouped = defaultdict[tuple[str | None, str, tuple[int, ...]], list[AlternativeLabel]](list)
-        for alternative in self.runs[place].alternatives:
-            grouped[alternative.was, alternative.to, alternative.rules].append(alternative)
-        found = []
-        for (was, to, rules), alternatives in grouped.items():
-            share = 1 - prod(1 - alternative.chance for alternative in alternatives)
-            if share < _WORTH_TELLING:
-                continue
-            names = tuple(alternative.hull for alternative in alternatives)
-            called = f"called {was}" if was else "without a label"
-            turned = rules[0] == RULE_OF_FRAME
-            what = "the asset would be turned otherwise" if turned else f"rule {rules[0]} would select otherwise"
-            text = (
-                f"{_join(names)} {'is' if len(names) == 1 else 'are'} {called}, and may be {to} ({share:.0%}): {what}"
-            )
-            kind: ReasonKind = "orientation" if rules[0] == RULE_OF_FRAME else "label"
-            found.append(Reason(kind, text, names, rules[0] or None, share))
-        return found
-
-    def _outlier_reasons(self, place: int) -> list[Reason]:
-        run, evidence = self.runs[place], self.evidence[place]
-        plain = replace(evidence, outlier_score=0.0, alarms=0.0).probability
-        share = plain - evidence.probability
-        found = [Reason("alarm", text, share=share) for text in self.alarms.get(run.asset, ())]
-        if evidence.outlier_score > 0 and share >= _WORTH_TELLING:
-            found.append(Reason("outlier", "unlike the rest: no other asset has such hulls", share=share))
-        return found
 
 
 def cluster(rows: Floats) -> list[int]:
@@ -331,13 +236,40 @@ def alternative_shares(alternatives: Sequence[AlternativeLabel]) -> dict[str, fl
     return {hull: min(share, 1.0) for hull, share in found.items()}
 
 
-def _describe_change(run: ProgramRun, rule: int, ours: int, theirs: int) -> str:
-    more, less = run.names(rule, theirs & ~ours), run.names(rule, ours & ~theirs)
-    parts = [f"would select {_join(more)} too"] if more else []
-    parts += [f"would leave {_join(less)} out"] if less else []
-    return " and ".join(parts)
+def _weigh_labels(state: ReviewState, runs: Sequence[ProgramRun], posterior: FamilyPosterior) -> Floats | None:
+    """The evidence (hulls of all meshes, labels) [nats] of results on labels, None where there is none (abduction, as
+    in repair): where a result is as it was meant, labels that would change it are less probable; where it is not, those
+    that would make it so are more.
+
+    trials: of all assets, with their flips; posterior: by all other evidence.
+    """
+    codes = {label: code for code, label in enumerate(posterior.seen.labels)}
+    found, called = np.zeros(posterior.chances.shape), False
+    for place, run in enumerate(runs):
+        if run.asset not in state.meant or run.error:
+            continue
+        start, index = posterior.table.spans[place].start, state.meshes[run.asset].index
+        for alternative, nats in _weigh_alternatives(state, run):
+            found[start + index[alternative.hull], codes[alternative.to]] += nats
+            called = True
+    return found if called else None
 
 
-def _join(names: Sequence[str], most: int = 3) -> str:
-    shown = ", ".join(names[:most])
-    return f"{shown} and {len(names) - most} more" if len(names) > most else shown
+def _weigh_alternatives(state: ReviewState, run: ProgramRun) -> Iterator[tuple[AlternativeLabel, float]]:
+    """How much more probable each other label is by what rules are to select on an asset."""
+    meant = [
+        mask_of(mesh.index[hull] for hull in select if hull in mesh.index)
+        for mesh, select in zip(run.meshes, state.meant[run.asset], strict=False)
+    ]
+    for alternative in run.alternatives:
+        pairs = [
+            (meant[rule - 1], now)
+            for rule, now in zip(alternative.rules, alternative.selections, strict=True)
+            if rule > 0
+        ]
+        before = sum((run.selections[rule - 1] ^ meant[rule - 1]).bit_count() for rule in alternative.rules if rule > 0)
+        after = sum((wanted ^ now).bit_count() for wanted, now in pairs)
+        if after < before:
+            yield alternative, log((1 - _WRONG_BY_CORRECTED) / _WRONG_BY_CORRECTED)
+        elif after > before:
+            yield alternative, -log((1 - _WRONG_BY_RIGHT) / _WRONG_BY_RIGHT)

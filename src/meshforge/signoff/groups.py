@@ -1,20 +1,21 @@
-"""Groups of look-alike hulls whose labels are in doubt and matter, to be confirmed at one glance."""
+"""Questions about groups of look-alike hulls whose labels are in doubt and matter, to be confirmed at one glance."""
 
 from __future__ import annotations
 
-from collections import defaultdict
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections import Counter, defaultdict
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from meshforge.signoff.confidence import LEAST
 from meshforge.signoff.family import ALIKE, FamilyRun, alternative_shares
-from meshforge.signoff.question import HullPlace, price_group
+from meshforge.signoff.question import GroupQuestion, HullPlace, ReviewChoice, identify, price_group
 
 MOST_HULLS = 24
 """Hulls of a group."""
 _LEAST_SHARE = 0.003  # a hull whose label is surer than this needs no confirmation
+_CLUSTER_RISK = 0.2  # wrong edits of look-alikes that are to be expected, from which on these are asked about
 _SEEDS = 8  # hulls about which a group is looked for, those that matter most
 
 
@@ -32,7 +33,7 @@ class _Suspect:
 
 
 @dataclass(frozen=True, slots=True)
-class LookalikeGroup:
+class _LookalikeGroup:
     """Hulls that look alike, and what they probably are. gain: assets made right by confirming that; seconds: of it."""
 
     label: str
@@ -41,8 +42,7 @@ class LookalikeGroup:
     seconds: float
 
 
-def find_groups(family: FamilyRun, open_assets: Sequence[int]) -> Iterator[LookalikeGroup]:
-    """Groups about the hulls that matter most, each as large as is worth its seconds."""
+def _find_groups(family: FamilyRun, open_assets: Sequence[int]) -> Iterator[_LookalikeGroup]:
     from scipy.spatial.distance import cdist  # lazy: 0.5 s, half of all imports
 
     suspects = list(_suspects(family, open_assets))
@@ -90,28 +90,50 @@ def _gain(family: FamilyRun, some: Sequence[_Suspect]) -> float:
     return found
 
 
-def _best_of(family: FamilyRun, label: str, some: Sequence[_Suspect]) -> LookalikeGroup:
-    best: LookalikeGroup | None = None
+def _best_of(family: FamilyRun, label: str, some: Sequence[_Suspect]) -> _LookalikeGroup:
+    best: _LookalikeGroup | None = None
     for count in range(1, min(len(some), MOST_HULLS) + 1):
         part = some[:count]
         seconds = price_group(count, sum(one.wrong for one in part))
-        group = LookalikeGroup(label, tuple(sorted(one.place for one in part)), _gain(family, part), seconds)
+        group = _LookalikeGroup(label, tuple(sorted(one.place for one in part)), _gain(family, part), seconds)
         if best is None or group.gain / group.seconds > best.gain / best.seconds:
             best = group
     assert best
     return best
 
 
-def labels_of_group(family: FamilyRun, group: LookalikeGroup) -> Mapping[str, int]:
-    """How many of the hulls are called what, the commonest first."""
-    counts = defaultdict[str, int](int)
-    for asset, hull in group.hulls:
-        counts[family.state.meshes[asset].hull_of(hull).label or "nothing"] += 1
-    return dict(sorted(counts.items(), key=lambda one: (-one[1], one[0])))
+def ask_groups(family: FamilyRun, open_assets: Sequence[int]) -> Iterator[GroupQuestion]:
+    """Ask about the hulls that matter most for some assets, each group as large as is worth its seconds."""
+    yield from (_ask_group(family, group) for group in _find_groups(family, open_assets))
 
 
-def find_other_label(family: FamilyRun, group: LookalikeGroup) -> str | None:
-    """What the hulls most probably are if not what they are asked about; None where no other label is known."""
+def ask_clusters(family: FamilyRun) -> Iterator[GroupQuestion]:
+    """Ask once about look-alikes of several assets, which err together, whose labels decide edits that nobody looked
+    at, however sure each edit is by itself."""
+    known = family.state.reviewed_assets | family.state.excluded.keys()
+    unseen = [place for place, one in enumerate(family.runs) if one.asset not in known]
+    for group in _find_groups(family, unseen):
+        if len({place.asset for place in group.hulls}) > 1 and group.gain >= _CLUSTER_RISK:
+            yield _ask_group(family, group)
+
+
+def _ask_group(family: FamilyRun, group: _LookalikeGroup) -> GroupQuestion:
+    names = Counter(family.state.meshes[asset].hull_of(hull).label or "nothing" for asset, hull in group.hulls)
+    counts = dict(sorted(names.items(), key=lambda one: (-one[1], one[0])))
+    called = ", ".join(f"{count} {'is' if count == 1 else 'are'} called {name}" for name, count in counts.items())
+    labels = list(dict.fromkeys([group.label, *(name for name in counts if name != "nothing")]))
+    choices = tuple(map(ReviewChoice.of_label, labels))
+    first = group.hulls[0]
+    if len(group.hulls) == 1:
+        text = f"{first.hull} of {first.asset} is called {next(iter(counts))}: is it {group.label}?"
+    else:
+        text = f"These {len(group.hulls)} hulls look alike; {called}: are all of them {group.label}?"
+    question = identify(GroupQuestion(text, group.seconds, group.gain, first.asset, None, group.hulls, choices))
+    other = _find_other_label(family, group) if len(labels) == 1 else None  # no part of what the question is about
+    return replace(question, choices=(*choices, ReviewChoice.of_label(other))) if other else question
+
+
+def _find_other_label(family: FamilyRun, group: _LookalikeGroup) -> str | None:
     posterior, places = family.posterior, family.places
     rows = [
         posterior.table.spans[places[asset]].start + family.state.meshes[asset].index[hull]

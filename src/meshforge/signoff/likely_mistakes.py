@@ -63,7 +63,6 @@ def find_mistakes(state: ReviewState, program: Program, runs: Sequence[ProgramRu
 
 
 def _list_examples(state: ReviewState, runs: Mapping[str, ProgramRun], rule: int) -> Iterator[Example]:
-    """What is known to be meant by a rule, as it meets the meshes; what was shown first."""
     for name in dict.fromkeys([*state.demos, *(one.asset for one in state.answers), *state.meant]):
         select, run = _read_selection(state, name, rule), runs.get(name)
         if select is None or run is None or rule > len(run.meshes):

@@ -239,7 +239,6 @@ def _log_volume(one: EditMeasures) -> float | None:
 
 
 def _log_extent(one: EditMeasures) -> float | None:
-    """Of the side of the box that changes most."""
     ratios = [_log_ratio(*pair) for pair in zip(one.extents_before, one.extents_after, strict=True)]
     known = [ratio for ratio in ratios if ratio is not None]
     return max(known, key=lambda ratio: (abs(ratio), ratio)) if known and one.hulls_after else None

@@ -1,23 +1,19 @@
-"""A program tried on one asset: what its rules select there, and what would change that: other readings of the rules,
-and other labels of the hulls. And what results that people judged say about labels (abduction, as in repair): where a
-result is as it was meant, labels that would change it are less probable; where it is not, those that would make it so
-are more."""
+"""A program tried on the assets of a family: what its rules select there, and what would change that: other labels of
+the hulls, and other readings of the rules, which a question tells apart for the fewest seconds."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from math import log
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
+import numpy.typing as npt
 
 from meshforge.common import MeshForgeError
-from meshforge.geometry import Floats
-from meshforge.label_model import FamilyPosterior
+from meshforge.geometry import Floats, Ints
 from meshforge.language import EXTREMITY, Extractor, Orient, Program, Template, find_rotation, labels_of, select_mask
-from meshforge.signoff.assessment import ReviewState
-from meshforge.symbolic import SymbolicMesh, mask_of
-from meshforge.synthesis import memoize
+from meshforge.symbolic import SymbolicMesh
+from meshforge.synthesis import CandidateProgram, memoize
 
 LEAST_CHANCE = 0.003
 """A label that a hull has with a lower probability is not reckoned with."""
@@ -142,42 +138,94 @@ def select_by(run: ProgramRun, rule: int, extractor: Extractor, delta: float) ->
     return select_mask(extractor, run.meshes[rule - 1], delta) if rule <= len(run.meshes) else None
 
 
-_WRONG_BY_RIGHT, _WRONG_BY_CORRECTED = 0.08, 0.24
-"""Of labels that follow from results that are as meant, and from corrected ones, so many are wrong (measured)."""
+MOST_CANDIDATES = 24
+"""Of the readings of a rule so many are compared, the most believed ones."""
+LEAST_BELIEF = 0.0005
+FEW_ASSETS = 400
+"""Up to so many assets learning has looked at all of them, and says where readings differ."""
+MOST_CHOICES = 3
+Bools = npt.NDArray[np.bool_]
 
 
-def weigh_labels(state: ReviewState, runs: Sequence[ProgramRun], posterior: FamilyPosterior) -> Floats | None:
-    """The evidence (hulls of all meshes, labels) [nats] of results on labels, None where there is none.
+@dataclass(frozen=True, eq=False)
+class RuleCandidates:
+    """The readings of one rule, that of the program first.
 
-    trials: of all assets, with their flips; posterior: by all other evidence.
+    beliefs: (k,), in all 1; kinds: (k, assets), equal where two readings select the same on an asset, 0 for what the
+    program does.
     """
-    codes = {label: code for code, label in enumerate(posterior.seen.labels)}
-    found, is_known = np.zeros(posterior.chances.shape), False
-    for place, run in enumerate(runs):
-        if run.asset not in state.meant or run.error:
+
+    rule: int
+    extractors: tuple[Extractor, ...]
+    beliefs: Floats
+    kinds: Ints
+
+    @property
+    def agreement(self) -> Floats:
+        """The belief in readings that do on each asset as the program does (assets,)."""
+        found: Floats = self.beliefs @ (self.kinds == 0)
+        return found
+
+    def reason(self, some: Bools, share: float) -> RuleCandidates:
+        """The same where some readings (k,) are wrong with that probability besides."""
+        beliefs = np.where(some, self.beliefs * (1 - share), self.beliefs)
+        return replace(self, beliefs=beliefs / beliefs.sum())
+
+
+@dataclass(frozen=True, slots=True)
+class CandidateSplit:
+    """A question about one rule on one asset: the selections to choose from, as readings that make them; gains: by how
+    much more probable the edit of each asset is right in this rule once it is answered (assets,)."""
+
+    rule: int
+    asset: int
+    heads: tuple[int, ...]
+    gains: Floats
+
+
+def compare_candidates(
+    program: Program, candidates: Sequence[CandidateProgram], runs: Sequence[ProgramRun]
+) -> tuple[RuleCandidates, ...]:
+    """The readings of each rule over a family; a rule without any is what it says."""
+    delta = EXTREMITY if program.extremity is None else program.extremity
+    found = []
+    for number, rule in enumerate(program.rules, 1):
+        mine = [one for one in candidates if one.rule == number and one.extractor != rule.extractor]
+        own = sum(one.belief for one in candidates if one.rule == number and one.extractor == rule.extractor)
+        mine = sorted(mine, key=lambda one: -one.belief)[:MOST_CANDIDATES]
+        mine = [one for one in mine if one.belief >= LEAST_BELIEF]
+        extractors = (rule.extractor, *(one.extractor for one in mine))
+        weights = np.array([own or 1.0, *(one.belief for one in mine)])
+        kinds = np.zeros((len(extractors), len(runs)), dtype=np.int64)
+        every = len(runs) > FEW_ASSETS
+        differs = [frozenset(one.differs_on) for one in mine]
+        for place, run in enumerate(runs):
+            masks = [select_by(run, number, rule.extractor, delta)]
+            masks += [
+                select_by(run, number, one.extractor, delta) if every or run.asset in some or run.error else masks[0]
+                for one, some in zip(mine, differs, strict=True)
+            ]
+            numbers: dict[int | None, int] = {}
+            kinds[:, place] = [numbers.setdefault(mask, len(numbers)) for mask in masks]
+        found.append(RuleCandidates(number, extractors, weights / weights.sum(), kinds))
+    return tuple(found)
+
+
+def split_candidates(known: RuleCandidates, places: Collection[int]) -> list[CandidateSplit]:
+    """The questions about a rule on some of the assets, given by their places."""
+    found = []
+    for asset in places:
+        kinds = known.kinds[:, asset]
+        if not kinds.any():
             continue
-        start, index = posterior.table.spans[place].start, state.meshes[run.asset].index
-        for alternative, nats in _weigh_alternatives(state, run):
-            found[start + index[alternative.hull], codes[alternative.to]] += nats
-            is_known = True
-    return found if is_known else None
-
-
-def _weigh_alternatives(state: ReviewState, run: ProgramRun) -> Iterator[tuple[AlternativeLabel, float]]:
-    """How much more probable each other label is by what rules are to select on an asset."""
-    meant = [
-        mask_of(mesh.index[hull] for hull in select if hull in mesh.index)
-        for mesh, select in zip(run.meshes, state.meant[run.asset], strict=False)
-    ]
-    for alternative in run.alternatives:
-        pairs = [
-            (meant[rule - 1], now)
-            for rule, now in zip(alternative.rules, alternative.selections, strict=True)
-            if rule > 0
-        ]
-        before = sum((run.selections[rule - 1] ^ meant[rule - 1]).bit_count() for rule in alternative.rules if rule > 0)
-        after = sum((wanted ^ now).bit_count() for wanted, now in pairs)
-        if after < before:
-            yield alternative, log((1 - _WRONG_BY_CORRECTED) / _WRONG_BY_CORRECTED)
-        elif after > before:
-            yield alternative, -log((1 - _WRONG_BY_RIGHT) / _WRONG_BY_RIGHT)
+        expected, heads = np.zeros(known.kinds.shape[1]), list[tuple[float, int]]()
+        for kind in range(int(kinds.max()) + 1):
+            part = np.flatnonzero(kinds == kind)
+            head = int(part[np.argmax(known.beliefs[part])]) if kind else 0
+            same = known.kinds[part] == known.kinds[head]
+            expected += known.beliefs[part] @ same
+            heads.append((-float(known.beliefs[part].sum()), head))
+        ours, *others = heads
+        chosen = sorted([ours, *sorted(others)[: MOST_CHOICES - 1]])
+        found.append(CandidateSplit(known.rule, asset, tuple(head for _, head in chosen), expected - known.agreement))
+    return found

@@ -13,19 +13,17 @@ from meshforge.geometry import Floats
 from meshforge.label_model import FamilyModel, FamilyPosterior
 from meshforge.language import show
 from meshforge.signoff import question as kinds
-from meshforge.signoff.assessment import THRESHOLD, Assessment, AssetConfidence, Reason, ReviewState
-from meshforge.signoff.candidates import CandidateSplit, split_candidates
+from meshforge.signoff.assessment import THRESHOLD, Assessment, AssetConfidence, ReviewState
 from meshforge.signoff.family import FamilyRun
-from meshforge.signoff.groups import LookalikeGroup, find_groups, find_other_label, labels_of_group
+from meshforge.signoff.groups import ask_clusters, ask_groups
 from meshforge.signoff.likely_mistakes import ask_about_kept_label, ask_about_mistake, ask_about_nearest, offer_label
-from meshforge.signoff.program_run import ProgramRun
+from meshforge.signoff.orientation import ask_orientation
+from meshforge.signoff.program_run import CandidateSplit, ProgramRun, split_candidates
 from meshforge.signoff.question import (
     CANDIDATE,
     EXCLUDE,
-    NO,
     RIGHT,
     WRONG,
-    YES,
     YES_OR_NO,
     HullPlace,
     ReviewChoice,
@@ -33,7 +31,7 @@ from meshforge.signoff.question import (
     identify,
     price_demonstration,
 )
-from meshforge.signoff.turns import find_turned_asset
+from meshforge.signoff.reasons import SUGGESTION_RIGHT, doubt_learning, judge_edit, judge_edits
 from meshforge.synthesis import (
     Ambiguous,
     Found,
@@ -47,11 +45,7 @@ from meshforge.synthesis import (
 _NO_ALARMS: Mapping[str, Sequence[str]] = MappingProxyType({})
 _TRUST = 2  # the power of the probability that labels on an asset are right, with which what is said there counts
 _LEAST_TRUST = 0.7  # below this nothing is asked there about readings
-_SUGGESTION_RIGHT = 0.5  # how often an orientation that is suggested, and not refused, is right
 _LIKELY = 0.5  # a slip in what a person answered or accepted is asked about above this, unless a result is wrong
-_CLUSTER_RISK = (
-    0.2  # edits of look-alikes that are wrong, as far as can be expected, from which on these are asked about
-)
 _MOST_SPLITS = 40  # assets on which readings are told apart, those where they differ most
 
 
@@ -62,49 +56,38 @@ def review_family(
     threshold: float = THRESHOLD,
     alarms: Mapping[str, Sequence[str]] = _NO_ALARMS,
 ) -> Assessment:
-    """How the family stands.
+    """Return how the family stands.
 
     outcome: what was learned from all that the state holds, None before anything was shown; family: its meshes, in
     their order; alarms: sentences on results that stand out, by asset.
     """
-    seen = state.accepted | state.corrected
-    if not isinstance(outcome, Found | Ambiguous):  # what was demonstrated is not what any program does
-        unknown = {name: AssetConfidence(name, 0.0, (_reason_of(outcome),)) for name in state.meshes}
-        return Assessment(
-            unknown,
-            threshold,
-            seen,
-            state.wrong,
-            state.excluded,
-            _sort(_questions_before(state, outcome, family), state),
-        )
-    run = _run_family(state, outcome, family, alarms)
-    assets = {one.asset: run.confidence_of(place) for place, one in enumerate(run.runs)}
-    stopped = {one.asset for one in run.runs if one.error} - state.accepted
-    looked_at = (seen | state.demos.keys()) - stopped - run.contradicted - state.wrong
+    run = _run_family(state, outcome, family, alarms) if isinstance(outcome, Found | Ambiguous) else None
+    looked_at = _list_looked_at(state, run)
+    suggested = outcome.suggested if outcome else None
+    is_doubted = run and suggested and _sort(ask_orientation(suggested, state, 1.0), state)
+    turned = {*suggested.differs_on} - looked_at if suggested and is_doubted else set()
+    assets = dict(judge_edits(state, outcome, run, turned))
     found = Assessment(assets, threshold, looked_at, state.wrong, state.excluded)
-    if outcome.suggested and _sort(_ask_orientation(outcome.suggested, state, 1.0), state):
-        uncertainty = Reason(
-            "orientation", "it may have to be turned first, and would be edited otherwise then", share=_SUGGESTION_RIGHT
-        )
-        unseen = [name for name in outcome.suggested.differs_on if name in assets and name not in looked_at]
-        found = replace(found, assets={**assets, **{name: assets[name].with_reasons([uncertainty]) for name in unseen}})
-    if found.is_done:
-        looks = [*_ask_last_looks(run), *_ask_clusters(run)]
-        if any(one.id in state.snoozed for one in looks):  # who snoozes one wants no other
-            return found
-        return replace(found, questions=_sort(looks, state))
-    return replace(found, questions=_sort(_questions(run, found, outcome.suggested), state))
+    if run is None:  # what was demonstrated is not what any program does
+        questions = _sort(_questions_before(state, outcome, family), state)
+    elif found.need_review and not state.lost.keys() >= set(found.need_review):
+        questions = _sort(_questions(run, found, suggested), state)
+    else:
+        looks = [*_ask_last_looks(run), *ask_clusters(run)]
+        is_enough = any(one.id in state.snoozed for one in looks)  # who snoozes one wants no other
+        questions = () if is_enough else _sort(looks, state)
+    lost = (_ask_to_exclude(name, state.lost[name]) for name in found.need_review if name in state.lost)
+    return replace(found, questions=(*questions, *(one for one in lost if one.id not in state.snoozed)))
 
 
 def assess_asset(
     state: ReviewState, outcome: LearningOutcome | None, family: FamilyModel, asset: str
 ) -> AssetConfidence:
-    """How probable the edit of one asset of a family is; the arguments are those of `review_family`."""
+    """Return how probable the edit of one asset of a family is; the arguments are those of `review_family`."""
     if not isinstance(outcome, Found | Ambiguous):
-        return AssetConfidence(asset, 0.0, (_reason_of(outcome),))
+        return AssetConfidence(asset, 0.0, (doubt_learning(outcome),))
     run = _run_family(state, outcome, family, _NO_ALARMS)
-    return run.confidence_of(run.places[asset])
+    return judge_edit(run, run.places[asset])
 
 
 def _run_family(
@@ -118,12 +101,14 @@ def _infer(state: ReviewState, family: FamilyModel) -> FamilyPosterior:
     return family.infer(annotations, state.frame.labels)
 
 
-def _reason_of(outcome: LearningOutcome | None) -> Reason:
-    if outcome is None:
-        return Reason("candidate", "nothing is demonstrated yet", share=1.0)
-    if isinstance(outcome, NeedsRepair):
-        return Reason("label", "labels of demonstrated assets are probably wrong", share=1.0)
-    return Reason("candidate", getattr(outcome, "why", "no program was found"), share=1.0)
+def _list_looked_at(state: ReviewState, run: FamilyRun | None) -> frozenset[str]:
+    """The assets of which a person accepted the result as it is, or said what it is to be."""
+    seen = state.accepted | state.corrected
+    unconfirmed = {asset for asset, texts in state.unconfirmed.items() if texts} - seen
+    if run is None:
+        return seen - unconfirmed
+    stopped = {one.asset for one in run.runs if one.error} - state.accepted
+    return (seen | state.demos.keys()) - stopped - run.contradicted - state.wrong - unconfirmed
 
 
 def _questions_before(
@@ -147,7 +132,7 @@ def _questions_before(
                 text = "Nothing fits what was shown on {} with the labels there: show it again, or correct a label."
                 yield _ask_demonstration(state, outcome.repairs[0].fix.asset, everyone, text)
         case NoProgram():
-            yield from _ask_orientation(outcome.suggested, state, everyone)
+            yield from ask_orientation(outcome.suggested, state, everyone)
             if mistake := ask_about_nearest(state, outcome.nearest, everyone):
                 yield offer_label(state, _infer(state, family), mistake)
             text = f"Nothing fits what was shown on {{}}: {outcome.why}."
@@ -167,32 +152,21 @@ def _ask_repairs(state: ReviewState, outcome: NeedsRepair, everyone: float) -> I
             yield question
 
 
-def _ask_orientation(
-    suggested: OrientationSuggestion | None, state: ReviewState, gain: float
-) -> Iterator[kinds.OrientationQuestion]:
-    asset = find_turned_asset(state, suggested) if suggested else None
-    if suggested and asset:
-        text = f"Should {asset} stand like this?"
-        yes = ReviewChoice(YES, "yes, turn all assets like this", orient=suggested.orient)
-        choices = (ReviewChoice(NO, "no, all stay as they are"), yes)
-        yield identify(kinds.OrientationQuestion(text, YES_OR_NO, gain, asset, choices=choices))
-
-
 def _questions(
     family: FamilyRun, found: Assessment, suggested: OrientationSuggestion | None
 ) -> Iterator[ReviewQuestion]:
     """What a person said is not asked again as a mistake, unless a result or a long rule speaks against it."""
     state, need_review = family.state, set(found.need_review)
-    open_assets = [place for place, one in enumerate(family.runs) if one.asset in need_review]
-    yield from (_ask_group(family, group) for group in find_groups(family, open_assets))
+    yield from ask_groups(family, [place for place, one in enumerate(family.runs) if one.asset in need_review])
     yield from _ask_candidates(family, found)
     answered = [one for one in family.mistakes if one.mistake.asset in state.demos or one.mistake.share > _LIKELY]
     asked = family.mistakes if family.results[1] else answered
     yield from (offer_label(state, family.posterior, ask_about_mistake(state, mistake)) for mistake in asked)
     yield from _ask_results(family, found)
     if suggested:
-        gain = _SUGGESTION_RIGHT * len(need_review.intersection(suggested.differs_on))
-        yield from _ask_orientation(suggested, family.state, gain)
+        yield from ask_orientation(
+            suggested, state, SUGGESTION_RIGHT * len(need_review.intersection(suggested.differs_on))
+        )
 
 
 def _sort(questions: Iterable[ReviewQuestion], state: ReviewState) -> tuple[ReviewQuestion, ...]:
@@ -204,23 +178,8 @@ def _sort(questions: Iterable[ReviewQuestion], state: ReviewState) -> tuple[Revi
     return tuple(sorted(left, key=lambda one: (-one.worth, one.id)))
 
 
-def _ask_group(family: FamilyRun, group: LookalikeGroup) -> kinds.GroupQuestion:
-    counts = labels_of_group(family, group)
-    called = ", ".join(f"{count} {'is' if count == 1 else 'are'} called {name}" for name, count in counts.items())
-    labels = list(dict.fromkeys([group.label, *(name for name in counts if name != "nothing")]))
-    choices = tuple(map(ReviewChoice.of_label, labels))
-    first = group.hulls[0]
-    if len(group.hulls) == 1:
-        text = f"{first.hull} of {first.asset} is called {next(iter(counts))}: is it {group.label}?"
-    else:
-        text = f"These {len(group.hulls)} hulls look alike; {called}: are all of them {group.label}?"
-    question = identify(kinds.GroupQuestion(text, group.seconds, group.gain, first.asset, None, group.hulls, choices))
-    other = find_other_label(family, group) if len(labels) == 1 else None  # no part of what the question is about
-    return replace(question, choices=(*choices, ReviewChoice.of_label(other))) if other else question
-
-
 def _ask_candidates(family: FamilyRun, found: Assessment) -> Iterator[ReviewQuestion]:
-    names = list(found.assets)
+    names = [one.asset for one in family.runs]
     known = {(answer.rule, answer.asset) for answer in family.state.answers}
     decided = {*found.looked_at, *found.excluded}
     for rule in family.candidates:
@@ -272,7 +231,7 @@ def _gains_of(family: FamilyRun, splits: Sequence[CandidateSplit], looks: int = 
 
 def _ask_results(family: FamilyRun, found: Assessment) -> Iterator[ReviewQuestion]:
     correcting = price_demonstration(family.state.demos.values())
-    for name in found.need_review:
+    for name in (one for one in found.need_review if one in family.places):
         uncertainty = 1 - found.assets[name].probability
         place = family.places[name]
         run, trust = family.runs[place], family.evidence[place].labels ** _TRUST
@@ -308,25 +267,10 @@ def _ask_last_looks(family: FamilyRun) -> Iterator[ReviewQuestion]:
             yield _ask_result(run, gain, YES_OR_NO, f"One last look: is the result of {run.asset} right?")
 
 
-def _ask_clusters(family: FamilyRun) -> Iterator[ReviewQuestion]:
-    """Look-alikes of several assets err together: those whose labels decide edits that nobody looked at are asked about
-    once, however sure each edit is by itself."""
-    state = family.state
-    unseen = [
-        place
-        for place, one in enumerate(family.runs)
-        if one.asset not in state.reviewed_assets and one.asset not in state.excluded
-    ]
-    for group in find_groups(family, unseen):
-        assets = {place.asset for place in group.hulls}
-        if len(assets) > 1 and group.gain >= _CLUSTER_RISK:
-            yield _ask_group(family, group)
-
-
-EXCLUDE_CHOICES = tuple(ReviewChoice(choice, f"exclude it: {reason}") for choice, reason in EXCLUDE.items())
-_GIVE_UP = (ReviewChoice(WRONG, "say what is right, or later"), *EXCLUDE_CHOICES)
-_CORRECT = (ReviewChoice(WRONG, "correct it"), *EXCLUDE_CHOICES)
-JUDGE_CHOICES = (ReviewChoice(RIGHT, "right"), ReviewChoice(WRONG, "wrong"), *EXCLUDE_CHOICES)
+_EXCLUDE_CHOICES = tuple(ReviewChoice(choice, f"exclude it: {reason}") for choice, reason in EXCLUDE.items())
+_GIVE_UP = (ReviewChoice(WRONG, "say what is right, or later"), *_EXCLUDE_CHOICES)
+_CORRECT = (ReviewChoice(WRONG, "correct it"), *_EXCLUDE_CHOICES)
+JUDGE_CHOICES = (ReviewChoice(RIGHT, "right"), ReviewChoice(WRONG, "wrong"), *_EXCLUDE_CHOICES)
 
 
 def _ask_result(
@@ -341,6 +285,11 @@ def _ask_result(
         text, seconds, gain, run.asset, choices=JUDGE_CHOICES if choices is _GIVE_UP else choices
     )
     return replace(identify(draft, [f"{bits:x}" for bits in run.selections]), choices=choices)
+
+
+def _ask_to_exclude(asset: str, why: str) -> kinds.ResultQuestion:
+    text = f"{asset} cannot be read: {why} Is it to be excluded?"
+    return identify(kinds.ResultQuestion(text, YES_OR_NO, 0.0, asset, choices=_EXCLUDE_CHOICES), [why])
 
 
 def _ask_demonstration(state: ReviewState, asset: str, gain: float, text: str) -> kinds.DemonstrationQuestion:

@@ -8,12 +8,11 @@ from meshforge.common.exports import export_lazily
 __getattr__, __all__ = export_lazily(
     __name__,
     {
-        "event_log": "load_events",
         "events": (
             "NO_ORIGIN AnswerEvent Event ExclusionEvent LabelBefore LabelFixEvent LabelsEvent Origin ReplyEvent "
             "SnoozeEvent Verdict VerdictEvent WithdrawalEvent format_lines"
         ),
-        "feedback": "Feedback",
+        "feedback": "Feedback load_events",
         "history": "FileConflict ConflictError History",
         "history_entries": "HistoryEntry",
         "layout": "Effect JsonFile Layout ProjectFile identify_file json_text list_files read_json write_json",

@@ -1,5 +1,4 @@
 # Written by `python -m script.stubs`.
-from meshforge.store.event_log import load_events as load_events
 from meshforge.store.events import NO_ORIGIN as NO_ORIGIN
 from meshforge.store.events import AnswerEvent as AnswerEvent
 from meshforge.store.events import Event as Event
@@ -15,6 +14,7 @@ from meshforge.store.events import VerdictEvent as VerdictEvent
 from meshforge.store.events import WithdrawalEvent as WithdrawalEvent
 from meshforge.store.events import format_lines as format_lines
 from meshforge.store.feedback import Feedback as Feedback
+from meshforge.store.feedback import load_events as load_events
 from meshforge.store.history import FileConflict as FileConflict
 from meshforge.store.history import ConflictError as ConflictError
 from meshforge.store.history import History as History

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from pathlib import Path
 from typing import Annotated, Any, Literal, NamedTuple, Self, TypeVar
 
 from pydantic import (
@@ -237,6 +238,17 @@ _ADAPTER: TypeAdapter[Event] = TypeAdapter(Annotated[Event, Field(discriminator=
 def parse_events(text: str, where: str) -> tuple[Event, ...]:
     """The events of a file. Raises ProjectError, naming the line, for one that is none."""
     return tuple(parse_line(_ADAPTER.validate_json, line, number, where) for number, line in list_lines(text))
+
+
+def read_lines(path: Path) -> str:
+    """Read the text of a file of lines, empty where there is none. Raises ProjectError where it cannot be read."""
+    try:
+        return path.read_text("utf-8-sig")
+    except FileNotFoundError:
+        return ""
+    except (OSError, UnicodeDecodeError) as error:
+        remedy = "Correct the file by hand, or remove it."
+        raise ProjectError("cannot be read", where=str(path), remedy=remedy) from error
 
 
 def list_lines(text: str) -> Iterator[tuple[int, str]]:

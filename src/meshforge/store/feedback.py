@@ -1,4 +1,4 @@
-"""What all that people said of a family comes to: a fold over its events."""
+"""What all that people said of a family comes to: a fold over its events, which are read and written here."""
 
 from __future__ import annotations
 
@@ -7,8 +7,10 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import assert_never
 
+from meshforge.common import write_atomically
 from meshforge.store import events as kinds
-from meshforge.store.events import Event, parse_events
+from meshforge.store.events import Event, format_lines, parse_events, read_lines
+from meshforge.store.layout import Layout
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,13 +72,26 @@ class Feedback:
         )
 
 
+def load_events(layout: Layout) -> tuple[Event, ...]:
+    """Read all events, in order. Raises ProjectError, naming file and line, where they cannot be read."""
+    return _read_events(read_lines(layout.events), str(layout.events))
+
+
+def load_feedback(layout: Layout) -> Feedback:
+    """Return what all events come to. Raises ProjectError as `load_events` does."""
+    return _read_feedback(read_lines(layout.events), str(layout.events))
+
+
+def save_events(layout: Layout, events: Iterable[Event]) -> None:
+    """Write all events, under the lock that the caller holds."""
+    write_atomically(layout.events, format_lines(events))
+
+
 @lru_cache(maxsize=4)
-def read_events(text: str, where: str) -> tuple[Event, ...]:
-    """The events of a file of this text; what was read last is not parsed again."""
+def _read_events(text: str, where: str) -> tuple[Event, ...]:
     return parse_events(text, where)
 
 
 @lru_cache(maxsize=4)
-def read_feedback(text: str, where: str) -> Feedback:
-    """What the events of a file of this text come to."""
-    return Feedback.of(read_events(text, where))
+def _read_feedback(text: str, where: str) -> Feedback:
+    return Feedback.of(_read_events(text, where))

@@ -16,9 +16,17 @@ from typing import Any, Literal, NamedTuple, assert_never
 
 from meshforge.batch import hold_lock
 from meshforge.common import MeshForgeError, ProjectError, relative_name
-from meshforge.store.history_entries import EntryFiles, HistoryEntry, PendingEntry, count_group
+from meshforge.store.history_entries import (
+    BlobStore,
+    EntryFiles,
+    FileState,
+    HistoryEntry,
+    PendingEntry,
+    Snapshots,
+    count_group,
+    diff_states,
+)
 from meshforge.store.layout import Layout
-from meshforge.store.snapshots import BlobStore, FileState, Snapshots, diff_states
 
 _RECORDED: ContextVar[frozenset[Path]] = ContextVar("recorded", default=frozenset())
 """The folders of projects of which a change is being recorded here: what is changed meanwhile is part of it."""
@@ -286,5 +294,4 @@ class History:
 
 
 def _digest_of(content: bytes | None) -> str | None:
-    """The digest of what is written to a file, as `file_digest` gives it of the file."""
     return None if content is None else hashlib.blake2b(content, digest_size=16).hexdigest()

@@ -147,16 +147,6 @@ class Layout:
     studio = OneFile(f"{STATE}/studio/")
     history = OneFile(f"{STATE}/studio/history/")
 
-    # Where versions before kept things: read while there is nothing newer
-
-    learned_before = OneFile(f"{STATE}/learned.json", words=True, learned=True)
-
-    @property
-    def files_before_events(self) -> tuple[Path, ...]:
-        """Answers, verdicts, sign-offs and snoozed questions of before there were events."""
-        names = ("answers.json", "review.json", "signoff.json", "later.json")
-        return tuple(self.folder / name for name in names)
-
     @property
     def templates(self) -> tuple[Path, Path]:
         """Where templates are looked for: beside the program, then in their folder."""

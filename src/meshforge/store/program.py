@@ -142,7 +142,10 @@ def write_steps(path: Path, asset: str, steps: Sequence[synthesis.Step]) -> None
 
 
 def write_manual_edits(path: Path, asset: str, manual_edits: Sequence[ManualEdit]) -> None:
-    """Write the edits by hand of a corrections file."""
+    """Write the edits by hand of a corrections file; without any the file is removed."""
+    if not manual_edits:
+        path.unlink(missing_ok=True)
+        return
     kept = read_json(path, ManualEditsFile) or ManualEditsFile(asset=asset, steps=())
     lines = [ManualEditLine(hulls=dict(c.hulls), action=action_text(c.action, c.label)) for c in manual_edits]
     write_json(path, kept.model_copy(update={"steps": tuple(lines)}))

@@ -6,8 +6,7 @@ from __future__ import annotations
 
 import os
 import tomllib
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from functools import lru_cache
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -76,9 +75,8 @@ class Settings(BaseModel):
     assets: files, folders and globs, relative to the project; base: the folder that ids count from.
     orient: the directive as a program has it, without the word `orient`; empty for none.
     names: the label that names mean, by patterns of names, in their order; empty for none.
-    left_out: ids of assets that are kept, but not as part of the family; removed: ids of assets that `assets` means and
-    that do not belong to the project; urdf_capsules: whether written URDFs get `<capsule>`; extractors: names of
-    leaf extractors of plug-ins that rules may use.
+    left_out, removed: ids of assets that are not of the family, as earlier versions noted them here; urdf_capsules:
+    whether written URDFs get `<capsule>`; extractors: names of leaf extractors of plug-ins that rules may use.
     """
 
     model_config = ConfigDict(extra="allow", frozen=True)
@@ -142,8 +140,8 @@ def change_setting(folder: Path, key: str, value: TomlValue) -> None:
         write_atomically(path, edited)
 
 
-def edit_settings(folder: Path, values: Mapping[str, TomlValue]) -> str:
-    """The text of meshforge.toml with some values changed."""
+def edit_settings(folder: Path, values: Mapping[str, TomlValue | None]) -> str:
+    """Return the text of meshforge.toml with some values changed; None removes one."""
     path = folder / batch.SETTINGS
     text = _read_text(path)
     try:
@@ -280,44 +278,34 @@ def find_assets(folder: Path) -> batch.AssetSet:
                 where=str(folder / batch.SETTINGS),
                 remedy="Make another project for it, or move it there.",
             )
-    return _without_left_out(folder, settings, found)
+    return found
 
 
-def _without_left_out(folder: Path, settings: Settings, found: batch.AssetSet) -> batch.AssetSet:
-    """The family. Raises ProjectError where nothing is left of it."""
-    away = {*settings.left_out, *settings.removed}
-    if not away:
-        return found
-    kept = tuple(path for key, path in found.ids.items() if key not in away)
-    if not kept:
-        remedy = "Take an id out of left_out or removed."
-        raise ProjectError("every asset is left out of the family", where=str(folder / batch.SETTINGS), remedy=remedy)
-    left_out = tuple(key for key in found.ids if key in settings.left_out and key not in settings.removed)
-    return replace(found, paths=kept, left_out=left_out)
+def drop_assets(folder: Path, found: batch.AssetSet, assets: Collection[str]) -> tuple[str, ...]:
+    """Name assets no more in the settings, and return those that a folder or a glob means still; the caller holds the
+    lock."""
+    paths = {found.ids[asset] for asset in assets}
+    named = tuple(entry for entry in read_settings(folder).assets if plain_path(folder / entry) not in paths)
+    meant = set(batch.expand(named, folder).paths) if named else set()
+    change_setting(folder, "assets", named)
+    return tuple(asset for asset in assets if found.ids[asset] in meant)
 
 
-def take_back(folder: Path, assets: Iterable[str]) -> None:
-    """Let assets belong to the project again that were removed or left out."""
-    settings, wanted = read_settings(folder), set(assets)
-    for key, ids in (("removed", settings.removed), ("left_out", settings.left_out)):
-        if wanted & set(ids):
-            change_setting(folder, key, tuple(one for one in ids if one not in wanted))
-
-
-def add_assets(folder: Path, found: batch.AssetSet, paths: Iterable[str | Path]) -> None:
-    """Name files among the assets of the settings, as far as these do not mean them already; the caller holds the lock.
+def add_assets(folder: Path, found: batch.AssetSet, paths: Iterable[str | Path]) -> tuple[str, ...]:
+    """Name files among the assets of the settings, as far as these do not mean them already, and return their ids; the
+    caller holds the lock.
 
     Assets that a pattern would pass over because of the new files, such as mesh files in a folder that gets a URDF,
     are named as well. Raises ProjectError for a file that is no asset, or lies outside of the folder of the ids.
     """
     wanted = [_check_path(found, plain_path(Path(path))) for path in paths]
-    take_back(folder, (batch.asset_id(path, found.base_of(path)) for path in wanted))
     present = set(find_assets(folder).paths)
     had = (path for path in found if path.exists())
     more = [path for path in dict.fromkeys([*had, *wanted]) if path not in present]
     if more:
         names = (path_seen_from(folder, str(path)) for path in more)
         change_setting(folder, "assets", (*read_settings(folder).assets, *names))
+    return tuple(batch.asset_id(path, found.base_of(path)) for path in wanted)
 
 
 def _check_path(found: batch.AssetSet, path: Path) -> Path:

@@ -4,13 +4,14 @@ at last."""
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Literal
 
 from pydantic import AliasChoices, Field
 
 from meshforge import signoff
 from meshforge.batch import OutputInputs
-from meshforge.store.events import Probability, list_lines, parse_line
+from meshforge.store.events import Probability, list_lines, parse_line, read_lines
 from meshforge.store.layout import JsonFile
 
 ANSWERS = "what people showed and said"
@@ -54,20 +55,11 @@ class SignOff(JsonFile):
         return self.by == "person" or self.probability >= threshold
 
 
-def parse_sign_offs(text: str, where: str) -> dict[str, SignOff]:
-    """The sign-offs of a file by asset, one JSON object a line. Raises ProjectError, naming the line, for another."""
-    found = (parse_line(SignOff.model_validate_json, line, number, where) for number, line in list_lines(text))
+def load_sign_offs(path: Path) -> dict[str, SignOff]:
+    """Read the sign-offs of a file by asset. Raises ProjectError, naming the line, for one that is none."""
+    lines = list_lines(read_lines(path))
+    found = (parse_line(SignOff.model_validate_json, line, number, str(path)) for number, line in lines)
     return {one.asset: one for one in found}
-
-
-class ReasonLine(JsonFile):
-    """One reason to doubt an edit, as `signoff.Reason` has it."""
-
-    kind: signoff.ReasonKind
-    text: str
-    hulls: tuple[str, ...] = ()
-    rule: int | None = None
-    share: float = 0.0
 
 
 class ConfidenceLine(JsonFile):
@@ -76,7 +68,7 @@ class ConfidenceLine(JsonFile):
     does not know; measures: of its edit, None where it has none."""
 
     probability: Probability
-    reasons: tuple[ReasonLine, ...] = ()
+    reasons: tuple[signoff.Reason, ...] = ()
     rests_on: OutputInputs
     looked_at: bool = False
     is_outlier: bool = False
@@ -92,7 +84,7 @@ class ConfidenceLine(JsonFile):
         if self.looked_at or len(alarms) <= sum(reason.kind == "alarm" for reason in self.reasons):
             return self
         others = tuple(reason for reason in self.reasons if reason.kind != "alarm")
-        reasons = tuple(ReasonLine(kind="alarm", text=text) for text in alarms)
+        reasons = tuple(signoff.Reason("alarm", text) for text in alarms)
         return self.model_copy(update={"reasons": (*reasons, *others), "is_outlier": True})
 
     @staticmethod
@@ -102,29 +94,23 @@ class ConfidenceLine(JsonFile):
         looked_at: bool,
         measures: signoff.EditMeasures | None = None,
     ) -> ConfidenceLine:
-        reasons = tuple(
-            ReasonLine(kind=one.kind, text=one.text, hulls=one.hulls, rule=one.rule, share=one.share)
-            for one in found.reasons
-        )
         return ConfidenceLine(
-            probability=found.probability, reasons=reasons, rests_on=rests_on, looked_at=looked_at, measures=measures
+            probability=found.probability,
+            reasons=found.reasons,
+            rests_on=rests_on,
+            looked_at=looked_at,
+            measures=measures,
         )
-
-    def to_confidence(self, asset: str) -> signoff.AssetConfidence:
-        reasons = tuple(signoff.Reason(one.kind, one.text, one.hulls, one.rule, one.share) for one in self.reasons)
-        return signoff.AssetConfidence(asset, self.probability, reasons)
 
 
 class AssessmentFile(JsonFile):
     """What was found last. threshold: the probability from which on an asset is signed off; inputs_digest: of what was
-    learned from and of all verdicts; wrong: assets of which a person said that the result is wrong; not_of_family:
-    those of which they said so.
+    learned from and of all verdicts; wrong: assets of which a person said that the result is wrong.
     """
 
     threshold: float
     inputs_digest: str
     wrong: tuple[str, ...] = ()
-    not_of_family: tuple[str, ...] = ()
     assets: dict[str, ConfidenceLine] = Field(default_factory=dict)
 
     def with_alarms(self, alarms: Mapping[str, Sequence[str]]) -> AssessmentFile:
@@ -135,9 +121,7 @@ class AssessmentFile(JsonFile):
     def holds(self, inputs_digest: str, inputs: Mapping[str, OutputInputs]) -> bool:
         """Whether nothing changed since; inputs: of the edits of all assets that can be read, or of some."""
         return inputs_digest == self.inputs_digest and all(
-            name in self.assets and not find_changes(now, self.assets[name].rests_on)
-            for name, now in inputs.items()
-            if name not in self.not_of_family
+            name in self.assets and not find_changes(now, self.assets[name].rests_on) for name, now in inputs.items()
         )
 
 

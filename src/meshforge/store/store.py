@@ -2,37 +2,45 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass, field
+from functools import lru_cache
 from pathlib import Path
+from types import MappingProxyType
 from typing import Self
 
 from meshforge import batch, language, signoff, symbolic, synthesis
-from meshforge.common import MeshForgeError, ProjectError, nearest_name, write_all_atomically, write_atomically
-from meshforge.store import membership
+from meshforge.common import (
+    FileState,
+    MeshForgeError,
+    ProjectError,
+    file_state,
+    nearest_name,
+    write_all_atomically,
+    write_atomically,
+)
+from meshforge.signoff.question import NOT_OF_FAMILY, ExclusionReason
 from meshforge.store import program as program_files
 from meshforge.store import settings as settings_file
-from meshforge.store.event_log import load_events, load_feedback, load_sign_offs, save_events, save_sign_offs
-from meshforge.store.events import Event, ExclusionEvent, SnoozeEvent, VerdictEvent
-from meshforge.store.feedback import Feedback
+from meshforge.store.events import Event, ExclusionEvent, SnoozeEvent, VerdictEvent, format_lines
+from meshforge.store.feedback import Feedback, load_events, load_feedback, save_events
 from meshforge.store.layout import Layout, read_derived, read_json, write_json
 from meshforge.store.mesh_cache import MeshCache
-from meshforge.store.meshes import AssetFiles, read_labels_file
+from meshforge.store.meshes import AssetFiles, format_labels_file, read_labels_file
 from meshforge.store.preparation_plan import forget_assets
-from meshforge.store.sign_off import AssessmentFile, SignOff
+from meshforge.store.sign_off import AssessmentFile, SignOff, load_sign_offs
 
 
 @dataclass(frozen=True)
 class Store:
     """A project folder. It holds nothing but paths in memory: what is asked for is read, what is set is written.
 
-    found: the assets, as they were when the project was opened; cache: of meshes, so that they are not read again.
+    every: all its assets, as they were when it was opened; cache: of meshes, so that they are not read again.
     """
 
     folder: Path
-    found: batch.AssetSet = field(repr=False)
+    every: batch.AssetSet = field(repr=False)
     cache: MeshCache | None = field(default=None, repr=False, compare=False)
 
     @classmethod
@@ -91,13 +99,47 @@ class Store:
 
     # Assets
 
+    @property
+    def found(self) -> batch.AssetSet:
+        """The assets of the family: all but those that are excluded as not of it."""
+        return self.every.without([asset for asset, why in self.exclusions().items() if why == NOT_OF_FAMILY])
+
     def assets(self) -> tuple[str, ...]:
-        """The ids of all assets."""
+        """Return the ids of all assets of the family."""
         return tuple(self.found.ids)
 
+    def exclusions(self) -> Mapping[str, ExclusionReason]:
+        """Return why assets are excluded, by id: from the family, or as not solved."""
+        layout = self.layout
+        return _read_exclusions(self.folder, file_state(layout.settings), file_state(layout.events))
+
+    def exclude(self, assets: Collection[str], reason: ExclusionReason | None) -> None:
+        """Exclude assets, or include them again by None; their files stay, and what is kept for them. Raises
+        ProjectError for one that there is not, and where none of the family would be left."""
+        for asset in assets:
+            self.path(asset)
+        if reason == NOT_OF_FAMILY:
+            self._check_rest(assets)
+        with self.lock():
+            self._note_exclusions()
+            self.add_events(*(ExclusionEvent(asset=asset, reason=reason) for asset in assets))
+
+    def _note_exclusions(self) -> None:
+        """Note as events, under the lock that the caller holds, what earlier versions noted in the settings."""
+        settings = self.settings
+        if before := dict.fromkeys((*settings.left_out, *settings.removed), NOT_OF_FAMILY):
+            self.add_events(*(ExclusionEvent(asset=asset, reason=why) for asset, why in before.items()))
+            after = settings_file.edit_settings(self.folder, {"left_out": None, "removed": None})
+            write_atomically(self.layout.settings, after)
+
+    def _check_rest(self, away: Collection[str]) -> None:
+        if self.found.ids.keys() <= set(away):
+            remedy = "Add other assets first."
+            raise ProjectError("no asset of the family would be left", where=str(self.folder), remedy=remedy)
+
     def path(self, asset: str) -> Path:
-        """The file of an asset. Raises ProjectError, naming the nearest id, where there is no such asset."""
-        ids = self.found.ids
+        """Return the file of an asset. Raises ProjectError, naming the nearest id, where there is no such asset."""
+        ids = self.every.ids
         if asset not in ids:
             by_name = {Path(key).name: key for key in ids}
             like = nearest_name(asset, ids) or by_name.get(nearest_name(Path(asset).name, by_name) or "")
@@ -132,32 +174,26 @@ class Store:
         self.path(asset)
         return batch.read_preparation(self.layout.preparation(asset)) or batch.Preparation()
 
-    def leave_out(self, assets: Collection[str]) -> None:
-        """Leave assets out of the family; their files stay, and what is kept for them. Raises ProjectError for the last
-        one."""
-        with self.lock():
-            membership.leave_out(self.folder, self.found, assets)
-
-    def include_again(self, assets: Collection[str]) -> None:
-        """Let assets that were left out be part of the family again."""
-        with self.lock():
-            membership.include_again(self.folder, assets)
-
     def remove_assets(self, assets: Collection[str]) -> None:
-        """Remove assets from the project, with what it keeps for them; their own files stay. Raises ProjectError for
-        the last one of the family."""
+        """Remove assets from the project, with what it keeps for them; their own files stay. One that a folder or a
+        glob of the settings means is excluded. Raises ProjectError for the last one of the family."""
+        for asset in assets:
+            self.path(asset)
+        self._check_rest(assets)
         with self.lock():
-            membership.remove_from_settings(self.folder, self.found, assets)
+            self._note_exclusions()
+            feedback, meant = self.feedback(), settings_file.drop_assets(self.folder, self.every, assets)
             for asset in assets:
                 batch.write_preparation(self.layout.preparation(asset), batch.Preparation())
                 for path in self.layout.list_kept(asset):
                     if path.is_file():
                         path.unlink()
-            feedback = self.feedback()
             verdicts = [VerdictEvent(asset=asset) for asset in assets if feedback.verdict_on(asset)]
-            exclusions = [ExclusionEvent(asset=asset) for asset in assets if asset in feedback.exclusions]
-            if verdicts or exclusions:
-                self.add_events(*verdicts, *exclusions)
+            excluded = (*meant, *(asset for asset in assets if asset in feedback.exclusions and asset not in meant))
+            reasons = (ExclusionEvent(asset=one, reason=NOT_OF_FAMILY if one in meant else None) for one in excluded)
+            events: list[Event] = [*verdicts, *reasons]
+            if events:
+                self.add_events(*events)
             forget_assets(self.layout, assets)
 
     # Labels
@@ -189,15 +225,8 @@ class Store:
         vocabulary: Sequence[str],
         away: Collection[str] = (),
     ) -> str | None:
-        """What `write_labels` writes; None where the file is to be removed."""
-        path, present = self.layout.labels(asset), {name: labels[name] for name in hulls if name in labels}
-        text = symbolic.format_labels(symbolic.LabelFile(tuple(vocabulary), present, hulls))
-        if gone := [name for name in symbolic.match_labels(self.labels(asset), hulls).gone if name not in away]:
-            old, new = json.loads(path.read_text(encoding="utf-8")), json.loads(text)
-            new["hulls"] |= {name: old["hulls"][name] for name in gone}
-            new["vocabulary"] = list(dict.fromkeys([*new["vocabulary"], *old.get("vocabulary", [])]))
-            text = json.dumps(new, ensure_ascii=False, indent=2) + "\n"
-        return text if present or gone else None
+        """Return what `write_labels` writes; None where the file is to be removed."""
+        return format_labels_file(self.layout.labels(asset), hulls, labels, vocabulary, away)
 
     def write_labels_files(self, texts: Mapping[str, str | None]) -> None:
         """Write labels files, by asset, under the lock that the caller holds; None removes one."""
@@ -234,14 +263,9 @@ class Store:
         return program_files.read_manual_edits(self.layout.manual_edits(asset))
 
     def write_manual_edits(self, asset: str, manual_edits: Sequence[batch.ManualEdit]) -> None:
-        """Write the edits by hand of an asset."""
+        """Write the edits by hand of an asset; without any its file is removed."""
         with self.lock():
             program_files.write_manual_edits(self.layout.manual_edits(asset), asset, manual_edits)
-
-    def drop_manual_edits(self, asset: str) -> None:
-        """Remove all edits by hand of an asset."""
-        with self.lock():
-            self.layout.manual_edits(asset).unlink(missing_ok=True)
 
     # The program
 
@@ -256,14 +280,12 @@ class Store:
 
     def program_record(self) -> program_files.ProgramRecord | None:
         """What the program was learned from; None where none was learned."""
-        kept = read_json(self.layout.learned, program_files.ProgramRecord)
-        return kept or read_json(self.layout.learned_before, program_files.ProgramRecord)
+        return read_json(self.layout.learned, program_files.ProgramRecord)
 
     def write_program_record(self, record: program_files.ProgramRecord) -> None:
         """Write what the program was learned from."""
         with self.lock():
             write_json(self.layout.learned, record)
-            self.layout.learned_before.unlink(missing_ok=True)
 
     def templates(self, names: Iterable[str]) -> dict[str, language.Template]:
         """Hull templates by the names that programs write. Raises ProgramError where one is not there or not convex."""
@@ -310,12 +332,6 @@ class Store:
         if self.feedback().snoozed:
             self.add_events(SnoozeEvent())
 
-    def migrate(self) -> None:
-        """Keep as events what files of before there were events hold."""
-        with self.lock():
-            if not self.layout.events.exists() and (events := load_events(self.layout)):
-                save_events(self.layout, events)
-
     def change_events(self, change: Callable[[tuple[Event, ...]], Iterable[Event]]) -> None:
         """Write other events in the place of all that there are, where anything is other."""
         with self.lock():
@@ -326,13 +342,12 @@ class Store:
 
     def sign_offs(self) -> dict[str, SignOff]:
         """Which assets are signed off, by asset."""
-        return load_sign_offs(self.layout)
+        return load_sign_offs(self.layout.sign_offs)
 
     def write_sign_offs(self, signed: Mapping[str, SignOff]) -> None:
         """Write which assets are signed off, under the lock that the caller holds."""
         if signed != self.sign_offs():
-            self.migrate()
-            save_sign_offs(self.layout, signed)
+            write_atomically(self.layout.sign_offs, format_lines(one for _, one in sorted(signed.items())))
 
     def assessment(self) -> AssessmentFile | None:
         """How the family stood when it was looked at last; None where that is not kept, or damaged."""
@@ -347,3 +362,14 @@ class Store:
         """Keep how the family stands."""
         with self.lock():
             write_json(self.layout.assessment, found)
+
+
+@lru_cache(maxsize=4)
+def _read_exclusions(
+    folder: Path, settings: FileState | None, events: FileState | None
+) -> Mapping[str, ExclusionReason]:
+    """Read them from files in these states; they are asked for several times for every asset."""
+    kept = settings_file.read_settings(folder)
+    feedback = load_feedback(Layout(folder)).exclusions.items()
+    before = dict.fromkeys((*kept.left_out, *kept.removed), NOT_OF_FAMILY)
+    return MappingProxyType(before | {asset: one.reason for asset, one in feedback if one.reason})

@@ -184,7 +184,7 @@ def _is_unchanged(project: Project, asset: str, stamp: Stamp) -> bool:
     if made is None or record_digest(project.layout.preparation(asset)) != made.preparation:
         return False
     path = project.path(asset)
-    return has_same_files(made.asset, path, project.found.base_of(path))
+    return has_same_files(made.asset, path, project.every.base_of(path))
 
 
 def check_key(stamp: Stamp | None) -> str | None:

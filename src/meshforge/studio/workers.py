@@ -78,7 +78,7 @@ def future_of(result: Result) -> Future[Result]:
 
 def project_of_one(project: Project, asset: str) -> Project:
     """The same project with one asset, for a worker process."""
-    return Project(project.folder, replace(project.found, paths=(project.path(asset),)))
+    return Project(project.folder, replace(project.every, paths=(project.path(asset),)))
 
 
 def wait_for(future: Future[Result]) -> Result:

@@ -84,7 +84,7 @@ def test_the_legend_of_a_heat_map_has_the_unit_that_is_asked_for(monkeypatch: py
         legends.append([entry.name for entry in legend])
         return HullColors(colors, legend)
 
-    monkeypatch.setattr(import_module("meshforge.rendering.compare"), "HullColors", note)
+    monkeypatch.setattr(import_module("meshforge.rendering.comparison"), "HullColors", note)
     mesh = cup(box([0, 0, 0], [0.1, 0.1, 0.3]), shown=[WHOLE])
     for unit, wanted in ends.items():
         assert draw_fit(mesh, measure_fit(mesh), size=(200, 150), unit=unit)

@@ -110,12 +110,6 @@ def test_no_rebuild_in_a_project_is_made_good_by_the_next_run(run: Run) -> None:
     assert "%: base rebuilt into " in run("apply", "p", "--workers", "1").out
 
 
-def test_removing_all_that_was_prepared_ends_it(run: Run) -> None:
-    assert run("prepare", "p", "--remove").code == 0
-    told = run("apply", "p", "new", "--out", "out", "--workers", "1")
-    assert "%: base rebuilt into " not in told.out and "left as it is" not in told.out
-
-
 def test_the_projects_own_assets_are_taken_as_they_are_there(run: Run) -> None:
     told = run("apply", "p", "assets/a.urdf", "--out", "out", "--workers", "1")
     assert told.code == 0 and told.out.startswith("edited     a.urdf: 5 -> 5 hulls\n1 asset")
@@ -150,13 +144,6 @@ def test_what_is_less_sure_than_asked_is_held_and_reported(run: Run) -> None:
 def test_bad_input(run: Run, words: list[str], problem: str) -> None:
     told = run("apply", *words)
     assert told.code == 2 and problem in told.err and "Traceback" not in told.err
-
-
-def test_an_asset_that_cannot_be_read_fails_alone(run: Run) -> None:
-    Path("new/x.urdf").write_text("<robot")
-    told = run("apply", "p", "new", "--out", "out", "--workers", "1")
-    assert told.code == 1
-    assert "failed     x.urdf\n    it could not be prepared: " in told.out and "edited     c.urdf" in told.out
 
 
 @pytest.fixture

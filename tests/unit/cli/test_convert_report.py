@@ -56,7 +56,7 @@ def test_outputs_of_an_earlier_run_are_shown_again(run: Run) -> None:
 @pytest.mark.parametrize(
     ("words", "problem"),
     [
-        (("in/a.urdf", "a.obj"), "--report is for --to"),
+        (("in/a.urdf", "a.obj"), "--report says nothing without --to SUFFIX"),
         (("in", "out", "--to", "obj", "--dry-run"), "with --dry-run there is nothing to show"),
     ],
 )

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.cli.notes import NoteLog, fold_notes
+from meshforge.cli.console import NoteLog, fold_notes
 from tests.unit.cli.in_process import Run, runner
 
 LOST = "{} ({}) {} left out: MeshForge does not convert masses to OBJ"

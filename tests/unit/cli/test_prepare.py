@@ -86,12 +86,6 @@ def test_a_project_without_a_name_is_not_made_here(run: Run) -> None:
     assert run("new", ".", "in/row.obj").code == 0
 
 
-def test_an_unknown_option_of_the_engine_makes_no_project(run: Run) -> None:
-    told = run("new", "p", "in/row.obj", "--decompose", "coacd", "--set", "treshold=1")
-    assert told.code == 2 and "threshold=0.05" in told.err
-    assert not Path("p").exists()
-
-
 @pytest.mark.slow
 def test_status_and_info_lead_to_what_can_be_prepared(run: Run, project: str) -> None:
     assert "2 without hulls (meshforge prepare)" in run("status", project).out
@@ -136,11 +130,6 @@ def test_cut_along_a_plane_and_back(run: Run, project: str) -> None:
     assert told.code == 1 and "failed: row.obj: nothing was done to it" in told.out
 
 
-def test_negative_coordinates_are_understood(run: Run, project: str) -> None:
-    told = run("cut", project, "stand.urdf", "frame/foot", "--at", "-0.5,0,-1", "--across", "-1,0,0")
-    assert told.code == 0 and "frame/foot: 2 hulls" in told.out
-
-
 def test_all_is_taken_back_at_once(run: Run, project: str) -> None:
     run("prepare", project, *VOXELS)
     run("cut", project, "row.obj", "geom0#1", "--at", "2,0,0", "--across", "1,0,0")
@@ -183,7 +172,7 @@ def test_what_cannot_be_taken_back_is_named_and_the_rest_is(run: Run, project: s
 def test_what_is_kept_for_an_asset_that_is_gone_can_be_taken_away(run: Run) -> None:
     run("new", "p", "in/stand.*", "in/row.*", "--vocabulary", "a,b")
     run("cut", "p", "row.obj", "geom0#1", "--at", "2,0,0", "--across", "1,0,0")
-    run("cut", "p", "stand.urdf", "frame/foot", "--at", "0,0,-1", "--across", "1,0,0")
+    run("cut", "p", "stand.urdf", "frame/foot", "--at", "-0.5,0,-1", "--across", "-1,0,0")
     write_boxes(Path("in/row.2.obj"))
     Path("in/row.obj").unlink()
     assert "kept for an asset that is not there: row.obj" in run("status", "p").out
@@ -210,10 +199,7 @@ def test_a_damaged_record_is_taken_back_and_a_folder_in_its_place_is_told(run: R
 @pytest.mark.parametrize(
     ("option", "words"),
     [
-        ("--set", ("threshold=1",)),
         ("--hollow", ()),
-        ("--by", ("parts",)),
-        ("--timeout", ("600",)),
         ("--workers", ("1",)),
     ],
 )
@@ -231,9 +217,7 @@ def test_options_of_decomposing_make_no_project_without_it(run: Run, option: str
         (("prepare", "p", "--undo"), "--undo of which asset?"),
         (("prepare", "p", "roww.obj", "--decompose", "vhacd"), "Did you mean 'row.obj'"),
         (("prepare", "p", "row.obj", "--remove", "--only", "geom0"), "--only says nothing without --decompose"),
-        (("prepare", "p", "row.obj", "--undo", "--again"), "--again says nothing without --decompose"),
         (("cut", "p", "row.obj", "geom0#1"), "Missing option '--at'"),
-        (("cut", "p", "row.obj", "geom0#1", "--at", "1,0,0"), "Missing option '--across'"),
         (("cut", "p", "row.obj", "geom0#1", "--at", "1,0", "--across", "1,0,0"), "--at 1,0: three numbers"),
         (
             ("cut", "p", "row.obj", "geom0#1", "--at", "9,0,0", "--across", "1,0,0"),
@@ -241,7 +225,6 @@ def test_options_of_decomposing_make_no_project_without_it(run: Run, option: str
         ),
         (("cut", "p", "row.obj", "geom0#1", "--at", "nan,0,0", "--across", "1,0,0"), "--at nan,0,0: three numbers"),
         (("cut", "p", "row.obj", "geom0#1", "--at", "2,0,0", "--across", "0,0,0"), "--across 0,0,0: a direction"),
-        (("cut", "p", "row.obj", "geom0#1", "--at", "2,0,0", "--across", "inf,0,0"), "--across inf,0,0: three"),
         (("cut", "p", "row.obj", "geom9", "--at", "2,0,0", "--across", "1,0,0"), "there is no hull 'geom9'"),
     ],
 )

@@ -42,17 +42,6 @@ def test_dry_run_then_rebuild_then_undo(run: Run) -> None:
     assert told.code == 0 and "4 hulls rebuilt into 5 hulls" in told.out
 
 
-def test_another_engine_makes_the_fine_pieces(run: Run, tmp_path: Path) -> None:
-    told = run(
-        "prepare", "p", "--rebuild-spanning", "--min-confidence", "0.7", "--workers", "1", "--decompose", "vhacd"
-    )
-    assert told.code == 0 and "c.urdf: 4 pieces into 5 hulls\n" in told.out
-    kept = json.loads((tmp_path / "p/prepared/c.urdf/preparation.json").read_text())
-    assert kept["steps"][0]["settings"]["pieces"] == "vhacd"
-    told = run("prepare", "p", "c.urdf", "--undo")
-    assert told.code == 0 and not (tmp_path / "p/prepared/c.urdf").exists()
-
-
 @pytest.mark.parametrize("option", [("--set", "resolution=5"), ("--hollow",), ("--by", "parts")])
 def test_settings_of_a_decomposition_do_not_go_with_fine_pieces(run: Run, option: tuple[str, ...]) -> None:
     told = run("prepare", "p", "--rebuild-spanning", "--decompose", "vhacd", *option)

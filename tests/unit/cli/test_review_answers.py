@@ -8,8 +8,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.cli.review_answers import ScriptReply, find_contradictions, parse_reply, read_replies
-from meshforge.cli.review_text import format_prompt, format_question, format_reply_help, letter_of
+from meshforge.cli.review_answers import (
+    ScriptReply,
+    find_contradictions,
+    format_prompt,
+    format_question,
+    format_reply_help,
+    letter_of,
+    parse_reply,
+    read_replies,
+)
 from meshforge.common import UsageError
 from meshforge.geometry import Box, Pose
 from meshforge.language import Program

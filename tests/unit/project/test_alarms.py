@@ -9,7 +9,7 @@ import pytest
 from meshforge.batch import IN_PROCESS
 from meshforge.language import Delete, Program
 from meshforge.project import Project
-from meshforge.project.alarms import measure_results
+from meshforge.project.family_state import measure_results
 from meshforge.project.sign_offs import find_inputs
 from meshforge.signoff import THRESHOLD, EditMeasures, describe_outliers, measure_edit
 from meshforge.symbolic import SymbolicMesh
@@ -65,7 +65,7 @@ def measured(monkeypatch: pytest.MonkeyPatch) -> list[int]:
         measured.append(len(after.hulls))
         return measure_edit(before, after)
 
-    monkeypatch.setattr("meshforge.project.alarms.measure_edit", count)
+    monkeypatch.setattr("meshforge.project.family_state.measure_edit", count)
     return measured
 
 

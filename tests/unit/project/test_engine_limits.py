@@ -9,7 +9,7 @@ from meshforge.batch import HullParts, Preparation, replace_hulls
 from meshforge.common import UsageError
 from meshforge.formats import read
 from meshforge.geometry import Polytope, convex_hull, cut
-from meshforge.project.engine_limits import describe_limits
+from meshforge.project.rebuild import describe_limits
 from meshforge.symbolic import Asset
 from tests.unit.project.stools import boxes, write_stool
 

@@ -1,16 +1,13 @@
-"""What people said is kept as events, one a line: merged by lines, named by line where it is damaged, and read from the
-four files of before."""
+"""What people said is kept as events, one a line: merged by lines, and named by line where it is damaged."""
 
 from __future__ import annotations
 
 import json
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any
 
 import pytest
 
-from meshforge.batch import IN_PROCESS
 from meshforge.common import ProjectError
 from meshforge.project import Project
 from meshforge.store import SnoozeEvent
@@ -18,135 +15,8 @@ from meshforge.store.events import parse_events
 from meshforge.store.feedback import Feedback
 from meshforge.store.program import ProgramRecord
 from meshforge.store.sign_off import SignOffBasis
-from meshforge.symbolic import Label
-from meshforge.synthesis import Answer, LabelFix
-from tests.unit.batch.families import tree
-from tests.unit.deaths import deaths, needs_fork
-from tests.unit.project.tables import FIRST, LEGS, SECOND, THIRD, applied, learned
-
-OLD = ("answers.json", "review.json", "signoff.json", "later.json")
-SEEN = [{"rule": 1, "action": "Delete", "select": ["crumb"]}, {"rule": 2, "action": "Merge", "select": sorted(LEGS)}]
-
-
-def in_the_old_format(folder: Path) -> Project:
-    """A project that was signed off, then said all there is to say, kept as it was before there were events."""
-    project = applied(folder)
-    project.set_verdict(FIRST, "accepted")
-    project.review(0.5, execution=IN_PROCESS)
-    output = next(one for one in project.status(workers=0).assets if one.id == FIRST).output_digest
-    fix = {"asset": THIRD, "hull": "crumb", "from": "misc"}
-    before = {"label": "misc", "source": "file", "confidence": 1.0}
-    answer = {"id": f"1:{THIRD}", "rule": 1, "asset": THIRD, "select": ["crumb"], "action": "Delete", "refused": []}
-    neither = {"id": f"2:{THIRD}", "rule": 2, "asset": THIRD, "select": None, "refused": [["top"], []]}
-    signed = {name: one.model_dump(exclude={"asset"}) for name, one in project.sign_offs().items()}
-    texts: dict[str, dict[str, Any]] = {
-        "answers.json": {
-            "answers": [answer, neither],
-            "confirmed": [{"id": f"{THIRD}#crumb=leg", **fix, "to": "leg", "before": before}],
-            "rejected": [{"id": f"{THIRD}#crumb=top", **fix, "to": "top"}],
-        },
-        "review.json": {
-            "assets": {
-                FIRST: {"verdict": "accepted", "note": "fine", "output": output, "seen": SEEN},
-                SECOND: {"verdict": "flagged", "note": None, "output": None, "seen": []},
-                THIRD: {"verdict": "flagged", "note": "set aside", "output": None, "seen": []},
-            }
-        },
-        "signoff.json": {"assets": signed, "aside": ["gone/model.obj"]},
-        "later.json": {"questions": ["group-1", "result-2"]},
-    }
-    project.layout.events.unlink()
-    project.layout.sign_offs.unlink()
-    for name, text in texts.items():
-        (project.folder / name).write_text(json.dumps(text, indent=2))
-    return project
-
-
-def check_all_is_understood(project: Project) -> None:
-    said = project.feedback()
-    assert [line.answer for line in said.answers.values()] == [
-        Answer(1, THIRD, ["crumb"]),
-        Answer(2, THIRD, None, [["top"], []]),
-    ]
-    assert {line.fix: line.accepted for line in said.fixes.values()} == {
-        LabelFix(THIRD, "crumb", "misc", "leg"): True,
-        LabelFix(THIRD, "crumb", "misc", "top"): False,
-    }
-    before = said.fixes[f"{THIRD}#crumb=leg"].before
-    assert before is not None and before.annotation == Label("misc", 1.0, "file")
-    assert {asset: some[-1].verdict for asset, some in said.verdicts.items()} == {
-        FIRST: "accepted",
-        SECOND: "wrong",
-        THIRD: "wrong",
-    }
-    accepted = said.verdict_on(FIRST)
-    assert accepted is not None and accepted.note == "fine" and accepted.output
-    assert [(one.rule, one.action, set(one.select)) for one in accepted.seen] == [
-        (1, "Delete", {"crumb"}),
-        (2, "Merge", LEGS),
-    ]
-    assert {asset: one.reason for asset, one in said.exclusions.items()} == {
-        THIRD: "not solved",
-        "gone/model.obj": "not solved",
-    }
-    assert set(said.snoozed) == {"group-1", "result-2"}
-    assert {asset: one.by for asset, one in project.sign_offs().items()} == {
-        FIRST: "person",
-        SECOND: "person",
-        THIRD: "tool",
-    }
-
-
-def test_a_project_of_before_is_understood_and_reading_it_changes_nothing(tmp_path: Path) -> None:
-    project = in_the_old_format(tmp_path)
-    before = tree(project.folder)
-    check_all_is_understood(project)
-    states = {one.id: one.sign_off for one in project.status(workers=0).assets}
-    assert states == {FIRST: "signed off", SECOND: "needs review", THIRD: "excluded"}
-    assert tree(project.folder) == before
-
-
-WRITES: dict[str, Callable[[Project], object]] = {
-    "a snooze": lambda project: project.add_events(SnoozeEvent(question="span-3")),
-    "a review": lambda project: project.review(0.5, execution=IN_PROCESS),
-    "a vocabulary": lambda project: project.rename_label("top", "board"),
-}
-
-
-@pytest.mark.parametrize("write", WRITES)
-def test_the_first_write_makes_events_of_it_and_the_old_files_stay_beside(tmp_path: Path, write: str) -> None:
-    project = in_the_old_format(tmp_path)
-    old = {name: (project.folder / name).read_bytes() for name in OLD}
-    WRITES[write](project)
-    assert project.layout.events.exists()
-    assert not any((project.folder / name).exists() for name in OLD)
-    assert {name: (project.folder / f"{name}.old").read_bytes() for name in OLD} == old
-    if write == "a snooze":
-        assert project.feedback().snoozed[-1] == "span-3"
-        (project.layout.events).write_text(project.layout.events.read_text().replace("span-3", "group-1"))
-        check_all_is_understood(project)
-
-
-@needs_fork
-def test_a_killed_migration_loses_nothing(tmp_path: Path) -> None:
-    project = in_the_old_format(tmp_path)
-    died = 0
-    for _ in deaths(lambda: project.add_events(SnoozeEvent(question="group-1"))):
-        check_all_is_understood(Project.open(project.folder))
-        died += 1
-    assert died > len(OLD)
-    check_all_is_understood(project)
-
-
-@pytest.mark.parametrize("name", OLD)
-@pytest.mark.parametrize("text", ["[", "[1]", '{"answers": [1], "assets": {"a": {}}, "aside": 1, "questions": [[]]}'])
-def test_a_damaged_file_of_before_is_named_and_kept(tmp_path: Path, name: str, text: str) -> None:
-    project = learned(tmp_path)
-    (project.folder / name).write_text(text)
-    with pytest.raises(ProjectError, match=name.replace(".", r"\.")):
-        project.add_events(SnoozeEvent(question="group-1"))
-        project.sign_offs()
-    assert (project.folder / name).read_text() == text and not project.layout.events.exists()
+from meshforge.synthesis import Answer
+from tests.unit.project.tables import FIRST, LEGS, THIRD, applied, learned
 
 
 def lines(*rows: Mapping[str, object]) -> str:

@@ -14,7 +14,7 @@ from meshforge.project import Project, Status
 from tests.unit.batch.families import label_of, obj, table_boxes, write_table, write_tables
 from tests.unit.cli.in_process import Run, runner
 from tests.unit.project.shelves import ambiguous
-from tests.unit.project.tables import FIRST, SECOND, STEPS, THIRD, applied, demonstrated, fresh, labelled, learned
+from tests.unit.project.tables import FIRST, SECOND, THIRD, applied, demonstrated, fresh, labelled, learned
 
 LABELS = {name: label_of(name) for name in table_boxes()}
 CORNERS = ((0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2))
@@ -83,24 +83,6 @@ def changed_asset(folder: Path) -> Project:
     return project
 
 
-def changed_labels(folder: Path) -> Project:
-    project = applied(folder)
-    project.set_labels(THIRD, {"crumb": "leg"})
-    return project
-
-
-def changed_program(folder: Path) -> Project:
-    project = applied(folder)
-    project.accept(Program.parse("labels top, leg, misc\nIs(misc) => Delete\n"))
-    return project
-
-
-def demonstrated_anew(folder: Path) -> Project:
-    project = learned(folder)
-    project.demonstrate(THIRD, STEPS[:1])
-    return project
-
-
 def without_hulls(folder: Path) -> Project:
     """A piece that is not convex and has to be decomposed."""
     (folder / "assets").mkdir(parents=True)
@@ -128,12 +110,9 @@ STATES: dict[str, tuple[Callable[[Path], Project], str, tuple[int, ...]]] = {
     "demonstrated": (demonstrated, "synthesize tables", (0,)),
     "an open question": (open_rule, "review {0}", (0, 1)),
     "learned": (learned, "apply tables", (0,)),
-    "demonstrated anew": (demonstrated_anew, "synthesize tables", (0, 1)),
     "applied": (applied, "review tables", (0, 1)),
     "signed off": (signed_off, "check tables/edited", (0,)),
     "an asset changed": (changed_asset, "apply tables", (0,)),
-    "labels changed": (changed_labels, "apply tables", (0,)),
-    "the program changed": (changed_program, "apply tables", (0,)),
     "a new asset": (new_asset, "label tables --with propagate", (0,)),
     "a new asset with a labels file": (new_asset_with_labels, "label tables --with file", (0,)),
     "pieces to be decomposed": (without_hulls, "prepare tables --decompose coacd", (0,)),
@@ -213,21 +192,6 @@ def test_an_unreadable_asset_is_named_and_not_only_applied_to_again(tmp_path: Pa
     )
     list(Project.open(project.folder).apply(execution=IN_PROCESS))
     assert of(project).next.text == say
-
-
-def test_without_any_demonstration_left_one_is_to_be_shown(tmp_path: Path) -> None:
-    project = learned(tmp_path)
-    for name in (FIRST, SECOND):
-        project.demonstrate(name, ())
-    assert "meshforge demonstrate" in str(of(project).next.command)
-
-
-def test_a_wrong_result_is_reviewed_again(tmp_path: Path) -> None:
-    project = signed_off(tmp_path)
-    project.set_verdict(SECOND, "wrong")
-    advice = of(project).next
-    assert advice.command == f"meshforge review {project.folder}"
-    assert advice.text == f"1 result wrong: correct them, first {SECOND}."
 
 
 def test_a_program_without_labels_asks_for_none(tmp_path: Path) -> None:

@@ -10,7 +10,7 @@ import pytest
 from meshforge.batch import IN_PROCESS, ExecutionOptions, Failed
 from meshforge.batch import status_of as word
 from meshforge.batch.outcome import Edited
-from meshforge.common import AssetError, GeometryError, ProjectError
+from meshforge.common import AssetError, ProjectError
 from meshforge.formats import load
 from meshforge.language import Delete, Merge
 from meshforge.project import PreparationResult, Project
@@ -290,15 +290,6 @@ def test_a_demonstration_that_names_a_split_hull_names_its_parts_and_is_flagged(
     assert isinstance(project.synthesize(), Found)
 
 
-def test_a_hull_that_is_not_there_cannot_be_split(tmp_path: Path) -> None:
-    project = labelled(tmp_path)
-    with pytest.raises(GeometryError, match="Did you mean 'top'"):
-        project.cut(FIRST, "topp", (1, 0, 0), (1, 0, 0))
-    with pytest.raises(ProjectError, match="no asset"):
-        project.cut("nothing.obj", "top", (1, 0, 0), (1, 0, 0))
-    assert not (project.folder / "prepared").exists()
-
-
 def test_all_that_was_done_can_be_taken_back_also_where_it_is_damaged(tmp_path: Path) -> None:
     project = decomposed(tmp_path)
     project.cut(HIGH, "frame/foot", (0, 0, -1), (1, 0, 0))
@@ -342,12 +333,6 @@ def test_the_status_says_what_could_be_decomposed(tmp_path: Path) -> None:
     assert found.next.command == f"meshforge prepare {project.folder} --decompose coacd"
     list(project.decompose(settings=QUICK, execution=IN_PROCESS))
     assert "prepare" not in (project.status(workers=0).next.command or "")
-
-
-def test_preparations_of_assets_that_are_gone_are_named(tmp_path: Path) -> None:
-    project = decomposed(tmp_path)
-    shutil.rmtree(tmp_path / "assets/low")
-    assert Project.open(project.folder).status(workers=0).lost == (LOW,)
 
 
 CHANGES: dict[str, Callable[[Project], object]] = {

@@ -107,20 +107,6 @@ def test_labels_are_kept_by_id_and_come_back_with_the_mesh(tmp_path: Path) -> No
     assert project.mesh(SECOND).hull_of("top").label is None
 
 
-def test_a_machine_never_overwrites_what_a_person_said(tmp_path: Path) -> None:
-    project = fresh(tmp_path)
-    project.set_vocabulary(["top", "leg", "misc"])
-    project.set_labels(FIRST, {"crumb": "leg"})
-    project.set_labels(FIRST, {"top": "leg"}, source="vlm", confidence=0.5)
-    reports = {report.asset: report for report in project.label("file").outcomes}
-    assert (reports[FIRST].taken, reports[FIRST].kept) == (5, 1)
-    mesh = project.mesh(FIRST)
-    assert (mesh.hull_of("crumb").label, mesh.hull_of("crumb").source) == ("leg", "user")
-    assert (mesh.hull_of("top").label, mesh.hull_of("top").source) == ("top", "file")
-    again = {report.asset: report for report in project.label("file").outcomes}
-    assert (again[FIRST].taken, again[FIRST].same, again[FIRST].kept) == (0, 5, 1)
-
-
 def test_unknown_hulls_and_labels_in_a_file_are_told_with_the_nearest(tmp_path: Path) -> None:
     project = fresh(tmp_path)
     project.set_vocabulary(["top", "leg", "misc"])
@@ -139,13 +125,6 @@ def test_unknown_hulls_and_labels_in_a_file_are_told_with_the_nearest(tmp_path: 
 
 def test_a_project_without_a_vocabulary_takes_that_of_the_files(tmp_path: Path) -> None:
     assert labelled(tmp_path).vocabulary == ("top", "leg", "misc")
-
-
-def test_labels_files_that_are_not_there_are_asked_for(tmp_path: Path) -> None:
-    write_table(tmp_path / "assets/t.obj", labels=False)
-    project = Project.create(tmp_path / "p", [tmp_path / "assets"])
-    with pytest.raises(ProjectError, match="no labels file for any asset"):
-        project.label("file")
 
 
 def test_wrong_labels_given_by_hand_are_refused_whole(tmp_path: Path) -> None:
@@ -285,9 +264,9 @@ def test_an_edit_by_hand_is_replayed_after_the_program(tmp_path: Path) -> None:
     mesh = load(project.folder / "edited" / SECOND)
     assert {h.name: h.label for h in mesh.hulls} == {"top": "top", "left_low~2": "top"}
     project.correct(SECOND, ["left_low~2"], Delete())
-    assert len(project.manual_edits(SECOND)) == 2
-    project.drop_manual_edits(SECOND)
-    assert project.manual_edits(SECOND) == ()
+    assert len(project.corrections(SECOND)) == 2
+    project.write_manual_edits(SECOND, ())
+    assert project.corrections(SECOND) == ()
 
 
 def test_an_edit_by_hand_whose_hull_is_gone_or_changed_is_flagged_and_left_out(tmp_path: Path) -> None:

@@ -13,8 +13,8 @@ from meshforge.formats import load
 from meshforge.language import Delete, Program
 from meshforge.project import AssetStatus, ProgramState, Project, Status, suggest_first_demonstration
 from meshforge.synthesis import Step
-from tests.unit.batch.families import PROGRAM, label_of, table_boxes, write_table
-from tests.unit.project.tables import FIRST, SECOND, STEPS, THIRD, applied, demonstrated, fresh, labelled, learned
+from tests.unit.batch.families import PROGRAM, write_table
+from tests.unit.project.tables import FIRST, SECOND, STEPS, THIRD, applied, demonstrated, labelled, learned
 
 
 def of(project: Project) -> Status:
@@ -23,19 +23,6 @@ def of(project: Project) -> Status:
 
 def asset(project: Project, name: str) -> AssetStatus:
     return next(a for a in of(project).assets if a.id == name)
-
-
-def test_the_next_step_leads_from_assets_to_checked_outputs(tmp_path: Path) -> None:
-    commands = [of(fresh(tmp_path / "a")).next.command]
-    commands += [of(labelled(tmp_path / "b")).next.command, of(demonstrated(tmp_path / "c")).next.command]
-    commands += [of(learned(tmp_path / "d")).next.command, of(applied(tmp_path / "e")).next.command]
-    assert [(command or "").split()[:2] for command in commands] == [
-        ["meshforge", "label"],
-        ["meshforge", "demonstrate"],
-        ["meshforge", "synthesize"],
-        ["meshforge", "apply"],
-        ["meshforge", "review"],
-    ]
 
 
 def test_the_asset_that_tells_most_is_advised_and_one_that_cannot_be_read_passed_over(tmp_path: Path) -> None:
@@ -62,26 +49,6 @@ def test_labels_that_lie_nowhere_are_to_be_given_by_hand_or_read_from_names(tmp_
     assert advice.command == f"meshforge label {project.folder} --with names"
     (tmp_path / "assets/t.obj").write_text("nothing of use")
     assert of(project).next.command is None
-
-
-def test_commands_name_the_project_as_one_types_it_here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    project = demonstrated(tmp_path)
-    monkeypatch.chdir(tmp_path)
-    assert of(project).next.command == "meshforge synthesize tables"
-
-
-def test_where_some_assets_are_labelled_their_labels_are_to_be_carried_over(tmp_path: Path) -> None:
-    for name in ("a", "b", "c"):
-        write_table(tmp_path / f"assets/{name}.obj", labels=False)
-    project = Project.create(tmp_path / "p", [tmp_path / "assets"], vocabulary=["top", "leg", "misc"])
-    project.set_labels("a.obj", {"top": "top"})
-    assert "propagate" not in str(of(project).next.command)
-    project.set_labels("a.obj", {name: label_of(name) for name in table_boxes()})
-    advice = of(project).next
-    assert advice.text == "2 assets have no label: propagate labels."
-    assert advice.command == f"meshforge label {project.folder} --with propagate"
-    project.label("propagate")
-    assert "demonstrate" in str(of(project).next.command)
 
 
 def test_the_labels_of_an_output_are_in_the_order_of_its_file(tmp_path: Path) -> None:
@@ -129,13 +96,6 @@ def test_a_label_that_nothing_uses_makes_no_output_stale_and_leaves_what_was_acc
     assert (asset(project, FIRST).review, asset(project, FIRST).void) == ("accepted", ())
 
 
-def test_a_file_that_was_only_touched_is_not_stale(tmp_path: Path) -> None:
-    project = applied(tmp_path)
-    path = tmp_path / "assets" / FIRST
-    path.write_bytes(path.read_bytes())
-    assert asset(project, FIRST).stale == ()
-
-
 def test_an_edit_by_hand_makes_an_output_stale(tmp_path: Path) -> None:
     project = applied(tmp_path)
     project.correct(FIRST, ["top"], Delete())
@@ -159,15 +119,6 @@ def test_a_failure_is_told_with_its_message(tmp_path: Path) -> None:
     found = asset(project, THIRD)
     assert found.output == "failed" and found.error and "no labels" in found.error
     assert of(project).next.kind == "label-files"
-    project.accept(Program.parse('labels top\nIs(top) => Replace("bar.obj")\n'))
-    write_table(project.folder / "templates/bar.obj")
-    project.set_labels(THIRD, {"crumb": "misc"})
-    (tmp_path / "assets" / THIRD).write_text("nothing of use")
-    list(project.apply(execution=IN_PROCESS))
-    say = of(project).next.text
-    assert (
-        say == "The program fails on 1 of 3 assets, first on table2/model.obj: fix what is named, then apply it again."
-    )
 
 
 def test_an_asset_that_cannot_be_read_is_told_and_does_not_hide_the_others(tmp_path: Path) -> None:
@@ -328,18 +279,6 @@ def test_in_a_clone_elsewhere_a_learned_program_is_a_learned_one_and_its_record_
     assert clone.program_state() == ProgramState()
     clone.synthesize()
     assert (clone.folder / "learned.json").read_bytes() == record
-
-
-def test_what_a_program_was_learned_from_is_read_where_it_was_kept_before_and_moved_by_the_next_write(
-    tmp_path: Path,
-) -> None:
-    project = learned(tmp_path)
-    here, before = project.folder / "learned.json", project.folder / ".meshforge/learned.json"
-    here.rename(before)
-    assert project.program_state() == ProgramState()
-    project.synthesize()
-    assert here.exists() and not before.exists()
-    assert project.program_state() == ProgramState()
 
 
 def test_only_some_assets_are_edited_where_that_is_asked(tmp_path: Path) -> None:

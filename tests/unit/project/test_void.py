@@ -143,7 +143,7 @@ def change_template(project: Project) -> None:
 
 
 def change_edits_by_hand(project: Project) -> None:
-    project.drop_manual_edits(THIRD)
+    project.write_manual_edits(THIRD, ())
 
 
 def set_in_settings(old: str, new: str) -> Callable[[Project], None]:

@@ -20,7 +20,7 @@ from meshforge.rendering import (
     render,
 )
 from meshforge.rendering.colors import CHANGED, KEPT, MADE, REMOVED, rgb
-from meshforge.rendering.compare import joint_bounds
+from meshforge.rendering.comparison import joint_bounds
 from meshforge.symbolic import SymbolicMesh
 from tests.id_buffer import render_id_buffer
 from tests.unit.rendering.scenes import box, edited, hull, near, pixels, table
@@ -90,7 +90,7 @@ def test_an_outline_surrounds_what_changed() -> None:
 
 
 def test_the_legend_of_changes_has_only_what_there_is() -> None:
-    with patch("meshforge.rendering.compare.make_contact_sheet") as made:
+    with patch("meshforge.rendering.comparison.make_contact_sheet") as made:
         draw_changes(table(), edited(), [], size=SIZE)
     legend = made.call_args.kwargs["colors"]
     colors = label_colors(["leg", "panel"])

@@ -11,8 +11,8 @@ import pytest
 from meshforge.label_model import model_family
 from meshforge.language import Delete, Program
 from meshforge.signoff import OrientationQuestion, ReviewState, review_family
+from meshforge.signoff.orientation import find_turned_asset
 from meshforge.signoff.question import NO, NOT_OF_FAMILY, YES
-from meshforge.signoff.turns import find_turned_asset
 from meshforge.symbolic import Asset, Document, SymbolicMesh
 from meshforge.synthesis import Demonstration, OrientationSuggestion, Step, synthesize
 from tests.program_parts import parse_orient

@@ -10,11 +10,14 @@ import pytest
 from meshforge.common import ProjectError
 from meshforge.project import Project
 from meshforge.project.preparation_plan import keep_decomposed
+from meshforge.signoff.question import NOT_OF_FAMILY
 from meshforge.store import History
-from meshforge.studio.edits.assets import AddAssets, LeaveOut, RemoveAssets
+from meshforge.studio.edits.assets import AddAssets, ExcludeAssets, RemoveAssets
 from meshforge.studio.edits.base import make_edit
 from tests.unit.batch.families import tree
 from tests.unit.project.tables import FIRST, SECOND, THIRD, demonstrated, fresh
+
+OUT = ExcludeAssets(ids=(FIRST,), reason=NOT_OF_FAMILY)
 
 
 def _kept(project: Project) -> dict[str, bytes]:
@@ -28,15 +31,13 @@ def _now(project: Project) -> tuple[str, ...]:
 def test_an_asset_that_is_left_out_keeps_what_is_known_of_it(tmp_path: Path) -> None:
     project = demonstrated(tmp_path)
     before, history = _kept(project), History.open(project.folder)
-    make_edit(history, project, LeaveOut(ids=(FIRST,)))
+    make_edit(history, project, OUT)
     found = Project.open(project.folder)
-    assert (found.assets(), found.found.left_out) == ((SECOND, THIRD), (FIRST,))
-    assert found.status().lost == ()
-    assert {name: data for name, data in _kept(project).items() if name != "meshforge.toml"} == {
-        name: data for name, data in before.items() if name != "meshforge.toml"
-    }
-    make_edit(history, found, LeaveOut(ids=(FIRST,), out=False))
-    assert _now(project) == (FIRST, SECOND, THIRD)
+    assert project.assets() == found.assets() == (SECOND, THIRD) and found.exclusions() == {FIRST: NOT_OF_FAMILY}
+    assert (found.status().lost, found.status().not_of_family) == ((), (FIRST,))
+    assert {name: data for name, data in _kept(project).items() if name != "events.jsonl"} == before
+    make_edit(history, found, ExcludeAssets(ids=(FIRST,), reason=None))
+    assert project.assets() == _now(project) == (FIRST, SECOND, THIRD)
     history.undo()
     history.undo()
     assert _kept(project) == before
@@ -48,7 +49,7 @@ def test_an_asset_that_is_removed_goes_with_all_that_is_kept_for_it_and_its_own_
     before, sources, history = _kept(project), tree(tmp_path / "assets"), History.open(project.folder)
     make_edit(history, project, RemoveAssets(ids=(FIRST,)))
     found = Project.open(project.folder)
-    assert (found.assets(), found.found.left_out, found.status().lost) == ((SECOND, THIRD), (), ())
+    assert (found.assets(), found.status().lost) == ((SECOND, THIRD), ())
     assert not [name for name in _kept(project) if FIRST in name]
     assert tree(tmp_path / "assets") == sources
     history.undo()
@@ -60,8 +61,7 @@ def test_an_asset_that_is_named_outright_is_no_more_named(tmp_path: Path) -> Non
     project = Project.create(tmp_path / "named", [tmp_path / "assets" / FIRST, tmp_path / "assets" / SECOND])
     first, second = project.assets()
     project.remove_assets([first])
-    settings = Project.open(project.folder).settings
-    assert len(settings.assets) == 1 and settings.removed == ()
+    assert len(project.settings.assets) == 1 and not project.exclusions()
     assert _now(project) == (second,)
 
 
@@ -72,8 +72,10 @@ def test_an_asset_that_was_removed_can_be_added_again(tmp_path: Path) -> None:
     assert Project.open(project.folder).add_assets([path]).assets() == (FIRST, SECOND, THIRD)
 
 
-@pytest.mark.parametrize("edit", [LeaveOut(ids=(FIRST, SECOND, THIRD)), RemoveAssets(ids=(FIRST, SECOND, THIRD))])
-def test_the_last_asset_of_a_family_stays(tmp_path: Path, edit: LeaveOut | RemoveAssets) -> None:
+@pytest.mark.parametrize(
+    "edit", [ExcludeAssets(ids=(FIRST, SECOND, THIRD), reason=NOT_OF_FAMILY), RemoveAssets(ids=(FIRST, SECOND, THIRD))]
+)
+def test_the_last_asset_of_a_family_stays(tmp_path: Path, edit: ExcludeAssets | RemoveAssets) -> None:
     project = fresh(tmp_path)
     before = _kept(project)
     with pytest.raises(ProjectError, match="would be left"):
@@ -81,22 +83,17 @@ def test_the_last_asset_of_a_family_stays(tmp_path: Path, edit: LeaveOut | Remov
     assert _kept(project) == before
 
 
-def test_settings_that_leave_out_every_asset_say_so(tmp_path: Path) -> None:
+def test_assets_that_the_settings_of_before_leave_out_are_excluded_and_can_come_back(tmp_path: Path) -> None:
     project = fresh(tmp_path)
     toml = project.folder / "meshforge.toml"
-    toml.write_text(toml.read_text() + f'left_out = ["{FIRST}", "{SECOND}", "{THIRD}"]\n')
-    with pytest.raises(ProjectError, match="left_out"):
-        Project.open(project.folder)
-
-
-def test_the_rest_of_the_settings_stays_as_its_owner_wrote_it(tmp_path: Path) -> None:
-    project = fresh(tmp_path)
-    toml = project.folder / "meshforge.toml"
-    toml.write_text(toml.read_text() + "\n# mine\n[thresholds]\ncontact = 0.01\n")
-    project.leave_out([FIRST])
-    settings = Project.open(project.folder).settings
-    assert settings.left_out == (FIRST,) and settings.thresholds.contact == 0.01
-    assert "# mine" in toml.read_text()
+    text = toml.read_text() + "\n# mine\n[thresholds]\ncontact = 0.01\n"
+    toml.write_text(text.replace("\n# mine", f'left_out = ["{FIRST}"]\nremoved = ["{SECOND}"]\n\n# mine'))
+    before, history = _kept(project), History.open(project.folder)
+    assert _now(project) == (THIRD,) and project.exclusions() == dict.fromkeys([FIRST, SECOND], NOT_OF_FAMILY)
+    assert _kept(project) == before, "reading changes nothing"
+    make_edit(history, project, ExcludeAssets(ids=(FIRST,), reason=None))
+    assert _now(project) == (FIRST, THIRD) and toml.read_text() == text
+    assert Project.open(project.folder).add_assets([project.path(SECOND)]).assets() == (FIRST, SECOND, THIRD)
 
 
 def test_an_asset_that_is_added_lands_in_the_folder_of_the_project(tmp_path: Path) -> None:

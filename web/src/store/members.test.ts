@@ -19,7 +19,7 @@ beforeEach(() => {
 describe("an asset that leaves the family", () => {
   it("is left out by one edit, and the next one is open then", async () => {
     await leaveOut(["b"]);
-    expect(sent.mock.calls).toEqual([[{ kind: "leave-out", ids: ["b"], out: true }]]);
+    expect(sent.mock.calls).toEqual([[{ kind: "exclude", ids: ["b"], reason: "not of this family" }]]);
     expect(useWorkspace.getState().asset).toBe("c");
   });
 
@@ -38,14 +38,14 @@ describe("an asset that leaves the family", () => {
   it("leaves with others by one edit, and the next one that stays is open then", async () => {
     useWorkspace.setState({ asset: "a", sheet: ["a", "b"] });
     await leaveOut(assetsInView(useWorkspace.getState()));
-    expect(sent.mock.calls).toEqual([[{ kind: "leave-out", ids: ["a", "b"], out: true }]]);
+    expect(sent.mock.calls).toEqual([[{ kind: "exclude", ids: ["a", "b"], reason: "not of this family" }]]);
     expect([useWorkspace.getState().asset, useWorkspace.getState().sheet]).toEqual(["c", []]);
     expect(whyNotLeave(["a", "b", "c"])).toBe("They are all assets of the family.");
   });
 
   it("comes back by one edit", async () => {
     await putBack(["a", "b"]);
-    expect(sent.mock.calls).toEqual([[{ kind: "leave-out", ids: ["a", "b"], out: false }]]);
+    expect(sent.mock.calls).toEqual([[{ kind: "exclude", ids: ["a", "b"], reason: null }]]);
   });
 
   it("must not be the last one, nor none", () => {

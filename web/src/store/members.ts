@@ -13,14 +13,14 @@ export function whyNotLeave(assets: readonly string[]): string | null {
 
 /** Leaves assets out of the family; all that is kept for them stays. */
 export const leaveOut = (assets: readonly string[]): Promise<void> =>
-  goOn(assets, () => perform({ kind: "leave-out", ids: [...assets], out: true }));
+  goOn(assets, () => perform({ kind: "exclude", ids: [...assets], reason: "not of this family" }));
 
 /** Removes assets from the project, with what is kept for them; their own files stay. */
 export const removeAssets = (assets: readonly string[]): Promise<void> =>
   goOn(assets, () => perform({ kind: "remove-assets", ids: [...assets] }));
 
 export const putBack = (assets: readonly string[]): Promise<boolean> =>
-  perform({ kind: "leave-out", ids: [...assets], out: false });
+  perform({ kind: "exclude", ids: [...assets], reason: null });
 
 /** Does what takes assets away, then opens the next one that stays where one of them was open. */
 async function goOn(assets: readonly string[], does: () => Promise<boolean>): Promise<void> {

@@ -291,7 +291,7 @@ def add_assets(session: CurrentSession, page: SenderId = None) -> requests.Uploa
         sent = session.uploads.keep_readable(session.readers)
         staged, files = session.uploads.list_files()
         home = session.project.found.added
-        _check_free(home, files, session.project.found.ids)
+        _check_free(home, files, session.project.every.ids)
         session.edit(AddAssets(staged=str(staged), files=files, added=sent.names, home=str(home)), page)
     finally:
         session.uploads.clear()

@@ -30,7 +30,6 @@ AnyEdit = Annotated[
     | assets.ExcludeAssets
     | assets.CorrectByHand
     | assets.DropManualEdits
-    | assets.LeaveOut
     | assets.RemoveAssets,
     Field(discriminator="kind"),
 ]

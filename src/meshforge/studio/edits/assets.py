@@ -11,7 +11,7 @@ from meshforge.batch import action_text
 from meshforge.common import join_names, pluralize
 from meshforge.project import Project
 from meshforge.signoff import ExclusionReason
-from meshforge.store import ExclusionEvent, Layout, list_files
+from meshforge.store import Layout, list_files
 from meshforge.studio.actions import read_action
 from meshforge.studio.edits.base import Edit, LabelsByAsset
 from meshforge.studio.wire.actions import ActionCall
@@ -188,14 +188,12 @@ class ExcludeAssets(Edit):
     """Give some assets up, with the reason; null includes them again."""
 
     kind: Literal["exclude"] = "exclude"
-    touches = (Layout.events,)
+    touches = (Layout.events, Layout.settings)
     ids: tuple[str, ...]
     reason: ExclusionReason | None
 
     def apply(self, project: Project) -> None:
-        for asset in self.ids:
-            project.path(asset)
-        project.add_events(*(ExclusionEvent(asset=asset, reason=self.reason) for asset in self.ids))
+        project.exclude(self.ids, self.reason)
 
     def describe(self, project: Project) -> str:
         return f"{_count_or_name(self.ids)} {f'excluded: {self.reason}' if self.reason else 'included again'}"
@@ -226,7 +224,7 @@ class DropManualEdits(_ManualEditBase):
     kind: Literal["drop-manual-edits"] = "drop-manual-edits"
 
     def apply(self, project: Project) -> None:
-        project.drop_manual_edits(self.asset)
+        project.write_manual_edits(self.asset, ())
 
     def describe(self, project: Project) -> str:
         return f"edits by hand of {self.asset} taken away"
@@ -246,24 +244,6 @@ class AddTemplate(Edit):
 
     def describe(self, project: Project) -> str:
         return f"template {self.name} added"
-
-
-class LeaveOut(Edit):
-    """Leave assets out of the family, or put them back; what is kept for them stays."""
-
-    kind: Literal["leave-out"] = "leave-out"
-    touches = (Layout.settings,)
-    ids: tuple[str, ...]
-    out: bool = True
-
-    def apply(self, project: Project) -> None:
-        if self.out:
-            project.leave_out(self.ids)
-        else:
-            project.include_again(self.ids)
-
-    def describe(self, project: Project) -> str:
-        return f"{_count_or_name(self.ids)} {'excluded' if self.out else 'included'}"
 
 
 class RemoveAssets(Edit):
@@ -305,7 +285,8 @@ class AddAssets(Edit):
         project.add_assets([home / name for name in self.added])
 
     def list_paths(self, project: Project) -> tuple[Path, ...]:
-        return (project.layout.settings, *(Path(self.home) / name for name in self.files))
+        layout = project.layout
+        return (layout.settings, layout.events, *(Path(self.home) / name for name in self.files))
 
     def describe(self, project: Project) -> str:
         return f"{pluralize(len(self.added), 'asset')} added: {join_names(self.added, most=2)}"

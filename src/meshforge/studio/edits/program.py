@@ -198,7 +198,7 @@ class TakeLearned(base.Edit):
 
     def apply(self, project: Project) -> None:
         layout = project.layout
-        for path in (layout.program, layout.learned, layout.learned_before):
+        for path in (layout.program, layout.learned):
             path.unlink(missing_ok=True)
 
     def describe(self, project: Project) -> str:

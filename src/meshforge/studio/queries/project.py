@@ -108,7 +108,7 @@ def build_project_view(
         new=new,
         problem=problem,
         lost=lost,
-        left_out=project.found.left_out,
+        left_out=tuple(asset for asset in project.every.ids if asset not in project.found.ids),
     )
 
 

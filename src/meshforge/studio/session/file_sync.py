@@ -41,7 +41,7 @@ class FileSync:
         self.project = project
         self._pages, self._learning, self._queue = pages, learning, queue
         self._stamps = read_stamps(project)
-        self._announced = _read_feedback(project)
+        self._announced, self._family = _read_feedback(project), project.assets()
 
     def update(self, names: Iterable[str]) -> None:
         """Refresh what depends on files that changed; names: paths from the project's folder."""
@@ -74,9 +74,10 @@ class FileSync:
 
     def reopen(self) -> None:
         """Look for assets that came or went; the vocabulary is shown at once, as keys have a meaning by it."""
-        self.project = replace(self.project, found=Project.open(self.project.folder).found)
+        self.project = replace(self.project, every=Project.open(self.project.folder).every)
         self._pages.set_vocabulary(vocabulary_view(self.project.settings.vocabulary, self._pages.cards))
-        self._queue.add(self._pages.set_assets(self.project.assets()), later=True)
+        self._family = self.project.assets()
+        self._queue.add(self._pages.set_assets(self._family), later=True)
 
     def poll(self) -> None:
         """See whether others changed something. Never raises: an error is shown, and the next poll tries again."""
@@ -108,6 +109,8 @@ class FileSync:
             if before.verdict_on(asset) != now.verdict_on(asset)
         }
         about |= before.exclusions.keys() ^ now.exclusions.keys()
+        if self.project.assets() != self._family:
+            self.reopen()
         learns = bool(about) or before.answers_and_fixes != now.answers_and_fixes
         assets = changes.assets | (about & self.project.found.ids.keys())
         changes = replace(changes, assets=assets)

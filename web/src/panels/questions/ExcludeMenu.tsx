@@ -8,8 +8,7 @@ const LINES = [
   ["not-solved", "Not solved: counted, and not written"],
 ] as const;
 
-/** The id of a choice that gives an asset up. */
-export type ExcludeId = (typeof LINES)[number][0];
+type ExcludeId = (typeof LINES)[number][0];
 
 export function ExcludeMenu({ onPick }: { onPick: (id: ExcludeId) => void }) {
   return (

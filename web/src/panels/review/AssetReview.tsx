@@ -4,6 +4,7 @@ import { useState } from "react";
 import { accept, callWrong, exclude, nextToReview, noteWrong, withdrawReview } from "../../commands/review";
 import { Doubts } from "../../family/Sureness";
 import { applyTo, whyNotApply } from "../../store/jobs";
+import { leaveOut } from "../../store/members";
 import { useProject } from "../../store/project";
 import { staleText } from "../../store/reviews";
 import { errorParts, shortName } from "../../store/words";
@@ -13,7 +14,7 @@ import { Note, Section } from "../../ui/Section";
 import type { Card } from "../../wire";
 import { Checks } from "./Checks";
 import { Corrections } from "./Corrections";
-import { type ExcludeId, ExcludeMenu } from "../questions/ExcludeMenu";
+import { ExcludeMenu } from "../questions/ExcludeMenu";
 import { Findings, NumbersTable, Trace, useResult, useResultKind } from "./ResultDetails";
 import css from "./review.module.css";
 
@@ -93,7 +94,7 @@ function VerdictSection({ asset }: { asset: string }) {
             Include again
           </Button>
         ) : (
-          <ExcludeMenu onPick={(id) => void exclude(asset, REASONS[id])} />
+          <ExcludeMenu onPick={(id) => void (id === "not-solved" ? exclude(asset, "not solved") : leaveOut([asset]))} />
         )}
         {some && (
           <Button look="quiet" icon={SkipForward} tip="Next failed, wrong or unreviewed result" keys="N" onClick={nextToReview}>
@@ -105,8 +106,6 @@ function VerdictSection({ asset }: { asset: string }) {
     </Section>
   );
 }
-
-const REASONS: Readonly<Record<ExcludeId, Card["excluded"]>> = { "not-of-family": "not of this family", "not-solved": "not solved" };
 
 function ReviewState({ card }: { card: Card }) {
   if (card.excluded) return <span className={css.dim}>excluded: {card.excluded}</span>;

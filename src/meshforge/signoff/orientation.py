@@ -1,6 +1,8 @@
-"""On which asset of a family a person sees best what an orientation that is suggested does, if it is worth asking."""
+"""The question whether assets are turned first, on the asset of a family that shows best what that does."""
 
 from __future__ import annotations
+
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -9,11 +11,24 @@ from meshforge.geometry import Floats
 from meshforge.label_model.describe import find_up, rotation_to_z, up_in_file
 from meshforge.language import Orient, find_rotation
 from meshforge.signoff.assessment import ReviewState
+from meshforge.signoff.question import NO, YES, YES_OR_NO, OrientationQuestion, ReviewChoice, identify
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import OrientationSuggestion
 
 _SEEN = 5.0  # degrees by which an asset must turn, to be seen
 _NEAR = 10.0  # degrees by which an asset may still lean where landmarks set it upright
+
+
+def ask_orientation(
+    suggested: OrientationSuggestion | None, state: ReviewState, gain: float
+) -> Iterator[OrientationQuestion]:
+    """Ask whether all assets are to be turned as is suggested, where it is worth asking."""
+    asset = find_turned_asset(state, suggested) if suggested else None
+    if suggested and asset:
+        text = f"Should {asset} stand like this?"
+        yes = ReviewChoice(YES, "yes, turn all assets like this", orient=suggested.orient)
+        choices = (ReviewChoice(NO, "no, all stay as they are"), yes)
+        yield identify(OrientationQuestion(text, YES_OR_NO, gain, asset, choices=choices))
 
 
 def find_turned_asset(state: ReviewState, suggested: OrientationSuggestion) -> str | None:
