@@ -21,7 +21,7 @@ from meshforge.language import (
 )
 from meshforge.store import parse_action_text
 from meshforge.studio.actions import list_action_forms, read_action, view_action
-from meshforge.studio.wire.actions import ActionCall, ActionForm, Value
+from meshforge.studio.wire.program import ActionCall, ActionForm, Value
 
 FORMS = list_action_forms()
 VALUES: dict[str, Value] = {"file": "part.obj", "shape": "capsule", "factor": 2.0, "length": 0.01, "flag": True}

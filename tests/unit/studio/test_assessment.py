@@ -19,7 +19,7 @@ from meshforge.signoff import (
     ReviewState,
 )
 from meshforge.studio.edits.assets import LabelGroup
-from meshforge.studio.learning.assessment import view_assessment
+from meshforge.studio.learning.results import view_assessment
 from meshforge.studio.wire.requests import HullOfAsset
 from tests.studio_project import demo_project
 
@@ -43,8 +43,8 @@ def assessment_of(*questions: ReviewQuestion) -> Assessment:
 
 
 def test_each_asset_is_signed_off_held_or_excluded_and_counted() -> None:
-    view = view_assessment(assessment_of(), ReviewState({}, Program()), 3)
-    assert (view.number, view.bar, view.signed_off, view.held, view.excluded) == (3, BAR, 1, 2, 1)
+    view = view_assessment(assessment_of(), ReviewState({}, Program()))
+    assert (view.bar, view.signed_off, view.held, view.excluded) == (BAR, 1, 2, 1)
     assert [(row.asset, row.state, row.told) for row in view.assets] == [
         (ONE, "signed", True),
         (OTHER, "held", False),
@@ -56,7 +56,7 @@ def test_each_asset_is_signed_off_held_or_excluded_and_counted() -> None:
 
 
 def test_without_a_program_no_edit_has_a_probability() -> None:
-    view = view_assessment(assessment_of(), ReviewState({}, Program()), 3, has_program=False)
+    view = view_assessment(assessment_of(), ReviewState({}, Program()), has_program=False)
     assert (view.assets, view.signed_off, view.held) == ((), 0, 0)
 
 
@@ -67,7 +67,7 @@ def test_a_question_says_where_its_hulls_are_and_what_its_readings_mean(project:
     state = ReviewState({ONE: mesh}, Program())
     for kind in (GroupQuestion, ReadingQuestion):
         question = kind("?", 4.0, 1.2, ONE, 1, (HullPlace(ONE, hull),), choices, "q")
-        asked = view_assessment(assessment_of(question), state, 1).question
+        asked = view_assessment(assessment_of(question), state).question
         assert asked and asked.kind == question.kind
         assert [(one.hull, one.place) for one in asked.hulls] == [(hull, 2)]
         assert [(choice.id, choice.sentence) for choice in asked.choices] == [("a", "the leg hulls"), ("right", "")]

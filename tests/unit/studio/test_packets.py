@@ -15,7 +15,7 @@ from meshforge.project import Project
 from meshforge.store import parse_action_text
 from meshforge.studio.actions import view_action
 from meshforge.studio.queries import packets, programs
-from meshforge.studio.wire.actions import ActionCall
+from meshforge.studio.wire.program import ActionCall
 from meshforge.studio.wire.requests import PreviewRequest, SelectRequest
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Step
@@ -174,7 +174,7 @@ def test_what_is_wrong_with_an_extractor_is_marked_where_it_stands(
 
 
 def test_guesses_on_a_demonstrated_asset_are_what_was_shown(project: Project, program: Program) -> None:
-    guessed = programs.guess_selections(project, SHOWN, project.mesh(SHOWN), program).guesses
+    guessed = programs.guess_selections(project, SHOWN, project.mesh(SHOWN), program)
     shown = project.steps(SHOWN)
     assert [set(guess.select) for guess in guessed] == [set(step.select or ()) for step in shown]
     assert [guess.action.text for guess in guessed] == [str(step.action) for step in shown]
@@ -184,7 +184,7 @@ def test_guesses_on_a_demonstrated_asset_are_what_was_shown(project: Project, pr
 def test_guesses_on_another_asset_are_what_the_program_selects(project: Project, program: Program) -> None:
     mesh = project.mesh(OTHER)
     trace = program.run(mesh, project.templates(program.templates)).trace
-    guessed = programs.guess_selections(project, OTHER, mesh, program).guesses
+    guessed = programs.guess_selections(project, OTHER, mesh, program)
     assert [guess.select for guess in guessed] == [line.selected for line in trace]
 
 
@@ -193,14 +193,10 @@ def test_a_guess_meets_what_was_shown_before_it(tmp_path: Path) -> None:
     program = project.synthesize().program
     assert program
     project.demonstrate(OTHER, [Step(1, {"convex_09"}, parse_action("Delete"))])
-    guessed = programs.guess_selections(project, OTHER, project.mesh(OTHER), program).guesses
+    guessed = programs.guess_selections(project, OTHER, project.mesh(OTHER), program)
     assert "convex_09" not in guessed[2].select
-    assert (
-        "convex_09"
-        in programs.guess_selections(demo_project(tmp_path / "b"), OTHER, project.mesh(OTHER), program)
-        .guesses[2]
-        .select
-    )
+    bare = demo_project(tmp_path / "b")
+    assert "convex_09" in programs.guess_selections(bare, OTHER, project.mesh(OTHER), program)[2].select
 
 
 def test_the_result_is_what_the_program_makes_of_it(project: Project, program: Program) -> None:

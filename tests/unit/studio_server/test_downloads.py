@@ -125,7 +125,7 @@ class Person:
 
     def fetch(self, job: dict[str, Any]) -> Any:
         """The file of a job, by a ticket: without the token."""
-        return self.client.get("/" + self.post("/api/download", job=job["id"]).json()["address"])
+        return self.client.get("/" + self.post("/api/download", job=job["id"]).json())
 
 
 @pytest.fixture

@@ -3,13 +3,15 @@ from __future__ import annotations
 import pytest
 
 from meshforge.project import NextStep
+from meshforge.store.history import HistoryState
 from meshforge.studio.edits.assets import LabelGroup
+from meshforge.studio.label_changes import EarlyLabels
 from meshforge.studio.pages import PageHub, PageState
-from meshforge.studio.session.early_labels import EarlyLabels
-from meshforge.studio.wire.family import Card, HistoryView, OrientView, ProjectView, VocabularyLabel
+from meshforge.studio.wire.family import Card, OrientView, ProjectView, VocabularyLabel
 from meshforge.studio.wire.requests import HullOfAsset
 
 WORDS = tuple(VocabularyLabel(name=name, text=name, color="#000000") for name in ("leg", "panel"))
+NO_HISTORY = HistoryState(None, None, 0, 0)
 PROJECT = ProjectView(name="p", folder="/p", vocabulary=WORDS, next=NextStep("label", "Label."), orient=OrientView())
 NAMES = {"a": ("one", "two"), "b": ("one",)}
 CARDS = (
@@ -20,7 +22,7 @@ CARDS = (
 
 
 def pages() -> PageState:
-    shown = PageState(PageHub(), PROJECT, HistoryView(), "1")
+    shown = PageState(PageHub(), PROJECT, NO_HISTORY, "1")
     shown.set_assets([card.asset for card in CARDS])
     shown.set_cards(CARDS)
     return shown

@@ -4,15 +4,17 @@ import asyncio
 import json
 
 from meshforge.project import NextStep
+from meshforge.store.history import HistoryState
 from meshforge.studio.pages import PageConnection, PageHub, PageState
-from meshforge.studio.wire.family import Card, HistoryView, OrientView, ProjectView
+from meshforge.studio.wire.family import Card, OrientView, ProjectView
 
+NO_HISTORY = HistoryState(None, None, 0, 0)
 PROJECT = ProjectView(name="p", folder="/p", vocabulary=(), next=NextStep("label", "Label."), orient=OrientView())
 
 
 def test_a_page_is_told_everything_first_and_then_only_what_changes() -> None:
     async def told() -> list[str]:
-        shown = PageState(PageHub(), PROJECT, HistoryView(), "1", tour=False)
+        shown = PageState(PageHub(), PROJECT, NO_HISTORY, "1", tour=False)
         shown.set_assets(["a", "b"])
         page = PageConnection(asyncio.get_running_loop())
         shown.join(page)
@@ -29,7 +31,7 @@ def test_a_page_is_told_everything_first_and_then_only_what_changes() -> None:
 
 
 def test_a_card_of_an_asset_that_went_meanwhile_does_not_bring_it_back() -> None:
-    shown = PageState(PageHub(), PROJECT, HistoryView(), "1", tour=False)
+    shown = PageState(PageHub(), PROJECT, NO_HISTORY, "1", tour=False)
     shown.set_assets(["a", "b"])
     shown.set_assets(["a"])
     shown.set_cards([Card(asset="a", hulls=1), Card(asset="b", error="it is gone")])

@@ -34,7 +34,7 @@ from meshforge.store import History
 from meshforge.studio.edits import AnyEdit
 from meshforge.studio.edits.base import make_edit
 from meshforge.studio.edits.replies import ReplyToQuestion
-from meshforge.studio.learning.assessment import view_assessment
+from meshforge.studio.learning.results import view_assessment
 from tests.unit.project.tables import FIRST, SECOND, THIRD, applied
 
 LEG, OTHER_LEG = HullPlace(THIRD, "left_low"), HullPlace(SECOND, "left_low")

@@ -5,7 +5,7 @@ import { perform } from "../store/edits";
 import { useProject } from "../store/project";
 import { differing } from "../store/readings";
 import { openStage, setFilters, setHighlight, setLayout, useWorkspace, visit } from "../store/workspace";
-import type { DoubtView, ReplyToQuestion, ReviewQuestionView } from "../wire";
+import type { Doubt, ReplyToQuestion, ReviewQuestionView } from "../wire";
 import type { Command } from "./command";
 
 /** What is said to a question; nothing: none of its choices. */
@@ -54,7 +54,7 @@ export function showAsked(question: ReviewQuestionView): void {
 }
 
 /** Opens an asset with the hulls of a doubt selected. */
-export const showDoubt = (asset: string, doubt: DoubtView): void => visit(asset, { kind: "source" }, doubt.hulls);
+export const showDoubt = (asset: string, doubt: Doubt): void => visit(asset, { kind: "source" }, doubt.hulls);
 
 /** Shows the held assets alone, the least probable first. */
 export function lookAtHeld(): void {

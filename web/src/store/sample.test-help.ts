@@ -41,7 +41,7 @@ export function sampleAssessment(count: number, held: number, change: Partial<As
   const assets = Array.from({ length: count }, (_, k) =>
     sampleRow(k < held ? { asset: `a${k}`, probability: 0.5, state: "held" } : { asset: `a${k}` }),
   );
-  return { number: 1, bar: 0.95, signed_off: count - held, held, excluded: 0, unseen: 0, assets, question: null, ...change };
+  return { bar: 0.95, signed_off: count - held, held, excluded: 0, unseen: 0, assets, question: null, ...change };
 }
 
 export const sampleQuestion = (change: Partial<ReviewQuestionView> = {}): ReviewQuestionView => ({

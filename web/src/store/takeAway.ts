@@ -17,7 +17,7 @@ export async function takeAway(request: Omit<DownloadJob, "kind">): Promise<void
 /** Saves what a job has made. */
 export async function saveFile(job: string): Promise<void> {
   try {
-    saveFrom((await api.downloadTicket(job)).address);
+    saveFrom(await api.downloadTicket(job));
   } catch (error) {
     reportError(error);
   }

@@ -5,16 +5,15 @@ from __future__ import annotations
 from fastapi import APIRouter
 from fastapi.responses import FileResponse
 
-from meshforge.studio.api.connection import CurrentSession
-from meshforge.studio.wire import requests
+from meshforge.studio.api.connection import BodyText, CurrentSession
 
 router = APIRouter()
 
 
 @router.post("/api/download")
-def get_ticket(session: CurrentSession, request: requests.DownloadRequest) -> requests.DownloadTicket:
-    """An address that is good for one download of what a job has made."""
-    return requests.DownloadTicket(address=f"download/{session.downloads.give_ticket(request.job)}")
+def get_ticket(session: CurrentSession, job: BodyText) -> str:
+    """An address, below the studio's own, that is good for a minute and one download of what a job has made."""
+    return f"download/{session.downloads.give_ticket(job)}"
 
 
 @router.get("/download/{ticket}")

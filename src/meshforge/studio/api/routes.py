@@ -17,7 +17,7 @@ from meshforge.batch import ADDED
 from meshforge.common import ProjectError, StoppedError, join_names
 from meshforge.language import Program
 from meshforge.rendering import LengthUnit
-from meshforge.studio.api.connection import CurrentSession, SenderId, packet_response
+from meshforge.studio.api.connection import BodyText, CurrentSession, SenderId, packet_response
 from meshforge.studio.edits import AnyEdit
 from meshforge.studio.edits.assets import AddAssets, AddTemplate
 from meshforge.studio.errors import NotHereError
@@ -30,7 +30,7 @@ from meshforge.studio.thumbnails import ThumbnailOf
 from meshforge.studio.wire import requests
 from meshforge.studio.wire.asset import AssetView, CheckPart, CheckPicture, CheckResult
 from meshforge.studio.wire.jobs import Job, JobRequest
-from meshforge.studio.wire.program import CoverageView, Guesses, ProgramCheck, SelectionView
+from meshforge.studio.wire.program import CoverageView, Guess, ProgramCheck, SelectionView
 from meshforge.studio.workers import wait_for
 
 router = APIRouter(prefix="/api")
@@ -99,9 +99,9 @@ def readable_assets(session: Session) -> tuple[str, ...]:
 
 
 @router.post("/generalise")
-def generalise(session: CurrentSession, request: requests.GeneraliseRequest) -> CoverageView:
+def generalise(session: CurrentSession, extractor: BodyText, rule: Annotated[int, Body()] = 1) -> CoverageView:
     """What an extractor selects on all assets."""
-    return wait_for(session.learning.generalise(request.extractor, request.rule))
+    return wait_for(session.learning.generalise(extractor, rule))
 
 
 @router.get("/result")
@@ -112,12 +112,10 @@ def get_result(session: CurrentSession, asset: str, of: Literal["program", "outp
 
 
 @router.get("/guesses")
-def get_guesses(session: CurrentSession, asset: str) -> Guesses:
+def get_guesses(session: CurrentSession, asset: str) -> tuple[Guess, ...]:
     """What the program would select for each rule."""
     mesh, program = session.mesh(asset), present_program(session)
-    if program is None:
-        return Guesses(asset=asset, guesses=())
-    return programs.guess_selections(session.project, asset, mesh, program)
+    return programs.guess_selections(session.project, asset, mesh, program) if program else ()
 
 
 def present_program(session: Session) -> Program | None:
@@ -153,14 +151,14 @@ def get_picture(
 def get_turned(session: CurrentSession, asset: str, orient: str) -> Response:
     """The thumbnail of an asset as a directive turns it."""
     mesh = session.mesh(asset)
-    upright = assets.compute_upright(session.project, mesh, Program.parse(f"orient {orient}\n").orient)
-    return Response(assets.draw_thumbnail(mesh, upright.pose), media_type="image/png")
+    pose, _ = assets.compute_upright(session.project, mesh, Program.parse(f"orient {orient}\n").orient)
+    return Response(assets.draw_thumbnail(mesh, pose), media_type="image/png")
 
 
 @router.post("/program/check")
-def check_program(request: requests.CheckRequest) -> ProgramCheck:
+def check_program(text: BodyText) -> ProgramCheck:
     """Whether a text is a program."""
-    return programs.check_text(request.text)
+    return programs.check_text(text)
 
 
 @router.get("/checked")
@@ -246,9 +244,9 @@ def post_job(session: CurrentSession, request: Annotated[JobRequest, Body(discri
 
 
 @router.post("/jobs/cancel")
-def cancel_job(session: CurrentSession, request: requests.JobCancel) -> Job:
+def cancel_job(session: CurrentSession, id: BodyText) -> Job:
     """Have a job stop."""
-    return session.jobs.cancel(request.id)
+    return session.jobs.cancel(id)
 
 
 @router.get("/labels/sources")

@@ -14,7 +14,7 @@ from meshforge.signoff import ExclusionReason
 from meshforge.store import ExclusionEvent, Layout, list_files
 from meshforge.studio.actions import read_action
 from meshforge.studio.edits.base import Edit, LabelsByAsset
-from meshforge.studio.wire.actions import ActionCall
+from meshforge.studio.wire.program import ActionCall
 from meshforge.studio.wire.requests import HullOfAsset
 
 

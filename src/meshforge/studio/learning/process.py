@@ -8,17 +8,23 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
-from time import perf_counter
 
 from meshforge.common import MeshForgeError
 from meshforge.language import Program, parse_extractor
 from meshforge.project import AssessmentBasis, Project, digest_lesson, select_assets
 from meshforge.store import MeshCache
-from meshforge.studio.learning.assessment import assess_project, keep_assessment, view_assessment
 from meshforge.studio.learning.queue import CancelToken
-from meshforge.studio.learning.results import ProgramWithTemplates, RuleSelector, build_outcome_view, measure_reach
+from meshforge.studio.learning.results import (
+    ProgramWithTemplates,
+    RuleSelector,
+    assess_project,
+    build_outcome_view,
+    keep_assessment,
+    measure_reach,
+    view_assessment,
+)
+from meshforge.studio.wire.family import AssessmentView
 from meshforge.studio.wire.program import CoverageView, OutcomeView, Reach
-from meshforge.studio.wire.signoff import AssessmentView
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import LearningOutcome
 
@@ -59,7 +65,7 @@ def _last_lesson(folder: Path) -> _Lesson:
 
 def learn(folder: Path, token: CancelToken, number: int, take: bool) -> OutcomeView:
     """Learn a program from a project as it is now. take: replace the accepted one even if a person wrote it."""
-    started, stop = perf_counter(), token.stop
+    stop = token.stop
     try:
         project = Project.open(folder)
         family = _family_cache(folder)
@@ -69,12 +75,12 @@ def learn(folder: Path, token: CancelToken, number: int, take: bool) -> OutcomeV
         accept = take or not project.program_state().by_hand
         outcome = project.synthesize(accept=accept, meshes=meshes, stop=stop)
     except ReadInterrupted:
-        return OutcomeView(number=number, status="timeout", seconds=perf_counter() - started)
+        return OutcomeView(number=number, status="timeout")
     except MeshForgeError as error:
-        return OutcomeView(number=number, status="error", error=error.message, seconds=perf_counter() - started)
+        return OutcomeView(number=number, status="error", error=error.message)
     lesson = _last_lesson(folder)
     lesson.number, lesson.outcome, lesson.meshes, lesson.digest = number, outcome, meshes, digest
-    return build_outcome_view(number, outcome, len(meshes), perf_counter() - started)
+    return build_outcome_view(number, outcome, len(meshes))
 
 
 def assess(folder: Path, token: CancelToken, number: int) -> AssessmentView | None:
@@ -99,7 +105,7 @@ def assess(folder: Path, token: CancelToken, number: int) -> AssessmentView | No
         with suppress(MeshForgeError, OSError):  # pages show it all the same
             keep_assessment(project, made)
     unseen = len(project.assets()) - len(meshes)
-    return view_assessment(made.found, made.state, number, made.program is not None, unseen)
+    return view_assessment(made.found, made.state, made.program is not None, unseen)
 
 
 def compute_reach(folder: Path, token: CancelToken, program: str) -> tuple[Reach, ...] | None:

@@ -13,8 +13,8 @@ from meshforge.common import MeshForgeError, describe_error
 from meshforge.studio.learning import process
 from meshforge.studio.learning.queue import CallKind, CancelFlag, LatestOnlyQueue, Superseded
 from meshforge.studio.pages import PageState
+from meshforge.studio.wire.family import AssessmentView
 from meshforge.studio.wire.program import CoverageView, OutcomeView, Reach
-from meshforge.studio.wire.signoff import AssessmentView
 from meshforge.studio.workers import Workers
 
 RESTART_DELAY = 0.03
@@ -93,7 +93,7 @@ class LearningScheduler:
         """Measure what the accepted program does on all assets."""
         text = self._pages.program.text
         if not text or self._pages.program.error:
-            self._pages.set_reach(self._number, ())
+            self._pages.set_reach(())
             return
         self._learner.reach(text).add_done_callback(partial(self._show_reach, self._number))
 
@@ -179,7 +179,7 @@ class LearningScheduler:
         except (MeshForgeError, CancelledError):  # superseded, or its process died: the next one is measured again
             return
         if number == self._number:
-            self._pages.set_reach(number, reach)
+            self._pages.set_reach(reach)
 
 
 class Learner:

@@ -75,7 +75,7 @@ class FileSync:
     def reopen(self) -> None:
         """Look for assets that came or went; the vocabulary is shown at once, as keys have a meaning by it."""
         self.project = replace(self.project, found=Project.open(self.project.folder).found)
-        self._pages.set_vocabulary(vocabulary_view(self.project.settings.vocabulary, self._pages.cards))
+        self._pages.set_vocabulary(vocabulary_view(self.project.settings.vocabulary))
         self._queue.add(self._pages.set_assets(self.project.assets()), later=True)
 
     def poll(self) -> None:

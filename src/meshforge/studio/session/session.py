@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from contextlib import AbstractContextManager, contextmanager
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
 from threading import RLock
@@ -19,12 +19,11 @@ from meshforge.studio.downloads import Downloads
 from meshforge.studio.edits.base import Edit, make_edit
 from meshforge.studio.edits.program import TakeLearned
 from meshforge.studio.errors import NotHereError
-from meshforge.studio.label_changes import LabelChanges
+from meshforge.studio.label_changes import EarlyLabels, LabelChanges
 from meshforge.studio.learning.scheduler import Learner, LearningScheduler
 from meshforge.studio.output_checks import OutputChecks
 from meshforge.studio.pages import PageHub, PageState
 from meshforge.studio.queries.programs import read_program_view
-from meshforge.studio.session.early_labels import EarlyLabels
 from meshforge.studio.session.file_sync import FileSync, FileWatcher
 from meshforge.studio.session.job_runner import JobRunner
 from meshforge.studio.session.refresh import Refresher, initial_view
@@ -32,7 +31,6 @@ from meshforge.studio.similar_hulls import SimilarHulls
 from meshforge.studio.thumbnails import Thumbnails
 from meshforge.studio.uploads import Uploads
 from meshforge.studio.wire.events import HistoryChanged
-from meshforge.studio.wire.family import HistoryView
 from meshforge.studio.wire.program import OutcomeView
 from meshforge.studio.wire.requests import EditReceipt
 from meshforge.studio.workers import Workers
@@ -70,7 +68,7 @@ class Session:
         self.hub = PageHub()
         view = initial_view(project)
         self.pages = PageState(
-            self.hub, view, self._history_view, version("meshforge"), tour=options.tour, leave=options.folder is None
+            self.hub, view, self.history.state, version("meshforge"), tour=options.tour, leave=options.folder is None
         )
         self.offers = OfferCache()
         self.jobs = JobRunner(self.pages.set_job)
@@ -121,10 +119,6 @@ class Session:
 
     # Reading
 
-    @property
-    def _history_view(self) -> HistoryView:
-        return HistoryView(**asdict(self.history.state))
-
     def mesh(self, asset: str) -> SymbolicMesh:
         """An asset with its labels. Raises NotHereError, or AssetError where it cannot be read."""
         self.check_assets(asset)
@@ -151,7 +145,7 @@ class Session:
                 self.learning.resume()
             if entry is None:
                 return EditReceipt(said=title, nothing=True)
-            self.announce((entry,), "edit", by)
+            self.announce((entry,), by)
         return EditReceipt(said=entry.title)
 
     def move(self, way: Literal["undo", "redo"], by: str | None = None) -> EditReceipt:
@@ -164,18 +158,15 @@ class Session:
                 self.learning.resume()
             if not entries:
                 return EditReceipt(said=f"there is nothing to {way}", nothing=True)
-            self.announce(entries, way, by)
+            self.announce(entries, by)
         return EditReceipt(said=entries[0].title)
 
-    def announce(
-        self, entries: Iterable[HistoryEntry], did: Literal["edit", "undo", "redo"], by: str | None = None
-    ) -> None:
+    def announce(self, entries: Iterable[HistoryEntry], by: str | None = None) -> None:
         """Send all pages what entries changed, then that they were made, undone or redone; the cards follow."""
         with self._mutex:
-            entries = tuple(entries)
             self.pages.set_relabelled(None)
             self.update({name for entry in entries for name in entry.names})
-            self.pages.set_history(HistoryChanged(history=self._history_view, did=did, said=entries[0].title, by=by))
+            self.pages.set_history(HistoryChanged(history=self.history.state, by=by))
 
     @contextmanager
     def record(self, title: str, edit: dict[str, Any], paths: Iterable[Path], group: str) -> Iterator[None]:
@@ -185,7 +176,7 @@ class Session:
                 yield
             entries = self.history.entries
             if len(entries) > before:
-                self.announce(entries[-1:], "edit")
+                self.announce(entries[-1:])
 
     def record_preparation(self, title: str, asset: str, group: str) -> AbstractContextManager[None]:
         """Record what a job does to an asset before the program, within a block."""
@@ -205,8 +196,7 @@ class Session:
         with self._mutex:
             self._file_sync.poll()
             if self.history.refresh():
-                view = self._history_view
-                self.pages.set_history(HistoryChanged(history=view, did="edit", said=view.undo or ""))
+                self.pages.set_history(HistoryChanged(history=self.history.state))
 
     # Learning
 
