@@ -25,8 +25,8 @@ def schema() -> dict[str, Any]:
 
     What the server sends has all of its fields; what the page sends may leave out those with a default.
     """
-    sent = _models(asset, events, family, program, start)
     asked = _models(requests)
+    sent = [model for model in _models(asset, events, family, program, start) if model not in asked]
     pairs = [*((model, "serialization") for model in sent), *((model, "validation") for model in asked)]
     _, whole = models_json_schema(pairs, ref_template=_REF)  # type: ignore[arg-type]  # literals become str in a list
     definitions = whole["$defs"]

@@ -2,7 +2,6 @@
 
 export type AnyEdit =
   | LabelHulls
-  | LabelGroup
   | LabelFromFiles
   | LabelFromNames
   | SetVocabulary
@@ -43,8 +42,6 @@ export type NewProject = ProjectOfFolder | ProjectOfUpload | ProjectOfFamily;
 
 export interface Everything {
   ActionCall: ActionCall;
-  "ActionCall-Input": ActionCallInput;
-  "ActionCall-Output": ActionCallOutput;
   ActionForm: ActionForm;
   ActionView: ActionView;
   AnswerForRule: AnswerForRule;
@@ -105,7 +102,6 @@ export interface Everything {
   JobRequest: JobRequest;
   LabelFromFiles: LabelFromFiles;
   LabelFromNames: LabelFromNames;
-  LabelGroup: LabelGroup;
   LabelHulls: LabelHulls;
   LabelSources: LabelSources;
   LabelUpdate: LabelUpdate;
@@ -182,30 +178,6 @@ export interface ActionCall {
   };
   each?: boolean;
   label?: string | null;
-}
-/**
- * An action and its arguments by name, those that are left out missing. each: whether it is done to every connected
- * part separately; label: what new hulls are labelled, null for the label of what they are made of.
- */
-export interface ActionCallInput {
-  name: string;
-  arguments?: {
-    [k: string]: boolean | number | string;
-  };
-  each?: boolean;
-  label?: string | null;
-}
-/**
- * An action and its arguments by name, those that are left out missing. each: whether it is done to every connected
- * part separately; label: what new hulls are labelled, null for the label of what they are made of.
- */
-export interface ActionCallOutput {
-  name: string;
-  arguments: {
-    [k: string]: boolean | number | string;
-  };
-  each: boolean;
-  label: string | null;
 }
 /**
  * An action as a form. title: what it does to a selection, as a command; key: that begins it, empty for none;
@@ -296,28 +268,14 @@ export interface AnswerView {
   text: string;
 }
 /**
- * Label some hulls of an asset; null takes their labels away.
+ * Label some hulls, given by name for each asset; null takes their labels away.
  */
 export interface LabelHulls {
   kind: "label";
-  asset: string;
-  hulls: string[];
+  hulls: {
+    [k: string]: string[];
+  };
   label: string | null;
-}
-/**
- * Give hulls of several assets one label; null takes their labels away.
- */
-export interface LabelGroup {
-  kind: "label-group";
-  hulls: HullOfAsset[];
-  label: string | null;
-}
-/**
- * A hull of an asset, both by name.
- */
-export interface HullOfAsset {
-  asset: string;
-  hull: string;
 }
 /**
  * Take over the labels files beside the assets.
@@ -1340,6 +1298,13 @@ export interface Guess {
   error: string | null;
 }
 /**
+ * A hull of an asset, both by name.
+ */
+export interface HullOfAsset {
+  asset: string;
+  hull: string;
+}
+/**
  * Some hulls of an asset, by name, and their positions in it.
  */
 export interface HullsOfAsset {
@@ -1425,7 +1390,7 @@ export interface PreviewRequest {
   asset: string;
   steps?: number;
   select: string[];
-  action: ActionCallInput;
+  action: ActionCall;
   result?: boolean;
 }
 /**

@@ -163,7 +163,7 @@ class EarlyLabels:
     def _put_on_cards(self, labels: LabelsByAsset) -> tuple[Card, ...]:
         """Show labels; gives the cards as they were."""
         cards = {card.asset: card for card in self._pages.cards if card.asset in labels}
-        places = {word.name: place for place, word in enumerate(self._pages.vocabulary)}
+        places = {word.name: place for place, word in enumerate(self._pages.shown.project.vocabulary)}
         names = self._names()
         self._pages.set_cards(
             relabel_card(card, names.get(asset, ()), labels[asset], places) for asset, card in cards.items()

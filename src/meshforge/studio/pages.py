@@ -62,25 +62,19 @@ class PageState:
         return frozenset(card.asset for card in self.cards if card.hulls is not None)
 
     @property
+    def with_hulls(self) -> tuple[str, ...]:
+        """The assets that have hulls, as far as they are read by now."""
+        return tuple(card.asset for card in self.cards if card.hulls)
+
+    @property
     def count(self) -> int:
         """How many assets there are."""
         return len(self._cards)
 
     @property
-    def outcome(self) -> OutcomeView | None:
-        return self._rest.outcome
-
-    @property
-    def assessment(self) -> AssessmentView | None:
-        return self._rest.assessment
-
-    @property
-    def program(self) -> ProgramView:
-        return self._rest.program
-
-    @property
-    def vocabulary(self) -> tuple[VocabularyLabel, ...]:
-        return self._rest.project.vocabulary
+    def shown(self) -> events.Hello:
+        """What all pages show, but for cards and jobs."""
+        return self._rest
 
     def join(self, page: PageConnection) -> None:
         """Show everything to a page, and from now on what changes."""
@@ -140,7 +134,7 @@ class PageState:
     def set_program(self, program: ProgramView) -> bool:
         """Show the accepted program; whether its text is another than before."""
         with self._lock:
-            before = self.program
+            before = self._rest.program
             self._change(events.ProgramChanged(program=program), program=program)
             return program.text != before.text
 

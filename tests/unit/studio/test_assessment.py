@@ -18,9 +18,8 @@ from meshforge.signoff import (
     ReviewQuestion,
     ReviewState,
 )
-from meshforge.studio.edits.assets import LabelGroup
+from meshforge.studio.edits.assets import LabelHulls
 from meshforge.studio.learning.results import view_assessment
-from meshforge.studio.wire.requests import HullOfAsset
 from tests.studio_project import demo_project
 
 ONE, OTHER = "table_01.obj", "table_02.obj"
@@ -74,11 +73,10 @@ def test_a_question_says_where_its_hulls_are_and_what_its_readings_mean(project:
 
 
 def test_a_group_gets_its_label_in_one_edit(project: Project) -> None:
-    places = [HullOfAsset(asset=asset, hull=project.mesh(asset).hulls[0].name) for asset in (ONE, OTHER)]
-    edit = LabelGroup(hulls=tuple(places), label="drawer")
+    edit = LabelHulls(hulls={asset: (project.mesh(asset).hulls[0].name,) for asset in (ONE, OTHER)}, label="drawer")
     assert edit.describe(project) == "2 hulls of 2 assets labelled drawer"
     assert edit.list_paths(project) == tuple(project.layout.labels(asset) for asset in (ONE, OTHER))
     edit.apply(project)
-    for place in places:
-        label = project.mesh(place.asset).hull_of(place.hull).annotation
+    for asset, (hull,) in edit.hulls.items():
+        label = project.mesh(asset).hull_of(hull).annotation
         assert label and (label.name, label.source) == ("drawer", "user")

@@ -37,7 +37,7 @@ def flag() -> Iterator[CancelFlag]:
 
 
 def learn(project: Project, flag: CancelFlag, number: int = 1) -> None:
-    assert process.learn(project.folder, flag.make_token("learn"), number, False).error is None
+    assert process.learn(project.folder, flag.make_token("learn"), number).error is None
 
 
 def assess(project: Project, flag: CancelFlag, number: int = 1) -> None:

@@ -13,6 +13,7 @@ from meshforge.common import MeshForgeError, ProgramError
 from meshforge.language import Program, parse_extractor, select
 from meshforge.project import Project, select_assets
 from meshforge.samples import TABLES
+from meshforge.studio.edits.program import TakeLearned
 from meshforge.studio.learning import process
 from meshforge.studio.learning.process import RENEW_AFTER, FamilyCache, ReadInterrupted
 from meshforge.studio.learning.queue import CancelFlag, LatestOnlyQueue, Superseded
@@ -58,7 +59,7 @@ def go_on() -> bool:
 
 @pytest.mark.slow
 def test_the_bundled_program_is_learned_and_kept(project: Project, learner: Learner) -> None:
-    outcome = learner.learn(7, take=False).result()
+    outcome = learner.learn(7).result()
     assert (outcome.number, outcome.status, outcome.error) == (7, "found", None)
     assert rules_of(outcome.program) == rules_of(BUNDLED)
     assert outcome.rules[0].sentence == "The misc hulls are deleted."
@@ -147,25 +148,26 @@ def test_a_wrong_extractor_is_one_clear_error(learner: Learner) -> None:
 @pytest.mark.slow
 def test_a_changed_label_and_a_new_demonstration_are_noticed(fresh: tuple[Project, Learner]) -> None:
     project, learner = fresh
-    learner.learn(1, take=False).result()
+    learner.learn(1).result()
     project.set_labels("table_03.obj", {"convex_00": "leg"})
-    outcome = learner.learn(2, take=False).result()
+    outcome = learner.learn(2).result()
     assert outcome.status == "repair"
     assert outcome.repairs == 1
     project.set_labels("table_03.obj", {"convex_00": "panel"})
     project.demonstrate("table_03.obj", project.steps("table_03.obj")[:1])
     project.demonstrate("table_08.obj", project.steps("table_08.obj")[:1])
-    assert rules_of(learner.learn(3, take=False).result().program) == rules_of(BUNDLED)[:1]
+    assert rules_of(learner.learn(3).result().program) == rules_of(BUNDLED)[:1]
 
 
 @pytest.mark.slow
 def test_a_program_written_by_hand_stays_until_the_learned_one_is_taken(fresh: tuple[Project, Learner]) -> None:
     project, learner = fresh
     project.accept(Program.parse("Is(leg) => Delete\n"))
-    outcome = learner.learn(1, take=False).result()
+    outcome = learner.learn(1).result()
     assert rules_of(outcome.program) == rules_of(BUNDLED)
     assert project.layout.program.read_text() != outcome.program
-    learner.learn(2, take=True).result()
+    TakeLearned().apply(project)
+    learner.learn(2).result()
     assert project.layout.program.read_text() == outcome.program
 
 
@@ -174,13 +176,13 @@ def test_a_run_that_cannot_be_has_its_message(tmp_path: Path) -> None:
     project = demo_project(tmp_path, demonstrated=False)
     learner = Learner(project.folder)
     try:
-        outcome = learner.learn(1, take=False).result()
+        outcome = learner.learn(1).result()
         assert outcome.status == "error"
         assert "nothing is demonstrated yet" in (outcome.error or "")
         project.demonstrate(
             OTHER, [Step(1, {"convex_00"}, parse_action("Delete")), Step(2, set(), parse_action("Merge"))]
         )
-        assert "rule 2 selects no hull" in (learner.learn(2, take=False).result().error or "")
+        assert "rule 2 selects no hull" in (learner.learn(2).result().error or "")
     finally:
         learner.close()
 
@@ -188,16 +190,16 @@ def test_a_run_that_cannot_be_has_its_message(tmp_path: Path) -> None:
 @pytest.mark.slow
 def test_an_interrupted_run_comes_to_its_end_and_the_next_one_is_whole(fresh: tuple[Project, Learner]) -> None:
     _, learner = fresh
-    outcome = learner.learn(1, take=False)
+    outcome = learner.learn(1)
     learner.interrupt()
     assert outcome.result().status == "timeout"
-    assert learner.learn(2, take=False).result().status == "found"
+    assert learner.learn(2).result().status == "found"
 
 
 @pytest.mark.slow
 def test_of_many_calls_only_the_last_is_done(fresh: tuple[Project, Learner]) -> None:
     _, learner = fresh
-    outcomes = [learner.learn(number, take=False) for number in range(20)]
+    outcomes = [learner.learn(number) for number in range(20)]
     reaches = [learner.reach(BUNDLED) for _ in range(20)]
     assert outcomes[-1].result().status == "found"
     assert reaches[-1].result()
@@ -228,7 +230,7 @@ def test_a_learner_goes_on_after_the_death_of_its_process(fresh: tuple[Project, 
     _, learner = fresh
     died: Future[int] = learner._queue.put("generalise", os._exit, 3)
     assert isinstance(died.exception(), MeshForgeError)
-    assert learner.learn(1, take=False).result().status == "found"
+    assert learner.learn(1).result().status == "found"
 
 
 def test_a_call_that_nobody_waits_for_any_more_is_passed_over() -> None:
@@ -291,7 +293,7 @@ def test_after_many_runs_the_shelf_hands_out_the_same_assets_anew(tmp_path: Path
 def test_a_question_tells_what_each_choice_reads(fresh: tuple[Project, Learner]) -> None:
     project, learner = fresh
     project.demonstrate("table_03.obj", [])
-    outcome = learner.learn(1, take=False).result()
+    outcome = learner.learn(1).result()
     assert outcome.status == "ambiguous"
     asked, program = learner.assess(1).result().question, Program.parse(outcome.program or "")
     assert asked and asked.kind == "reading" and asked.rule
@@ -309,7 +311,7 @@ def test_a_rule_that_no_extractor_fits_says_what_came_nearest(fresh: tuple[Proje
     project.demonstrate("table_08.obj", [])
     odd = {"convex_00", "convex_07", "convex_12", "convex_24", "convex_31"}
     project.demonstrate("table_03.obj", [Step(1, odd, parse_action("Delete"))])
-    outcome = learner.learn(1, take=False).result()
+    outcome = learner.learn(1).result()
     assert (outcome.status, outcome.program) == ("none", None)
     assert outcome.why
     assert outcome.nearest

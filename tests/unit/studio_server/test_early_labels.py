@@ -4,11 +4,10 @@ import pytest
 
 from meshforge.project import NextStep
 from meshforge.store.history import HistoryState
-from meshforge.studio.edits.assets import LabelGroup
+from meshforge.studio.edits.assets import LabelHulls
 from meshforge.studio.label_changes import EarlyLabels
 from meshforge.studio.pages import PageHub, PageState
 from meshforge.studio.wire.family import Card, OrientView, ProjectView, VocabularyLabel
-from meshforge.studio.wire.requests import HullOfAsset
 
 WORDS = tuple(VocabularyLabel(name=name, text=name, color="#000000") for name in ("leg", "panel"))
 NO_HISTORY = HistoryState(None, None, 0, 0)
@@ -28,10 +27,9 @@ def pages() -> PageState:
     return shown
 
 
-def group(label: str | None) -> LabelGroup:
+def group(label: str | None) -> LabelHulls:
     """Labels of hulls of all assets, one that is not there."""
-    hulls = [("a", "two"), ("b", "one"), ("b", "three"), ("c", "one")]
-    return LabelGroup(label=label, hulls=tuple(HullOfAsset(asset=a, hull=hull) for a, hull in hulls))
+    return LabelHulls(label=label, hulls={"a": ("two",), "b": ("one", "three"), "c": ("one",)})
 
 
 def test_labels_are_on_the_cards_before_they_are_written() -> None:

@@ -27,7 +27,7 @@ HULLS = dict.fromkeys(ASSETS, NAMES)
 
 
 def label(asset: str, hull: str, to: str | None) -> LabelHulls:
-    return LabelHulls(asset=asset, hulls=(hull,), label=to)
+    return LabelHulls(hulls={asset: (hull,)}, label=to)
 
 
 def labelled(folder: Path) -> tuple[Project, History]:
@@ -248,7 +248,7 @@ def test_no_label_of_a_person_is_lost_whatever_is_done(
             said = dict(states[at][1])
             if isinstance(move, LabelHulls):
                 changed = make_edit(history, project, move) is not None
-                said |= {(move.asset, move.hulls[0]): str(move.label)}
+                said |= {(asset, hull): str(move.label) for asset, (hull,) in move.hulls.items()}
             else:
                 done = history.state.undoable
                 carry(project, history)

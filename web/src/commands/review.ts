@@ -3,7 +3,7 @@ import { startDraft } from "../store/draft";
 import { perform } from "../store/edits";
 import { applyTo, checkAll, whyNotApply, whyNotCheck } from "../store/jobs";
 import { useProject } from "../store/project";
-import { getVerdict, listAcceptable, nextInQueue, reviewQueue } from "../store/reviews";
+import { getVerdict, isWritten, listAcceptable, nextInQueue, reviewQueue } from "../store/reviews";
 import { notify, reportError } from "../store/toasts";
 import { openAsset, openStage, setChecks, useWorkspace, visit } from "../store/workspace";
 import type { Card } from "../wire";
@@ -90,7 +90,7 @@ export function nextToReview(): void {
 function reviewable(): Card | null {
   const { asset, stage } = useWorkspace.getState();
   const card = useProject.getState().cards[asset ?? ""];
-  return stage === "review" && card && (card.output === "edited" || card.output === "unchanged") ? card : null;
+  return stage === "review" && card && isWritten(card) ? card : null;
 }
 
 export const reviewCommands: readonly Command[] = [

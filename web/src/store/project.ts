@@ -1,6 +1,7 @@
 // What the server says of the project, kept as it comes; knows neither DOM nor three.js.
 import { create } from "zustand";
 import { page } from "../server/http";
+import { oncePer } from "./once";
 import type { AssessmentView, Card, ConfidenceView, Event, HistoryState, Job, LanguageView, OutcomeView, ProgramView, ProjectView, Reach, LabelUpdate } from "../wire";
 
 export interface ProjectState {
@@ -166,14 +167,8 @@ export function receive(event: Event): void {
 type Cards = ProjectState["cards"];
 
 /** Works something out from all cards once, however many ask, until one of the cards is another. */
-export function oncePerFamily<T>(compute: (cards: readonly Card[]) => T): (cards: Cards) => T {
-  const known = new WeakMap<Cards, { result: T }>();
-  return (cards) => {
-    const found = known.get(cards) ?? { result: compute(Object.values(cards)) };
-    known.set(cards, found);
-    return found.result;
-  };
-}
+export const oncePerFamily = <T>(compute: (cards: readonly Card[]) => T): ((cards: Cards) => T) =>
+  oncePer((cards) => compute(Object.values(cards)));
 
 /** How many assets could be read. */
 export const countReadable = oncePerFamily((cards) => cards.filter((card) => card.hulls !== null).length);

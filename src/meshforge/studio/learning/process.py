@@ -33,16 +33,6 @@ RENEW_AFTER = 64
 tables of 40 hulls). The run after that takes some tenths of a second longer."""
 
 
-@cache
-def _family_cache(folder: Path) -> FamilyCache:
-    return FamilyCache()
-
-
-@cache
-def _rule_selector(folder: Path) -> RuleSelector:
-    return RuleSelector()
-
-
 @dataclass(slots=True)
 class _Lesson:
     """What the last learning run of a project came to. meshes: what it learned from, by asset; digest: of all else."""
@@ -58,27 +48,21 @@ class _Lesson:
         return same and digest == self.digest
 
 
-@cache
-def _last_lesson(folder: Path) -> _Lesson:
-    return _Lesson()
-
-
-def learn(folder: Path, token: CancelToken, number: int, take: bool) -> OutcomeView:
-    """Learn a program from a project as it is now. take: replace the accepted one even if a person wrote it."""
+def learn(folder: Path, token: CancelToken, number: int) -> OutcomeView:
+    """Learn a program from a project as it is now; it replaces the accepted one unless a person wrote that."""
     stop = token.stop
     try:
         project = Project.open(folder)
-        family = _family_cache(folder)
+        family = _memory_of(folder).family
         family.count_run()
         digest = digest_lesson(project)
         meshes = dict(family.read_meshes(project, select_assets(project), stop))
-        accept = take or not project.program_state().by_hand
-        outcome = project.synthesize(accept=accept, meshes=meshes, stop=stop)
+        outcome = project.synthesize(accept=not project.program_state().by_hand, meshes=meshes, stop=stop)
     except ReadInterrupted:
         return OutcomeView(number=number, status="timeout")
     except MeshForgeError as error:
         return OutcomeView(number=number, status="error", error=error.message)
-    lesson = _last_lesson(folder)
+    lesson = _memory_of(folder).lesson
     lesson.number, lesson.outcome, lesson.meshes, lesson.digest = number, outcome, meshes, digest
     return build_outcome_view(number, outcome, len(meshes))
 
@@ -88,14 +72,14 @@ def assess(folder: Path, token: CancelToken, number: int) -> AssessmentView | No
 
     It is kept, as a review is, where nothing changed since that run. None too where nothing is demonstrated yet.
     """
-    lesson, project = _last_lesson(folder), Project.open(folder)
+    lesson, project = _memory_of(folder).lesson, Project.open(folder)
     if not project.demonstration_ids():
         return None
     if lesson.number != number or lesson.outcome is None:
         return None
     basis = AssessmentBasis.take(project)
     try:
-        meshes = dict(_family_cache(folder).read_meshes(project, select_assets(project), token.stop))
+        meshes = dict(_memory_of(folder).family.read_meshes(project, select_assets(project), token.stop))
     except ReadInterrupted:
         return None
     made = assess_project(project, meshes, lesson.outcome, basis, token.stop)
@@ -117,7 +101,7 @@ def compute_reach(folder: Path, token: CancelToken, program: str) -> tuple[Reach
     project = Project.open(folder)
     plan = _load_program(project, Program.parse(program))
     try:
-        rows = _family_cache(folder).read_meshes(project, select_assets(project), token.stop)
+        rows = _memory_of(folder).family.read_meshes(project, select_assets(project), token.stop)
         return tuple(measure_reach(plan, asset, mesh) for asset, mesh in rows)
     except ReadInterrupted:
         return None
@@ -132,10 +116,10 @@ def generalise(folder: Path, token: CancelToken, extractor: str, rule: int, prog
     thresholds = project.settings.thresholds
     bare = Program(orient=project.orientation, contact=thresholds.contact, extremity=thresholds.extremity)
     plan = _load_program(project, (Program.parse(program) if program else bare), rule)
-    selector = _rule_selector(folder)
+    memory = _memory_of(folder)
     try:
-        rows = _family_cache(folder).read_meshes(project, select_assets(project), token.stop)
-        return CoverageView(assets={asset: selector.select(plan, mesh, wanted) for asset, mesh in rows})
+        rows = memory.family.read_meshes(project, select_assets(project), token.stop)
+        return CoverageView(assets={asset: memory.selector.select(plan, mesh, wanted) for asset, mesh in rows})
     except ReadInterrupted:
         return None
 
@@ -174,3 +158,17 @@ class FamilyCache:
         self._runs += 1
         if self._runs % RENEW_AFTER == 0:
             self._meshes.renew()
+
+
+@dataclass(frozen=True, slots=True)
+class _Memory:
+    """What stays in memory of a project."""
+
+    family: FamilyCache = field(default_factory=FamilyCache)
+    selector: RuleSelector = field(default_factory=RuleSelector)
+    lesson: _Lesson = field(default_factory=_Lesson)
+
+
+@cache
+def _memory_of(folder: Path) -> _Memory:
+    return _Memory()

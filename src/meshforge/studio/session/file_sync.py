@@ -66,7 +66,7 @@ class FileSync:
     def show_program(self) -> bool:
         """Show the accepted program; whether it is another one, so that outputs may be stale."""
         self._note_stamps(file.name for file in (Layout.program, Layout.learned))
-        is_other = self._pages.set_program(_view_program(self.project, self._pages.program))
+        is_other = self._pages.set_program(_view_program(self.project, self._pages.shown.program))
         if is_other:
             self._queue.add([card.asset for card in self._pages.cards if card.output != "none"], later=True)
             self._pages.announce_assets(self.project.layout.demonstration.ids, shapes=False)

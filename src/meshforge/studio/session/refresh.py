@@ -99,9 +99,12 @@ class Refresher:
         problem = status.problem or damage
         offers = partial(find_offers, project, self._offers, self._pages.readable)
         family = replace(status.family, find_offers=offers)
-        known = self._pages.program, self._pages.outcome, self._pages.assessment
-        family = add_session(family, *known, propagation, problem)
-        return build_project_view(project, choose_next_step(family), problem, status.lost, propagation, new)
+        shown = self._pages.shown
+        known = shown.program, shown.outcome, shown.assessment
+        step = choose_next_step(add_session(family, *known, propagation, problem))
+        if step.kind == "learn" and shown.learning:  # never what is being done already
+            step = NextStep("learn", "The program is being learned.")
+        return build_project_view(project, step, problem, status.lost, propagation, new)
 
     def _count_read(self) -> None:
         """One asset had to be read; called from another thread."""

@@ -11,11 +11,11 @@ from threading import RLock
 from typing import Any, Literal
 
 from meshforge.batch import read_prepared, stamp_path
-from meshforge.common import UsageError, relative_name
+from meshforge.common import ProjectError, UsageError, relative_name
 from meshforge.labels import OfferCache
+from meshforge.language import Program
 from meshforge.project import Project
 from meshforge.store import History, HistoryEntry, Layout, MeshCache, list_files
-from meshforge.studio.downloads import Downloads
 from meshforge.studio.edits.base import Edit, make_edit
 from meshforge.studio.edits.program import TakeLearned
 from meshforge.studio.errors import NotHereError
@@ -29,7 +29,7 @@ from meshforge.studio.session.job_runner import JobRunner
 from meshforge.studio.session.refresh import Refresher, initial_view
 from meshforge.studio.similar_hulls import SimilarHulls
 from meshforge.studio.thumbnails import Thumbnails
-from meshforge.studio.uploads import Uploads
+from meshforge.studio.transfers import Downloads, Uploads
 from meshforge.studio.wire.events import HistoryChanged
 from meshforge.studio.wire.program import OutcomeView
 from meshforge.studio.wire.requests import EditReceipt
@@ -124,6 +124,16 @@ class Session:
         self.check_assets(asset)
         return self.project.mesh(asset)
 
+    @property
+    def present_program(self) -> Program | None:
+        """The program that was learned last, or else the accepted one; one that a person wrote comes before both."""
+        learned, accepted = self.pages.shown.outcome, self.pages.shown.program
+        if learned and learned.program and not accepted.by_hand:
+            return Program.parse(learned.program)
+        if accepted.error:
+            raise ProjectError(accepted.error, where=Layout.program.name)
+        return Program.parse(accepted.text) if accepted.text else None
+
     def check_assets(self, *assets: str) -> None:
         """Raises NotHereError for an id that no asset has."""
         for asset in assets:
@@ -205,8 +215,9 @@ class Session:
         if not self._has_demonstrations():
             raise UsageError("nothing is demonstrated yet", remedy="Show the steps of the edit on one asset.")
         with self._mutex:
-            self._take_learned = self.pages.program.by_hand
+            self._take_learned = self.pages.shown.program.by_hand
             self.learning.restart()
+        self.refresh_queue.add()
         return EditReceipt(said="learning")
 
     def _has_demonstrations(self) -> bool:

@@ -15,10 +15,9 @@ from meshforge.common import MeshForgeError, ProjectError
 from meshforge.project import Project
 from meshforge.samples import FAMILIES, family_of, write_family
 from meshforge.studio.start import folders
-from meshforge.studio.start.assets import look_at_assets, look_at_folder, warm_up
 from meshforge.studio.start.building import build_project, clean_up
 from meshforge.studio.start.recent import RecentProjects
-from meshforge.studio.uploads import Uploads
+from meshforge.studio.transfers import Uploads
 from meshforge.studio.wire import start as wire
 from meshforge.studio.workers import Workers
 
@@ -40,7 +39,7 @@ class StartPage:
 
     def begin(self) -> None:
         """Get ready for people, as no project is open."""
-        warm_up(self._workers)
+        folders.warm_up(self._workers)
 
     @property
     def view(self) -> wire.StartView:
@@ -65,7 +64,7 @@ class StartPage:
 
     def look_at_folder(self, folder: str) -> wire.AssetsFound:
         """What a folder holds. Raises UsageError where there is no such folder, or no asset in it."""
-        return look_at_folder(self._workers, folders.parse_path(folder, "the folder of assets"))
+        return folders.look_at_folder(self._workers, folders.parse_path(folder, "the folder of assets"))
 
     def look_at_upload(self) -> wire.AssetsFound:
         """What was sent; assets that cannot be read are left out. Raises ProjectError, and throws all away, where no
@@ -79,7 +78,7 @@ class StartPage:
         tops = {name.split("/")[0] for name in files}
         first = min(tops, key=str.casefold)
         name = first if len(tops) == 1 and (home / first).is_dir() else Path(sent.names[0]).stem
-        found = look_at_assets(self._workers, home, [home / path for path in sent.names], name)
+        found = folders.look_at_assets(self._workers, home, [home / path for path in sent.names], name)
         if not sent.problems:
             return found
         return found.model_copy(update={"broken": len(sent.problems), "problem": sent.problems[0], "left_out": True})
