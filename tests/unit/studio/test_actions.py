@@ -134,12 +134,8 @@ def test_an_action_comes_back_from_the_page_as_it_was(text: str) -> None:
     shown = view_action(action, label)
     assert shown.text == text
     assert shown.text == f"{shown.short} as {text.rpartition(' as ')[2]}" if label else shown.short == text
-    assert read_action(
-        ActionCall.model_validate_json(shown.model_dump_json(include=set(ActionCall.model_fields))), "x"
-    ) == (
-        action,
-        label,
-    )
+    sent = shown.model_dump_json(include=set(ActionCall.model_fields))
+    assert read_action(ActionCall.model_validate_json(sent), "x") == (action, label)
 
 
 @pytest.mark.parametrize(

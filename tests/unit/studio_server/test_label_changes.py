@@ -62,18 +62,6 @@ def carried(project: Project, history: History) -> PropagationState | None:
     return LabelChanges(history).propagation_state(project, cards(project))
 
 
-def test_it_is_one_step_back_and_one_forth_to_the_byte(tmp_path: Path) -> None:
-    project, history = labelled(tmp_path)
-    before = labels(project)
-    carry(project, history)
-    after = labels(project)
-    assert before.keys() < after.keys()
-    assert len(history.undo()) == 1
-    assert labels(project) == before
-    assert len(history.redo()) == 1
-    assert labels(project) == after
-
-
 def test_what_changed_is_told_until_the_next_edit_and_again_when_that_is_undone(tmp_path: Path) -> None:
     project, history = labelled(tmp_path)
     relabelling = LabelChanges(history)

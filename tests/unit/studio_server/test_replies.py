@@ -98,7 +98,7 @@ def view(question: ReviewQuestion, project: Project) -> dict[str, Any]:
     """A question as a page is asked it."""
     meshes = {asset: project.mesh(asset) for asset in project.assets()}
     state = ReviewState(meshes, project.program() or pytest.fail())
-    asked = view_assessment(Assessment({}, questions=(question,)), state, 1).question
+    asked = view_assessment(Assessment({}, questions=(question,)), state).question
     assert asked
     return asked.model_dump(mode="json")
 
