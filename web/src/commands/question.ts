@@ -6,7 +6,7 @@ import { useProject } from "../store/project";
 import { differing } from "../store/readings";
 import { openStage, setFilters, setHighlight, setLayout, useWorkspace, visit } from "../store/workspace";
 import type { Doubt, ReplyToQuestion, ReviewQuestionView } from "../wire";
-import type { Command } from "./command";
+import { commandsOf } from "./command";
 
 /** What is said to a question; nothing: none of its choices. */
 export type Said = Omit<ReplyToQuestion, "kind" | "question">;
@@ -79,14 +79,13 @@ export function goToCard(): void {
   useCardCalls.setState(({ count }) => ({ count: count + 1 }));
 }
 
-export const questionCommands: readonly Command[] = [
+export const questionCommands = commandsOf("Learn", [
   {
     id: "question",
     title: "Go to the question: 1 to 9 choose, Y accept, N reject, L later, S show",
-    group: "Learn",
     keys: ["U"],
     enabled: () => isAsked(useProject.getState()),
     run: goToCard,
     movesFocus: true,
   },
-];
+]);

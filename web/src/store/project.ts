@@ -160,9 +160,7 @@ export function applyEvent(state: ProjectState, event: Event): ProjectState {
   }
 }
 
-export function receive(event: Event): void {
-  useProject.setState((state) => applyEvent(state, event), true);
-}
+export const receive = (event: Event): void => useProject.setState((state) => applyEvent(state, event), true);
 
 type Cards = ProjectState["cards"];
 
