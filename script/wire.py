@@ -13,7 +13,7 @@ from pydantic import TypeAdapter
 from pydantic.json_schema import models_json_schema
 
 from meshforge.studio.edits import AnyEdit
-from meshforge.studio.wire import Wire, asset, events, family, jobs, program, requests, signoff, start
+from meshforge.studio.wire import Wire, asset, events, family, jobs, program, requests, start
 
 WEB = Path(__file__).parent.parent / "web"
 TARGET = WEB / "src" / "wire.ts"
@@ -25,8 +25,8 @@ def schema() -> dict[str, Any]:
 
     What the server sends has all of its fields; what the page sends may leave out those with a default.
     """
-    sent = _models(asset, events, family, program, signoff, start)
     asked = _models(requests)
+    sent = [model for model in _models(asset, events, family, program, start) if model not in asked]
     pairs = [*((model, "serialization") for model in sent), *((model, "validation") for model in asked)]
     _, whole = models_json_schema(pairs, ref_template=_REF)  # type: ignore[arg-type]  # literals become str in a list
     definitions = whole["$defs"]
@@ -48,7 +48,7 @@ def schema() -> dict[str, Any]:
 _REF = "#/$defs/{model}"
 _UNIONS: tuple[tuple[str, Any, Literal["validation", "serialization"]], ...] = (
     ("AnyEdit", AnyEdit, "validation"),
-    ("NewProject", requests.NewProject, "validation"),
+    ("NewProject", start.NewProject, "validation"),
     ("JobRequest", jobs.JobRequest, "validation"),
     ("Event", events.Event, "serialization"),
 )

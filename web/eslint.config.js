@@ -4,6 +4,7 @@ import tseslint from "typescript-eslint";
 export default tseslint.config(
   { ignores: ["src/wire.ts"] },
   ...tseslint.configs.strict,
+  { rules: { "@typescript-eslint/no-unused-vars": ["error", { ignoreRestSiblings: true }] } },
   {
     // what the page knows and can do is apart from how it looks
     files: ["src/server/**", "src/store/**", "src/commands/**"],

@@ -84,7 +84,7 @@ def _time_answers(address: str, turns: int) -> list[float]:
             time.sleep(0.5)
             began = time.perf_counter()
             label = ("misc", "panel")[turn % 2]
-            edit = {"kind": "label", "asset": OPEN, "hulls": ["convex_02"], "label": label}
+            edit = {"kind": "label", "hulls": {OPEN: ["convex_02"]}, "label": label}
             client.post("/api/edit", json=edit).raise_for_status()
             while not _is_outcome(json.loads(socket.recv())):
                 pass

@@ -159,12 +159,12 @@ def test_two_pages_are_told_the_same_in_the_same_order(studio: Studio) -> None:
     studio.until(lambda hello: "review" in hello["project"]["next"]["text"])  # the last that becomes known by itself
     with studio.page() as one, studio.page() as two:
         assert one.hello == two.hello
-        studio.edit("label", page="one", asset=FIRST, hulls=["convex_00"], label="leg")
+        studio.edit("label", page="one", hulls={FIRST: ["convex_00"]}, label="leg")
         for page in (one, two):
             assert page.kind("assets")["assets"] == [FIRST]
             event = page.kind("history")
-            assert (event["did"], event["by"]) == ("edit", "one")
-            assert event["said"] == f"1 hull of {FIRST} labelled leg"
+            assert event["by"] == "one"
+            assert event["history"]["undo"] == f"1 hull of {FIRST} labelled leg"
             (card,) = page.kind("cards")["cards"]
             assert card["labels"][0] == 1
             page.until(lambda e: e["kind"] == "outcome" and not e["learning"])
@@ -216,7 +216,7 @@ def test_a_program_by_hand_stays_until_the_learned_one_is_asked_for(studio: Stud
     studio.edit("program", **_program(studio))
     by_hand = studio.settled()["program"]
     assert by_hand["by_hand"] and len(by_hand["rules"]) == 1
-    studio.edit("label", asset=FIRST, hulls=["convex_00"], label=None)
+    studio.edit("label", hulls={FIRST: ["convex_00"]}, label=None)
     assert studio.settled()["program"] == by_hand
     ok(studio.post("/api/undo"))
     with studio.page() as page:
@@ -233,7 +233,7 @@ def test_a_program_by_hand_stays_until_the_learned_one_is_asked_for(studio: Stud
 def test_labels_files_are_offered_while_they_say_something_new(studio: Studio) -> None:
     studio.settled()
     assert ok(studio.get("/api/labels/sources"))["files"] == 1  # that of the hull without a label
-    studio.edit("label", asset=FIRST, hulls=["convex_00"], label=None)
+    studio.edit("label", hulls={FIRST: ["convex_00"]}, label=None)
     assert ok(studio.get("/api/labels/sources"))["files"] == 2
     studio.edit("label-files")
     assert ok(studio.get("/api/labels/sources"))["files"] == 0
@@ -262,8 +262,8 @@ def test_an_edit_survives_a_kill_and_can_be_undone_after_it(tmp_path: Path) -> N
     project = demo_project(tmp_path, demonstrated=False)
     labels = project.layout.labels(FIRST).read_bytes()
     with opened(tmp_path, project.folder) as studio:
-        studio.edit("label", asset=FIRST, hulls=["convex_00"], label="leg")
-        studio.edit("label", asset=FIRST, hulls=["convex_01"], label="leg")
+        studio.edit("label", hulls={FIRST: ["convex_00"]}, label="leg")
+        studio.edit("label", hulls={FIRST: ["convex_01"]}, label="leg")
         studio.process.send_signal(signal.SIGKILL)
         studio.process.wait()
     assert project.labels(FIRST).labels["convex_01"].name == "leg"

@@ -42,17 +42,17 @@ def test_look_alikes_of_a_leg_are_the_legs(studio: Studio) -> None:
 
 
 def test_what_a_person_labelled_otherwise_is_left_alone(studio: Studio) -> None:
-    studio.edit("label", asset=SECOND, hulls=["leg_a"], label="top")
+    studio.edit("label", hulls={SECOND: ["leg_a"]}, label="top")
     assert "leg_a" not in similar(studio, "leg_b", [SECOND]).get(SECOND, [])
     assert similar(studio, "leg_b") == {FIRST: list(LEGS)}
 
 
 def test_hulls_of_several_assets_are_labelled_and_unlabelled_by_one_edit_each(studio: Studio) -> None:
     project = Project.open(Path(studio.settled()["project"]["folder"]))
-    hulls = [{"asset": asset, "hull": leg} for asset in (FIRST, SECOND) for leg in LEGS]
-    studio.edit("label-group", hulls=hulls, label="leg")
+    hulls = {asset: list(LEGS) for asset in (FIRST, SECOND)}
+    studio.edit("label", hulls=hulls, label="leg")
     assert [project.labels(asset).labels["leg_c"].name for asset in (FIRST, SECOND)] == ["leg", "leg"]
-    assert studio.edit("label-group", hulls=hulls, label=None)["said"] == "label of 8 hulls of 2 assets taken away"
+    assert studio.edit("label", hulls=hulls, label=None)["said"] == "label of 8 hulls of 2 assets taken away"
     assert not any(project.labels(asset).labels for asset in (FIRST, SECOND))
     ok(studio.post("/api/undo"))
     assert project.labels(SECOND).labels["leg_d"].name == "leg"

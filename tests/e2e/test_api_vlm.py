@@ -111,7 +111,7 @@ def test_a_person_labels_meanwhile_and_keeps_what_was_said(tmp_path: Path, monke
     with serving(right) as server, asking(tmp_path, server) as studio, studio.page() as page:
         server.delay = 1.0
         job = ok(studio.post("/api/jobs", {"kind": "ask", "mode": "cheap"}))["id"]
-        studio.edit("label", asset="t001.obj", hulls=["crumb"], label="leg")
+        studio.edit("label", hulls={"t001.obj": ["crumb"]}, label="leg")
         assert page.job(job)["state"] == "done"
         saved = (tmp_path / "p/labels/t001.obj.json").read_text(encoding="utf-8")
         assert '"label": "leg", "confidence": 1.0, "source": "user"' in saved

@@ -150,9 +150,7 @@ class Studio:
                     asset = draw.choice(list(hulls))
                     name, label = draw.choice(hulls[asset]), draw.choice(_WORDS)
                     asked[asset, name] = label
-                    answer = studio.post(
-                        "/api/edit", {"kind": "label", "asset": asset, "hulls": [name], "label": label}
-                    )
+                    answer = studio.post("/api/edit", {"kind": "label", "hulls": {asset: [name]}, "label": label})
                     assert answer.status_code == 200, answer.text
                     told[asset, name] = label
             except httpx.TransportError:

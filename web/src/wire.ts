@@ -2,7 +2,6 @@
 
 export type AnyEdit =
   | LabelHulls
-  | LabelGroup
   | LabelFromFiles
   | LabelFromNames
   | SetVocabulary
@@ -21,7 +20,7 @@ export type AnyEdit =
   | ReviewAssets
   | ExcludeAssets
   | CorrectByHand
-  | DropCorrections
+  | DropManualEdits
   | RemoveAssets;
 export type Event =
   | Start
@@ -64,7 +63,6 @@ export interface Everything {
   CheckFinding: CheckFinding;
   CheckJob: CheckJob;
   CheckPicture: CheckPicture;
-  CheckRequest: CheckRequest;
   CheckResult: CheckResult;
   ConfidenceView: ConfidenceView;
   CorrectByHand: CorrectByHand;
@@ -73,12 +71,9 @@ export interface Everything {
   DecomposeJob: DecomposeJob;
   DeleteRule: DeleteRule;
   DownloadJob: DownloadJob;
-  DownloadRequest: DownloadRequest;
-  DownloadTicket: DownloadTicket;
   DropManualEdits: DropManualEdits;
   EditHeader: EditHeader;
   EditReceipt: EditReceipt;
-  EngineView: EngineView;
   Event: Event;
   ExcludeAssets: ExcludeAssets;
   ExportJob: ExportJob;
@@ -87,34 +82,30 @@ export interface Everything {
   Figure: Figure;
   FindingView: FindingView;
   FolderEntry: FolderEntry;
-  FolderRequest: FolderRequest;
   FolderView: FolderView;
   ForecastJob: ForecastJob;
-  GeneraliseRequest: GeneraliseRequest;
   Guess: Guess;
-  Guesses: Guesses;
   Hello: Hello;
-  HintView: HintView;
+  Hint: Hint;
   HistoryChanged: HistoryChanged;
-  HistoryView: HistoryView;
+  HistoryState: HistoryState;
   HullLabel: HullLabel;
   HullOfAsset: HullOfAsset;
   HullRef: HullRef;
   HullView: HullView;
   HullsOfAsset: HullsOfAsset;
   Job: Job;
-  JobCancel: JobCancel;
   JobChanged: JobChanged;
   JobLine: JobLine;
   JobRequest: JobRequest;
   LabelFromFiles: LabelFromFiles;
   LabelFromNames: LabelFromNames;
-  LabelGroup: LabelGroup;
   LabelHulls: LabelHulls;
   LabelSources: LabelSources;
   LabelUpdate: LabelUpdate;
   LabelUpdateChanged: LabelUpdateChanged;
   LanguageView: LanguageView;
+  ManualEditView: ManualEditView;
   Mark: Mark;
   Model: Model;
   MoveRule: MoveRule;
@@ -124,7 +115,6 @@ export interface Everything {
   NewProject: NewProject;
   NextStep: NextStep;
   NonConvexView: NonConvexView;
-  OpenReceipt: OpenReceipt;
   Operator: Operator;
   OrientView: OrientView;
   OutcomeChanged: OutcomeChanged;
@@ -143,7 +133,7 @@ export interface Everything {
   PropagationState: PropagationState;
   Reach: Reach;
   ReachChanged: ReachChanged;
-  ReasonView: ReasonView;
+  Reason: Reason;
   RebuildJob: RebuildJob;
   RecentProject: RecentProject;
   RemoveAssets: RemoveAssets;
@@ -276,28 +266,14 @@ export interface AnswerView {
   text: string;
 }
 /**
- * Label some hulls of an asset; null takes their labels away.
+ * Label some hulls, given by name for each asset; null takes their labels away.
  */
 export interface LabelHulls {
   kind: "label";
-  asset: string;
-  hulls: string[];
+  hulls: {
+    [k: string]: string[];
+  };
   label: string | null;
-}
-/**
- * Give hulls of several assets one label; null takes their labels away.
- */
-export interface LabelGroup {
-  kind: "label-group";
-  hulls: HullOfAsset[];
-  label: string | null;
-}
-/**
- * A hull of an asset, both by name.
- */
-export interface HullOfAsset {
-  asset: string;
-  hull: string;
 }
 /**
  * Take over the labels files beside the assets.
@@ -559,13 +535,12 @@ export interface AssessmentChanged {
   assessing: boolean;
 }
 /**
- * A family as the last learning run left it. number: of that run; bar: the probability from which on an asset is
- * signed off; signed_off, held, excluded: how many assets; unseen: those of the family that nobody looked at, as there
- * are too many, or they cannot be read; assets: the others in the family's order, empty while there is no program;
- * question: null where nothing is left to ask.
+ * A family as the last learning run left it. bar: the probability from which on an asset is signed off; signed_off,
+ * held, excluded: how many assets; unseen: those of the family that nobody looked at, as there are too many, or they
+ * cannot be read; assets: the others in the family's order, empty while there is no program; question: null where
+ * nothing is left to ask.
  */
 export interface AssessmentView {
-  number: number;
   threshold: number;
   signed_off: number;
   need_review: number;
@@ -581,18 +556,22 @@ export interface AssessmentView {
 export interface ConfidenceView {
   asset: string;
   probability: number;
-  reasons: ReasonView[];
+  reasons: Reason[];
   state: "signed" | "needs review" | "excluded";
   remarks: boolean;
 }
 /**
- * Why an edit may be wrong. hulls: names of those concerned; rule: its number, null where it is about none.
+ * Why an edit may be wrong.
+ *
+ * text: one sentence; hulls: names of those concerned, on the asset; rule: its number, from 1, where it is about one;
+ * share: the probability, in 0..1, that the edit is wrong for this alone.
  */
-export interface ReasonView {
+export interface Reason {
   kind: "candidate" | "label" | "orientation" | "outlier" | "alarm";
   text: string;
   hulls: string[];
   rule: number | null;
+  share: number;
 }
 /**
  * Hulls of an asset that got a new label, by position. new: those that had none; changed: those that had another;
@@ -608,30 +587,22 @@ export interface AssetLabelUpdate {
  * An asset as it is prepared, in the frame it comes in.
  *
  * upright: the 16 numbers (row by row) of canonical_T_incoming, null for the identity; unturned: why the orientation
- * cannot turn it; version: of the steps, to be sent back with an edit of them; contacts: pairs of names of hulls;
- * diagonal, contact_distance: [m].
+ * cannot turn it; version: of the steps, to be sent back with an edit of them; contacts: pairs of names of hulls.
  */
 export interface AssetView {
   asset: string;
-  path: string;
-  format: string;
-  up: "y" | "z";
   bodies: string[];
   hulls: HullView[];
   non_convex: NonConvexView[];
   has_visual: boolean;
   contacts: [string, string][];
   near_misses: NearMiss[];
-  diagonal: number;
-  contact_distance: number;
   upright: number[] | null;
   unturned: string | null;
   steps: StepView[];
   version: string;
   manual_edits: ManualEditView[];
   prepared: string[];
-  missing: string[];
-  notes: string[];
 }
 /**
  * A hull. vertices, faces: how many; primitive: its kind if it is one; source: who gave the label; parent: the hull
@@ -667,12 +638,11 @@ export interface NearMiss {
   gap: number;
 }
 /**
- * One step of a demonstration. rule: its number; select: names of hulls, [] for none, null where it is left open.
+ * One step of a demonstration. select: names of hulls, [] for none, null where it is left open.
  *
  * error: why the step cannot be replayed; made, removed: names of hulls, where it can.
  */
 export interface StepView {
-  rule: number;
   select: string[] | null;
   action: ActionView;
   error: string | null;
@@ -810,12 +780,6 @@ export interface CheckPicture {
   text: string;
 }
 /**
- * Is this text a program?
- */
-export interface CheckRequest {
-  text: string;
-}
-/**
  * The result of one part of a check. gone: how many findings about the asset the output no longer has; notes: what
  * could not be measured, and why; cell: the resolution [m]; pictured: whether there are pictures of it.
  */
@@ -869,18 +833,6 @@ export interface DownloadJob {
   count?: number;
 }
 /**
- * Fetch the file that a job has made.
- */
-export interface DownloadRequest {
-  job: string;
-}
-/**
- * Where the file is, below the studio's own address: good once, and for a minute.
- */
-export interface DownloadTicket {
-  address: string;
-}
-/**
  * The header of a packet of an edited asset: all of its hulls, with the shapes of those that the asset has not.
  *
  * made, removed: names of hulls, compared with the asset as it comes; trace: what each rule did; findings: of the
@@ -909,7 +861,6 @@ export interface ShapeRow {
   name: string;
   vertices: number;
   faces: number;
-  rgba: [number, number, number, number] | null;
 }
 /**
  * What one rule did. selected, made: names of hulls; note: what a user should know.
@@ -934,13 +885,6 @@ export interface FindingView {
 export interface EditReceipt {
   message: string;
   nothing?: boolean;
-}
-/**
- * An engine whose limits can be checked; title: its name as its makers write it.
- */
-export interface EngineView {
-  name: string;
-  title: string;
 }
 /**
  * No project is open; sent when a page connects.
@@ -978,15 +922,15 @@ export interface FamilyOffer {
   project: string;
 }
 /**
- * The whole state, sent when a page connects. tour: whether the page shows the guided tour; engines: those whose
- * limits can be checked; leave: whether the page can leave the project for the start page.
+ * The whole state, sent when a page connects. tour: whether the page shows the guided tour; engines: the
+ * titles of those whose limits can be checked, by name; leave: whether the page can leave the project.
  */
 export interface Hello {
   kind: "hello";
   version: string;
   project: ProjectView;
   cards: Card[];
-  history: HistoryView;
+  history: HistoryState;
   relabelled: LabelUpdate | null;
   program: ProgramView;
   language: LanguageView;
@@ -997,7 +941,9 @@ export interface Hello {
   assessing: boolean;
   jobs: Job[];
   tour: boolean;
-  engines: EngineView[];
+  engines: {
+    [k: string]: string;
+  };
   leave: boolean;
 }
 /**
@@ -1026,14 +972,12 @@ export interface ProjectView {
   left_out: string[];
 }
 /**
- * A label of the vocabulary. text: as programs write it; color: `#rrggbb`, by its place; used: how many hulls have
- * it.
+ * A label of the vocabulary. text: as programs write it; color: `#rrggbb`, by its place.
  */
 export interface VocabularyLabel {
   name: string;
   text: string;
   color: string;
-  used: number;
 }
 /**
  * The orientation. text: of the directive, empty for none; sentence: that in words.
@@ -1099,20 +1043,19 @@ export interface NewAssetsView {
   unclear: string | null;
 }
 /**
- * What can be undone and redone next, in words; null where there is nothing.
+ * The titles of what can be undone and redone next, None for nothing, and how much can be.
  */
-export interface HistoryView {
+export interface HistoryState {
   undo: string | null;
   redo: string | null;
   undoable: number;
   redoable: number;
 }
 /**
- * What the last edit did, if it changed the labels of all assets. entry: its number in the history; way: its kind;
- * settled: how many labels it made sure.
+ * What the last edit did, if it changed the labels of all assets. way: its kind; settled: how many labels it made
+ * sure.
  */
 export interface LabelUpdate {
-  entry: number;
   way: "propagate" | "label-files" | "label-names" | "label-vlm";
   assets: AssetLabelUpdate[];
   newly_sure: number;
@@ -1132,13 +1075,12 @@ export interface ProgramView {
   error: string | null;
 }
 /**
- * A rule of a program, as text and as a sentence; readings: how many extractors agree with all demonstrations.
+ * A rule of a program, as text and as a sentence.
  */
 export interface RuleView {
   rule: number;
   text: string;
   sentence: string;
-  candidates: number;
 }
 /**
  * The language: actions (without Each, a switch in the page), operators, directions.
@@ -1163,9 +1105,9 @@ export interface Operator {
  * how many assets the run looked at; settled: whether the program is unambiguous; repairs: how many labels
  * are probably wrong.
  *
- * error: a message in place of an outcome; seconds: the time it took. why, advice, nearest: for a rule without an
- * extractor. stale: ids of answers that no longer fit. sample: the assets whose results show best whether the program
- * is right, best first; overruled: those whose accepted result no program keeps.
+ * error: a message in place of an outcome. why, advice, nearest: for a rule without an extractor. stale: ids of
+ * answers that no longer fit. sample: the assets whose results show best whether the program is right, best first;
+ * overruled: those whose accepted result no program keeps.
  */
 export interface OutcomeView {
   number: number;
@@ -1177,14 +1119,13 @@ export interface OutcomeView {
   candidates: CandidateView[];
   repairs: number;
   nearest: NearestView | null;
-  hint: HintView | null;
+  hint: Hint | null;
   why: string | null;
   advice: string[];
   stale: string[];
   sample: string[];
   overruled: string[];
   error: string | null;
-  seconds: number;
 }
 /**
  * The extractor that comes nearest, for a rule without any that fits, and how it differs on one asset.
@@ -1197,21 +1138,19 @@ export interface NearestView {
   missing: string[];
 }
 /**
- * The asset to demonstrate next, and why.
+ * The asset that is best demonstrated next, and why, in a sentence.
  */
-export interface HintView {
+export interface Hint {
   asset: string;
   why: string;
 }
 /**
  * What a program does on one asset. rules: for each rule the positions of the asset's own hulls that it selects, or
- * that the hulls it selects were made of; before, after: how many hulls; error: why it does not run there.
+ * that the hulls it selects were made of; error: why it does not run there.
  */
 export interface Reach {
   asset: string;
   rules: number[][];
-  before: number;
-  after: number;
   error: string | null;
 }
 /**
@@ -1260,14 +1199,12 @@ export interface ProjectChanged {
   project: ProjectView;
 }
 /**
- * What can be undone now; said: what was just done, undone or redone, in words; by: the page that did it. Changed
- * settings and the names of changed assets are sent before, their cards after it.
+ * What can be undone now; by: the page that did, undid or redid something. Changed settings and the names of
+ * changed assets are sent before, their cards after it.
  */
 export interface HistoryChanged {
   kind: "history";
-  history: HistoryView;
-  did: "edit" | "undo" | "redo";
-  message: string;
+  history: HistoryState;
   by: string | null;
 }
 /**
@@ -1286,11 +1223,10 @@ export interface OutcomeChanged {
   learning: boolean;
 }
 /**
- * What the program does on all assets; number: the number of the learning run that it belongs to.
+ * What the program does on all assets.
  */
 export interface ReachChanged {
   kind: "reach";
-  number: number;
   reach: Reach[];
 }
 /**
@@ -1323,12 +1259,6 @@ export interface FolderEntry {
   project: boolean;
 }
 /**
- * A folder, by its path.
- */
-export interface FolderRequest {
-  folder: string;
-}
-/**
  * A folder of this machine. parent: the one it lies in, null at the root; entries: the folders in it by name, but
  * for hidden ones; more: how many are left out; files: how many files of assets and meshes lie in it itself.
  */
@@ -1348,13 +1278,6 @@ export interface ForecastJob {
   mode: "cheap" | "balanced" | "exact";
 }
 /**
- * What does an extractor select on all assets, before the rule of that number?
- */
-export interface GeneraliseRequest {
-  extractor: string;
-  rule?: number;
-}
-/**
  * What the program would select for a rule on an asset, after the steps demonstrated before it.
  */
 export interface Guess {
@@ -1365,11 +1288,11 @@ export interface Guess {
   error: string | null;
 }
 /**
- * A guess for each rule.
+ * A hull of an asset, both by name.
  */
-export interface Guesses {
+export interface HullOfAsset {
   asset: string;
-  guesses: Guess[];
+  hull: string;
 }
 /**
  * Some hulls of an asset, by name, and their positions in it.
@@ -1378,12 +1301,6 @@ export interface HullsOfAsset {
   asset: string;
   hulls: string[];
   positions: number[];
-}
-/**
- * Stop a job.
- */
-export interface JobCancel {
-  id: string;
 }
 /**
  * Find the hulls of all assets that span parts, and rebuild their bodies. dry_run: only find them.
@@ -1454,12 +1371,6 @@ export interface ProjectOfFamily {
   kind: "family";
   family: string;
   project: string;
-}
-/**
- * A project is open now.
- */
-export interface OpenReceipt {
-  folder: string;
 }
 /**
  * What would an action do? steps: how many of the asset's own steps come before it; result: apply it to what the

@@ -13,16 +13,16 @@ from meshforge.batch import action_text
 from meshforge.common import MeshForgeError, ProjectError
 from meshforge.language import Action, ArgumentType
 from meshforge.store import parse_action_text
-from meshforge.studio.wire.actions import (
+from meshforge.studio.wire.program import (
     ActionCall,
     ActionForm,
     ActionView,
     Argument,
     ArgumentKind,
     ArgumentValue,
+    Operator,
     Value,
 )
-from meshforge.studio.wire.program import Operator
 
 _KINDS: Mapping[type[ArgumentType], tuple[ArgumentKind, Value]] = {
     language.WordArgument: ("words", ""),

@@ -1,8 +1,10 @@
-"""What the history says about labels: what the last edit of all labels changed, and what is new since propagation."""
+"""Labels on the cards of a family: shown as soon as a person gave them, while their files are still being written; and
+what the history says of them: what the last edit of all labels changed, and what is new since propagation."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import get_args
 
@@ -10,6 +12,8 @@ from meshforge.common import MeshForgeError
 from meshforge.project import Project, PropagationState
 from meshforge.rendering import UNSURE
 from meshforge.store import History, HistoryEntry, Layout
+from meshforge.studio.edits.base import Edit, LabelsByAsset
+from meshforge.studio.pages import PageState
 from meshforge.studio.wire.family import Card
 from meshforge.studio.wire.jobs import AssetLabelUpdate, LabelEditKind, LabelUpdate
 from meshforge.symbolic import GIVEN_SOURCES, Label, read_labels
@@ -45,7 +49,7 @@ class LabelChanges:
             return None
         entry = done[-1]
         if self._last is None or self._last[0] is not entry or self._last[1] != len(names):
-            self._last = entry, len(names), self._build_change(entry, len(done), names)
+            self._last = entry, len(names), self._build_change(entry, names)
         return self._last[2]
 
     def note_no_change(self, entries: int, best: str | None) -> None:
@@ -63,14 +67,13 @@ class LabelChanges:
         unused = sum(count_new_labels(before, now) for before, now in states)
         return PropagationState(unused=unused, next=used.best if is_open else None)
 
-    def _build_change(self, entry: HistoryEntry, number: int, names: HullNames) -> LabelUpdate:
+    def _build_change(self, entry: HistoryEntry, names: HullNames) -> LabelUpdate:
         files = {asset: name for asset, name in _labels_files(entry.names).items() if asset in names}
         states = [
             (a, self._read_state(entry.before[name]), self._read_state(entry.after[name])) for a, name in files.items()
         ]
         assets = (diff_labels(asset, names[asset], before, after) for asset, before, after in states)
         return LabelUpdate(
-            entry=number,
             way=entry.edit["kind"],
             assets=tuple(filter(None, assets)),
             newly_sure=sum(count_newly_sure(before, after) for _, before, after in states),
@@ -136,3 +139,54 @@ def count_new_labels(before: HullLabels, now: HullLabels) -> int:
     """How many labels of people and files are new or changed."""
     given = {name: label.name for name, label in before.items() if label.source in GIVEN_SOURCES}
     return sum(label.source in GIVEN_SOURCES and given.get(name) != label.name for name, label in now.items())
+
+
+class EarlyLabels:
+    """Shows labels before they are written; refreshing the cards shows the rest of what they change.
+
+    names: gives the names of the hulls of each asset that was read, in order.
+    """
+
+    def __init__(self, pages: PageState, names: Callable[[], HullNames]) -> None:
+        self._pages, self._names = pages, names
+
+    @contextmanager
+    def show(self, edit: Edit) -> Iterator[None]:
+        """Show the labels of an edit that is made within the block; an error in it puts the cards back."""
+        before = self._put_on_cards(edit.list_labels())
+        try:
+            yield
+        except BaseException:
+            self._pages.set_cards(before)
+            raise
+
+    def _put_on_cards(self, labels: LabelsByAsset) -> tuple[Card, ...]:
+        """Show labels; gives the cards as they were."""
+        cards = {card.asset: card for card in self._pages.cards if card.asset in labels}
+        places = {word.name: place for place, word in enumerate(self._pages.shown.project.vocabulary)}
+        names = self._names()
+        self._pages.set_cards(
+            relabel_card(card, names.get(asset, ()), labels[asset], places) for asset, card in cards.items()
+        )
+        return tuple(cards.values())
+
+
+def relabel_card(card: Card, names: Sequence[str], labels: Mapping[str, str | None], places: Mapping[str, int]) -> Card:
+    """A card with labels that a person gave; names: of its hulls, in order; places: of the labels in the vocabulary.
+
+    Those that will be refused, of other hulls or outside of the vocabulary, are left out.
+    """
+    if len(names) != len(card.labels):
+        return card
+    at = {name: place for place, name in enumerate(names)}
+    new = {
+        at[hull]: -1 if label is None else places[label]
+        for hull, label in labels.items()
+        if hull in at and (label is None or label in places)
+    }
+    return card.model_copy(
+        update={
+            "labels": tuple(new.get(place, label) for place, label in enumerate(card.labels)),
+            "unsure": tuple(place for place in card.unsure if place not in new),
+        }
+    )

@@ -9,13 +9,12 @@ from threading import Lock, RLock
 from typing import Any
 
 from meshforge.engines import ENGINES
+from meshforge.store.history import HistoryState
 from meshforge.studio.queries.programs import build_language_view
 from meshforge.studio.wire import Wire, events
-from meshforge.studio.wire.asset import EngineView
-from meshforge.studio.wire.family import Card, HistoryView, ProjectView, VocabularyLabel
+from meshforge.studio.wire.family import AssessmentView, Card, ProjectView, VocabularyLabel
 from meshforge.studio.wire.jobs import Job, LabelUpdate
 from meshforge.studio.wire.program import OutcomeView, ProgramView, Reach
-from meshforge.studio.wire.signoff import AssessmentView
 
 MOST_FINISHED_JOBS = 20
 """Jobs that are over and still sent to pages that connect."""
@@ -31,7 +30,7 @@ class PageState:
         self,
         hub: PageHub,
         project: ProjectView,
-        history: HistoryView,
+        history: HistoryState,
         version: str,
         *,
         tour: bool = False,
@@ -49,7 +48,7 @@ class PageState:
             tour=tour,
             leave=leave,
             language=build_language_view(),
-            engines=tuple(EngineView(name=engine.name, title=engine.title) for engine in ENGINES.values()),
+            engines={engine.name: engine.title for engine in ENGINES.values()},
         )
 
     @property
@@ -63,25 +62,19 @@ class PageState:
         return frozenset(card.asset for card in self.cards if card.hulls is not None)
 
     @property
+    def with_hulls(self) -> tuple[str, ...]:
+        """The assets that have hulls, as far as they are read by now."""
+        return tuple(card.asset for card in self.cards if card.hulls)
+
+    @property
     def count(self) -> int:
         """How many assets there are."""
         return len(self._cards)
 
     @property
-    def outcome(self) -> OutcomeView | None:
-        return self._rest.outcome
-
-    @property
-    def assessment(self) -> AssessmentView | None:
-        return self._rest.assessment
-
-    @property
-    def program(self) -> ProgramView:
-        return self._rest.program
-
-    @property
-    def vocabulary(self) -> tuple[VocabularyLabel, ...]:
-        return self._rest.project.vocabulary
+    def shown(self) -> events.Hello:
+        """What all pages show, but for cards and jobs."""
+        return self._rest
 
     def join(self, page: PageConnection) -> None:
         """Show everything to a page, and from now on what changes."""
@@ -141,13 +134,13 @@ class PageState:
     def set_program(self, program: ProgramView) -> bool:
         """Show the accepted program; whether its text is another than before."""
         with self._lock:
-            before = self.program
+            before = self._rest.program
             self._change(events.ProgramChanged(program=program), program=program)
             return program.text != before.text
 
-    def set_reach(self, number: int, reach: tuple[Reach, ...]) -> None:
-        """Show what the program does on all assets; number: the number of the learning run."""
-        self._change(events.ReachChanged(number=number, reach=reach), reach=reach)
+    def set_reach(self, reach: tuple[Reach, ...]) -> None:
+        """Show what the program does on all assets."""
+        self._change(events.ReachChanged(reach=reach), reach=reach)
 
     def set_assessment(self, assessment: AssessmentView | None, assessing: bool) -> None:
         """Show how sure the edits are, or that this is not known now."""

@@ -102,7 +102,7 @@ def _draw(work: _DrawTask) -> bytes:
         shown = load(project.layout.edited / stamp.out) if stamp and present == work.digest else source
     if present != work.digest:
         raise NotHereError("there is no such picture any more", where=work.asset, remedy="Ask for the present one.")
-    data = draw_thumbnail(shown, compute_upright(project, source).pose)
+    data = draw_thumbnail(shown, compute_upright(project, source)[0])
     write_atomically(work.target, data)
     return data
 

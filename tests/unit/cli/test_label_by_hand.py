@@ -79,14 +79,14 @@ def test_a_studio_that_is_open_goes_on_with_the_history_that_the_command_made(ru
     project = Project.open("p")
     studio = History.open(project.folder)
     for hull in ("top", "crumb"):
-        make_edit(studio, project, LabelHulls(asset=FIRST, hulls=(hull,), label="leg"))
+        make_edit(studio, project, LabelHulls(hulls={FIRST: (hull,)}, label="leg"))
     studio.undo()
     assert not studio.refresh()
     run("label", "p", FIRST, "left_low=leg")
     assert studio.refresh() and not studio.refresh()
     assert (studio.state.undo, studio.state.redoable) == (f"{FIRST}: 1 hull labelled leg", 0)
     run("label", "p", FIRST, "left_high=leg")
-    make_edit(studio, project, LabelHulls(asset=FIRST, hulls=("crumb",), label="crumb"))
+    make_edit(studio, project, LabelHulls(hulls={FIRST: ("crumb",)}, label="crumb"))
     assert set(labels_of()) == {"top", "left_low", "left_high", "crumb"}
     assert studio.state.undoable == History.open(project.folder).state.undoable == 4
     while studio.undo():

@@ -17,7 +17,7 @@ from meshforge.project.prepare import exchange_preparation
 from meshforge.store import ConflictError, History
 from meshforge.studio.edits.base import make_edit, steps_version
 from meshforge.studio.edits.program import SetSteps, StepEdit
-from meshforge.studio.wire.actions import ActionCall
+from meshforge.studio.wire.program import ActionCall
 from meshforge.symbolic import Label
 from meshforge.synthesis import Answer, LabelFix
 from tests.unit.batch.families import tree

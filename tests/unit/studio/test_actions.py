@@ -21,7 +21,7 @@ from meshforge.language import (
 )
 from meshforge.store import parse_action_text
 from meshforge.studio.actions import list_action_forms, read_action, view_action
-from meshforge.studio.wire.actions import ActionCall, ActionForm, Value
+from meshforge.studio.wire.program import ActionCall, ActionForm, Value
 
 FORMS = list_action_forms()
 VALUES: dict[str, Value] = {"file": "part.obj", "shape": "capsule", "factor": 2.0, "length": 0.01, "flag": True}
@@ -134,12 +134,8 @@ def test_an_action_comes_back_from_the_page_as_it_was(text: str) -> None:
     shown = view_action(action, label)
     assert shown.text == text
     assert shown.text == f"{shown.short} as {text.rpartition(' as ')[2]}" if label else shown.short == text
-    assert read_action(
-        ActionCall.model_validate_json(shown.model_dump_json(include=set(ActionCall.model_fields))), "x"
-    ) == (
-        action,
-        label,
-    )
+    sent = shown.model_dump_json(include=set(ActionCall.model_fields))
+    assert read_action(ActionCall.model_validate_json(sent), "x") == (action, label)
 
 
 @pytest.mark.parametrize(

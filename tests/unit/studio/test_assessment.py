@@ -18,9 +18,8 @@ from meshforge.signoff import (
     ReviewQuestion,
     ReviewState,
 )
-from meshforge.studio.edits.assets import LabelGroup
-from meshforge.studio.learning.assessment import view_assessment
-from meshforge.studio.wire.requests import HullOfAsset
+from meshforge.studio.edits.assets import LabelHulls
+from meshforge.studio.learning.results import view_assessment
 from tests.studio_project import demo_project
 
 ONE, OTHER = "table_01.obj", "table_02.obj"
@@ -43,9 +42,9 @@ def assessment_of(*questions: ReviewQuestion) -> Assessment:
 
 
 def test_each_asset_is_signed_off_held_or_excluded_and_counted() -> None:
-    view = view_assessment(assessment_of(), ReviewState({}, Program()), 3)
-    assert (view.number, view.threshold, view.signed_off, view.need_review, view.excluded) == (3, THRESHOLD, 1, 2, 1)
-    assert [(row.asset, row.state, row.remarks) for row in view.assets] == [
+    view = view_assessment(assessment_of(), ReviewState({}, Program()))
+    assert (view.bar, view.signed_off, view.held, view.excluded) == (THRESHOLD, 1, 2, 1)
+    assert [(row.asset, row.state, row.told) for row in view.assets] == [
         (ONE, "signed", True),
         (OTHER, "needs review", False),
         ("wrong", "needs review", False),
@@ -56,8 +55,8 @@ def test_each_asset_is_signed_off_held_or_excluded_and_counted() -> None:
 
 
 def test_without_a_program_no_edit_has_a_probability() -> None:
-    view = view_assessment(assessment_of(), ReviewState({}, Program()), 3, has_program=False)
-    assert (view.assets, view.signed_off, view.need_review) == ((), 0, 0)
+    view = view_assessment(assessment_of(), ReviewState({}, Program()), has_program=False)
+    assert (view.assets, view.signed_off, view.held) == ((), 0, 0)
 
 
 def test_a_question_says_where_its_hulls_are_and_what_its_readings_mean(project: Project) -> None:
@@ -67,18 +66,17 @@ def test_a_question_says_where_its_hulls_are_and_what_its_readings_mean(project:
     state = ReviewState({ONE: mesh}, Program())
     for kind in (GroupQuestion, CandidateQuestion):
         question = kind("?", 4.0, 1.2, ONE, 1, (HullPlace(ONE, hull),), choices, "q")
-        asked = view_assessment(assessment_of(question), state, 1).question
+        asked = view_assessment(assessment_of(question), state).question
         assert asked and asked.kind == question.kind
         assert [(one.hull, one.place) for one in asked.hulls] == [(hull, 2)]
         assert [(choice.id, choice.sentence) for choice in asked.choices] == [("a", "the leg hulls"), ("right", "")]
 
 
 def test_a_group_gets_its_label_in_one_edit(project: Project) -> None:
-    places = [HullOfAsset(asset=asset, hull=project.mesh(asset).hulls[0].name) for asset in (ONE, OTHER)]
-    edit = LabelGroup(hulls=tuple(places), label="drawer")
+    edit = LabelHulls(hulls={asset: (project.mesh(asset).hulls[0].name,) for asset in (ONE, OTHER)}, label="drawer")
     assert edit.describe(project) == "2 hulls of 2 assets labelled drawer"
     assert edit.list_paths(project) == tuple(project.layout.labels(asset) for asset in (ONE, OTHER))
     edit.apply(project)
-    for place in places:
-        label = project.mesh(place.asset).hull_of(place.hull).annotation
+    for asset, (hull,) in edit.hulls.items():
+        label = project.mesh(asset).hull_of(hull).annotation
         assert label and (label.name, label.source) == ("drawer", "user")

@@ -18,8 +18,8 @@ pytestmark = pytest.mark.slow  # CoACD
 ASKED = DecomposeJob(assets=("b.urdf",))
 
 
-def test_later_assets_are_decomposed_as_the_others_unless_a_person_chooses(tmp_path: Path) -> None:
-    for name in "ab":
+def test_later_assets_are_decomposed_as_the_others_unless_these_differ_or_a_person_chooses(tmp_path: Path) -> None:
+    for name in "abc":
         write_bare_stool(tmp_path / "assets", name)
     project = Project.create(tmp_path / "p", [tmp_path / "assets"])
     assert choose_decomposition(project, ASKED) == (CoacdSettings(), {"hollow": False, "by": "whole"})
@@ -29,12 +29,5 @@ def test_later_assets_are_decomposed_as_the_others_unless_a_person_chooses(tmp_p
     assert choose_decomposition(project, ASKED) == (settings, {"hollow": True, "by": "parts"})
     chosen = ASKED.model_copy(update={"method": "vhacd"})
     assert choose_decomposition(project, chosen) == (VhacdSettings(), {"hollow": False, "by": "whole"})
-
-
-def test_where_the_others_were_decomposed_in_several_ways_it_is_done_as_usual(tmp_path: Path) -> None:
-    for name in "abc":
-        write_bare_stool(tmp_path / "assets", name)
-    project = Project.create(tmp_path / "p", [tmp_path / "assets"])
-    for asset, threshold in (("a.urdf", 0.2), ("c.urdf", 0.3)):
-        list(project.decompose([asset], CoacdSettings(threshold=threshold), by="parts", execution=IN_PROCESS))
+    list(project.decompose(["c.urdf"], CoacdSettings(threshold=0.3), by="parts", execution=IN_PROCESS))
     assert choose_decomposition(project, ASKED)[0] == CoacdSettings()

@@ -37,11 +37,16 @@ def flag() -> Iterator[CancelFlag]:
 
 
 def learn(project: Project, flag: CancelFlag, number: int = 1) -> None:
-    assert process.learn(project.folder, flag.make_token("learn"), number, False).error is None
+    assert process.learn(project.folder, flag.make_token("learn"), number).error is None
 
 
 def assess(project: Project, flag: CancelFlag, number: int = 1) -> None:
     assert process.assess(project.folder, flag.make_token("assess"), number) is not None
+
+
+def learn_and_assess(project: Project, flag: CancelFlag, number: int = 1) -> None:
+    learn(project, flag, number)
+    assess(project, flag, number)
 
 
 THRESHOLD = 0.9
@@ -57,8 +62,7 @@ def judged(project: Project) -> Project:
 def assessed(folder: Path, flag: CancelFlag) -> Project:
     """A project whose second result a person accepted, as the studio assesses it."""
     project = judged(applied(folder))
-    learn(project, flag)
-    assess(project, flag)
+    learn_and_assess(project, flag)
     return project
 
 
@@ -88,8 +92,7 @@ def test_what_is_not_written_is_sure_and_not_signed_off(tmp_path: Path, flag: Ca
     project = learned(tmp_path)
     list(project.apply([SECOND], execution=IN_PROCESS))
     judged(project)
-    learn(project, flag)
-    assess(project, flag)
+    learn_and_assess(project, flag)
     assert [one.sign_off for one in project.status().assets] == ["sure", "signed off", "sure"]
 
 
@@ -106,16 +109,14 @@ def test_nothing_rests_unseen_on_a_demonstration_that_was_carried_to_the_parts_o
     project = judged(applied(tmp_path))
     project.cut(FIRST, "crumb", (5.05, 5.05, 5.05), (0, 0, 1))
     list(project.apply(execution=IN_PROCESS))
-    learn(project, flag)
-    assess(project, flag)
+    learn_and_assess(project, flag)
     assert signers_of(project) == {SECOND: "person"}
     carried = "crumb, which is demonstrated for rule 1, was split into crumb#0, crumb#1: "
     carried += "look whether all parts are meant"
     told = {asset.id: [doubt.text for doubt in asset.reasons] for asset in project.status().assets}
     assert carried in told[FIRST] and f"{FIRST}: {carried}" in told[THIRD]
     project.demonstrate(FIRST, project.steps(FIRST))
-    learn(project, flag, 2)
-    assess(project, flag, 2)
+    learn_and_assess(project, flag, 2)
     assert {FIRST, THIRD} <= signers_of(project).keys(), "a person looked"
 
 
@@ -154,8 +155,7 @@ def test_what_changed_since_it_was_learned_is_not_kept(tmp_path: Path, flag: Can
     project.set_labels(THIRD, {"crumb": "leg"})
     assess(project, flag)
     assert files_of(project) == [None, None]
-    learn(project, flag, 2)
-    assess(project, flag, 2)
+    learn_and_assess(project, flag, 2)
     assert None not in files_of(project)
 
 
@@ -166,8 +166,7 @@ def test_where_it_looks_at_some_assets_only_what_a_review_found_stays(
     project.review(0.9, execution=IN_PROCESS)
     before = files_of(project)
     monkeypatch.setattr("meshforge.project.learn.MOST_ASSETS", 2)
-    learn(project, flag)
-    assess(project, flag)
+    learn_and_assess(project, flag)
     assert files_of(project) == before
 
 
@@ -177,8 +176,7 @@ def test_while_nothing_fits_sign_offs_stay_as_they_are(tmp_path: Path, flag: Can
     before = files_of(project)
     for asset, hull in ((FIRST, "top"), (SECOND, "crumb")):
         project.demonstrate(asset, [Step(1, {hull}, Delete())])
-    learn(project, flag)
-    assess(project, flag)
+    learn_and_assess(project, flag)
     assert files_of(project) == before
 
 
@@ -190,8 +188,7 @@ def test_what_a_person_takes_back_is_signed_off_no_longer_and_the_bar_is_that_of
     project.review(0.9999, execution=IN_PROCESS)
     assert signers_of(project)[THIRD] == "person"
     project.set_verdict(THIRD, None)
-    learn(project, flag)
-    assess(project, flag)
+    learn_and_assess(project, flag)
     kept = project.assessment()
     assert kept and kept.threshold == 0.9999 and not kept.assets[THIRD].passes(kept.threshold)
     assert THIRD not in signers_of(project)
@@ -203,8 +200,7 @@ def test_a_persons_sign_off_is_void_and_not_lost_when_the_program_changes(tmp_pa
     project.review(0.9999, execution=IN_PROCESS)
     for asset in (FIRST, SECOND):
         project.demonstrate(asset, STEPS[:1])
-    learn(project, flag)
-    assess(project, flag)
+    learn_and_assess(project, flag)
     assert signers_of(project)[THIRD] == "person"
     assert next(one for one in project.status().assets if one.id == THIRD).void == ("program", ANSWERS)
 

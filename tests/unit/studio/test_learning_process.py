@@ -13,13 +13,13 @@ from meshforge.common import MeshForgeError, ProgramError
 from meshforge.language import Program, parse_extractor, select
 from meshforge.project import Project, select_assets
 from meshforge.samples import TABLES
+from meshforge.studio.edits.program import TakeLearned
 from meshforge.studio.learning import process
 from meshforge.studio.learning.process import RENEW_AFTER, FamilyCache, ReadInterrupted
 from meshforge.studio.learning.queue import CancelFlag, LatestOnlyQueue, Superseded
-from meshforge.studio.learning.results import HullOrigins
 from meshforge.studio.learning.scheduler import Learner
+from meshforge.studio.wire.program import OutcomeView
 from meshforge.studio.workers import Workers
-from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Step
 from tests.program_parts import parse_action
 from tests.studio_project import demo_project
@@ -41,11 +41,22 @@ def learner(project: Project) -> Iterator[Learner]:
 
 
 @pytest.fixture
-def fresh(tmp_path: Path) -> Iterator[tuple[Project, Learner]]:
-    project = demo_project(tmp_path)
-    learner = Learner(project.folder)
-    yield project, learner
-    learner.close()
+def flag() -> Iterator[CancelFlag]:
+    made = CancelFlag()
+    yield made
+    made.close()
+    assert not made.path.exists()
+
+
+@pytest.fixture
+def own(tmp_path: Path) -> Project:
+    """A project to be changed."""
+    return demo_project(tmp_path)
+
+
+def learn(project: Project, flag: CancelFlag, number: int = 1) -> OutcomeView:
+    """What the process does, in this one."""
+    return process.learn(project.folder, flag.make_token("learn"), number)
 
 
 def rules_of(text: str | None) -> list[str]:
@@ -58,12 +69,11 @@ def go_on() -> bool:
 
 @pytest.mark.slow
 def test_the_bundled_program_is_learned_and_kept(project: Project, learner: Learner) -> None:
-    outcome = learner.learn(7, take=False).result()
+    outcome = learner.learn(7).result()
     assert (outcome.number, outcome.status, outcome.error) == (7, "found", None)
     assert rules_of(outcome.program) == rules_of(BUNDLED)
     assert outcome.rules[0].sentence == "The misc hulls are deleted."
-    counts = {rule.rule: rule.candidates for rule in outcome.rules}
-    assert counts == {rule: sum(r.rule == rule for r in outcome.candidates) for rule in counts}
+    assert {rule.rule for rule in outcome.rules} == {reading.rule for reading in outcome.readings}
     kept = project.program()
     assert kept
     assert str(kept) == outcome.program
@@ -78,7 +88,7 @@ def test_reach_is_what_the_program_selects_on_every_asset(project: Project, lear
     for row in rows:
         mesh = project.mesh(row.asset)
         run = program.run(mesh, templates)
-        assert (row.before, row.after, row.error) == (len(mesh.hulls), len(run.mesh.hulls), None)
+        assert row.error is None
         for own, line in zip(row.rules, run.trace, strict=True):
             assert [mesh.hulls[k].name for k in own] == list(line.selected)
 
@@ -90,23 +100,11 @@ def test_reach_leads_made_hulls_back_to_what_they_were_made_of(project: Project,
     assert row.rules == (legs, legs, legs)
 
 
-def test_a_hull_made_of_made_hulls_has_all_their_origins() -> None:
-    mesh = SymbolicMesh(())
-    origins = HullOrigins(mesh)
-    origins._own.update({"a": frozenset({0}), "b": frozenset({1}), "c": frozenset({2})})
-    origins.add(["a~1"], [["a", "b"]])
-    origins.add(["a~2"], [["a~1", "c"]])
-    assert origins.of(["a~2"]) == (0, 1, 2)
-
-
-@pytest.mark.slow
-def test_an_asset_on_which_the_program_fails_says_why(fresh: tuple[Project, Learner]) -> None:
-    project, learner = fresh
-    mesh = project.mesh(OTHER)
-    project.set_labels(OTHER, {hull.name: None for hull in mesh.hulls if hull.label == "leg"})
-    (row,) = (row for row in learner.reach(BUNDLED).result() if row.asset == OTHER)
-    assert row.error
-    assert "the landmark Is(leg) selects nothing" in row.error
+def test_an_asset_on_which_the_program_fails_says_why(own: Project, flag: CancelFlag) -> None:
+    own.set_labels(OTHER, {hull.name: None for hull in own.mesh(OTHER).hulls if hull.label == "leg"})
+    rows = process.compute_reach(own.folder, flag.make_token("reach"), BUNDLED) or ()
+    (error,) = (row.error for row in rows if row.asset == OTHER)
+    assert error and "the landmark Is(leg) selects nothing" in error
 
 
 def test_an_extractor_is_generalised_as_the_rule_meets_the_assets(project: Project, learner: Learner) -> None:
@@ -128,13 +126,11 @@ def test_without_a_program_an_extractor_is_generalised_on_the_turned_assets(proj
 
 
 def test_of_a_very_large_family_only_what_is_looked_at_while_learning_is_held_in_memory(
-    project: Project, monkeypatch: pytest.MonkeyPatch
+    project: Project, flag: CancelFlag, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("meshforge.project.learn.MOST_ASSETS", 4)
-    flag = CancelFlag()
     rows = process.compute_reach(project.folder, flag.make_token("reach"), BUNDLED)
     found = process.generalise(project.folder, flag.make_token("generalise"), "Is(leg)", 1, None)
-    flag.close()
     assert rows and found
     assert len(project.assets()) > len(rows) >= 4
     assert [row.asset for row in rows] == list(found.assets) == list(select_assets(project))
@@ -146,118 +142,86 @@ def test_a_wrong_extractor_is_one_clear_error(learner: Learner) -> None:
 
 
 @pytest.mark.slow
-def test_a_changed_label_and_a_new_demonstration_are_noticed(fresh: tuple[Project, Learner]) -> None:
-    project, learner = fresh
-    learner.learn(1, take=False).result()
-    project.set_labels("table_03.obj", {"convex_00": "leg"})
-    outcome = learner.learn(2, take=False).result()
-    assert outcome.status == "repair"
-    assert outcome.repairs == 1
-    project.set_labels("table_03.obj", {"convex_00": "panel"})
-    project.demonstrate("table_03.obj", project.steps("table_03.obj")[:1])
-    project.demonstrate("table_08.obj", project.steps("table_08.obj")[:1])
-    assert rules_of(learner.learn(3, take=False).result().program) == rules_of(BUNDLED)[:1]
+def test_a_changed_label_and_a_new_demonstration_are_noticed(own: Project, flag: CancelFlag) -> None:
+    learn(own, flag)
+    own.set_labels("table_03.obj", {"convex_00": "leg"})
+    outcome = learn(own, flag, 2)
+    assert (outcome.status, outcome.repairs) == ("repair", 1)
+    own.set_labels("table_03.obj", {"convex_00": "panel"})
+    for asset in ("table_03.obj", "table_08.obj"):
+        own.demonstrate(asset, own.steps(asset)[:1])
+    assert rules_of(learn(own, flag, 3).program) == rules_of(BUNDLED)[:1]
 
 
 @pytest.mark.slow
-def test_a_program_written_by_hand_stays_until_the_learned_one_is_taken(fresh: tuple[Project, Learner]) -> None:
-    project, learner = fresh
-    project.accept(Program.parse("Is(leg) => Delete\n"))
-    outcome = learner.learn(1, take=False).result()
+def test_a_program_written_by_hand_stays_until_the_learned_one_is_taken(own: Project, flag: CancelFlag) -> None:
+    own.accept(Program.parse("Is(leg) => Delete\n"))
+    outcome = learn(own, flag)
     assert rules_of(outcome.program) == rules_of(BUNDLED)
-    assert project.layout.program.read_text() != outcome.program
-    learner.learn(2, take=True).result()
-    assert project.layout.program.read_text() == outcome.program
+    assert own.layout.program.read_text() != outcome.program
+    TakeLearned().apply(own)
+    learn(own, flag, 2)
+    assert own.layout.program.read_text() == outcome.program
+
+
+def test_a_run_that_cannot_be_has_its_message(tmp_path: Path, flag: CancelFlag) -> None:
+    project = demo_project(tmp_path, demonstrated=False)
+    outcome = learn(project, flag)
+    assert outcome.status == "error" and "nothing is demonstrated yet" in (outcome.error or "")
+    project.demonstrate(OTHER, [Step(1, {"convex_00"}, parse_action("Delete")), Step(2, set(), parse_action("Merge"))])
+    assert "rule 2 selects no hull" in (learn(project, flag, 2).error or "")
 
 
 @pytest.mark.slow
-def test_a_run_that_cannot_be_has_its_message(tmp_path: Path) -> None:
-    project = demo_project(tmp_path, demonstrated=False)
-    learner = Learner(project.folder)
+def test_an_interrupted_run_comes_to_its_end_and_of_many_calls_only_the_last_is_done(own: Project) -> None:
+    learner = Learner(own.folder)
     try:
-        outcome = learner.learn(1, take=False).result()
-        assert outcome.status == "error"
-        assert "nothing is demonstrated yet" in (outcome.error or "")
-        project.demonstrate(
-            OTHER, [Step(1, {"convex_00"}, parse_action("Delete")), Step(2, set(), parse_action("Merge"))]
-        )
-        assert "rule 2 selects no hull" in (learner.learn(2, take=False).result().error or "")
+        interrupted = learner.learn(1)
+        learner.interrupt()
+        assert interrupted.result().status == "timeout"
+        outcomes = [learner.learn(number) for number in range(20)]
+        reaches = [learner.reach(BUNDLED) for _ in range(20)]
+        assert outcomes[-1].result().status == "found"
+        assert reaches[-1].result()
+        for outcome in outcomes[1:-1]:  # one that began as an earlier one ended is cancelled while it runs
+            assert isinstance(outcome.exception(), Superseded) or outcome.result().status == "timeout"
+        assert outcomes[0].result().status == "timeout"
+        assert all(isinstance(reach.exception(), Superseded) for reach in reaches[:-1])
     finally:
         learner.close()
 
 
-@pytest.mark.slow
-def test_an_interrupted_run_comes_to_its_end_and_the_next_one_is_whole(fresh: tuple[Project, Learner]) -> None:
-    _, learner = fresh
-    outcome = learner.learn(1, take=False)
-    learner.interrupt()
-    assert outcome.result().status == "timeout"
-    assert learner.learn(2, take=False).result().status == "found"
-
-
-@pytest.mark.slow
-def test_of_many_calls_only_the_last_is_done(fresh: tuple[Project, Learner]) -> None:
-    _, learner = fresh
-    outcomes = [learner.learn(number, take=False) for number in range(20)]
-    reaches = [learner.reach(BUNDLED) for _ in range(20)]
-    assert outcomes[-1].result().status == "found"
-    assert reaches[-1].result()
-    for outcome in outcomes[1:-1]:  # one that began as an earlier one ended is cancelled while it runs
-        assert isinstance(outcome.exception(), Superseded) or outcome.result().status == "timeout"
-    assert outcomes[0].result().status == "timeout"
-    assert all(isinstance(reach.exception(), Superseded) for reach in reaches[:-1])
-
-
-def test_the_death_of_the_process_is_one_message_and_the_next_call_has_a_new_one() -> None:
+@pytest.fixture
+def line() -> Iterator[LatestOnlyQueue]:
     workers = Workers(1)
-    line = LatestOnlyQueue(workers)
-    try:
-        died: Future[int] = line.put("learn", os._exit, 3)
-        waiting: Future[int] = line.put("reach", abs, -4)
-        error = died.exception()
-        assert isinstance(error, MeshForgeError)
-        assert "died" in str(error)
-        assert waiting.result() == 4
-        assert line.put("learn", abs, -5).result() == 5
-    finally:
-        line.close()
-        workers.close()
+    made = LatestOnlyQueue(workers)
+    yield made
+    made.close()
+    workers.close()
 
 
-@pytest.mark.slow
-def test_a_learner_goes_on_after_the_death_of_its_process(fresh: tuple[Project, Learner]) -> None:
-    _, learner = fresh
-    died: Future[int] = learner._queue.put("generalise", os._exit, 3)
-    assert isinstance(died.exception(), MeshForgeError)
-    assert learner.learn(1, take=False).result().status == "found"
+def test_the_death_of_the_process_is_one_message_and_the_next_call_has_a_new_one(line: LatestOnlyQueue) -> None:
+    died: Future[int] = line.put("learn", os._exit, 3)
+    waiting: Future[int] = line.put("reach", abs, -4)
+    error = died.exception()
+    assert isinstance(error, MeshForgeError) and "died" in str(error)
+    assert waiting.result() == 4
+    assert line.put("learn", abs, -5).result() == 5
 
 
-def test_a_call_that_nobody_waits_for_any_more_is_passed_over() -> None:
-    workers = Workers(1)
-    line = LatestOnlyQueue(workers)
-    try:
-        first: Future[int] = line.put("learn", abs, -1)
-        second: Future[int] = line.put("reach", abs, -2)
-        second.cancel()
-        third: Future[int] = line.put("generalise", abs, -3)
-        assert (first.result(), third.result()) == (1, 3)
-    finally:
-        line.close()
-        workers.close()
+def test_a_call_that_nobody_waits_for_any_more_is_passed_over(line: LatestOnlyQueue) -> None:
+    first: Future[int] = line.put("learn", abs, -1)
+    second: Future[int] = line.put("reach", abs, -2)
+    second.cancel()
+    third: Future[int] = line.put("generalise", abs, -3)
+    assert (first.result(), third.result()) == (1, 3)
 
 
-def test_a_cancel_flag_stops_calls_of_its_kind_that_were_made_before() -> None:
-    flag = CancelFlag()
-    try:
-        outcome, reach = flag.make_token("learn"), flag.make_token("reach")
-        assert not outcome.stop()
-        flag.cancel("learn")
-        assert outcome.stop()
-        assert not reach.stop()
-        assert not flag.make_token("learn").stop()
-    finally:
-        flag.close()
-    assert not flag.path.exists()
+def test_a_cancel_flag_stops_calls_of_its_kind_that_were_made_before(flag: CancelFlag) -> None:
+    outcome, reach = flag.make_token("learn"), flag.make_token("reach")
+    assert not outcome.stop()
+    flag.cancel("learn")
+    assert outcome.stop() and not reach.stop() and not flag.make_token("learn").stop()
 
 
 def test_the_shelf_reads_again_only_what_changed(tmp_path: Path) -> None:
@@ -289,31 +253,30 @@ def test_after_many_runs_the_shelf_hands_out_the_same_assets_anew(tmp_path: Path
 
 
 @pytest.mark.slow
-def test_a_question_tells_what_each_choice_reads(fresh: tuple[Project, Learner]) -> None:
-    project, learner = fresh
-    project.demonstrate("table_03.obj", [])
-    outcome = learner.learn(1, take=False).result()
+def test_a_question_tells_what_each_choice_reads(own: Project, flag: CancelFlag) -> None:
+    own.demonstrate("table_03.obj", [])
+    outcome = learn(own, flag)
     assert outcome.status == "ambiguous"
-    asked, program = learner.assess(1).result().question, Program.parse(outcome.program or "")
+    found, program = process.assess(own.folder, flag.make_token("assess"), 1), Program.parse(outcome.program or "")
+    asked = found and found.question
     assert asked and asked.kind == "candidate" and asked.rule
-    met = project.mesh_before_rule(asked.asset, asked.rule, program)
+    met = own.mesh_before_rule(asked.asset, asked.rule, program)
     for choice in asked.choices:
-        found = select(parse_extractor(choice.text), met)
-        assert [met.hulls[k].name for k in sorted(found)] == list(choice.select or ())
+        chosen = select(parse_extractor(choice.text), met)
+        assert [met.hulls[k].name for k in sorted(chosen)] == list(choice.select or ())
         assert choice.sentence
     assert {choice.text for choice in asked.choices} <= {reading.extractor for reading in outcome.candidates}
 
 
 @pytest.mark.slow
-def test_a_rule_that_no_extractor_fits_says_what_came_nearest(fresh: tuple[Project, Learner]) -> None:
-    project, learner = fresh
-    project.demonstrate("table_08.obj", [])
+def test_a_rule_that_no_extractor_fits_says_what_came_nearest(own: Project, flag: CancelFlag) -> None:
+    own.demonstrate("table_08.obj", [])
     odd = {"convex_00", "convex_07", "convex_12", "convex_24", "convex_31"}
-    project.demonstrate("table_03.obj", [Step(1, odd, parse_action("Delete"))])
-    outcome = learner.learn(1, take=False).result()
+    own.demonstrate("table_03.obj", [Step(1, odd, parse_action("Delete"))])
+    outcome = learn(own, flag)
     assert (outcome.status, outcome.program) == ("none", None)
     assert outcome.why
     assert outcome.nearest
-    mesh = project.mesh_before_rule("table_03.obj", 1, Program(orient=project.orientation))
+    mesh = own.mesh_before_rule("table_03.obj", 1, Program(orient=own.orientation))
     chosen = {mesh.hulls[k].name for k in select(parse_extractor(outcome.nearest.extractor), mesh)}
     assert (chosen - odd, odd - chosen) == (set(outcome.nearest.extra), set(outcome.nearest.missing))

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from meshforge.project import Project
-from meshforge.studio.queries import new_assets
-from meshforge.studio.queries.new_assets import NewAssetsQuery
+from meshforge.studio.session import refresh
+from meshforge.studio.session.refresh import NewAssetsQuery
 from meshforge.studio.wire.family import Card
 from tests.mesh_files import ROOM
 
@@ -48,7 +48,7 @@ def test_preparations_are_read_again_only_where_something_about_them_changed(
         asked.append(store)
         return [], None
 
-    monkeypatch.setattr(new_assets, "list_new", count)
+    monkeypatch.setattr(refresh, "list_new", count)
     query, bare = NewAssetsQuery(), [Card(asset="a.obj")]
     done = [Card(asset="a.obj", prepared=("decomposed",))]
     for cards, times in ((bare, 1), (bare, 1), (done, 2), (done, 2), (bare, 3)):

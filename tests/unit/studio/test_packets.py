@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +16,7 @@ from meshforge.project import Project
 from meshforge.store import parse_action_text
 from meshforge.studio.actions import view_action
 from meshforge.studio.queries import packets, programs
-from meshforge.studio.wire.actions import ActionCall
+from meshforge.studio.wire.program import ActionCall
 from meshforge.studio.wire.requests import PreviewRequest, SelectRequest
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Step
@@ -31,6 +32,12 @@ def project(tmp_path_factory: pytest.TempPathFactory) -> Project:
     made = demo_project(tmp_path_factory.mktemp("tables"))
     made.synthesize()
     return made
+
+
+@pytest.fixture
+def own(project: Project, tmp_path: Path) -> Project:
+    """The same project to be changed."""
+    return Project.open(shutil.copytree(project.folder.parent, tmp_path / "copy") / project.folder.name)
 
 
 @pytest.fixture
@@ -76,17 +83,16 @@ def test_the_first_steps_do_what_as_many_rules_of_the_learned_program_do(
     assert header["findings"] == []
 
 
-def test_a_preview_shows_what_the_step_then_does(tmp_path: Path) -> None:
-    project = demo_project(tmp_path)
-    mesh = project.mesh(SHOWN)
+def test_a_preview_shows_what_the_step_then_does(own: Project) -> None:
+    mesh = own.mesh(SHOWN)
     legs = ("convex_06~1", "convex_10~1")
     request = PreviewRequest(asset=SHOWN, steps=3, select=legs, action=read("Each(Replace(cylinder)) as misc"))
-    header, shapes = read_packet(packets.preview_action(project, SHOWN, mesh, request))
+    header, shapes = read_packet(packets.preview_action(own, SHOWN, mesh, request))
     assert header["removed"] == list(legs)
     assert header["made"] == ["convex_06~2", "convex_10~2"]
     step = Step(4, legs, parse_action("Each(Replace(cylinder))"), "misc")
-    project.demonstrate(SHOWN, [*project.steps(SHOWN)[:3], step])
-    after, then = read_packet(packets.preview_steps(project, SHOWN, mesh, 4))
+    own.demonstrate(SHOWN, [*own.steps(SHOWN)[:3], step])
+    after, then = read_packet(packets.preview_steps(own, SHOWN, mesh, 4))
     assert after["hulls"] == header["hulls"]
     assert [row["name"] for row in header["rows"]] == [row["name"] for row in after["rows"]]
     assert all(np.array_equal(a, b) for (a, _), (b, _) in zip(shapes, then, strict=True))
@@ -119,15 +125,10 @@ def test_a_preview_of_what_cannot_be_done_has_one_clear_message(project: Project
     assert 'the template "none.obj" is not there' in str(refused("convex_00", 'Replace("none.obj")'))
 
 
-def test_a_step_left_open_does_what_the_program_does(tmp_path: Path) -> None:
-    project = demo_project(tmp_path)
-    project.synthesize()
-    program = project.program()
-    assert program
-    open_steps = [Step(step.rule, None, step.action, step.label) for step in project.steps(SHOWN)[:3]]
-    project.demonstrate(OTHER, open_steps)
-    mesh = project.mesh(OTHER)
-    check_same(packets.preview_steps(project, OTHER, mesh, 3), mesh, ran(project, program, OTHER, 3))
+def test_a_step_left_open_does_what_the_program_does(own: Project, program: Program) -> None:
+    own.demonstrate(OTHER, [Step(step.rule, None, step.action, step.label) for step in own.steps(SHOWN)[:3]])
+    mesh = own.mesh(OTHER)
+    check_same(packets.preview_steps(own, OTHER, mesh, 3), mesh, ran(own, program, OTHER, 3))
 
 
 @pytest.mark.parametrize("text", ["Is(leg)", "Geo(Is(panel), +Z)", "Diff(All, Attach(Is(leg), Is(panel)))"])
@@ -174,7 +175,7 @@ def test_what_is_wrong_with_an_extractor_is_marked_where_it_stands(
 
 
 def test_guesses_on_a_demonstrated_asset_are_what_was_shown(project: Project, program: Program) -> None:
-    guessed = programs.guess_selections(project, SHOWN, project.mesh(SHOWN), program).guesses
+    guessed = programs.guess_selections(project, SHOWN, project.mesh(SHOWN), program)
     shown = project.steps(SHOWN)
     assert [set(guess.select) for guess in guessed] == [set(step.select or ()) for step in shown]
     assert [guess.action.text for guess in guessed] == [str(step.action) for step in shown]
@@ -184,23 +185,14 @@ def test_guesses_on_a_demonstrated_asset_are_what_was_shown(project: Project, pr
 def test_guesses_on_another_asset_are_what_the_program_selects(project: Project, program: Program) -> None:
     mesh = project.mesh(OTHER)
     trace = program.run(mesh, project.templates(program.templates)).trace
-    guessed = programs.guess_selections(project, OTHER, mesh, program).guesses
+    guessed = programs.guess_selections(project, OTHER, mesh, program)
     assert [guess.select for guess in guessed] == [line.selected for line in trace]
 
 
-def test_a_guess_meets_what_was_shown_before_it(tmp_path: Path) -> None:
-    project = demo_project(tmp_path)
-    program = project.synthesize().program
-    assert program
-    project.demonstrate(OTHER, [Step(1, {"convex_09"}, parse_action("Delete"))])
-    guessed = programs.guess_selections(project, OTHER, project.mesh(OTHER), program).guesses
-    assert "convex_09" not in guessed[2].select
-    assert (
-        "convex_09"
-        in programs.guess_selections(demo_project(tmp_path / "b"), OTHER, project.mesh(OTHER), program)
-        .guesses[2]
-        .select
-    )
+def test_a_guess_meets_what_was_shown_before_it(project: Project, own: Project, program: Program) -> None:
+    own.demonstrate(OTHER, [Step(1, {"convex_09"}, parse_action("Delete"))])
+    met, bare = (programs.guess_selections(one, OTHER, one.mesh(OTHER), program)[2] for one in (own, project))
+    assert "convex_09" not in met.select and "convex_09" in bare.select
 
 
 def test_the_result_is_what_the_program_makes_of_it(project: Project, program: Program) -> None:
@@ -213,43 +205,31 @@ def test_the_result_is_what_the_program_makes_of_it(project: Project, program: P
     assert (nothing["made"], nothing["removed"]) == ([], [])
 
 
-def test_an_edit_by_hand_is_previewed_as_it_is_then_replayed(tmp_path: Path) -> None:
-    project = demo_project(tmp_path)
-    program = project.synthesize().program
-    mesh = project.mesh(OTHER)
-    panel = ran(project, program, OTHER).hulls[-1].name if program else ""
+def test_an_edit_by_hand_is_previewed_as_it_is_then_replayed(own: Project, program: Program) -> None:
+    mesh = own.mesh(OTHER)
+    panel = ran(own, program, OTHER).hulls[-1].name
     request = PreviewRequest(asset=OTHER, select=(panel,), action=read("Scale(all, 0.5)"), result=True)
-    header, shapes = read_packet(packets.preview_action(project, OTHER, mesh, request))
+    header, shapes = read_packet(packets.preview_action(own, OTHER, mesh, request))
     assert header["removed"] == [panel]
     assert len(header["made"]) == 1
-    project.correct(OTHER, [panel], parse_action("Scale(all, 0.5)"))
-    after, then = read_packet(packets.preview_result(project, OTHER, mesh, "program", program))
+    own.correct(OTHER, [panel], parse_action("Scale(all, 0.5)"))
+    after, then = read_packet(packets.preview_result(own, OTHER, mesh, "program", program))
     assert after["hulls"] == header["hulls"]
     assert all(np.array_equal(a, b) for (a, _), (b, _) in zip(shapes, then, strict=True))
     with pytest.raises(ProjectError, match="after the program there is no hull 'nobody'"):
         wrong = PreviewRequest(asset=OTHER, select=("nobody",), action=read("Delete"), result=True)
-        packets.preview_action(project, OTHER, mesh, wrong)
+        packets.preview_action(own, OTHER, mesh, wrong)
 
 
 @pytest.mark.slow
-def test_the_output_is_what_was_written(tmp_path: Path) -> None:
-    project = demo_project(tmp_path)
-    program = project.synthesize().program
-    assert program
-    mesh = project.mesh(OTHER)
+def test_the_output_is_what_was_written(own: Project, program: Program) -> None:
+    mesh = own.mesh(OTHER)
     with pytest.raises(ProjectError, match="it has no output yet"):
-        packets.preview_result(project, OTHER, mesh, "output", None)
-    list(project.apply(execution=IN_PROCESS))
-    header, _ = read_packet(packets.preview_result(project, OTHER, mesh, "output", None))
-    now, _ = read_packet(packets.preview_result(project, OTHER, mesh, "program", program))
+        packets.preview_result(own, OTHER, mesh, "output", None)
+    list(own.apply([OTHER], execution=IN_PROCESS))
+    header, _ = read_packet(packets.preview_result(own, OTHER, mesh, "output", None))
+    now, _ = read_packet(packets.preview_result(own, OTHER, mesh, "program", program))
     assert {hull["name"] for hull in header["hulls"]} == {hull["name"] for hull in now["hulls"]}
     assert {row["name"] for row in header["rows"]} == {row["name"] for row in now["rows"]}
     assert header["trace"] == now["trace"]
     assert header["volume"] == pytest.approx(now["volume"], rel=1e-5)
-
-
-def test_steps_on_an_asset_that_cannot_be_turned_have_one_clear_message(project: Project) -> None:
-    mesh = project.mesh(SHOWN)
-    bare = mesh.with_labels(dict.fromkeys(mesh.index))
-    with pytest.raises(MeshForgeError, match=r"the landmark Is\(leg\) selects nothing"):
-        packets.preview_steps(project, SHOWN, bare, 1)

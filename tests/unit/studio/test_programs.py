@@ -8,47 +8,32 @@ import pytest
 
 from meshforge.project import Project
 from meshforge.studio.queries import programs
+from meshforge.studio.wire.program import ProgramView
 from tests.studio_project import demo_project
 
 
-def learned(folder: Path) -> Project:
-    project = demo_project(folder)
+@pytest.fixture
+def learned(tmp_path: Path) -> Project:
+    project = demo_project(tmp_path)
+    assert programs.read_program_view(project) == ProgramView()
     project.synthesize()
     return project
 
 
-def test_a_project_without_a_program_has_an_empty_view(tmp_path: Path) -> None:
-    view = programs.read_program_view(demo_project(tmp_path))
-    assert (view.text, view.version, view.rules, view.by_hand, view.error) == ("", "", (), False, None)
-
-
-def test_a_learned_program_is_told_rule_by_rule(tmp_path: Path) -> None:
-    project = learned(tmp_path)
-    view = programs.read_program_view(project)
-    assert view.text == project.layout.program.read_text()
+def test_a_learned_program_is_told_rule_by_rule_and_one_that_a_person_changed_is_theirs(learned: Project) -> None:
+    view = programs.read_program_view(learned)
+    assert view.text == learned.layout.program.read_text()
     assert [rule.rule for rule in view.rules] == [1, 2, 3, 4, 5]
     assert (view.rules[0].text, view.rules[0].sentence) == ("Is(misc) => Delete", "The misc hulls are deleted.")
     assert view.orient_sentence.startswith("For reasoning, turn every asset so that +Z points from the leg hulls")
     assert (view.by_hand, view.outdated, view.error) == (False, False, None)
-
-
-def test_a_program_that_a_person_changed_is_theirs(tmp_path: Path) -> None:
-    project = learned(tmp_path)
-    before = programs.read_program_view(project)
-    project.layout.program.write_text(before.text.replace("Delete", "Merge"))
-    after = programs.read_program_view(project)
-    assert after.by_hand
-    assert after.version != before.version
-
-
-def test_a_program_that_does_not_parse_keeps_its_text_and_says_why(tmp_path: Path) -> None:
-    project = learned(tmp_path)
-    project.layout.program.write_text("Is(leg) => Delte\n")
-    view = programs.read_program_view(project)
-    assert view.text == "Is(leg) => Delte\n"
-    assert view.error
-    assert "unknown action `Delte`" in view.error
-    assert view.rules == ()
+    learned.layout.program.write_text(view.text.replace("Delete", "Merge"))
+    changed = programs.read_program_view(learned)
+    assert changed.by_hand and changed.version != view.version
+    learned.layout.program.write_text("Is(leg) => Delte\n")
+    broken = programs.read_program_view(learned)
+    assert (broken.text, broken.rules) == ("Is(leg) => Delte\n", ())
+    assert broken.error and "unknown action `Delte`" in broken.error
 
 
 def test_a_right_text_is_told_in_words() -> None:

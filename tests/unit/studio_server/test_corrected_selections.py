@@ -4,9 +4,6 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import pytest
-
-from meshforge.common import ProjectError
 from meshforge.project import Project
 from meshforge.signoff import MistakeQuestion, ReviewChoice
 from meshforge.store import History
@@ -44,11 +41,3 @@ def test_undo_brings_a_demonstration_an_answer_and_a_verdict_back(tmp_path: Path
     for before in reversed(states[:-1]):
         assert history.undo()
         assert kept(project) == before
-
-
-def test_what_nobody_said_cannot_be_corrected(tmp_path: Path) -> None:
-    project = applied(tmp_path)
-    before = kept(project)
-    with pytest.raises(ProjectError, match="rule 1 is not demonstrated here any more"):
-        correct(project, History.open(project.folder), THIRD)
-    assert kept(project) == before

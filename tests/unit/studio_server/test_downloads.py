@@ -16,12 +16,12 @@ from starlette.testclient import TestClient
 
 from meshforge.batch import IN_PROCESS, ExecutionOptions, write_archive
 from meshforge.common import StoppedError
-from meshforge.studio import downloads
+from meshforge.studio import transfers
 from meshforge.studio.api.server import build_app
-from meshforge.studio.downloads import Downloads, to_file_name
 from meshforge.studio.errors import NotHereError
 from meshforge.studio.host import Host
 from meshforge.studio.session.session import StudioOptions
+from meshforge.studio.transfers import Downloads, to_file_name
 from tests.unit.batch.families import tree
 from tests.unit.project.tables import FIRST, SECOND, THIRD, applied
 
@@ -41,7 +41,7 @@ def test_a_ticket_is_good_once_and_not_for_ever(tmp_path: Path, monkeypatch: pyt
     ticket, late = kept.give_ticket("download-1"), kept.give_ticket("download-1")
     assert ticket != late and kept.redeem(ticket) == path
     now = time.monotonic()
-    monkeypatch.setattr(downloads, "monotonic", lambda: now + downloads.TICKET_SECONDS + 1)
+    monkeypatch.setattr(transfers, "monotonic", lambda: now + transfers.TICKET_SECONDS + 1)
     for bad in (ticket, late, "", "../../meshforge.toml"):
         with pytest.raises(NotHereError, match="good for one download"):
             kept.redeem(bad)
@@ -55,12 +55,12 @@ def test_a_ticket_is_good_once_and_not_for_ever(tmp_path: Path, monkeypatch: pyt
 
 def test_only_the_last_files_are_kept(tmp_path: Path) -> None:
     kept = Downloads(tmp_path / "downloads")
-    for number in range(downloads.MOST_FILES + 2):
+    for number in range(transfers.MOST_DOWNLOADS + 2):
         path = kept.path_for(str(number), "report.html")
         path.parent.mkdir(parents=True)
         path.write_text("report")
         kept.add(f"download-{number}", path)
-    assert len(list((tmp_path / "downloads").rglob("*.html"))) == downloads.MOST_FILES
+    assert len(list((tmp_path / "downloads").rglob("*.html"))) == transfers.MOST_DOWNLOADS
 
 
 @pytest.mark.parametrize(
@@ -125,7 +125,7 @@ class Person:
 
     def fetch(self, job: dict[str, Any]) -> Any:
         """The file of a job, by a ticket: without the token."""
-        return self.client.get("/" + self.post("/api/download", job=job["id"]).json()["address"])
+        return self.client.get("/" + self.post("/api/download", job=job["id"]).json())
 
 
 @pytest.fixture

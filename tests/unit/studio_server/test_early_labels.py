@@ -3,13 +3,14 @@ from __future__ import annotations
 import pytest
 
 from meshforge.project import NextStep
-from meshforge.studio.edits.assets import LabelGroup
+from meshforge.store.history import HistoryState
+from meshforge.studio.edits.assets import LabelHulls
+from meshforge.studio.label_changes import EarlyLabels
 from meshforge.studio.pages import PageHub, PageState
-from meshforge.studio.session.early_labels import EarlyLabels
-from meshforge.studio.wire.family import Card, HistoryView, OrientView, ProjectView, VocabularyLabel
-from meshforge.studio.wire.requests import HullOfAsset
+from meshforge.studio.wire.family import Card, OrientView, ProjectView, VocabularyLabel
 
 WORDS = tuple(VocabularyLabel(name=name, text=name, color="#000000") for name in ("leg", "panel"))
+NO_HISTORY = HistoryState(None, None, 0, 0)
 PROJECT = ProjectView(name="p", folder="/p", vocabulary=WORDS, next=NextStep("label", "Label."), orient=OrientView())
 NAMES = {"a": ("one", "two"), "b": ("one",)}
 CARDS = (
@@ -20,16 +21,15 @@ CARDS = (
 
 
 def pages() -> PageState:
-    shown = PageState(PageHub(), PROJECT, HistoryView(), "1")
+    shown = PageState(PageHub(), PROJECT, NO_HISTORY, "1")
     shown.set_assets([card.asset for card in CARDS])
     shown.set_cards(CARDS)
     return shown
 
 
-def group(label: str | None) -> LabelGroup:
+def group(label: str | None) -> LabelHulls:
     """Labels of hulls of all assets, one that is not there."""
-    hulls = [("a", "two"), ("b", "one"), ("b", "three"), ("c", "one")]
-    return LabelGroup(label=label, hulls=tuple(HullOfAsset(asset=a, hull=hull) for a, hull in hulls))
+    return LabelHulls(label=label, hulls={"a": ("two",), "b": ("one", "three"), "c": ("one",)})
 
 
 def test_labels_are_on_the_cards_before_they_are_written() -> None:

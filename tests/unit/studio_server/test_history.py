@@ -45,25 +45,6 @@ def test_undo_and_redo_walk_through_the_very_states_that_were(moves: Sequence[Wr
             assert (history.state.undoable, history.state.redoable) == (at, len(states) - 1 - at)
 
 
-@examples(15)
-@given(st.lists(WRITES, max_size=6))
-def test_all_undone_is_the_beginning_and_all_redone_is_the_end(edits: Sequence[Write]) -> None:
-    with TemporaryDirectory() as folder:
-        project = bare(Path(folder))
-        begin, history = data(project), History.open(project.folder)
-        for edit in edits:
-            make_edit(history, project, edit)
-        end = data(project)
-        while history.undo():
-            pass
-        assert data(project) == begin
-        assert not (project.folder / "data").exists()
-        history = History.open(project.folder)
-        while history.redo():
-            pass
-        assert data(project) == end
-
-
 def test_an_edit_that_changes_no_byte_is_no_entry_and_keeps_what_can_be_redone(tmp_path: Path) -> None:
     project = bare(tmp_path)
     history = History.open(project.folder)

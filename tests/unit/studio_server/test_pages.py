@@ -2,17 +2,28 @@ from __future__ import annotations
 
 import asyncio
 import json
+from pathlib import Path
 
+from meshforge.labels import OfferCache
 from meshforge.project import NextStep
+from meshforge.store import History
+from meshforge.store.history import HistoryState
+from meshforge.studio.label_changes import LabelChanges
+from meshforge.studio.output_checks import OutputChecks
 from meshforge.studio.pages import PageConnection, PageHub, PageState
-from meshforge.studio.wire.family import Card, HistoryView, OrientView, ProjectView
+from meshforge.studio.session.refresh import Refresher
+from meshforge.studio.wire.family import Card, OrientView, ProjectView
+from meshforge.studio.wire.program import OutcomeView, ProgramView
+from meshforge.studio.workers import Workers
+from tests.studio_project import demo_project
 
+NO_HISTORY = HistoryState(None, None, 0, 0)
 PROJECT = ProjectView(name="p", folder="/p", vocabulary=(), next=NextStep("label", "Label."), orient=OrientView())
 
 
 def test_a_page_is_told_everything_first_and_then_only_what_changes() -> None:
     async def told() -> list[str]:
-        shown = PageState(PageHub(), PROJECT, HistoryView(), "1", tour=False)
+        shown = PageState(PageHub(), PROJECT, NO_HISTORY, "1", tour=False)
         shown.set_assets(["a", "b"])
         page = PageConnection(asyncio.get_running_loop())
         shown.join(page)
@@ -29,7 +40,7 @@ def test_a_page_is_told_everything_first_and_then_only_what_changes() -> None:
 
 
 def test_a_card_of_an_asset_that_went_meanwhile_does_not_bring_it_back() -> None:
-    shown = PageState(PageHub(), PROJECT, HistoryView(), "1", tour=False)
+    shown = PageState(PageHub(), PROJECT, NO_HISTORY, "1", tour=False)
     shown.set_assets(["a", "b"])
     shown.set_assets(["a"])
     shown.set_cards([Card(asset="a", hulls=1), Card(asset="b", error="it is gone")])
@@ -47,3 +58,25 @@ def test_a_page_that_left_is_told_nothing() -> None:
         return page.events.qsize()
 
     assert asyncio.run(told()) == 1
+
+
+def test_the_next_step_is_never_to_learn_what_is_being_learned(tmp_path: Path) -> None:
+    project = demo_project(tmp_path)
+    history = History.open(project.folder)
+    shown = PageState(PageHub(), PROJECT, NO_HISTORY, "1")
+    checks = OutputChecks(tmp_path / "checks", Workers(1))
+    refresher = Refresher(lambda: project, shown, checks, LabelChanges(history), OfferCache())
+
+    def next_text() -> str:
+        refresher.refresh(())
+        return shown.shown.project.next.text
+
+    shown.set_assets(project.assets())
+    refresher.refresh(project.assets())
+    assert next_text() == "Learn the program from what is demonstrated."
+    shown.set_outcome(None, learning=True)
+    assert next_text() == "The program is being learned."
+    shown.set_program(ProgramView(text="All => Delete\n", version="1"))  # before pages see that the run is over
+    assert "Apply" in next_text()
+    shown.set_outcome(OutcomeView(number=1, status="found", program="All => Delete\n"), learning=False)
+    assert "Apply" in next_text()

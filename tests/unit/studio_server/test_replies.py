@@ -34,7 +34,7 @@ from meshforge.store import History
 from meshforge.studio.edits import AnyEdit
 from meshforge.studio.edits.base import make_edit
 from meshforge.studio.edits.replies import ReplyToQuestion
-from meshforge.studio.learning.assessment import view_assessment
+from meshforge.studio.learning.results import view_assessment
 from tests.unit.project.tables import FIRST, SECOND, THIRD, applied
 
 LEG, OTHER_LEG = HullPlace(THIRD, "left_low"), HullPlace(SECOND, "left_low")
@@ -98,7 +98,7 @@ def view(question: ReviewQuestion, project: Project) -> dict[str, Any]:
     """A question as a page is asked it."""
     meshes = {asset: project.mesh(asset) for asset in project.assets()}
     state = ReviewState(meshes, project.program() or pytest.fail())
-    asked = view_assessment(Assessment({}, questions=(question,)), state, 1).question
+    asked = view_assessment(Assessment({}, questions=(question,)), state).question
     assert asked
     return asked.model_dump(mode="json")
 

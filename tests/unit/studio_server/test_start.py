@@ -15,16 +15,15 @@ import pytest
 
 from meshforge.common import MeshForgeError, UsageError
 from meshforge.project import Project
-from meshforge.samples import TABLES
+from meshforge.samples import TABLES, family_of
 from meshforge.store import ConflictError
 from meshforge.studio.host import Host
 from meshforge.studio.session.session import StudioOptions
 from meshforge.studio.start import folders
 from meshforge.studio.start.building import build_project, clean_up
-from meshforge.studio.start.create import create_of_family, create_of_folder
 from meshforge.studio.start.page import StartPage
 from meshforge.studio.start.recent import RecentProjects, state_folder
-from meshforge.studio.wire.requests import ProjectOfUpload
+from meshforge.studio.wire.start import ProjectOfFamily, ProjectOfFolder, ProjectOfUpload
 from tests.unit.batch.families import tree
 from tests.unit.project.stools import boxes, write_bare_stool, write_stool
 
@@ -40,6 +39,21 @@ def assets(tmp_path: Path) -> Path:
     folder.mkdir()
     (folder / "table_01.obj").write_bytes((TABLES / "table_01.obj").read_bytes())
     return folder
+
+
+@pytest.fixture
+def page(state: Path) -> Iterator[StartPage]:
+    page = StartPage(state)
+    yield page
+    page.close()
+
+
+async def _chunks(data: bytes) -> AsyncIterator[bytes]:
+    yield data
+
+
+def send(page: StartPage, path: str, data: bytes) -> None:
+    asyncio.run(page.uploads.put(path, _chunks(data)))
 
 
 # Recent projects
@@ -125,81 +139,54 @@ def test_what_is_no_folder_is_one_sentence_with_a_remedy(tmp_path: Path, assets:
 # Making projects
 
 
-def test_a_project_of_a_folder_leaves_the_assets_where_they_are(tmp_path: Path, assets: Path, state: Path) -> None:
+def test_a_project_of_a_folder_leaves_the_assets_where_they_are(page: StartPage, tmp_path: Path, assets: Path) -> None:
     before = tree(assets)
-    create_of_folder(assets, tmp_path / "new" / "project", state)
-    project = Project.open(tmp_path / "new" / "project")
+    project = Project.open(page.create(ProjectOfFolder(folder=str(assets), project=str(tmp_path / "new" / "project"))))
     assert (project.name, project.assets()) == ("project", ("table_01.obj",))
     assert tree(assets) == before
 
 
-def test_a_project_of_a_family_has_its_files_and_its_vocabulary(tmp_path: Path, state: Path) -> None:
-    family = create_of_family("tables", tmp_path / "tables", state)
-    project = Project.open(tmp_path / "tables")
-    assert len(project.assets()) == 14 and project.vocabulary == family.vocabulary
+def test_a_project_of_a_family_has_its_files_and_its_vocabulary(page: StartPage, tmp_path: Path) -> None:
+    project = Project.open(page.create(ProjectOfFamily(family="tables", project=str(tmp_path / "tables"))))
+    assert len(project.assets()) == 14 and project.vocabulary == family_of("tables").vocabulary
     assert all(path.is_relative_to(project.folder) for path in project.found.paths)
 
 
-def test_a_look_names_the_parts_of_what_has_no_hulls(tmp_path: Path, state: Path) -> None:
+def test_a_look_names_the_parts_of_what_has_no_hulls(page: StartPage, tmp_path: Path) -> None:
     write_bare_stool(tmp_path / "stools", "a")
     write_stool(tmp_path / "stools", "b", boxes(0.2, 0.4), [])
-    page = StartPage(state)
-    try:
-        found = page.look_at_folder(str(tmp_path / "stools"))
-    finally:
-        page.close()
+    found = page.look_at_folder(str(tmp_path / "stools"))
     assert (found.assets, found.bare, found.divided, found.parts) == (2, 2, 1, ("seat", "leg"))
 
 
-async def _chunks(data: bytes) -> AsyncIterator[bytes]:
-    yield data
-
-
-def test_a_project_of_an_upload_has_the_files_in_its_own_folder(tmp_path: Path, state: Path) -> None:
-    page = StartPage(state)
-    try:
-        asyncio.run(page.uploads.put("desks/table_01.obj", _chunks((TABLES / "table_01.obj").read_bytes())))
-        found = page.look_at_upload()
-        assert (found.assets, Path(found.project).name.split("-")[0]) == (1, "desks")
-        project = Project.open(page.create(ProjectOfUpload(project=str(tmp_path / "p"))))
-        assert project.path("table_01.obj") == tmp_path / "p" / "assets" / "desks" / "table_01.obj"
-    finally:
-        page.close()
+def test_a_project_of_an_upload_has_the_assets_that_can_be_read_in_its_own_folder(
+    page: StartPage, tmp_path: Path, state: Path
+) -> None:
+    send(page, "desks/table_01.obj", (TABLES / "table_01.obj").read_bytes())
+    send(page, "desks/bad.obj", b"v 0 0 zero\nf 1 1 1\n")
+    found = page.look_at_upload()
+    assert (found.assets, found.broken, found.left_out) == (1, 1, True)
+    assert Path(found.project).name.split("-")[0] == "desks"
+    assert found.problem and "bad.obj" in found.problem
+    project = Project.open(page.create(ProjectOfUpload(project=str(tmp_path / "p"))))
+    assert project.assets() == ("table_01.obj",)
+    assert project.path("table_01.obj") == tmp_path / "p" / "assets" / "desks" / "table_01.obj"
+    page.close()
     assert not [path for path in (state / "uploads").rglob("*") if path.is_file()]
 
 
-def test_an_upload_with_one_asset_that_cannot_be_read_becomes_a_project_of_the_others(
-    tmp_path: Path, state: Path
-) -> None:
-    page = StartPage(state)
-    try:
-        asyncio.run(page.uploads.put("desks/table_01.obj", _chunks((TABLES / "table_01.obj").read_bytes())))
-        asyncio.run(page.uploads.put("desks/bad.obj", _chunks(b"v 0 0 zero\nf 1 1 1\n")))
-        found = page.look_at_upload()
-        assert (found.assets, found.broken, found.left_out) == (1, 1, True)
-        assert found.problem and "bad.obj" in found.problem
-        project = Project.open(page.create(ProjectOfUpload(project=str(tmp_path / "p"))))
-        assert project.assets() == ("table_01.obj",)
-    finally:
-        page.close()
-
-
-def test_an_upload_without_assets_is_one_sentence_and_leaves_nothing(tmp_path: Path, state: Path) -> None:
-    page = StartPage(state)
-    try:
-        asyncio.run(page.uploads.put("readme.txt", _chunks(b"hello")))
-        with pytest.raises(MeshForgeError, match="no asset"):
-            page.look_at_upload()
-        with pytest.raises(MeshForgeError, match="no asset"):
-            page.create(ProjectOfUpload(project=str(tmp_path / "p")))
-    finally:
-        page.close()
+def test_an_upload_without_assets_is_one_sentence_and_leaves_nothing(page: StartPage, tmp_path: Path) -> None:
+    send(page, "readme.txt", b"hello")
+    with pytest.raises(MeshForgeError, match="no asset"):
+        page.look_at_upload()
+    with pytest.raises(MeshForgeError, match="no asset"):
+        page.create(ProjectOfUpload(project=str(tmp_path / "p")))
     assert not (tmp_path / "p").exists()
 
 
 @pytest.mark.parametrize("what", ["project", "other files", "file", "below a file"])
 def test_a_place_that_is_taken_is_refused_and_left_as_it_is(
-    tmp_path: Path, assets: Path, state: Path, what: str
+    page: StartPage, tmp_path: Path, assets: Path, what: str
 ) -> None:
     place = tmp_path / "place"
     if what == "project":
@@ -211,7 +198,8 @@ def test_a_place_that_is_taken_is_refused_and_left_as_it_is(
         place.write_text("mine")
     before = tree(tmp_path)
     with pytest.raises(UsageError) as refusal:
-        create_of_folder(assets, place / "x" if what == "below a file" else place, state)
+        wanted = place / "x" if what == "below a file" else place
+        page.create(ProjectOfFolder(folder=str(assets), project=str(wanted)))
     assert refusal.value.remedy
     assert {name: data for name, data in tree(tmp_path).items() if not name.startswith("state/")} == before
 

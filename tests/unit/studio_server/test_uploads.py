@@ -9,9 +9,9 @@ import pytest
 
 from meshforge.common import ProjectError, UsageError
 from meshforge.samples import TABLES
-from meshforge.studio import uploads
+from meshforge.studio import transfers
 from meshforge.studio.errors import TooLargeError
-from meshforge.studio.uploads import Uploads, confine_path, find_assets, save_stream
+from meshforge.studio.transfers import Uploads, confine_path, find_assets, save_stream
 from meshforge.studio.workers import Workers
 
 Result = TypeVar("Result")
@@ -56,7 +56,7 @@ def test_a_file_that_is_too_large_leaves_nothing(tmp_path: Path) -> None:
 
 def test_what_is_too_large_is_called_as_the_page_calls_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     for most in ("MOST_TEMPLATE", "MOST_ONE_FILE"):
-        monkeypatch.setattr(uploads, most, 5)
+        monkeypatch.setattr(transfers, most, 5)
     home = Uploads(tmp_path / "uploads")
     with pytest.raises(TooLargeError) as refused:
         asyncio.run(home.put_template("tray.obj", chunks(b"123456")))
@@ -69,11 +69,11 @@ def test_what_is_too_large_is_called_as_the_page_calls_it(tmp_path: Path, monkey
 def test_files_that_are_too_large_together_are_no_fault_of_the_last_one(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(uploads, "MOST_ALL_FILES", 3 * uploads.MB)
+    monkeypatch.setattr(transfers, "MOST_ALL_FILES", 3 * transfers.MB)
     home = Uploads(tmp_path / "uploads")
-    asyncio.run(home.put("a.stl", chunks(bytes(2 * uploads.MB))))
+    asyncio.run(home.put("a.stl", chunks(bytes(2 * transfers.MB))))
     with pytest.raises(TooLargeError, match="larger than 3 MB together"):
-        asyncio.run(home.put("b.stl", chunks(bytes(2 * uploads.MB))))
+        asyncio.run(home.put("b.stl", chunks(bytes(2 * transfers.MB))))
 
 
 def test_a_file_in_the_place_of_a_folder_is_one_message(tmp_path: Path) -> None:

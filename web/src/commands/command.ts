@@ -14,6 +14,11 @@ export interface Command {
   readonly movesFocus?: boolean;
 }
 
+/** Commands of one group, unless one says another; without keys where none are given. */
+export function commandsOf(group: Command["group"], all: readonly (Omit<Command, "group" | "keys"> & Partial<Command>)[]): readonly Command[] {
+  return all.map((one) => ({ group, keys: [], ...one }));
+}
+
 /** The name of a pressed key combination, as commands list it. */
 export function pressedKeys(event: {
   key: string;

@@ -6,7 +6,7 @@ import { useScenes } from "../store/scenes";
 import { openRules, removeStep } from "../store/steps";
 import { reportError } from "../store/toasts";
 import { setTool, show, useWorkspace } from "../store/workspace";
-import type { Command } from "./command";
+import { type Command, commandsOf } from "./command";
 
 const isHere = (): boolean => useWorkspace.getState().stage === "demonstrate" && useWorkspace.getState().asset !== null;
 
@@ -56,11 +56,10 @@ async function removeShownStep(): Promise<void> {
   if (asset !== null && place !== null) await removeStep(asset, place).catch(reportError);
 }
 
-export const demonstrateCommands: readonly Command[] = [
+export const demonstrateCommands = commandsOf("Demonstrate", [
   {
     id: "draft-each",
     title: "Each connected part separately",
-    group: "Demonstrate",
     keys: ["E"],
     enabled: () => useWorkspace.getState().draft !== null,
     run: toggleEach,
@@ -68,7 +67,6 @@ export const demonstrateCommands: readonly Command[] = [
   {
     id: "draft-accept",
     title: "Add the step, or accept the guess",
-    group: "Demonstrate",
     keys: ["Enter"],
     enabled: () => useWorkspace.getState().draft !== null || (isHere() && offeredRule() !== null),
     run: acceptStep,
@@ -76,7 +74,6 @@ export const demonstrateCommands: readonly Command[] = [
   {
     id: "draft-drop",
     title: "Cancel the action",
-    group: "Demonstrate",
     keys: ["Escape"],
     enabled: () => useWorkspace.getState().draft !== null,
     run: () => dropDraft().catch(reportError),
@@ -84,7 +81,6 @@ export const demonstrateCommands: readonly Command[] = [
   {
     id: "step-delete",
     title: "Remove the shown step",
-    group: "Demonstrate",
     keys: ["Backspace", "Delete"],
     enabled: () => isHere() && useWorkspace.getState().draft === null && shownStep() !== null,
     run: removeShownStep,
@@ -92,7 +88,6 @@ export const demonstrateCommands: readonly Command[] = [
   {
     id: "cut",
     title: "Split the selected hull by a plane",
-    group: "Demonstrate",
     keys: ["K"],
     enabled: () => isHere() && selectedHulls().length === 1,
     run: startCut,
@@ -100,12 +95,10 @@ export const demonstrateCommands: readonly Command[] = [
   {
     id: "landmark",
     title: "Click the landmarks of the orientation",
-    group: "Demonstrate",
-    keys: [],
     enabled: isHere,
     run: startLandmarks,
   },
-];
+]);
 
 /** Cuts are made in the original asset. */
 export function startCut(): void {

@@ -34,7 +34,7 @@ describe("a digit", () => {
   it("labels the selection with the label in that place", async () => {
     select(["y"]);
     press("2");
-    await vi.waitFor(() => expect(sent).toEqual([{ kind: "label", asset: "a", hulls: ["y"], label: "top" }]));
+    await vi.waitFor(() => expect(sent).toEqual([{ kind: "label", hulls: { a: ["y"] }, label: "top" }]));
   });
 
   it("arms the brush where nothing is selected, and disarms it the second time", () => {
@@ -67,7 +67,7 @@ describe("nought", () => {
     expect(useWorkspace.getState().brush).toBe("");
     select(["x"]);
     press("0");
-    await vi.waitFor(() => expect(sent).toEqual([{ kind: "label", asset: "a", hulls: ["x"], label: null }]));
+    await vi.waitFor(() => expect(sent).toEqual([{ kind: "label", hulls: { a: ["x"] }, label: null }]));
     expect(useWorkspace.getState().brush).toBeNull();
   });
 });

@@ -5,7 +5,7 @@ import { useScenes } from "../store/scenes";
 import { notify } from "../store/toasts";
 import { applyLabel, confirmLabels, goToUnsure, isUnsure } from "../store/unsureHulls";
 import { setBrush, useWorkspace } from "../store/workspace";
-import type { Command } from "./command";
+import { type Command, commandsOf } from "./command";
 
 const isLabelling = (): boolean => useWorkspace.getState().stage === "label";
 const labelAt = (place: number): string | undefined => useProject.getState().project.vocabulary[place]?.name;
@@ -43,19 +43,17 @@ function isDoubtful(): boolean {
   return [...selection].some((name) => isUnsure(card, scene.view.hulls, name));
 }
 
-export const labelCommands: readonly Command[] = [
+export const labelCommands = commandsOf("Label", [
   ...digitCommands,
   {
     id: "label-none",
     title: "No label: remove it from the selection, or by painting",
-    group: "Label",
     keys: ["0"],
     run: () => (isLabelling() ? applyLabel(null) : sayWhere("0", "removes labels")),
   },
   {
     id: "label-right",
     title: "Confirm the labels of the selection; next unsure hull",
-    group: "Label",
     keys: ["Enter"],
     enabled: () => isLabelling() && isDoubtful(),
     run: confirmLabels,
@@ -63,7 +61,6 @@ export const labelCommands: readonly Command[] = [
   {
     id: "label-next-unsure",
     title: "Next unsure hull",
-    group: "Label",
     keys: ["N"],
     enabled: isUnsureAny,
     run: () => goToUnsure(),
@@ -71,7 +68,6 @@ export const labelCommands: readonly Command[] = [
   {
     id: "label-previous-unsure",
     title: "Previous unsure hull",
-    group: "Label",
     keys: ["Shift+N"],
     enabled: isUnsureAny,
     run: () => goToUnsure(-1),
@@ -79,16 +75,14 @@ export const labelCommands: readonly Command[] = [
   {
     id: "label-carry-over",
     title: "Propagate labels to all assets",
-    group: "Label",
     keys: ["P"],
     run: () => (isLabelling() ? tryPropagate() : sayWhere("P", "propagates labels")),
   },
   {
     id: "label-brush-down",
     title: "Stop painting",
-    group: "Label",
     keys: ["Escape"],
     enabled: () => useWorkspace.getState().brush !== null,
     run: () => setBrush(null),
   },
-];
+]);

@@ -6,7 +6,7 @@ import { findSeparatingAssets } from "../store/readings";
 import { reportError } from "../store/toasts";
 import { openAsset, openStage, setHighlight, visit } from "../store/workspace";
 import type { NearestView, CandidateView } from "../wire";
-import type { Command } from "./command";
+import { commandsOf } from "./command";
 
 /** Learns now, and takes what is learned in place of a program by hand. */
 export const learnNow = (): Promise<unknown> => api.learn().catch(reportError);
@@ -45,11 +45,10 @@ export function demonstrate(asset: string): void {
 
 const project = useProject.getState;
 
-export const learnCommands: readonly Command[] = [
+export const learnCommands = commandsOf("Learn", [
   {
     id: "learn",
     title: "Learn the program",
-    group: "Learn",
     keys: ["Ctrl+Enter"],
     enabled: () => !project().learning && project().project.rules.length > 0,
     run: () => void learnNow(),
@@ -57,20 +56,16 @@ export const learnCommands: readonly Command[] = [
   {
     id: "learn-stop",
     title: "Stop learning",
-    group: "Learn",
-    keys: [],
     enabled: () => project().learning,
     run: () => void stopLearning(),
   },
   {
     id: "learn-hint",
     title: "Demonstrate the asset that helps most",
-    group: "Learn",
-    keys: [],
     enabled: () => project().outcome?.hint != null,
     run: () => {
       const hint = project().outcome?.hint;
       if (hint) demonstrate(hint.asset);
     },
   },
-];
+]);

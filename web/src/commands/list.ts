@@ -7,11 +7,10 @@ import { goCommands } from "./navigate";
 import { labelCommands } from "./label";
 import { learnCommands } from "./learn";
 import { measureCommands } from "./measure";
-import { memberCommands } from "./members";
 import { questionCommands } from "./question";
 import { reviewCommands } from "./review";
 import { selectCommands } from "./select";
-import { sheetCommands } from "./sheet";
+import { memberCommands, sheetCommands } from "./sheet";
 import { viewCommands } from "./view";
 
 const begin: readonly Command[] = [...labelCommands, ...sheetCommands];

@@ -4,7 +4,7 @@ import { addMeasure, clearMeasures, measureExtents, measureGap, useRuler } from 
 import { type Scene, useScenes } from "../store/scenes";
 import { setSection, useSection } from "../store/section";
 import { setTool, setUnit, useWorkspace } from "../store/workspace";
-import type { Command } from "./command";
+import { commandsOf } from "./command";
 
 const here = (): Scene | null => useScenes.getState().scene;
 const isHere = (): boolean => here() !== null;
@@ -26,11 +26,10 @@ export function measureSelection(): void {
   if (extents) addMeasure(extents);
 }
 
-export const measureCommands: readonly Command[] = [
+export const measureCommands = commandsOf("View", [
   {
     id: "section",
     title: "Section plane: see inside",
-    group: "View",
     keys: ["Shift+K"],
     enabled: isHere,
     run: () => setSection({ on: !isCutOpen() }),
@@ -38,15 +37,12 @@ export const measureCommands: readonly Command[] = [
   {
     id: "section-flip",
     title: "Flip the section plane",
-    group: "View",
-    keys: [],
     enabled: isCutOpen,
     run: () => setSection({ flipped: !useSection.getState().flipped }),
   },
   {
     id: "tool-ruler",
     title: "Ruler: measure between two points",
-    group: "View",
     keys: ["D"],
     enabled: isHere,
     run: () => setTool(useWorkspace.getState().tool === "ruler" ? "select" : "ruler"),
@@ -54,7 +50,6 @@ export const measureCommands: readonly Command[] = [
   {
     id: "measure-selection",
     title: "Measure the selection: the gap between two hulls, or extents",
-    group: "View",
     keys: ["Shift+D"],
     enabled: () => isHere() && useWorkspace.getState().selection.size > 0,
     run: measureSelection,
@@ -62,16 +57,12 @@ export const measureCommands: readonly Command[] = [
   {
     id: "clear-measures",
     title: "Clear all measures",
-    group: "View",
-    keys: [],
     enabled: hasMeasures,
     run: () => clearMeasures(here()?.asset ?? ""),
   },
   {
     id: "unit",
     title: "Lengths in metres or millimetres",
-    group: "View",
-    keys: [],
     run: () => setUnit(useWorkspace.getState().unit === "m" ? "mm" : "m"),
   },
-];
+]);

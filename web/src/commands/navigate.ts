@@ -14,7 +14,7 @@ import {
   type WorkspaceState,
   STAGE_OF,
 } from "../store/workspace";
-import type { Command } from "./command";
+import { type Command, commandsOf } from "./command";
 
 /** The next asset that wants to be looked at: wrong, flagged, failed, or with labels that are not sure. */
 function nextDoubtful(): string | null {
@@ -48,12 +48,11 @@ export function goToNext(): void {
   if (next.asset !== null) openAsset(next.asset);
 }
 
-export const goCommands: readonly Command[] = [
-  { id: "next-asset", title: "Next asset", group: "Go", keys: ["Tab"], enabled: hasOthers, run: () => openBeside(1) },
+export const goCommands = commandsOf("Go", [
+  { id: "next-asset", title: "Next asset", keys: ["Tab"], enabled: hasOthers, run: () => openBeside(1) },
   {
     id: "previous-asset",
     title: "Previous asset",
-    group: "Go",
     keys: ["Shift+Tab"],
     enabled: hasOthers,
     run: () => openBeside(-1),
@@ -61,13 +60,12 @@ export const goCommands: readonly Command[] = [
   {
     id: "next-doubtful",
     title: "Next asset that is wrong, flagged, failed or unsure",
-    group: "Go",
     keys: ["N"],
     enabled: () => ["demonstrate", "learn"].includes(useWorkspace.getState().stage) && nextDoubtful() !== null,
     run: () => openAsset(nextDoubtful()),
   },
   ...stageCommands,
-  { id: "go-on", title: "Go to the next step", group: "Go", keys: ["Alt+Enter"], run: goToNext },
+  { id: "go-on", title: "Go to the next step", keys: ["Alt+Enter"], run: goToNext },
   {
     id: "undo",
     title: "Undo",
@@ -102,19 +100,17 @@ export const goCommands: readonly Command[] = [
     id: "theme",
     title: "Theme: light, dark, or like the system",
     group: "View",
-    keys: [],
     run: () => useWorkspace.setState(({ theme }) => ({ theme: nextTheme(theme) })),
   },
   {
     id: "palette",
     title: "Find a command or an asset",
-    group: "Go",
     keys: ["Ctrl+K", "/"],
     run: () => toggleOverlay("palette"),
   },
-  { id: "help", title: "Keys and help", group: "Go", keys: ["?", "F1"], run: () => toggleOverlay("help") },
-  { id: "tour", title: "Guided tour", group: "Go", keys: [], run: startTour },
-];
+  { id: "help", title: "Keys and help", keys: ["?", "F1"], run: () => toggleOverlay("help") },
+  { id: "tour", title: "Guided tour", run: startTour },
+]);
 
 const THEMES = ["system", "light", "dark"] as const;
 const nextTheme = (theme: WorkspaceState["theme"]) => THEMES[(THEMES.indexOf(theme) + 1) % THEMES.length] ?? "system";

@@ -5,8 +5,8 @@ import { perform } from "../store/edits";
 import { useProject } from "../store/project";
 import { differing } from "../store/readings";
 import { openStage, setFilters, setHighlight, setLayout, useWorkspace, visit } from "../store/workspace";
-import type { ReasonView, ReplyToQuestion, ReviewQuestionView } from "../wire";
-import type { Command } from "./command";
+import type { Reason, ReplyToQuestion, ReviewQuestionView } from "../wire";
+import { commandsOf } from "./command";
 
 /** What is said to a question; nothing: none of its choices. */
 export type Said = Omit<ReplyToQuestion, "kind" | "question">;
@@ -54,7 +54,7 @@ export function showAsked(question: ReviewQuestionView): void {
 }
 
 /** Opens an asset with the hulls of a doubt selected. */
-export const showDoubt = (asset: string, doubt: ReasonView): void => visit(asset, { kind: "source" }, doubt.hulls);
+export const showDoubt = (asset: string, doubt: Reason): void => visit(asset, { kind: "source" }, doubt.hulls);
 
 /** Shows the held assets alone, the least probable first. */
 export function lookAtHeld(): void {
@@ -79,14 +79,13 @@ export function goToCard(): void {
   useCardCalls.setState(({ count }) => ({ count: count + 1 }));
 }
 
-export const questionCommands: readonly Command[] = [
+export const questionCommands = commandsOf("Learn", [
   {
     id: "question",
     title: "Go to the question: 1 to 9 choose, Y accept, N reject, L later, S show",
-    group: "Learn",
     keys: ["U"],
     enabled: () => isAsked(useProject.getState()),
     run: goToCard,
     movesFocus: true,
   },
-];
+]);

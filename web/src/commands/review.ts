@@ -3,11 +3,11 @@ import { startDraft } from "../store/draft";
 import { perform } from "../store/edits";
 import { applyTo, checkAll, whyNotApply, whyNotCheck } from "../store/jobs";
 import { useProject } from "../store/project";
-import { getVerdict, listAcceptable, nextInQueue, reviewQueue } from "../store/reviews";
+import { getVerdict, isWritten, listAcceptable, nextInQueue, reviewQueue } from "../store/reviews";
 import { notify, reportError } from "../store/toasts";
 import { openAsset, openStage, setChecks, useWorkspace, visit } from "../store/workspace";
 import type { Card } from "../wire";
-import type { Command } from "./command";
+import { commandsOf } from "./command";
 import { runInTurn } from "./queue";
 
 /** All cards in the family's order. */
@@ -90,14 +90,13 @@ export function nextToReview(): void {
 function reviewable(): Card | null {
   const { asset, stage } = useWorkspace.getState();
   const card = useProject.getState().cards[asset ?? ""];
-  return stage === "review" && card && (card.output === "edited" || card.output === "unchanged") ? card : null;
+  return stage === "review" && card && isWritten(card) ? card : null;
 }
 
-export const reviewCommands: readonly Command[] = [
+export const reviewCommands = commandsOf("Review", [
   {
     id: "accept",
     title: "Accept the result, go to the next",
-    group: "Review",
     keys: ["Y"],
     enabled: () => reviewable()?.stale.length === 0,
     run: () => {
@@ -108,7 +107,6 @@ export const reviewCommands: readonly Command[] = [
   {
     id: "wrong",
     title: "Call the result wrong, or take that back",
-    group: "Review",
     keys: ["F"],
     enabled: () => reviewable() !== null,
     run: () => {
@@ -119,8 +117,6 @@ export const reviewCommands: readonly Command[] = [
   {
     id: "apply",
     title: "Apply the program to all assets",
-    group: "Review",
-    keys: [],
     enabled: () => whyNotApply() === null,
     run: () => {
       openStage("review");
@@ -130,8 +126,6 @@ export const reviewCommands: readonly Command[] = [
   {
     id: "check-all",
     title: "Check all results",
-    group: "Review",
-    keys: [],
     enabled: () => whyNotCheck() === null,
     run: () => {
       openStage("review");
@@ -141,7 +135,6 @@ export const reviewCommands: readonly Command[] = [
   {
     id: "checks",
     title: "Show or hide the checks of the result",
-    group: "Review",
     keys: ["Shift+C"],
     enabled: () => useWorkspace.getState().stage === "review",
     run: () => setChecks({ open: !useWorkspace.getState().checks.open }),
@@ -149,9 +142,8 @@ export const reviewCommands: readonly Command[] = [
   {
     id: "next-to-review",
     title: "Next result to review",
-    group: "Review",
     keys: ["N"],
     enabled: () => useWorkspace.getState().stage === "review",
     run: nextToReview,
   },
-];
+]);

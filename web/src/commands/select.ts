@@ -13,7 +13,7 @@ import {
 } from "../store/selection";
 import { selectSimilar } from "../store/similar";
 import { select, selectHere, setThrough, useWorkspace } from "../store/workspace";
-import type { Command } from "./command";
+import { commandsOf } from "./command";
 
 /** The scene that the selection belongs to. */
 function here(): Scene | null {
@@ -43,11 +43,10 @@ function isolateSelection(): void {
 /** The key that switches selecting through; held during a drag, it counts for that drag alone. */
 export const THROUGH_KEY = "T";
 
-export const selectCommands: readonly Command[] = [
+export const selectCommands = commandsOf("Select", [
   {
     id: "select-all",
     title: "Select all hulls",
-    group: "Select",
     keys: ["A"],
     enabled: hasHulls,
     run: () => changeSelection(({ hulls }) => new Set(hulls.map((hull) => hull.name))),
@@ -55,7 +54,6 @@ export const selectCommands: readonly Command[] = [
   {
     id: "select-none",
     title: "Select nothing",
-    group: "Select",
     keys: ["Alt+A", "Escape"],
     enabled: () => useWorkspace.getState().selection.size > 0 || useWorkspace.getState().elsewhere.size > 0,
     run: () => select([]),
@@ -63,7 +61,6 @@ export const selectCommands: readonly Command[] = [
   {
     id: "select-invert",
     title: "Invert the selection",
-    group: "Select",
     keys: ["I"],
     enabled: hasHulls,
     run: () => changeSelection(invert),
@@ -71,7 +68,6 @@ export const selectCommands: readonly Command[] = [
   {
     id: "select-grow",
     title: "Grow the selection to touching hulls",
-    group: "Select",
     keys: ["G"],
     enabled: hasSelection,
     run: () => changeSelection(withNeighbours),
@@ -79,7 +75,6 @@ export const selectCommands: readonly Command[] = [
   {
     id: "select-connected",
     title: "Select all connected hulls",
-    group: "Select",
     keys: ["Shift+G"],
     enabled: hasSelection,
     run: () => changeSelection(withConnected),
@@ -87,7 +82,6 @@ export const selectCommands: readonly Command[] = [
   {
     id: "select-alike",
     title: "Select all hulls with the same label",
-    group: "Select",
     keys: ["Shift+L"],
     enabled: hasSelection,
     run: () => changeSelection(withSameLabel),
@@ -95,7 +89,6 @@ export const selectCommands: readonly Command[] = [
   {
     id: "select-similar",
     title: "Select hulls that look alike; again for more",
-    group: "Select",
     keys: ["J"],
     enabled: hasSelection,
     run: () => selectSimilar("here"),
@@ -103,7 +96,6 @@ export const selectCommands: readonly Command[] = [
   {
     id: "select-similar-everywhere",
     title: "Select hulls that look alike on all assets; again for more",
-    group: "Select",
     keys: ["Shift+J"],
     enabled: () => useWorkspace.getState().stage === "label" && (hasSelection() || useWorkspace.getState().elsewhere.size > 0),
     run: () => selectSimilar("everywhere"),
@@ -111,7 +103,6 @@ export const selectCommands: readonly Command[] = [
   {
     id: "select-through",
     title: "Select through: also take hulls behind others; hold it during a drag for that drag alone",
-    group: "Select",
     keys: [THROUGH_KEY],
     enabled: hasHulls,
     run: () => setThrough(!useWorkspace.getState().through),
@@ -119,7 +110,6 @@ export const selectCommands: readonly Command[] = [
   {
     id: "hide",
     title: "Hide the selection",
-    group: "Select",
     keys: ["H"],
     enabled: hasSelection,
     run: () => hide(useWorkspace.getState().selection),
@@ -127,7 +117,6 @@ export const selectCommands: readonly Command[] = [
   {
     id: "isolate",
     title: "Hide all but the selection, or show all again",
-    group: "Select",
     keys: ["Shift+H"],
     enabled: hasSelection,
     run: isolateSelection,
@@ -135,9 +124,8 @@ export const selectCommands: readonly Command[] = [
   {
     id: "show-all",
     title: "Show all hulls",
-    group: "Select",
     keys: ["Alt+H"],
     enabled: () => useWorkspace.getState().hidden.size > 0,
     run: showAll,
   },
-];
+]);

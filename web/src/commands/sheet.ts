@@ -1,14 +1,14 @@
-// The command that shows several assets side by side.
+// Commands on the open asset, or those side by side: showing several, and taking them out of the family.
+import { leaveOut, removeAssets, whyNotLeave } from "../store/members";
 import { useProject } from "../store/project";
-import { toggleSheet } from "../store/sheet";
+import { assetsInView, toggleSheet } from "../store/sheet";
 import { useWorkspace } from "../store/workspace";
-import type { Command } from "./command";
+import { commandsOf } from "./command";
 
-export const sheetCommands: readonly Command[] = [
+export const sheetCommands = commandsOf("Label", [
   {
     id: "sheet",
     title: "Label several assets side by side, or one alone again",
-    group: "Label",
     keys: ["W"],
     enabled: () => useWorkspace.getState().stage === "label" && useProject.getState().order.length > 1,
     run: toggleSheet,
@@ -16,15 +16,23 @@ export const sheetCommands: readonly Command[] = [
   {
     id: "sheet-leave",
     title: "Show the open asset alone",
-    group: "Label",
     keys: ["Escape"],
     enabled: hasNothingElse,
     run: toggleSheet,
   },
-];
+]);
 
 /** Whether several assets are shown, and nothing is selected or in hand that Escape leaves first. */
 function hasNothingElse(): boolean {
   const { sheet, selection, elsewhere, brush, tool } = useWorkspace.getState();
   return sheet.length > 0 && !selection.size && !elsewhere.size && brush === null && tool === "select";
 }
+
+const isAble = () => whyNotLeave(assetsInView(useWorkspace.getState())) === null;
+
+const withChosen = (does: (assets: readonly string[]) => Promise<void>) => () => does(assetsInView(useWorkspace.getState()));
+
+export const memberCommands = commandsOf("Edit", [
+  { id: "leave-out", title: "Leave this asset, or all side by side, out of the family", enabled: isAble, run: withChosen(leaveOut) },
+  { id: "remove-asset", title: "Remove this asset, or all side by side, from the project", enabled: isAble, run: withChosen(removeAssets) },
+]);

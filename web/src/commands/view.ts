@@ -10,7 +10,7 @@ import {
   useWorkspace,
   type ViewSettings,
 } from "../store/workspace";
-import type { Command } from "./command";
+import { type Command, commandsOf } from "./command";
 
 const isHere = (): boolean => useScenes.getState().scene !== null;
 const isNotLabelling = (): boolean => isHere() && useWorkspace.getState().stage !== "label";
@@ -71,7 +71,7 @@ function switchProjection(): void {
   setView({ projection: projection === "perspective" ? "orthographic" : "perspective" });
 }
 
-export const viewCommands: readonly Command[] = [
+export const viewCommands = commandsOf("View", [
   toolCommand("box", "Select by a box", ["B"]),
   toolCommand("lasso", "Select by a lasso", ["L"]),
   {
@@ -84,9 +84,9 @@ export const viewCommands: readonly Command[] = [
   },
   ...sideCommands,
   lookCommand("iso", ["Numpad0"], isHere),
-  { id: "fit", title: "Fit all into the view", group: "View", keys: ["Home"], enabled: isHere, run: () => lookFrom("fit") },
-  { id: "frame", title: "Frame the selection", group: "View", keys: [".", "NumpadDecimal"], enabled: isHere, run: () => lookFrom("frame") },
-  { id: "projection", title: "Perspective or parallel projection", group: "View", keys: ["O"], run: switchProjection },
+  { id: "fit", title: "Fit all into the view", keys: ["Home"], enabled: isHere, run: () => lookFrom("fit") },
+  { id: "frame", title: "Frame the selection", keys: [".", "NumpadDecimal"], enabled: isHere, run: () => lookFrom("frame") },
+  { id: "projection", title: "Perspective or parallel projection", keys: ["O"], run: switchProjection },
   toggleCommand("wireframe", "Wireframe", ["Z"]),
   toggleCommand("ghost", "Visual mesh as a ghost", ["V"]),
   toggleCommand("contacts", "Contact graph", ["C"]),
@@ -94,4 +94,4 @@ export const viewCommands: readonly Command[] = [
   toggleCommand("grid", "Grid and axes", []),
   compareCommand("slider", "Compare before and after with a line"),
   compareCommand("side", "Compare before and after side by side"),
-];
+]);

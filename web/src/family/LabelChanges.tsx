@@ -1,6 +1,7 @@
 // What the last edit of all labels changed: how many, where, and a way to each of them; until the next edit.
 import { Undo2, X } from "lucide-react";
 import { useEffect } from "react";
+import { whilePointed } from "../ui/whilePointed";
 import css from "./labelChanges.module.css";
 import { undo } from "../store/edits";
 import {
@@ -62,10 +63,7 @@ function ChangeButton({ relabelled, sort }: { relabelled: LabelUpdate; sort: Cha
       type="button"
       className={css.changed}
       title="Highlights them in the family; click to open the next asset with some"
-      onPointerEnter={() => highlightLabelChanges(relabelled, sort)}
-      onPointerLeave={clearLabelChanges}
-      onFocus={() => highlightLabelChanges(relabelled, sort)}
-      onBlur={clearLabelChanges}
+      {...whilePointed(() => highlightLabelChanges(relabelled, sort), clearLabelChanges)}
       onClick={() => openNextChange(relabelled, sort)}
     >
       <span className={css.filled} aria-hidden />

@@ -8,7 +8,7 @@ import { countText, listText, shortName } from "../store/words";
 import { openAsset } from "../store/workspace";
 import { Button } from "../ui/Button";
 import { Section } from "../ui/Section";
-import type { AssessmentView, ReasonView } from "../wire";
+import type { AssessmentView, Reason } from "../wire";
 import css from "./sureness.module.css";
 
 /** `Signed off 71 of 75`, as a bar and in words, with the way to those that are not. */
@@ -103,7 +103,7 @@ export function Doubts({ asset }: { asset: string }) {
   );
 }
 
-function DoubtRow({ asset, doubt }: { asset: string; doubt: ReasonView }) {
+function DoubtRow({ asset, doubt }: { asset: string; doubt: Reason }) {
   const { text, hulls } = doubt;
   return (
     <li className={css.doubt}>

@@ -1,6 +1,7 @@
 // Pictures that were fetched and decoded, by a worker that is begun with the first of them; the latest few hundred are
 // kept.
 import { getBlob } from "../server/http";
+import { keepLatest } from "../store/once";
 import { waitForFirstScene } from "../store/scenes";
 import type { DecodeAnswer, DecodeRequest } from "./decoder.worker";
 import type { IdMap } from "./idMap";
@@ -14,10 +15,8 @@ const kept = new Map<string, IdMap>();
 /** A picture that is there already. */
 export function findPicture(url: string): IdMap | null {
   const map = kept.get(url);
-  if (!map) return null;
-  kept.delete(url);
-  kept.set(url, map);
-  return map;
+  if (map) keepLatest(kept, url, map, MOST);
+  return map ?? null;
 }
 
 /** Fetches a picture, once for all that want it; the last that was asked for comes first. */
@@ -29,11 +28,9 @@ export function requestPicture(url: string): { picture: Promise<IdMap>; drop: ()
 async function fetchPicture(url: string): Promise<IdMap> {
   await waitForFirstScene();
   const map = await decodePicture(await getBlob(url));
-  kept.set(url, map);
-  if (kept.size > MOST) kept.delete(kept.keys().next().value ?? "");
+  keepLatest(kept, url, map, MOST);
   return map;
 }
-
 
 type Settle = (map: IdMap | null) => void;
 

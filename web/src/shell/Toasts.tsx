@@ -5,6 +5,7 @@ import { useEffect, useState } from "react";
 import { undo } from "../store/edits";
 import { dismissToast, type Toast, useToasts } from "../store/toasts";
 import { Button, IconButton } from "../ui/Button";
+import { whilePointed } from "../ui/whilePointed";
 import css from "./toasts.module.css";
 
 const FADES_AFTER = 6000; // ms
@@ -38,10 +39,7 @@ function ToastLine({ toast }: { toast: Toast }) {
     <div
       className={css.toast}
       data-kind={toast.kind}
-      onPointerEnter={() => setHeld(true)}
-      onPointerLeave={() => setHeld(false)}
-      onFocus={() => setHeld(true)}
-      onBlur={() => setHeld(false)}
+      {...whilePointed(() => setHeld(true), () => setHeld(false))}
     >
       <Icon size={16} aria-label={toast.kind === "done" ? "Done" : "Problem"} />
       <div className={css.words}>

@@ -74,7 +74,6 @@ describe("the rule that a draft is for", () => {
   const rule = (number: number, action: string) => ({ rule: number, action: sampleAction(action), shown: ["a"], nothing: [] });
   const rules = [rule(1, "Delete"), rule(2, "Merge"), rule(3, "Delete")];
   const step = (select: string[] | null): StepView => ({
-    rule: 1,
     select,
     action: sampleAction(),
     error: null,

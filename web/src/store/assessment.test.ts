@@ -1,6 +1,6 @@
 // How sure edits are in words, and which question is open.
 import { describe, expect, it } from "vitest";
-import type { ReasonView, ReviewQuestionView } from "../wire";
+import type { Reason, ReviewQuestionView } from "../wire";
 import { doubtsText, groupHeld, leftText, moodOf, openQuestion, percentText, placesOf, probabilityText, signedText } from "./assessment";
 import { filterAssets } from "./family";
 import { applyEvent, emptyProject } from "./project";
@@ -22,7 +22,7 @@ describe("how sure the family is", () => {
   });
 
   it("is told reason by reason, the least probable first", () => {
-    const doubt = (text: string): ReasonView => ({ kind: "alarm", text, hulls: [], rule: null });
+    const doubt = (text: string): Reason => ({ kind: "alarm", text, hulls: [], rule: null, share: 0 });
     const rows = [
       sampleRow({ asset: "a", probability: 0.6, state: "needs review", reasons: [doubt("nobody looked"), doubt("nearly solid")] }),
       sampleRow({ asset: "b", probability: 0.1, state: "needs review", reasons: [doubt("nearly solid")] }),

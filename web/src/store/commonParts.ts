@@ -1,4 +1,5 @@
 // Names that stand beside each other: what they have in common, so that what tells them apart is what stays in sight.
+import { oncePer } from "./once";
 
 /** How many letters at the start and the end of a name its neighbours have, too. */
 export interface CommonParts {
@@ -26,14 +27,8 @@ export function findCommonParts(names: readonly string[]): (name: string) => Com
   return (name) => parts.get(firstWord(name)) ?? NONE;
 }
 
-const known = new WeakMap<readonly string[], (name: string) => CommonParts>();
-
 /** The same for a list that many ask about, worked out once. */
-export function commonPartsOf(names: readonly string[]): (name: string) => CommonParts {
-  const found = known.get(names) ?? findCommonParts(names);
-  known.set(names, found);
-  return found;
-}
+export const commonPartsOf = oncePer(findCommonParts);
 
 const firstWord = (name: string): string => name.slice(0, Math.max(name.search(SIGN), 0)) || name.replace(/\d.*$/, "");
 

@@ -3,10 +3,10 @@ import { create } from "zustand";
 import type { CutHull } from "../wire";
 import { perform } from "./edits";
 import { type Scene, type SceneHull, useScenes } from "./scenes";
+import { dot, spanAlong, type Triple } from "./vectors";
 import { setTool, useWorkspace } from "./workspace";
 
 export type CutAxis = "x" | "y" | "z" | "free";
-export type Triple = [number, number, number];
 
 interface CutState {
   readonly axis: CutAxis;
@@ -46,7 +46,7 @@ export function hullToCut(scene: Scene | null, selection: ReadonlySet<string>): 
 export function planeOf(scene: Scene, hull: SceneHull, { axis, share, drawn }: CutState): CutPlane | null {
   const across = axis === "free" ? drawn : axisInFile(scene.view.upright, axis);
   if (!across) return null;
-  const [low, high] = spanOf(hull.shape.positions, across);
+  const [low, high] = spanAlong([hull.shape.positions], across);
   const middle = middleOf(hull.shape.positions);
   const off = low + share * (high - low) - dot(middle, across);
   const at = middle.map((value, k) => value + off * (across[k] ?? 0)) as Triple;
@@ -54,8 +54,8 @@ export function planeOf(scene: Scene, hull: SceneHull, { axis, share, drawn }: C
 }
 
 /** Where along a hull a plane through a point is, 0 to 1. */
-export function shareAt(hull: SceneHull, across: Triple, point: readonly number[]): number {
-  const [low, high] = spanOf(hull.shape.positions, across);
+export function shareAt(hull: SceneHull, across: Triple, point: Triple): number {
+  const [low, high] = spanAlong([hull.shape.positions], across);
   return (dot(point, across) - low) / (high - low || 1);
 }
 
@@ -81,25 +81,10 @@ export function leaveCut(): void {
   if (useWorkspace.getState().tool === "cut") setTool("select");
 }
 
-function spanOf(positions: Float32Array, across: readonly number[]): [low: number, high: number] {
-  let [low, high] = [Infinity, -Infinity];
-  for (let k = 0; k < positions.length; k += 3) {
-    const at = dot(positions.subarray(k, k + 3), across);
-    low = Math.min(low, at);
-    high = Math.max(high, at);
-  }
-  return [low, high];
-}
-
 function middleOf(positions: Float32Array): Triple {
-  const middle = (axis: number): number => {
-    const unit = [axis === 0 ? 1 : 0, axis === 1 ? 1 : 0, axis === 2 ? 1 : 0];
-    const [low, high] = spanOf(positions, unit);
+  const middle = (across: Triple): number => {
+    const [low, high] = spanAlong([positions], across);
     return (low + high) / 2;
   };
-  return [middle(0), middle(1), middle(2)];
-}
-
-function dot(a: ArrayLike<number>, b: ArrayLike<number>): number {
-  return (a[0] ?? 0) * (b[0] ?? 0) + (a[1] ?? 0) * (b[1] ?? 0) + (a[2] ?? 0) * (b[2] ?? 0);
+  return [middle([1, 0, 0]), middle([0, 1, 0]), middle([0, 0, 1])];
 }

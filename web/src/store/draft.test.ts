@@ -20,7 +20,6 @@ const actions = [
 const merge = sampleCall("Merge");
 const eachMerge = sampleAction("Merge", { each: true });
 const step = (select: string[] | null, action = "Delete"): StepView => ({
-  rule: 1,
   select,
   action: sampleAction(action),
   error: null,
@@ -230,10 +229,7 @@ describe("guesses", () => {
 
   it("are offered one after the other to an empty hand", async () => {
     given([step(["x"])], ["Delete", "Merge"]);
-    vi.spyOn(api, "guesses").mockResolvedValue({
-      asset: "a",
-      guesses: [guess(1, ["x"]), guess(2, ["y", "z"], "Merge")],
-    });
+    vi.spyOn(api, "guesses").mockResolvedValue([guess(1, ["x"]), guess(2, ["y", "z"], "Merge")]);
     const stop = followGuesses();
     await vi.advanceTimersByTimeAsync(10);
     expect(useWorkspace.getState()).toMatchObject({
@@ -250,7 +246,7 @@ describe("guesses", () => {
     given([step(["x"])], ["Delete", "Merge"]);
     await removeStep("a", 0);
     given([step(null)], ["Delete", "Merge"]);
-    vi.spyOn(api, "guesses").mockResolvedValue({ asset: "a", guesses: [guess(1, ["x"]), guess(2, ["y"], "Merge")] });
+    vi.spyOn(api, "guesses").mockResolvedValue([guess(1, ["x"]), guess(2, ["y"], "Merge")]);
     const stop = followGuesses();
     await vi.advanceTimersByTimeAsync(10);
     expect(useWorkspace.getState().draft?.editing).toBe(1);
@@ -260,7 +256,7 @@ describe("guesses", () => {
   it("leave alone who has something in the hand", async () => {
     given([], ["Delete"]);
     select(["z"]);
-    vi.spyOn(api, "guesses").mockResolvedValue({ asset: "a", guesses: [guess(1, ["x"])] });
+    vi.spyOn(api, "guesses").mockResolvedValue([guess(1, ["x"])]);
     const stop = followGuesses();
     await vi.advanceTimersByTimeAsync(10);
     expect(useWorkspace.getState()).toMatchObject({ draft: null, selection: new Set(["z"]) });

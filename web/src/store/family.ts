@@ -1,22 +1,9 @@
 // Which assets the family shows, and in which order.
 import type { Card, ConfidenceView, ProjectView } from "../wire";
 import { faultsOf, weightOf } from "./checks";
+import { oncePer } from "./once";
 import { useProject } from "./project";
 import { type FilterName, type Filters, useWorkspace } from "./workspace";
-
-export const FILTERS: readonly FilterName[] = [
-  "unlabelled",
-  "unsure",
-  "demonstrated",
-  "edited",
-  "accepted",
-  "wrong",
-  "flagged",
-  "failed",
-  "stale",
-  "findings",
-  "needs review",
-];
 
 type Cards = Readonly<Record<string, Card>>;
 type Confidence = Readonly<Record<string, ConfidenceView>>;
@@ -37,6 +24,8 @@ const MATCHES: Readonly<Record<FilterName, (card: Card, engine: string, sure?: C
   findings: (card, engine) => faultsOf(card, engine).length > 0,
   "needs review": (_card, _engine, sure) => sure?.state === "needs review",
 };
+
+export const FILTERS = Object.keys(MATCHES) as readonly FilterName[];
 
 /** engine: whose limits count as findings of checks; sure: how sure its edit is. */
 export const matchesFilter = (card: Card, filter: FilterName, engine = "", sure?: ConfidenceView): boolean =>
@@ -101,14 +90,10 @@ function sortAssets(
   return [...named].sort((a, b) => (amounts.get(b) ?? 0) - (amounts.get(a) ?? 0));
 }
 
-const sorted = new WeakMap<readonly string[], readonly string[]>();
+const byName = new Intl.Collator("en", { numeric: true });
 
 /** The assets by name, numbers in them by their size; a list is sorted once. */
-function sortByName(order: readonly string[]): readonly string[] {
-  const found = sorted.get(order) ?? [...order].sort(byName.compare);
-  sorted.set(order, found);
-  return found;
-}
+const sortByName = oncePer((order: readonly string[]): readonly string[] => [...order].sort(byName.compare));
 
 /** The least probable first; after them those that are excluded, and those of which nothing is known. */
 function urgency(sure: ConfidenceView | undefined): number {
@@ -118,8 +103,6 @@ function urgency(sure: ConfidenceView | undefined): number {
 
 const amount = (card: Card | undefined, by: Amount, engine: string) =>
   card ? AMOUNT[by](card, engine) : -1;
-
-const byName = new Intl.Collator("en", { numeric: true });
 
 /** The asset before or after one, round the end; one that is not shown stands where the family has it. */
 export function neighbour(

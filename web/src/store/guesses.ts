@@ -68,8 +68,7 @@ async function fetchGuesses(): Promise<Partial<GuessesState>> {
   if (asset === null || stage !== "demonstrate" || !(program.text || outcome?.program)) return noGuesses;
   if (useGuesses.getState().asset !== asset) useGuesses.setState({ ...noGuesses, asset, loading: true });
   try {
-    const { guesses } = await api.guesses(asset);
-    return { ...noGuesses, asset, guesses };
+    return { ...noGuesses, asset, guesses: await api.guesses(asset) };
   } catch (error) {
     if (!(error instanceof ServerProblem)) throw error;
     return { ...noGuesses, asset, error: error.problem.message };

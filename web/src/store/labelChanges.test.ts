@@ -15,7 +15,6 @@ import { emptyProject, receive, useProject } from "./project";
 import { initialWorkspace, useWorkspace } from "./workspace";
 
 const found: LabelUpdate = {
-  entry: 1,
   way: "propagate",
   newly_sure: 0,
   assets: [

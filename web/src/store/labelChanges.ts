@@ -3,6 +3,7 @@ import { useMemo } from "react";
 import { create } from "zustand";
 import type { LabelUpdate, AssetLabelUpdate } from "../wire";
 import { neighbour } from "./family";
+import { oncePer } from "./once";
 import { useProject } from "./project";
 import { openAsset, setHighlight, useWorkspace } from "./workspace";
 
@@ -10,6 +11,8 @@ import { openAsset, setHighlight, useWorkspace } from "./workspace";
 export type ChangeKind = "new" | "changed";
 
 const WHAT = "relabelled";
+
+const rowsOf = oncePer((relabelled: LabelUpdate) => new Map(relabelled.assets.map((one) => [one.asset, one])));
 
 /** The one that was dismissed. */
 const useDismissed = create<{ what: LabelUpdate | null }>()(() => ({ what: null }));
@@ -85,10 +88,3 @@ export function openNextChange(relabelled: LabelUpdate, sort: ChangeKind): void 
   if (next !== null) openAsset(next);
 }
 
-const known = new WeakMap<LabelUpdate, ReadonlyMap<string, AssetLabelUpdate>>();
-
-function rowsOf(relabelled: LabelUpdate): ReadonlyMap<string, AssetLabelUpdate> {
-  const rows = known.get(relabelled) ?? new Map(relabelled.assets.map((one) => [one.asset, one]));
-  known.set(relabelled, rows);
-  return rows;
-}

@@ -45,7 +45,7 @@ describe("a label", () => {
     press("2");
     expect(labels()).toEqual(["panel", "panel", "panel"]);
     await vi.runAllTimersAsync();
-    expect(sent).toEqual([{ kind: "label", asset: "a", hulls: ["x", "y"], label: "panel" }]);
+    expect(sent).toEqual([{ kind: "label", hulls: { a: ["x", "y"] }, label: "panel" }]);
     expect(useWorkspace.getState().selection.size).toBe(3);
   });
 
@@ -83,7 +83,7 @@ describe("painting", () => {
     expect(sent).toEqual([]);
     endStroke();
     await vi.runAllTimersAsync();
-    expect(sent).toEqual([{ kind: "label", asset: "a", hulls: ["y", "z"], label: "leg" }]);
+    expect(sent).toEqual([{ kind: "label", hulls: { a: ["y", "z"] }, label: "leg" }]);
   });
 
   it("takes labels away with the empty brush", async () => {
@@ -91,7 +91,7 @@ describe("painting", () => {
     paint(["x"]);
     endStroke();
     await vi.runAllTimersAsync();
-    expect(sent).toEqual([{ kind: "label", asset: "a", hulls: ["x"], label: null }]);
+    expect(sent).toEqual([{ kind: "label", hulls: { a: ["x"] }, label: null }]);
   });
 });
 

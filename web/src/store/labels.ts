@@ -1,7 +1,7 @@
 // Labels given to hulls, at once in what is shown, one by one or stroke by stroke; and the list of labels.
-import type { AnyEdit, Card } from "../wire";
+import type { Card } from "../wire";
 import { perform } from "./edits";
-import { type HullPlace, placeOf } from "./hullPlaces";
+import { byAsset, type HullPlace, placeOf } from "./hullPlaces";
 import { type Scene, useScenes } from "./scenes";
 import { select, useWorkspace } from "./workspace";
 
@@ -18,9 +18,7 @@ export async function labelHulls(
   if (before?.asset === asset) useScenes.setState({ scene: withLabel(before, hulls, label) });
   const shown = useScenes.getState().scene;
   const places = [...hulls.map((hull) => (before?.parts ? placeOf(hull) : undefined) ?? { asset, hull }), ...elsewhere];
-  const isOne = !elsewhere.length && !before?.parts;
-  const edit: AnyEdit = isOne ? { kind: "label", asset, hulls: [...hulls], label } : { kind: "label-group", hulls: places, label };
-  const done = await perform(edit, { quiet });
+  const done = await perform({ kind: "label", hulls: Object.fromEntries(byAsset(places)), label }, { quiet });
   if (!done && useScenes.getState().scene === shown) useScenes.setState({ scene: before });
   return done;
 }

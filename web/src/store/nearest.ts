@@ -1,5 +1,5 @@
 // How far two convex shapes are apart, and where: the distance algorithm of Gilbert, Johnson and Keerthi (1988).
-import type { Triple } from "./cut";
+import { cross, dot, minus, negative, type Triple } from "./vectors";
 
 /** Of two shapes: the points that are nearest to each other, and how far these are apart [m]; 0 where they touch. */
 interface Nearest {
@@ -123,11 +123,3 @@ const witnesses = ({ corners, weights }: Mean): { a: Triple; b: Triple } => ({
 });
 
 const ORIGIN: Triple = [0, 0, 0];
-const negative = (a: Triple): Triple => [-a[0], -a[1], -a[2]];
-const minus = (a: Triple, b: Triple): Triple => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
-const dot = (a: Triple, b: Triple): number => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-const cross = (a: Triple, b: Triple): Triple => [
-  a[1] * b[2] - a[2] * b[1],
-  a[2] * b[0] - a[0] * b[2],
-  a[0] * b[1] - a[1] * b[0],
-];

@@ -23,7 +23,6 @@ const outcome = (more: Partial<OutcomeView>): OutcomeView => ({
   sample: [],
     overruled: [],
   error: null,
-  seconds: 0.1,
   ...more,
 });
 const reading = (more: Partial<CandidateView>): CandidateView => ({

@@ -21,7 +21,7 @@ const hello: Hello = {
   jobs: [],
   tour: false,
   leave: false,
-  engines: [],
+  engines: {},
   language: emptyProject.language,
 };
 const begun = applyEvent(emptyProject, hello);
@@ -85,8 +85,8 @@ describe("what the server says", () => {
 });
 
 it("what the last edit of all labels did is there until the server says otherwise", () => {
-  const relabelled = { entry: 1, way: "propagate", assets: [], newly_sure: 0 } as const;
+  const relabelled = { way: "propagate", assets: [], newly_sure: 3 } as const;
   const told = applyEvent(emptyProject, { kind: "relabelled", relabelled: { ...relabelled, assets: [] } });
-  expect(told.relabelled?.entry).toBe(1);
+  expect(told.relabelled?.newly_sure).toBe(3);
   expect(applyEvent(told, { kind: "relabelled", relabelled: null }).relabelled).toBeNull();
 });

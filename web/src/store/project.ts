@@ -1,7 +1,8 @@
 // What the server says of the project, kept as it comes; knows neither DOM nor three.js.
 import { create } from "zustand";
 import { page } from "../server/http";
-import type { AssessmentView, Card, ConfidenceView, EngineView, Event, HistoryView, Job, LanguageView, OutcomeView, ProgramView, ProjectView, Reach, LabelUpdate } from "../wire";
+import { oncePer } from "./once";
+import type { AssessmentView, Card, ConfidenceView, Event, HistoryState, Job, LanguageView, OutcomeView, ProgramView, ProjectView, Reach, LabelUpdate } from "../wire";
 
 export interface ProjectState {
   connected: boolean;
@@ -12,7 +13,7 @@ export interface ProjectState {
   cards: Readonly<Record<string, Card>>;
   /** Ids of all assets, in order. */
   order: readonly string[];
-  history: HistoryView;
+  history: HistoryState;
   /** What the last edit did, where that was one of all labels. */
   relabelled: LabelUpdate | null;
   program: ProgramView;
@@ -29,8 +30,8 @@ export interface ProjectState {
   tour: boolean;
   /** Whether one can leave the project for the start page. */
   leave: boolean;
-  /** Engines whose limits can be checked. */
-  engines: readonly EngineView[];
+  /** Titles of the engines whose limits can be checked, by name. */
+  engines: Readonly<Record<string, string>>;
   language: LanguageView;
   /** How often everything was sent anew, and of how many edits of this page. */
   hellos: number;
@@ -86,7 +87,7 @@ export const emptyProject: ProjectState = {
   jobs: [],
   tour: false,
   leave: false,
-  engines: [],
+  engines: {},
   language: { actions: [], operators: [], directions: [] },
   hellos: 0,
   own: 0,
@@ -99,33 +100,23 @@ export const useProject = create<ProjectState>()(() => emptyProject);
 /** The state after an event; the same after one of a kind that this page does not know. */
 export function applyEvent(state: ProjectState, event: Event): ProjectState {
   switch (event.kind) {
-    case "hello":
+    case "hello": {
+      const { kind, cards, reach, ...rest } = event;
+      const order = cards.map((card) => card.asset);
       return {
         ...state,
+        ...rest,
         ready: true,
-        version: event.version,
-        project: event.project,
-        cards: byAsset(event.cards),
-        order: event.cards.map((card) => card.asset),
-        history: event.history,
-        relabelled: event.relabelled,
-        program: event.program,
-        outcome: event.outcome,
-        learning: event.learning,
-        reach: byAsset(event.reach),
-        assessment: event.assessment,
-        assessing: event.assessing,
+        cards: byAsset(cards),
+        order,
+        reach: byAsset(reach),
         confidence: byAsset(event.assessment?.assets ?? []),
-        jobs: event.jobs,
-        tour: event.tour,
-        leave: event.leave,
-        engines: event.engines,
-        language: event.language,
         hellos: state.hellos + 1,
         // what is kept of an asset may be old after a time without connection
-        revisions: increment(state.revisions, event.cards.map((card) => card.asset)),
-        shapeRevisions: increment(state.shapeRevisions, event.cards.map((card) => card.asset)),
+        revisions: increment(state.revisions, order),
+        shapeRevisions: increment(state.shapeRevisions, order),
       };
+    }
     case "cards": {
       const gone = new Set(event.gone);
       const fresh = event.cards.map((card) => card.asset).filter((asset) => !(asset in state.cards));
@@ -169,21 +160,13 @@ export function applyEvent(state: ProjectState, event: Event): ProjectState {
   }
 }
 
-export function receive(event: Event): void {
-  useProject.setState((state) => applyEvent(state, event), true);
-}
+export const receive = (event: Event): void => useProject.setState((state) => applyEvent(state, event), true);
 
 type Cards = ProjectState["cards"];
 
 /** Works something out from all cards once, however many ask, until one of the cards is another. */
-export function oncePerFamily<T>(compute: (cards: readonly Card[]) => T): (cards: Cards) => T {
-  const known = new WeakMap<Cards, { result: T }>();
-  return (cards) => {
-    const found = known.get(cards) ?? { result: compute(Object.values(cards)) };
-    known.set(cards, found);
-    return found.result;
-  };
-}
+export const oncePerFamily = <T>(compute: (cards: readonly Card[]) => T): ((cards: Cards) => T) =>
+  oncePer((cards) => compute(Object.values(cards)));
 
 /** How many assets could be read. */
 export const countReadable = oncePerFamily((cards) => cards.filter((card) => card.hulls !== null).length);

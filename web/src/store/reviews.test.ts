@@ -141,7 +141,7 @@ describe("numbers about a result", () => {
 });
 
 it("marks the numbers that the alarms of an asset are about", () => {
-  const row = (text: string, kind: "alarm" | "label" = "alarm") => ({ reasons: [{ kind, text, hulls: [], rule: null }] });
+  const row = (text: string, kind: "alarm" | "label" = "alarm") => ({ reasons: [{ kind, text, hulls: [], rule: null, share: 0 }] });
   const block = "nearly one solid block: 94% of the free space is filled";
   expect(alarmsOf(row(block))).toEqual({ hulls: null, volume: block });
   expect(alarmsOf(row("volume +762%, the family +3% to +9%")).volume).toContain("+762%");

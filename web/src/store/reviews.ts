@@ -22,7 +22,7 @@ export function groupOf(card: Card, sample: readonly string[] = []): Group {
 
 /** The cards by group, in the family's order; those that tell most, in the order of the sample. */
 export function groupCards(cards: readonly Card[], sample: readonly string[] = []): Readonly<Record<Group, readonly Card[]>> {
-  const rows: Record<Group, Card[]> = { failed: [], wrong: [], flagged: [], stale: [], informative: [], open: [], accepted: [], none: [], excluded: [] };
+  const rows = Object.fromEntries(GROUPS.map((group) => [group, []])) as unknown as Record<Group, Card[]>;
   for (const card of cards) rows[groupOf(card, sample)].push(card);
   rows.informative.sort((one, other) => sample.indexOf(one.asset) - sample.indexOf(other.asset));
   return rows;
@@ -56,9 +56,11 @@ export function listOutdated(cards: readonly Card[]): readonly string[] {
 
 const isOutdated = (card: Card): boolean => card.hulls !== null && (card.output === "none" || card.stale.length > 0);
 
+/** Whether an asset has an output. */
+export const isWritten = ({ output }: Pick<Card, "output">): boolean => output === "edited" || output === "unchanged";
+
 /** Whether the output of an asset is there as it would be now. */
-export const isUpToDate = (card: Card | undefined): boolean =>
-  card !== undefined && (card.output === "edited" || card.output === "unchanged") && card.stale.length === 0;
+export const isUpToDate = (card: Card | undefined): boolean => card !== undefined && isWritten(card) && card.stale.length === 0;
 
 /** Whether the output of an asset is up to date, and signed off: sure enough, or accepted by a person. */
 export const isSignedOff = (card: Card, sure: ConfidenceView | undefined): boolean =>
@@ -66,8 +68,7 @@ export const isSignedOff = (card: Card, sure: ConfidenceView | undefined): boole
 
 /** How many outputs an export takes. */
 export function countExportable(cards: readonly Card[], confidence: Readonly<Record<string, ConfidenceView>>): { signed: number; all: number } {
-  const all = cards.filter((card) => card.output === "edited" || card.output === "unchanged").length;
-  return { signed: cards.filter((card) => isSignedOff(card, confidence[card.asset])).length, all };
+  return { signed: cards.filter((card) => isSignedOff(card, confidence[card.asset])).length, all: cards.filter(isWritten).length };
 }
 
 interface Numbers {

@@ -1,9 +1,10 @@
 // What was measured in the view: from point to point, the gap between two hulls, the extents of some. It stays until it
 // is cleared, and belongs to the asset that it was measured on.
 import { create } from "zustand";
-import { axisInFile, type Triple } from "./cut";
+import { axisInFile } from "./cut";
 import type { Scene } from "./scenes";
 import { lengthNumbers, type LengthUnit } from "./units";
+import { dot, minus, spanAlong, type Triple } from "./vectors";
 
 /** A point on a hull; at: in the frame of the file, where the hull is without the exploded view. */
 export interface RulerPoint {
@@ -110,17 +111,3 @@ export function measureText({ length, along }: Pick<Measure, "length" | "along">
   if (length === null) return { main: `${told} ${unit}`, along: "" };
   return { main: length === 0 ? `0 ${unit}: they touch` : `${all} ${unit}`, along: `${told} ${unit}` };
 }
-
-function spanAlong(all: readonly Float32Array[], axis: Triple): [low: number, high: number] {
-  let [low, high] = [Infinity, -Infinity];
-  for (const positions of all) {
-    for (let k = 0; k < positions.length; k += 3) {
-      const at = dot([positions[k] ?? 0, positions[k + 1] ?? 0, positions[k + 2] ?? 0], axis);
-      [low, high] = [Math.min(low, at), Math.max(high, at)];
-    }
-  }
-  return [low, high];
-}
-
-const minus = (a: Triple, b: Triple): Triple => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
-const dot = (a: Triple, b: Triple): number => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];

@@ -41,7 +41,7 @@ export function sampleAssessment(count: number, held: number, change: Partial<As
   const assets = Array.from({ length: count }, (_, k) =>
     sampleRow(k < held ? { asset: `a${k}`, probability: 0.5, state: "needs review" } : { asset: `a${k}` }),
   );
-  return { number: 1, threshold: 0.95, signed_off: count - held, need_review: held, excluded: 0, unseen: 0, assets, question: null, ...change };
+  return { threshold: 0.95, signed_off: count - held, need_review: held, excluded: 0, unseen: 0, assets, question: null, ...change };
 }
 
 export const sampleQuestion = (change: Partial<ReviewQuestionView> = {}): ReviewQuestionView => ({

@@ -6,6 +6,7 @@ import { ServerProblem } from "../server/http";
 import type { EditedPacket, ShapesPacket } from "../server/packet";
 import type { AssetView, Problem } from "../wire";
 import { notePositions } from "./hullPlaces";
+import { keepLatest } from "./once";
 import { useProject } from "./project";
 import type { Scene } from "./scene";
 import { sheetOf } from "./sheetScene";
@@ -123,9 +124,7 @@ async function fetchDetails(asset: string, revision: number, shapeRevision: numb
   const [view, packet] = await Promise.all([api.asset(asset), same ? known.packet : api.shapes(asset)]);
   notePositions(asset, view.hulls.map(({ name }, position) => [name, position]));
   const fresh = { view, packet, revision, shapeRevision };
-  kept.delete(asset);
-  kept.set(asset, fresh);
-  if (kept.size > MOST) kept.delete(kept.keys().next().value ?? "");
+  keepLatest(kept, asset, fresh, MOST);
   return fresh;
 }
 
@@ -141,8 +140,7 @@ async function editOf(asset: string, showing: Showing): Promise<EditedPacket | n
   if (known) return known;
   const packet =
     showing.kind === "steps" ? await api.stage(asset, showing.steps) : await api.result(asset, showing.of);
-  edited.set(key, packet);
-  if (edited.size > MOST) edited.delete(edited.keys().next().value ?? "");
+  keepLatest(edited, key, packet, MOST);
   return packet;
 }
 

@@ -1,7 +1,7 @@
 // The section plane: what lies before it is out of sight, so that one sees inside. It changes nothing of the asset; the
 // plane that cuts a hull in two is in `cut.ts`.
 import { create } from "zustand";
-import type { Triple } from "./cut";
+import type { Triple } from "./vectors";
 
 export type SectionAxis = "x" | "y" | "z" | "view";
 

@@ -62,9 +62,7 @@ export function isolate(scene: Scene, names: ReadonlySet<string>): void {
   useWorkspace.setState({ hidden: new Set(others), selection: new Set(names) });
 }
 
-export function showAll(): void {
-  useWorkspace.setState({ hidden: new Set() });
-}
+export const showAll = (): void => useWorkspace.setState({ hidden: new Set() });
 
 /** Hulls that are no more are neither selected nor hidden. */
 export function forgetMissing({ asset, hulls, showing, parts }: Scene): void {

@@ -85,8 +85,8 @@ describe("look-alikes on all assets", () => {
     select(["x"]);
     await selectSimilar("everywhere");
     applyLabel("leg");
-    const places = [["a", "x"], ["a", "y"], ["b", "u"], ["c", "v"], ["c", "w"]].map(([asset, hull]) => ({ asset, hull }));
-    await vi.waitFor(() => expect(sent).toEqual([{ kind: "label-group", hulls: places, label: "leg" }]));
+    const hulls = { a: ["x", "y"], b: ["u"], c: ["v", "w"] };
+    await vi.waitFor(() => expect(sent).toEqual([{ kind: "label", hulls, label: "leg" }]));
   });
 
   it("are selected no more after a plain click, another stage, or Escape", async () => {

@@ -60,9 +60,7 @@ export function showStart(view: StartView): void {
 }
 
 /** A project is open: the start page is as at first when it comes back. */
-export function hideStart(): void {
-  set(initialStart);
-}
+export const hideStart = (): void => set(initialStart);
 
 export function chooseSource(source: Source): void {
   if (source === useStart.getState().source) return;
@@ -76,9 +74,7 @@ export function chooseFamily(family: string): void {
 }
 
 /** Another folder was typed: what was found in the one before holds no more. */
-export function typeFolder(folder: string): void {
-  set({ folder, found: null, project: "", problem: null });
-}
+export const typeFolder = (folder: string): void => set({ folder, found: null, project: "", problem: null });
 
 export function typeProject(project: string): void {
   set(({ problem }) => ({ project, problem: problem?.place === "project" ? null : problem }));

@@ -119,9 +119,7 @@ export function removeStep(asset: string, place: number): Promise<boolean> {
 }
 
 /** Does not offer a step until the server says that the asset changed. */
-export function skipOffer(asset: string, place: number): void {
-  useOffers.setState({ last: stateKey(asset, place) });
-}
+export const skipOffer = (asset: string, place: number): void => useOffers.setState({ last: stateKey(asset, place) });
 
 export const isSkipped = (asset: string, place: number): boolean =>
   useOffers.getState().last === stateKey(asset, place);

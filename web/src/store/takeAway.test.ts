@@ -22,7 +22,7 @@ beforeEach(() => {
   useToasts.setState({ toasts: [] });
   vi.mocked(saveFrom).mockClear();
   vi.spyOn(api, "startJob").mockResolvedValue(job("running"));
-  vi.spyOn(api, "downloadTicket").mockResolvedValue({ address: "download/once" });
+  vi.spyOn(api, "downloadTicket").mockResolvedValue("download/once");
 });
 
 afterEach(() => {

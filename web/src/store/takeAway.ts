@@ -4,7 +4,7 @@ import { saveFrom } from "../server/save";
 import type { Card, ConfidenceView, DownloadJob, Job } from "../wire";
 import { makeFile } from "./jobs";
 import { useProject } from "./project";
-import { isSignedOff } from "./reviews";
+import { isSignedOff, isWritten } from "./reviews";
 import { reportError } from "./toasts";
 import { countText } from "./words";
 
@@ -17,7 +17,7 @@ export async function takeAway(request: Omit<DownloadJob, "kind">): Promise<void
 /** Saves what a job has made. */
 export async function saveFile(job: string): Promise<void> {
   try {
-    saveFrom((await api.downloadTicket(job)).address);
+    saveFrom(await api.downloadTicket(job));
   } catch (error) {
     reportError(error);
   }
@@ -38,8 +38,6 @@ function endOfJob(id: string): Promise<Job | null> {
     const leave = useProject.subscribe(() => look() && leave());
   });
 }
-
-const isWritten = (card: Card): boolean => card.output === "edited" || card.output === "unchanged";
 
 /** Assets with outputs, in the family's order. */
 export const listWritten = (cards: readonly Card[]): readonly string[] => cards.filter(isWritten).map((card) => card.asset);

@@ -121,13 +121,9 @@ export const TOUR_STOPS: readonly TourStop[] = [
 /** step: of the mark that is shown, null while the tour is not; back: one came back to it, and stays till Next. */
 export const useTour = create<{ step: number | null; back: boolean }>()(() => ({ step: null, back: false }));
 
-export function startTour(): void {
-  useTour.setState({ step: 0, back: false });
-}
+export const startTour = (): void => useTour.setState({ step: 0, back: false });
 
-export function endTour(): void {
-  useTour.setState({ step: null, back: false });
-}
+export const endTour = (): void => useTour.setState({ step: null, back: false });
 
 /** To the next mark whose deed is not done yet, or back to the one before. */
 export function moveTour(by: 1 | -1): void {

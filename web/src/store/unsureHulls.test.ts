@@ -119,14 +119,14 @@ describe("the queue of unsure hulls", () => {
   it("vouches for a label as it is, then goes on", async () => {
     select(["x"]);
     await confirmLabels();
-    expect(sent).toEqual([{ kind: "label", asset: "a", hulls: ["x"], label: "leg" }]);
+    expect(sent).toEqual([{ kind: "label", hulls: { a: ["x"] }, label: "leg" }]);
     expect(useWorkspace.getState().asset).toBe("b");
   });
 
   it("goes on when a digit labelled the hull that it put in hand", async () => {
     await press("N");
     await press("2");
-    expect(sent).toEqual([{ kind: "label", asset: "a", hulls: ["x"], label: "panel" }]);
+    expect(sent).toEqual([{ kind: "label", hulls: { a: ["x"] }, label: "panel" }]);
     expect(inHand()).toEqual(["b", "x"]);
   });
 
@@ -143,13 +143,13 @@ describe("the queue of unsure hulls", () => {
   it("stays with a hull whose label was taken away", async () => {
     await press("N");
     await press("0");
-    expect(sent).toEqual([{ kind: "label", asset: "a", hulls: ["x"], label: null }]);
+    expect(sent).toEqual([{ kind: "label", hulls: { a: ["x"] }, label: null }]);
     expect(inHand()).toEqual(["a", "x"]);
   });
 
   it("passes over what was labelled though the cards do not tell it yet, and says when all are sure", async () => {
     for (const key of ["N", "1", "Enter", "2"]) await press(key);
-    expect(sent.map((edit) => edit.kind === "label" && [edit.asset, ...edit.hulls])).toEqual([["a", "x"], ["b", "x"], ["b", "z"]]);
+    expect(sent.map((edit) => edit.kind === "label" && edit.hulls)).toEqual([{ a: ["x"] }, { b: ["x"] }, { b: ["z"] }]);
     expect(inHand()).toEqual(["b", "z"]);
     expect(toasts()).toEqual(["No unsure label is left."]);
   });

@@ -18,9 +18,7 @@ interface UploadState {
 
 export const useUpload = create<UploadState>()(() => ({ sending: null, stopped: false }));
 
-export function stopUpload(): void {
-  useUpload.setState({ stopped: true });
-}
+export const stopUpload = (): void => useUpload.setState({ stopped: true });
 
 type SendFile = (path: string, file: Blob) => Promise<unknown>;
 

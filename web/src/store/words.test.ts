@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { changeText, countText, errorParts, listText, shareText, shortName, confidenceText } from "./words";
+import { changeText, countText, errorParts, listText, shortName } from "./words";
 
 describe("words", () => {
   it("counts one and many", () => {
@@ -16,20 +16,6 @@ describe("words", () => {
   it("shortens an asset to its last part", () => {
     expect(shortName("a/b/c.urdf")).toBe("c.urdf");
     expect(shortName("c.urdf")).toBe("c.urdf");
-  });
-
-  it("says a belief in words that grow more certain", () => {
-    expect([0.99, 0.8, 0.5, 0.2].map(confidenceText)).toEqual(["almost certain", "likely", "about even", "a guess"]);
-  });
-
-  it("says a share as one asset in so many", () => {
-    expect([0, 0.02, 0.2, 0.5, 1].map(shareText)).toEqual([
-      "no asset",
-      "about 1 asset in 50",
-      "about 1 asset in 5",
-      "about every second asset",
-      "almost every asset",
-    ]);
   });
 
   it("writes a change with its sign", () => {

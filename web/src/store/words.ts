@@ -48,21 +48,6 @@ export function shortName(asset: string): string {
   return asset.slice(asset.lastIndexOf("/") + 1);
 }
 
-/** How sure something is, in words; belief in 0..1. */
-export function confidenceText(belief: number): string {
-  if (belief >= 0.95) return "almost certain";
-  if (belief >= 0.75) return "likely";
-  return belief >= 0.45 ? "about even" : "a guess";
-}
-
-/** A share in 0..1 as `about 1 asset in 5`. */
-export function shareText(share: number): string {
-  if (share <= 0) return "no asset";
-  if (share > 0.75) return "almost every asset";
-  if (share > 0.4) return "about every second asset";
-  return `about 1 asset in ${Math.round(1 / share).toLocaleString("en-GB")}`;
-}
-
 /** The change from one number to another as `+12 %` or `−3 %`; null where there was nothing. */
 export function changeText(before: number, after: number): string | null {
   if (before <= 0) return null;

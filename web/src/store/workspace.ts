@@ -232,18 +232,12 @@ function sortForReview(): void {
   if (filters.sort === "name" && !filters.chosen) setFilters({ sort: "probability" });
 }
 
-export function show(showing: Showing): void {
-  set({ showing });
-}
+export const show = (showing: Showing): void => set({ showing });
 
-export function select(names: Iterable<string>): void {
-  set({ selection: new Set(names), elsewhere: NOWHERE });
-}
+export const select = (names: Iterable<string>): void => set({ selection: new Set(names), elsewhere: NOWHERE });
 
 /** Selects hulls of what is shown; what is selected elsewhere stays. */
-export function selectHere(names: Iterable<string>): void {
-  set({ selection: new Set(names) });
-}
+export const selectHere = (names: Iterable<string>): void => set({ selection: new Set(names) });
 
 /** Adds, takes away or replaces, as shift- and ctrl-clicks do. */
 export function selectMore(names: Iterable<string>, how: "replace" | "add" | "toggle" | "subtract"): void {
@@ -258,22 +252,14 @@ export function selectMore(names: Iterable<string>, how: "replace" | "add" | "to
 }
 
 /** Chooses a tool; landmarks are clicked anew. */
-export function setTool(tool: Tool): void {
-  set({ tool, landmarks: [] });
-}
+export const setTool = (tool: Tool): void => set({ tool, landmarks: [] });
 
-export function setThrough(through: boolean): void {
-  set({ through });
-}
+export const setThrough = (through: boolean): void => set({ through });
 
 /** Arms a label, so that clicks paint it; null puts the brush down. */
-export function setBrush(brush: string | null): void {
-  set({ brush });
-}
+export const setBrush = (brush: string | null): void => set({ brush });
 
-export function setDraft(draft: Draft | null): void {
-  set({ draft });
-}
+export const setDraft = (draft: Draft | null): void => set({ draft });
 
 export function hover(name: string | null): void {
   if (useWorkspace.getState().hover !== name) set({ hover: name });
@@ -296,16 +282,12 @@ export function lookFrom(to: WorkspaceState["cameraOrder"]["to"]): void {
 }
 
 /** The hulls that belong to a highlight's thumbnails, or none. */
-export function setHighlight(highlight: Highlight | null): void {
-  set({ highlight });
-}
+export const setHighlight = (highlight: Highlight | null): void => set({ highlight });
 
 /** The unit of lengths that the person chose. */
 export const useUnit = (): LengthUnit => useWorkspace((workspace) => workspace.unit);
 
-export function setUnit(unit: LengthUnit): void {
-  set({ unit });
-}
+export const setUnit = (unit: LengthUnit): void => set({ unit });
 
 export interface LayoutState {
   /** Whether the family's column is there. */
@@ -323,6 +305,4 @@ export const initialLayout: LayoutState = { family: true, gallery: false, split:
 
 export const useLayout = create<LayoutState>()(() => initialLayout);
 
-export function setLayout(change: Partial<LayoutState>): void {
-  useLayout.setState(change);
-}
+export const setLayout = (change: Partial<LayoutState>): void => useLayout.setState(change);

@@ -10,7 +10,7 @@ from secrets import compare_digest
 from typing import Annotated, Any
 from urllib.parse import urlsplit
 
-from fastapi import APIRouter, Depends, Header, WebSocket, WebSocketDisconnect
+from fastapi import APIRouter, Body, Depends, Header, WebSocket, WebSocketDisconnect
 from fastapi.responses import Response
 from starlette.datastructures import Headers, MutableHeaders
 from starlette.requests import HTTPConnection
@@ -133,6 +133,8 @@ def _safety_headers(host: str) -> dict[str, str]:
     }
 
 
+BodyText = Annotated[str, Body(embed=True)]
+"""A field of a request's JSON object."""
 SenderId = Annotated[str | None, Header(alias="X-Page")]
 """The page that sends the request, by its own name."""
 

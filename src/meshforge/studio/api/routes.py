@@ -1,5 +1,5 @@
-"""Routes that answer questions about assets, pictures, programs, the language, and checks of outputs; and those that
-change the project: edits, undo and redo, learning, jobs, and uploaded templates and assets.
+"""Routes that answer questions about assets, pictures, programs, the language, and checks of outputs; those that change
+the project: edits, undo and redo, learning, jobs, uploads; and downloads.
 """
 
 from __future__ import annotations
@@ -11,13 +11,14 @@ from pathlib import Path
 from typing import Annotated, Literal, TypeVar
 
 from fastapi import APIRouter, Body, Query, Request, Response
+from fastapi.responses import FileResponse
 from starlette.concurrency import run_in_threadpool
 
 from meshforge.batch import ADDED
 from meshforge.common import ProjectError, StoppedError, join_names
 from meshforge.language import Program
 from meshforge.rendering import LengthUnit
-from meshforge.studio.api.connection import CurrentSession, SenderId, packet_response
+from meshforge.studio.api.connection import BodyText, CurrentSession, SenderId, packet_response
 from meshforge.studio.edits import AnyEdit
 from meshforge.studio.edits.assets import AddAssets, AddTemplate
 from meshforge.studio.errors import NotHereError
@@ -30,10 +31,10 @@ from meshforge.studio.thumbnails import ThumbnailOf
 from meshforge.studio.wire import requests
 from meshforge.studio.wire.asset import AssetView, CheckPart, CheckPicture, CheckResult
 from meshforge.studio.wire.jobs import Job, JobRequest
-from meshforge.studio.wire.program import CoverageView, Guesses, ProgramCheck, SelectionView
+from meshforge.studio.wire.program import CoverageView, Guess, ProgramCheck, SelectionView
 from meshforge.studio.workers import wait_for
 
-router = APIRouter(prefix="/api")
+router = APIRouter()
 Result = TypeVar("Result")
 
 POLL_SECONDS = 0.2
@@ -41,96 +42,78 @@ POLL_SECONDS = 0.2
 _CACHE_FOREVER = {"Cache-Control": "private, max-age=31536000, immutable"}
 
 
-@router.get("/asset")
+@router.get("/api/asset")
 def get_asset(session: CurrentSession, asset: str) -> AssetView:
     """An asset with its steps."""
     return assets.build_asset_view(session.project, asset, session.mesh(asset))
 
 
-@router.get("/shapes")
+@router.get("/api/shapes")
 def get_shapes(session: CurrentSession, asset: str) -> Response:
     """The hulls and non-convex pieces of an asset."""
     return packet_response(packets.pack_asset(session.mesh(asset)))
 
 
-@router.get("/visual")
+@router.get("/api/visual")
 def get_visual(session: CurrentSession, asset: str) -> Response:
     """The visual surfaces of an asset."""
     return packet_response(packets.pack_visual(session.mesh(asset)))
 
 
-@router.get("/stage")
+@router.get("/api/stage")
 def get_stage(session: CurrentSession, asset: str, steps: int) -> Response:
     """An asset after some of its steps."""
     return packet_response(packets.preview_steps(session.project, asset, session.mesh(asset), steps))
 
 
-@router.post("/preview")
+@router.post("/api/preview")
 def preview(session: CurrentSession, request: requests.PreviewRequest) -> Response:
     """What one more action would do."""
     return packet_response(packets.preview_action(session.project, request.asset, session.mesh(request.asset), request))
 
 
-@router.post("/select")
+@router.post("/api/select")
 def select(session: CurrentSession, request: requests.SelectRequest) -> SelectionView:
     """What an extractor selects on an asset."""
-    program = None if request.rule is None else present_program(session)
+    program = None if request.rule is None else session.present_program
     return programs.select_hulls(session.project, request.asset, session.mesh(request.asset), request, program)
 
 
-@router.post("/similar")
+@router.post("/api/similar")
 def find_similar(session: CurrentSession, request: requests.SimilarRequest) -> requests.SimilarView:
     """Which hulls look like some."""
     session.check_assets(*(one.asset for one in request.hulls), *(request.assets or ()))
-    return session.similar.find(session.project, readable_assets(session), request)
+    return session.similar.find(session.project, session.pages.with_hulls, request)
 
 
-@router.post("/similar/prepare")
+@router.post("/api/similar/prepare")
 def prepare_similar(session: CurrentSession) -> requests.EditReceipt:
     """Describe the assets, as hulls that look alike may soon be asked for."""
-    assets = choose_assets((), readable_assets(session))
-    session.similar.prepare(session.project, assets)
+    session.similar.prepare(session.project, choose_assets((), session.pages.with_hulls))
     return requests.EditReceipt(message="preparing")
 
 
-def readable_assets(session: Session) -> tuple[str, ...]:
-    """The assets that have hulls, as far as they are read by now."""
-    return tuple(card.asset for card in session.pages.cards if card.hulls)
-
-
-@router.post("/generalise")
-def generalise(session: CurrentSession, request: requests.GeneraliseRequest) -> CoverageView:
+@router.post("/api/generalise")
+def generalise(session: CurrentSession, extractor: BodyText, rule: Annotated[int, Body()] = 1) -> CoverageView:
     """What an extractor selects on all assets."""
-    return wait_for(session.learning.generalise(request.extractor, request.rule))
+    return wait_for(session.learning.generalise(extractor, rule))
 
 
-@router.get("/result")
+@router.get("/api/result")
 def get_result(session: CurrentSession, asset: str, of: Literal["program", "output"]) -> Response:
     """What the program makes of an asset, or the output that was written."""
     program = session.project.program() if of == "program" else None
     return packet_response(packets.preview_result(session.project, asset, session.mesh(asset), of, program))
 
 
-@router.get("/guesses")
-def get_guesses(session: CurrentSession, asset: str) -> Guesses:
+@router.get("/api/guesses")
+def get_guesses(session: CurrentSession, asset: str) -> tuple[Guess, ...]:
     """What the program would select for each rule."""
-    mesh, program = session.mesh(asset), present_program(session)
-    if program is None:
-        return Guesses(asset=asset, guesses=())
-    return programs.guess_selections(session.project, asset, mesh, program)
+    mesh, program = session.mesh(asset), session.present_program
+    return programs.guess_selections(session.project, asset, mesh, program) if program else ()
 
 
-def present_program(session: Session) -> Program | None:
-    """The program that was learned last, or else the accepted one; one that a person wrote comes before both."""
-    learned, accepted = session.pages.outcome, session.pages.program
-    if learned and learned.program and not accepted.by_hand:
-        return Program.parse(learned.program)
-    if accepted.error:
-        raise ProjectError(accepted.error, where="program.mf")
-    return Program.parse(accepted.text) if accepted.text else None
-
-
-@router.get("/thumbnail")
+@router.get("/api/thumbnail")
 async def get_thumbnail(session: CurrentSession, asset: str, of: ThumbnailOf, v: str) -> Response:
     """The thumbnail of an asset or of its output; v: the digest on its card."""
     session.check_assets(asset)
@@ -140,30 +123,30 @@ async def get_thumbnail(session: CurrentSession, asset: str, of: ThumbnailOf, v:
     return Response(data, media_type="image/png", headers=_CACHE_FOREVER)
 
 
-@router.get("/picture")
+@router.get("/api/picture")
 def get_picture(
     session: CurrentSession, asset: str, rule: int, show: Annotated[tuple[str, ...], Query()] = ()
 ) -> Response:
     """An asset as it is before a rule of the present program; show: hulls that are to be seen in it."""
-    program = present_program(session)
+    program = session.present_program
     return packet_response(assets.draw_rule_picture(session.project, asset, session.mesh(asset), rule, program, show))
 
 
-@router.get("/turned")
+@router.get("/api/turned")
 def get_turned(session: CurrentSession, asset: str, orient: str) -> Response:
     """The thumbnail of an asset as a directive turns it."""
     mesh = session.mesh(asset)
-    upright = assets.compute_upright(session.project, mesh, Program.parse(f"orient {orient}\n").orient)
-    return Response(assets.draw_thumbnail(mesh, upright.pose), media_type="image/png")
+    pose, _ = assets.compute_upright(session.project, mesh, Program.parse(f"orient {orient}\n").orient)
+    return Response(assets.draw_thumbnail(mesh, pose), media_type="image/png")
 
 
-@router.post("/program/check")
-def check_program(request: requests.CheckRequest) -> ProgramCheck:
+@router.post("/api/program/check")
+def check_program(text: BodyText) -> ProgramCheck:
     """Whether a text is a program."""
-    return programs.check_text(request.text)
+    return programs.check_text(text)
 
 
-@router.get("/checked")
+@router.get("/api/checked")
 async def get_checked(session: CurrentSession, request: Request, asset: str, part: CheckPart) -> CheckResult:
     """What is measured of the output of an asset."""
     session.check_assets(asset)
@@ -175,7 +158,7 @@ async def get_checked(session: CurrentSession, request: Request, asset: str, par
     return found
 
 
-@router.get("/checked/pictures")
+@router.get("/api/checked/pictures")
 async def get_check_pictures(
     session: CurrentSession, request: Request, asset: str, part: Literal["fit", "clearance"], unit: LengthUnit = "m"
 ) -> tuple[CheckPicture, ...]:
@@ -184,7 +167,7 @@ async def get_check_pictures(
     return await _wait_while_connected(request, session.checks.draw_pictures(session.project, asset, part, unit))
 
 
-@router.get("/checked/picture")
+@router.get("/api/checked/picture")
 def get_check_picture(session: CurrentSession, asset: str, name: str, v: str) -> Response:
     """One of these pictures; v: the digest on the card."""
     session.check_assets(asset)
@@ -206,7 +189,7 @@ async def _wait_while_connected(request: Request, future: Future[Result]) -> Res
     return wait_for(future)
 
 
-@router.post("/edit")
+@router.post("/api/edit")
 def make_edit(
     session: CurrentSession, change: Annotated[AnyEdit, Body()], page: SenderId = None
 ) -> requests.EditReceipt:
@@ -214,51 +197,51 @@ def make_edit(
     return session.edit(change, page)
 
 
-@router.post("/undo")
+@router.post("/api/undo")
 def undo(session: CurrentSession, page: SenderId = None) -> requests.EditReceipt:
     """Undo what was done last."""
     return session.move("undo", page)
 
 
-@router.post("/redo")
+@router.post("/api/redo")
 def redo(session: CurrentSession, page: SenderId = None) -> requests.EditReceipt:
     """Redo what was undone last."""
     return session.move("redo", page)
 
 
-@router.post("/learn")
+@router.post("/api/learn")
 def learn(session: CurrentSession) -> requests.EditReceipt:
     """Learn now, and take what is learned."""
     return session.learn()
 
 
-@router.post("/learn/stop")
+@router.post("/api/learn/stop")
 def stop_learning(session: CurrentSession) -> requests.EditReceipt:
     """Stop the learning run that is under way."""
     session.learning.stop()
     return requests.EditReceipt(message="stopped")
 
 
-@router.post("/jobs")
+@router.post("/api/jobs")
 def post_job(session: CurrentSession, request: Annotated[JobRequest, Body(discriminator="kind")]) -> Job:
     """Start a job."""
     return start_job(session, request)
 
 
-@router.post("/jobs/cancel")
-def cancel_job(session: CurrentSession, request: requests.JobCancel) -> Job:
+@router.post("/api/jobs/cancel")
+def cancel_job(session: CurrentSession, id: BodyText) -> Job:
     """Have a job stop."""
-    return session.jobs.cancel(request.id)
+    return session.jobs.cancel(id)
 
 
-@router.get("/labels/sources")
+@router.get("/api/labels/sources")
 def get_label_sources(session: CurrentSession) -> requests.LabelSources:
     """Where labels could come from, as far as assets are read by now."""
     offered = session.offers.of(session.project, session.pages.readable)
     return requests.LabelSources(files=len(offered.files), names=offered.named, model=model_of(session.project))
 
 
-@router.put("/templates")
+@router.put("/api/templates")
 async def put_template(
     session: CurrentSession, request: Request, name: str, page: SenderId = None
 ) -> requests.UploadReceipt:
@@ -276,14 +259,14 @@ def _add_template(session: Session, name: str, file: Path, page: str | None) -> 
     return requests.UploadReceipt(names=(name,))
 
 
-@router.put("/assets")
+@router.put("/api/assets")
 async def put_asset_file(session: CurrentSession, request: Request, path: str) -> requests.UploadReceipt:
     """Keep a file of an asset aside."""
     await session.uploads.put(path, request.stream())
     return requests.UploadReceipt(names=(path,))
 
 
-@router.post("/assets")
+@router.post("/api/assets")
 def add_assets(session: CurrentSession, page: SenderId = None) -> requests.UploadReceipt:
     """Take the files that were sent as assets, but for those that cannot be read. Raises ProjectError,
     and throws them away, where none can be read, or one would take the place of another file."""
@@ -304,3 +287,16 @@ def _check_free(home: Path, files: tuple[str, ...], ids: Collection[str]) -> Non
     taken = [name for name in files if (home / name).exists() or f"{ADDED}/{name}" in ids]
     if taken:
         raise ProjectError(f"there is a file of that name already: {join_names(taken)}", remedy="Give it another name.")
+
+
+@router.post("/api/download")
+def get_ticket(session: CurrentSession, job: BodyText) -> str:
+    """Return an address, below the studio's own, that is good for one download of what a job has made."""
+    return f"download/{session.downloads.give_ticket(job)}"
+
+
+@router.get("/download/{ticket}")
+def download(session: CurrentSession, ticket: str) -> FileResponse:
+    """Return the file itself, never shown as a page. The ticket takes the place of the token."""
+    path = session.downloads.redeem(ticket)
+    return FileResponse(path, filename=path.name, headers={"Cache-Control": "no-store"})

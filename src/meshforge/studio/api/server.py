@@ -24,7 +24,7 @@ from starlette.staticfiles import StaticFiles
 from starlette.types import ASGIApp, Scope
 
 from meshforge.common import MeshForgeError, UsageError, describe_invalid_field
-from meshforge.studio.api import connection, downloads, routes, start
+from meshforge.studio.api import connection, routes, start
 from meshforge.studio.api.connection import Guard
 from meshforge.studio.errors import problem_of, status_of
 from meshforge.studio.host import Host
@@ -122,37 +122,25 @@ def build_app(host: Host, token: str, page: Path) -> ASGIApp:
     """The web application of a studio. page: the folder of the built page. Raises MeshForgeError as `open_page`."""
     app = FastAPI(title="MeshForge studio", docs_url=None, redoc_url=None, openapi_url=None)
     app.state.host = host
-    for module in (routes, downloads, start, connection):
+    for module in (routes, start, connection):
         app.include_router(module.router)
     app.mount("/", open_page(page))
-    app.add_exception_handler(MeshForgeError, _handle_error)
-    app.add_exception_handler(RequestValidationError, _handle_invalid)
-    app.add_exception_handler(HTTPException, _handle_http)
-    app.add_exception_handler(Exception, _handle_fault)
+    for kind in (MeshForgeError, RequestValidationError, HTTPException, Exception):
+        app.add_exception_handler(kind, _handle_error)
     return Guard(app, token)
 
 
-def _respond(problem: Problem, status: int) -> JSONResponse:
-    return JSONResponse(problem.model_dump(mode="json"), status)
-
-
 def _handle_error(_: Request, error: Exception) -> JSONResponse:
-    return _respond(problem_of(error), status_of(error))
-
-
-def _handle_fault(_: Request, error: Exception) -> JSONResponse:
-    _LOG.debug("a fault of the studio", exc_info=error)
-    return _respond(problem_of(error), 500)
-
-
-def _handle_invalid(_: Request, error: Exception) -> JSONResponse:
-    assert isinstance(error, RequestValidationError)
-    return _respond(Problem(message=describe_invalid_field(error.errors()[0])), 400)
-
-
-def _handle_http(_: Request, error: Exception) -> JSONResponse:
-    assert isinstance(error, HTTPException)
-    return _respond(Problem(message=str(error.detail)), error.status_code)
+    match error:
+        case RequestValidationError():
+            problem, status = Problem(message=describe_invalid_field(error.errors()[0])), 400
+        case HTTPException():
+            problem, status = Problem(message=str(error.detail)), error.status_code
+        case _:
+            problem, status = problem_of(error), status_of(error)
+    if status == 500:
+        _LOG.debug("a fault of the studio", exc_info=error)
+    return JSONResponse(problem.model_dump(mode="json"), status)
 
 
 class PageFiles(StaticFiles):

@@ -6,13 +6,13 @@ from typing import Annotated
 
 from fastapi import APIRouter, Body, Depends, Request
 
-from meshforge.studio.api.connection import CurrentHost
+from meshforge.studio.api.connection import BodyText, CurrentHost
 from meshforge.studio.jobs import start_job
 from meshforge.studio.start import folders
 from meshforge.studio.start.page import StartPage
-from meshforge.studio.wire import requests
 from meshforge.studio.wire.jobs import DecomposeJob
-from meshforge.studio.wire.start import AssetsFound, FolderView, StartView
+from meshforge.studio.wire.requests import EditReceipt, UploadReceipt
+from meshforge.studio.wire.start import AssetsFound, FolderView, NewProject, ProjectOfFamily, StartView
 
 router = APIRouter(prefix="/api/start")
 
@@ -38,10 +38,10 @@ def look_at_folder(start: CurrentStart, folder: str) -> AssetsFound:
 
 
 @router.put("/files")
-async def put_file(start: CurrentStart, request: Request, path: str) -> requests.UploadReceipt:
+async def put_file(start: CurrentStart, request: Request, path: str) -> UploadReceipt:
     """Keep a file for a new project."""
     await start.uploads.put(path, request.stream())
-    return requests.UploadReceipt(names=(path,))
+    return UploadReceipt(names=(path,))
 
 
 @router.post("/files")
@@ -51,42 +51,40 @@ def look_at_files(start: CurrentStart) -> AssetsFound:
 
 
 @router.post("/files/clear")
-def clear_files(start: CurrentStart) -> requests.UploadReceipt:
+def clear_files(start: CurrentStart) -> UploadReceipt:
     """Throw away the files that were sent."""
     start.uploads.clear()
-    return requests.UploadReceipt(names=())
+    return UploadReceipt(names=())
 
 
 @router.post("/forget")
-def forget(start: CurrentStart, request: requests.FolderRequest) -> StartView:
+def forget(start: CurrentStart, folder: BodyText) -> StartView:
     """Take a project off the list of recent ones."""
-    start.recent.forget(request.folder)
+    start.recent.forget(folder)
     return start.view
 
 
 @router.post("/open")
-def open_project(host: CurrentHost, start: CurrentStart, request: requests.FolderRequest) -> requests.OpenReceipt:
+def open_project(host: CurrentHost, start: CurrentStart, folder: BodyText) -> EditReceipt:
     """Open a project."""
-    folder = folders.parse_path(request.folder, "the folder of the project")
-    folders.check_folder(folder)
-    host.open(folder)
-    return requests.OpenReceipt(folder=str(folder))
+    path = folders.parse_path(folder, "the folder of the project")
+    folders.check_folder(path)
+    host.open(path)
+    return EditReceipt(message=f"{path} opened")
 
 
 @router.post("/new")
-def make_project(
-    host: CurrentHost, request: Annotated[requests.NewProject, Body(discriminator="kind")]
-) -> requests.OpenReceipt:
+def make_project(host: CurrentHost, request: Annotated[NewProject, Body(discriminator="kind")]) -> EditReceipt:
     """Make a project and open it; hulls are made in a job, as far as that is asked for."""
     session = host.create(lambda start: start.create(request))
-    if not isinstance(request, requests.ProjectOfFamily) and request.decompose:
+    if not isinstance(request, ProjectOfFamily) and request.decompose:
         job = DecomposeJob(assets=session.project.assets(), method=request.decompose, by=request.by)
         start_job(session, job)
-    return requests.OpenReceipt(folder=str(session.project.folder))
+    return EditReceipt(message=f"{session.project.folder} made")
 
 
 @router.post("/leave")
-def leave_project(host: CurrentHost) -> requests.OpenReceipt:
+def leave_project(host: CurrentHost) -> EditReceipt:
     """Close the project, and show the start page."""
     host.leave()
-    return requests.OpenReceipt(folder="")
+    return EditReceipt(message="left")

@@ -10,7 +10,6 @@ from meshforge.studio.edits import assets, program, replies
 
 AnyEdit = Annotated[
     assets.LabelHulls
-    | assets.LabelGroup
     | assets.LabelFromFiles
     | assets.LabelFromNames
     | assets.SetVocabulary

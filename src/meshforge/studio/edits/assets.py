@@ -14,58 +14,28 @@ from meshforge.signoff import ExclusionReason
 from meshforge.store import Layout, list_files
 from meshforge.studio.actions import read_action
 from meshforge.studio.edits.base import Edit, LabelsByAsset
-from meshforge.studio.wire.actions import ActionCall
-from meshforge.studio.wire.requests import HullOfAsset
+from meshforge.studio.wire.program import ActionCall
 
 
 class LabelHulls(Edit):
-    """Label some hulls of an asset; null takes their labels away."""
+    """Label some hulls, given by name for each asset; null takes their labels away."""
 
     kind: Literal["label"] = "label"
-    touches = (Layout.labels,)
-    asset: str
-    hulls: tuple[str, ...]
-    label: str | None
-
-    def apply(self, project: Project) -> None:
-        project.set_labels(self.asset, dict.fromkeys(self.hulls, self.label))
-
-    def list_labels(self) -> LabelsByAsset:
-        return {self.asset: dict.fromkeys(self.hulls, self.label)}
-
-    def describe(self, project: Project) -> str:
-        hulls = f"{pluralize(len(self.hulls), 'hull')} of {self.asset}"
-        return f"{hulls} labelled {self.label}" if self.label else f"label of {hulls} taken away"
-
-
-class LabelGroup(Edit):
-    """Give hulls of several assets one label; null takes their labels away."""
-
-    kind: Literal["label-group"] = "label-group"
-    hulls: tuple[HullOfAsset, ...]
+    hulls: dict[str, tuple[str, ...]]
     label: str | None
 
     def apply(self, project: Project) -> None:
         project.set_labels_of(self.list_labels())
 
     def list_labels(self) -> LabelsByAsset:
-        labels: dict[str, dict[str, str | None]] = {}
-        for one in self.hulls:
-            labels.setdefault(one.asset, {})[one.hull] = self.label
-        return labels
+        return {asset: dict.fromkeys(names, self.label) for asset, names in self.hulls.items()}
 
     def list_paths(self, project: Project) -> tuple[Path, ...]:
-        return tuple(project.layout.labels(asset) for asset in self._assets)
+        return tuple(map(project.layout.labels, self.hulls))
 
     def describe(self, project: Project) -> str:
-        count = len(self._assets)
-        where = self._assets[0] if count == 1 else pluralize(count, "asset")
-        hulls = f"{pluralize(len(self.hulls), 'hull')} of {where}"
+        hulls = f"{pluralize(sum(map(len, self.hulls.values())), 'hull')} of {_count_or_name(tuple(self.hulls))}"
         return f"{hulls} labelled {self.label}" if self.label else f"label of {hulls} taken away"
-
-    @property
-    def _assets(self) -> tuple[str, ...]:
-        return tuple(dict.fromkeys(one.asset for one in self.hulls))
 
 
 class LabelFromFiles(Edit):

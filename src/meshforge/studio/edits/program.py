@@ -12,8 +12,8 @@ from meshforge.store import ConflictError, Layout, list_files
 from meshforge.studio.actions import read_action
 from meshforge.studio.edits import base
 from meshforge.studio.wire import Wire
-from meshforge.studio.wire.actions import ActionCall
 from meshforge.studio.wire.family import AxisLandmarks
+from meshforge.studio.wire.program import ActionCall
 from meshforge.synthesis import Answer, Step
 
 

@@ -17,8 +17,8 @@ from meshforge.signoff import HullPlace, ReviewChoice, ReviewQuestion, ReviewRep
 from meshforge.signoff.question import NO
 from meshforge.store import Layout
 from meshforge.studio.edits.base import Edit, LabelsByAsset
+from meshforge.studio.wire.family import ReviewQuestionView
 from meshforge.studio.wire.requests import HullOfAsset
-from meshforge.studio.wire.signoff import ReviewQuestionView
 
 
 class HullLabel(HullOfAsset):

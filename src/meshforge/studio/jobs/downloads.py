@@ -14,12 +14,12 @@ from meshforge.common import UsageError, pluralize
 from meshforge.language import Program
 from meshforge.project import build_run_report, summarize_outputs
 from meshforge.rendering import encode_gif, list_turns
-from meshforge.studio.downloads import to_file_name
 from meshforge.studio.errors import NotHereError
 from meshforge.studio.jobs.outputs import list_signed_off
 from meshforge.studio.jobs.turntable import FRAMES_A_TASK, TurntableAsset, draw_turntable
 from meshforge.studio.session.job_runner import JobProgress
 from meshforge.studio.session.session import Session
+from meshforge.studio.transfers import to_file_name
 from meshforge.studio.wire.family import Card
 from meshforge.studio.wire.jobs import DownloadJob, Job, JobLine
 

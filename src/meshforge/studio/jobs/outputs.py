@@ -1,11 +1,14 @@
-"""Jobs on outputs: running the program, checking what it wrote, and exporting it into a folder of its own."""
+"""Jobs on outputs: running the program, once new assets are prepared as the others were, checking what it wrote, and
+exporting it into a folder of its own."""
 
 from __future__ import annotations
 
 import os
 import shutil
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from pathlib import Path
+from uuid import uuid4
 
 from meshforge import batch
 from meshforge.common import (
@@ -15,11 +18,11 @@ from meshforge.common import (
     join_names,
     plain_path,
     pluralize,
+    relative_name,
     replace_atomically,
     write_atomically,
 )
-from meshforge.project import sees_whole_family
-from meshforge.studio.jobs.new_assets import NewAssetPreparation, prepare_new
+from meshforge.project import NewAssetOptions, NewAssetResult, describe_new, list_new, sees_whole_family
 from meshforge.studio.session.job_runner import JobProgress
 from meshforge.studio.session.session import Session
 from meshforge.studio.wire.asset import Fault
@@ -40,10 +43,8 @@ def start_apply(session: Session, request: ApplyJob) -> Job:
         raise ProjectError("there is no program yet", remedy="Demonstrate what is to be done on an asset or two.")
 
     def work(progress: JobProgress) -> str:
-        summary, new = (
-            batch.RunSummary(shown=project.reference_measures()),
-            prepare_new(session, progress, assets, rebuild=request.rebuild),
-        )
+        summary = batch.RunSummary(shown=project.reference_measures())
+        new = prepare_new(session, progress, assets, rebuild=request.rebuild)
         for failed in new.failed:
             summary.add(failed)
             progress.add_line(_apply_line(failed, new))
@@ -74,6 +75,60 @@ def _apply_line(outcome: batch.AssetOutcome, new: NewAssetPreparation) -> JobLin
     notes = (note for note in outcome.notes if note not in before)
     parts = [f"{outcome.before} → {pluralize(outcome.after, 'hull')}", *notes, *outcome.flags]
     return JobLine(asset=outcome.asset, status=batch.status_of(outcome), text="; ".join(parts), before=before)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class NewAssetPreparation:
+    """What became of new assets before the program, by id. unclear: why they were not decomposed, where it is not clear
+    how."""
+
+    results: Mapping[str, NewAssetResult] = field(default_factory=dict)
+    unclear: str | None = None
+
+    @property
+    def failed(self) -> Iterator[batch.Failed]:
+        """Those that could not be prepared, so that no program runs on them."""
+        for one in self.results.values():
+            if one.problem:
+                yield batch.Failed(one.asset, f"it could not be prepared: {one.problem}", 0.0)
+
+    def describe(self, asset: str) -> tuple[str, ...]:
+        """What was done to an asset, in sentences."""
+        return self.results[asset].describe() if asset in self.results else ()
+
+    def add_notes(self, jobs: Iterable[batch.AssetJob]) -> list[batch.AssetJob]:
+        """The jobs, of which those of new assets say what was done to these before."""
+        return [replace(job, notes=self.describe(job.id)) for job in jobs]
+
+    def __str__(self) -> str:
+        """What was done to all, in sentences; empty where nothing was."""
+        remarks = [self.unclear, describe_new(list(self.results.values()))]
+        return " ".join(f"{text[0].upper()}{text[1:]}." for text in remarks if text)
+
+
+def prepare_new(
+    session: Session, progress: JobProgress, assets: Collection[str], *, rebuild: bool
+) -> NewAssetPreparation:
+    """Prepare those of some assets that are new; each is one edit, and all are undone at once.
+
+    rebuild: whether bodies are rebuilt of which a hull spans parts, or these only named. Raises
+    ProjectError where what the project keeps of how its assets were prepared is damaged.
+    """
+    project, group = session.project, uuid4().hex
+    new, unclear = list_new(project)
+    if not any(one.id in assets for one in new):
+        return NewAssetPreparation(unclear=unclear)
+    program = project.program()
+    options = NewAssetOptions(
+        rebuild=rebuild,
+        guess=program is None or bool(program.labels_asked),
+        execution=batch.ExecutionOptions(stop=progress.is_stopped),
+        stage=progress.stage,
+        write_block=lambda asset: session.record_preparation(f"{asset} prepared as the others", asset, group),
+    )
+    results = {one.asset: one for one in project.prepare_new(options, assets)}
+    session.update([relative_name(project.layout.preparation_plan, project.folder)])
+    return NewAssetPreparation(results, unclear)
 
 
 def start_check(session: Session) -> Job:
@@ -108,7 +163,7 @@ def to_line(asset: str, found: tuple[Fault, ...] | str) -> JobLine:
 
 def list_signed_off(session: Session) -> list[Card]:
     """The assets whose output is up to date and signed off: sure enough, or accepted by a person."""
-    known = session.pages.assessment
+    known = session.pages.shown.assessment
     unreviewed = {row.asset for row in known.assets if row.state == "signed"} if known else set()
     written = [card for card in session.pages.cards if card.output in ("edited", "unchanged") and not card.stale]
     return [card for card in written if card.review == "accepted" or (card.review is None and card.asset in unreviewed)]

@@ -8,33 +8,29 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
-from time import perf_counter
 
 from meshforge.common import MeshForgeError
 from meshforge.language import Program, parse_extractor
 from meshforge.project import AssessmentBasis, Project, digest_inputs, select_assets
 from meshforge.store import MeshCache
-from meshforge.studio.learning.assessment import assess_project, keep_assessment, view_assessment
 from meshforge.studio.learning.queue import CancelToken
-from meshforge.studio.learning.results import ProgramWithTemplates, RuleSelector, build_outcome_view, measure_reach
+from meshforge.studio.learning.results import (
+    ProgramWithTemplates,
+    RuleSelector,
+    assess_project,
+    build_outcome_view,
+    keep_assessment,
+    measure_reach,
+    view_assessment,
+)
+from meshforge.studio.wire.family import AssessmentView
 from meshforge.studio.wire.program import CoverageView, OutcomeView, Reach
-from meshforge.studio.wire.signoff import AssessmentView
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import LearningOutcome
 
 RENEW_AFTER = 64
 """Learning runs after which memory is given back: each that has a new rule leaves about 25 kB an asset (measured on
 tables of 40 hulls). The run after that takes some tenths of a second longer."""
-
-
-@cache
-def _family_cache(folder: Path) -> FamilyCache:
-    return FamilyCache()
-
-
-@cache
-def _rule_selector(folder: Path) -> RuleSelector:
-    return RuleSelector()
 
 
 @dataclass(slots=True)
@@ -52,34 +48,28 @@ class _FamilyMemory:
         return same and digest == self.digest
 
 
-@cache
-def _last_learned(folder: Path) -> _FamilyMemory:
-    return _FamilyMemory()
-
-
-def learn(folder: Path, token: CancelToken, number: int, take: bool) -> OutcomeView:
-    """Learn a program from a project as it is now. take: replace the accepted one even if a person wrote it."""
-    started, stop = perf_counter(), token.stop
+def learn(folder: Path, token: CancelToken, number: int) -> OutcomeView:
+    """Learn a program from a project as it is now; it replaces the accepted one unless a person wrote that."""
+    stop = token.stop
     try:
         project = Project.open(folder)
-        family = _family_cache(folder)
+        family = _memory_of(folder).family
         family.count_run()
         digest = digest_inputs(project)
         meshes = dict(family.read_meshes(project, select_assets(project), stop))
-        accept = take or not project.program_state().by_hand
-        outcome = project.synthesize(accept=accept, meshes=meshes, stop=stop)
+        outcome = project.synthesize(accept=not project.program_state().by_hand, meshes=meshes, stop=stop)
     except ReadInterrupted:
-        return OutcomeView(number=number, status="timeout", seconds=perf_counter() - started)
+        return OutcomeView(number=number, status="timeout")
     except MeshForgeError as error:
-        return OutcomeView(number=number, status="error", error=error.message, seconds=perf_counter() - started)
-    inputs_digest = _last_learned(folder)
+        return OutcomeView(number=number, status="error", error=error.message)
+    inputs_digest = _memory_of(folder).inputs_digest
     inputs_digest.number, inputs_digest.outcome, inputs_digest.meshes, inputs_digest.digest = (
         number,
         outcome,
         meshes,
         digest,
     )
-    return build_outcome_view(number, outcome, len(meshes), perf_counter() - started)
+    return build_outcome_view(number, outcome, len(meshes))
 
 
 def assess(folder: Path, token: CancelToken, number: int) -> AssessmentView | None:
@@ -87,14 +77,14 @@ def assess(folder: Path, token: CancelToken, number: int) -> AssessmentView | No
 
     It is kept, as a review is, where nothing changed since that run. None too where nothing is demonstrated yet.
     """
-    inputs_digest, project = _last_learned(folder), Project.open(folder)
+    inputs_digest, project = _memory_of(folder).inputs_digest, Project.open(folder)
     if not project.demonstration_ids():
         return None
     if inputs_digest.number != number or inputs_digest.outcome is None:
         return None
     basis = AssessmentBasis.take(project)
     try:
-        meshes = dict(_family_cache(folder).read_meshes(project, select_assets(project), token.stop))
+        meshes = dict(_memory_of(folder).family.read_meshes(project, select_assets(project), token.stop))
     except ReadInterrupted:
         return None
     made = assess_project(project, meshes, inputs_digest.outcome, basis, token.stop)
@@ -104,7 +94,7 @@ def assess(folder: Path, token: CancelToken, number: int) -> AssessmentView | No
         with suppress(MeshForgeError, OSError):  # pages show it all the same
             keep_assessment(project, made)
     unseen = len(project.assets()) - len(meshes)
-    return view_assessment(made.found, made.state, number, made.program is not None, unseen)
+    return view_assessment(made.found, made.state, made.program is not None, unseen)
 
 
 def compute_reach(folder: Path, token: CancelToken, program: str) -> tuple[Reach, ...] | None:
@@ -116,7 +106,7 @@ def compute_reach(folder: Path, token: CancelToken, program: str) -> tuple[Reach
     project = Project.open(folder)
     plan = _load_program(project, Program.parse(program))
     try:
-        rows = _family_cache(folder).read_meshes(project, select_assets(project), token.stop)
+        rows = _memory_of(folder).family.read_meshes(project, select_assets(project), token.stop)
         return tuple(measure_reach(plan, asset, mesh) for asset, mesh in rows)
     except ReadInterrupted:
         return None
@@ -131,10 +121,10 @@ def generalise(folder: Path, token: CancelToken, extractor: str, rule: int, prog
     thresholds = project.settings.thresholds
     bare = Program(orient=project.orientation, contact=thresholds.contact, extremity=thresholds.extremity)
     plan = _load_program(project, (Program.parse(program) if program else bare), rule)
-    selector = _rule_selector(folder)
+    memory = _memory_of(folder)
     try:
-        rows = _family_cache(folder).read_meshes(project, select_assets(project), token.stop)
-        return CoverageView(assets={asset: selector.select(plan, mesh, wanted) for asset, mesh in rows})
+        rows = memory.family.read_meshes(project, select_assets(project), token.stop)
+        return CoverageView(assets={asset: memory.selector.select(plan, mesh, wanted) for asset, mesh in rows})
     except ReadInterrupted:
         return None
 
@@ -173,3 +163,17 @@ class FamilyCache:
         self._runs += 1
         if self._runs % RENEW_AFTER == 0:
             self._meshes.renew()
+
+
+@dataclass(frozen=True, slots=True)
+class _Memory:
+    """What stays in memory of a project."""
+
+    family: FamilyCache = field(default_factory=FamilyCache)
+    selector: RuleSelector = field(default_factory=RuleSelector)
+    inputs_digest: _FamilyMemory = field(default_factory=_FamilyMemory)
+
+
+@cache
+def _memory_of(folder: Path) -> _Memory:
+    return _Memory()

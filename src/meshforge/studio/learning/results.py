@@ -1,9 +1,9 @@
-"""Results of learning as the page shows them, and what programs and extractors select on each asset."""
+"""Results of learning as the page shows them: the program, how sure the edits are, and what programs and extractors
+select on each asset."""
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from weakref import WeakKeyDictionary
@@ -11,54 +11,114 @@ from weakref import WeakKeyDictionary
 from meshforge import synthesis
 from meshforge.batch import template_digests
 from meshforge.common import MeshForgeError
-from meshforge.language import EXTREMITY, Extractor, Program, Template, explain, select_mask, show
+from meshforge.language import EXTREMITY, Extractor, Program, Template, explain, parse_extractor, select_mask
+from meshforge.project import (
+    AssessmentBasis,
+    FamilyAssessment,
+    Project,
+    assess_family,
+    program_by_hand,
+    sees_whole_family,
+)
+from meshforge.signoff import THRESHOLD, Assessment, ReviewChoice, ReviewQuestion, ReviewState
 from meshforge.studio.queries.programs import rule_views
+from meshforge.studio.wire import family
 from meshforge.studio.wire import program as wire
 from meshforge.symbolic import SymbolicMesh, bits_of
 
 
-def build_outcome_view(
-    number: int, outcome: synthesis.LearningOutcome, looked_at: int, seconds: float
-) -> wire.OutcomeView:
-    """The outcome of a learning run. number: of the run; looked_at: how many assets it looked at; seconds: its time."""
-    counts = Counter(candidate.rule for candidate in outcome.candidates)
+def build_outcome_view(number: int, outcome: synthesis.LearningOutcome, looked_at: int) -> wire.OutcomeView:
+    """Return a learning run for the page. number: of the run; looked_at: how many assets it looked at."""
     failure = outcome if isinstance(outcome, synthesis.NoProgram) else None
     return wire.OutcomeView(
         number=number,
         status=outcome.status,
         program=str(outcome.program) if outcome.program else None,
         looked_at=looked_at,
-        rules=rule_views(outcome.program or Program(rules=outcome.rules), counts),
+        rules=rule_views(outcome.program or Program(rules=outcome.rules)),
         unambiguous=outcome.unambiguous,
-        candidates=tuple(map(_view_candidate, outcome.candidates)),
+        candidates=tuple(map(wire.CandidateView.model_validate, outcome.candidates)),
         repairs=len(outcome.repairs),
-        nearest=_view_nearest(outcome.nearest) if outcome.nearest else None,
-        hint=wire.HintView(asset=outcome.hint.asset, why=outcome.hint.why) if outcome.hint else None,
+        nearest=wire.NearestView.model_validate(outcome.nearest) if outcome.nearest else None,
+        hint=outcome.hint,
         why=failure.why if failure else None,
         advice=failure.advice if failure else (),
         stale=tuple(f"{answer.rule}:{answer.asset}" for answer in outcome.stale),
         sample=() if outcome.unambiguous else outcome.sample,
         overruled=outcome.overruled,
-        seconds=seconds,
     )
 
 
-def _view_candidate(candidate: synthesis.CandidateProgram) -> wire.CandidateView:
-    return wire.CandidateView(
-        id=candidate.id,
-        rule=candidate.rule,
-        extractor=show(candidate.extractor),
-        sentence=explain(candidate.extractor),
-        size=candidate.size,
-        belief=candidate.belief,
-        differs_on=candidate.differs_on,
+def assess_project(
+    project: Project,
+    meshes: Mapping[str, SymbolicMesh],
+    outcome: synthesis.LearningOutcome | None,
+    basis: AssessmentBasis,
+    stop: Callable[[], bool] = lambda: False,
+) -> FamilyAssessment | None:
+    """How sure the edits of a project are under its program, None where that was interrupted.
+
+    meshes: those that were learned from; outcome: what that came to, which does not matter where a person wrote the
+    program; basis: taken before the meshes were read.
+    """
+    by_hand, last = program_by_hand(project), project.assessment()
+    threshold = last.threshold if last else THRESHOLD
+    return assess_family(project, meshes, by_hand or outcome, basis, threshold, by_hand=by_hand is not None, stop=stop)
+
+
+def keep_assessment(project: Project, made: FamilyAssessment) -> None:
+    """Keep it as a review does, and renew sign-offs; nothing where there is no program, or where the studio looks at
+    some assets only."""
+    if made.program is not None and sees_whole_family(project) and made.keep(project):
+        project.renew_sign_offs(keep_persons=True)
+
+
+def view_assessment(
+    assessment: Assessment, state: ReviewState, has_program: bool = True, unseen: int = 0
+) -> family.AssessmentView:
+    """Return an assessment as the page shows it; without a program no edit has a probability. unseen: assets of the
+    family that are not in it."""
+    question = assessment.question
+    asked = _view_question(question, state.meshes) if question else None
+    if not has_program:
+        return family.AssessmentView(threshold=assessment.threshold, question=asked)
+    signed = set(assessment.signed_off)
+    rows = tuple(
+        family.ConfidenceView(
+            asset=name,
+            probability=round(one.probability, 4),
+            reasons=one.reasons,
+            state="excluded" if name in assessment.excluded else "signed" if name in signed else "needs review",
+            remarks=name in assessment.looked_at,
+        )
+        for name, one in assessment.assets.items()
+    )
+    counts = {what: sum(row.state == what for row in rows) for what in ("signed", "needs review", "excluded")}
+    return family.AssessmentView(
+        threshold=assessment.threshold,
+        signed_off=counts["signed"],
+        need_review=counts["needs review"],
+        excluded=counts["excluded"],
+        unseen=unseen,
+        assets=rows,
+        question=asked,
     )
 
 
-def _view_nearest(near: synthesis.Nearest) -> wire.NearestView:
-    return wire.NearestView(
-        rule=near.rule, extractor=show(near.extractor), asset=near.asset, extra=near.extra, missing=near.missing
-    )
+def _view_question(question: ReviewQuestion, meshes: Mapping[str, SymbolicMesh]) -> family.ReviewQuestionView:
+    shown = question.to_json()
+    shown["hulls"] = [{**one, "place": meshes[one["asset"]].index[one["hull"]]} for one in shown["hulls"]]
+    shown["choices"] = [{**one.to_json(), "sentence": _explain_candidate(one)} for one in question.choices]
+    return family.ReviewQuestionView(**shown)
+
+
+def _explain_candidate(choice: ReviewChoice) -> str:
+    if choice.select is None:
+        return ""
+    try:
+        return explain(parse_extractor(choice.text))
+    except MeshForgeError:
+        return ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,12 +159,12 @@ def _measure_reach(plan: ProgramWithTemplates, asset: str, mesh: SymbolicMesh) -
     try:
         run = plan.program.run(mesh, plan.templates, memo=synthesis.memoize)
     except MeshForgeError as error:
-        return wire.Reach(asset=asset, before=len(mesh.hulls), after=len(mesh.hulls), error=error.message)
+        return wire.Reach(asset=asset, error=error.message)
     origins, rules = HullOrigins(mesh), []
     for line in run.trace:
         rules.append(origins.of(line.selected))
         origins.add(line.made, line.sources)
-    return wire.Reach(asset=asset, rules=tuple(rules), before=len(mesh.hulls), after=len(run.mesh.hulls))
+    return wire.Reach(asset=asset, rules=tuple(rules))
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -13,8 +13,8 @@ from meshforge.common import MeshForgeError, describe_error
 from meshforge.studio.learning import process
 from meshforge.studio.learning.queue import CallKind, CancelFlag, LatestOnlyQueue, Superseded
 from meshforge.studio.pages import PageState
+from meshforge.studio.wire.family import AssessmentView
 from meshforge.studio.wire.program import CoverageView, OutcomeView, Reach
-from meshforge.studio.wire.signoff import AssessmentView
 from meshforge.studio.workers import Workers
 
 RESTART_DELAY = 0.03
@@ -26,9 +26,9 @@ STOP_TIMEOUT = 30.0
 class LearningScheduler:
     """Starts learning runs, takes their outcomes and has the edits judged; of several runs only the last one counts.
 
-    can_learn: whether anything is demonstrated; on_outcome:
-    called when a run is over, before pages see that and its reach is measured, so that a page that sees the end of the
-    run sees its program, too; on_assessment: called once pages see how sure the edits are.
+    can_learn: whether anything is demonstrated; on_outcome: called when a run is over, before pages see that and its
+    reach is measured, so that a page that sees the end of the run sees its program, too; refresh: called once pages see
+    how sure the edits are, and where a run was stopped.
     """
 
     def __init__(
@@ -37,11 +37,10 @@ class LearningScheduler:
         pages: PageState,
         can_learn: Callable[[], bool],
         on_outcome: Callable[[OutcomeView], None],
-        on_assessment: Callable[[], None],
+        refresh: Callable[[], None],
     ) -> None:
         self._learner, self._pages = learner, pages
-        self._can_learn = can_learn
-        self._on_outcome, self._on_assessment = on_outcome, on_assessment
+        self._can_learn, self._on_outcome, self._refresh = can_learn, on_outcome, refresh
         self._lock = RLock()
         self._number, self._paused = 0, False
         self._timer: Timer | None = None
@@ -56,7 +55,7 @@ class LearningScheduler:
             self.measure_reach()
             self.assess()
             return
-        self._pages.set_outcome(self._pages.outcome, learning=True)
+        self._pages.set_outcome(self._pages.shown.outcome, learning=True)
         with self._lock:
             if number == self._number:
                 self._timer = Timer(RESTART_DELAY, self._begin, [number])
@@ -66,7 +65,8 @@ class LearningScheduler:
     def stop(self) -> None:
         """Stop the learning run that is under way; the outcome of the one before stays shown."""
         self._stop()
-        self._pages.set_outcome(self._pages.outcome, learning=False)
+        self._pages.set_outcome(self._pages.shown.outcome, learning=False)
+        self._refresh()
 
     def pause(self) -> None:
         """Stop the learning run that is under way, and wait until it no longer writes anything."""
@@ -91,27 +91,27 @@ class LearningScheduler:
 
     def measure_reach(self) -> None:
         """Measure what the accepted program does on all assets."""
-        text = self._pages.program.text
-        if not text or self._pages.program.error:
-            self._pages.set_reach(self._number, ())
+        text = self._pages.shown.program.text
+        if not text or self._pages.shown.program.error:
+            self._pages.set_reach(())
             return
         self._learner.reach(text).add_done_callback(partial(self._show_reach, self._number))
 
     def assess(self) -> None:
         """Judge anew how sure the edits are under the program as it is after the last learning run, and what to ask."""
-        outcome, number = self._pages.outcome, self._number
+        outcome, number = self._pages.shown.outcome, self._number
         is_there = outcome is not None and outcome.number == number and outcome.status not in ("timeout", "error")
         if not (is_there and self._can_learn()):
             self._show_assessment(number, None)
             return
         with self._lock:
             if number == self._number:
-                self._pages.set_assessment(self._pages.assessment, assessing=True)
+                self._pages.set_assessment(self._pages.shown.assessment, assessing=True)
         self._learner.assess(number).add_done_callback(partial(self._take_assessment, number))
 
     def generalise(self, extractor: str, rule: int) -> Future[CoverageView]:
         """What an extractor selects on all assets."""
-        return self._learner.generalise(extractor, rule, self._pages.program.text or None)
+        return self._learner.generalise(extractor, rule, self._pages.shown.program.text or None)
 
     def close(self) -> None:
         """Stop for good."""
@@ -134,7 +134,7 @@ class LearningScheduler:
             if number != self._number:
                 return
             try:
-                self._running = self._learner.learn(number, False)
+                self._running = self._learner.learn(number)
             except MeshForgeError:  # the studio is being closed
                 return
         self._running.add_done_callback(partial(self._finish, number))
@@ -171,7 +171,7 @@ class LearningScheduler:
             if number != self._number:
                 return
             self._pages.set_assessment(found, assessing=False)
-        self._on_assessment()
+        self._refresh()
 
     def _show_reach(self, number: int, future: Future[tuple[Reach, ...]]) -> None:
         try:
@@ -179,7 +179,7 @@ class LearningScheduler:
         except (MeshForgeError, CancelledError):  # superseded, or its process died: the next one is measured again
             return
         if number == self._number:
-            self._pages.set_reach(number, reach)
+            self._pages.set_reach(reach)
 
 
 class Learner:
@@ -196,13 +196,10 @@ class Learner:
         self._queue = LatestOnlyQueue(self._workers)
         self._cancel_flag = CancelFlag()
 
-    def learn(self, number: int, take: bool) -> Future[OutcomeView]:
-        """Learn now. take: what is found becomes the project's program even if a person wrote the present one.
-
-        A run that is interrupted has the status `timeout`; one that fails has an error.
-        """
+    def learn(self, number: int) -> Future[OutcomeView]:
+        """Learn now. A run that is interrupted has the status `timeout`; one that fails has an error."""
         self.interrupt()
-        return self._put("learn", process.learn, number, take)
+        return self._put("learn", process.learn, number)
 
     def reach(self, program: str) -> Future[tuple[Reach, ...]]:
         """What a program does on every asset that `process.compute_reach` looks at.

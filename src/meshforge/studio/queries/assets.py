@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Collection, Iterable
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -18,7 +17,7 @@ from meshforge.project import Project
 from meshforge.studio.actions import view_action
 from meshforge.studio.edits.base import steps_version
 from meshforge.studio.queries.packets import contact_names, frame_packet, hull_views
-from meshforge.studio.queries.replay import replay_steps
+from meshforge.studio.queries.programs import replay_steps
 from meshforge.studio.wire.asset import AssetView, ManualEditView, NearMiss, NonConvexView, StepView
 from meshforge.symbolic import Asset, Label, SymbolicMesh
 from meshforge.synthesis import Step
@@ -41,12 +40,9 @@ def build_asset_view(project: Project, asset: str, mesh: SymbolicMesh) -> AssetV
         raise MeshForgeError("this mesh was made in memory and has no file")
     replay, problem = _try_replay(project, asset, mesh)
     seen = replay.start if replay else mesh
-    shown = compute_upright(project, mesh)
+    pose, unturned = compute_upright(project, mesh)
     return AssetView(
         asset=asset,
-        path=str(source.path),
-        format=source.format,
-        up=source.up or "z",
         bodies=tuple(body.name for body in source.bodies),
         hulls=hull_views(mesh),
         non_convex=tuple(
@@ -58,19 +54,15 @@ def build_asset_view(project: Project, asset: str, mesh: SymbolicMesh) -> AssetV
         near_misses=tuple(
             NearMiss(a=seen.hulls[i].name, b=seen.hulls[j].name, gap=gap) for i, j, gap in seen.near_misses
         ),
-        diagonal=seen.diagonal,
-        contact_distance=seen.contact_distance,
-        upright=to_numbers(shown.pose),
-        unturned=shown.problem,
-        steps=_step_views(project.steps(asset), replay.trace if replay else (), shown.problem or problem),
+        upright=to_numbers(pose),
+        unturned=unturned,
+        steps=_step_views(project.steps(asset), replay.trace if replay else (), unturned or problem),
         version=steps_version(project, asset),
         manual_edits=tuple(
             ManualEditView(select=tuple(name for name, _ in c.hulls), action=view_action(c.action, c.label))
             for c in project.manual_edits(asset)
         ),
         prepared=tuple(map(str, project.preparation(asset).steps)),
-        missing=source.missing,
-        notes=source.notes,
     )
 
 
@@ -91,7 +83,6 @@ def _step_views(steps: tuple[Step, ...], results: tuple[RuleTrace, ...], problem
     done = results or tuple(RuleTrace(step.rule, error=problem) for step in steps)
     return tuple(
         StepView(
-            rule=step.rule,
             select=None if step.select is None else tuple(sorted(step.select)),
             action=view_action(step.action, step.label),
             error=result.error,
@@ -102,16 +93,9 @@ def _step_views(steps: tuple[Step, ...], results: tuple[RuleTrace, ...], problem
     )
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class UprightPose:
-    """pose: shown_T_incoming; problem: why the orientation of the project does not turn the asset."""
-
-    pose: Pose
-    problem: str | None = None
-
-
-def compute_upright(project: Project, mesh: SymbolicMesh, orient: Orient | None = None) -> UprightPose:
-    """How an asset of a project is shown: turned by an orientation, its own if none is given, then so that Z points up.
+def compute_upright(project: Project, mesh: SymbolicMesh, orient: Orient | None = None) -> tuple[Pose, str | None]:
+    """Return shown_T_incoming of an asset of a project: turned by an orientation, by default that of the project, then
+    so that Z points up; and why the orientation does not turn it, None where it does.
 
     Z is up already where the orientation names it; otherwise the file says which axis is up.
     """
@@ -120,7 +104,7 @@ def compute_upright(project: Project, mesh: SymbolicMesh, orient: Orient | None 
         pose, problem = orient_mesh(mesh, orient)[1], None
     except MeshForgeError as error:
         pose, problem, orient = Pose.identity(), error.sentence, None
-    return UprightPose(Z_FROM_Y @ pose if is_y_up(mesh, orient) else pose, problem)
+    return (Z_FROM_Y @ pose if is_y_up(mesh, orient) else pose), problem
 
 
 def is_y_up(mesh: SymbolicMesh, orient: Orient | None) -> bool:

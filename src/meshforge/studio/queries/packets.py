@@ -5,7 +5,7 @@ one more action, or the program with corrections; and of its output.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Literal, cast
 
 import numpy as np
@@ -19,12 +19,11 @@ from meshforge.language import Program, Replay, RuleTrace, make_anew
 from meshforge.project import Project, make_manual_edit, run_with_manual_edits
 from meshforge.rendering import RenderMesh, to_render_mesh
 from meshforge.studio.actions import read_action
-from meshforge.studio.queries.replay import replay_steps
+from meshforge.studio.queries.programs import replay_steps
 from meshforge.studio.wire import Wire
 from meshforge.studio.wire import asset as wire
-from meshforge.studio.wire.asset import TraceLine
 from meshforge.studio.wire.requests import PreviewRequest
-from meshforge.symbolic import Hull, Surface, SymbolicMesh
+from meshforge.symbolic import Hull, SymbolicMesh
 
 _SIDES, _FEWER = 48, 24  # of a round primitive about its axis: of a few, and of many
 _MANY = 60
@@ -36,13 +35,14 @@ PacketRow = tuple[wire.ShapeRow, RenderMesh]
 def pack_asset(mesh: SymbolicMesh) -> bytes:
     """The shapes of an asset: its hulls in their order, then its non-convex pieces that have a surface."""
     pieces = mesh.asset.non_convex if mesh.asset else ()
-    return _pack_rows([*hull_rows(mesh.hulls), *(_make_surface_row(p.name, p.surface) for p in pieces if p.surface)])
+    surfaces = (_make_row(piece.name, to_render_mesh(piece.surface)) for piece in pieces if piece.surface)
+    return _pack_rows([*hull_rows(mesh.hulls), *surfaces])
 
 
 def pack_visual(mesh: SymbolicMesh) -> bytes:
     """The surfaces that an asset shows, each named after its body."""
     visuals = mesh.asset.visuals if mesh.asset else ()
-    return _pack_rows([_make_surface_row(surface.body or "", surface) for surface in visuals])
+    return _pack_rows([_make_row(surface.body or "", to_render_mesh(surface)) for surface in visuals])
 
 
 def hull_rows(hulls: Iterable[Hull]) -> list[PacketRow]:
@@ -69,30 +69,25 @@ def _pack_rows(rows: Sequence[PacketRow]) -> bytes:
     return pack_shapes(wire.ShapesHeader(rows=tuple(row for row, _ in rows)), rows)
 
 
-def _make_surface_row(name: str, surface: Surface) -> PacketRow:
-    return _make_row(name, to_render_mesh(surface), surface.rgba)
-
-
-def _make_row(name: str, drawn: RenderMesh, rgba: tuple[float, float, float, float] | None = None) -> PacketRow:
-    return wire.ShapeRow(name=name, vertices=len(drawn.vertices), faces=len(drawn.faces), rgba=rgba), drawn
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class EditNotes:
-    """What the page shows of an edit besides its hulls; the fields are those of `EditHeader`."""
-
-    note: str | None = None
-    trace: tuple[wire.TraceLine, ...] = ()
-    findings: tuple[wire.FindingView, ...] = ()
-    flags: tuple[str, ...] = ()
+def _make_row(name: str, drawn: RenderMesh) -> PacketRow:
+    return wire.ShapeRow(name=name, vertices=len(drawn.vertices), faces=len(drawn.faces)), drawn
 
 
 def pack_edited(
-    source: SymbolicMesh, before: SymbolicMesh, after: SymbolicMesh, notes: EditNotes, seen: SymbolicMesh | None = None
+    source: SymbolicMesh,
+    before: SymbolicMesh,
+    after: SymbolicMesh,
+    seen: SymbolicMesh | None = None,
+    *,
+    note: str | None = None,
+    trace: Iterable[RuleTrace | RuleEffect] = (),
+    findings: tuple[wire.FindingView, ...] = (),
+    flags: tuple[str, ...] = (),
 ) -> bytes:
-    """The packet of an edited asset. source: the asset as it comes; before, after: the edit, in the same frame.
+    """Return the packet of an edited asset. source: the asset as it comes; before, after: the edit, in the same frame.
 
-    seen: `after` in the canonical frame, where that is at hand: its contacts are known already.
+    seen: `after` in the canonical frame, where that is at hand: its contacts are known already. The rest is as in
+    `EditHeader`.
     """
     rows = hull_rows(hull for hull in after.hulls if not _has_hull(source, hull))
     header = wire.EditHeader(
@@ -100,10 +95,10 @@ def pack_edited(
         hulls=hull_views(after),
         made=_names_not_in(after, before),
         removed=_names_not_in(before, after),
-        note=notes.note,
-        trace=notes.trace,
-        findings=notes.findings,
-        flags=notes.flags,
+        note=note,
+        trace=tuple(map(_trace_line, trace)),
+        findings=findings,
+        flags=flags,
         volume=(sum(hull.volume for hull in before.hulls), sum(hull.volume for hull in after.hulls)),
         contacts=contact_names(seen or after),
     )
@@ -172,8 +167,8 @@ def preview_steps(project: Project, asset: str, mesh: SymbolicMesh, steps: int) 
     """
     replay = replay_steps(project, asset, mesh, steps)
     home = replay.edited
-    notes = EditNotes(_describe_problems(replay), _trace_lines(replay), findings_of_new(mesh, home))
-    return pack_edited(mesh, mesh, home, notes, replay.mesh)
+    problems, found = _describe_problems(replay), findings_of_new(mesh, home)
+    return pack_edited(mesh, mesh, home, replay.mesh, note=problems, trace=replay.trace, findings=found)
 
 
 def preview_action(project: Project, asset: str, mesh: SymbolicMesh, request: PreviewRequest) -> bytes:
@@ -188,8 +183,8 @@ def preview_action(project: Project, asset: str, mesh: SymbolicMesh, request: Pr
     after = before.apply(before.mask_of(request.select), action, label, project.templates(action.templates))
     start, home = before.edited, after.edited
     note = "; ".join(note for note in (_describe_problems(before), after.trace[-1].note) if note)
-    notes = EditNotes(note or None, _trace_lines(after)[-1:], findings_of_new(start, home))
-    return pack_edited(mesh, start, home, notes, after.mesh)
+    found = findings_of_new(start, home)
+    return pack_edited(mesh, start, home, after.mesh, note=note or None, trace=after.trace[-1:], findings=found)
 
 
 def _preview_manual_edit(project: Project, asset: str, mesh: SymbolicMesh, request: PreviewRequest) -> bytes:
@@ -197,15 +192,12 @@ def _preview_manual_edit(project: Project, asset: str, mesh: SymbolicMesh, reque
     one = make_manual_edit(before.mesh, asset, request.select, *read_action(request.action, asset))
     templates = {**before.templates, **project.templates(one.action.templates)}
     after, flags = replay_manual_edits((*before.manual_edits, one), mesh, before.run.mesh, before.program, templates)
-    notes = EditNotes(findings=findings_of_new(before.mesh, after), flags=flags)
-    return pack_edited(mesh, before.mesh, after, notes)
+    return pack_edited(mesh, before.mesh, after, findings=findings_of_new(before.mesh, after), flags=flags)
 
 
-def _trace_lines(replay: Replay) -> tuple[TraceLine, ...]:
-    return tuple(
-        TraceLine(rule=result.rule, selected=result.selected, made=result.made, note=result.error or result.note)
-        for result in replay.trace
-    )
+def _trace_line(did: RuleTrace | RuleEffect) -> wire.TraceLine:
+    error = did.error if isinstance(did, RuleTrace) else None
+    return wire.TraceLine(rule=did.rule, selected=did.selected, made=did.made, note=error or did.note)
 
 
 def _describe_problems(replay: Replay) -> str | None:
@@ -219,15 +211,11 @@ def preview_result(project: Project, asset: str, mesh: SymbolicMesh, of: ResultO
     """
     if of == "program":
         now = run_with_manual_edits(project, asset, mesh, program)
-        return pack_edited(mesh, mesh, now.mesh, _collect_notes(now.mesh, now.run.trace, now.flags))
+        found = finding_views(check(now.mesh))
+        return pack_edited(mesh, mesh, now.mesh, trace=now.run.trace, findings=found, flags=now.flags)
     stamp = read_stamp(project.layout.edited, asset)
     if stamp is None or stamp.status not in ("edited", "unchanged"):
         why = stamp.error if stamp and stamp.error else None
         raise ProjectError(why or "it has no output yet", where=asset, remedy="Apply the program.")
     after = load(project.layout.edited / stamp.out)
-    return pack_edited(mesh, mesh, after, _collect_notes(after, stamp.rules, stamp.flags))
-
-
-def _collect_notes(mesh: SymbolicMesh, rules: Iterable[RuleTrace | RuleEffect], flags: tuple[str, ...]) -> EditNotes:
-    trace = tuple(TraceLine(rule=r.rule, selected=r.selected, made=r.made, note=r.note) for r in rules)
-    return EditNotes(trace=trace, findings=finding_views(check(mesh)), flags=flags)
+    return pack_edited(mesh, mesh, after, trace=stamp.rules, findings=finding_views(check(after)), flags=stamp.flags)

@@ -1,21 +1,32 @@
-"""Programs, extractors and the language in words for the page, checked as they are typed, and what they select."""
+"""Programs, extractors and the language in words for the page, checked as they are typed, and what they select; and the
+steps of an asset, replayed."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 
 from meshforge import language
 from meshforge.common import MeshForgeError, ProgramError
-from meshforge.language import EXTREMITY, Extractor, Orient, Program, explain, parse_extractor, select_mask, show
+from meshforge.language import (
+    EXTREMITY,
+    Extractor,
+    Orient,
+    Program,
+    Replay,
+    Rule,
+    explain,
+    parse_extractor,
+    select_mask,
+    show,
+)
 from meshforge.project import Project
 from meshforge.studio.actions import list_action_forms, list_operator_views, view_action
 from meshforge.studio.edits.base import program_version
-from meshforge.studio.queries.replay import replay_steps
 from meshforge.studio.wire import program as wire
 from meshforge.studio.wire.requests import SelectRequest
 from meshforge.symbolic import SymbolicMesh
-from meshforge.synthesis import Demonstration, begin_replay
+from meshforge.synthesis import Demonstration, Step, begin_replay, memoize, strip_each
 
 _POSITION = re.compile(r".*:(\d+):(\d+)")
 
@@ -51,12 +62,10 @@ def check_text(text: str) -> wire.ProgramCheck:
     return wire.ProgramCheck(rules=rule_views(program), orient_sentence=orient_sentence(program.orient))
 
 
-def rule_views(program: Program, candidates: Mapping[int, int] | None = None) -> tuple[wire.RuleView, ...]:
-    """The rules of a program in words; readings: how many extractors agree with what was demonstrated, by rule."""
-    candidates = candidates or {}
+def rule_views(program: Program) -> tuple[wire.RuleView, ...]:
+    """Return the rules of a program in words."""
     return tuple(
-        wire.RuleView(rule=k, text=show(rule), sentence=explain(rule), candidates=candidates.get(k, 1))
-        for k, rule in enumerate(program.rules, 1)
+        wire.RuleView(rule=k, text=show(rule), sentence=explain(rule)) for k, rule in enumerate(program.rules, 1)
     )
 
 
@@ -81,9 +90,7 @@ def mark_error(error: MeshForgeError, line: int = 0, column: int = 0) -> wire.Ma
 def build_language_view() -> wire.LanguageView:
     """Actions, operators and directions; `Each` is no form of its own."""
     return wire.LanguageView(
-        actions=list_action_forms(),
-        operators=list_operator_views(),
-        directions=language.DIRECTIONS,
+        actions=list_action_forms(), operators=list_operator_views(), directions=language.DIRECTIONS
     )
 
 
@@ -129,7 +136,7 @@ def _mark_unknown_label(extractor: Extractor, text: str, known: Iterable[str]) -
     return None
 
 
-def guess_selections(project: Project, asset: str, mesh: SymbolicMesh, program: Program) -> wire.Guesses:
+def guess_selections(project: Project, asset: str, mesh: SymbolicMesh, program: Program) -> tuple[wire.Guess, ...]:
     """A guess for each rule of a program; mesh: the asset as it comes.
 
     A rule that was demonstrated on the asset, or left out there, does that before the next one is guessed. Raises
@@ -149,4 +156,41 @@ def guess_selections(project: Project, asset: str, mesh: SymbolicMesh, program: 
             replay = replay.skip(error)
         action = view_action(rule.action, rule.label)
         guesses.append(wire.Guess(rule=number, action=action, select=names, sentence=explain(rule), error=error))
-    return wire.Guesses(asset=asset, guesses=tuple(guesses))
+    return tuple(guesses)
+
+
+def replay_steps(project: Project, asset: str, mesh: SymbolicMesh, steps: int | None = None) -> Replay:
+    """An asset after its first steps, all by default; a step that fails is skipped, and its trace has the error.
+
+    A step without a selection does what the rule of its number does in the present program, as in learning, or nothing
+    without such a rule. Raises ProgramError where the orientation does not turn the asset.
+    """
+    contact = project.settings.thresholds.contact
+    replay = Replay.begin(mesh, project.orientation, contact, name=asset, memo=memoize)
+    try:
+        program = project.program() or Program()
+    except ProgramError:
+        program = Program()
+    for step in project.steps(asset)[:steps]:
+        try:
+            replay = _apply_step(project, replay, step, program)
+        except MeshForgeError as error:
+            replay = replay.skip(error.message)
+    return replay
+
+
+def _apply_step(project: Project, replay: Replay, step: Step, program: Program) -> Replay:
+    action, label = step.action, step.label
+    if step.select is not None:
+        mask = replay.mask_of(step.select)
+    else:
+        rule = _rule_of(program, step)
+        if rule is None:
+            return replay.skip()
+        mask, action, label = replay.select(rule, program.extremity), rule.action, rule.label
+    return replay.apply(mask, action, label, project.templates(action.templates))
+
+
+def _rule_of(program: Program, step: Step) -> Rule | None:
+    rules = program.rules[step.rule - 1 : step.rule]
+    return next((r for r in rules if (strip_each(r.action), r.label) == (strip_each(step.action), step.label)), None)

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from importlib.util import find_spec
 
@@ -26,8 +25,10 @@ from meshforge.studio.queries.assets import output_picture_digest, picture_diges
 from meshforge.studio.wire.asset import Fault
 from meshforge.studio.wire.family import (
     AnswerView,
+    AssessmentView,
     AxisLandmarks,
     Card,
+    ConfidenceView,
     NewAssetsView,
     OrientView,
     ProjectView,
@@ -36,7 +37,6 @@ from meshforge.studio.wire.family import (
 )
 from meshforge.studio.wire.jobs import Model
 from meshforge.studio.wire.program import OutcomeView, ProgramView
-from meshforge.studio.wire.signoff import AssessmentView, ConfidenceView
 from meshforge.synthesis import Step
 
 
@@ -84,7 +84,6 @@ def _find_question(assessment: AssessmentView | None) -> OpenQuestion | None:
 
 def build_project_view(
     project: Project,
-    cards: Iterable[Card],
     next_step: NextStep,
     problem: str | None,
     lost: tuple[str, ...],
@@ -96,7 +95,7 @@ def build_project_view(
     return ProjectView(
         name=settings.name,
         folder=str(project.folder),
-        vocabulary=vocabulary_view(settings.vocabulary, cards),
+        vocabulary=vocabulary_view(settings.vocabulary),
         orient=_view_orientation(settings.orient, project.orientation),
         contact=settings.thresholds.contact,
         extremity=settings.thresholds.extremity,
@@ -142,12 +141,9 @@ def _rule_line(rule: int, steps: Sequence[tuple[str, Step]]) -> RuleLine:
     )
 
 
-def vocabulary_view(words: Sequence[str], cards: Iterable[Card]) -> tuple[VocabularyLabel, ...]:
-    """The labels of the vocabulary, with how many hulls have each."""
-    used = Counter(place for card in cards for place in card.labels)
-    return tuple(
-        VocabularyLabel(name=w, text=show_label(w), color=label_color(k), used=used[k]) for k, w in enumerate(words)
-    )
+def vocabulary_view(words: Sequence[str]) -> tuple[VocabularyLabel, ...]:
+    """Return the labels of the vocabulary, each with its color."""
+    return tuple(VocabularyLabel(name=w, text=show_label(w), color=label_color(k)) for k, w in enumerate(words))
 
 
 def _list_feedback(project: Project) -> Iterator[AnswerView]:

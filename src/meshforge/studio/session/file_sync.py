@@ -66,7 +66,7 @@ class FileSync:
     def show_program(self) -> bool:
         """Show the accepted program; whether it is another one, so that outputs may be stale."""
         self._note_stamps(file.name for file in (Layout.program, Layout.learned))
-        is_other = self._pages.set_program(_view_program(self.project, self._pages.program))
+        is_other = self._pages.set_program(_view_program(self.project, self._pages.shown.program))
         if is_other:
             self._queue.add([card.asset for card in self._pages.cards if card.output != "none"], later=True)
             self._pages.announce_assets(self.project.layout.demonstration.ids, shapes=False)
@@ -75,7 +75,7 @@ class FileSync:
     def reopen(self) -> None:
         """Look for assets that came or went; the vocabulary is shown at once, as keys have a meaning by it."""
         self.project = replace(self.project, every=Project.open(self.project.folder).every)
-        self._pages.set_vocabulary(vocabulary_view(self.project.settings.vocabulary, self._pages.cards))
+        self._pages.set_vocabulary(vocabulary_view(self.project.settings.vocabulary))
         self._family = self.project.assets()
         self._queue.add(self._pages.set_assets(self._family), later=True)
 

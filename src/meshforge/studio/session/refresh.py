@@ -11,16 +11,15 @@ from threading import Condition, Thread
 from time import monotonic
 
 from meshforge.batch import read_stamp
-from meshforge.common import MeshForgeError, StoppedError, describe_error
+from meshforge.common import FileState, MeshForgeError, StoppedError, describe_error, file_state
 from meshforge.labels import OfferCache
-from meshforge.project import AssetStatus, NextStep, Project, Status, choose_next_step, find_offers
+from meshforge.project import AssetStatus, NextStep, Project, Status, choose_next_step, find_offers, list_new
 from meshforge.studio.label_changes import LabelChanges
 from meshforge.studio.output_checks import OutputChecks
 from meshforge.studio.output_measures import check_key
 from meshforge.studio.pages import PageState
-from meshforge.studio.queries.new_assets import NewAssetsQuery
 from meshforge.studio.queries.project import add_session, build_card, build_project_view
-from meshforge.studio.wire.family import ProjectView
+from meshforge.studio.wire.family import Card, NewAssetsView, ProjectView
 from meshforge.studio.wire.jobs import Job
 
 _LOG = logging.getLogger(__name__)
@@ -30,7 +29,7 @@ _REPORT_SECONDS = 0.2
 
 def initial_view(project: Project) -> ProjectView:
     """The project before its assets are read. Raises ProjectError for a file of the project that cannot be read."""
-    return build_project_view(project, (), NextStep("wait", "The assets are being read."), None, ())
+    return build_project_view(project, NextStep("wait", "The assets are being read."), None, ())
 
 
 class Refresher:
@@ -100,9 +99,12 @@ class Refresher:
         problem = status.problem or damage
         offers = partial(find_offers, project, self._offers, self._pages.readable)
         family = replace(status.family, find_offers=offers)
-        known = self._pages.program, self._pages.outcome, self._pages.assessment
-        family = add_session(family, *known, propagation, problem)
-        return build_project_view(project, cards, choose_next_step(family), problem, status.lost, propagation, new)
+        shown = self._pages.shown
+        known = shown.program, shown.outcome, shown.assessment
+        step = choose_next_step(add_session(family, *known, propagation, problem))
+        if step.kind == "learn" and shown.learning:  # never what is being done already
+            step = NextStep("learn", "The program is being learned.")
+        return build_project_view(project, step, problem, status.lost, propagation, new)
 
     def _count_read(self) -> None:
         """One asset had to be read; called from another thread."""
@@ -121,6 +123,39 @@ class Refresher:
             self._pages.set_job(self._job)
         if not left:
             self._job, self._read = None, 0
+
+
+_Basis = tuple[FileState | None, tuple[str, ...], tuple[tuple[str, tuple[str, ...]], ...]]
+
+
+class NewAssetsQuery:
+    """Finds which assets a run prepares first. All preparations are read for that, so it is asked again only where the
+    project's file about it, its assets, or what was done to one of them is another."""
+
+    def __init__(self) -> None:
+        self._basis: _Basis | None = None
+        self._found: tuple[NewAssetsView | None, str | None] = None, None
+
+    def find(self, project: Project, cards: Iterable[Card]) -> tuple[NewAssetsView | None, str | None]:
+        """Return the new assets, None where there are none; and why they are not known, where a file is damaged."""
+        done = tuple((card.asset, card.prepared) for card in cards if card.prepared)
+        basis = file_state(project.layout.preparation_plan), project.assets(), done
+        if basis != self._basis:
+            self._basis, self._found = basis, _find_new_assets(project)
+        return self._found
+
+
+def _find_new_assets(project: Project) -> tuple[NewAssetsView | None, str | None]:
+    try:
+        new, unclear = list_new(project)
+    except MeshForgeError as error:
+        return None, error.message
+    if not new and not unclear:
+        return None, None
+    plans = [one.plan.rebuild for one in new if one.plan.rebuild]
+    least = plans[0].min_confidence if plans else None
+    ids = tuple(one.id for one in new)
+    return NewAssetsView(ids=ids, rebuilt=len(plans), min_confidence=least, unclear=unclear), None
 
 
 class RefreshQueue:

@@ -4,35 +4,33 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from contextlib import AbstractContextManager, contextmanager
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
 from threading import RLock
 from typing import Any, Literal
 
 from meshforge.batch import read_prepared, stamp_path
-from meshforge.common import UsageError, relative_name
+from meshforge.common import ProjectError, UsageError, relative_name
 from meshforge.labels import OfferCache
+from meshforge.language import Program
 from meshforge.project import Project
 from meshforge.store import History, HistoryEntry, Layout, MeshCache, list_files
-from meshforge.studio.downloads import Downloads
 from meshforge.studio.edits.base import Edit, make_edit
 from meshforge.studio.edits.program import TakeLearned
 from meshforge.studio.errors import NotHereError
-from meshforge.studio.label_changes import LabelChanges
+from meshforge.studio.label_changes import EarlyLabels, LabelChanges
 from meshforge.studio.learning.scheduler import Learner, LearningScheduler
 from meshforge.studio.output_checks import OutputChecks
 from meshforge.studio.pages import PageHub, PageState
 from meshforge.studio.queries.programs import read_program_view
-from meshforge.studio.session.early_labels import EarlyLabels
 from meshforge.studio.session.file_sync import FileSync, FileWatcher
 from meshforge.studio.session.job_runner import JobRunner
 from meshforge.studio.session.refresh import Refresher, initial_view
 from meshforge.studio.similar_hulls import SimilarHulls
 from meshforge.studio.thumbnails import Thumbnails
-from meshforge.studio.uploads import Uploads
+from meshforge.studio.transfers import Downloads, Uploads
 from meshforge.studio.wire.events import HistoryChanged
-from meshforge.studio.wire.family import HistoryView
 from meshforge.studio.wire.program import OutcomeView
 from meshforge.studio.wire.requests import EditReceipt
 from meshforge.studio.workers import Workers
@@ -70,7 +68,7 @@ class Session:
         self.hub = PageHub()
         view = initial_view(project)
         self.pages = PageState(
-            self.hub, view, self._history_view, version("meshforge"), tour=options.tour, leave=options.folder is None
+            self.hub, view, self.history.state, version("meshforge"), tour=options.tour, leave=options.folder is None
         )
         self.offers = OfferCache()
         self.jobs = JobRunner(self.pages.set_job)
@@ -121,14 +119,20 @@ class Session:
 
     # Reading
 
-    @property
-    def _history_view(self) -> HistoryView:
-        return HistoryView(**asdict(self.history.state))
-
     def mesh(self, asset: str) -> SymbolicMesh:
         """An asset with its labels. Raises NotHereError, or AssetError where it cannot be read."""
         self.check_assets(asset)
         return self.project.mesh(asset)
+
+    @property
+    def present_program(self) -> Program | None:
+        """The program that was learned last, or else the accepted one; one that a person wrote comes before both."""
+        learned, accepted = self.pages.shown.outcome, self.pages.shown.program
+        if learned and learned.program and not accepted.by_hand:
+            return Program.parse(learned.program)
+        if accepted.error:
+            raise ProjectError(accepted.error, where=Layout.program.name)
+        return Program.parse(accepted.text) if accepted.text else None
 
     def check_assets(self, *assets: str) -> None:
         """Raises NotHereError for an id that no asset has."""
@@ -151,7 +155,7 @@ class Session:
                 self.learning.resume()
             if entry is None:
                 return EditReceipt(message=title, nothing=True)
-            self.announce((entry,), "edit", by)
+            self.announce((entry,), by)
         return EditReceipt(message=entry.title)
 
     def move(self, way: Literal["undo", "redo"], by: str | None = None) -> EditReceipt:
@@ -164,18 +168,15 @@ class Session:
                 self.learning.resume()
             if not entries:
                 return EditReceipt(message=f"there is nothing to {way}", nothing=True)
-            self.announce(entries, way, by)
+            self.announce(entries, by)
         return EditReceipt(message=entries[0].title)
 
-    def announce(
-        self, entries: Iterable[HistoryEntry], did: Literal["edit", "undo", "redo"], by: str | None = None
-    ) -> None:
+    def announce(self, entries: Iterable[HistoryEntry], by: str | None = None) -> None:
         """Send all pages what entries changed, then that they were made, undone or redone; the cards follow."""
         with self._mutex:
-            entries = tuple(entries)
             self.pages.set_relabelled(None)
             self.update({name for entry in entries for name in entry.names})
-            self.pages.set_history(HistoryChanged(history=self._history_view, did=did, message=entries[0].title, by=by))
+            self.pages.set_history(HistoryChanged(history=self.history.state, by=by))
 
     @contextmanager
     def record(self, title: str, edit: dict[str, Any], paths: Iterable[Path], group: str) -> Iterator[None]:
@@ -185,7 +186,7 @@ class Session:
                 yield
             entries = self.history.entries
             if len(entries) > before:
-                self.announce(entries[-1:], "edit")
+                self.announce(entries[-1:])
 
     def record_preparation(self, title: str, asset: str, group: str) -> AbstractContextManager[None]:
         """Record what a job does to an asset before the program, within a block."""
@@ -205,8 +206,7 @@ class Session:
         with self._mutex:
             self._file_sync.poll()
             if self.history.refresh():
-                view = self._history_view
-                self.pages.set_history(HistoryChanged(history=view, did="edit", message=view.undo or ""))
+                self.pages.set_history(HistoryChanged(history=self.history.state))
 
     # Learning
 
@@ -215,8 +215,9 @@ class Session:
         if not self._has_demonstrations():
             raise UsageError("nothing is demonstrated yet", remedy="Show the steps of the edit on one asset.")
         with self._mutex:
-            self._take_learned = self.pages.program.by_hand
+            self._take_learned = self.pages.shown.program.by_hand
             self.learning.restart()
+        self.refresh_queue.add()
         return EditReceipt(message="learning")
 
     def _has_demonstrations(self) -> bool:

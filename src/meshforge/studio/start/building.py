@@ -10,19 +10,16 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from secrets import token_hex
 
-from pydantic import BaseModel, ConfigDict, ValidationError
-
 from meshforge.batch import hold_lock
-from meshforge.common import MeshForgeError, ProjectError, UsageError, write_atomically
+from meshforge.common import MeshForgeError, ProjectError, UsageError
+from meshforge.store.layout import JsonFile, read_derived, write_json
 from meshforge.studio.start.folders import is_project
 
 _SUFFIX = ".new-project"
 
 
-class _Journal(BaseModel):
+class _Journal(JsonFile):
     """What is being built. draft: the folder; parents: folders made for it, the innermost first."""
-
-    model_config = ConfigDict(frozen=True)
 
     draft: str
     parents: tuple[str, ...] = ()
@@ -59,8 +56,9 @@ def build_project(folder: Path, state: Path) -> Iterator[Path]:
         remove_remains(journal)
         parents = tuple(parent for parent in folder.parents if not parent.exists())
         draft = folder.parent / f".{folder.name[:80]}.{token_hex(4)}{_SUFFIX}"
-        _write_journal(journal, _Journal(draft=str(draft), parents=tuple(map(str, parents))))
+        made = _Journal(draft=str(draft), parents=tuple(map(str, parents)))
         try:
+            write_json(journal, made)
             draft.mkdir(parents=True)
             yield draft
             if folder.exists():
@@ -101,27 +99,14 @@ def _explain_busy(problem: str) -> Iterator[None]:
 
 def remove_remains(journal: Path) -> None:
     """Remove what a journal says was being built, and the journal."""
-    try:
-        found = _Journal.model_validate_json(journal.read_bytes())
-    except FileNotFoundError:
-        return
-    except ValidationError:  # never written by us
-        journal.unlink(missing_ok=True)
-        return
-    draft = Path(found.draft)
-    if draft.name.endswith(_SUFFIX) and draft.name.startswith(".") and not draft.is_symlink():
+    found = read_derived(journal, _Journal)
+    draft = Path(found.draft) if found else None
+    if draft and draft.name.endswith(_SUFFIX) and draft.name.startswith(".") and not draft.is_symlink():
         shutil.rmtree(draft, ignore_errors=True)
-    for parent in found.parents:
+    for parent in found.parents if found else ():
         with suppress(OSError):  # something else is in it by now
             Path(parent).rmdir()
     journal.unlink(missing_ok=True)
-
-
-def _write_journal(path: Path, journal: _Journal) -> None:
-    try:
-        write_atomically(path, journal.model_dump_json())
-    except OSError as error:
-        raise _describe_refusal(path.parent, error) from None
 
 
 def _describe_refusal(folder: Path, error: OSError) -> UsageError:

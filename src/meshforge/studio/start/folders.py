@@ -1,17 +1,30 @@
-"""Paths that a person types or picks on the start page, and the folders of this machine."""
+"""Paths that a person types or picks on the start page, the folders of this machine, and the assets in them that a new
+project would have: which they are, and which of them have no hulls."""
 
 from __future__ import annotations
 
 import os
+from collections import Counter
+from collections.abc import Sequence
+from concurrent.futures import Future, TimeoutError
+from dataclasses import dataclass
 from pathlib import Path
+from time import monotonic
 
-from meshforge.batch import SETTINGS
-from meshforge.common import UsageError, is_file, plain_path
-from meshforge.formats import all_suffixes
-from meshforge.studio.wire.start import FolderEntry, FolderView
+from meshforge.batch import SETTINGS, expand, find_sources
+from meshforge.common import MeshForgeError, StoppedError, UsageError, describe_error, is_file, plain_path
+from meshforge.formats import all_suffixes, read
+from meshforge.studio.wire.start import AssetsFound, FolderEntry, FolderView
+from meshforge.studio.workers import Workers, wait_for
 
 MOST_ENTRIES = 500
 """Folders that are listed of one."""
+LOOK_SECONDS = 8.0
+"""Seconds that assets are read for before a project is made of them; the studio reads the rest when it is open."""
+MOST_READ = 300
+"""Assets that are read for that."""
+MOST_PARTS = 4
+"""Names of parts that are told."""
 _ABSOLUTE = "Type the whole path, as /home/me/assets or ~/assets."
 
 
@@ -97,3 +110,95 @@ def suggest_project(name: str) -> Path:
     name = name.strip().strip(".") or "project"
     names = [name, f"{name}-project", *(f"{name}-project-{number}" for number in range(2, 1000))]
     return next((parent / one for one in names if not (parent / one).exists()), parent / name)
+
+
+@dataclass(frozen=True, slots=True)
+class _Look:
+    """What one asset holds. pieces: how many pieces and bodies can be decomposed; parts: names of the parts of those
+    that have several; problem: why it cannot be read."""
+
+    pieces: int = 0
+    parts: tuple[str, ...] = ()
+    problem: str | None = None
+
+
+def look_at_folder(workers: Workers, folder: Path) -> AssetsFound:
+    """The assets in a folder. Raises UsageError where there is no such folder, or no asset in it."""
+    check_folder(folder)
+    return look_at_assets(workers, folder, expand([folder]).paths, folder.name)
+
+
+def look_at_assets(workers: Workers, folder: Path, paths: Sequence[Path], name: str) -> AssetsFound:
+    """What some assets hold, as far as they can be read in a few seconds. name: what the project may be called."""
+    looks = _look_at_some(workers, paths)
+    problems = [look.problem for look in looks if look.problem]
+    return AssetsFound(
+        folder=str(folder),
+        kinds=_describe_kinds(paths),
+        assets=len(paths),
+        read=len(looks),
+        pieces=sum(look.pieces for look in looks),
+        bare=sum(look.pieces > 0 for look in looks),
+        divided=sum(bool(look.parts) for look in looks),
+        parts=tuple(dict.fromkeys(name for look in looks for name in look.parts))[:MOST_PARTS],
+        broken=len(problems),
+        problem=problems[0] if problems else None,
+        project=str(suggest_project(name)),
+    )
+
+
+def _look_at_some(workers: Workers, paths: Sequence[Path]) -> list[_Look]:
+    """The first assets, in order, until the time is up; one at least."""
+    futures: list[Future[_Look]] = [workers.start(_look, path) for path in paths[:MOST_READ]]
+    looks, until = list[_Look](), None
+    for future in futures:
+        try:
+            looks.append(_wait_until(future, until))
+        except TimeoutError:
+            break
+        until = until or monotonic() + LOOK_SECONDS  # the process of the first one had to start
+    for future in futures:
+        future.cancel()
+    return looks
+
+
+def _wait_until(future: Future[_Look], until: float | None) -> _Look:
+    """What came of one. Raises TimeoutError where it is not known in time, StoppedError where nobody waits any more."""
+    if until is not None and not future.done():
+        future.exception(timeout=max(until - monotonic(), 0.01))
+    try:
+        return wait_for(future)
+    except StoppedError:
+        raise
+    except MeshForgeError as error:  # its process died
+        return _Look(problem=error.message)
+
+
+def warm_up(workers: Workers) -> None:
+    """Start the processes that look at assets, so that the first look is quick."""
+    workers.start(_is_ready)
+
+
+def _is_ready() -> bool:
+    return True
+
+
+def _look(path: Path) -> _Look:
+    try:
+        sources = [source for source in find_sources(read(path)) if not source.is_hopeless]
+        known = [source.surface.parts for source in sources if source.surface.parts and source.surface.parts.is_divided]
+        names = dict.fromkeys(parts.names[k] for parts in known for k in parts.numbers)
+        return _Look(len(sources), tuple(names)[:MOST_PARTS])
+    except Exception as error:  # one asset never hides the others
+        return _Look(problem=describe_error(error, str(path)).split("\n")[0])
+
+
+def _describe_kinds(paths: Sequence[Path]) -> str:
+    """How many there are of which format: `12 URDF, 1 folder of pieces`."""
+    counts = Counter(path.suffix.lower().lstrip(".").upper() if path.is_file() else "" for path in paths)
+    words = (f"{count:,} {kind}" if kind else _describe_folders(count) for kind, count in counts.most_common())
+    return ", ".join(words)
+
+
+def _describe_folders(count: int) -> str:
+    return "1 folder of pieces" if count == 1 else f"{count:,} folders of pieces"

@@ -11,19 +11,20 @@ from typing import assert_never
 from uuid import uuid4
 
 from meshforge.batch import hold_lock
-from meshforge.common import MeshForgeError
-from meshforge.samples import FAMILIES
-from meshforge.studio.start import create, folders
-from meshforge.studio.start.assets import look_at_assets, look_at_folder, warm_up
-from meshforge.studio.start.building import clean_up
+from meshforge.common import MeshForgeError, ProjectError
+from meshforge.project import Project
+from meshforge.samples import FAMILIES, family_of, write_family
+from meshforge.studio.start import folders
+from meshforge.studio.start.building import build_project, clean_up
 from meshforge.studio.start.recent import RecentProjects
-from meshforge.studio.uploads import Uploads
-from meshforge.studio.wire import requests
+from meshforge.studio.transfers import Uploads
 from meshforge.studio.wire import start as wire
 from meshforge.studio.workers import Workers
 
 READERS = 2
 """Processes that look at assets before a project is made of them."""
+ASSETS_FOLDER = "assets"
+"""The folder of a project for assets of its own."""
 
 
 class StartPage:
@@ -38,7 +39,7 @@ class StartPage:
 
     def begin(self) -> None:
         """Get ready for people, as no project is open."""
-        warm_up(self._workers)
+        folders.warm_up(self._workers)
 
     @property
     def view(self) -> wire.StartView:
@@ -63,7 +64,7 @@ class StartPage:
 
     def look_at_folder(self, folder: str) -> wire.AssetsFound:
         """What a folder holds. Raises UsageError where there is no such folder, or no asset in it."""
-        return look_at_folder(self._workers, folders.parse_path(folder, "the folder of assets"))
+        return folders.look_at_folder(self._workers, folders.parse_path(folder, "the folder of assets"))
 
     def look_at_upload(self) -> wire.AssetsFound:
         """What was sent; assets that cannot be read are left out. Raises ProjectError, and throws all away, where no
@@ -77,24 +78,24 @@ class StartPage:
         tops = {name.split("/")[0] for name in files}
         first = min(tops, key=str.casefold)
         name = first if len(tops) == 1 and (home / first).is_dir() else Path(sent.names[0]).stem
-        found = look_at_assets(self._workers, home, [home / path for path in sent.names], name)
+        found = folders.look_at_assets(self._workers, home, [home / path for path in sent.names], name)
         if not sent.problems:
             return found
         return found.model_copy(update={"broken": len(sent.problems), "problem": sent.problems[0], "left_out": True})
 
-    def create(self, request: requests.NewProject) -> Path:
+    def create(self, request: wire.NewProject) -> Path:
         """Make a project, and give its folder. Raises MeshForgeError where that cannot be; then nothing is written."""
         project = folders.parse_path(request.project, "the folder of the project")
         match request:
-            case requests.ProjectOfFolder():
+            case wire.ProjectOfFolder():
                 assets = folders.parse_path(request.folder, "the folder of assets")
-                create.create_of_folder(assets, project, self._state)
-            case requests.ProjectOfUpload():
+                _create_of_folder(assets, project, self._state)
+            case wire.ProjectOfUpload():
                 home, _ = self.uploads.list_files()
                 self.uploads.keep_readable(self._workers)  # raises ProjectError where nothing was sent
-                create.create_of_upload(home, project, self._state)
-            case requests.ProjectOfFamily():
-                create.create_of_family(request.family, project, self._state)
+                _create_of_upload(home, project, self._state)
+            case wire.ProjectOfFamily():
+                _create_of_family(request.family, project, self._state)
             case _:
                 assert_never(request)
         return project
@@ -112,6 +113,43 @@ class StartPage:
         if self._uploads:
             self._uploads.clear()
         self._stack.close()
+
+
+def _create_of_folder(assets: Path, project: Path, state: Path) -> None:
+    """Make a project of the assets in a folder, which stay where they are. Raises UsageError for either folder."""
+    folders.check_folder(assets)
+    if folders.is_project(assets):
+        raise ProjectError("this folder is a project itself", where=str(assets), remedy="Open it instead.")
+    with build_project(project, state) as draft:
+        # seen from the draft, everything lies where it lies from the project that it becomes
+        Project.create(draft, [assets], name=project.name)
+
+
+def _create_of_upload(upload: Path, project: Path, state: Path) -> None:
+    """Make a project of uploaded files, which come into its own folder. upload: the folder they lie in, which goes."""
+    with build_project(project, state) as draft:
+        home = draft / ASSETS_FOLDER
+        shutil.move(upload, home)
+        try:
+            Project.create(draft, [_innermost_folder(home)], name=project.name)
+        except BaseException:
+            shutil.move(home, upload)
+            raise
+
+
+def _create_of_family(name: str, project: Path, state: Path) -> None:
+    """Make a project of a bundled family. Raises UsageError for a name that no family has."""
+    family = family_of(name)
+    with build_project(project, state) as draft:
+        home = draft / ASSETS_FOLDER
+        write_family(family, home)
+        Project.create(draft, [home / family.pattern], name=project.name, vocabulary=family.vocabulary)
+
+
+def _innermost_folder(home: Path) -> Path:
+    """The folder that ids count from: the one folder that was sent, where all files lie in it."""
+    inside = list(home.iterdir())
+    return inside[0] if len(inside) == 1 and inside[0].is_dir() else home
 
 
 def _take_folder(stack: ExitStack, home: Path) -> Path:

@@ -8,10 +8,9 @@ from collections.abc import Mapping
 from datetime import UTC, datetime
 from pathlib import Path
 
-from pydantic import BaseModel, ConfigDict, ValidationError
-
 from meshforge.batch import SETTINGS, hold_lock
-from meshforge.common import MeshForgeError, is_file, write_atomically
+from meshforge.common import MeshForgeError, is_file
+from meshforge.store.layout import JsonFile, read_derived, write_json
 from meshforge.studio.wire.start import RecentProject
 
 _LOG = logging.getLogger(__name__)
@@ -29,20 +28,14 @@ def state_folder(environment: Mapping[str, str] = os.environ) -> Path:
     return (Path(base) if base else Path.home() / ".local" / "state") / "meshforge"
 
 
-class _Entry(BaseModel):
-    model_config = ConfigDict(extra="allow", frozen=True)
-
+class _Entry(JsonFile):
     folder: str
     name: str
     assets: int = 0
     opened: str = ""
 
 
-class _RecentFile(BaseModel):
-    """Fields that this version does not know are kept."""
-
-    model_config = ConfigDict(extra="allow", frozen=True)
-
+class _RecentFile(JsonFile):
     projects: tuple[_Entry, ...] = ()
 
 
@@ -84,13 +77,9 @@ class RecentProjects:
                 kept = self._read()
                 rest = [entry for entry in kept.projects if entry.folder != folder]
                 projects = tuple([*([first] if first else []), *rest][:MOST_RECENT])
-                text = kept.model_copy(update={"projects": projects}).model_dump_json(indent=2)
-                write_atomically(self._path, f"{text}\n")
+                write_json(self._path, kept.model_copy(update={"projects": projects}))
         except (OSError, MeshForgeError):
             _LOG.debug("the list of recent projects cannot be written", exc_info=True)
 
     def _read(self) -> _RecentFile:
-        try:
-            return _RecentFile.model_validate_json(self._path.read_bytes())
-        except (OSError, ValidationError):
-            return _RecentFile()
+        return read_derived(self._path, _RecentFile) or _RecentFile()

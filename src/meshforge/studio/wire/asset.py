@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Literal
 
 from meshforge.studio.wire import Wire
-from meshforge.studio.wire.actions import ActionView
+from meshforge.studio.wire.program import ActionView
 
 PrimitiveKind = Literal["box", "cylinder", "capsule", "sphere", "ellipsoid"]
 
@@ -48,12 +48,11 @@ class NearMiss(Wire):
 
 
 class StepView(Wire):
-    """One step of a demonstration. rule: its number; select: names of hulls, [] for none, null where it is left open.
+    """One step of a demonstration. select: names of hulls, [] for none, null where it is left open.
 
     error: why the step cannot be replayed; made, removed: names of hulls, where it can.
     """
 
-    rule: int
     select: tuple[str, ...] | None
     action: ActionView
     error: str | None = None
@@ -72,30 +71,22 @@ class AssetView(Wire):
     """An asset as it is prepared, in the frame it comes in.
 
     upright: the 16 numbers (row by row) of canonical_T_incoming, null for the identity; unturned: why the orientation
-    cannot turn it; version: of the steps, to be sent back with an edit of them; contacts: pairs of names of hulls;
-    diagonal, contact_distance: [m].
+    cannot turn it; version: of the steps, to be sent back with an edit of them; contacts: pairs of names of hulls.
     """
 
     asset: str
-    path: str
-    format: str
-    up: Literal["y", "z"]
     bodies: tuple[str, ...]
     hulls: tuple[HullView, ...]
     non_convex: tuple[NonConvexView, ...] = ()
     has_visual: bool = False
     contacts: tuple[tuple[str, str], ...] = ()
     near_misses: tuple[NearMiss, ...] = ()
-    diagonal: float = 0.0
-    contact_distance: float = 0.0
     upright: tuple[float, ...] | None = None
     unturned: str | None = None
     steps: tuple[StepView, ...] = ()
     version: str = ""
     manual_edits: tuple[ManualEditView, ...] = ()
     prepared: tuple[str, ...] = ()
-    missing: tuple[str, ...] = ()
-    notes: tuple[str, ...] = ()
 
 
 class ShapeRow(Wire):
@@ -104,7 +95,6 @@ class ShapeRow(Wire):
     name: str
     vertices: int
     faces: int
-    rgba: tuple[float, float, float, float] | None = None
 
 
 class ShapesHeader(Wire):
@@ -198,10 +188,3 @@ class CheckPicture(Wire):
 
     name: str
     text: str
-
-
-class EngineView(Wire):
-    """An engine whose limits can be checked; title: its name as its makers write it."""
-
-    name: str
-    title: str

@@ -6,12 +6,11 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from meshforge.store.history import HistoryState
 from meshforge.studio.wire import Wire
-from meshforge.studio.wire.asset import EngineView
-from meshforge.studio.wire.family import Card, HistoryView, ProjectView
+from meshforge.studio.wire.family import AssessmentView, Card, ProjectView
 from meshforge.studio.wire.jobs import Job, LabelUpdate
 from meshforge.studio.wire.program import LanguageView, OutcomeView, ProgramView, Reach
-from meshforge.studio.wire.signoff import AssessmentView
 from meshforge.studio.wire.start import StartView
 
 
@@ -33,14 +32,14 @@ class Start(Wire):
 
 
 class Hello(Wire):
-    """The whole state, sent when a page connects. tour: whether the page shows the guided tour; engines: those whose
-    limits can be checked; leave: whether the page can leave the project for the start page."""
+    """The whole state, sent when a page connects. tour: whether the page shows the guided tour; engines: the
+    titles of those whose limits can be checked, by name; leave: whether the page can leave the project."""
 
     kind: Literal["hello"] = "hello"
     version: str
     project: ProjectView
     cards: tuple[Card, ...]
-    history: HistoryView
+    history: HistoryState
     relabelled: LabelUpdate | None = None
     program: ProgramView
     language: LanguageView
@@ -51,7 +50,7 @@ class Hello(Wire):
     assessing: bool = False
     jobs: tuple[Job, ...] = ()
     tour: bool = False
-    engines: tuple[EngineView, ...] = ()
+    engines: dict[str, str] = Field(default_factory=dict)
     leave: bool = False
 
 
@@ -71,13 +70,11 @@ class ProjectChanged(Wire):
 
 
 class HistoryChanged(Wire):
-    """What can be undone now; said: what was just done, undone or redone, in words; by: the page that did it. Changed
-    settings and the names of changed assets are sent before, their cards after it."""
+    """What can be undone now; by: the page that did, undid or redid something. Changed settings and the names of
+    changed assets are sent before, their cards after it."""
 
     kind: Literal["history"] = "history"
-    history: HistoryView
-    did: Literal["edit", "undo", "redo"]
-    message: str
+    history: HistoryState
     by: str | None = None
 
 
@@ -105,10 +102,9 @@ class OutcomeChanged(Wire):
 
 
 class ReachChanged(Wire):
-    """What the program does on all assets; number: the number of the learning run that it belongs to."""
+    """What the program does on all assets."""
 
     kind: Literal["reach"] = "reach"
-    number: int
     reach: tuple[Reach, ...]
 
 

@@ -1,4 +1,4 @@
-"""The project and the cards of its assets in the gallery, and what can be undone."""
+"""The project, the cards of its assets in the gallery, how sure their edits are, and the question worth most."""
 
 from __future__ import annotations
 
@@ -6,10 +6,12 @@ from typing import Literal
 
 from meshforge.language import Direction
 from meshforge.project import NextStep, OutputState, PropagationState
-from meshforge.signoff import ExclusionReason
+from meshforge.signoff import ExclusionReason, Reason
+from meshforge.signoff.question import QuestionKind
 from meshforge.studio.wire import Wire
-from meshforge.studio.wire.actions import ActionView
 from meshforge.studio.wire.asset import Fault
+from meshforge.studio.wire.program import ActionView
+from meshforge.studio.wire.requests import HullOfAsset
 
 Verdict = Literal["accepted", "wrong"]
 
@@ -53,13 +55,11 @@ class Card(Wire):
 
 
 class VocabularyLabel(Wire):
-    """A label of the vocabulary. text: as programs write it; color: `#rrggbb`, by its place; used: how many hulls have
-    it."""
+    """A label of the vocabulary. text: as programs write it; color: `#rrggbb`, by its place."""
 
     name: str
     text: str
     color: str
-    used: int = 0
 
 
 class RuleLine(Wire):
@@ -134,10 +134,60 @@ class ProjectView(Wire):
     left_out: tuple[str, ...] = ()
 
 
-class HistoryView(Wire):
-    """What can be undone and redone next, in words; null where there is nothing."""
+class ConfidenceView(Wire):
+    """One asset. probability: that its edit is right; doubts: the weightiest first; state: whether it is signed off,
+    held below the bar, or excluded; told: whether a person demonstrated or accepted it."""
 
-    undo: str | None = None
-    redo: str | None = None
-    undoable: int = 0
-    redoable: int = 0
+    asset: str
+    probability: float
+    reasons: tuple[Reason, ...] = ()
+    state: Literal["signed", "needs review", "excluded"]
+    remarks: bool = False
+
+
+class HullRef(HullOfAsset):
+    """A hull of an asset. place: its position among the asset's own hulls."""
+
+    place: int
+
+
+class ReviewChoiceView(Wire):
+    """One reply. id: among those of its question; label: that the hulls then get; select: names of the hulls that the
+    rule then selects; sentence: that reading in words; orient: the directive that the family then gets."""
+
+    id: str
+    text: str
+    label: str | None = None
+    select: tuple[str, ...] | None = None
+    sentence: str = ""
+    orient: str | None = None
+
+
+class ReviewQuestionView(Wire):
+    """A question. seconds: of a person; gain: assets that an answer makes right, as far as can be expected; hulls:
+    those in question."""
+
+    id: str
+    kind: QuestionKind
+    text: str
+    seconds: float
+    gain: float
+    asset: str
+    rule: int | None = None
+    hulls: tuple[HullRef, ...] = ()
+    choices: tuple[ReviewChoiceView, ...] = ()
+
+
+class AssessmentView(Wire):
+    """A family as the last learning run left it. bar: the probability from which on an asset is signed off; signed_off,
+    held, excluded: how many assets; unseen: those of the family that nobody looked at, as there are too many, or they
+    cannot be read; assets: the others in the family's order, empty while there is no program; question: null where
+    nothing is left to ask."""
+
+    threshold: float
+    signed_off: int = 0
+    need_review: int = 0
+    excluded: int = 0
+    unseen: int = 0
+    assets: tuple[ConfidenceView, ...] = ()
+    question: ReviewQuestionView | None = None

@@ -136,10 +136,9 @@ class AssetLabelUpdate(Wire):
 
 
 class LabelUpdate(Wire):
-    """What the last edit did, if it changed the labels of all assets. entry: its number in the history; way: its kind;
-    settled: how many labels it made sure."""
+    """What the last edit did, if it changed the labels of all assets. way: its kind; settled: how many labels it made
+    sure."""
 
-    entry: int
     way: LabelEditKind
     assets: tuple[AssetLabelUpdate, ...]
     newly_sure: int = 0

@@ -1,19 +1,90 @@
-"""Programs, the outcome of learning, selections of extractors, and the language as forms and words."""
+"""Actions as the page shows and sends them, programs, the outcome of learning, and the language as forms and words."""
 
 from __future__ import annotations
 
+from typing import Annotated, Literal
+
+from pydantic import BeforeValidator, Field
+
+from meshforge.language import ActionIcon, explain, show
 from meshforge.project import LearnStatus
 from meshforge.studio.wire import Wire
-from meshforge.studio.wire.actions import ActionForm, ActionView, Argument
+from meshforge.synthesis import Hint
+
+ArgumentKind = Literal[
+    "words", "flag", "file", "shape", "factor", "length", "option", "text", "share", "label", "base", "extractor"
+]
+Value = bool | float | str
+ExtractorText = Annotated[str, BeforeValidator(show)]
+
+
+class ActionCall(Wire):
+    """An action and its arguments by name, those that are left out missing. each: whether it is done to every connected
+    part separately; label: what new hulls are labelled, null for the label of what they are made of."""
+
+    name: str
+    arguments: dict[str, Value] = Field(default_factory=dict)
+    each: bool = False
+    label: str | None = None
+
+
+class ActionView(ActionCall):
+    """An action as it is shown. text: as the language has it, with `as LABEL` where new hulls get a label; short: that
+    without the label; icon: the name of its picture."""
+
+    text: str
+    short: str
+    icon: ActionIcon
+
+
+class Argument(Wire):
+    """One argument of an action or an extractor. kind: one of some `words`, a `flag` that is there or not, the `file`
+    of a template, a `shape` (a primitive or a template), a `factor` above 0, a `length` above 0 [m], an `option` with a
+    length [m], a `text`, a `share` above 0 and at most 1, a `label`, a `base` extractor, or any `extractor`.
+
+    title: its name in the form; wants: what it must be; words: longer texts for some choices; omitted: what happens
+    without it; usual: what a form begins with.
+    """
+
+    name: str
+    kind: ArgumentKind
+    title: str
+    wants: str
+    choices: tuple[str, ...] = ()
+    words: dict[str, str]
+    omitted: str = "usual"
+    required: bool = True
+    usual: Value | None = None
+
+
+class ArgumentValue(Wire):
+    """A value of an argument; null for any that is none of its choices."""
+
+    name: str
+    value: Value | None
+
+
+class ActionForm(Wire):
+    """An action as a form. title: what it does to a selection, as a command; key: that begins it, empty for none;
+    usage: its syntax; makes: whether new hulls can get a label; clashes: pairs of values that do not go together."""
+
+    name: str
+    title: str
+    summary: str
+    key: str
+    icon: ActionIcon
+    usage: str
+    makes: bool
+    arguments: tuple[Argument, ...]
+    clashes: tuple[tuple[ArgumentValue, ArgumentValue], ...] = ()
 
 
 class RuleView(Wire):
-    """A rule of a program, as text and as a sentence; readings: how many extractors agree with all demonstrations."""
+    """A rule of a program, as text and as a sentence."""
 
     rule: int
     text: str
     sentence: str
-    candidates: int = 1
 
 
 class CandidateView(Wire):
@@ -22,8 +93,8 @@ class CandidateView(Wire):
 
     id: str
     rule: int
-    extractor: str
-    sentence: str
+    extractor: ExtractorText
+    sentence: Annotated[str, Field(validation_alias="extractor"), BeforeValidator(explain)]
     size: int
     belief: float
     differs_on: tuple[str, ...]
@@ -33,17 +104,10 @@ class NearestView(Wire):
     """The extractor that comes nearest, for a rule without any that fits, and how it differs on one asset."""
 
     rule: int
-    extractor: str
+    extractor: ExtractorText
     asset: str
     extra: tuple[str, ...]
     missing: tuple[str, ...]
-
-
-class HintView(Wire):
-    """The asset to demonstrate next, and why."""
-
-    asset: str
-    why: str
 
 
 class OutcomeView(Wire):
@@ -51,9 +115,9 @@ class OutcomeView(Wire):
     how many assets the run looked at; settled: whether the program is unambiguous; repairs: how many labels
     are probably wrong.
 
-    error: a message in place of an outcome; seconds: the time it took. why, advice, nearest: for a rule without an
-    extractor. stale: ids of answers that no longer fit. sample: the assets whose results show best whether the program
-    is right, best first; overruled: those whose accepted result no program keeps.
+    error: a message in place of an outcome. why, advice, nearest: for a rule without an extractor. stale: ids of
+    answers that no longer fit. sample: the assets whose results show best whether the program is right, best first;
+    overruled: those whose accepted result no program keeps.
     """
 
     number: int
@@ -65,24 +129,21 @@ class OutcomeView(Wire):
     candidates: tuple[CandidateView, ...] = ()
     repairs: int = 0
     nearest: NearestView | None = None
-    hint: HintView | None = None
+    hint: Hint | None = None
     why: str | None = None
     advice: tuple[str, ...] = ()
     stale: tuple[str, ...] = ()
     sample: tuple[str, ...] = ()
     overruled: tuple[str, ...] = ()
     error: str | None = None
-    seconds: float = 0.0
 
 
 class Reach(Wire):
     """What a program does on one asset. rules: for each rule the positions of the asset's own hulls that it selects, or
-    that the hulls it selects were made of; before, after: how many hulls; error: why it does not run there."""
+    that the hulls it selects were made of; error: why it does not run there."""
 
     asset: str
     rules: tuple[tuple[int, ...], ...] = ()
-    before: int = 0
-    after: int = 0
     error: str | None = None
 
 
@@ -139,13 +200,6 @@ class Guess(Wire):
     select: tuple[str, ...]
     sentence: str
     error: str | None = None
-
-
-class Guesses(Wire):
-    """A guess for each rule."""
-
-    asset: str
-    guesses: tuple[Guess, ...]
 
 
 class Operator(Wire):

@@ -2,14 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
-
-from pydantic import Field
-
-from meshforge.formats import DecomposeBy
 from meshforge.studio.wire import Wire
-from meshforge.studio.wire.actions import ActionCall
 from meshforge.studio.wire.jobs import Model
+from meshforge.studio.wire.program import ActionCall
 
 
 class PreviewRequest(Wire):
@@ -30,13 +25,6 @@ class SelectRequest(Wire):
     steps: int = 0
     rule: int | None = None
     extractor: str
-
-
-class GeneraliseRequest(Wire):
-    """What does an extractor select on all assets, before the rule of that number?"""
-
-    extractor: str
-    rule: int = 1
 
 
 class HullOfAsset(Wire):
@@ -75,30 +63,6 @@ class SimilarView(Wire):
     passed_over: int
 
 
-class CheckRequest(Wire):
-    """Is this text a program?"""
-
-    text: str
-
-
-class JobCancel(Wire):
-    """Stop a job."""
-
-    id: str
-
-
-class DownloadRequest(Wire):
-    """Fetch the file that a job has made."""
-
-    job: str
-
-
-class DownloadTicket(Wire):
-    """Where the file is, below the studio's own address: good once, and for a minute."""
-
-    address: str
-
-
 class UploadReceipt(Wire):
     """An upload is stored. names: of a template, as actions write it; or the paths of asset files; problems: why other
     assets of it cannot be read, and were left out."""
@@ -121,50 +85,3 @@ class LabelSources(Wire):
     files: int
     names: int
     model: Model | None
-
-
-class FolderRequest(Wire):
-    """A folder, by its path."""
-
-    folder: str
-
-
-Method = Literal["coacd", "vhacd"]
-
-
-class ProjectOfFolder(Wire):
-    """Make a project of the assets in a folder, which stay where they are. project: the folder to make; decompose: the
-    tool that makes hulls of what has none, null to leave it as it is; by: of each piece as a whole, or of each of its
-    parts by itself, where these are known."""
-
-    kind: Literal["folder"] = "folder"
-    folder: str
-    project: str
-    decompose: Method | None = None
-    by: DecomposeBy = "whole"
-
-
-class ProjectOfUpload(Wire):
-    """Make a project of the files that were sent, which come into its own folder; fields as in `ProjectOfFolder`."""
-
-    kind: Literal["upload"] = "upload"
-    project: str
-    decompose: Method | None = None
-    by: DecomposeBy = "whole"
-
-
-class ProjectOfFamily(Wire):
-    """Make a project of a bundled family, whose files are written into its own folder."""
-
-    kind: Literal["family"] = "family"
-    family: str
-    project: str
-
-
-NewProject = Annotated[ProjectOfFolder | ProjectOfUpload | ProjectOfFamily, Field(discriminator="kind")]
-
-
-class OpenReceipt(Wire):
-    """A project is open now."""
-
-    folder: str

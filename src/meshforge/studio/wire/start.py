@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from meshforge.formats import DecomposeBy
 from meshforge.studio.wire import Wire
 
 
@@ -74,3 +79,38 @@ class AssetsFound(Wire):
     problem: str | None = None
     left_out: bool = False
     project: str
+
+
+Method = Literal["coacd", "vhacd"]
+
+
+class ProjectOfFolder(Wire):
+    """Make a project of the assets in a folder, which stay where they are. project: the folder to make; decompose: the
+    tool that makes hulls of what has none, null to leave it as it is; by: of each piece as a whole, or of each of its
+    parts by itself, where these are known."""
+
+    kind: Literal["folder"] = "folder"
+    folder: str
+    project: str
+    decompose: Method | None = None
+    by: DecomposeBy = "whole"
+
+
+class ProjectOfUpload(Wire):
+    """Make a project of the files that were sent, which come into its own folder; fields as in `ProjectOfFolder`."""
+
+    kind: Literal["upload"] = "upload"
+    project: str
+    decompose: Method | None = None
+    by: DecomposeBy = "whole"
+
+
+class ProjectOfFamily(Wire):
+    """Make a project of a bundled family, whose files are written into its own folder."""
+
+    kind: Literal["family"] = "family"
+    family: str
+    project: str
+
+
+NewProject = Annotated[ProjectOfFolder | ProjectOfUpload | ProjectOfFamily, Field(discriminator="kind")]

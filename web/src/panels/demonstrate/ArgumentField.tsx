@@ -40,7 +40,7 @@ export function ArgumentField({ argument, value, given, form, onChange }: Argume
     >
       {kind === "factor" && <FactorField value={value} onChange={onChange} />}
       {(kind === "length" || kind === "option") && (
-        <LengthField name={title} required={argument.required} value={value} onChange={onChange} />
+        <NumberField name={title} required={argument.required} value={value} onChange={onChange} />
       )}
       {kind === "file" && <TemplateField value={String(value ?? "")} onChange={onChange} />}
       {kind === "shape" && <ShapeField primitives={argument.choices} value={String(value ?? "")} onChange={onChange} />}
@@ -71,18 +71,15 @@ function wordsOf({ name, choices, required, words, omitted }: Argument, given: D
   return required ? options : [{ value: OMITTED, label: omitted }, ...options];
 }
 
-/** A length in metres to type; one that may be left out is left out where nothing is typed. */
-function LengthField({
-  name,
-  required,
-  value,
-  onChange,
-}: {
+interface NumberFieldProps {
   name: string;
   required: boolean;
   value: Value | undefined;
   onChange: (value: Value) => void;
-}) {
+}
+
+/** A number above 0 to type; one that may be left out is left out where nothing is typed. */
+function NumberField({ name, required, value, onChange }: NumberFieldProps) {
   const [text, setText] = useState(String(value ?? ""));
   const number = Number(text.replace(",", "."));
   return (
@@ -103,31 +100,11 @@ function LengthField({
 }
 
 /** A factor: a number to type and a slider for the usual range. */
-function FactorField({
-  value,
-  onChange,
-}: {
-  value: string | number | boolean | undefined;
-  onChange: (value: number) => void;
-}) {
+function FactorField({ value, onChange }: Pick<NumberFieldProps, "value" | "onChange">) {
   const number = typeof value === "number" ? value : NaN;
-  const [text, setText] = useState(String(value ?? ""));
-  const shown = Number(text) === number ? text : String(number);
-  const typed = (now: string) => {
-    setText(now);
-    onChange(now.trim() === "" ? NaN : Number(now.replace(",", ".")));
-  };
   return (
     <div className={css.factor}>
-      <input
-        className={css.input}
-        inputMode="decimal"
-        aria-label="Factor"
-        aria-invalid={!(number > 0)}
-        value={Number.isNaN(number) ? text : shown}
-        onChange={(event) => typed(event.target.value)}
-        onKeyDown={(event) => event.key === "Escape" && event.currentTarget.blur()}
-      />
+      <NumberField name="Factor" required value={value} onChange={onChange} />
       <Slide
         name="Factor"
         value={Number.isFinite(number) ? Math.min(Math.max(number, 0.1), 2) : 1}

@@ -112,8 +112,10 @@ const PROPAGATE_TITLE = "From labelled assets";
 /** Labels propagated from the assets that a person or a file has labelled to all others. */
 function FromAssets() {
   const job = useJob("propagate");
-  if (job?.state === "running") return <PropagateRunning job={job} />;
-  return <PropagateReady job={job} />;
+  if (job?.state !== "running") return <PropagateReady job={job} />;
+  const reading = job.done < job.total; // comparing all hulls cannot be counted
+  const text = reading ? `Reading assets: ${job.done} of ${job.total}` : "Comparing all hulls…";
+  return <Running icon={Waypoints} title={PROPAGATE_TITLE} job={job} counted={reading} stop="Stop propagating labels" text={text} />;
 }
 
 function PropagateReady({ job }: { job: Job | null }) {
@@ -167,18 +169,16 @@ function Best({ asset }: { asset: string }) {
   );
 }
 
-/** Reading can be counted; comparing all hulls cannot. */
-function PropagateRunning({ job }: { job: Job }) {
-  const reading = job.done < job.total;
-  const text = reading ? `Reading assets: ${job.done} of ${job.total}` : "Comparing all hulls…";
-  const stop = (
-    <Button icon={Square} onClick={() => cancelJob(job.id)} aria-label="Stop propagating labels">
+/** A source that is being asked, with what counts so far; counted: whether that can be counted. */
+function Running({ job, counted = true, stop, text, ...row }: Pick<SourceRowProps, "icon" | "title"> & { job: Job; counted?: boolean; stop: string; text: string }) {
+  const action = (
+    <Button icon={Square} onClick={() => cancelJob(job.id)} aria-label={stop}>
       Stop
     </Button>
   );
   return (
-    <SourceRow icon={Waypoints} title={PROPAGATE_TITLE} text={<span role="status">{text}</span>} action={stop}>
-      <progress className={css.progress} value={reading ? job.done : undefined} max={job.total || 1} aria-label={job.title} />
+    <SourceRow {...row} text={<span role="status">{text}</span>} action={action}>
+      <progress className={css.progress} value={counted ? job.done : undefined} max={job.total || 1} aria-label={job.title} />
     </SourceRow>
   );
 }
@@ -204,8 +204,8 @@ function FromModel({ model }: { model: Model | null }) {
   const counting = useJob("forecast");
   const limit = model?.max_cost?.toString() ?? "";
   const [chosen, setChosen] = useState<Chosen>({ mode: model?.mode ?? "balanced", limit, forecast: null });
-  if (asking?.state === "running") return <ModelRunning job={asking} stop="Stop asking" />;
-  if (counting?.state === "running") return <ModelRunning job={counting} stop="Stop counting" />;
+  const job = [asking, counting].find((one) => one?.state === "running");
+  if (job) return <Running icon={Eye} title={MODEL_TITLE} job={job} stop={job.kind === "ask" ? "Stop asking" : "Stop counting"} text={`${job.title}: ${job.done} of ${job.total}`} />;
   if (!model) return <SourceRow icon={Eye} title={MODEL_TITLE} text="Set a model under [vlm] in meshforge.toml" action={null} />;
   return <ModelReady model={model} asked={asking} chosen={chosen} choose={(next) => setChosen({ ...chosen, ...next })} />;
 }
@@ -267,20 +267,6 @@ function ModelReady({ model, asked, chosen, choose }: ModelReadyProps) {
       {isKnown && <Note>{forecastJob.message}</Note>}
       {isFor && forecastJob?.state === "failed" && <JobNote job={forecastJob} />}
       {asked && !isKnown && <JobNote job={asked} />}
-    </SourceRow>
-  );
-}
-
-function ModelRunning({ job, stop }: { job: Job; stop: string }) {
-  const action = (
-    <Button icon={Square} onClick={() => cancelJob(job.id)} aria-label={stop}>
-      Stop
-    </Button>
-  );
-  const text = <span role="status">{`${job.title}: ${job.done} of ${job.total}`}</span>;
-  return (
-    <SourceRow icon={Eye} title={MODEL_TITLE} text={text} action={action}>
-      <progress className={css.progress} value={job.done} max={job.total || 1} aria-label={job.title} />
     </SourceRow>
   );
 }

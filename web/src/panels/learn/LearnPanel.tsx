@@ -21,7 +21,7 @@ import { Doubts } from "../../family/Sureness";
 import { countText, listText, shortName } from "../../store/words";
 import { Button, IconButton } from "../../ui/Button";
 import { Section } from "../../ui/Section";
-import type { HintView, OutcomeView, NearestView, AnswerView } from "../../wire";
+import type { Hint, OutcomeView, NearestView, AnswerView } from "../../wire";
 import css from "./learn.module.css";
 import { ProgramSection } from "./Program";
 import { Questions } from "../questions/Questions";
@@ -104,7 +104,7 @@ const MOOD_ICONS: Record<Summary["mood"], typeof Check> = {
 };
 
 /** Which asset is best demonstrated next. */
-function NextDemonstration({ hint }: { hint: HintView }) {
+function NextDemonstration({ hint }: { hint: Hint }) {
   return (
     <Section title="Next demonstration">
       <div className={css.split}>

@@ -10,6 +10,7 @@ import { countText, shortName } from "../../store/words";
 import { setHighlight, visit } from "../../store/workspace";
 import { Button } from "../../ui/Button";
 import type { CandidateView, RuleView } from "../../wire";
+import { whilePointed } from "../../ui/whilePointed";
 import css from "./learn.module.css";
 import { RuleText, useExtractorHighlight } from "./RuleText";
 
@@ -78,10 +79,7 @@ const RuleRow = memo(function RuleRow({ rule, accepted, learned }: RuleRowProps)
         className={css.ruleButton}
         aria-expanded={learned ? open : undefined}
         onClick={() => (learned ? setOpen(!open) : point.on())}
-        onPointerEnter={point.on}
-        onPointerLeave={point.off}
-        onFocus={point.on}
-        onBlur={point.off}
+        {...whilePointed(point.on, point.off)}
       >
         <span className={css.number}>{rule.rule}</span>
         <span className={css.ruleBody}>
@@ -143,7 +141,7 @@ function ReadingRow({ reading, own }: { reading: CandidateView; own: boolean }) 
   const point = useExtractorHighlight(extractor, rule);
   const percent = Math.round(100 * belief);
   return (
-    <li className={css.reading} data-own={own} onPointerEnter={point.on} onPointerLeave={point.off} onFocus={point.on} onBlur={point.off}>
+    <li className={css.reading} data-own={own} {...whilePointed(point.on, point.off)}>
       <RuleText text={extractor} />
       <span className={css.sentence}>{sentence}</span>
       <span className={css.belief} title="Its probability and its number of parts: shorter readings are more probable">

@@ -4,6 +4,7 @@ import { IdPicture } from "../../pictures/IdPicture";
 import { decodePicture } from "../../pictures/pictureCache";
 import { useFetched } from "../../pictures/useFetched";
 import { api } from "../../server/api";
+import { keepLatest } from "../../store/once";
 import { useProject } from "../../store/project";
 import css from "./learn.module.css";
 
@@ -74,8 +75,7 @@ function rulePicture(asset: string, rule: number, version: string, show: readonl
   const known = kept.get(key);
   if (known) return known;
   const fresh = api.picture(asset, rule, show);
-  kept.set(key, fresh);
+  keepLatest(kept, key, fresh, MOST);
   fresh.catch(() => kept.delete(key));
-  if (kept.size > MOST) kept.delete(kept.keys().next().value ?? "");
   return fresh;
 }

@@ -13,6 +13,7 @@ import { Swatch } from "../../ui/Section";
 import type { ReviewChoiceView, ReviewQuestionView } from "../../wire";
 import { useCardKeys } from "./cardKeys";
 import { GroupHulls, groupText } from "./GroupHulls";
+import { whilePointed } from "../../ui/whilePointed";
 import css from "./questions.module.css";
 import { LaterReply, Reply, ShowReply } from "./Replies";
 import { ResultReplies } from "./ResultReplies";
@@ -26,10 +27,7 @@ export function PlainCard({ question }: { question: ReviewQuestionView }) {
     <section
       className={css.card}
       aria-labelledby="asked"
-      onPointerEnter={point}
-      onPointerLeave={() => setHighlight(null)}
-      onFocus={point}
-      onBlur={() => setHighlight(null)}
+      {...whilePointed(point, () => setHighlight(null))}
     >
       <h3 id="asked">{question.text}</h3>
       {question.hulls.length > 0 && <GroupHulls question={question} exceptions={exceptions} onChange={setExceptions} />}

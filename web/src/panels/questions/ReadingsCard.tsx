@@ -8,6 +8,7 @@ import type { ReviewQuestionView } from "../../wire";
 import { HullsPicture, type RulePictureView, useRulePicture } from "../learn/RulePicture";
 import { useExtractorHighlight } from "../learn/RuleText";
 import { useCardKeys } from "./cardKeys";
+import { whilePointed } from "../../ui/whilePointed";
 import css from "./questions.module.css";
 import { LaterReply, Reply, ShowReply } from "./Replies";
 
@@ -62,10 +63,7 @@ function ChoiceButton({ question, place, picture, onClick }: ChoiceButtonProps) 
       className={css.choice}
       aria-keyshortcuts={String(place + 1)}
       onClick={onClick}
-      onPointerEnter={point.on}
-      onPointerLeave={point.off}
-      onFocus={point.on}
-      onBlur={point.off}
+      {...whilePointed(point.on, point.off)}
     >
       <HullsPicture picture={picture} hulls={selectOf(choice)} label="" />
       <span className={css.choiceText}>

@@ -6,7 +6,7 @@ import { Doubts } from "../../family/Sureness";
 import { applyTo, whyNotApply } from "../../store/jobs";
 import { leaveOut } from "../../store/members";
 import { useProject } from "../../store/project";
-import { staleText } from "../../store/reviews";
+import { isWritten, staleText } from "../../store/reviews";
 import { errorParts, shortName } from "../../store/words";
 import { useWorkspace } from "../../store/workspace";
 import { Button } from "../../ui/Button";
@@ -62,7 +62,7 @@ function VerdictSection({ asset }: { asset: string }) {
   const card = useProject((state) => state.cards[asset]);
   const some = useProject((state) => Object.values(state.cards).some(({ output }) => output !== "none"));
   if (!card) return null;
-  const written = card.output === "edited" || card.output === "unchanged";
+  const written = isWritten(card);
   const stale = card.stale.length > 0;
   return (
     <Section title={shortName(asset)} aside={<ReviewState card={card} />}>

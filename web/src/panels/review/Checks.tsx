@@ -157,7 +157,7 @@ function PartResult({ asset, version, checked }: { asset: string; version: strin
 function EngineMenu() {
   const engine = useWorkspace((workspace) => workspace.checks.engine);
   const engines = useProject((state) => state.engines);
-  const title = engines.find(({ name }) => name === engine)?.title ?? "no engine";
+  const title = engines[engine] ?? "no engine";
   return (
     <Menu
       trigger={
@@ -166,9 +166,9 @@ function EngineMenu() {
           <ChevronDown size={13} aria-hidden />
         </Button>
       }
-      lines={[{ name: "", title: "No engine" }, ...engines].map((one) => ({
-        label: one.name === engine ? `✓ ${one.title}` : one.title,
-        onSelect: () => setChecks({ engine: one.name }),
+      lines={Object.entries({ "": "No engine", ...engines }).map(([name, text]) => ({
+        label: name === engine ? `✓ ${text}` : text,
+        onSelect: () => setChecks({ engine: name }),
       }))}
     />
   );

@@ -12,6 +12,7 @@ import { changeText, countText, listText } from "../../store/words";
 import { hover, select, setHighlight, useUnit, useWorkspace } from "../../store/workspace";
 import { Section } from "../../ui/Section";
 import type { EditHeader, FindingView, HullView, Problem, TraceLine } from "../../wire";
+import { whilePointed } from "../../ui/whilePointed";
 import css from "./review.module.css";
 
 export function NumbersTable({ asset, before, edit }: { asset: string; before: readonly HullView[]; edit: EditHeader }) {
@@ -145,10 +146,7 @@ function TraceRow({ line, asset, texts }: { line: TraceLine; asset: string; text
         className={css.traceLine}
         title={line.selected.length ? `Select the result for ${listText(line.selected, 12)}` : undefined}
         onClick={() => select(line.made.length ? line.made : line.selected)}
-        onPointerEnter={light}
-        onPointerLeave={dark}
-        onFocus={light}
-        onBlur={dark}
+        {...whilePointed(light, dark)}
       >
         <span className={css.number}>{line.rule}</span>
         <span className={css.traceText}>

@@ -11,6 +11,7 @@ import {
   type Group,
   groupCards,
   GROUPS,
+  isWritten,
   listAcceptable,
   staleText,
   useVerdicts,
@@ -122,7 +123,7 @@ function keyOf(line: Line | undefined, k: number): string | number {
 /** One result in the list: pictures before and after, numbers, and how it stands. */
 const ResultRow = memo(function ResultRow({ card, onOpen }: { card: Card; onOpen: () => void }) {
   const current = useWorkspace((state) => state.asset === card.asset);
-  const written = card.output === "edited" || card.output === "unchanged";
+  const written = isWritten(card);
   const open = () => {
     openAsset(card.asset);
     onOpen();

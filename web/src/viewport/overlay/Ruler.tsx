@@ -13,7 +13,7 @@ import {
   type RulerPoint,
   useRuler,
 } from "../../store/ruler";
-import type { Triple } from "../../store/cut";
+import type { Triple } from "../../store/vectors";
 import { useScenes } from "../../store/scenes";
 import { setTool, setUnit, useUnit, useWorkspace } from "../../store/workspace";
 import { Button, IconButton } from "../../ui/Button";

@@ -6,7 +6,8 @@ import type { Spot } from "../geometry/region";
 import { clearRegion, setRegion } from "../stage/regionStore";
 import { hullAt, pieceAt, rayAt } from "../stage/picking";
 import type { Stage } from "../stage/stage";
-import { hullToCut, planeOf, setCut, shareAt, type Triple, useCut } from "../../store/cut";
+import { hullToCut, planeOf, setCut, shareAt, useCut } from "../../store/cut";
+import type { Triple } from "../../store/vectors";
 import { endStroke, paint } from "../../store/labels";
 import type { SceneHull } from "../../store/scenes";
 import { dropPoints, pointRuler, takePoint } from "../../store/ruler";
@@ -143,8 +144,8 @@ function beginLine(stage: Stage, hull: SceneHull, start: Spot): Drag {
 }
 
 /** A point of the file's frame where the hull is when it is not moved by the exploded view. */
-function unexploded(stage: Stage, hull: SceneHull, at: readonly number[]): number[] {
+function unexploded(stage: Stage, hull: SceneHull, at: readonly number[]): Triple {
   const k = stage.shown?.hulls.places.get(hull.name) ?? -1;
   const away = stage.shown?.hulls.aways[k] ?? [0, 0, 0];
-  return at.map((value, axis) => value - stage.settings.explode * (away[axis] ?? 0));
+  return at.map((value, axis) => value - stage.settings.explode * (away[axis] ?? 0)) as Triple;
 }
