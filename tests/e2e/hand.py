@@ -130,15 +130,21 @@ def chromium() -> Iterator[Browser]:
         if os.environ.get("CI"):
             raise FileNotFoundError(f"there is no browser at {CHROMIUM}")
         pytest.skip(f"there is no browser at {CHROMIUM}: install Debian's chromium, or set CHROMIUM")
-    with sync_playwright() as tool:
-        browser = tool.chromium.launch(executable_path=CHROMIUM, args=list(FLAGS))
-        try:
-            yield browser
-        except BaseException:
-            _photograph(browser)
-            raise
-        finally:
-            browser.close()
+    with sync_playwright() as tool, tool.chromium.launch(executable_path=CHROMIUM, args=list(FLAGS)) as browser:
+        yield browser
+
+
+@contextmanager
+def windows(browser: Browser) -> Iterator[None]:
+    """Close all windows of a browser after a block, and photograph them first if it fails."""
+    try:
+        yield
+    except BaseException:
+        _photograph(browser)
+        raise
+    finally:
+        for context in browser.contexts:
+            context.close()
 
 
 def _photograph(browser: Browser) -> None:

@@ -5,15 +5,17 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+from playwright.sync_api import Browser
+
 from tests.cup_project import BARE, CUP, cup_project
-from tests.e2e.hand import chromium, hand
+from tests.e2e.hand import hand, windows
 from tests.e2e.studio import ok, opened
 from tests.e2e.walk import PAGE, address, go_to
 
 
-def test_a_filled_cup_is_found_shown_and_sorted_first(tmp_path: Path) -> None:
+def test_a_filled_cup_is_found_shown_and_sorted_first(tmp_path: Path, browser: Browser) -> None:
     project = cup_project(tmp_path)
-    with opened(tmp_path, project.folder, "--page", str(PAGE)) as studio, chromium() as browser:
+    with opened(tmp_path, project.folder, "--page", str(PAGE)) as studio, windows(browser):
         studio.settled()
         person = hand(browser)
         person.open(address(studio))

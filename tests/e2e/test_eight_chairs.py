@@ -6,11 +6,13 @@ from pathlib import Path
 from typing import Any
 from zipfile import ZipFile
 
+from playwright.sync_api import Browser
+
 from meshforge.formats import load
 from meshforge.language import Program
 from tests.e2e.chair_family import WORDS, write_chairs
 from tests.e2e.expert import Expert, volumes_of
-from tests.e2e.hand import Hand, chromium, hand
+from tests.e2e.hand import Hand, hand, windows
 from tests.e2e.labelling import label_look_alikes
 from tests.e2e.studio import ending, started
 from tests.e2e.transfer import drop, save
@@ -24,10 +26,10 @@ Is(leg)  => Each(Merge)
 FIRST, SECOND = "chair_0.obj", "chair_1.obj"
 
 
-def test_eight_chairs_go_from_a_dropped_folder_to_an_export(tmp_path: Path) -> None:
+def test_eight_chairs_go_from_a_dropped_folder_to_an_export(tmp_path: Path, browser: Browser) -> None:
     source, folder = tmp_path / "chairs", tmp_path / "projects" / "my chairs"
     truth, _ = write_chairs(source)
-    with ending(started("studio", "--page", str(PAGE))) as studio, chromium() as browser:
+    with ending(started("studio", "--page", str(PAGE))) as studio, windows(browser):
         person = hand(browser)
         person.page.goto(address(studio))
         person.page.get_by_role("heading", name="Recent projects").wait_for()

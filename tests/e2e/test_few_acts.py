@@ -7,8 +7,10 @@ from __future__ import annotations
 import time
 from pathlib import Path
 
+from playwright.sync_api import Browser
+
 from tests.e2e.chair_family import FIVE, WORDS, ChairFamily, ChairShape, chair_family
-from tests.e2e.hand import Hand, chromium, hand
+from tests.e2e.hand import Hand, hand, windows
 from tests.e2e.labelling import label_look_alikes, visible
 from tests.e2e.studio import PATIENCE, opened
 from tests.e2e.walk import PAGE, address
@@ -19,13 +21,13 @@ MOST_FOR_ONE, MOST_FOR_EIGHT = 14, 45
 Spot = tuple[float, float]
 
 
-def test_a_chair_of_24_hulls_takes_few_acts(tmp_path: Path) -> None:
+def test_a_chair_of_24_hulls_takes_few_acts(tmp_path: Path, browser: Browser) -> None:
     """Seat, back and arms are painted, the rails found from one, and the legs are what has no label then."""
     family = chair_family(tmp_path, [ChairShape(slats=3)], FIVE)
     (asset,) = family.truth
     parts = dict(zip(family.truth[asset], family.parts[asset], strict=True))
     assert len(parts) == 24
-    with opened(tmp_path, family.project.folder, "--page", str(PAGE)) as studio, chromium() as browser:
+    with opened(tmp_path, family.project.folder, "--page", str(PAGE)) as studio, windows(browser):
         studio.settled()
         person = hand(browser)
         person.open(address(studio))
@@ -59,10 +61,10 @@ def test_a_chair_of_24_hulls_takes_few_acts(tmp_path: Path) -> None:
     assert person.actions <= MOST_FOR_ONE
 
 
-def test_a_family_of_eight_chairs_takes_few_acts(tmp_path: Path) -> None:
+def test_a_family_of_eight_chairs_takes_few_acts(tmp_path: Path, browser: Browser) -> None:
     """Side by side; look-alikes of one hull on all chairs are taken at once, wrong ones put off by a click."""
     family = chair_family(tmp_path)
-    with opened(tmp_path, family.project.folder, "--page", str(PAGE)) as studio, chromium() as browser:
+    with opened(tmp_path, family.project.folder, "--page", str(PAGE)) as studio, windows(browser):
         studio.settled()
         person = hand(browser)
         person.open(address(studio))

@@ -5,8 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from playwright.sync_api import Browser
 
-from tests.e2e.hand import chromium, hand
+from tests.e2e.hand import hand, windows
 from tests.e2e.studio import opened
 from tests.e2e.walk import PAGE, address, demonstrate_tables, learned
 from tests.studio_project import demo_project
@@ -16,9 +17,9 @@ MOST = 44
 
 
 @pytest.mark.parametrize("latency", [0, 400], ids=["quick", "typed-ahead"])
-def test_five_rules_take_few_clicks_and_keys(tmp_path: Path, latency: int) -> None:
+def test_five_rules_take_few_clicks_and_keys(tmp_path: Path, latency: int, browser: Browser) -> None:
     project = demo_project(tmp_path, demonstrated=False, orient="")
-    with opened(tmp_path, project.folder, "--page", str(PAGE)) as studio, chromium() as browser:
+    with opened(tmp_path, project.folder, "--page", str(PAGE)) as studio, windows(browser):
         studio.settled()
         person = hand(browser, latency=latency)
         person.open(address(studio))

@@ -6,11 +6,12 @@ import shutil
 from pathlib import Path
 
 import pytest
+from playwright.sync_api import Browser
 
 from meshforge.batch import IN_PROCESS, read_stamp
 from meshforge.language import Program
 from meshforge.project import Project, RebuildSettings
-from tests.e2e.hand import chromium, hand
+from tests.e2e.hand import hand, windows
 from tests.e2e.studio import ok, opened
 from tests.e2e.walk import PAGE, address
 from tests.unit.project.stools import boxes, coarse, create_stools, write_stool
@@ -30,9 +31,11 @@ def project(tmp_path: Path) -> Project:
     return Project.open(project.folder)
 
 
-def test_a_run_rebuilds_bodies_of_new_assets_and_undo_takes_it_back(project: Project, tmp_path: Path) -> None:
+def test_a_run_rebuilds_bodies_of_new_assets_and_undo_takes_it_back(
+    project: Project, tmp_path: Path, browser: Browser
+) -> None:
     shutil.copytree(project.folder, tmp_path / "by_command")
-    with opened(tmp_path, project.folder, "--page", str(PAGE)) as studio, chromium() as browser:
+    with opened(tmp_path, project.folder, "--page", str(PAGE)) as studio, windows(browser):
         studio.settled()
         person = hand(browser)
         person.open(address(studio))

@@ -5,8 +5,10 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+from playwright.sync_api import Browser
+
 from meshforge.project import Project
-from tests.e2e.hand import Hand, chromium, hand
+from tests.e2e.hand import Hand, hand, windows
 from tests.e2e.studio import opened
 from tests.e2e.walk import PAGE, address, go_to
 from tests.mesh_files import ROOM
@@ -39,13 +41,13 @@ _MAKING = 300_000
 """Milliseconds that the decomposition may take: half a minute on two free cores, longer beside other tests."""
 
 
-def test_names_give_labels_a_button_makes_hulls_and_a_plane_cuts_one(tmp_path: Path) -> None:
+def test_names_give_labels_a_button_makes_hulls_and_a_plane_cuts_one(tmp_path: Path, browser: Browser) -> None:
     assets = tmp_path / "assets"
     assets.mkdir()
     (assets / "room.obj").write_text(ROOM, encoding="utf-8")
     (assets / "stool.obj").write_text(STOOL, encoding="utf-8")
     project = Project.create(tmp_path / "project", [assets / "*.obj"], vocabulary=("seat", "leg"))
-    with opened(tmp_path, project.folder, "--page", str(PAGE)) as studio, chromium() as browser:
+    with opened(tmp_path, project.folder, "--page", str(PAGE)) as studio, windows(browser):
         studio.settled()
         person = hand(browser)
         person.open(address(studio))

@@ -6,11 +6,11 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from playwright.sync_api import Locator
+from playwright.sync_api import Browser, Locator
 
 from meshforge.project import Project
 from meshforge.symbolic import Label
-from tests.e2e.hand import Hand, chromium, hand
+from tests.e2e.hand import Hand, hand, windows
 from tests.e2e.legs import HULLS, LABELS, WORDS, four_legged
 from tests.e2e.studio import Studio, opened
 from tests.e2e.walk import PAGE, address, click_row, go_to
@@ -20,10 +20,10 @@ FIRST, SECOND = "t0.obj", "t1.obj"
 CARRIED = "Labels propagated"
 
 
-def test_one_asset_is_labelled_and_the_others_follow(tmp_path: Path) -> None:
+def test_one_asset_is_labelled_and_the_others_follow(tmp_path: Path, browser: Browser) -> None:
     project = four_legged(tmp_path, words=())
     labels = project.folder / "labels"
-    with opened(tmp_path, project.folder, "--page", str(PAGE)) as studio, chromium() as browser:
+    with opened(tmp_path, project.folder, "--page", str(PAGE)) as studio, windows(browser):
         studio.settled()
         person = hand(browser)
         person.open(address(studio))

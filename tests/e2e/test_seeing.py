@@ -9,9 +9,10 @@ from typing import Any
 import numpy as np
 import trimesh
 from PIL import Image
+from playwright.sync_api import Browser
 
 from meshforge.project import Project
-from tests.e2e.hand import Hand, chromium, hand
+from tests.e2e.hand import Hand, hand, windows
 from tests.e2e.studio import opened
 from tests.e2e.walk import PAGE, address
 
@@ -55,7 +56,7 @@ def turn(person: Hand) -> None:
     person.page.mouse.up(button="middle")
 
 
-def test_of_faces_in_one_plane_the_same_is_drawn_and_picked_from_every_side(tmp_path: Path) -> None:
+def test_of_faces_in_one_plane_the_same_is_drawn_and_picked_from_every_side(tmp_path: Path, browser: Browser) -> None:
     lines, count = [], 0
     for name, (low, high, _) in BOXES.items():
         made = trimesh.creation.box(bounds=(low, high))
@@ -66,7 +67,7 @@ def test_of_faces_in_one_plane_the_same_is_drawn_and_picked_from_every_side(tmp_
     asset.write_text("\n".join(lines) + "\n")
     project = Project.create(tmp_path / "project", [asset], vocabulary=("left", "right"))
     project.set_labels("boxes.obj", {name: label for name, (_, _, label) in BOXES.items()})
-    with opened(tmp_path, project.folder, "--page", str(PAGE)) as studio, chromium() as browser:
+    with opened(tmp_path, project.folder, "--page", str(PAGE)) as studio, windows(browser):
         studio.settled()
         person = hand(browser, 1024, 700)
         person.open(address(studio))

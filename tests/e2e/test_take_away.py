@@ -8,20 +8,23 @@ from zipfile import ZipFile
 import pytest
 import trimesh
 from PIL import Image
+from playwright.sync_api import Browser
 
 from meshforge.formats import load
-from tests.e2e.hand import chromium, hand
+from tests.e2e.hand import hand, windows
 from tests.e2e.studio import opened
 from tests.e2e.transfer import save
 from tests.e2e.walk import PAGE, address
 from tests.unit.project.tables import FIRST, SECOND, THIRD, applied
 
 
-def test_results_report_and_turntable_are_saved_by_the_browser_and_can_be_opened(tmp_path: Path) -> None:
+def test_results_report_and_turntable_are_saved_by_the_browser_and_can_be_opened(
+    tmp_path: Path, browser: Browser
+) -> None:
     project = applied(tmp_path)
     project.set_verdict([FIRST, SECOND], "accepted")
     project.set_verdict([THIRD], "wrong")
-    with opened(tmp_path, project.folder, "--page", str(PAGE)) as studio, chromium() as browser:
+    with opened(tmp_path, project.folder, "--page", str(PAGE)) as studio, windows(browser):
         studio.settled()
         person = hand(browser)
         person.open(address(studio))
