@@ -10,9 +10,9 @@
 `--explore` lets laws draw new examples in any run. What fails then is printed, and is kept as an `@example`.
 
 An `--all` run fails when more cases are marked `long`. It names the tests that take more than their marks allow, the
-slowest first, and does not fail for those: what a test takes is the machine's doing too. CPU time counts rather than the
-clock, so that a busy machine matters less; it is that of the test and its fixtures of scope "function", child processes
-included, but for those that a server of worker processes started and those that tests share.
+slowest first, and does not fail for those: what a test takes is the machine's doing too. CPU time counts rather than
+the clock, so that a busy machine matters less; it is that of the test and its fixtures of scope "function", child
+processes included, but for those that a server of worker processes started and those that tests share.
 """
 
 from __future__ import annotations
@@ -100,7 +100,9 @@ class Cases:
 
     def pytest_terminal_summary(self, terminalreporter: pytest.TerminalReporter) -> None:
         if "slow" in self._config.option.left_out:
-            terminalreporter.write_line("The slow tests were left out; script/test --all runs most, --long all of them.")
+            terminalreporter.write_line(
+                "The slow tests were left out; script/test --all runs most of them, --long all."
+            )
         elif self._config.option.left_out:
             line = f"{self._long} of {self._all} cases are marked long and were left out; script/test --long runs them."
             terminalreporter.write_line(line)

@@ -76,7 +76,6 @@ def test_every_view_can_be_read_and_reached(tmp_path: Path, browser: Browser) ->
 
 
 @NEEDS_AXE
-@pytest.mark.slow
 def test_what_comes_and_goes_can_be_read_and_reached(tmp_path: Path, browser: Browser) -> None:
     project = applied(tmp_path)
     with opened(tmp_path, project.folder, "--page", str(PAGE)) as studio, windows(browser):
@@ -93,7 +92,6 @@ def test_what_comes_and_goes_can_be_read_and_reached(tmp_path: Path, browser: Br
 
 
 @NEEDS_AXE
-@pytest.mark.slow
 def test_the_start_page_can_be_read_and_reached(tmp_path: Path, browser: Browser) -> None:
     source = tmp_path / "desks"
     source.mkdir()

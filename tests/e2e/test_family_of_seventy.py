@@ -32,7 +32,7 @@ Is(leg)  => Each(Merge)
 """)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_family_of_seventy_is_signed_off_and_exported_by_keys(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, browser: Browser
 ) -> None:

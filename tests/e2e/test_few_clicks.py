@@ -16,7 +16,7 @@ MOST = 44
 """Clicks and keys for five rules, shown on two assets, as the README says."""
 
 
-@pytest.mark.parametrize("latency", [0, 400], ids=["quick", "typed-ahead"])
+@pytest.mark.parametrize("latency", [pytest.param(0, marks=pytest.mark.long), 400], ids=["quick", "typed-ahead"])
 def test_five_rules_take_few_clicks_and_keys(tmp_path: Path, latency: int, browser: Browser) -> None:
     project = demo_project(tmp_path, demonstrated=False, orient="")
     with opened(tmp_path, project.folder, "--page", str(PAGE)) as studio, windows(browser):

@@ -16,8 +16,6 @@ from tests.e2e.studio import ok, opened
 from tests.e2e.walk import PAGE, address
 from tests.unit.project.stools import boxes, coarse, create_stools, write_stool
 
-pytestmark = pytest.mark.slow
-
 
 @pytest.fixture
 def project(tmp_path: Path) -> Project:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import pytest
 from playwright.sync_api import Browser
 
 from tests.e2e.hand import hand, windows
@@ -12,8 +11,6 @@ from tests.e2e.studio import opened
 from tests.e2e.walk import PAGE, address
 from tests.program_parts import parse_orient
 from tests.unit.project.turned_racks import racks_on_their_side
-
-pytestmark = pytest.mark.slow
 
 
 def test_a_card_shows_an_asset_as_it_stands_and_turned_and_yes_turns_all(tmp_path: Path, browser: Browser) -> None:

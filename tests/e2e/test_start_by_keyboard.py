@@ -30,7 +30,6 @@ def reach(person: Hand, name: str) -> None:
     raise AssertionError(f"Tab never comes to {name}")
 
 
-@pytest.mark.slow
 def test_a_project_is_made_and_its_family_changed_by_the_keyboard_alone(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, browser: Browser
 ) -> None:

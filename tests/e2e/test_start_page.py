@@ -24,7 +24,6 @@ def studio() -> Iterator[Studio]:
         yield found
 
 
-@pytest.mark.slow
 def test_a_dropped_folder_becomes_a_project_with_its_assets(studio: Studio, tmp_path: Path, browser: Browser) -> None:
     source = tmp_path / "desks"
     source.mkdir()
@@ -51,7 +50,6 @@ def test_a_dropped_folder_becomes_a_project_with_its_assets(studio: Studio, tmp_
     assert sorted(path.name for path in source.iterdir()) == ["table_01.obj", "table_02.obj"]
 
 
-@pytest.mark.slow
 def test_assets_without_hulls_are_decomposed_part_by_part_where_that_is_chosen(
     studio: Studio, tmp_path: Path, browser: Browser
 ) -> None:

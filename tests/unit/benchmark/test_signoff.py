@@ -116,7 +116,6 @@ def test_who_never_slips_signs_off_nothing_wrong_where_every_result_is_looked_at
     assert review.points[-1].held == 0
 
 
-@pytest.mark.slow
 def test_an_asset_that_the_reference_cannot_mend_is_never_right() -> None:
     one = task("cup-hard")
     judge = Judge(Bench(one, family(one.category, "coarse")[:5]))

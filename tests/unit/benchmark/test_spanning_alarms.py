@@ -20,7 +20,6 @@ def test_hulls_of_one_part_are_not_named(
     assert case.find()[1] <= most
 
 
-@pytest.mark.slow
 def test_of_seven_chairs_with_a_leg_merged_into_the_seat_six_are_found(tmp_path: Path) -> None:
     case = open_merged(tmp_path)
     assert len(case.project.assets()) == 10 and len(case.spanning) == 7

@@ -60,7 +60,6 @@ def test_hulls_are_compared_with_the_next_finer_decomposition_of_the_same_assets
     assert rows[0] == (REAL, "cups", 1, 2, "medium", 4, 0.5)
 
 
-@pytest.mark.slow
 def test_a_real_chair_is_decomposed_as_a_whole_in_the_frame_of_its_file() -> None:
     corpus()
     sample = whole_sample("chairs", "kaykit-armchair")
@@ -78,7 +77,6 @@ def test_a_real_chair_is_decomposed_as_a_whole_in_the_frame_of_its_file() -> Non
     assert set(label_truly(pieces, sample.asset)) == {part.label for part in sample.asset.parts}
 
 
-@pytest.mark.slow
 def test_the_reference_is_tried_on_each_task_where_solids_are_decomposed_one_by_one() -> None:
     corpus()
     made = judge_separate("chairs", "kaykit-stool")
