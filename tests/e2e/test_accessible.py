@@ -13,7 +13,7 @@ from playwright.sync_api import Browser
 from tests.e2e.hand import Hand, hand, windows
 from tests.e2e.studio import ending, opened, started
 from tests.e2e.walk import PAGE, address
-from tests.studio_project import demo_project
+from tests.studio_project import FEW, demo_project
 from tests.unit.project.tables import applied
 
 AXE = Path(__file__).parents[2] / "web" / "node_modules" / "axe-core" / "axe.min.js"
@@ -62,7 +62,7 @@ PASSING: dict[str, Callable[[Hand], None]] = {
 
 @NEEDS_AXE
 def test_every_view_can_be_read_and_reached(tmp_path: Path, browser: Browser) -> None:
-    project = demo_project(tmp_path)
+    project = demo_project(tmp_path, tables=FEW)
     with opened(tmp_path, project.folder, "--page", str(PAGE)) as studio, windows(browser):
         studio.settled()
         for theme in ("light", "dark"):

@@ -10,7 +10,7 @@ from playwright.sync_api import Browser
 from tests.e2e.hand import hand, windows
 from tests.e2e.studio import opened
 from tests.e2e.walk import PAGE, address, demonstrate_tables, learned
-from tests.studio_project import demo_project
+from tests.studio_project import FEW, demo_project
 
 MOST = 44
 """Clicks and keys for five rules, shown on two assets, as the README says."""
@@ -18,7 +18,7 @@ MOST = 44
 
 @pytest.mark.parametrize("latency", [pytest.param(0, marks=pytest.mark.long), 400], ids=["quick", "typed-ahead"])
 def test_five_rules_take_few_clicks_and_keys(tmp_path: Path, latency: int, browser: Browser) -> None:
-    project = demo_project(tmp_path, demonstrated=False, orient="")
+    project = demo_project(tmp_path, demonstrated=False, orient="", tables=FEW)
     with opened(tmp_path, project.folder, "--page", str(PAGE)) as studio, windows(browser):
         studio.settled()
         person = hand(browser, latency=latency)

@@ -96,29 +96,6 @@ def test_a_hull_of_a_few_vertices_too_many_hardly_grows(count: int, share: float
     assert found is not None and found.error < share * ball.aabb.diagonal
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize(("vertices", "share"), [(32, 0.09), (64, 0.05), (255, 0.015)])
-def test_a_ball_of_many_vertices_is_met_well(vertices: int, share: float) -> None:
-    points = np.random.default_rng(1).normal(size=(2000, 3))
-    ball = convex_hull(points / np.linalg.norm(points, axis=1, keepdims=True))
-    found = enclose(ball, HullBudget(vertices))
-    assert found is not None and found.error < share * ball.aabb.diagonal
-
-
-@pytest.mark.slow
-def test_more_vertices_never_stick_out_more_by_much() -> None:
-    points = np.random.default_rng(2).normal(size=(120, 3))
-    hull = convex_hull(points / np.linalg.norm(points, axis=1, keepdims=True))
-    errors = [found.error for n in (16, 32, 64) if (found := enclose(hull, HullBudget(n)))]
-    assert errors[0] > errors[1] > errors[2] >= 0
-
-
-def test_the_same_hull_gives_the_same_bytes() -> None:
-    points = np.random.default_rng(3).normal(size=(200, 3))
-    first, second = (enclose(convex_hull(points), HullBudget(24)) for _ in range(2))
-    assert first and second and first.hull.vertices.tobytes() == second.hull.vertices.tobytes()
-
-
 def covering_bound(count: int) -> float:
     """How far a polytope of so many faces, or of so many vertices, around a ball of radius 1 sticks out at least
     (L. Fejes Tóth's bound on coverings of the sphere by equal caps; vertices by polarity)."""
