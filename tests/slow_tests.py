@@ -60,6 +60,8 @@ def pytest_configure(config: pytest.Config) -> None:
         quick = option.quick or not (option.all_tests or option.long or named)
         option.left_out = ["slow", "long"] if quick else ["long"] if option.all_tests and not option.long else []
     settings.load_profile("explore" if option.explore or option.long else "fixed")
+    if option.long:
+        os.environ[_LONG] = "1"  # for the workers of pytest-xdist, too
     config.pluginmanager.register(Cases(config))
     config.pluginmanager.register(Costs(config))
 
@@ -196,6 +198,12 @@ class Costs:
         return sorted(costly.items(), key=lambda row: -row[1])
 
 
+def is_long() -> bool:
+    """Whether this run leaves nothing out, however long that takes."""
+    return _LONG in os.environ
+
+
+_LONG = "MESHFORGE_LONG_TESTS"
 _SECONDS = pytest.StashKey[float]()
 
 
