@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import pytest
 from playwright.sync_api import Browser, ConsoleMessage, Locator, Page, sync_playwright
@@ -155,9 +155,10 @@ def _photograph(browser: Browser) -> None:
         page.screenshot(path=f"{folder}/{number}.png")
 
 
-def hand(browser: Browser, width: int = 1440, height: int = 900, latency: int = 0) -> Hand:
-    """A person at a fresh window. latency: of the connection [ms]."""
-    page = browser.new_context(viewport={"width": width, "height": height}).new_page()
+def hand(browser: Browser, width: int = 1440, height: int = 900, latency: int = 0, *, glides: bool = False) -> Hand:
+    """A person at a fresh window. latency: of the connection [ms]; glides: whether the camera does, which takes time."""
+    motion: Literal["no-preference", "reduce"] = "no-preference" if glides else "reduce"
+    page = browser.new_context(viewport={"width": width, "height": height}, reduced_motion=motion).new_page()
     if latency:
         speed = {"offline": False, "latency": latency, "downloadThroughput": -1, "uploadThroughput": -1}
         page.context.new_cdp_session(page).send("Network.emulateNetworkConditions", speed)

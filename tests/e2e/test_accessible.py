@@ -70,7 +70,7 @@ def test_every_view_can_be_read_and_reached(tmp_path: Path, browser: Browser) ->
             person.open(address(studio))
             for view, key in VIEWS.items():
                 person.press(key)
-                person.page.wait_for_timeout(800)  # until what glides and fades has come to rest
+                person.page.wait_for_timeout(300)  # until what fades has come to rest
                 assert _found(person) == [], f"{view}, {theme}"
             person.page.context.close()
 
@@ -85,7 +85,7 @@ def test_what_comes_and_goes_can_be_read_and_reached(tmp_path: Path, browser: Br
             person.open(address(studio))
             for view, acts in PASSING.items():
                 acts(person)
-                person.page.wait_for_timeout(800)
+                person.page.wait_for_timeout(300)
                 assert _found(person) == [], f"{view}, {theme}"
             assert not person.complaints
             person.page.context.close()

@@ -29,7 +29,7 @@ Geo(Is(panel), +Z) => Replace(box)
 def test_who_follows_the_tour_has_fourteen_right_tables_signed_off(tmp_path: Path, browser: Browser) -> None:
     words = ("demo", "--studio", "--out", str(tmp_path / "tables"))
     with ending(started(*words)) as studio, windows(browser):
-        person = hand(browser, 1280, 720)
+        person = hand(browser, 1280, 720, glides=True)
         person.open(address(studio))
         read = [_mark(person, "A family of tables")]
         person.click("Next")

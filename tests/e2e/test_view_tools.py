@@ -89,7 +89,7 @@ def test_hidden_hulls_are_counted_over_the_view_until_all_are_shown(studio: Stud
     chip.wait_for(state="detached")
 
 
-@pytest.mark.parametrize(("width", "height"), [(1920, 1080), (1440, 900), (1024, 768), (960, 600)])
+@pytest.mark.parametrize(("width", "height"), [(1920, 1080), (1024, 768), (960, 600)])
 def test_tools_are_in_one_row_and_the_rest_behind_a_button(
     studio: Studio, browser: Browser, width: int, height: int
 ) -> None:
