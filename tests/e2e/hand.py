@@ -156,7 +156,7 @@ def _photograph(browser: Browser) -> None:
 
 
 def hand(browser: Browser, width: int = 1440, height: int = 900, latency: int = 0, *, glides: bool = False) -> Hand:
-    """A person at a fresh window. latency: of the connection [ms]; glides: whether the camera does, which takes time."""
+    """A person at a fresh window. latency: of the connection [ms]; glides: whether the camera does."""
     motion: Literal["no-preference", "reduce"] = "no-preference" if glides else "reduce"
     page = browser.new_context(viewport={"width": width, "height": height}, reduced_motion=motion).new_page()
     if latency:
