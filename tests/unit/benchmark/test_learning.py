@@ -30,7 +30,9 @@ def silent(_: str) -> None:
     """Takes no notice of progress."""
 
 
-@pytest.mark.parametrize("part", [growth, asking, calibrate, repairs])
+@pytest.mark.parametrize(
+    "part", [growth, *(pytest.param(part, marks=pytest.mark.long) for part in (asking, calibrate, repairs))]
+)
 def test_a_part_runs_quickly(part: ModuleType) -> None:
     result = part.measure(silent, True)
     assert isinstance(result, Result)
@@ -39,6 +41,7 @@ def test_a_part_runs_quickly(part: ModuleType) -> None:
     assert as_text(Result.of_json(json.loads(json.dumps(result.to_json())))) == as_text(result)
 
 
+@pytest.mark.long
 def test_the_contest_runs_and_all_find_what_is_smallest(tmp_path: Path) -> None:
     assert bench.main(["search", "--quick", "--out", str(tmp_path)]) == 0
     data = json.loads((tmp_path / "learning-search.json").read_text("utf-8"))

@@ -40,7 +40,10 @@ def test_nothing_passes_that_deletes_all(one: Task) -> None:
         assert one.failure(sample, one.run(everything.program, sample.mesh))
 
 
-@pytest.mark.parametrize("name", ["cup-medium", "dispenser-medium", "knife-medium", "lamp-easy"])
+@pytest.mark.parametrize(
+    "name",
+    ["lamp-easy", *(pytest.param(f"{name}-medium", marks=pytest.mark.long) for name in ("cup", "dispenser", "knife"))],
+)
 def test_the_criterion_tells_the_mutants_of_a_task(name: str) -> None:
     rows = judge_mutants(name, calibration=True)
     assert sum(bool(row["differs"]) for row in rows) > len(rows) / 2

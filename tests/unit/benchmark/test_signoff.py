@@ -71,9 +71,7 @@ def bench() -> Bench:
     return Bench(one, family(one.category, "coarse")[:4])
 
 
-@pytest.mark.parametrize(
-    "condition", [TRUE, PROPAGATED[1], *(pytest.param(one, marks=pytest.mark.slow) for one in (FLAT, ERRS))]
-)
+@pytest.mark.parametrize("condition", [TRUE, PROPAGATED[1], FLAT, pytest.param(ERRS, marks=pytest.mark.long)])
 def test_time_only_goes_on_and_the_same_seed_does_the_same(bench: Bench, condition: object) -> None:
     one, other = (sign_off(bench, condition, 1, FakeClient) for _ in range(2))  # type: ignore[arg-type]
     assert one == other == Review.of_json(json.loads(json.dumps(asdict(one))))

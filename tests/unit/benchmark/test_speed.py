@@ -85,6 +85,7 @@ def test_apply_is_run_and_watched(tmp_path: Path) -> None:
     assert str(tmp_path.anchor + "tmp") not in page
 
 
+@pytest.mark.long
 def test_commands_run_beside_the_script_by_hand(tmp_path: Path) -> None:
     assert bench.main(["commands", "--quick", "--out", str(tmp_path)]) == 0
     data = json.loads((tmp_path / "speed-commands.json").read_text("utf-8"))

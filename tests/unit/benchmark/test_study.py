@@ -233,6 +233,7 @@ def test_systematic_errors_call_one_kind_of_part_by_one_wrong_name_in_a_third_of
         assert all((confused[0], confused[0]) not in pairs[name] for name in affected)
 
 
+@pytest.mark.long
 def test_an_instance_of_the_repair_study_is_a_near_miss() -> None:
     found = instance("cup-medium")
     if found is None:

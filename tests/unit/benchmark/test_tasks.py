@@ -18,6 +18,10 @@ from meshforge.geometry import Floats, is_closed, is_convex
 from meshforge.language import Attach, BaseExtractor, Diff, Each, Extractor, Geo, Intersect, Union, size_of
 
 TASKS = tasks()
+SOME_LONG = [
+    pytest.param(one, marks=[pytest.mark.long] if one.difficulty != "easy" else [], id=one.name) for one in TASKS
+]
+"""Easy tasks run the same code as others on fewer rules."""
 MOTIFS = {
     "remove residue",
     "one stable support proxy",
@@ -163,7 +167,7 @@ def test_a_task_is_as_hard_as_its_name_says(one: Task) -> None:
     assert not any(isinstance(rule.action, Each) and rule.action.action == rule.action for rule in rules)
 
 
-@pytest.mark.parametrize("one", TASKS, ids=lambda one: one.name)
+@pytest.mark.parametrize("one", SOME_LONG)
 def test_the_reference_runs_on_every_pure_mesh_and_mends_three_of_the_first_four(one: Task) -> None:
     rows = one.samples()
     edits = [one.run(one.program, row.mesh) for row in rows]
