@@ -17,6 +17,7 @@ processes included, but for those that a server of worker processes started and 
 
 from __future__ import annotations
 
+import gc
 import os
 import sys
 from collections import Counter
@@ -70,6 +71,12 @@ def pytest_configure(config: pytest.Config) -> None:
 def pytest_configure_node(node: Any) -> None:
     """Tell a worker of pytest-xdist, which is given the words of the command line alone, what to leave out."""
     node.workerinput["left_out"] = node.config.option.left_out
+
+
+def pytest_collection_finish() -> None:
+    """Spare the garbage collector the thousands of tests, which it would look through again and again."""
+    gc.collect()
+    gc.freeze()
 
 
 class Cases:

@@ -44,6 +44,7 @@ def sign_off(run: Run, folder: str, reply: Callable[[dict[str, Any]], dict[str, 
     return int(status.json["signed_off"])
 
 
+@pytest.mark.long
 def test_tables_with_right_labels_are_signed_off_by_the_first_choice_of_each_question(run: Run) -> None:
     folder = str(create_tables(Path("demo")).folder)
     assert sign_off(run, folder, lambda question: {"choice": 0}) == 14

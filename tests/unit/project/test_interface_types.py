@@ -24,7 +24,7 @@ mf.Geo(mf.All(), "up")
 """
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_name_that_is_misspelt_is_an_error_for_mypy(tmp_path: Path) -> None:
     (tmp_path / "snippet.py").write_text(SNIPPET)
     root = Path(mf.__file__).parents[2]
