@@ -79,6 +79,10 @@ def pytest_collection_finish() -> None:
     gc.freeze()
 
 
+def pytest_unconfigure() -> None:
+    gc.unfreeze()  # or what is left at the end counts as a leak
+
+
 class Cases:
     """Which tests are run, and how many are marked long."""
 

@@ -14,7 +14,7 @@ from meshforge.batch import IN_PROCESS
 from meshforge.project import Project
 from meshforge.symbolic import Label
 from tests.e2e.studio import Studio, ok, opened
-from tests.loop.command import meshforge
+from tests.loop.command import meshforge_here as meshforge
 from tests.studio_project import FEW, demo_project
 from tests.unit.batch.families import tree
 

@@ -74,6 +74,7 @@ def test_the_error_is_the_distance_of_the_farthest_vertex(rng: np.random.Generat
     assert found.error == pytest.approx(farthest, rel=1e-4, abs=1e-5)
 
 
+@pytest.mark.slow
 @examples(25)
 @given(generators())
 def test_there_is_always_a_box(rng: np.random.Generator) -> None:

@@ -172,6 +172,7 @@ def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> 
     return runner(monkeypatch, capsys)
 
 
+@pytest.mark.slow
 def test_what_is_not_solved_counts_and_what_is_not_of_the_family_does_not(project: Project, run: Run) -> None:
     write(project)
     for asset in (BLOCK, ASKED):
