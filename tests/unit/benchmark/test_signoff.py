@@ -169,12 +169,6 @@ def test_probabilities_that_are_met_are_calibrated_and_order_what_they_can() -> 
     assert calibrate([(0.1, False)] * 10 + [(0.99, True)] * 90).named == 10
 
 
-def test_few_in_a_bin_are_judged_with_the_next() -> None:
-    assert calibrate([(0.05, True)] * 5 + [(0.95, True)] * 15 + [(0.85, False)] * 5).error == pytest.approx(
-        abs((0.05 * 5 + 0.95 * 15 + 0.85 * 5) / 25 - 20 / 25)
-    )
-
-
 def test_one_page_tells_all_conditions_and_who_is_sooner(bench: Bench) -> None:
     reviews = [sign_off(bench, TRUE, 1, FakeClient)]
     groups = group([TRUE.name, FLAT.name], reviews, [open_review(bench, TRUE, 1, FakeClient)], [])
