@@ -8,9 +8,8 @@ from pathlib import Path
 from playwright.sync_api import Browser
 
 from meshforge.project import Project
-from tests.e2e.hand import Hand, hand, windows
-from tests.e2e.studio import opened
-from tests.e2e.walk import PAGE, address, go_to
+from tests.e2e.hand import Hand
+from tests.e2e.walk import go_to, visiting
 from tests.mesh_files import CORNER
 
 STOOL = """
@@ -44,10 +43,7 @@ def test_names_give_labels_a_button_makes_hulls_and_a_plane_cuts_one(tmp_path: P
     (assets / "corner.obj").write_text(CORNER, encoding="utf-8")
     (assets / "stool.obj").write_text(STOOL, encoding="utf-8")
     project = Project.create(tmp_path / "project", [assets / "*.obj"], vocabulary=("seat", "leg"))
-    with opened(tmp_path, project.folder, "--page", str(PAGE)) as studio, windows(browser):
-        studio.settled()
-        person = hand(browser)
-        person.open(address(studio))
+    with visiting(tmp_path, project, browser) as (_, person):
         _label_by_names(person)
         labels = {hull.name: (hull.label, hull.source) for hull in project.mesh("stool.obj").hulls}
         assert labels == {"seat_1": ("seat", "name"), "leg_1": ("leg", "name")}
@@ -57,7 +53,6 @@ def test_names_give_labels_a_button_makes_hulls_and_a_plane_cuts_one(tmp_path: P
         _has_hulls(person, 2)
         _make_hulls(person)
         assert len(project.mesh("corner.obj").hulls) == 2
-        assert not person.complaints
 
 
 def _label_by_names(person: Hand) -> None:
