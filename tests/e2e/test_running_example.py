@@ -9,6 +9,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+import pytest
 from playwright.sync_api import Browser
 
 from meshforge.formats import load
@@ -39,6 +40,7 @@ MISLABELLED = "convex_60"
 MEANT = [show(rule.extractor) for rule in Program.read(TABLES / "tables.mf").rules]
 
 
+@pytest.mark.long
 def test_from_files_to_exported_assets_with_accidents_on_the_way(tmp_path: Path, browser: Browser) -> None:
     project = _tables(tmp_path)
     with windows(browser):

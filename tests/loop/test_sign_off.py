@@ -51,6 +51,7 @@ def test_tables_with_right_labels_are_signed_off_by_the_first_choice_of_each_que
     assert run("info", "table_01.obj", "--project", folder, "--json").json["probability"] >= BAR
 
 
+@pytest.mark.long
 def test_tables_with_wrong_labels_are_signed_off_by_right_replies_and_come_out_right(tmp_path: Path, run: Run) -> None:
     project = create_project(tmp_path)
     assert sign_off(run, "tables", lambda question: reply_to(question, project)) == len(SHOWN) + len(OTHERS)

@@ -32,7 +32,12 @@ def outcome(project: Project) -> object:
 @pytest.mark.slow
 @pytest.mark.parametrize(
     "name",
-    ["right", "wrong, other hulls", "wrong, other labels", "not solved", "a group is something else", "a slip"],
+    [
+        "right",
+        "wrong, other labels",
+        "a group is something else",
+        *(pytest.param(name, marks=pytest.mark.long) for name in ("wrong, other hulls", "not solved", "a slip")),
+    ],
 )
 def test_a_reply_whose_command_was_killed_is_taken_again(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], name: str
