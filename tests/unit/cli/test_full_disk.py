@@ -29,6 +29,7 @@ COMMANDS = {
     "check --fix": "check assets --engine unreal --fix --out {p}/out --workers 1",
     "review": "review {p}",
 }
+IN_CI = ("label by hand", "apply", "review")
 
 
 @pytest.mark.slow
