@@ -1,17 +1,23 @@
-"""The pytest plugin that tells quick tests from slow ones, and sees to it that the quick ones stay quick.
+"""The pytest plugin that tells quick tests from slow and long ones, and sees to it that each kind stays what it is.
 
-A plain run (`script/test`) leaves out what is marked `slow`, the loops on real families, the browser and the benchmark,
-and tries a fifth of the examples of each law. `--all` runs all of them; so does naming a path, `-k` or `-m`, for what
-is named. Laws are tried on the same examples every time; `--explore` draws new ones.
+| run | what it leaves out | how many examples a law tries |
+| --- | --- | --- |
+| `script/test` | what is marked `slow` or `long`, and `SLOW_FOLDERS` | 20, the same every time |
+| `--all`, as CI does | what is marked `long`: at most a tenth of all cases | 20, the same every time |
+| a path, `-k` or `-m` | nothing of what is named | 20, the same every time |
+| `--long` | nothing | 200, new ones |
 
-An `--all` run names the tests that are not marked and take more than `WARNING`, the slowest first. None fails for it:
-what a test takes is the machine's doing too. CPU time counts rather than the clock, so that a busy machine matters
-less; it is that of the test and its fixtures of scope "function", child processes included, but for those that a server
-of worker processes started. A law may take as much longer as it tries more examples than in a quick run.
+`--explore` lets laws draw new examples in any run. What fails then is printed, and is kept as an `@example`.
+
+An `--all` run fails when more cases are marked `long`. It names the tests that take more than their marks allow, the
+slowest first, and does not fail for those: what a test takes is the machine's doing too. CPU time counts rather than
+the clock, so that a busy machine matters less; it is that of the test and its fixtures of scope "function", child
+processes included, but for those that a server of worker processes started and those that tests share.
 """
 
 from __future__ import annotations
 
+import gc
 import os
 import sys
 from collections import Counter
@@ -20,58 +26,106 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from hypothesis import is_hypothesis_test, settings
+from hypothesis import settings
 
 from tests.corpus_path import ABSENT
 
-WARNING = 1.0
-"""Seconds of CPU time from which a test is named that is not marked."""
+LIMITS = {"slow": 1.0, "long": 10.0}
+"""Seconds of CPU time from which a test needs a mark."""
 SLOW_FOLDERS = ("tests/e2e/", "tests/loop/", "tests/unit/benchmark/")
-QUICK_EXAMPLES = 20
-ALL_EXAMPLES = 100
-"""How many examples a law tries that does not say; the others scale likewise, see `tests/examples.py`."""
+MOST_LONG = 0.1
+"""Share of all cases that CI may leave out."""
 
-for name, derandomize, count in (
-    ("quick", True, QUICK_EXAMPLES),
-    ("all", True, ALL_EXAMPLES),
-    ("explore", False, ALL_EXAMPLES),
-):
-    settings.register_profile(name, deadline=None, database=None, derandomize=derandomize, max_examples=count)
+for name, fixed, count in (("fixed", True, 20), ("explore", False, 200)):
+    settings.register_profile(name, deadline=None, database=None, derandomize=fixed, max_examples=count)
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     group = parser.getgroup("meshforge")
-    group.addoption("--all", action="store_true", dest="all_tests", help="run the slow tests too, with all examples")
-    group.addoption("--explore", action="store_true", help="let laws draw new examples")
+    group.addoption("--all", action="store_true", dest="all_tests", help="run the slow tests too, as CI does")
+    group.addoption("--long", action="store_true", help="run all tests, laws on new examples")
+    group.addoption("--explore", action="store_true", help="let laws draw new examples, ten times as many")
     group.addoption("--record-seconds", metavar="FILE", type=Path, help="write each test's seconds of CPU time")
-    group.addoption("--quick", action="store_true", help="leave out the slow tests even where paths are named")
+    group.addoption("--quick", action="store_true", help="leave out slow tests even where paths are named")
 
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_configure(config: pytest.Config) -> None:
     config.addinivalue_line("markers", "slow: takes more than a second of CPU time; left out of quick runs")
+    config.addinivalue_line("markers", "long: takes more than ten; left out of CI too, script/test --long runs it")
     option = config.option
-    named = config.args_source is pytest.Config.ArgsSource.ARGS or option.keyword or option.markexpr
-    quick = option.quick or not (option.all_tests or named)
-    option.quick = vars(config)["workerinput"]["quick"] if _is_worker(config) else quick
-    settings.load_profile("explore" if option.explore else "quick" if option.quick else "all")
+    if _is_worker(config):
+        option.left_out = vars(config)["workerinput"]["left_out"]
+    else:
+        named = config.args_source is pytest.Config.ArgsSource.ARGS or option.keyword or option.markexpr
+        quick = option.quick or not (option.all_tests or option.long or named)
+        option.left_out = ["slow", "long"] if quick else ["long"] if option.all_tests and not option.long else []
+    settings.load_profile("explore" if option.explore or option.long else "fixed")
+    if option.long:
+        os.environ[_LONG] = "1"  # for the workers of pytest-xdist, too
+    config.pluginmanager.register(Cases(config))
     config.pluginmanager.register(Costs(config))
 
 
 @pytest.hookimpl(optionalhook=True)
 def pytest_configure_node(node: Any) -> None:
-    """Tell a worker of pytest-xdist, which is given the words of the command line alone, what kind of run it is."""
-    node.workerinput["quick"] = node.config.option.quick
+    """Tell a worker of pytest-xdist, which is given the words of the command line alone, what to leave out."""
+    node.workerinput["left_out"] = node.config.option.left_out
 
 
-def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    for item in items:
-        if item.nodeid.startswith(SLOW_FOLDERS):
-            item.add_marker("slow")
-    if config.option.quick:
-        slow = [item for item in items if item.get_closest_marker("slow")]
-        config.hook.pytest_deselected(items=slow)
-        items[:] = [item for item in items if not item.get_closest_marker("slow")]
+def pytest_collection_finish() -> None:
+    """Spare the garbage collector the thousands of tests, which it would look through again and again."""
+    gc.collect()
+    gc.freeze()
+
+
+def pytest_unconfigure() -> None:
+    gc.unfreeze()  # or what is left at the end counts as a leak
+
+
+class Cases:
+    """Which tests are run, and how many are marked long."""
+
+    def __init__(self, config: pytest.Config) -> None:
+        self._config = config
+        self._all = self._long = 0
+
+    def pytest_collection_modifyitems(self, items: list[pytest.Item]) -> None:
+        for item in items:
+            if item.nodeid.startswith(SLOW_FOLDERS):
+                item.add_marker("slow")
+        marked = [item for item in items if any(map(item.get_closest_marker, self._config.option.left_out))]
+        self._all, self._long = len(items), sum(item.get_closest_marker("long") is not None for item in items)
+        self._config.hook.pytest_deselected(items=marked)
+        left_out = set(marked)
+        items[:] = [item for item in items if item not in left_out]
+
+    @pytest.hookimpl(optionalhook=True)
+    def pytest_testnodedown(self, node: Any) -> None:
+        """Take a worker's counts: under pytest-xdist only workers collect tests."""
+        self._all, self._long = getattr(node, "workeroutput", {}).get("cases", (0, 0))
+
+    def pytest_sessionfinish(self, session: pytest.Session) -> None:
+        if _is_worker(self._config):
+            vars(self._config)["workeroutput"]["cases"] = (self._all, self._long)
+        elif self._too_many and session.exitstatus == pytest.ExitCode.OK:
+            session.exitstatus = pytest.ExitCode.TESTS_FAILED
+
+    def pytest_terminal_summary(self, terminalreporter: pytest.TerminalReporter) -> None:
+        if "slow" in self._config.option.left_out:
+            terminalreporter.write_line(
+                "The slow tests were left out; script/test --all runs most of them, --long all."
+            )
+        elif self._config.option.left_out:
+            line = f"{self._long} of {self._all} cases are marked long and were left out; script/test --long runs them."
+            terminalreporter.write_line(line)
+        if self._too_many:
+            line = f"More than {MOST_LONG:.0%} of all cases are marked long: make some of them cheaper."
+            terminalreporter.write_line(line, red=True)
+
+    @property
+    def _too_many(self) -> bool:
+        return bool(self._config.option.all_tests) and self._long > MOST_LONG * self._all
 
 
 class Costs:
@@ -81,8 +135,8 @@ class Costs:
         self._config = config
         self._fixtures = 0.0
         self._seconds: dict[str, float] = {}
-        self._quick: dict[str, float] = {}
-        """Seconds of the tests that are not marked, those of a law by as many times as it tries more examples less."""
+        self._marks: dict[str, str] = {}
+        """The mark that each test has not, and would need if it took longer."""
         self._absent: Counter[str] = Counter()
 
     @pytest.hookimpl(wrapper=True)
@@ -115,10 +169,9 @@ class Costs:
     ) -> Generator[None, pytest.TestReport, pytest.TestReport]:
         report = yield
         if call.when == "call":
-            seconds, scale = item.stash[_SECONDS], settings().max_examples / QUICK_EXAMPLES if _is_law(item) else 1.0
-            report.user_properties.append(("cpu_seconds", seconds))
-            if not item.get_closest_marker("slow"):
-                report.user_properties.append(("quick_seconds", seconds / scale))
+            report.user_properties.append(("cpu_seconds", item.stash[_SECONDS]))
+            if mark := next((mark for mark in LIMITS if not item.get_closest_marker(mark)), None):
+                report.user_properties.append(("needs", mark))
         if report.skipped and isinstance(report.longrepr, tuple) and ABSENT in report.longrepr[2]:
             report.user_properties.append(("shows", _title(item)))
         return report
@@ -127,8 +180,8 @@ class Costs:
         for name, value in report.user_properties:
             if name == "cpu_seconds":
                 self._seconds[report.nodeid] = float(str(value))
-            elif name == "quick_seconds":
-                self._quick[report.nodeid] = float(str(value))
+            elif name == "needs":
+                self._marks[report.nodeid] = str(value)
             elif name == "shows":
                 self._absent[str(value)] += 1
 
@@ -141,30 +194,33 @@ class Costs:
 
     def pytest_terminal_summary(self, terminalreporter: pytest.TerminalReporter) -> None:
         say = terminalreporter.write_line
-        for test, seconds in self._find_slow():
-            say(f"slow: {test} takes {seconds:.1f} s of CPU time: make it cheaper, or mark it slow", yellow=True)
+        for test, seconds in self._find_costly():
+            mark = self._marks[test]
+            say(f"{mark}: {test} takes {seconds:.1f} s of CPU time: make it cheaper, or mark it {mark}", yellow=True)
+        say(f"All tests together took {sum(self._seconds.values()):.0f} s of CPU time.")
         if self._absent:
             shows = "; ".join(f"{title} ({count})" for title, count in sorted(self._absent.items()))
             say(f"{ABSENT}: {self._absent.total()} tests skipped, which show: {shows}")
-        if self._config.option.quick:
-            say("The slow tests were left out; script/test --all runs them.")
 
-    def _find_slow(self) -> list[tuple[str, float]]:
-        """The tests that should be marked, and their seconds, in a run of all tests; the slowest first."""
-        rows = self._quick.items() if self._config.option.all_tests else ()
-        return sorted(((test, seconds) for test, seconds in rows if seconds > WARNING), key=lambda row: -row[1])
+    def _find_costly(self) -> list[tuple[str, float]]:
+        """The tests that take more than their marks allow, and their seconds, in a run of CI; the slowest first."""
+        tests = self._marks if self._config.option.all_tests else ()
+        costly = {test: self._seconds[test] for test in tests if self._seconds[test] > LIMITS[self._marks[test]]}
+        return sorted(costly.items(), key=lambda row: -row[1])
 
 
+def is_long() -> bool:
+    """Whether this run leaves nothing out, however long that takes."""
+    return _LONG in os.environ
+
+
+_LONG = "MESHFORGE_LONG_TESTS"
 _SECONDS = pytest.StashKey[float]()
 
 
 def _is_worker(config: pytest.Config) -> bool:
     """Whether this process is one of pytest-xdist's workers."""
     return hasattr(config, "workerinput")
-
-
-def _is_law(item: pytest.Item) -> bool:
-    return isinstance(item, pytest.Function) and is_hypothesis_test(item.obj)
 
 
 def _cpu_seconds() -> float:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import pytest
 from playwright.sync_api import Browser, ConsoleMessage, Locator, Page, sync_playwright
@@ -130,15 +130,21 @@ def chromium() -> Iterator[Browser]:
         if os.environ.get("CI"):
             raise FileNotFoundError(f"there is no browser at {CHROMIUM}")
         pytest.skip(f"there is no browser at {CHROMIUM}: install Debian's chromium, or set CHROMIUM")
-    with sync_playwright() as tool:
-        browser = tool.chromium.launch(executable_path=CHROMIUM, args=list(FLAGS))
-        try:
-            yield browser
-        except BaseException:
-            _photograph(browser)
-            raise
-        finally:
-            browser.close()
+    with sync_playwright() as tool, tool.chromium.launch(executable_path=CHROMIUM, args=list(FLAGS)) as browser:
+        yield browser
+
+
+@contextmanager
+def windows(browser: Browser) -> Iterator[None]:
+    """Close all windows of a browser after a block, and photograph them first if it fails."""
+    try:
+        yield
+    except BaseException:
+        _photograph(browser)
+        raise
+    finally:
+        for context in browser.contexts:
+            context.close()
 
 
 def _photograph(browser: Browser) -> None:
@@ -149,9 +155,10 @@ def _photograph(browser: Browser) -> None:
         page.screenshot(path=f"{folder}/{number}.png")
 
 
-def hand(browser: Browser, width: int = 1440, height: int = 900, latency: int = 0) -> Hand:
-    """A person at a fresh window. latency: of the connection [ms]."""
-    page = browser.new_context(viewport={"width": width, "height": height}).new_page()
+def hand(browser: Browser, width: int = 1440, height: int = 900, latency: int = 0, *, glides: bool = False) -> Hand:
+    """A person at a fresh window. latency: of the connection [ms]; glides: whether the camera does."""
+    motion: Literal["no-preference", "reduce"] = "no-preference" if glides else "reduce"
+    page = browser.new_context(viewport={"width": width, "height": height}, reduced_motion=motion).new_page()
     if latency:
         speed = {"offline": False, "latency": latency, "downloadThroughput": -1, "uploadThroughput": -1}
         page.context.new_cdp_session(page).send("Network.emulateNetworkConditions", speed)

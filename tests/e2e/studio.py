@@ -73,6 +73,11 @@ class Studio:
             )
         )
 
+    def undo_all(self) -> None:
+        """Take all edits back, so that the next test finds the project as the first one did."""
+        while self.settled()["history"]["undoable"]:
+            ok(self.post("/api/undo"))
+
     def cards(self, holds: Callable[[dict[str, dict[str, Any]]], bool]) -> dict[str, dict[str, Any]]:
         """The cards by asset, once a condition holds for them."""
         hello = self.until(lambda hello: holds({card["asset"]: card for card in hello["cards"]}))

@@ -10,10 +10,10 @@ import pytest
 import trimesh
 from playwright.sync_api import Browser
 
-from tests.e2e.hand import Hand, chromium, hand
+from tests.e2e.hand import Hand, hand, windows
 from tests.e2e.studio import ending, opened, started
 from tests.e2e.walk import PAGE, address
-from tests.studio_project import demo_project
+from tests.studio_project import FEW, demo_project
 from tests.unit.project.tables import applied
 
 AXE = Path(__file__).parents[2] / "web" / "node_modules" / "axe-core" / "axe.min.js"
@@ -61,46 +61,44 @@ PASSING: dict[str, Callable[[Hand], None]] = {
 
 
 @NEEDS_AXE
-def test_every_view_can_be_read_and_reached(tmp_path: Path) -> None:
-    project = demo_project(tmp_path)
-    with opened(tmp_path, project.folder, "--page", str(PAGE)) as studio, chromium() as browser:
+def test_every_view_can_be_read_and_reached(tmp_path: Path, browser: Browser) -> None:
+    project = demo_project(tmp_path, tables=FEW)
+    with opened(tmp_path, project.folder, "--page", str(PAGE)) as studio, windows(browser):
         studio.settled()
         for theme in ("light", "dark"):
             person = _person(browser, theme)
             person.open(address(studio))
             for view, key in VIEWS.items():
                 person.press(key)
-                person.page.wait_for_timeout(800)  # until what glides and fades has come to rest
+                person.page.wait_for_timeout(300)  # until what fades has come to rest
                 assert _found(person) == [], f"{view}, {theme}"
             person.page.context.close()
 
 
 @NEEDS_AXE
-@pytest.mark.slow
-def test_what_comes_and_goes_can_be_read_and_reached(tmp_path: Path) -> None:
+def test_what_comes_and_goes_can_be_read_and_reached(tmp_path: Path, browser: Browser) -> None:
     project = applied(tmp_path)
-    with opened(tmp_path, project.folder, "--page", str(PAGE)) as studio, chromium() as browser:
+    with opened(tmp_path, project.folder, "--page", str(PAGE)) as studio, windows(browser):
         studio.settled()
         for theme in ("light", "dark"):
             person = _person(browser, theme)
             person.open(address(studio))
             for view, acts in PASSING.items():
                 acts(person)
-                person.page.wait_for_timeout(800)
+                person.page.wait_for_timeout(300)
                 assert _found(person) == [], f"{view}, {theme}"
             assert not person.complaints
             person.page.context.close()
 
 
 @NEEDS_AXE
-@pytest.mark.slow
-def test_the_start_page_can_be_read_and_reached(tmp_path: Path) -> None:
+def test_the_start_page_can_be_read_and_reached(tmp_path: Path, browser: Browser) -> None:
     source = tmp_path / "desks"
     source.mkdir()
     (source / "bad.obj").write_text("v 0 0 zero\n")
     mesh = trimesh.creation.annulus(0.5, 1.0, 1.0)
     mesh.export(source / "ring.stl")
-    with ending(started("studio", "--page", str(PAGE))) as studio, chromium() as browser:
+    with ending(started("studio", "--page", str(PAGE))) as studio, windows(browser):
         for theme in ("light", "dark"):
             person = _person(browser, theme)
             person.page.goto(address(studio))

@@ -12,7 +12,7 @@ from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
 from tests.e2e.studio import Studio, ok, opened, protocols
-from tests.loop.command import meshforge
+from tests.loop.command import meshforge_here as meshforge
 from tests.studio_project import demo_project
 from tests.unit.studio.packets import read_packet
 

@@ -14,8 +14,8 @@ from meshforge.batch import IN_PROCESS
 from meshforge.project import Project
 from meshforge.symbolic import Label
 from tests.e2e.studio import Studio, ok, opened
-from tests.loop.command import meshforge
-from tests.studio_project import demo_project
+from tests.loop.command import meshforge_here as meshforge
+from tests.studio_project import FEW, demo_project
 from tests.unit.batch.families import tree
 
 FIRST, THIRD = "table_01.obj", "table_03.obj"
@@ -23,8 +23,8 @@ Fields = Callable[[Studio], dict[str, Any]]
 
 
 def prepared_project(folder: Path) -> Project:
-    """The demonstrated tables with outputs, an answer, an edit by hand, and a hull without a label."""
-    project = demo_project(folder)
+    """Demonstrated tables with outputs, and a hull without a label."""
+    project = demo_project(folder, tables=FEW)
     project.synthesize()
     project.set_labels(THIRD, {"convex_05": None})
     list(project.apply([FIRST, THIRD], execution=IN_PROCESS))
@@ -259,7 +259,7 @@ def test_what_a_command_in_a_terminal_changes_is_shown(studio: Studio, tmp_path:
 
 
 def test_an_edit_survives_a_kill_and_can_be_undone_after_it(tmp_path: Path) -> None:
-    project = demo_project(tmp_path, demonstrated=False)
+    project = demo_project(tmp_path, demonstrated=False, tables=FEW)
     labels = project.layout.labels(FIRST).read_bytes()
     with opened(tmp_path, project.folder) as studio:
         studio.edit("label", hulls={FIRST: ["convex_00"]}, label="leg")
@@ -276,7 +276,7 @@ def test_an_edit_survives_a_kill_and_can_be_undone_after_it(tmp_path: Path) -> N
 
 
 def test_a_program_by_hand_reaches_the_family_where_nothing_was_demonstrated(tmp_path: Path) -> None:
-    project = demo_project(tmp_path, demonstrated=False)
+    project = demo_project(tmp_path, demonstrated=False, tables=FEW)
     with opened(tmp_path, project.folder) as studio:
         text = "labels panel, leg, handle, drawer, misc\n"
         for rule in ("Is(misc) => Delete\n", "Is(leg) => Each(Merge)\n"):
@@ -287,4 +287,4 @@ def test_a_program_by_hand_reaches_the_family_where_nothing_was_demonstrated(tmp
 
 
 def _all_reached(rules: int, hello: dict[str, Any]) -> bool:
-    return [len(row["rules"]) for row in hello["reach"]] == [rules] * 14
+    return [len(row["rules"]) for row in hello["reach"]] == [rules] * len(FEW)

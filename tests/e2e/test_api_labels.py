@@ -14,22 +14,28 @@ from meshforge.project import Project
 from meshforge.symbolic import Label
 from tests.e2e.legs import HULLS, LABELS, four_legged
 from tests.e2e.studio import PATIENCE, Page, Studio, ok, opened
-from tests.loop.command import meshforge
+from tests.loop.command import meshforge_here as meshforge
 from tests.studio_project import demo_project
 from tests.unit.batch.families import tree
 
 FIRST, SECOND, THIRD = "t0.obj", "t1.obj", "t2.obj"
 
 
-@pytest.fixture
-def studio(tmp_path: Path) -> Iterator[Studio]:
+@pytest.fixture(scope="module")
+def running(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Studio]:
     """Tables, the first of which is labelled by a person."""
-    project = four_legged(tmp_path)
+    folder = tmp_path_factory.mktemp("labels")
+    project = four_legged(folder)
     for name, label in LABELS.items():
         project.set_labels(FIRST, {name: label})
-    with opened(tmp_path, project.folder) as found:
-        found.settled()
+    with opened(folder, project.folder) as found:
         yield found
+
+
+@pytest.fixture
+def studio(running: Studio) -> Iterator[Studio]:
+    yield running
+    running.undo_all()
 
 
 def folder(studio: Studio) -> Path:
@@ -179,7 +185,7 @@ def test_a_second_time_without_news_stays_as_it_is_and_uses_what_was_said(studio
 
 @pytest.mark.parametrize("seconds", [0.0, 0.6, 1.2])
 def test_one_that_is_killed_leaves_labels_whole(tmp_path: Path, seconds: float) -> None:
-    project = demo_project(tmp_path, demonstrated=False)
+    project = demo_project(tmp_path, demonstrated=False, tables=range(1, 8))
     for asset in project.assets()[1:]:
         project.layout.labels(asset).unlink()
     said = {"convex_00": Label("drawer")}

@@ -16,11 +16,11 @@ from tests.e2e.studio import Studio, ok, opened
 FIRST, SECOND = "t0.obj", "t1.obj"
 
 
-@pytest.fixture
-def studio(tmp_path: Path) -> Iterator[Studio]:
+@pytest.fixture(scope="module")
+def studio(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Studio]:
     """Four tables of a top and four legs."""
-    project = four_legged(tmp_path, words=("top", "leg"))
-    with opened(tmp_path, project.folder) as found:
+    folder = tmp_path_factory.mktemp("similar")
+    with opened(folder, four_legged(folder, words=("top", "leg")).folder) as found:
         found.settled()
         ok(found.post("/api/similar/prepare"))
         yield found
@@ -45,6 +45,7 @@ def test_what_a_person_labelled_otherwise_is_left_alone(studio: Studio) -> None:
     studio.edit("label", hulls={SECOND: ["leg_a"]}, label="top")
     assert "leg_a" not in similar(studio, "leg_b", [SECOND]).get(SECOND, [])
     assert similar(studio, "leg_b") == {FIRST: list(LEGS)}
+    studio.undo_all()
 
 
 def test_hulls_of_several_assets_are_labelled_and_unlabelled_by_one_edit_each(studio: Studio) -> None:

@@ -9,7 +9,7 @@ import pytest
 
 from meshforge.samples import TABLES
 from tests.e2e.studio import Studio, ok, opened
-from tests.studio_project import demo_project
+from tests.studio_project import FEW, demo_project
 
 
 @pytest.fixture(scope="module")
@@ -19,7 +19,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def studio(folder: Path) -> Iterator[Studio]:
-    with opened(folder, demo_project(folder, demonstrated=False).folder) as found:
+    with opened(folder, demo_project(folder, demonstrated=False, tables=FEW).folder) as found:
         found.settled()
         yield found
 
@@ -32,13 +32,13 @@ def test_assets_that_are_dropped_belong_to_the_project(studio: Studio, folder: P
         assert page.hello
         assert ok(studio.post("/api/assets"))["names"] == ["added/new/table_99.obj"]
         page.until(lambda e: e["kind"] == "cards" and e["cards"] and e["cards"][0]["asset"] == "added/new/table_99.obj")
-    assert len(studio.settled()["cards"]) == 15
+    assert len(studio.settled()["cards"]) == len(FEW) + 1
     assert ok(studio.get("/api/asset", asset="added/new/table_99.obj"))["hulls"]
     studio.put("/api/assets", source, path="new/table_99.obj")
     again = studio.post("/api/assets")
     assert again.status_code == 400 and "that name already" in again.json()["message"]
     ok(studio.post("/api/undo"))
-    assert len(studio.settled()["cards"]) == 14
+    assert len(studio.settled()["cards"]) == len(FEW)
 
 
 def test_an_asset_that_cannot_be_read_is_named_and_the_others_are_added(studio: Studio, folder: Path) -> None:
@@ -49,7 +49,7 @@ def test_an_asset_that_cannot_be_read_is_named_and_the_others_are_added(studio: 
     assert len(answer["problems"]) == 1 and answer["problems"][0].startswith("more/bad.obj")
     assert not list(folder.rglob("bad.obj"))
     ok(studio.post("/api/undo"))
-    assert len(studio.settled()["cards"]) == 14
+    assert len(studio.settled()["cards"]) == len(FEW)
 
 
 def test_a_path_that_leads_elsewhere_is_refused(studio: Studio, folder: Path) -> None:
@@ -88,7 +88,7 @@ def test_uploads_that_cannot_be_read_are_thrown_away_with_a_message(studio: Stud
     assert str(folder) not in answer.json()["message"]
     assert not (folder / "assets" / "added").exists()
     assert not (folder / "project" / ".meshforge" / "studio" / "uploads").exists()
-    assert len(studio.settled()["cards"]) == 14
+    assert len(studio.settled()["cards"]) == len(FEW)
 
 
 def test_uploads_that_are_too_large_are_refused(studio: Studio) -> None:

@@ -8,8 +8,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from playwright.sync_api import Browser
 
-from tests.e2e.hand import chromium, hand
+from tests.e2e.hand import hand, windows
 from tests.e2e.studio import Page, Studio, ok, opened
 from tests.e2e.test_api_labels import relabelled
 from tests.e2e.walk import PAGE, address
@@ -118,10 +119,10 @@ def test_a_person_labels_meanwhile_and_keeps_what_was_said(tmp_path: Path, monke
 
 
 def test_a_person_sees_the_cost_before_asking_and_takes_it_all_back(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, browser: Browser
 ) -> None:
     monkeypatch.setenv(VARIABLE, KEY)
-    with serving(right) as server, asking(tmp_path, server, "--page", str(PAGE)) as studio, chromium() as browser:
+    with serving(right) as server, asking(tmp_path, server, "--page", str(PAGE)) as studio, windows(browser):
         person = hand(browser)
         person.open(address(studio))
         person.click(person.page.get_by_role("button", name="Cost… of asking"))

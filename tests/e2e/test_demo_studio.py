@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from tests.e2e.studio import ending, ok, started
-from tests.loop.command import meshforge
+from tests.loop.command import meshforge_here as meshforge
 
 FIRST = "table_01.obj"
 

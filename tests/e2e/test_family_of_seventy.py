@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from playwright.sync_api import Locator, TimeoutError
+from playwright.sync_api import Browser, Locator, TimeoutError
 
 from benchmark.learning.repairs import Noise, spoilt
 from meshforge.formats import load
@@ -17,7 +17,7 @@ from meshforge.project import Project
 from script.families.parts import format_labels
 from tests.e2e.chair_family import FIVE, draw_shapes, write_chairs
 from tests.e2e.expert import Expert, volumes_of
-from tests.e2e.hand import Hand, chromium, hand
+from tests.e2e.hand import Hand, hand, windows
 from tests.e2e.studio import Studio, ending, started
 from tests.e2e.walk import PAGE, address, stepped
 
@@ -32,15 +32,15 @@ Is(leg)  => Each(Merge)
 """)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_family_of_seventy_is_signed_off_and_exported_by_keys(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, browser: Browser
 ) -> None:
     monkeypatch.setenv("MESHFORGE_STATE", str(tmp_path / "state"))  # no projects of other tests among the recent ones
     source, folder = tmp_path / "chairs", tmp_path / "projects" / "chairs"
     truth, _ = write_chairs(source, draw_shapes(COUNT), FIVE)
     wrong = _write_labels(source, truth)
-    with ending(started("studio", "--page", str(PAGE))) as studio, chromium() as browser:
+    with ending(started("studio", "--page", str(PAGE))) as studio, windows(browser):
         person = hand(browser)
         person.page.goto(address(studio))
         _make_project(person, source, folder)

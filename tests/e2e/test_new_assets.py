@@ -6,16 +6,14 @@ import shutil
 from pathlib import Path
 
 import pytest
+from playwright.sync_api import Browser
 
 from meshforge.batch import IN_PROCESS, read_stamp
 from meshforge.language import Program
 from meshforge.project import Project, RebuildSettings
-from tests.e2e.hand import chromium, hand
 from tests.e2e.studio import ok, opened
-from tests.e2e.walk import PAGE, address
+from tests.e2e.walk import visiting
 from tests.unit.project.stools import boxes, coarse, create_stools, write_stool
-
-pytestmark = pytest.mark.slow
 
 
 @pytest.fixture
@@ -30,12 +28,11 @@ def project(tmp_path: Path) -> Project:
     return Project.open(project.folder)
 
 
-def test_a_run_rebuilds_bodies_of_new_assets_and_undo_takes_it_back(project: Project, tmp_path: Path) -> None:
+def test_a_run_rebuilds_bodies_of_new_assets_and_undo_takes_it_back(
+    project: Project, tmp_path: Path, browser: Browser
+) -> None:
     shutil.copytree(project.folder, tmp_path / "by_command")
-    with opened(tmp_path, project.folder, "--page", str(PAGE)) as studio, chromium() as browser:
-        studio.settled()
-        person = hand(browser)
-        person.open(address(studio))
+    with visiting(tmp_path, project, browser) as (studio, person):
         person.press("Alt+4")
         person.sees("2 assets are new, and prepared first as the others were.")
         assert person.page.get_by_role(
@@ -57,7 +54,6 @@ def test_a_run_rebuilds_bodies_of_new_assets_and_undo_takes_it_back(project: Pro
         person.press("Control+z")
         person.page.wait_for_function("() => !document.querySelector('[aria-label^=\"Undo: \"]')")
         assert not project.layout.preparation.ids and not project.layout.labels("c.urdf").exists()
-        assert not person.complaints
         hello = studio.settled()
         assert hello["project"]["new"] is None, "what was taken back is not done again"
 

@@ -4,23 +4,16 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import pytest
+from playwright.sync_api import Browser
 
-from tests.e2e.hand import chromium, hand
-from tests.e2e.studio import opened
-from tests.e2e.walk import PAGE, address
+from tests.e2e.walk import visiting
 from tests.program_parts import parse_orient
 from tests.unit.project.turned_racks import racks_on_their_side
 
-pytestmark = pytest.mark.slow
 
-
-def test_a_card_shows_an_asset_as_it_stands_and_turned_and_yes_turns_all(tmp_path: Path) -> None:
+def test_a_card_shows_an_asset_as_it_stands_and_turned_and_yes_turns_all(tmp_path: Path, browser: Browser) -> None:
     project = racks_on_their_side(tmp_path)
-    with opened(tmp_path, project.folder, "--page", str(PAGE)) as studio, chromium() as browser:
-        studio.settled()
-        person = hand(browser)
-        person.open(address(studio))
+    with visiting(tmp_path, project, browser) as (studio, person):
         person.press("Alt+3", "u")
         card = person.page.locator("section[aria-labelledby=asked]")
         person.sees("stand like this?")

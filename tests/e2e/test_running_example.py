@@ -9,11 +9,14 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+import pytest
+from playwright.sync_api import Browser
+
 from meshforge.formats import load
 from meshforge.language import Program, show
 from meshforge.project import Project
 from meshforge.samples import TABLES
-from tests.e2e.hand import Hand, chromium, hand
+from tests.e2e.hand import Hand, hand, windows
 from tests.e2e.studio import PATIENCE, Studio, opened
 from tests.e2e.walk import (
     FIRST,
@@ -37,9 +40,10 @@ MISLABELLED = "convex_60"
 MEANT = [show(rule.extractor) for rule in Program.read(TABLES / "tables.mf").rules]
 
 
-def test_from_files_to_exported_assets_with_accidents_on_the_way(tmp_path: Path) -> None:
+@pytest.mark.long
+def test_from_files_to_exported_assets_with_accidents_on_the_way(tmp_path: Path, browser: Browser) -> None:
     project = _tables(tmp_path)
-    with chromium() as browser:
+    with windows(browser):
         person = hand(browser)
         with opened(tmp_path, project, "--page", str(PAGE)) as studio:
             person.open(address(studio))

@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 import trimesh
 from PIL import Image
+from playwright.sync_api import Browser
 
 from meshforge.project import Project
-from tests.e2e.hand import Hand, chromium, hand
-from tests.e2e.studio import opened
-from tests.e2e.walk import PAGE, address
+from tests.e2e.hand import Hand
+from tests.e2e.walk import visiting
 
 BOXES = {
     "first": ((0.0, 0.0, 0.0), (1.0, 1.0, 1.0), "left"),
@@ -55,7 +55,7 @@ def turn(person: Hand) -> None:
     person.page.mouse.up(button="middle")
 
 
-def test_of_faces_in_one_plane_the_same_is_drawn_and_picked_from_every_side(tmp_path: Path) -> None:
+def test_of_faces_in_one_plane_the_same_is_drawn_and_picked_from_every_side(tmp_path: Path, browser: Browser) -> None:
     lines, count = [], 0
     for name, (low, high, _) in BOXES.items():
         made = trimesh.creation.box(bounds=(low, high))
@@ -66,10 +66,7 @@ def test_of_faces_in_one_plane_the_same_is_drawn_and_picked_from_every_side(tmp_
     asset.write_text("\n".join(lines) + "\n")
     project = Project.create(tmp_path / "project", [asset], vocabulary=("left", "right"))
     project.set_labels("boxes.obj", {name: label for name, (_, _, label) in BOXES.items()})
-    with opened(tmp_path, project.folder, "--page", str(PAGE)) as studio, chromium() as browser:
-        studio.settled()
-        person = hand(browser, 1024, 700)
-        person.open(address(studio))
+    with visiting(tmp_path, project, browser, 1024, 700) as (_, person):
         person.page.mouse.move(5, 5)
         for _ in range(3):
             seen = pixels(person)
@@ -86,4 +83,3 @@ def test_of_faces_in_one_plane_the_same_is_drawn_and_picked_from_every_side(tmp_
         changed = pixels(person)[np.abs(pixels(person) - before).max(axis=2) > 60]
         assert (changed.min(axis=1) > 225).sum() > 100, "a light line"
         assert (changed.max(axis=1) < 50).sum() > 100, "on a dark one"
-        assert not person.complaints

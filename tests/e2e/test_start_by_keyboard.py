@@ -6,9 +6,10 @@ import shutil
 from pathlib import Path
 
 import pytest
+from playwright.sync_api import Browser
 
 from meshforge.samples import TABLES
-from tests.e2e.hand import Hand, chromium, hand
+from tests.e2e.hand import Hand, hand, windows
 from tests.e2e.studio import ending, started
 from tests.e2e.walk import PAGE, address
 
@@ -29,9 +30,8 @@ def reach(person: Hand, name: str) -> None:
     raise AssertionError(f"Tab never comes to {name}")
 
 
-@pytest.mark.slow
 def test_a_project_is_made_and_its_family_changed_by_the_keyboard_alone(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, browser: Browser
 ) -> None:
     monkeypatch.setenv("MESHFORGE_STATE", str(tmp_path / "state"))  # no projects of other tests among the recent ones
     source = tmp_path / "desks"
@@ -39,7 +39,7 @@ def test_a_project_is_made_and_its_family_changed_by_the_keyboard_alone(
     names = ["table_01.obj", "table_02.obj", "table_03.obj"]
     for name in names:
         shutil.copyfile(TABLES / name, source / name)
-    with ending(started("studio", "--page", str(PAGE))) as studio, chromium() as browser:
+    with ending(started("studio", "--page", str(PAGE))) as studio, windows(browser):
         person = hand(browser)
         person.page.goto(address(studio))
         person.page.get_by_role("heading", name="New project").wait_for()

@@ -7,10 +7,11 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from playwright.sync_api import Browser
 
 from meshforge.project import Project
 from meshforge.samples import TABLES
-from tests.e2e.hand import chromium, hand
+from tests.e2e.hand import hand, windows
 from tests.e2e.studio import Studio, ending, started
 from tests.e2e.transfer import drop
 from tests.e2e.walk import PAGE, address
@@ -23,15 +24,14 @@ def studio() -> Iterator[Studio]:
         yield found
 
 
-@pytest.mark.slow
-def test_a_dropped_folder_becomes_a_project_with_its_assets(studio: Studio, tmp_path: Path) -> None:
+def test_a_dropped_folder_becomes_a_project_with_its_assets(studio: Studio, tmp_path: Path, browser: Browser) -> None:
     source = tmp_path / "desks"
     source.mkdir()
     for name in ("table_01.obj", "table_02.obj"):
         shutil.copyfile(TABLES / name, source / name)
     before = sorted(tmp_path.rglob("*"))
     project = tmp_path / "projects" / "my desks"
-    with chromium() as browser:
+    with windows(browser):
         person = hand(browser)
         person.page.goto(address(studio))
         person.page.get_by_role("heading", name="Recent projects").wait_for()
@@ -50,11 +50,12 @@ def test_a_dropped_folder_becomes_a_project_with_its_assets(studio: Studio, tmp_
     assert sorted(path.name for path in source.iterdir()) == ["table_01.obj", "table_02.obj"]
 
 
-@pytest.mark.slow
-def test_assets_without_hulls_are_decomposed_part_by_part_where_that_is_chosen(studio: Studio, tmp_path: Path) -> None:
+def test_assets_without_hulls_are_decomposed_part_by_part_where_that_is_chosen(
+    studio: Studio, tmp_path: Path, browser: Browser
+) -> None:
     write_bare_stool(tmp_path / "stools", "a")
     project = tmp_path / "project"
-    with chromium() as browser:
+    with windows(browser):
         person = hand(browser)
         person.page.goto(address(studio))
         person.page.get_by_label("Folder of assets", exact=True).fill(str(tmp_path / "stools"))

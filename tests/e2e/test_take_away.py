@@ -8,23 +8,21 @@ from zipfile import ZipFile
 import pytest
 import trimesh
 from PIL import Image
+from playwright.sync_api import Browser
 
 from meshforge.formats import load
-from tests.e2e.hand import chromium, hand
-from tests.e2e.studio import opened
 from tests.e2e.transfer import save
-from tests.e2e.walk import PAGE, address
+from tests.e2e.walk import visiting
 from tests.unit.project.tables import FIRST, SECOND, THIRD, applied
 
 
-def test_results_report_and_turntable_are_saved_by_the_browser_and_can_be_opened(tmp_path: Path) -> None:
+def test_results_report_and_turntable_are_saved_by_the_browser_and_can_be_opened(
+    tmp_path: Path, browser: Browser
+) -> None:
     project = applied(tmp_path)
     project.set_verdict([FIRST, SECOND], "accepted")
     project.set_verdict([THIRD], "wrong")
-    with opened(tmp_path, project.folder, "--page", str(PAGE)) as studio, chromium() as browser:
-        studio.settled()
-        person = hand(browser)
-        person.open(address(studio))
+    with visiting(tmp_path, project, browser) as (_, person):
         person.press("Alt+4")
         person.click(person.page.get_by_role("radio", name="Export"))
 
@@ -60,4 +58,3 @@ def test_results_report_and_turntable_are_saved_by_the_browser_and_can_be_opened
         person.sees("3 assets, before and after.")
         again = save(person, "Save again", tmp_path)
         assert again.name == "tables-turntable.gif"
-        assert not person.complaints

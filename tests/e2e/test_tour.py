@@ -7,10 +7,12 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+from playwright.sync_api import Browser
+
 from meshforge.formats import load
 from meshforge.language import Program
 from meshforge.project import Project
-from tests.e2e.hand import Hand, chromium, hand
+from tests.e2e.hand import Hand, hand, windows
 from tests.e2e.studio import Studio, ending, started
 from tests.e2e.walk import address, guessed, learned, stepped
 
@@ -24,10 +26,10 @@ Geo(Is(panel), +Z) => Replace(box)
 """What the person has in mind: of the panels, the table top alone."""
 
 
-def test_who_follows_the_tour_has_fourteen_right_tables_signed_off(tmp_path: Path) -> None:
+def test_who_follows_the_tour_has_fourteen_right_tables_signed_off(tmp_path: Path, browser: Browser) -> None:
     words = ("demo", "--studio", "--out", str(tmp_path / "tables"))
-    with ending(started(*words)) as studio, chromium() as browser:
-        person = hand(browser, 1280, 720)
+    with ending(started(*words)) as studio, windows(browser):
+        person = hand(browser, 1280, 720, glides=True)
         person.open(address(studio))
         read = [_mark(person, "A family of tables")]
         person.click("Next")

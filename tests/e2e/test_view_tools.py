@@ -14,7 +14,7 @@ from playwright.sync_api import Browser
 
 from meshforge.project import Project
 from meshforge.samples import TABLES
-from tests.e2e.hand import PATIENCE, Hand, chromium, hand
+from tests.e2e.hand import PATIENCE, Hand, hand, windows
 from tests.e2e.studio import Studio, opened
 from tests.e2e.walk import PAGE, address
 
@@ -36,10 +36,10 @@ def studio(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Studio]:
         yield running
 
 
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    with chromium() as running:
-        yield running
+@pytest.fixture(autouse=True)
+def _windows(browser: Browser) -> Iterator[None]:
+    with windows(browser):
+        yield
 
 
 def test_one_looks_inside_and_measures_by_keys_and_by_clicks(studio: Studio, browser: Browser) -> None:
@@ -72,7 +72,6 @@ def test_one_looks_inside_and_measures_by_keys_and_by_clicks(studio: Studio, bro
     assert measures.count() == 2
     person.page.get_by_role("status").filter(has_text="Extents of").wait_for(state="attached")
     assert not person.complaints
-    person.page.context.close()
 
 
 def test_hidden_hulls_are_counted_over_the_view_until_all_are_shown(studio: Studio, browser: Browser) -> None:
@@ -88,10 +87,9 @@ def test_hidden_hulls_are_counted_over_the_view_until_all_are_shown(studio: Stud
     chip.wait_for()
     person.click(chip.get_by_role("button", name="Show all"))
     chip.wait_for(state="detached")
-    person.page.context.close()
 
 
-@pytest.mark.parametrize(("width", "height"), [(1920, 1080), (1440, 900), (1024, 768), (960, 600)])
+@pytest.mark.parametrize(("width", "height"), [(1920, 1080), (1024, 768), (960, 600)])
 def test_tools_are_in_one_row_and_the_rest_behind_a_button(
     studio: Studio, browser: Browser, width: int, height: int
 ) -> None:
@@ -108,7 +106,6 @@ def test_tools_are_in_one_row_and_the_rest_behind_a_button(
     boxes = [part.bounding_box() for part in bar.locator("[data-part-id]").all()]
     rights = [part["x"] + part["width"] for part in boxes if part and part["width"]]
     assert rights == sorted(rights) and rights[-1] <= box["x"] + box["width"]
-    person.page.context.close()
 
 
 def test_messages_lie_over_neither_the_view_nor_the_family(studio: Studio, browser: Browser) -> None:
@@ -124,7 +121,6 @@ def test_messages_lie_over_neither_the_view_nor_the_family(studio: Studio, brows
     assert message["x"] >= view["x"] + view["width"]
     assert message["y"] + message["height"] <= side["y"] + side["height"]
     person.press("Control+z")
-    person.page.context.close()
 
 
 def test_a_label_of_300_characters_is_cut(studio: Studio, browser: Browser) -> None:
@@ -143,7 +139,6 @@ def test_a_label_of_300_characters_is_cut(studio: Studio, browser: Browser) -> N
     assert right <= 1440, "nothing is wider than the window"
     rows = [row.bounding_box() for row in person.page.locator("[data-name]").all()]
     assert len({row["height"] for row in rows if row}) == 1, "all rows of the list are as high"
-    person.page.context.close()
 
 
 @pytest.mark.parametrize(
@@ -164,7 +159,6 @@ def test_the_first_paint_is_in_the_theme_before_any_script_or_style(
     page.goto(address(studio), wait_until="domcontentloaded")
     picture = Image.open(io.BytesIO(page.screenshot())).convert("RGB")
     assert picture.getcolors() == [(300 * 200, GROUNDS[chosen or system])]
-    page.context.close()
 
 
 def _person(browser: Browser, studio: Studio, width: int = 1440, height: int = 900) -> Hand:

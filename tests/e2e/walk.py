@@ -4,12 +4,17 @@ from __future__ import annotations
 
 import re
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from playwright.sync_api import Browser
+
 import meshforge.studio
-from tests.e2e.hand import Hand
-from tests.e2e.studio import Studio
+from meshforge.project import Project
+from tests.e2e.hand import Hand, hand, windows
+from tests.e2e.studio import Studio, opened
 
 PAGE = Path(meshforge.studio.__file__).parent / "static"
 FIRST, SECOND = "table_03.obj", "table_08.obj"
@@ -19,6 +24,19 @@ PATIENCE = 60.0
 def address(studio: Studio) -> str:
     """Where a page of a studio is opened."""
     return f"{studio.base}/?token={studio.token}"
+
+
+@contextmanager
+def visiting(
+    folder: Path, project: Project, browser: Browser, *size: int, latency: int = 0
+) -> Iterator[tuple[Studio, Hand]]:
+    """A person at the page of a studio on a project for a block; the page has nothing to complain of."""
+    with opened(folder, project.folder, "--page", str(PAGE)) as studio, windows(browser):
+        studio.settled()
+        person = hand(browser, *size, latency=latency)
+        person.open(address(studio))
+        yield studio, person
+        assert not person.complaints
 
 
 def go_to(person: Hand, asset: str) -> None:

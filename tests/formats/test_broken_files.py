@@ -9,9 +9,14 @@ from tests.corpus_case import ROOT, Case, cases, files_below, told
 CASES = cases()
 
 
-@pytest.mark.parametrize(
-    "case", [pytest.param(case, id=case.name, marks=[pytest.mark.slow] if case.is_bomb else []) for case in CASES]
-)
+LONGEST = "gltf/bomb_accessor_count_ten_million.gltf"
+
+
+def mark(case: Case) -> list[pytest.MarkDecorator]:
+    return [pytest.mark.long] if case.name == LONGEST else [pytest.mark.slow] if case.is_bomb else []
+
+
+@pytest.mark.parametrize("case", [pytest.param(case, id=case.name, marks=mark(case)) for case in CASES])
 def test_an_odd_input_is_read_right_or_refused_as_expected(case: Case) -> None:
     before = list(files_below(case.path.parent))
     done = told(case)

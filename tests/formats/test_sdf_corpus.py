@@ -28,6 +28,7 @@ REFUSED = {
 WORLDS = {"scenes_robots/pybullet_data/kiva_shelf/model.sdf"}
 
 
+@pytest.mark.slow
 def test_every_real_file_is_read_or_refused_for_its_own_fault(tmp_path: Path) -> None:
     root = corpus()
     paths = sorted(root.rglob("*.sdf"))

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 
 from meshforge.geometry import Floats, distance
-from meshforge.symbolic import Hull, SymbolicMesh, bits_of, split_by_contact
+from meshforge.symbolic import Hull, SymbolicMesh
 from tests.examples import examples
 from tests.shape_strategies import KINDS, generators, shape
 
@@ -29,10 +29,6 @@ def mapped(mesh: SymbolicMesh, linear: Floats, offset: Floats) -> SymbolicMesh:
     return SymbolicMesh(tuple(hulls), epsilon=mesh.epsilon)
 
 
-def clear_contacts(mesh: SymbolicMesh, doubtful: set[tuple[int, int]]) -> set[tuple[int, int]]:
-    return set(mesh.contacts) - doubtful
-
-
 def doubtful_pairs(mesh: SymbolicMesh) -> set[tuple[int, int]]:
     slack = CLEAR * mesh.diagonal
     return {pair for pair, gap in mesh.graph.items() if abs(gap - mesh.contact_distance) <= slack}
@@ -40,7 +36,7 @@ def doubtful_pairs(mesh: SymbolicMesh) -> set[tuple[int, int]]:
 
 @LAW
 @given(rng=generators())
-def test_contacts_are_those_of_brute_force(rng: np.random.Generator) -> None:
+def test_contacts_and_neighbours_are_those_of_brute_force(rng: np.random.Generator) -> None:
     mesh = random_mesh(rng, 9)
     doubtful = doubtful_pairs(mesh)
     exact = {
@@ -49,7 +45,9 @@ def test_contacts_are_those_of_brute_force(rng: np.random.Generator) -> None:
         for j in range(i + 1, 9)
         if distance(mesh.hulls[i].shape, mesh.hulls[j].shape) <= mesh.epsilon * mesh.diagonal
     }
-    assert clear_contacts(mesh, doubtful) == exact - doubtful
+    assert set(mesh.contacts) - doubtful == exact - doubtful
+    assert {(min(i, j), max(i, j)) for i in range(9) for j in mesh.neighbours(i)} == mesh.contacts
+    assert all(i in mesh.neighbours(j) and i != j for i in range(9) for j in mesh.neighbours(i))
 
 
 @LAW
@@ -59,17 +57,7 @@ def test_contacts_do_not_depend_on_place_size_or_order_of_axes(rng: np.random.Ge
     doubtful = doubtful_pairs(mesh)
     swap = np.eye(3)[rng.permutation(3)] * rng.choice([-1.0, 1.0], size=(3, 1))
     image = mapped(mesh, swap * 10.0 ** rng.uniform(-3, 3), rng.normal(size=3))
-    assert clear_contacts(image, doubtful) == clear_contacts(mesh, doubtful)
-
-
-@LAW
-@given(rng=generators())
-def test_neighbours_are_mutual_and_never_the_hull_itself(rng: np.random.Generator) -> None:
-    mesh = random_mesh(rng, 8)
-    for i in range(8):
-        assert i not in mesh.neighbours(i)
-        assert all(i in mesh.neighbours(j) for j in mesh.neighbours(i))
-    assert {(i, j) for i in range(8) for j in mesh.neighbours(i) if i < j} == mesh.contacts
+    assert set(image.contacts) - doubtful == set(mesh.contacts) - doubtful
 
 
 @LAW
@@ -96,28 +84,3 @@ def test_a_graph_carried_through_an_edit_is_the_graph_made_anew(rng: np.random.G
     assert carried.known_graph is not None
     assert list(carried.graph) == list(anew.graph)
     assert np.allclose(list(carried.graph.values()), list(anew.graph.values()), rtol=0, atol=CLEAR)
-
-
-@LAW
-@given(rng=generators())
-def test_components_part_the_selection_and_no_contact_joins_two_in_a_body(rng: np.random.Generator) -> None:
-    mesh = random_mesh(rng, 12)
-    mask = int(rng.integers(0, 1 << 12))
-    parts = [bits_of(part) for part in split_by_contact(mesh, mask)]
-    assert sorted(k for part in parts for k in part) == sorted(bits_of(mask))
-    assert [min(part) for part in parts] == sorted(min(part) for part in parts)
-    whose = {k: n for n, part in enumerate(parts) for k in part}
-    for i, j in mesh.contacts:
-        if i in whose and j in whose and mesh.hulls[i].body == mesh.hulls[j].body:
-            assert whose[i] == whose[j]
-    for part in parts:
-        assert len({mesh.hulls[k].body for k in part}) == 1
-        assert _reached(mesh, part) == part
-
-
-def _reached(mesh: SymbolicMesh, part: frozenset[int]) -> frozenset[int]:
-    """What contacts within the part connect to its first hull, pair by pair until nothing is added."""
-    found = {min(part)}
-    for _ in part:
-        found |= {b for i, j in mesh.contacts for a, b in ((i, j), (j, i)) if a in found and b in part}
-    return frozenset(found)

@@ -74,6 +74,7 @@ def test_the_error_is_the_distance_of_the_farthest_vertex(rng: np.random.Generat
     assert found.error == pytest.approx(farthest, rel=1e-4, abs=1e-5)
 
 
+@pytest.mark.slow
 @examples(25)
 @given(generators())
 def test_there_is_always_a_box(rng: np.random.Generator) -> None:
@@ -94,23 +95,6 @@ def test_a_hull_of_a_few_vertices_too_many_hardly_grows(count: int, share: float
     ball = convex_hull(points / np.linalg.norm(points, axis=1, keepdims=True))
     found = enclose(ball, HullBudget(vertices=64))
     assert found is not None and found.error < share * ball.aabb.diagonal
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(("vertices", "share"), [(32, 0.09), (64, 0.05), (255, 0.015)])
-def test_a_ball_of_many_vertices_is_met_well(vertices: int, share: float) -> None:
-    points = np.random.default_rng(1).normal(size=(2000, 3))
-    ball = convex_hull(points / np.linalg.norm(points, axis=1, keepdims=True))
-    found = enclose(ball, HullBudget(vertices))
-    assert found is not None and found.error < share * ball.aabb.diagonal
-
-
-@pytest.mark.slow
-def test_more_vertices_never_stick_out_more_by_much() -> None:
-    points = np.random.default_rng(2).normal(size=(120, 3))
-    hull = convex_hull(points / np.linalg.norm(points, axis=1, keepdims=True))
-    errors = [found.error for n in (16, 32, 64) if (found := enclose(hull, HullBudget(n)))]
-    assert errors[0] > errors[1] > errors[2] >= 0
 
 
 def test_the_same_hull_gives_the_same_bytes() -> None:
@@ -179,10 +163,10 @@ _SHAPES = {
 @pytest.mark.parametrize(
     ("budget", "share"),
     [
-        (HullBudget(64), 0.03),
-        (HullBudget(polygons=64), 0.03),
+        pytest.param(HullBudget(64), 0.03, marks=pytest.mark.long),
+        pytest.param(HullBudget(polygons=64), 0.03, marks=pytest.mark.long),
         (HullBudget(64, 64, 32), 0.03),
-        (HullBudget(40, 50), 0.04),
+        pytest.param(HullBudget(40, 50), 0.04, marks=pytest.mark.long),
     ],
 )
 @pytest.mark.parametrize("shape", _SHAPES)
@@ -190,9 +174,8 @@ def test_shapes_of_all_kinds_keep_to_their_budget_and_grow_by_little(
     shape: str, budget: HullBudget, share: float
 ) -> None:
     hull = convex_hull(_SHAPES[shape])
-    found, again = enclose(hull, budget), enclose(hull, budget)
-    assert found is not None and again is not None
-    assert found.hull.vertices.tobytes() == again.hull.vertices.tobytes()
+    found = enclose(hull, budget)
+    assert found is not None
     made = ConvexHull(found.hull.vertices)
     assert (hull.vertices @ made.equations[:, :3].T + made.equations[:, 3]).max() <= 1e-9
     assert len(made.vertices) <= budget.vertices and len(polygon_sizes(found.hull)) <= budget.polygons

@@ -34,7 +34,7 @@ def outside(points: Floats, hull: Polytope) -> float:
 
 @LAW
 @given(points=clouds())
-def test_a_hull_is_closed_convex_outward_and_has_a_volume(points: Floats) -> None:
+def test_a_hull_is_closed_convex_and_outward_of_some_of_its_points_and_holds_all(points: Floats) -> None:
     hull = convex_hull(points)
     assert is_closed(hull.faces)
     assert is_convex(hull.vertices, hull.faces, 1e-7)
@@ -42,30 +42,13 @@ def test_a_hull_is_closed_convex_outward_and_has_a_volume(points: Floats) -> Non
     assert hull.volume > 0
     assert len(hull.vertices) - len(hull.faces) // 2 == 2
     assert np.array_equal(np.unique(hull.faces), np.arange(len(hull.vertices)))
-
-
-@LAW
-@given(points=clouds())
-def test_the_vertices_are_some_of_the_points_bit_for_bit(points: Floats) -> None:
-    hull = convex_hull(points)
-    assert rows(hull.vertices) <= rows(points)
+    assert rows(hull.vertices) <= rows(points), "bit for bit"
     assert len(rows(hull.vertices)) == len(hull.vertices)
-
-
-@LAW
-@given(points=clouds())
-def test_every_point_is_in_its_hull(points: Floats) -> None:
-    assert outside(points, convex_hull(points)) <= 1e-6
-
-
-@LAW
-@given(points=clouds())
-def test_no_triangle_of_a_hull_is_a_needle(points: Floats) -> None:
-    hull = convex_hull(points)
+    assert outside(points, hull) <= 1e-6
     corners = whitened(hull.vertices, hull.vertices)[hull.faces]
     sides = corners - np.roll(corners, 1, axis=1)
     areas = np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1)
-    assert (areas / np.linalg.norm(sides, axis=2).max(axis=1)).min() > 5e-8
+    assert (areas / np.linalg.norm(sides, axis=2).max(axis=1)).min() > 5e-8, "no triangle is a needle"
 
 
 @LAW

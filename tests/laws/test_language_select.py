@@ -82,6 +82,7 @@ def test_components_partition_a_selection_into_chains_of_contacts(mesh: Symbolic
     chosen = select(extractor, mesh)
     parts = [bits_of(part) for part in split_by_contact(mesh, mask_of(chosen))]
     assert sorted(g for part in parts for g in part) == sorted(chosen)
+    assert [min(part) for part in parts] == sorted(min(part) for part in parts)
     of = {g: k for k, part in enumerate(parts) for g in part}
     for u, v in itertools.combinations(sorted(chosen), 2):
         one_body = mesh.hulls[u].body == mesh.hulls[v].body

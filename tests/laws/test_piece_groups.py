@@ -6,7 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from meshforge.geometry import Box, Floats, Ints, Polytope, Pose, convex_hull, merge_pieces, volume_of_union
@@ -21,7 +21,6 @@ def box(middle: tuple[float, float, float], half: tuple[float, float, float]) ->
     return Box(Pose(np.eye(3), np.array(middle, dtype=float)), np.array(half, dtype=float)).tessellate()
 
 
-@settings(max_examples=40, deadline=None)
 @given(st.lists(boxes, min_size=1, max_size=7), st.data())
 def test_each_piece_is_in_one_group_of_its_kind_and_hulls_hold_their_pieces(
     pieces: list[Polytope], data: st.DataObject
@@ -36,7 +35,6 @@ def test_each_piece_is_in_one_group_of_its_kind_and_hulls_hold_their_pieces(
         assert volume_of_union(own) >= 0.85 * group.shape.volume * (1 - 1e-6), "a hull adds little"
 
 
-@settings(max_examples=25, deadline=None)
 @given(boxes, st.integers(2, 5), st.integers(0, 2))
 def test_a_box_in_slices_of_one_kind_is_one_box_again(whole: Polytope, count: int, axis: int) -> None:
     low, high = whole.aabb.min, whole.aabb.max
@@ -82,7 +80,6 @@ def test_no_pieces_are_no_groups() -> None:
     assert merge_pieces([], np.zeros(0, np.int64)) == ()
 
 
-@settings(max_examples=25, deadline=None)
 @given(boxes, boxes)
 def test_what_a_shape_has_of_a_solid_is_held_and_nothing_beyond(solid: Polytope, shape: Polytope) -> None:
     found = Interior(solid.vertices, solid.faces).list_hulls([shape])

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from meshforge.geometry import Pose, rotation_about
 from meshforge.signoff.outliers import EditMeasures, find_alarms, measure_edit
 from meshforge.symbolic import Hull, SymbolicMesh
+from tests.examples import examples
 from tests.strategies import seeds, shapes
 
 
@@ -28,7 +29,7 @@ def draw_family(seed: int, size: int) -> dict[str, EditMeasures]:
     return {f"asset_{k}": draw_edit(rng) for k in range(size)}
 
 
-FEW = settings(max_examples=15)
+FEW = examples(75)
 FAMILIES = st.builds(draw_family, seeds, st.integers(0, 12))
 EDITS = st.builds(lambda seed: draw_edit(np.random.default_rng(seed)), seeds)
 

@@ -9,15 +9,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from meshforge.language import (
-    All,
-    Attach,
-    BaseExtractor,
-    Diff,
     Extractor,
-    Geo,
-    Intersect,
-    Is,
-    Union,
     labels_of,
     select_mask,
     size_of,
@@ -26,20 +18,7 @@ from meshforge.symbolic import Label, SymbolicMesh, bits_of
 from meshforge.synthesis.demonstration import Example
 from meshforge.synthesis.options import LAYERS, Layers, Options, TimeBudget
 from meshforge.synthesis.paper.partial import (
-    BaseHole,
     ExampleMasks,
-    Hole,
-    HoleGrammar,
-    Open,
-    OpenAttach,
-    OpenGeo,
-    OpenOperator,
-    Partial,
-    bounds,
-    count_nodes,
-    is_feasible,
-    make_attach,
-    make_operator,
 )
 from meshforge.synthesis.paper.search import Abduction, HitWithFixes, PaperSearch
 from meshforge.synthesis.questions import LabelFix
@@ -73,77 +52,6 @@ def test_the_size_is_that_of_the_other_strategy(batch: list[SymbolicMesh], hidde
     if isinstance(answer, Hit) and isinstance(other, Hit):
         assert size_of(answer.extractor) == size_of(other.extractor)
         assert [select_mask(answer.extractor, e.mesh) for e in examples] == [e.selection for e in examples]
-
-
-@st.composite
-def with_holes(draw: st.DrawFn, extractor: Extractor) -> Partial:
-    """The extractor with parts of it put out."""
-
-    def base(node: BaseExtractor) -> BaseExtractor | BaseHole:
-        return BaseHole() if draw(st.booleans()) else node
-
-    def part(node: Extractor) -> Partial:
-        if draw(st.integers(0, 3)) == 0:
-            return Hole()
-        match node:
-            case All() | Is():
-                return node
-            case Attach(selected, anchor):
-                return make_attach(base(selected), base(anchor))
-            case Geo(_, direction):
-                return OpenGeo(direction) if draw(st.booleans()) else node
-            case Union(left, right) | Intersect(left, right) | Diff(left, right):
-                return make_operator(type(node), part(left), part(right))
-            case _:
-                raise AssertionError(f"{node} is none of the paper's")
-
-    return part(extractor)
-
-
-@examples(300)
-@given(meshes(grid_boxes(), vocabulary=LABELS), extractors(LABELS), st.data())
-def test_a_completion_selects_within_the_bounds(mesh: SymbolicMesh, extractor: Extractor, data: st.DataObject) -> None:
-    partial = data.draw(with_holes(extractor))
-    low, high = bounds(partial, ExampleMasks(Example("mesh", mesh, 0)))
-    selection = select_mask(extractor, mesh)
-    assert not low & ~selection
-    assert not selection & ~high
-    if not isinstance(partial, Open):
-        assert low == high == selection
-
-
-def completes(extractor: Extractor, partial: Partial) -> bool:
-    match partial:
-        case Hole():
-            return True
-        case OpenGeo(direction):
-            return isinstance(extractor, Geo) and extractor.direction == direction
-        case OpenAttach(selected, anchor):
-            return isinstance(extractor, Attach) and all(
-                isinstance(base, BaseHole) or base == wanted
-                for base, wanted in ((selected, extractor.selected), (anchor, extractor.anchor))
-            )
-        case OpenOperator(joint, left, right):
-            if isinstance(extractor, All | Is | Attach | Geo) or not isinstance(extractor, joint):
-                return False
-            return completes(extractor.left, left) and completes(extractor.right, right)
-        case _:
-            return partial == extractor
-
-
-@examples(100)
-@given(meshes(grid_boxes(), vocabulary=LABELS), extractors(LABELS))
-def test_one_way_leads_to_every_extractor_and_what_it_selects_never_cuts_it(
-    mesh: SymbolicMesh, hidden: Extractor
-) -> None:
-    demo, grammar = ExampleMasks(Example("mesh", mesh, select_mask(hidden, mesh))), HoleGrammar(LABELS, "S+T+G")
-    partial: Partial = Hole()
-    while isinstance(partial, Open):
-        assert is_feasible(partial, demo)
-        (following,) = [candidate for candidate in grammar.fill(partial) if completes(hidden, candidate)]
-        assert count_nodes(partial) <= count_nodes(following) <= size_of(hidden)
-        partial = following
-    assert partial == hidden
 
 
 def corrected(example: Example, corrections: Sequence[LabelFix]) -> Example:

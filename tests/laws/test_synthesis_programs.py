@@ -85,10 +85,12 @@ def possible_cuts(demos: list[Demonstration], short: int) -> list[int]:
 
 _OUTCOMES = """
 import json
+from dataclasses import asdict
 from benchmark.learning.families import VOCABULARIES, family
-from meshforge.language import Delete, Program, select
+from meshforge.language import Delete, Program, select, show
 from meshforge.symbolic import Label
 from meshforge.synthesis import Demonstration, Step, outcome_to_json, synthesize
+from tests.unit.synthesis.test_repair import examples_of, explained
 from tests.unit.synthesis.test_running_example import learned
 
 def ambiguous(mislabelled):
@@ -107,6 +109,9 @@ for outcome in (learned(), ambiguous(False), ambiguous(True)):
     out = outcome_to_json(outcome)
     del out["seconds"]
     print(json.dumps(out))
+said = explained(examples_of("Is(leg)", {"leg0_low": "drawer", "leg3_high": "panel"}, {"leg1_low": None}))
+out = [show(said.extractor), [asdict(row) for row in said.corrections], said.beliefs, said.whys, said.cost]
+print(json.dumps({"status": f"{len(out[1])} corrections", "out": out}))
 """
 
 
@@ -124,5 +129,10 @@ def test_the_outcome_does_not_depend_on_the_hash_seed() -> None:
         ).stdout
         for seed in (1, 2)
     ]
-    assert [json.loads(line)["status"] for line in printed[0].splitlines()] == ["found", "ambiguous", "repair"]
+    assert [json.loads(line)["status"] for line in printed[0].splitlines()] == [
+        "found",
+        "ambiguous",
+        "repair",
+        "3 corrections",
+    ]
     assert printed[0] == printed[1]

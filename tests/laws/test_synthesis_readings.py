@@ -82,17 +82,6 @@ def test_every_reading_selects_what_was_shown_and_what_it_says(
     assert sum(weighed.beliefs) == pytest.approx(1.0)
 
 
-@pytest.mark.slow
-@examples(150)
-@given(batches, shown_on, extractors(LABELS, max_leaves=4))
-def test_what_was_meant_is_among_the_readings(batch: list[SymbolicMesh], shown: int, hidden: Extractor) -> None:
-    search, answer = searched(batch, shown, hidden, LABELS, Options())
-    assume(size_of(hidden) <= size_of(answer) + 3)
-    found = enumerate_consistent(search, answer, 3)
-    assume(found.complete)
-    assert tuple(select_mask(hidden, mesh) for mesh in batch) in behaviours(search, found)
-
-
 @pytest.mark.parametrize("switched", OTHERWISE)
 @examples(25)
 @given(batch=batches, shown=shown_on, hidden=extractors(TWO, max_leaves=2))

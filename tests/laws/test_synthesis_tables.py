@@ -14,7 +14,6 @@ from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis.candidates.rank import enumerate_consistent
 from meshforge.synthesis.demonstration import Example
 from meshforge.synthesis.options import Options, TimeBudget
-from meshforge.synthesis.paper.search import PaperSearch
 from meshforge.synthesis.search.smallest import Hit, Search
 from tests.examples import examples
 from tests.strategies import extractors
@@ -50,15 +49,3 @@ def test_what_is_found_is_no_larger_and_what_was_meant_is_a_reading(hidden: Extr
     found = enumerate_consistent(search, answer.extractor, 3)
     if found.complete and size_of(hidden) <= size_of(answer.extractor) + 3:
         assert search.field.bits(hidden) in {term.bits for term in found.terms}
-
-
-@examples(30)
-@given(extractors(LABELS, max_leaves=2), st.tuples(places, places))
-def test_the_strategy_of_the_paper_finds_nothing_smaller(hidden: Extractor, shown: tuple[int, int]) -> None:
-    known = examples_from(hidden, shown)
-    answer = Search(known, LABELS, TimeBudget(600), Options()).run()
-    assert isinstance(answer, Hit)
-    assume(size_of(answer.extractor) <= 5)
-    paper = PaperSearch(known, LABELS, TimeBudget(600), Options(strategy="paper", repair=False, max_size=5)).run()
-    assert isinstance(paper, Hit)
-    assert size_of(paper.extractor) == size_of(answer.extractor)

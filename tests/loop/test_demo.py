@@ -59,12 +59,16 @@ def test_the_report_shows_every_table_and_every_rule(shown: tuple[Path, Done]) -
     assert len(page.findall(".//img")) >= 28
 
 
-def test_a_second_demo_replaces_the_first_but_never_a_folder_of_yours(shown: tuple[Path, Done], tmp_path: Path) -> None:
+def test_a_demo_never_replaces_a_folder_of_yours(tmp_path: Path) -> None:
     (tmp_path / "mine").mkdir()
     (tmp_path / "mine" / "thesis.txt").write_text("do not lose me")
     refused = meshforge_here("demo", "--out", "mine", cwd=tmp_path, code=2)
     assert "holds something else" in refused.err
     assert (tmp_path / "mine" / "thesis.txt").read_text() == "do not lose me"
+
+
+@pytest.mark.long
+def test_a_second_demo_replaces_the_first(shown: tuple[Path, Done]) -> None:
     stale = shown[0] / "meshforge-demo" / "project" / "stale.txt"
     stale.touch()
     meshforge_here("demo", cwd=shown[0])

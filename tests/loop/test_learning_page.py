@@ -7,6 +7,8 @@ import re
 import shlex
 from pathlib import Path
 
+import pytest
+
 from meshforge.language import Program
 from tests.loop.command import meshforge_here as meshforge
 
@@ -20,6 +22,7 @@ def commands() -> list[list[str]]:
     return [shlex.split(line)[1:] for line in lines if line.startswith("meshforge")]
 
 
+@pytest.mark.long
 def test_five_rules_are_taught_with_one_demonstration_and_three_clicks(tmp_path: Path) -> None:
     for words in commands():
         meshforge(*words, cwd=tmp_path, code=int(words[0] == "review"))

@@ -70,6 +70,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
+@pytest.mark.long
 def test_a_coarse_mug_can_be_grasped_by_its_handle_after_the_rebuild(folder: Path) -> None:
     (seen,) = read_triangles(corpus("cups_mugs", "object_sim", "coffeemug") / "coffeemug.stl")
     turn = rotation_about(np.array([0.0, 0.0, 1.0]), 0.7)

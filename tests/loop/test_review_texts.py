@@ -66,7 +66,6 @@ def make_texts() -> Iterator[tuple[str, str]]:
     yield "signed_off_no_longer", run("review", "tables")
 
 
-@pytest.mark.slow
 def test_a_review_says_what_it_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     texts = dict(make_texts())

@@ -44,14 +44,14 @@ def sign_off(run: Run, folder: str, reply: Callable[[dict[str, Any]], dict[str, 
     return int(status.json["signed_off"])
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_tables_with_right_labels_are_signed_off_by_the_first_choice_of_each_question(run: Run) -> None:
     folder = str(create_tables(Path("demo")).folder)
     assert sign_off(run, folder, lambda question: {"choice": 0}) == 14
     assert run("info", "table_01.obj", "--project", folder, "--json").json["probability"] >= THRESHOLD
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_tables_with_wrong_labels_are_signed_off_by_right_replies_and_come_out_right(tmp_path: Path, run: Run) -> None:
     project = create_project(tmp_path)
     assert sign_off(run, "tables", lambda question: reply_to(question, project)) == len(SHOWN) + len(OTHERS)

@@ -1,4 +1,7 @@
-"""Dying in the midst of work: a forked process that ends, as if killed, just before its k-th rename."""
+"""Dying in the midst of work: a forked process that ends, as if killed, just before its k-th rename.
+
+Costly work dies before its first rename, its second, fourth, eighth and so on, and before each in `script/test --long`.
+"""
 
 from __future__ import annotations
 
@@ -10,20 +13,23 @@ from pathlib import Path
 
 import pytest
 
+from tests.slow_tests import is_long
+
 _SECONDS = 120  # that the work may take; it would hang for ever where a lock was held while forking
 needs_fork = pytest.mark.skipif(not hasattr(os, "fork"), reason="this system cannot fork")
 
 
-def deaths(work: Callable[[], object], *, removals: bool = False) -> Iterator[int]:
+def deaths(work: Callable[[], object], *, removals: bool = False, costly: bool = False) -> Iterator[int]:
     """Do the work again and again in a process that dies before its first rename, its second, and so on.
 
-    removals: files and folders that are removed count as well. Gives the number of renames after each death; ends when
-    the work came to its end.
+    removals: files and folders that are removed count as well; costly: leave most of them out. Gives the number of
+    renames after each death; ends when the work came to its end, which it must not at first.
     """
-    rename = 0
-    while not _survives(work, rename, ("replace", "unlink", "rmdir") if removals else ("replace",)):
+    rename, calls = 0, ("replace", "unlink", "rmdir") if removals else ("replace",)
+    while not _survives(work, rename, calls):
         yield rename
-        rename += 1
+        rename = 2 * rename + 1 if costly and not is_long() else rename + 1
+    assert rename, "the work came to its end without a rename"
 
 
 def _survives(work: Callable[[], object], rename: int, calls: tuple[str, ...]) -> bool:

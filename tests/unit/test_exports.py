@@ -76,6 +76,7 @@ def test_a_command_imports_no_more_than_it_needs(words: list[str], absent: tuple
     assert done.stdout.splitlines()[-1] == "ABSENT []"
 
 
+@pytest.mark.slow
 def test_names_are_found_without_any_source(tmp_path: Path) -> None:
     """As in a program that was frozen: compiled modules and data, no `.py`."""
     tree = tmp_path / "meshforge"

@@ -21,11 +21,6 @@ def modules(folder: Path, **texts: str) -> dict[str, Module]:
     return found
 
 
-@pytest.mark.slow
-def test_the_source_keeps_every_limit(capsys: pytest.CaptureFixture[str]) -> None:
-    assert structure.main([]) == 0, capsys.readouterr().err
-
-
 def test_a_cycle_by_a_lazy_and_a_type_only_import_is_found(tmp_path: Path) -> None:
     found = modules(
         tmp_path,

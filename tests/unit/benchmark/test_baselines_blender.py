@@ -5,7 +5,6 @@ Skipped where there is no Blender: see `benchmark.baselines.blender.apart.found`
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Iterator
 from pathlib import Path
@@ -21,7 +20,7 @@ from benchmark.baselines.blender.scene import mesh_of, scene_of
 from benchmark.baselines.blender.shapes import Illegal
 from benchmark.tasks import task
 from meshforge.common import UsageError
-from meshforge.geometry import convex_hull, digest
+from meshforge.geometry import digest
 from meshforge.symbolic import SymbolicMesh
 from tests.unit.benchmark.blender_script import SHELLS
 
@@ -59,25 +58,6 @@ def test_a_mesh_that_is_left_alone_comes_back_bit_for_bit(blender: Blender) -> N
 
 
 @needs_blender
-def test_objects_are_where_the_hulls_are_and_say_what_is_known_of_them(blender: Blender) -> None:
-    script = """
-import json
-told = {}
-for o in bpy.data.objects:
-    low = [min((o.matrix_world @ v.co)[k] for v in o.data.vertices) for k in range(3)]
-    told[o.name] = low, o["label"], o["contacts"].split()
-raise ValueError(json.dumps(told))
-"""
-    told = dict(json.loads(complaint(blender, script).rpartition("ValueError: ")[2]))
-    for place, hull in enumerate(MESH.hulls):
-        low, label, contacts = told[hull.name]
-        assert np.allclose(low, hull.aabb.min, atol=1e-6)
-        assert label == hull.label
-        assert contacts == [MESH.hulls[other].name for other in sorted(MESH.neighbours(place))]
-    assert told.keys() == MESH.index.keys()
-
-
-@needs_blender
 def test_what_a_script_deletes_moves_labels_and_makes_comes_back(blender: Blender) -> None:
     first, second, third, *rest = (hull.name for hull in MESH.hulls)
     script = f"""
@@ -101,52 +81,6 @@ bpy.ops.object.light_add()
     assert back.hull_of("box").volume == pytest.approx(0.008, rel=1e-5)
     assert back.hull_of("box").shape.kind == "polytope"
     assert all(back.hull_of(name) is MESH.hull_of(name) for name in rest)
-
-
-HULL = """
-import bmesh
-points = [o.matrix_world @ v.co for o in bpy.context.scene.objects for v in o.data.vertices]
-for o in list(bpy.data.objects):
-    bpy.data.objects.remove(o)
-bm = bmesh.new()
-for p in points:
-    bm.verts.new(p)
-bmesh.ops.convex_hull(bm, input=bm.verts)
-bmesh.ops.delete(bm, geom=[v for v in bm.verts if not v.link_faces], context="VERTS")
-mesh = bpy.data.meshes.new("all")
-bm.to_mesh(mesh)
-bpy.context.scene.collection.objects.link(bpy.data.objects.new("all", mesh))
-"""
-
-
-@needs_blender
-@pytest.mark.parametrize("category", ["cup", "kettle", "lamp"])
-def test_the_hull_that_is_made_as_the_model_is_told_is_legal_and_the_right_one(blender: Blender, category: str) -> None:
-    for sample in samples(category)[:30:10]:
-        (hull,) = made(blender, HULL, sample.mesh).hulls
-        wanted = convex_hull(np.concatenate([one.vertices for one in sample.mesh.hulls]))
-        assert hull.volume == pytest.approx(wanted.volume, rel=2e-3)
-
-
-@needs_blender
-@pytest.mark.parametrize(
-    ("script", "kind"),
-    [
-        ("bpy.ops.mesh.primitive_cube_add(rotation=(.3, .4, .5), scale=(.1, .2, .3))", "box"),
-        ("bpy.ops.mesh.primitive_cube_add()\nbpy.context.object.scale = (.1, -.2, .3)", "box"),
-        ("bpy.ops.mesh.primitive_cylinder_add(rotation=(.3, .4, .5), scale=(.1, .1, .3))", "cylinder"),
-        ("bpy.ops.mesh.primitive_uv_sphere_add(location=(1, 0, 0))", "sphere"),
-    ],
-)
-def test_a_primitive_that_says_what_it_is_becomes_one(blender: Blender, script: str, kind: str) -> None:
-    back = made(blender, f"{script}\nbpy.context.object.name = 'new'\nbpy.context.object['primitive'] = {kind!r}")
-    one = back.hull_of("new")
-    assert one.primitive
-    assert one.shape.kind == kind
-    as_mesh = made(blender, f"{script}\nbpy.context.object.name = 'new'").hull_of("new")
-    assert as_mesh.shape.kind == "polytope"
-    assert one.aabb.size == pytest.approx(as_mesh.aabb.size, rel=0.02)
-    assert as_mesh.volume == pytest.approx(one.volume, rel=0.05)
 
 
 @needs_blender

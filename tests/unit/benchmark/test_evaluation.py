@@ -42,6 +42,7 @@ def without_times(data: Any) -> Any:
     return [without_times(value) for value in data] if isinstance(data, list) else data
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("few_meshes")
 def test_a_quick_run_writes_the_page_and_its_pictures(
     journals: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -73,6 +74,7 @@ def test_a_quick_run_writes_the_page_and_its_pictures(
     assert all(ceiling.values()), ceiling
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("few_meshes")
 def test_the_page_names_what_was_measured_by_other_tasks_or_criteria(journals: Path, tmp_path: Path) -> None:
     found = run(["ceiling"], tmp_path / "out")
@@ -82,6 +84,7 @@ def test_the_page_names_what_was_measured_by_other_tasks_or_criteria(journals: P
     assert told in (tmp_path / "again" / "README.md").read_text("utf-8")
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("few_meshes")
 def test_a_run_is_the_same_again_and_takes_what_is_in_the_journal(journals: Path, tmp_path: Path) -> None:
     first = run(["comparison"], tmp_path / "one")

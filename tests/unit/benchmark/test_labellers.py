@@ -37,6 +37,7 @@ def cups() -> Family:
     return family
 
 
+@pytest.mark.long
 def test_the_sample_is_spread_over_categories_and_assets_and_leaves_out_what_is_labelled_by_hand(cups: Family) -> None:
     drawn = families(200)
     assert len(drawn) == 24
@@ -183,6 +184,7 @@ def test_a_model_is_asked_five_times_and_its_price_is_that_of_once(tmp_path: Pat
     assert any("loopback-vl, mode cheap" in note for note in found["notes"])
 
 
+@pytest.mark.long
 def test_a_model_that_wavers_is_seen_to(tmp_path: Path, answers: Path) -> None:
     (family,) = families(2, ("cup",), ("coarse",))
     model = Model(family)
@@ -199,6 +201,7 @@ def test_a_model_that_wavers_is_seen_to(tmp_path: Path, answers: Path) -> None:
     assert found["loopback-vl, cheap"]["all repeats agree, %"] < 100
 
 
+@pytest.mark.long
 def test_a_model_that_fails_on_the_way_is_not_scored(tmp_path: Path, answers: Path) -> None:
     (family,) = families(2, ("cup",), ("coarse",))
     model = Model(family)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from functools import partial
 from pathlib import Path
 from types import ModuleType
 
@@ -11,9 +10,8 @@ import numpy as np
 import pytest
 
 from benchmark import __main__ as bench
-from benchmark.clock import in_turns
 from benchmark.learning import asking, calibrate, growth, repairs
-from benchmark.learning.boxes import SIZED, boxes, boxes_case
+from benchmark.learning.boxes import boxes
 from benchmark.learning.calibrate import WEIGHTS
 from benchmark.learning.cases import cases, learn
 from benchmark.learning.contest import HAS_CVC5
@@ -30,7 +28,9 @@ def silent(_: str) -> None:
     """Takes no notice of progress."""
 
 
-@pytest.mark.parametrize("part", [growth, asking, calibrate, repairs])
+@pytest.mark.parametrize(
+    "part", [growth, *(pytest.param(part, marks=pytest.mark.long) for part in (asking, calibrate, repairs))]
+)
 def test_a_part_runs_quickly(part: ModuleType) -> None:
     result = part.measure(silent, True)
     assert isinstance(result, Result)
@@ -39,6 +39,7 @@ def test_a_part_runs_quickly(part: ModuleType) -> None:
     assert as_text(Result.of_json(json.loads(json.dumps(result.to_json())))) == as_text(result)
 
 
+@pytest.mark.long
 def test_the_contest_runs_and_all_find_what_is_smallest(tmp_path: Path) -> None:
     assert bench.main(["search", "--quick", "--out", str(tmp_path)]) == 0
     data = json.loads((tmp_path / "learning-search.json").read_text("utf-8"))
@@ -52,30 +53,12 @@ def test_the_contest_runs_and_all_find_what_is_smallest(tmp_path: Path) -> None:
     assert "cvc5 " in page.split("Machine: ")[1].splitlines()[0]
 
 
-def test_what_takes_long_has_one_turn_and_it_counts() -> None:
-    seen: list[str] = []
-    turns = {who: partial(partial, seen.append, who) for who in "ab"}
-    times = in_turns(turns, 2, slow=0.0)
-    assert "".join(seen) == "ab"
-    assert [len(seconds) for seconds in times.values()] == [1, 1]
-
-
 def test_draws_are_the_same_every_time_and_longer_rows_begin_with_shorter_ones() -> None:
     one, other = (next(cases([100], 2, ("cup",))) for _ in range(2))
     assert one.shown == other.shown
     assert all(one.masks[k] for k in one.shown)
     assert boxes(1)[0].labels == boxes(2)[0].labels
     assert list(stretch_tables(16))[:14] == list(read_tables())
-
-
-@pytest.mark.parametrize("nodes", SIZED)
-def test_the_extractors_on_boxes_have_their_sizes(nodes: int) -> None:
-    assert size_of(SIZED[nodes]) == nodes
-
-
-def test_the_case_of_the_goal_needs_all_its_nodes() -> None:
-    found = learn(boxes_case(9, 12, 12).search())
-    assert found.consistent.terms[0].size == 9
 
 
 def test_larger_problems_need_all_their_nodes_and_are_the_same_every_time() -> None:

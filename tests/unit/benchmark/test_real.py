@@ -133,14 +133,12 @@ def test_no_mesh_lies_in_the_folder_of_a_family() -> None:
     assert all(path.parent.name == "templates" for path in files if path.suffix == ".obj")
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("name", families())
 def test_files_are_those_that_were_labelled_and_all_of_the_surface_is(name: str) -> None:
     corpus()
     assert find_faults(family(name)) == []
 
 
-@pytest.mark.slow
 def test_the_reference_passes_on_a_small_asset_as_it_comes() -> None:
     corpus()
     sample = make_sample(family("tables"), "jokkmokk-0694", "as_is")
@@ -155,7 +153,6 @@ def test_the_reference_passes_on_a_small_asset_as_it_comes() -> None:
         assert row["wrong"] is not None
 
 
-@pytest.mark.slow
 def test_a_decomposition_is_the_one_that_was_recorded(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     corpus()
     monkeypatch.setattr("benchmark.real.samples.CACHE", tmp_path)

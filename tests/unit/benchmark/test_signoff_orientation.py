@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-import pytest
-
 from benchmark.signoff.orientation import needs_orientation, teach_three_ways
 
 
-@pytest.mark.slow
 def test_a_task_needs_its_orientation_where_its_reference_selects_something_else_without() -> None:
     assert needs_orientation("chair-medium", calibration=True)
     assert not needs_orientation("chair-easy", calibration=True)
 
 
-@pytest.mark.slow
 def test_a_lesson_without_orientation_is_made_right_by_what_is_suggested() -> None:
     row = teach_three_ways("chair-medium", 0, 1, calibration=True)
     withheld, upright = row["withheld"], row["upright"]
@@ -23,7 +19,6 @@ def test_a_lesson_without_orientation_is_made_right_by_what_is_suggested() -> No
     assert upright["suggested"] is None and upright["right"]
 
 
-@pytest.mark.slow
 def test_the_same_seed_gives_the_same_lesson() -> None:
     first, again = (teach_three_ways("chair-medium", 4, 2, calibration=True) for _ in range(2))
     assert first == again

@@ -68,7 +68,6 @@ def test_labels_taken_by_the_product_are_those_of_its_model_of_the_family(bench:
         assert not any(mesh.labels for mesh in client.read_meshes().values())
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("condition", [TRUE, PROPAGATED[0]])
 def test_commands_alone_come_to_the_same_as_methods(bench: Bench, condition: object) -> None:
     one, other = (sign_off(bench, condition, 1, client) for client in (Client, TerminalClient))  # type: ignore[arg-type]
@@ -76,14 +75,12 @@ def test_commands_alone_come_to_the_same_as_methods(bench: Bench, condition: obj
     assert replace(other, first=one.first) == one
 
 
-@pytest.mark.slow
 def test_who_says_no_more_than_wrong_corrects_nothing(bench: Bench) -> None:
     alone = sign_off(bench, PROPAGATED[0], 1, WrongClient)
     assert alone.ended == DONE
     assert "correction" not in alone.acts
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(("make", "says"), [(Client, True), (AnswersClient, True), (WrongClient, False)])
 def test_who_says_wrong_says_which_hulls_are_right(bench: Bench, make: type[Client], says: bool) -> None:
     reviewer = Reviewer(bench, 1, TRUE)

@@ -9,7 +9,7 @@ import pytest
 from benchmark.spanning.alarms import KNOWN, open_bundled, open_merged
 
 
-@pytest.mark.parametrize(("family", "hulls"), [("tables", 587), pytest.param("chairs", 148, marks=pytest.mark.slow)])
+@pytest.mark.parametrize(("family", "hulls"), [("tables", 587), pytest.param("chairs", 148, marks=pytest.mark.long)])
 @pytest.mark.parametrize(("labelled", "most"), [(None, 0), (KNOWN, 3)])
 def test_hulls_of_one_part_are_not_named(
     tmp_path: Path, family: str, hulls: int, labelled: int | None, most: int
@@ -20,7 +20,7 @@ def test_hulls_of_one_part_are_not_named(
     assert case.find()[1] <= most
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_of_seven_chairs_with_a_leg_merged_into_the_seat_six_are_found(tmp_path: Path) -> None:
     case = open_merged(tmp_path)
     assert len(case.project.assets()) == 10 and len(case.spanning) == 7

@@ -16,7 +16,6 @@ from benchmark.spanning.programs import (
     AS_IT_IS,
     FINE,
     REBUILT,
-    list_chosen,
     list_goals,
     open_bench,
     rebuild_sample,
@@ -83,11 +82,6 @@ def test_a_session_begins_with_labels_by_hand_of_the_known_assets_and_those_of_s
     for name in by_hand:
         pairs = zip(meshes[name].hulls, bench.truth.meshes[name].hulls, strict=True)
         assert all(hull.label == true.label and hull.source == "user" for hull, true in pairs)
-
-
-def test_one_task_of_each_category_is_learned() -> None:
-    chosen = list_chosen()
-    assert len({one.category for one in chosen}) == len(chosen) == 8
 
 
 def row(setting: str, spanning: str, possible: int, right: int) -> dict[str, Any]:

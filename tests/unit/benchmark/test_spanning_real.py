@@ -7,35 +7,20 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from benchmark.pages import page_of
 from benchmark.real.family import families, family
 from benchmark.real.samples import make_sample
 from benchmark.real.whole import REAL, list_hidden, list_whole, whole_sample
-from benchmark.spanning.course import FamilyOutcome, HullChance
-from benchmark.spanning.detection import categories_of, list_counts
-from benchmark.spanning.edits import list_sizes
-from benchmark.spanning.family import BY_PIECES, label_truly, make_pieces
-from benchmark.spanning.real_assets import SeparateMeshes, judge_separate, measure
+from benchmark.spanning.family import label_truly, make_pieces
+from benchmark.spanning.real_assets import judge_separate, measure
 from benchmark.spanning.sets import list_names, list_tasks, surface_of
 from meshforge.common import AssetError
 from tests.corpus_path import corpus
-
-MIXED = HullChance("mug", 0, 0.8, True)
-PURE = HullChance("stool", 0, 0.1, False)
-
-
-def made(category: str, *hulls: HullChance) -> FamilyOutcome:
-    return FamilyOutcome(category, REAL, BY_PIECES, hulls, (), {"mug": 2}, 0.0)
 
 
 def test_without_the_corpus_one_message_says_what_to_set(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setenv("MESHFORGE_CORPUS", str(tmp_path / "nowhere"))
     with pytest.raises(AssetError, match=r"real_assets: not run: no corpus is here\n.*MESHFORGE_CORPUS"):
         measure(lambda line: None, True)
-
-
-def test_the_part_is_on_the_page_of_hulls_that_span() -> None:
-    assert page_of("real_assets").name == page_of("programs").name == "spanning"
 
 
 def test_assets_that_show_nothing_are_left_out_and_named() -> None:
@@ -46,21 +31,6 @@ def test_assets_that_show_nothing_are_left_out_and_named() -> None:
     assert [task.difficulty for task in list_tasks("cups", REAL)] == ["easy", "medium", "hard"]
 
 
-def test_hulls_are_counted_family_by_family() -> None:
-    rows = [made("cups", MIXED), made("chairs", PURE)]
-    assert categories_of(rows) == ["cups", "chairs"]
-    counts = {row[2]: row[3:6] for row in list_counts(rows) if row[1] == BY_PIECES}
-    assert counts == {"cups": (1, 1, 1), "chairs": (1, 0, 0), "all": (2, 1, 1)}
-
-
-def test_hulls_are_compared_with_the_next_finer_decomposition_of_the_same_assets() -> None:
-    counts = {"coarse": 1, "medium": 4, "fine": 9}
-    hulls = {("cups", asset, setting): count for asset in ("mug", "other") for setting, count in counts.items()}
-    rows = list(list_sizes([made("cups", MIXED)], SeparateMeshes(hulls, {}).count))
-    assert rows[0] == (REAL, "cups", 1, 2, "medium", 4, 0.5)
-
-
-@pytest.mark.slow
 def test_a_real_chair_is_decomposed_as_a_whole_in_the_frame_of_its_file() -> None:
     corpus()
     sample = whole_sample("chairs", "kaykit-armchair")
@@ -78,7 +48,6 @@ def test_a_real_chair_is_decomposed_as_a_whole_in_the_frame_of_its_file() -> Non
     assert set(label_truly(pieces, sample.asset)) == {part.label for part in sample.asset.parts}
 
 
-@pytest.mark.slow
 def test_the_reference_is_tried_on_each_task_where_solids_are_decomposed_one_by_one() -> None:
     corpus()
     made = judge_separate("chairs", "kaykit-stool")

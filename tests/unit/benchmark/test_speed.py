@@ -17,9 +17,9 @@ from benchmark import __main__ as bench
 from benchmark.clock import in_turns
 from benchmark.pages import PAGES, parts_of
 from benchmark.report import Goal, Result, Table, as_text
-from benchmark.speed import apply, by_hand, contact, geometry, load, robots, save
+from benchmark.speed import by_hand, contact, geometry, load, robots, save
 from benchmark.speed.assets import multi_hull
-from benchmark.speed.contact import near_pairs, one_mesh
+from benchmark.speed.contact import one_mesh
 from benchmark.speed.watch import look
 from meshforge.batch import load_templates
 from meshforge.geometry import Box, Pose
@@ -51,12 +51,6 @@ def test_a_difference_is_told_with_its_distance() -> None:
     assert differ["thresholds"] == pytest.approx(0.2 / mesh.contact_distance)
 
 
-def test_near_pairs_are_those_whose_boxes_are_near() -> None:
-    row = [Box(Pose.of_translation([k, 0, 0]), np.full(3, 0.4)).tessellate() for k in range(3)]
-    assert near_pairs(row, 0.21) == [(0, 1), (1, 2)]
-    assert near_pairs(row, 0.19) == []
-
-
 @pytest.mark.parametrize("part", [load, robots, save, geometry])
 def test_a_part_runs_quickly_on_bundled_files(part: ModuleType) -> None:
     result = part.measure(silent, True)
@@ -85,7 +79,7 @@ def test_apply_is_run_and_watched(tmp_path: Path) -> None:
     assert str(tmp_path.anchor + "tmp") not in page
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_commands_run_beside_the_script_by_hand(tmp_path: Path) -> None:
     assert bench.main(["commands", "--quick", "--out", str(tmp_path)]) == 0
     data = json.loads((tmp_path / "speed-commands.json").read_text("utf-8"))
@@ -161,15 +155,3 @@ def test_a_page_says_what_was_reached_and_what_not() -> None:
     assert "| a/b | 1,234  |" in text or "| a/b | 1,234" in text
     assert "0.0123" in text
     assert text.endswith("- so\n")
-
-
-def test_labels_of_a_family_are_by_height(tmp_path: Path) -> None:
-    place = tmp_path / "a"
-    place.mkdir()
-    (family,) = apply._quick(place)
-    apply._label(family[1], tmp_path / "labels")
-    written = sorted((tmp_path / "labels").glob("*.json"))
-    assert [path.name for path in written] == ["table_01.obj.json", "table_02.obj.json"]
-    labels = set(json.loads(written[0].read_text("utf-8"))["hulls"].values())
-    assert labels <= {"low", "middle", "high"}
-    assert "high" in labels

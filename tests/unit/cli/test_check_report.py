@@ -69,6 +69,7 @@ def test_an_asset_that_is_gone_by_then_is_told_without_a_picture(run: Run, monke
     assert texts(page, "//article/p") == ["it cannot be read any more, so there is no picture"]
 
 
+@pytest.mark.slow
 def test_mended_assets_are_shown_before_and_after(run: Run) -> None:
     lathe = "".join(f"v {x} {y} {z}\n" for z in (0, 1) for x, y in ((k, k * k) for k in range(40)))
     Path("curved.obj").write_text(f"o curved\n{lathe}" + faces(40))

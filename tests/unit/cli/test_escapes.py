@@ -91,6 +91,7 @@ def test_every_command_prints_names_as_text(project: Path, run: Run, words: list
     assert "\\x1b" in text or "\\u202e" in text, text
 
 
+@pytest.mark.slow
 def test_a_terminal_gets_no_controls_of_names_beside_a_bar_and_in_tables(project: Path) -> None:
     for words in (["check", "assets", "--workers", "1"], ["apply", "p", "--again", "--workers", "1"], ["status", "p"]):
         with Terminal(*words, cwd=project) as terminal:

@@ -29,12 +29,19 @@ COMMANDS = {
     "check --fix": "check assets --engine unreal --fix --out {p}/out --workers 1",
     "review": "review {p}",
 }
+IN_CI = ("label by hand", "apply", "review")
 
 
 @pytest.mark.slow
 @pytest.mark.skipif(not _CAN_MOUNT, reason="no disk can be mounted here")
-@pytest.mark.parametrize("command", COMMANDS)
-@pytest.mark.parametrize("room", [0, 3])
+@pytest.mark.parametrize(
+    "command",
+    [
+        pytest.param(one, marks=[] if one in ("label by hand", "apply", "review") else [pytest.mark.long])
+        for one in COMMANDS
+    ],
+)
+@pytest.mark.parametrize("room", [0, pytest.param(3, marks=pytest.mark.long)])
 def test_one_message_names_a_file_and_nothing_of_before_is_lost(command: str, room: int, tmp_path: Path) -> None:
     words = [*_ALONE, sys.executable, "-m", "tests.unit.cli.test_full_disk", str(tmp_path), command, str(room)]
     done = subprocess.run(words, capture_output=True, text=True, timeout=120)

@@ -34,7 +34,7 @@ def test_the_number_is_given_once() -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("engine", ["coacd", "vhacd", "hull"])
 def test_no_hull_has_more(tmp_path: Path, engine: str) -> None:
-    points = np.random.default_rng(0).normal(size=(400, 3))
+    points = np.random.default_rng(0).normal(size=(100, 3))
     ball = convex_hull(points / np.linalg.norm(points, axis=1, keepdims=True))
     lines = [f"v {x} {y} {z}" for x, y, z in ball.vertices] + [f"f {a} {b} {c}" for a, b, c in ball.faces + 1]
     (tmp_path / "ball.obj").write_text("\n".join(lines) + "\n")

@@ -71,6 +71,7 @@ def test_a_run_over_one_asset_has_no_numbers() -> None:
     assert NoteLog(numbered=False).describe("a", "a", ["x", "y"]) == "a\n    note: x\n    note: y"
 
 
+@pytest.mark.slow
 def test_apply_convert_and_check_print_the_same_note_once(run: Run) -> None:
     run("samples", "cups", "cups")
     cups = len(list(Path("cups").glob("**/*.urdf")))

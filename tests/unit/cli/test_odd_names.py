@@ -80,6 +80,7 @@ def test_the_others_are_written(project: Project, run: Run) -> None:
     assert {row["asset"]: row["status"] for row in rows} == {ID: "failed", BARE: "skipped", CUP: "skipped"}
 
 
+@pytest.mark.slow
 def test_named_outright_it_is_no_fault_of_ours(project: Project) -> None:
     odd = b"assets/" + ODD
     for words in (

@@ -35,6 +35,7 @@ def test_a_layer_made_by_hand_is_one_that_the_library_reads(tmp_path: Path) -> N
     assert [str(prim.GetPath()) for prim in stage.TraverseAll()][-1] == "/a" * 30
 
 
+@pytest.mark.slow
 def test_a_layer_that_crashes_the_library_is_an_error_that_names_it_and_later_files_are_read(tmp_path: Path) -> None:
     cup, path = written(tmp_path, CUP), hostile(tmp_path, crates.dictionaries(20_000))
     before, worker = read(cup), process_of()
@@ -50,6 +51,7 @@ def test_a_layer_that_crashes_the_library_is_an_error_that_names_it_and_later_fi
     assert len(read(saved.path).geoms) == len(before.geoms) - 1, "what was read before the crash can be written"
 
 
+@pytest.mark.slow
 def test_a_layer_that_hangs_the_library_is_stopped(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """It refers to itself so often that it has ten to the eighth prims."""
     read(written(tmp_path, CUP))

@@ -14,22 +14,9 @@ def box(low: tuple[float, float, float], high: tuple[float, float, float]) -> Bo
     return Box.of_bounds(Aabb(low, high))
 
 
-def test_two_boxes_have_a_box_in_common() -> None:
-    met = intersect(box((0, 0, 0), (2, 2, 2)), box((1, 1, 1), (3, 3, 5)))
-    assert met is not None
-    np.testing.assert_allclose([met.aabb.min, met.aabb.max], [[1, 1, 1], [2, 2, 2]])
-    assert met.volume == pytest.approx(1.0)
-
-
 @pytest.mark.parametrize("low", [(2, 0, 0), (2, 2, 2), (5, 5, 5)])
 def test_shapes_that_touch_or_lie_apart_have_nothing_in_common(low: tuple[float, float, float]) -> None:
     assert intersect(box((0, 0, 0), (2, 2, 2)), box(low, (9, 9, 9))) is None
-
-
-def test_a_shape_has_itself_in_common_with_one_around_it() -> None:
-    inner = convex_hull(np.random.default_rng(0).uniform(-1, 1, (30, 3)))
-    met = intersect(inner, box((-5, -5, -5), (5, 5, 5)))
-    assert met is not None and met.volume == pytest.approx(inner.volume)
 
 
 @examples(60)

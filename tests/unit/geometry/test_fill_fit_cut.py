@@ -27,7 +27,6 @@ from meshforge.geometry import (
     tight_cylinder,
     volume_of_union,
 )
-from meshforge.geometry.smallest_ball import smallest_ball
 
 CUBE = Box.of_bounds(Aabb([0, 0, 0], [1, 1, 1]))
 
@@ -37,13 +36,6 @@ CUBE = Box.of_bounds(Aabb([0, 0, 0], [1, 1, 1]))
 )
 def test_of_equal_longest_sides_z_goes_before_y_before_x(size: tuple[float, float, float], axis: int) -> None:
     assert longest_axis(Aabb([0, 0, 0], size)) == axis
-
-
-def test_a_cylinder_fills_a_box_along_its_longest_side() -> None:
-    shape = aabb_cylinder(Aabb([0, 0, 0], [4, 2, 2]))
-    assert isinstance(shape, Cylinder)
-    assert (shape.radius, shape.half_length) == (1.0, 2.0)
-    assert np.allclose(shape.aabb.size, [4, 2, 2])
 
 
 def test_a_native_cylinder_takes_the_mean_of_its_sides() -> None:
@@ -61,12 +53,6 @@ def test_a_capsule_fills_a_box_with_its_ends() -> None:
 
 def test_a_capsule_in_a_cube_is_a_sphere() -> None:
     assert isinstance(aabb_capsule(Aabb([0, 0, 0], [2, 2, 2])), Sphere)
-
-
-def test_a_sphere_in_an_oblong_box_is_an_ellipsoid() -> None:
-    shape = aabb_sphere(Aabb([0, 0, 0], [1, 2, 3]))
-    assert shape.kind == "ellipsoid"
-    assert np.allclose(shape.aabb.max, [1, 2, 3])
 
 
 @pytest.mark.parametrize("fill", [aabb_box, aabb_cylinder, aabb_capsule, aabb_sphere])
@@ -100,13 +86,6 @@ def test_the_tight_box_of_an_upright_box_is_that_box_unturned() -> None:
     assert np.allclose(box.pose.translation, [1.5, 3, 4.5])
 
 
-def test_the_tight_box_of_a_slanted_leg_is_far_smaller_than_its_bounds() -> None:
-    leg = Box(Pose.from_rpy([0, 0, 0], [0.5, 0.5, 0]), np.array([0.05, 0.05, 1.0]))
-    box = tight_box(leg.vertices)
-    assert box.volume == pytest.approx(leg.volume, rel=1e-6)
-    assert box.volume < 0.05 * np.prod(leg.aabb.size)
-
-
 def test_tight_shapes_of_flat_points_are_refused_by_name_or_thickened() -> None:
     square = CUBE.vertices * [1, 1, 0]
     for fit in (tight_box, tight_cylinder, tight_capsule):
@@ -119,29 +98,6 @@ def test_the_same_points_give_the_same_fit_to_the_last_bit() -> None:
     points = np.random.default_rng(3).normal(size=(40, 3))
     for fit in (tight_box, tight_cylinder, tight_capsule):
         assert np.array_equal(fit(points).vertices, fit(points.copy()).vertices)
-
-
-def test_the_smallest_circle_goes_through_the_points_that_bear_it() -> None:
-    center, radius = smallest_ball(np.array([[0.0, 0], [2, 0], [1, 0.5], [1, -1]]))
-    assert np.allclose(center, [1, 0])
-    assert radius == pytest.approx(1)
-    center, radius = smallest_ball(np.array([[3.0, 4.0]]))
-    assert (center.tolist(), radius) == ([3, 4], 0)
-
-
-def test_the_smallest_circle_of_points_in_a_line_spans_their_ends() -> None:
-    points = np.linspace([0.0, 0.0], [3.0, 4.0], 20)
-    center, radius = smallest_ball(points)
-    assert np.allclose(center, [1.5, 2])
-    assert radius == pytest.approx(2.5)
-
-
-def test_a_cut_parts_a_cube_where_the_plane_is() -> None:
-    below, above = cut(CUBE, np.array([0.25, 0, 0]), np.array([2.0, 0, 0]))
-    assert below is not None
-    assert above is not None
-    assert [below.volume, above.volume] == pytest.approx([0.25, 0.75])
-    assert {tuple(p) for p in CUBE.vertices} <= {tuple(p) for p in [*below.vertices, *above.vertices]}
 
 
 @pytest.mark.parametrize(("height", "parts"), [(-1.0, (False, True)), (0.0, (False, True)), (1.0, (True, False))])

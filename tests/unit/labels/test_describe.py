@@ -54,7 +54,7 @@ def test_the_order_of_hulls_does_not_matter() -> None:
     assert described(turned)[::-1] == pytest.approx(described(CHAIR), abs=1e-9)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_very_many_hulls_are_described_in_bounded_memory() -> None:
     rows = [
         Hull(

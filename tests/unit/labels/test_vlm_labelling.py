@@ -100,7 +100,7 @@ def lying(asked: Asked) -> str:
     return right(asked)[:-1] + ', "hulls": [{"number": 0, "label": "leg"}, {"number": 0, "label": "top"}]}'
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_two_hundred_meshes_with_a_fifth_of_faults_are_all_labelled_or_named(tmp_path: Path) -> None:
     project = family(tmp_path, MANY)
     hopeless = {f"t{k:03}.obj" for k in (7, 70)}

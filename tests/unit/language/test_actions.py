@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from meshforge.common import ProgramError
-from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Floats, Pose, Sphere, convex_hull
+from meshforge.geometry import Box, Cylinder, Ellipsoid, Floats, Pose, Sphere, convex_hull
 from meshforge.language import (
     ACTIONS,
     PRIMITIVES,
@@ -112,12 +112,6 @@ def test_flat_input_is_thickened() -> None:
     assert result.mesh.hulls[0].aabb.size[2] == pytest.approx(1e-4 * np.sqrt(5))
 
 
-def test_replace_by_a_box_fills_the_bounding_box() -> None:
-    result = applied(table(), Replace("box"), "leg0_low", "top")
-    assert isinstance(result.mesh.hull_of("top~1").shape, Box)
-    assert bounds(result.mesh, "top~1") == [[0, 0, 0], [2, 1, 1.1]]
-
-
 @pytest.mark.parametrize("primitive", PRIMITIVES)
 def test_every_primitive_has_the_bounding_box_of_what_it_replaces(primitive: str) -> None:
     scene = mesh(hull("a", box([0, 0, 0], [1, 2, 4])))
@@ -156,40 +150,6 @@ def test_a_tight_fit_follows_a_slanted_leg(primitive: str) -> None:
     around = applied(mesh(hull("leg", leg)), Replace("box")).mesh.hulls[0]
     assert after.shape.kind == primitive
     assert after.volume < 3 * leg.volume < around.volume
-
-
-def test_a_native_capsule_is_as_thin_as_what_it_encloses_allows() -> None:
-    scene = mesh(hull("low", box([0, 0, 0], [3, 4, 6])), hull("high", box([1, 1, 6], [2, 3, 20])))
-    result = applied(scene, Replace("capsule", "native"))
-    shape = result.mesh.hull_of("low~1").shape
-    assert result.note is None and isinstance(shape, Capsule)
-    assert shape.radius == pytest.approx(2.5)
-    assert shape.pose.translation[:2] == pytest.approx([1.5, 2.0])
-    top = 20 - np.sqrt(2.5**2 - 0.5**2 - 1.0**2)  # the corners of the upper block are nearer to the axis
-    ends = shape.pose.translation[2] + shape.half_length * np.array([-1, 1])
-    assert ends == pytest.approx([0.0, top])
-
-
-def test_a_native_cylinder_is_as_long_as_what_it_encloses() -> None:
-    result = applied(mesh(hull("a", box([0, 0, 0], [20, 3, 4]))), Replace("cylinder", "native"))
-    shape = result.mesh.hulls[0].shape
-    assert result.note is None and isinstance(shape, Cylinder)
-    assert np.allclose(shape.pose.rotation[:, 2], [1, 0, 0])
-    assert (shape.radius, shape.half_length) == pytest.approx((2.5, 10.0))
-
-
-def test_a_native_sphere_is_the_smallest_around_the_hulls_not_around_their_box() -> None:
-    balls = [hull(name, Sphere(Pose.of_translation([x, 0, 0]), 1.0)) for name, x in (("a", 0.0), ("b", 4.0))]
-    shape = applied(mesh(*balls), Replace("sphere", "native")).mesh.hulls[0].shape
-    assert isinstance(shape, Sphere)
-    assert shape.radius == pytest.approx(3.0)
-    assert shape.pose.translation == pytest.approx([2, 0, 0])
-
-
-def test_a_native_capsule_needs_no_straight_part_around_a_ball() -> None:
-    ball = Sphere(Pose.of_translation([1, 2, 3]), 0.5)
-    shape = applied(mesh(hull("a", ball)), Replace("capsule", "native")).mesh.hulls[0].shape
-    assert isinstance(shape, Sphere) and shape.radius == pytest.approx(0.5)
 
 
 @pytest.mark.parametrize("primitive", ["cylinder", "capsule", "sphere"])

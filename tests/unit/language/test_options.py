@@ -187,11 +187,6 @@ def test_a_shrunk_primitive_stays_one(shape: Shape, size: list[float]) -> None:
         made(shape, Shrink(1.0))
 
 
-def test_a_hull_that_would_vanish_is_named() -> None:
-    with pytest.raises(GeometryError, match=r"hull 'a' vanishes when its surface moves inwards by 0\.5 m: 0\.5 m is"):
-        made(box([0, 0, 0], [1, 2, 3]).tessellate(), Shrink(0.5))
-
-
 def test_a_hull_that_alone_takes_the_place_of_one_keeps_its_name_in_a_file() -> None:
     scene = mesh(*(hull(name, box([x, 0, 0], [x + 1, 1, 1])) for name, x in (("a", 0), ("b", 5), ("c", 10))))
     assert applied(scene, Replace("sphere"), "a").mesh.names_in_file == {"a~1": "a"}

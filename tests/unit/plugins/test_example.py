@@ -1,4 +1,4 @@
-"""The package of docs/plugins.md, installed as one of its own: every command of the page, in processes of their own."""
+"""The package of docs/plugins.md, installed as one of its own: every command of the page, and what it adds in use."""
 
 from __future__ import annotations
 
@@ -6,25 +6,33 @@ import json
 import os
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
-from tests.loop.command import Done, meshforge
+from tests.loop import command
+from tests.loop.command import Done
+from tests.loop.command import meshforge_here as meshforge
 from tests.plugin_packages import build_example, page_commands, page_files, unpack
 from tests.unit.batch.families import obj, table_boxes, write_table
+from tests.unit.plugins.test_failures import forget_plugins
 
 
 @pytest.fixture
-def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A folder with `table.obj`, its labels, and the programs of the page; what is started in it finds the example."""
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+    """A folder with `table.obj`, its labels, and the programs of the page, where the example is installed."""
     site = unpack(build_example(tmp_path / "wheels"), tmp_path / "site")
+    monkeypatch.syspath_prepend(site)
     put_on_path(site, monkeypatch)
+    forget_plugins()
     work = tmp_path / "work"
     write_table(work / "table.obj")
     (work / "contract.mf").write_text(page_files()["contract.mf"].replace("top, leg", "top, leg, misc"))
     (work / "smaller.mf").write_text(page_files()["smaller.mf"])
-    return work
+    yield work
+    monkeypatch.undo()
+    forget_plugins()
 
 
 def put_on_path(site: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -109,7 +117,7 @@ def test_pip_installs_the_package_and_the_list_names_it(tmp_path: Path, monkeypa
     words = ["install", "--quiet", "--no-deps", "--no-index", "--disable-pip-version-check", "--target", site, wheel]
     subprocess.run([sys.executable, "-m", "pip", *map(str, words)], check=True, cwd=tmp_path)
     put_on_path(site, monkeypatch)
-    rows = meshforge("plugins", "--json", cwd=tmp_path).json
+    rows = command.meshforge("plugins", "--json", cwd=tmp_path).json
     assert [(row["kind"], row["name"]) for row in rows] == [
         ("formats", "hulls"),
         ("extractors", "Smaller"),

@@ -77,6 +77,7 @@ PAIRS = (
 )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("first", "last"), PAIRS)
 def test_the_last_word_counts_as_if_it_were_the_only_one(place: Callable[[Case], Place], first: str, last: str) -> None:
     alone = place(CASES[last])

@@ -342,6 +342,7 @@ CHANGES: dict[str, Callable[[Project], object]] = {
 }
 
 
+@pytest.mark.slow
 @needs_fork
 @pytest.mark.parametrize("name", CHANGES)
 def test_a_killed_change_leaves_hulls_and_labels_whole(tmp_path: Path, name: str) -> None:

@@ -7,6 +7,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 from tests.cup_project import cup_project
 from tests.plugin_packages import build_wheel, unpack
 
@@ -38,6 +40,7 @@ def _run(folder: Path, *words: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run([sys.executable, *words], cwd=folder, env=environment, capture_output=True, text=True)
 
 
+@pytest.mark.slow
 def test_a_script_without_a_main_guard_runs_as_any_other(tmp_path: Path) -> None:
     cup_project(tmp_path)
     (tmp_path / "script.py").write_text(SCRIPT)
@@ -46,6 +49,7 @@ def test_a_script_without_a_main_guard_runs_as_any_other(tmp_path: Path) -> None
     assert done.stdout.splitlines()[:2] == ["['Skipped', 'Skipped']", "2 cups"]
 
 
+@pytest.mark.slow
 def test_python_m_meshforge_loads_nothing_of_the_present_folder(tmp_path: Path) -> None:
     points = {"meshforge.checks": {"mine": "stranger:Check"}}
     unpack(build_wheel(tmp_path, "stranger", "1.0", {"stranger.py": "open('loaded', 'w')"}, points), tmp_path)
@@ -56,6 +60,7 @@ def test_python_m_meshforge_loads_nothing_of_the_present_folder(tmp_path: Path) 
     assert not (tmp_path / "loaded").exists()
 
 
+@pytest.mark.slow
 def test_workers_load_nothing_of_the_present_folder(tmp_path: Path) -> None:
     cup_project(tmp_path)
     for name in ("numpy", "scipy", "yaml", "pydantic", "pebble", "lark", "trimesh", "coal"):

@@ -217,9 +217,7 @@ def test_a_killed_split_or_undo_loses_nothing_and_flags_what_is_gone(tmp_path: P
         shutil.copytree(tmp_path / "before", project.folder)
         project.cut(FIRST, "crumb", *PLANE)
 
-    died = 0
-    for _ in deaths(split_anew):
-        died += 1
+    for _ in deaths(split_anew, costly=True):
         here = project.mesh(FIRST).index
         if not project.steps(FIRST)[0].select <= here.keys():  # type: ignore[operator]
             assert any(flag.startswith("crumb, ") for flag in project.status(workers=0).assets[0].flags)
@@ -228,7 +226,6 @@ def test_a_killed_split_or_undo_loses_nothing_and_flags_what_is_gone(tmp_path: P
             assert {k: v for k, v in kept(project).items() if "prepared" not in k and "labels" not in k} == {
                 k: v for k, v in before.items() if "labels" not in k
             }
-    assert died > 3
 
 
 def include_again(project: Project, copy: Path) -> None:
@@ -253,16 +250,13 @@ def test_a_killed_undo_is_finished_by_the_next_bit_for_bit(tmp_path: Path, every
     middle = kept(project)
     project.cut(FIRST, "crumb#0", project.mesh(FIRST).hull_of("crumb#0").aabb.center.tolist(), (1, 0, 0))
     shutil.copytree(project.folder, tmp_path / "late")
-    states = set()
-    for _ in deaths(lambda: project.unprepare(FIRST, everything=everything), removals=True):
-        states.add(frozenset(kept(project).items()))
+    for _ in deaths(lambda: project.unprepare(FIRST, everything=everything), removals=True, costly=True):
         cut_short = bool(History(project.folder).interrupted)
         assert any("cut short" in flag for flag in project.status(workers=0).assets[0].flags) == cut_short
         if cut_short or FIRST in project.layout.preparation.ids:
             assert project.unprepare(FIRST, everything=everything).undone
         assert kept(project) == (before if everything else middle)
         include_again(project, tmp_path / "late")
-    assert len(states) > 5
 
 
 @pytest.mark.slow
@@ -280,9 +274,7 @@ def test_after_a_killed_split_or_undo_a_split_and_its_undo_leave_nothing(tmp_pat
     }
     for start, change in work.items():
         include_again(project, tmp_path / start)
-        died = 0
-        for _ in deaths(change, removals=True):
-            died += 1
+        for _ in deaths(change, removals=True, costly=True):
             if project.preparation(FIRST).steps:
                 project.unprepare(FIRST)
                 assert kept(project) == before
@@ -292,7 +284,6 @@ def test_after_a_killed_split_or_undo_a_split_and_its_undo_leave_nothing(tmp_pat
                 project.unprepare(FIRST)
                 assert kept(project) == before
             include_again(project, tmp_path / start)
-        assert died > 5
 
 
 @pytest.mark.slow
@@ -302,7 +293,7 @@ def test_a_killed_undo_does_not_overwrite_labels_that_a_person_changed_since(tmp
     project.cut(FIRST, "crumb", *PLANE)
     project.set_labels(FIRST, {"crumb#0": "misc", "crumb#1": "misc"})
     shutil.copytree(project.folder, tmp_path / "after")
-    for _ in deaths(lambda: project.unprepare(FIRST), removals=True):
+    for _ in deaths(lambda: project.unprepare(FIRST), removals=True, costly=True):
         if FIRST in project.layout.preparation.ids:
             project.unprepare(FIRST)
         assert project.mesh(FIRST).hull_of("crumb").label == "misc"

@@ -5,12 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from meshforge.signoff.doubts import CALLED_WRONG_BEFORE, CONTRADICTED
 
 from meshforge.formats import load
 from meshforge.language import Delete, Each, Merge, Program
 from meshforge.project import Project
 from meshforge.signoff import THRESHOLD
-from meshforge.signoff.doubts import CALLED_WRONG_BEFORE, CONTRADICTED
 from meshforge.symbolic import Label
 from meshforge.synthesis import Step
 from tests.unit.cli.in_process import Run, runner
@@ -172,6 +172,7 @@ def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> 
     return runner(monkeypatch, capsys)
 
 
+@pytest.mark.slow
 def test_what_is_not_solved_counts_and_what_is_not_of_the_family_does_not(project: Project, run: Run) -> None:
     write(project)
     for asset in (BLOCK, ASKED):

@@ -165,7 +165,7 @@ def test_the_template_is_an_open_tray_in_the_unit_cube() -> None:
     assert sum(shape.volume for shape in tray.shapes) == pytest.approx(1 - 0.88 * 0.88 * 0.94)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.skipif((sys.platform, platform.machine()) != ("linux", "x86_64"), reason="frozen on Linux, x86_64")
 def test_a_table_made_again_is_the_frozen_one(tmp_path: Path) -> None:
     """Byte for byte, but for where faces of flat sides lie: that turns on how a processor's linear algebra rounds."""

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
+
 from meshforge.store import History
 from meshforge.studio.edits.base import make_edit
 from tests.unit.deaths import deaths, needs_fork
@@ -46,6 +48,7 @@ def test_a_killed_undo_is_brought_to_its_end(tmp_path: Path) -> None:
     assert data(project) == before
 
 
+@pytest.mark.slow
 @needs_fork
 def test_a_killed_change_of_known_contents_is_taken_back_whole_but_for_what_others_wrote_since(tmp_path: Path) -> None:
     project = bare(tmp_path)

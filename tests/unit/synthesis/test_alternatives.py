@@ -80,10 +80,6 @@ def test_nothing_is_suggested_where_all_assets_stand_upright() -> None:
     assert outcome.suggested is None
 
 
-def test_nothing_is_suggested_where_it_is_switched_off() -> None:
-    assert learn(leaning(), "rack 1", options=Options(suggest_orientation=False)).suggested is None
-
-
 def test_nothing_is_suggested_for_rules_that_ask_for_labels_only() -> None:
     meshes = leaning()
     demo = Demonstration(meshes["rack 1"], [Step(1, {"leg"}, Replace("box"))], "rack 1")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import permutations
 
 import pytest
 
@@ -209,7 +208,7 @@ def test_of_pairs_as_good_the_one_is_suggested_that_holds_on_most_of_the_batch()
 @pytest.mark.slow
 @pytest.mark.parametrize("meshes", [TOPS, TILTED, FRONTS[:3]])
 def test_the_order_of_the_demonstrations_does_not_matter(meshes: list[SymbolicMesh]) -> None:
-    found = [suggested(*[shown(mesh, "top") for mesh in order]) for order in permutations(meshes)]
+    found = [suggested(*tops(order)) for order in (meshes, meshes[::-1], [*meshes[1:], meshes[0]])]
     assert found[0] and all(other == found[0] for other in found)
 
 

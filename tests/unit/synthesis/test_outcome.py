@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import json
 
-from meshforge.language import Attach, Delete, Is, Merge
-from meshforge.synthesis import Demonstration, Found, NoProgram, Step, outcome_to_json, synthesize
+from meshforge.language import Delete, Merge
+from meshforge.synthesis import Demonstration, NoProgram, Step, outcome_to_json, synthesize
 from tests.synthesis_boxes import boxes
 
 KEYS = [
@@ -92,15 +92,3 @@ def test_the_nearest_miss_tells_of_the_mesh_where_it_differs_most() -> None:
     assert isinstance(outcome, NoProgram)
     nearest = outcome.nearest
     assert (nearest.asset, nearest.extra, nearest.missing) == ("one", (), ("b",))
-
-
-def test_every_outcome_has_the_attributes_that_callers_read() -> None:
-    mesh = boxes(("pull", "handle", (0, -1, 0), (1, 1, 1)), ("box", "drawer", (0, 0, 0), (1, 1, 1)))
-    apart = boxes(("knob", "handle", (0, -5, 0), (1, 1, 1)), ("box", "drawer", (0, 0, 0), (1, 1, 1)))
-    demos = [Demonstration(mesh, [Step(1, {"pull"}, Delete())]), Demonstration(apart, [Step(1, [], Delete())])]
-    outcome = synthesize(demos)
-    assert isinstance(outcome, Found)
-    assert outcome.status == "found"
-    assert [rule.extractor for rule in outcome.rules] == [Attach(Is("handle"), Is("drawer"))]
-    assert (outcome.repairs, outcome.open_rule, outcome.nearest, outcome.unambiguous) == ((), None, None, False)
-    assert outcome.tried[0].size == 2

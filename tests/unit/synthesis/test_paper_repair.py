@@ -12,7 +12,7 @@ from meshforge.synthesis.demonstration import Example
 from meshforge.synthesis.options import Options, TimeBudget
 from meshforge.synthesis.paper.search import HitWithFixes, PaperSearch
 from meshforge.synthesis.questions import LabelFix
-from meshforge.synthesis.search.smallest import Hit, Miss, SearchResult, Unfinished
+from meshforge.synthesis.search.smallest import Miss, SearchResult, Unfinished
 from tests.synthesis_boxes import table
 
 LABELS = ("panel", "leg", "drawer", "handle", "misc")
@@ -42,24 +42,10 @@ def one_leg_wrong() -> Example:
     return misread(table(), Is("leg"), leg2_low="panel")
 
 
-def test_relabelling_keeps_the_contact_graph() -> None:
-    mesh = table()
-    before = mesh.contacts
-    other = mesh.with_labels({"leg0_low": Label("panel")})
-    assert other.known_graph is not None
-    assert other.contacts == before
-
-
 def test_a_wrong_label_is_found_and_proposed() -> None:
     answer = run(one_leg_wrong(), misread(table(legs=5), Is("leg"), "other"))
     assert isinstance(answer, HitWithFixes)
     assert (answer.extractor, answer.fixes) == (Is("leg"), (WRONG_LEG,))
-
-
-def test_a_missing_label_is_filled() -> None:
-    answer = run(misread(table(), Is("leg"), leg2_low=None))
-    assert isinstance(answer, HitWithFixes)
-    assert answer.fixes == (LabelFix("table", "leg2_low", None, "leg"),)
 
 
 def test_a_hull_leaves_for_the_most_frequent_label_that_is_not_mentioned() -> None:
@@ -76,10 +62,6 @@ def test_of_labels_as_frequent_the_first_of_the_vocabulary_is_taken() -> None:
 
 def test_without_repair_labels_are_taken_as_they_are() -> None:
     assert isinstance(run(one_leg_wrong(), options=Options(repair=False, max_size=3)), Miss)
-
-
-def test_a_match_needs_no_repair() -> None:
-    assert isinstance(run(misread(table(), Is("leg"))), Hit)
 
 
 def test_what_is_confirmed_ends_the_search() -> None:
@@ -125,19 +107,6 @@ def test_a_rejected_correction_is_not_proposed() -> None:
     assert not isinstance(answer, HitWithFixes) or WRONG_LEG not in answer.fixes
 
 
-@pytest.mark.parametrize(("eta", "explained"), [(1, False), (2, False), (3, True)])
-def test_no_more_labels_of_a_mesh_are_corrected_than_allowed(eta: int, explained: bool) -> None:
-    example = misread(table(), Is("leg"), leg1_low="panel", leg2_low="panel", leg3_low="panel")
-    assert isinstance(run(example, options=Options(max_size=1, eta=eta)), HitWithFixes) == explained
-
-
-def test_the_allowance_is_that_of_each_mesh() -> None:
-    examples = [misread(table(), Is("leg"), name, leg1_low="panel") for name in ("one", "two")]
-    answer = run(*examples, options=Options(max_size=1, eta=1))
-    assert isinstance(answer, HitWithFixes)
-    assert [correction.asset for correction in answer.fixes] == ["one", "two"]
-
-
 @pytest.mark.parametrize(("spent", "explained"), [({}, True), ({"other": 2}, True), ({"table": 2}, False)])
 def test_what_was_spent_on_a_mesh_is_no_longer_allowed(spent: Mapping[str, int], explained: bool) -> None:
     assert isinstance(run(one_leg_wrong(), options=Options(max_size=1), spent=spent), HitWithFixes) == explained
@@ -145,17 +114,6 @@ def test_what_was_spent_on_a_mesh_is_no_longer_allowed(spent: Mapping[str, int],
 
 HANDLES = Attach(Is("handle"), Is("drawer"))
 CONTACT = Options(layers="S+T", max_size=3, eta=1)
-
-
-def test_a_wrong_label_is_found_through_contact() -> None:
-    examples = [
-        misread(table(drawers=3), HANDLES, drawer1_front="handle"),
-        misread(table(drawers=3, knob=0.9), HANDLES, "other"),
-    ]
-    answer = run(*examples, options=CONTACT)
-    assert isinstance(answer, HitWithFixes)
-    assert answer.extractor == HANDLES
-    assert answer.fixes == (LabelFix("table", "drawer1_front", "handle", "drawer"),)
 
 
 def test_bounds_cut_what_only_a_repair_would_complete() -> None:

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from itertools import count
 
 import pytest
 
-from meshforge.language import All, Attach, Diff, Extractor, Geo, Intersect, Is, Union, select_mask, size_of
+from meshforge.language import All, Attach, Diff, Extractor, Geo, Intersect, Is, Union, select_mask
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis.demonstration import Example
 from meshforge.synthesis.options import Layers, Options, TimeBudget
 from meshforge.synthesis.paper.partial import Hole, HoleGrammar, Open, Worklist
 from meshforge.synthesis.paper.search import HitWithFixes, PaperSearch
-from meshforge.synthesis.search.smallest import Hit, Miss, NearestExtractor, SearchResult, Unfinished
+from meshforge.synthesis.search.smallest import Miss, NearestExtractor, SearchResult, Unfinished
 from tests.synthesis_boxes import table
 
 LABELS = ("panel", "leg", "drawer", "handle", "misc")
@@ -32,23 +31,6 @@ def shown(extractor: Extractor, *meshes: SymbolicMesh) -> list[Example]:
 
 def run(examples: list[Example], options: Options = EXACT) -> SearchResult | HitWithFixes:
     return PaperSearch(examples, LABELS, TimeBudget(60), options).run()
-
-
-@pytest.mark.parametrize(
-    ("wanted", "layers"),
-    [
-        (All(), "S"),
-        (Is("leg"), "S"),
-        (Geo(Is("panel"), "+Z"), "S+G"),
-        (Attach(Is("handle"), Is("drawer")), "S+T"),
-        (Diff(Is("drawer"), Geo(Is("drawer"), "-Z")), "S+T+G"),
-    ],
-)
-def test_it_finds_what_was_shown_on_all_tables(wanted: Extractor, layers: Layers) -> None:
-    answer = run(shown(wanted, *TABLES), replace(EXACT, layers=layers))
-    assert isinstance(answer, Hit)
-    assert answer.extractor == wanted
-    assert answer.tried.size == size_of(wanted) - 1
 
 
 def test_of_equal_size_labels_come_first_then_all_then_contact_then_position_then_sets() -> None:
@@ -84,12 +66,6 @@ def test_a_layer_left_out_is_not_used(layers: Layers, barred: set[type]) -> None
         else:
             seen |= parts(partial)
     assert seen == {All, Is, Attach, Geo, Union, Intersect, Diff} - barred
-
-
-def test_without_the_contact_layer_what_needs_contact_is_missed() -> None:
-    examples = shown(Attach(Is("handle"), Is("drawer")), *TABLES)
-    assert isinstance(run(examples, CONTACT), Hit)
-    assert isinstance(run(examples, replace(CONTACT, layers="S")), Miss)
 
 
 def test_what_nothing_selects_is_a_miss_with_the_nearest() -> None:

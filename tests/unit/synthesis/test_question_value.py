@@ -12,19 +12,17 @@ def askable(*assets: int) -> dict[int, float]:
     return dict.fromkeys(assets, 1.0)
 
 
-def test_readings_that_agree_everywhere_do_no_harm_and_raise_no_question() -> None:
-    doubt = QuestionValue([["a", "b"], ["a", "b"]], [0.6, 0.4])
-    assert (doubt.harm, doubt.best_question(askable(*range(2))), doubt.gains(0)) == (0.0, None, {})
-
-
-def test_one_reading_alone_does_no_harm() -> None:
-    doubt = QuestionValue([["a", "b"]], [1.0])
-    assert (doubt.harm, doubt.best_question(askable(*range(2)))) == (0.0, None)
-
-
-def test_without_assets_nothing_is_at_stake() -> None:
-    doubt = QuestionValue([[], []], [0.5, 0.5])
-    assert (doubt.harm, doubt.best_question({}), doubt.gains(0)) == (0.0, None, {})
+@pytest.mark.parametrize(
+    ("selections", "beliefs"),
+    [([["a", "b"], ["a", "b"]], [0.6, 0.4]), ([["a", "b"]], [1.0]), ([[], []], [0.5, 0.5])],
+    ids=["that agree everywhere", "one alone", "without assets"],
+)
+def test_readings_that_leave_nothing_open_do_no_harm_and_raise_no_question(
+    selections: list[list[str]], beliefs: list[float]
+) -> None:
+    doubt = QuestionValue(selections, beliefs)
+    assert (doubt.harm, doubt.best_question(askable(*range(len(selections[0]))))) == (0.0, None)
+    assert doubt.gains(0) == {}
 
 
 def test_harm_is_the_believed_share_of_assets_on_which_others_differ_from_the_program() -> None:

@@ -110,21 +110,17 @@ def test_a_mislabelled_landmark_is_found_though_it_is_never_selected() -> None:
     assert said.extractor == hidden
 
 
-def test_two_wrong_labels_on_one_mesh_are_found_together() -> None:
-    said = explained(examples_of("Is(leg)", {"leg0_low": "drawer", "leg3_high": "panel"}, {}))
-    assert asked(said).keys() == {("table 1", "leg0_low"), ("table 1", "leg3_high")}
-
-
-def test_wrong_labels_on_two_meshes_are_found_together() -> None:
-    said = explained(examples_of("Is(leg)", {"leg0_low": "drawer"}, {"leg1_high": "handle"}))
-    assert asked(said).keys() == {("table 1", "leg0_low"), ("table 2", "leg1_high")}
-
-
-def test_a_missing_label_is_filled_in() -> None:
-    said = explained(examples_of("Is(leg)", {"leg0_low": None}, {}))
-    assert asked(said) == {("table 1", "leg0_low"): (None, "leg")}
-    assert said
-    assert "no label" in said.whys[0]
+@pytest.mark.parametrize(
+    "wrongs",
+    [
+        ({"leg0_low": "drawer", "leg3_high": "panel"}, {}),
+        ({"leg0_low": "drawer"}, {"leg1_high": "handle"}),
+        ({"leg0_low": None}, {}),
+    ],
+)
+def test_several_wrong_labels_are_found_together_and_a_missing_one_is_filled_in(wrongs: Sequence[Wrong]) -> None:
+    wanted = {(f"table {k}", hull): (was, "leg") for k, wrong in enumerate(wrongs, 1) for hull, was in wrong.items()}
+    assert asked(explained(examples_of("Is(leg)", *wrongs))) == wanted
 
 
 @pytest.mark.parametrize(

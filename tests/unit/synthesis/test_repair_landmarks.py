@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Callable, Collection, Mapping
 
 from meshforge.language import Delete, show
 from meshforge.symbolic import Label, SymbolicMesh
@@ -38,7 +38,11 @@ def family(wrong: Mapping[str, str] | None = None, source: str = "vlm") -> dict[
 
 
 def learn(
-    meshes: Mapping[str, SymbolicMesh], *names: str, rejected: Collection[LabelFix] = (), repair: bool = True
+    meshes: Mapping[str, SymbolicMesh],
+    *names: str,
+    rejected: Collection[LabelFix] = (),
+    repair: bool = True,
+    confirm: Callable[[Repair], bool] | None = None,
 ) -> LearningOutcome:
     """Of the named meshes the topmost boards are deleted."""
     demos = [
@@ -48,19 +52,15 @@ def learn(
         for name in names
     ]
     options = Options(rejected=tuple(rejected), repair=repair)
-    return synthesize(demos, meshes, UP, vocabulary=LABELS, options=options)
+    return synthesize(demos, meshes, UP, vocabulary=LABELS, options=options, confirm=confirm)
 
 
-def test_a_crate_that_is_called_a_leg_is_proposed_for_repair() -> None:
+def test_a_crate_that_is_called_a_leg_is_proposed_for_repair_with_what_becomes_of_frame_and_rule() -> None:
     outcome = learn(family({"crate": "leg"}), "rack 1", "rack 2")
     assert isinstance(outcome, NeedsRepair)
-    assert [repair.fix for repair in outcome.repairs] == [WRONG]
+    (repair,) = outcome.repairs
+    assert repair.correction == WRONG and repair.belief > 0.75
     assert outcome.proposed and [show(rule.extractor) for rule in outcome.proposed.rules] == ["Geo(Is(panel), +Z)"]
-
-
-def test_the_reason_says_how_the_frame_turns_and_what_becomes_of_the_rule() -> None:
-    (repair,) = learn(family({"crate": "leg"}), "rack 1", "rack 2").repairs
-    assert repair.belief > 0.75
     assert "with it the orientation turns rack 1 by " in repair.why.lower()
     assert "rule 1 has an extractor of 2 nodes, now " in repair.why
 
@@ -72,26 +72,14 @@ def test_a_repair_that_is_confirmed_leads_to_the_program() -> None:
         asked.append(repair)
         return True
 
-    demos = [
-        Demonstration(
-            meshes[name], [Step(1, {h.name for h in meshes[name].hulls if h.name[:3] == "top"}, Delete())], name
-        )
-        for name in ("rack 1", "rack 2")
-    ]
-    outcome = synthesize(demos, meshes, UP, vocabulary=LABELS, confirm=confirm)
+    outcome = learn(meshes, "rack 1", "rack 2", confirm=confirm)
     assert isinstance(outcome, Found)
     assert [repair.fix for repair in asked] == [WRONG]
     assert show(outcome.program.rules[0].extractor) == "Geo(Is(panel), +Z)"
 
 
-def test_right_labels_of_landmarks_are_left_alone() -> None:
+def test_right_labels_refused_repairs_and_all_labels_where_repair_is_switched_off_are_left_alone() -> None:
     assert not learn(family(), "rack 1", "rack 2").repairs
-
-
-def test_a_refused_repair_is_not_proposed_again() -> None:
-    outcome = learn(family({"crate": "leg"}), "rack 1", "rack 2", rejected=[WRONG])
-    assert WRONG not in [repair.fix for repair in outcome.repairs]
-
-
-def test_labels_of_landmarks_stand_where_repair_is_switched_off() -> None:
     assert not learn(family({"crate": "leg"}), "rack 1", "rack 2", repair=False).repairs
+    refused = learn(family({"crate": "leg"}), "rack 1", "rack 2", rejected=[WRONG])
+    assert WRONG not in [repair.correction for repair in refused.repairs]
