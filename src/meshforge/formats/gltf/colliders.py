@@ -157,7 +157,8 @@ def convention_of(scene: GltfScene) -> Convention:
     if physics is not None:
         return physics
     shown = [placement.node for placement in scene.placements.values() if "mesh" in placement.node]
-    names = [name for node in shown for name in names_of(scene.tree, node)]
+    names = [node.get("name") for node in shown]
+    names += [entry(scene.tree, "meshes", node["mesh"]).get("name") for node in shown]
     if any(map(unreal_kind, names)):
         return "unreal"
     if any(map(godot_kind, names)):
