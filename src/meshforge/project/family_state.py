@@ -110,7 +110,8 @@ class FamilyStateReader:
             return False
         if verdict.seen and not verdict.meant:
             mesh = self.meshes.get(asset)
-            return bool(program and mesh and run.run_for_selections(self.store, program, lambda: mesh) == verdict.seen)
+            known = program is not None and mesh is not None
+            return known and run.run_for_selections(self.store, program, lambda: mesh) == verdict.seen
         now = self.inputs.get(asset)
         return now is not None and is_written(stamp, now)
 
