@@ -109,8 +109,9 @@ class FamilyStateReader:
         if verdict.output != output_digest(stamp):
             return False
         if verdict.seen and not verdict.meant:
-            mesh = self.meshes.get(asset)
-            return bool(program and mesh and run.run_for_selections(self.store, program, lambda: mesh) == verdict.seen)
+            if program is None or asset not in self.meshes:
+                return False
+            return run.run_for_selections(self.store, program, lambda: self.meshes[asset]) == verdict.seen
         now = self.inputs.get(asset)
         return now is not None and is_written(stamp, now)
 

@@ -14,7 +14,7 @@ from meshforge.language import Merge
 from meshforge.project import Project, RebuildSettings
 from meshforge.synthesis import Step
 from tests.unit.batch.families import tree
-from tests.unit.cli.in_process import Run, runner
+from tests.unit.cli.in_process import Run
 from tests.unit.project.stools import PARTS, boxes, coarse, write_stool
 
 PROGRAM = "labels seat, leg\n\nIs(leg) => Each(Replace(box))\n"
@@ -37,12 +37,11 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture
-def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path, made: Path) -> Run:
-    monkeypatch.chdir(tmp_path)
+def run(run: Run, tmp_path: Path, made: Path, monkeypatch: pytest.MonkeyPatch) -> Run:
     monkeypatch.setenv("MESHFORGE_CACHE", str(made / "cache"))
     for name in ("assets", "new", "p"):
         shutil.copytree(made / name, tmp_path / name)
-    return runner(monkeypatch, capsys)
+    return run
 
 
 def add_to_project() -> None:

@@ -18,11 +18,10 @@ HELD = f"2 of 3 are at least {100 * THRESHOLD:g}% sure, or were looked at; look 
 
 
 @pytest.fixture
-def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Run:
+def run(run: Run, tmp_path: Path) -> Run:
     """Runs the command line beside a project of three edited tables, of which two are demonstrated."""
-    monkeypatch.chdir(tmp_path)
     applied(tmp_path)
-    return runner(monkeypatch, capsys)
+    return run
 
 
 @pytest.fixture

@@ -10,21 +10,20 @@ import pytest
 from tests.unit.batch.families import write_tables
 from tests.unit.batch.pages import figures, kinds, names, opened, texts
 from tests.unit.checks.test_examination import urdf
-from tests.unit.cli.in_process import Run, runner
+from tests.unit.cli.in_process import Run
 
 ODD = "<i>&.obj"
 
 
 @pytest.fixture
-def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Run:
+def run(run: Run) -> Run:
     """Runs the command line beside a folder of a filled cup, a table and a damaged file."""
-    monkeypatch.chdir(tmp_path)
     Path("mixed").mkdir()
     write_tables(Path("tables"), 1)
     Path("mixed/good.obj").write_text(Path("tables/table0/model.obj").read_text())
     Path("mixed/cup.urdf").write_text(urdf(filled=True))
     Path("mixed", ODD).write_text("v 1 2\n")
-    return runner(monkeypatch, capsys)
+    return run
 
 
 @pytest.mark.slow

@@ -17,7 +17,7 @@ import meshforge
 from meshforge.cli.main import COMMANDS, load_command
 from meshforge.store import Store
 from tests.unit.batch.families import write_table, write_tables
-from tests.unit.cli.in_process import Run, runner
+from tests.unit.cli.in_process import Run
 
 CUBE = """\
 o {name}
@@ -39,15 +39,14 @@ f {3} {0} {4} {7}
 
 
 @pytest.fixture
-def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Run:
+def run(run: Run) -> Run:
     """Runs the command line in a folder that holds `row.obj` with labels: three cubes in a row, the last apart."""
-    monkeypatch.chdir(tmp_path)
     text = ""
     for k, (name, x) in enumerate((("left", 0), ("middle", 1), ("far", 4))):
         text += CUBE.format(*(8 * k + i for i in range(1, 9)), name=name, x=x, x1=x + 1)
     Path("row.obj").write_text(text)
     Path("row.labels.json").write_text('{"hulls": {"left": "leg", "middle": "panel", "far": "leg"}}')
-    return runner(monkeypatch, capsys)
+    return run
 
 
 @pytest.mark.parametrize("command", COMMANDS)

@@ -9,20 +9,19 @@ import pytest
 
 from tests.unit.batch.pages import figures, kinds, names, opened, texts
 from tests.unit.checks.test_examination import urdf
-from tests.unit.cli.in_process import Run, runner
+from tests.unit.cli.in_process import Run
 
 ODD = "z <i>&.urdf"
 
 
 @pytest.fixture
-def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Run:
+def run(run: Run) -> Run:
     """Runs the command line beside a folder of two cups and a damaged file."""
-    monkeypatch.chdir(tmp_path)
     Path("in").mkdir()
     for name, filled in (("a", False), ("b", True)):
         Path(f"in/{name}.urdf").write_text(urdf(filled))
     Path("in", ODD).write_text("<robot")
-    return runner(monkeypatch, capsys)
+    return run
 
 
 @pytest.mark.slow

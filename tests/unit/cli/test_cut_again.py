@@ -8,12 +8,7 @@ import pytest
 
 from tests.cup_project import CUP, cup_project
 from tests.faults.runs import outputs
-from tests.unit.cli.in_process import Run, runner
-
-
-@pytest.fixture
-def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Run:
-    return runner(monkeypatch, capsys)
+from tests.unit.cli.in_process import Run
 
 
 def test_the_same_cut_again_says_so_and_changes_nothing(

@@ -8,22 +8,21 @@ import pytest
 
 from meshforge.project import Project
 from tests.unit.batch.families import write_table
-from tests.unit.cli.in_process import Run, runner
+from tests.unit.cli.in_process import Run
 
 LEGS = "left_high, left_low, right_high, right_low"
 
 
 @pytest.fixture
-def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Run:
+def run(run: Run, tmp_path: Path) -> Run:
     """Runs the command line beside a project `p` of two labelled tables; only t1 has what is labelled `misc`."""
-    monkeypatch.chdir(tmp_path)
     for name in ("t0.obj", "t1.obj"):
         write_table(tmp_path / "assets" / name)
     project = Project.create(tmp_path / "p", [tmp_path / "assets"], vocabulary=("top", "leg", "misc"))
     legs = dict.fromkeys(LEGS.split(", "), "leg")
     project.set_labels("t0.obj", {"top": "top", **legs}, source="user")
     project.set_labels("t1.obj", {"top": "top", "crumb": "misc", **legs}, source="user")
-    return runner(monkeypatch, capsys)
+    return run
 
 
 @pytest.mark.parametrize(

@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 from meshforge.cli.terminal import escape_output, print_json
 from meshforge.common import MeshForgeError, escape_name, escape_text, quote_path
 from meshforge.project import Project
-from tests.unit.cli.in_process import Run, runner
+from tests.unit.cli.in_process import Run
 from tests.unit.cli.terminal import Terminal
 
 HULL = "a\x1b]0;owned\x07\x9b31m\u202egpj"
@@ -28,11 +28,6 @@ SECOND = re.sub(r"\d", lambda one: str(int(one[0]) + 8), FACES)
 CONTROLS = ("\x1b]", "\x1b[31m", "\x07", "\x9b", "\u202e")
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="no such file names there")
-
-
-@pytest.fixture
-def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Run:
-    return runner(monkeypatch, capsys)
 
 
 @pytest.fixture

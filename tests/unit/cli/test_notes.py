@@ -7,16 +7,10 @@ from pathlib import Path
 import pytest
 
 from meshforge.cli.console import NoteLog, fold_notes
-from tests.unit.cli.in_process import Run, runner
+from tests.unit.cli.in_process import Run
 
 LOST = "{} ({}) {} left out: MeshForge does not convert masses to OBJ"
 CAPSULE = "URDF has no capsule: 'c{}' is written as a hull of 50 vertices"
-
-
-@pytest.fixture
-def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Run:
-    monkeypatch.chdir(tmp_path)
-    return runner(monkeypatch, capsys)
 
 
 def test_a_note_on_many_hulls_names_the_first_of_them() -> None:

@@ -15,17 +15,12 @@ from meshforge.formats import read
 from meshforge.project import Project
 from tests.cup_project import BARE, CUP, cup_project, cup_urdf
 from tests.loop.command import Done
-from tests.unit.cli.in_process import Run, runner
+from tests.unit.cli.in_process import Run
 
 ODD = b"b\xff\xe9.urdf"
 ID = r"b\xff\xe9.urdf"
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="no such file names there")
-
-
-@pytest.fixture
-def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Run:
-    return runner(monkeypatch, capsys)
 
 
 @pytest.fixture

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from tests.unit.batch.preparation.samples import write_boxes, write_stand
-from tests.unit.cli.in_process import Run, runner
+from tests.unit.cli.in_process import Run
 from tests.urdf_sample import boxes_obj
 
 VOXELS = ("--decompose", "vhacd", "--set", "resolution=5000", "--set", "max_convex_hulls=4", "--workers", "1")
@@ -19,13 +19,12 @@ def cache(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture
-def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path, cache: Path) -> Run:
+def run(run: Run, cache: Path, monkeypatch: pytest.MonkeyPatch) -> Run:
     """Runs the command line in a folder that holds `in/stand.urdf` and `in/row.obj`."""
-    monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("MESHFORGE_CACHE", str(cache))
     write_stand(Path("in"))
     write_boxes(Path("in/row.obj"))
-    return runner(monkeypatch, capsys)
+    return run
 
 
 @pytest.fixture

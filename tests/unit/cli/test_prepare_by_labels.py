@@ -10,7 +10,7 @@ import pytest
 
 from meshforge.batch import IN_PROCESS
 from meshforge.project import NewAssetOptions, Project
-from tests.unit.cli.in_process import Run, runner
+from tests.unit.cli.in_process import Run
 from tests.unit.formats.test_segmented_parts import FACES, KINDS, MIDDLES, NAMES, VERTICES
 
 URDF = """<robot name="table"><link name="base">
@@ -34,10 +34,9 @@ ANSWERS = {"points": MIDDLES, "labels": np.repeat(KINDS, 5), "names": NAMES}
 
 
 @pytest.fixture
-def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Run:
-    monkeypatch.chdir(tmp_path)
+def run(run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Run:
     monkeypatch.setenv("MESHFORGE_CACHE", str(tmp_path / "cache"))
-    return runner(monkeypatch, capsys)
+    return run
 
 
 def names_of(asset: str) -> set[str]:

@@ -6,14 +6,8 @@ from pathlib import Path
 import pytest
 
 from meshforge.project import Project
-from tests.unit.cli.in_process import Run, runner
+from tests.unit.cli.in_process import Run
 from tests.unit.project.stools import PARTS, boxes, coarse, write_stool
-
-
-@pytest.fixture
-def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Run:
-    monkeypatch.chdir(tmp_path)
-    return runner(monkeypatch, capsys)
 
 
 @pytest.fixture(autouse=True)

@@ -8,15 +8,14 @@ import pytest
 from PIL import Image
 
 from tests.unit.batch.families import write_table
-from tests.unit.cli.in_process import Run, runner
+from tests.unit.cli.in_process import Run
 
 
 @pytest.fixture
-def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Run:
+def run(run: Run, tmp_path: Path) -> Run:
     """Runs the command line beside a table."""
-    monkeypatch.chdir(tmp_path)
     write_table(tmp_path / "table.obj", labels=False)
-    return runner(monkeypatch, capsys)
+    return run
 
 
 def test_a_file_becomes_a_sheet_of_numbered_and_plain_pictures(run: Run) -> None:

@@ -16,11 +16,10 @@ from tests.unit.project.tables import SECOND, THIRD, applied
 
 
 @pytest.fixture
-def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Run:
+def run(run: Run, tmp_path: Path) -> Run:
     """Runs the command line beside a project of three edited tables, of which two are demonstrated."""
-    monkeypatch.chdir(tmp_path)
     applied(tmp_path)
-    return runner(monkeypatch, capsys)
+    return run
 
 
 def test_a_family_that_is_sure_is_signed_off(run: Run) -> None:

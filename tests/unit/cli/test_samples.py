@@ -4,18 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import pytest
-
 from meshforge.samples import FAMILIES
 from tests.loop.readme import parse_commands
-from tests.unit.cli.in_process import Run, runner
-
-
-@pytest.fixture
-def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Run:
-    """Runs the command line in an empty folder."""
-    monkeypatch.chdir(tmp_path)
-    return runner(monkeypatch, capsys)
+from tests.unit.cli.in_process import Run
 
 
 def test_without_arguments_it_lists_each_family_in_a_line(run: Run) -> None:

@@ -8,12 +8,7 @@ import pytest
 
 from meshforge.cli.command import OTHER_SPELLINGS
 from meshforge.cli.main import COMMANDS, load_command
-from tests.unit.cli.in_process import Run, runner
-
-
-@pytest.fixture
-def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Run:
-    return runner(monkeypatch, capsys)
+from tests.unit.cli.in_process import Run
 
 
 @pytest.mark.parametrize(

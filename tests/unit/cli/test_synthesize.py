@@ -19,16 +19,10 @@ from meshforge.language import Delete
 from meshforge.project import Project
 from meshforge.synthesis import LAYERS, Answer, Step
 from meshforge.synthesis.options import STRATEGIES
-from tests.unit.cli.in_process import Run, runner
+from tests.unit.cli.in_process import Run
 from tests.unit.project.shelves import OTHER, PLAIN, SHELVED, ambiguous, mislabelled, racks
 
 LABELS = "labels board, leg, knob\n\n"
-
-
-@pytest.fixture
-def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Run:
-    monkeypatch.chdir(tmp_path)
-    return runner(monkeypatch, capsys)
 
 
 def timeless(text: str) -> str:
