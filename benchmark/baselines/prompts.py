@@ -82,8 +82,9 @@ def list_hulls(hulls: Sequence[Hull]) -> str:
 def _pair(
     first: SymbolicMesh, second: SymbolicMesh, frame: Program, titles: tuple[str, str] = ("before", "after")
 ) -> Image:
-    from meshforge.rendering import make_contact_sheet, render
     from meshforge.rendering.compare import joint_bounds
+
+    from meshforge.rendering import make_contact_sheet, render
 
     box = joint_bounds(first, second)
     images = [

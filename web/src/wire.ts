@@ -558,7 +558,7 @@ export interface ConfidenceView {
   probability: number;
   reasons: Reason[];
   state: "signed" | "needs review" | "excluded";
-  remarks: boolean;
+  reviewed: boolean;
 }
 /**
  * Why an edit may be wrong.

@@ -280,12 +280,12 @@ class ResultStatuses:
         verdict = self.feedback.verdict_on(asset.id)
         is_wrong = asset.review == "wrong" and not (verdict and verdict.meant)
         if asset.id in self.last.wrong if self.last else is_wrong:
-            return "held"
+            return "needs review"
         if is_signed or asset.review == "accepted":
             return "void" if is_void else "signed off"
         if not line or not self.last:
             return "unknown"
-        return "sure" if line.passes(self.last.threshold) else "held"
+        return "sure" if line.passes(self.last.threshold) else "needs review"
 
     def _find_news(self, line: ConfidenceLine | None) -> tuple[str, ...]:
         """What was found after an asset was signed off, and no person has answered."""

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 MOST_LISTED = 12
-"""Lines on assets that are held, one for each reason."""
+"""Lines on assets that need review, one for each reason."""
 
 
 def format_counts(
@@ -44,7 +44,8 @@ def format_counts(
 
 
 def format_review(found: ProjectReview, need_review: int = MOST_LISTED) -> str:
-    """How the family stands: the counts, then why assets are held, the least probable first; held: lines at most."""
+    """How the family stands: the counts, then why assets need review, the least probable first; need_review: lines at
+    most."""
     one = found.assessment
     names = one.need_review
     lines = [format_counts(len(one.signed_off), len(one.assets), len(names), [*one.excluded.values()], one.threshold)]
@@ -71,7 +72,8 @@ def format_status(found: Status) -> str:
 
 @dataclass(frozen=True, slots=True)
 class _AssetReason:
-    """An asset that is held, and its weightiest doubt; probability: that its edit is right, None where not known."""
+    """An asset that needs review, and its weightiest reason; probability: that its edit is right, None where not
+    known."""
 
     name: str
     probability: float | None

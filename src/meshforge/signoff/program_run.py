@@ -166,7 +166,7 @@ class RuleCandidates:
         found: Floats = self.beliefs @ (self.kinds == 0)
         return found
 
-    def reason(self, some: Bools, share: float) -> RuleCandidates:
+    def discount(self, some: Bools, share: float) -> RuleCandidates:
         """The same where some readings (k,) are wrong with that probability besides."""
         beliefs = np.where(some, self.beliefs * (1 - share), self.beliefs)
         return replace(self, beliefs=beliefs / beliefs.sum())

@@ -264,9 +264,9 @@ def test_an_edit_by_hand_is_replayed_after_the_program(tmp_path: Path) -> None:
     mesh = load(project.folder / "edited" / SECOND)
     assert {h.name: h.label for h in mesh.hulls} == {"top": "top", "left_low~2": "top"}
     project.correct(SECOND, ["left_low~2"], Delete())
-    assert len(project.corrections(SECOND)) == 2
+    assert len(project.manual_edits(SECOND)) == 2
     project.write_manual_edits(SECOND, ())
-    assert project.corrections(SECOND) == ()
+    assert project.manual_edits(SECOND) == ()
 
 
 def test_an_edit_by_hand_whose_hull_is_gone_or_changed_is_flagged_and_left_out(tmp_path: Path) -> None:

@@ -5,12 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from meshforge.signoff.doubts import CALLED_WRONG_BEFORE, CONTRADICTED
 
 from meshforge.formats import load
 from meshforge.language import Delete, Each, Merge, Program
 from meshforge.project import Project
 from meshforge.signoff import THRESHOLD
+from meshforge.signoff.reasons import CALLED_WRONG_BEFORE, CONTRADICTED
 from meshforge.symbolic import Label
 from meshforge.synthesis import Step
 from tests.unit.cli.in_process import Run, runner

@@ -43,8 +43,8 @@ def assessment_of(*questions: ReviewQuestion) -> Assessment:
 
 def test_each_asset_is_signed_off_held_or_excluded_and_counted() -> None:
     view = view_assessment(assessment_of(), ReviewState({}, Program()))
-    assert (view.bar, view.signed_off, view.held, view.excluded) == (THRESHOLD, 1, 2, 1)
-    assert [(row.asset, row.state, row.told) for row in view.assets] == [
+    assert (view.threshold, view.signed_off, view.need_review, view.excluded) == (THRESHOLD, 1, 2, 1)
+    assert [(row.asset, row.state, row.reviewed) for row in view.assets] == [
         (ONE, "signed", True),
         (OTHER, "needs review", False),
         ("wrong", "needs review", False),
@@ -56,7 +56,7 @@ def test_each_asset_is_signed_off_held_or_excluded_and_counted() -> None:
 
 def test_without_a_program_no_edit_has_a_probability() -> None:
     view = view_assessment(assessment_of(), ReviewState({}, Program()), has_program=False)
-    assert (view.assets, view.signed_off, view.held) == ((), 0, 0)
+    assert (view.assets, view.signed_off, view.need_review) == ((), 0, 0)
 
 
 def test_a_question_says_where_its_hulls_are_and_what_its_readings_mean(project: Project) -> None:

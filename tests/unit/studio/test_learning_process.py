@@ -73,7 +73,7 @@ def test_the_bundled_program_is_learned_and_kept(project: Project, learner: Lear
     assert (outcome.number, outcome.status, outcome.error) == (7, "found", None)
     assert rules_of(outcome.program) == rules_of(BUNDLED)
     assert outcome.rules[0].sentence == "The misc hulls are deleted."
-    assert {rule.rule for rule in outcome.rules} == {reading.rule for reading in outcome.readings}
+    assert {rule.rule for rule in outcome.rules} == {reading.rule for reading in outcome.candidates}
     kept = project.program()
     assert kept
     assert str(kept) == outcome.program

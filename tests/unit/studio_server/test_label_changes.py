@@ -68,7 +68,7 @@ def test_what_changed_is_told_until_the_next_edit_and_again_when_that_is_undone(
     assert relabelling.last_change(HULLS) is None
     carry(project, history)
     found = relabelling.last_change(HULLS)
-    assert found and (found.way, found.settled) == ("propagate", 0)
+    assert found and (found.way, found.newly_sure) == ("propagate", 0)
     assert [(one.asset, one.new, one.changed) for one in found.assets] == [
         (asset, tuple(range(len(NAMES))), ()) for asset in ASSETS[1:]
     ]

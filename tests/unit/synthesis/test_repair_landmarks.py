@@ -59,7 +59,7 @@ def test_a_crate_that_is_called_a_leg_is_proposed_for_repair_with_what_becomes_o
     outcome = learn(family({"crate": "leg"}), "rack 1", "rack 2")
     assert isinstance(outcome, NeedsRepair)
     (repair,) = outcome.repairs
-    assert repair.correction == WRONG and repair.belief > 0.75
+    assert repair.fix == WRONG and repair.belief > 0.75
     assert outcome.proposed and [show(rule.extractor) for rule in outcome.proposed.rules] == ["Geo(Is(panel), +Z)"]
     assert "with it the orientation turns rack 1 by " in repair.why.lower()
     assert "rule 1 has an extractor of 2 nodes, now " in repair.why
@@ -82,4 +82,4 @@ def test_right_labels_refused_repairs_and_all_labels_where_repair_is_switched_of
     assert not learn(family(), "rack 1", "rack 2").repairs
     assert not learn(family({"crate": "leg"}), "rack 1", "rack 2", repair=False).repairs
     refused = learn(family({"crate": "leg"}), "rack 1", "rack 2", rejected=[WRONG])
-    assert WRONG not in [repair.correction for repair in refused.repairs]
+    assert WRONG not in [repair.fix for repair in refused.repairs]

@@ -90,10 +90,10 @@ def learned(
 def test_without_a_person_repairs_are_proposed_with_what_the_program_would_be() -> None:
     outcome = learned(planted(WRONG))
     assert isinstance(outcome, NeedsRepair)
-    assert [repair.correction for repair in outcome.repairs] == [LEG]
+    assert [repair.fix for repair in outcome.repairs] == [LEG]
     assert outcome.proposed
     assert [rule.extractor for rule in outcome.proposed.rules] == [Is("leg")]
-    assert not outcome.settled
+    assert not outcome.unambiguous
     shape = outcome_to_json(outcome)
     (repair,) = shape["repairs"]
     assert (shape["status"], shape["program"], shape["open_rule"]) == ("repair", None, None)

@@ -89,7 +89,7 @@ export const isJudging = ({ assessing, learning, outcome }: Judging): boolean =>
 /** An asset and why its edit may be wrong, a sentence a line. */
 export function doubtsText(asset: string, row: ConfidenceView | undefined, bar: number | null): string {
   if (!row || bar === null) return asset;
-  const sure = row.remarks ? "you showed or accepted it" : `${percentText(row.probability, bar)} sure`;
+  const sure = row.reviewed ? "you showed or accepted it" : `${percentText(row.probability, bar)} sure`;
   return [`${asset}: ${sure}`, ...row.reasons.map((doubt) => `• ${doubt.text}`)].join("\n");
 }
 

@@ -89,7 +89,7 @@ def view_assessment(
             probability=round(one.probability, 4),
             reasons=one.reasons,
             state="excluded" if name in assessment.excluded else "signed" if name in signed else "needs review",
-            remarks=name in assessment.looked_at,
+            reviewed=name in assessment.looked_at,
         )
         for name, one in assessment.assets.items()
     )

@@ -142,7 +142,7 @@ class ConfidenceView(Wire):
     probability: float
     reasons: tuple[Reason, ...] = ()
     state: Literal["signed", "needs review", "excluded"]
-    remarks: bool = False
+    reviewed: bool = False
 
 
 class HullRef(HullOfAsset):
