@@ -84,9 +84,9 @@ Alarms = Mapping[str, Sequence[str]]
 
 @dataclass(frozen=True, slots=True)
 class ApplyWork:
-    """What is to be run on what. held: assets that are held back; project: None where its own assets are not meant;
-    new: what was done to new assets before, by id; failed: those of them that could not be prepared; confidences: how
-    sure the edits of assets are that are not the project's, as far as asked."""
+    """What is to be run on what. need_review: assets that are not written; project: None where its own assets are not
+    meant; new: what was done to new assets before, by id; failed: those of them that could not be prepared;
+    confidences: how sure the edits of assets are that are not the project's, as far as asked."""
 
     program: Program
     jobs: Sequence[batch.AssetJob]

@@ -48,7 +48,7 @@ class FamilyPosterior:
             return FamilyPosterior(table, seen, nothing, nothing)
         return FamilyPosterior(table, seen, *infer_chances(table, seen))
 
-    def doubt_rebuilt(self) -> FamilyPosterior:
+    def discount_rebuilt(self) -> FamilyPosterior:
         """Return the same, with the label of a rebuilt hull no surer than the rebuild was, or than others make it.
 
         Labels of a rebuild follow from one inference over the family: where it errs, they agree in their error.

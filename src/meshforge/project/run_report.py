@@ -31,9 +31,9 @@ def format_counts(
     signed_off: int, total: int, need_review: int, excluded: Sequence[ExclusionReason], threshold: float
 ) -> str:
     """The sentence that says how far a family is signed off; total: assets, but for those not of the family."""
-    foreign = excluded.count(NOT_OF_FAMILY)
+    others = excluded.count(NOT_OF_FAMILY)
     if not total:
-        return f"Nothing is signed off: all {foreign} assets are excluded." if foreign else "There is no asset."
+        return f"Nothing is signed off: all {others} assets are excluded." if others else "There is no asset."
     are, were = ("is", "was") if signed_off == 1 else ("are", "were")
     some = f"{signed_off} of {total} {are} at least {100 * threshold:g}% sure, or {were} looked at"
     counts = ((reason, excluded.count(reason)) for reason in (NOT_SOLVED, NOT_OF_FAMILY))

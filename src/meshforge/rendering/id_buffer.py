@@ -28,7 +28,7 @@ _SIDES: tuple[View, ...] = (
     "iso", "front-left-above", "iso-back", "back-right-above", "front-right-below", "front-left-below",
 )  # fmt: skip
 """From the usual side to those from which one seldom looks; the first that is good enough is taken."""
-_TRIAL_SIZE = (160, 120)  # of the pictures in which that is found out
+_FIRST_SIZE = (160, 120)  # of the pictures in which that is found out
 _ENOUGH = 0.35  # of a hull, that is to be seen
 _DARKER = {CREASE: 0.16, BORDER: 0.62, SILHOUETTE: 0.62}  # by how much lines take light away
 
@@ -152,7 +152,7 @@ def _shares_seen(hulls: list[RenderMesh], wanted: list[int], view: View) -> Floa
     """How much of each wanted hull (k,) is seen, of what would be without the hulls that are not wanted."""
     points = np.concatenate([one.vertices for one in hulls])
     frame = ViewFrame(Aabb.of_points(points), up_vector("Z"))
-    camera = aim_camera(view, "Z", _TRIAL_SIZE, frame.to_unit(points))
+    camera = aim_camera(view, "Z", _FIRST_SIZE, frame.to_unit(points))
     whole = cast_layer(DrawLayer(hulls, np.zeros((0, 3))), frame, camera).item
     alone = cast_layer(DrawLayer([hulls[k] for k in wanted], np.zeros((0, 3))), frame, camera).item
     seen = count_pixels(whole, len(hulls))[wanted]

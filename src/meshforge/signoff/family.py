@@ -85,7 +85,7 @@ class FamilyRun:
 
     def _with_alternatives(self, posterior: FamilyPosterior) -> FamilyRun:
         """The same with the probabilities of labels, and what other labels would change."""
-        posterior, labels = posterior.doubt_rebuilt(), posterior.seen.labels
+        posterior, labels = posterior.discount_rebuilt(), posterior.seen.labels
         rows = enumerate(zip(self.runs, self.state.meshes.values(), strict=True))
         runs = tuple(
             replace(run, alternatives=find_alternatives(run, mesh, self.program, labels, posterior.chances_of(place)))

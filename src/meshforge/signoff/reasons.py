@@ -37,7 +37,7 @@ def judge_edits(
         if why := state.lost.get(name):
             one = AssetConfidence(name, 0.0, (Reason("alarm", f"it cannot be read: {why}", share=1.0),))
         else:
-            one = judge_edit(family, place) if family else AssetConfidence(name, 0.0, (doubt_learning(outcome),))
+            one = judge_edit(family, place) if family else AssetConfidence(name, 0.0, (judge_learning(outcome),))
         if name in turned:
             text = "it may have to be turned first, and would be edited otherwise then"
             one = one.with_reasons([Reason("orientation", text, share=SUGGESTION_RIGHT)])
@@ -47,7 +47,7 @@ def judge_edits(
         yield name, one
 
 
-def doubt_learning(outcome: LearningOutcome | None) -> Reason:
+def judge_learning(outcome: LearningOutcome | None) -> Reason:
     """Return why no edit is sure where no program was learned."""
     if outcome is None:
         return Reason("candidate", "nothing is demonstrated yet", share=1.0)
@@ -69,8 +69,12 @@ def judge_edit(family: FamilyRun, place: int) -> AssetConfidence:
         return _refuse(asset, Reason("candidate", EDITED_SINCE if asset in state.edited else CALLED_WRONG, share=1.0))
     if asset in state.reviewed_assets:
         return AssetConfidence(asset, SURE_OF_DEMONSTRATED)
-    reasons = [*_doubt_readings(family, place), *_doubt_labels(run), *_doubt_outliers(family, place)]
-    weightiest = sorted([*reasons, *_doubt_program(family)], key=lambda one: -one.share)[:MOST_REASONS]
+    reasons = [
+        *_list_candidate_reasons(family, place),
+        *_list_label_reasons(run),
+        *_list_outlier_reasons(family, place),
+    ]
+    weightiest = sorted([*reasons, *_list_program_reasons(family)], key=lambda one: -one.share)[:MOST_REASONS]
     if asset in state.wrong:  # it needs review for this, however probable it is now
         weightiest = [Reason("candidate", CALLED_WRONG_BEFORE), *weightiest[: MOST_REASONS - 1]]
     return AssetConfidence(asset, family.evidence[place].probability, tuple(weightiest))
@@ -80,7 +84,7 @@ def _refuse(asset: str, why: Reason) -> AssetConfidence:
     return AssetConfidence(asset, NO_EDIT, (why,))
 
 
-def _doubt_program(family: FamilyRun) -> Iterator[Reason]:
+def _list_program_reasons(family: FamilyRun) -> Iterator[Reason]:
     share = 1 - family.trust_in_program()
     right, wrong = map(len, family.results)
     if wrong and share > _MOST_MISTRUST:
@@ -88,7 +92,7 @@ def _doubt_program(family: FamilyRun) -> Iterator[Reason]:
         yield Reason("candidate", text, share=share)
 
 
-def _doubt_readings(family: FamilyRun, place: int) -> Iterator[Reason]:
+def _list_candidate_reasons(family: FamilyRun, place: int) -> Iterator[Reason]:
     run = family.runs[place]
     for known in family.candidates:
         other, share = np.flatnonzero(known.kinds[:, place]), float(1 - known.agreement[place])
@@ -100,11 +104,12 @@ def _doubt_readings(family: FamilyRun, place: int) -> Iterator[Reason]:
         text = f"rule {known.rule} may mean {show(known.extractors[best])}, which {change}"
         yield Reason("candidate", text, run.names(known.rule, ours ^ theirs), known.rule, share)
     for mistake in (one for one in family.mistakes if one.differs[place]):
-        text = f"rule {mistake.rule} may mean {show(mistake.mistake.extractor)}, if there was a slip on {mistake.mistake.asset}"
-        yield Reason("candidate", text, (), mistake.rule, mistake.mistake.share)
+        likely = mistake.mistake
+        text = f"rule {mistake.rule} may mean {show(likely.extractor)}, if {likely.asset} was shown by mistake"
+        yield Reason("candidate", text, (), mistake.rule, likely.share)
 
 
-def _doubt_labels(run: ProgramRun) -> Iterator[Reason]:
+def _list_label_reasons(run: ProgramRun) -> Iterator[Reason]:
     grouped = defaultdict[tuple[str | None, str, tuple[int, ...]], list[AlternativeLabel]](list)
     for alternative in run.alternatives:
         grouped[alternative.was, alternative.to, alternative.rules].append(alternative)
@@ -120,7 +125,7 @@ def _doubt_labels(run: ProgramRun) -> Iterator[Reason]:
         yield Reason("orientation" if is_turned else "label", text, names, rule or None, share)
 
 
-def _doubt_outliers(family: FamilyRun, place: int) -> Iterator[Reason]:
+def _list_outlier_reasons(family: FamilyRun, place: int) -> Iterator[Reason]:
     evidence = family.evidence[place]
     share = replace(evidence, outlier_score=0.0, alarms=0.0).probability - evidence.probability
     yield from (Reason("alarm", text, share=share) for text in family.alarms.get(family.runs[place].asset, ()))

@@ -31,7 +31,7 @@ from meshforge.signoff.question import (
     identify,
     price_demonstration,
 )
-from meshforge.signoff.reasons import SUGGESTION_RIGHT, doubt_learning, judge_edit, judge_edits
+from meshforge.signoff.reasons import SUGGESTION_RIGHT, judge_edit, judge_edits, judge_learning
 from meshforge.synthesis import (
     Ambiguous,
     Found,
@@ -85,7 +85,7 @@ def assess_asset(
 ) -> AssetConfidence:
     """Return how probable the edit of one asset of a family is; the arguments are those of `review_family`."""
     if not isinstance(outcome, Found | Ambiguous):
-        return AssetConfidence(asset, 0.0, (doubt_learning(outcome),))
+        return AssetConfidence(asset, 0.0, (judge_learning(outcome),))
     run = _run_family(state, outcome, family, _NO_ALARMS)
     return judge_edit(run, run.places[asset])
 

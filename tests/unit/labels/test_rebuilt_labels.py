@@ -32,10 +32,10 @@ def chances_of(found: FamilyPosterior, meshes: list[SymbolicMesh], mesh: int, st
 def test_labels_of_rebuilds_that_agree_in_an_error_are_no_surer_than_each() -> None:
     meshes = rebuilt_tables()
     found = infer(meshes)
-    together, apart = (chances_of(one, meshes, 3, "handle", "drawer") for one in (found, found.doubt_rebuilt()))
+    together, apart = (chances_of(one, meshes, 3, "handle", "drawer") for one in (found, found.discount_rebuilt()))
     assert min(together) > UNSURE + 0.1, "they vouch for each other"
     assert max(apart) <= UNSURE + 1e-9
-    assert np.allclose(found.doubt_rebuilt().chances.sum(axis=1), 1.0)
+    assert np.allclose(found.discount_rebuilt().chances.sum(axis=1), 1.0)
 
 
 def test_what_a_person_said_of_look_alikes_makes_them_surer_or_less_sure() -> None:
@@ -43,7 +43,7 @@ def test_what_a_person_said_of_look_alikes_makes_them_surer_or_less_sure() -> No
     meshes[0] = meshes[0].with_labels(
         {hull.name: Label("handle" if "handle" in hull.name else str(hull.label)) for hull in meshes[0].hulls}
     )
-    doubted = infer(meshes).doubt_rebuilt()
+    doubted = infer(meshes).discount_rebuilt()
     assert max(chances_of(doubted, meshes, 4, "handle", "drawer")) <= UNSURE + 1e-9
     assert min(chances_of(doubted, meshes, 4, "leg", "leg")) > 0.95
     assert min(chances_of(doubted, meshes, 0, "handle", "handle")) > 0.99
@@ -54,8 +54,8 @@ def test_labels_of_other_sources_stay(source: LabelSource) -> None:
     meshes = [table(legs=4, drawers=1 + k % 2) for k in range(4)]
     said = [mesh.with_labels({h.name: Label(str(h.label), 0.6, source) for h in mesh.hulls}) for mesh in meshes]
     found = infer(said)
-    assert found.doubt_rebuilt() is found
+    assert found.discount_rebuilt() is found
 
 
 def test_a_family_without_hulls_has_nothing_to_doubt() -> None:
-    assert infer([SymbolicMesh(())]).doubt_rebuilt().chances.size == 0
+    assert infer([SymbolicMesh(())]).discount_rebuilt().chances.size == 0

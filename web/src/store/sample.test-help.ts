@@ -32,7 +32,7 @@ export const sampleRow = (change: Partial<ConfidenceView> = {}): ConfidenceView 
   probability: 0.99,
   reasons: [],
   state: "signed",
-  remarks: false,
+  reviewed: false,
   ...change,
 });
 

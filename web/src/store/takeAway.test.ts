@@ -15,7 +15,7 @@ const job = (state: Job["state"]): Job => ({
   id: "download-1", kind: "download", title: "", done: 0, total: 2, doing: "", state, message: "", lines: [], out: "t.zip",
 }); // prettier-ignore
 const show = (...jobs: Job[]) => useProject.setState({ jobs });
-const held = (asset: string): ConfidenceView => ({ asset, probability: 0.5, reasons: [], state: "needs review", remarks: false });
+const held = (asset: string): ConfidenceView => ({ asset, probability: 0.5, reasons: [], state: "needs review", reviewed: false });
 
 beforeEach(() => {
   useProject.setState(emptyProject, true);

@@ -127,15 +127,15 @@ def _create_rigid_bodies(asset: Asset, tree: BodyTree, path: PurePosixPath) -> O
     notes, pieces = _add_bodies(draft, welded, found, moving)
     bodies = tuple((node, family.body.name) for node, family in enumerate(found.each))
     document = GltfDocument(b"", "omi", (), bodies)
-    held = tuple(name for name in tree.order if carriers[name] != name)
-    why = join_names([f"{name} to {carriers[name]}" for name in held], 3)
+    kept = tuple(name for name in tree.order if carriers[name] != name)
+    why = join_names([f"{name} to {carriers[name]}" for name in kept], 3)
     still = tuple(i.body for i in welded.mechanism.inertials if i.body not in moving)
     losses = (
         *found.lost,
         *_list_joints(asset),
         Loss(FeatureKind.NON_CONVEX, tuple(pieces), "in Godot a mesh that is no hull cannot move"),
         Loss(FeatureKind.MASSES, still, _STILL),
-        Loss(FeatureKind.BODIES, held, f"fixed joints hold {why}", "written as parts of others"),
+        Loss(FeatureKind.BODIES, kept, f"fixed joints hold {why}", "written as parts of others"),
     )
     return _pack_new(welded, draft, document, path, [loss for loss in losses if loss.count], (*found.notes, *notes))
 

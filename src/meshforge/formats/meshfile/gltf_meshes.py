@@ -33,7 +33,7 @@ class Buffers:
 
     def __init__(self, tree: Json, chunk: bytes | None, path: Path) -> None:
         self.tree, self.chunk, self.path = tree, chunk, path
-        self._held: dict[int, bytes] = {}
+        self._loaded: dict[int, bytes] = {}
         self._refuse_compressed(entries(tree, "extensionsRequired"))
 
     def accessor(self, index: Any) -> npt.NDArray[Any]:
@@ -74,13 +74,13 @@ class Buffers:
 
     def buffer(self, index: Any) -> bytes:
         """The bytes of a buffer. Raises AssetError: its file is not there; ValueError: it is shorter than it says."""
-        if index not in self._held:
+        if index not in self._loaded:
             buffer = entry(self.tree, "buffers", index)
             data = self._fetch(buffer, index)
             if len(data) < buffer.get("byteLength", 0):
                 raise ValueError(f"a buffer is cut short: number {index}")
-            self._held[index] = data
-        return self._held[index]
+            self._loaded[index] = data
+        return self._loaded[index]
 
     def files(self) -> list[Path]:
         """The files beside the main one that hold buffers."""

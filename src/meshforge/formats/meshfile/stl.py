@@ -107,9 +107,9 @@ def _parse_ascii(data: bytes, where: str) -> StlText:
     except ValueError:
         k = next(k for k, vertex in enumerate(found) if not all(map(is_number, vertex.groups())))
         line = _line_of(data, int(spans[k // 3, 0]))
-        said = data[slice(*found[k].span())].split()[1:]
-        problem = f"a vertex needs three numbers, here is {text_of(b' '.join(said))!r}"
-        raise AssetError(problem, where=f"{where}:{line}", remedy=remedy_for(said)) from None
+        authored = data[slice(*found[k].span())].split()[1:]
+        problem = f"a vertex needs three numbers, here is {text_of(b' '.join(authored))!r}"
+        raise AssetError(problem, where=f"{where}:{line}", remedy=remedy_for(authored)) from None
     solid = np.searchsorted([start for start, _ in solids], spans[:, 0], side="right") - 1
     return StlText(corners, np.maximum(solid, 0), tuple(name for _, name in solids) or ("",), False)
 

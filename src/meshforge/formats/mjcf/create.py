@@ -122,12 +122,14 @@ class _Creator:
         own = [geom for geom in self.asset.geoms if geom.body == body]
         yield from (lead + elements.joint_tag(joint, self.poses[body]) for joint in joints)
         hulls = [self.geoms.make_hull(geom) for geom in own]
-        hulls += [text for piece in self.asset.non_convex if piece.body == body for text in self._make_opaque(piece)]
+        hulls += [
+            text for piece in self.asset.non_convex if piece.body == body for text in self._make_non_convex(piece)
+        ]
         volume = sum(geom.shape.volume for geom in own) + sum(v for piece, v in self.geoms.hulled if piece.body == body)
         lines = [*self._mass_lines(body, bool(joints), volume), *hulls, *self.geoms.make_visuals(body)]
         yield from (lead + text for text in lines)
 
-    def _make_opaque(self, piece: NonConvexPiece) -> Iterator[bytes]:
+    def _make_non_convex(self, piece: NonConvexPiece) -> Iterator[bytes]:
         """The geom of an endless plane, or of a mesh as it is: MuJoCo collides with its convex hull."""
         if piece.plane and not self.tree.is_static(piece.body):
             why = "MuJoCo has planes on bodies that do not move only"

@@ -112,8 +112,8 @@ class Server:
             return TransientError(f"{status}: {text}", after=_retry_after(error))
         if status in (401, 403) or (status == 400 and "api key" in complaint):
             name = self._endpoint.key_name
-            held = f"The key is what the environment variable {name} holds."
-            remedy = held if name else "Name its key: key_env in [vlm]."
+            reserved = f"The key is what the environment variable {name} holds."
+            remedy = reserved if name else "Name its key: key_env in [vlm]."
             return EndError(f"the server does not accept the key: {text}", where=where, remedy=remedy)
         if status == 404:
             remedy = "Look at base_url and model; a base_url mostly ends with /v1."
