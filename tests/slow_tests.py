@@ -57,9 +57,10 @@ def pytest_configure(config: pytest.Config) -> None:
     if _is_worker(config):
         option.left_out = vars(config)["workerinput"]["left_out"]
     else:
-        named = config.args_source is pytest.Config.ArgsSource.ARGS or option.keyword or option.markexpr
+        named = config.args_source is pytest.Config.ArgsSource.ARGS or bool(option.keyword or option.markexpr)
         quick = option.quick or not (option.all_tests or option.long or named)
         option.left_out = ["slow", "long"] if quick else ["long"] if option.all_tests and not option.long else []
+        option.whole = option.all_tests and not named
     settings.load_profile("explore" if option.explore or option.long else "fixed")
     if option.long:
         os.environ[_LONG] = "1"  # for the workers of pytest-xdist, too
@@ -103,7 +104,7 @@ class Cases:
     @pytest.hookimpl(optionalhook=True)
     def pytest_testnodedown(self, node: Any) -> None:
         """Take a worker's counts: under pytest-xdist only workers collect tests."""
-        self._all, self._long = getattr(node, "workeroutput", {}).get("cases", (0, 0))
+        self._all, self._long = getattr(node, "workeroutput", {}).get("cases", (self._all, self._long))
 
     def pytest_sessionfinish(self, session: pytest.Session) -> None:
         if _is_worker(self._config):
@@ -125,7 +126,7 @@ class Cases:
 
     @property
     def _too_many(self) -> bool:
-        return bool(self._config.option.all_tests) and self._long > MOST_LONG * self._all
+        return getattr(self._config.option, "whole", False) and self._long > MOST_LONG * self._all
 
 
 class Costs:

@@ -28,12 +28,12 @@ def address(studio: Studio) -> str:
 
 @contextmanager
 def visiting(
-    folder: Path, project: Project, browser: Browser, *size: int, latency: int = 0
+    folder: Path, project: Project, browser: Browser, width: int = 1440, height: int = 900, latency: int = 0
 ) -> Iterator[tuple[Studio, Hand]]:
     """A person at the page of a studio on a project for a block; the page has nothing to complain of."""
     with opened(folder, project.folder, "--page", str(PAGE)) as studio, windows(browser):
         studio.settled()
-        person = hand(browser, *size, latency=latency)
+        person = hand(browser, width, height, latency)
         person.open(address(studio))
         yield studio, person
         assert not person.complaints

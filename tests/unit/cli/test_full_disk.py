@@ -35,11 +35,7 @@ IN_CI = ("label by hand", "apply", "review")
 @pytest.mark.slow
 @pytest.mark.skipif(not _CAN_MOUNT, reason="no disk can be mounted here")
 @pytest.mark.parametrize(
-    "command",
-    [
-        pytest.param(one, marks=[] if one in ("label by hand", "apply", "review") else [pytest.mark.long])
-        for one in COMMANDS
-    ],
+    "command", [pytest.param(one, marks=[] if one in IN_CI else [pytest.mark.long]) for one in COMMANDS]
 )
 @pytest.mark.parametrize("room", [0, pytest.param(3, marks=pytest.mark.long)])
 def test_one_message_names_a_file_and_nothing_of_before_is_lost(command: str, room: int, tmp_path: Path) -> None:
