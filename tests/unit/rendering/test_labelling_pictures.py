@@ -209,14 +209,6 @@ def test_a_picture_from_close_up_has_the_whole_in_a_corner_which_hides_what_is_b
     assert np.ptp(corner[:, side // 4], axis=1).max() < 0.1, "the large cube is pale there"
 
 
-def test_pictures_are_no_more_than_asked_for_where_all_is_seen() -> None:
-    mesh = scattered(30)
-    for most in (1, 2, 4):
-        taken = draw_labeling_pictures(mesh, most=most, size=SMALL)
-        assert len(in_place(taken)) <= most
-        assert in_place(taken)[0] is taken[0]
-
-
 def test_the_first_picture_is_from_above_a_corner() -> None:
     for mesh in (table(), scattered(10), nested(2)):
         assert draw_labeling_pictures(mesh, most=1)[0].name.endswith("above")
