@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from meshforge.common import UsageError
 from meshforge.formats import load
 from meshforge.geometry import Box, Floats, Ints, Pose, Sphere, convex_hull
-from meshforge.rendering import LabelingPicture, draw_labeling_pictures, encode_png, hull_numbers
+from meshforge.rendering import LabelingPicture, draw_labeling_pictures, encode_png
 from meshforge.rendering.camera import Camera
 from meshforge.rendering.labeling.page import head_height
 from meshforge.rendering.labeling.picture import LabelingCanvas
@@ -116,11 +116,6 @@ def test_a_hull_too_thin_for_any_ray_is_numbered_all_the_same() -> None:
 def test_no_hulls_no_pictures() -> None:
     assert draw_labeling_pictures(SymbolicMesh(())) == ()
     assert draw_labeling_pictures(table(), hulls=()) == ()
-    assert hull_numbers(SymbolicMesh(())) == {}
-
-
-def test_numbers_are_indices() -> None:
-    assert hull_numbers(table()) == {"left": 0, "right": 1, "leg0": 2, "leg1": 3, "knob": 4}
 
 
 def slabs(mesh: SymbolicMesh, camera: Camera, middle: Floats, unit: float) -> Ints:
