@@ -21,8 +21,8 @@ _MAX_LINES = 20  # problems, and pairs of labels, that are shown
 def print_proposals(found: Proposals, *, json: bool) -> None:
     """Print what would be taken, with nothing written."""
     if json:
-        rows = {"take": _to_json(found.rows), "leave": _to_json(found.left)}
-        print_json(rows | {"keep": found.labelled, "problems": found.problems})
+        proposed = {"take": _to_json(found.rows), "leave": _to_json(found.left)}
+        print_json({**proposed, "keep": found.labelled, "problems": found.problems})
         return
     columns = ("label", "from", "names", "hulls", "assets", "confidence")
     rows = [*map(_cells, found.rows), *map(_cells, found.left)]

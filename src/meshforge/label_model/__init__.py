@@ -16,6 +16,5 @@ __getattr__, __all__ = export_lazily(
         "similar": "find_similar",
         "spans": "RebuiltHull SpanModel SpanPosterior",
         "table": "FamilyTable Observations evidence_beside_rebuilt evidence_of metric_weights reference_label",
-        "ties": "pick_evenly",
     },
 )

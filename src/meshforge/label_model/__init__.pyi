@@ -24,4 +24,3 @@ from meshforge.label_model.table import evidence_beside_rebuilt as evidence_besi
 from meshforge.label_model.table import evidence_of as evidence_of
 from meshforge.label_model.table import metric_weights as metric_weights
 from meshforge.label_model.table import reference_label as reference_label
-from meshforge.label_model.ties import pick_evenly as pick_evenly

@@ -9,7 +9,7 @@ from functools import cache, cached_property, lru_cache
 
 import numpy as np
 
-from meshforge.geometry import Floats
+from meshforge.geometry import Floats, Ints
 from meshforge.label_model.consensus import infer_chances
 from meshforge.label_model.describe import SHAPE_COLUMNS, MeshDescriber, describe_mesh, digest_mesh
 from meshforge.label_model.sides import choose_sides, find_doubtful_sides
@@ -141,21 +141,21 @@ class FamilyPosterior:
         from scipy.spatial.distance import cdist  # lazy: 0.5 s, half of all imports
 
         table, seen = self.table, self.seen
-        open_meshes = pick_evenly(np.unique(table.owner[~seen.given]).tolist(), _MESHES)
+        open_meshes = pick_evenly(np.unique(table.owner[~seen.given]), _MESHES)
         rows = table.rows[:, SHAPE_COLUMNS]
-        compared = pick_evenly([*range(len(rows))], _HULLS)
+        compared = pick_evenly(np.arange(len(rows)), _HULLS)
         some, reason = rows[compared], 1 + _AT_LEAST - self.chances[compared].max(axis=1, initial=0.0)
         if not len(open_meshes):
             return []
         near = max(float(np.median(cdist(some, some))) * _NEAR, 1e-9)
 
-        def alike(hulls: slice | Sequence[int]) -> Floats:
+        def alike(hulls: slice | Ints) -> Floats:
             """How much the best of some hulls is like each that is compared."""
             found: Floats = np.exp(-((cdist(rows[hulls], some) / near) ** 2) / 2).max(axis=0, initial=0.0)
             return found
 
-        covered = alike(pick_evenly(np.flatnonzero(seen.given).tolist(), _HULLS))
-        stands = np.stack([alike(table.spans[mesh]) for mesh in open_meshes])
+        covered = alike(pick_evenly(np.flatnonzero(seen.given), _HULLS))
+        stands = np.stack([alike(table.spans[mesh]) for mesh in open_meshes.tolist()])
         found: list[int] = []
         for _ in range(min(count, len(open_meshes))):
             gains = (np.maximum(stands - covered, 0.0) * reason).sum(axis=1)

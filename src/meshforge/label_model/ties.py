@@ -2,14 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TypeVar
-
 import numpy as np
 
 from meshforge.geometry import Floats, Ints
-
-Item = TypeVar("Item")
 
 EQUAL = 1e-9
 """Numbers about one that differ by less differ by rounding; that of linear algebra is another on each processor."""
@@ -37,6 +32,6 @@ def share_ranks(values: Floats) -> Floats:
     return found
 
 
-def pick_evenly(items: Sequence[Item], most: int) -> Sequence[Item]:
-    """Return the items in their order; of more than `most` so many, the first among them."""
-    return [items[place * len(items) // most] for place in range(most)] if len(items) > most else items
+def pick_evenly(items: Ints, most: int) -> Ints:
+    """Of very many some, evenly."""
+    return items if len(items) <= most else items[np.arange(most) * len(items) // most]

@@ -9,7 +9,6 @@ __getattr__, __all__ = export_lazily(
     __name__,
     {
         "meshforge.formats": "PointAlignment",
-        "meshforge.label_model": "pick_evenly",
         "by_hand": "label_command",
         "family_comparison": "ignore_stage",
         "from_files.label_by_files": "FileLabeler LabelFileOptions label_file_beside",
@@ -18,7 +17,7 @@ __getattr__, __all__ = export_lazily(
         "merge": "LabelOutcome NewHullLabels label_new_hulls set_labels set_labels_of",
         "names.label_by_names": "NameLabeler",
         "offers": "LabelOffers OfferCache",
-        "reference_family": "ReferenceFamily read_reference_family",
+        "reference_family": "ReferenceFamily pick_evenly read_reference_family",
         "registry": "LABELERS AssetLabeler make_labeler",
         "spans": "HullSpan SpanReport",
         "summary": "Proposal Proposals SourceTally Tally describe_label_plan tally_labels write_contact_sheets",

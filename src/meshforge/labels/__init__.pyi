@@ -1,6 +1,5 @@
 # Written by `python -m script.stubs`.
 from meshforge.formats import PointAlignment as PointAlignment
-from meshforge.label_model import pick_evenly as pick_evenly
 from meshforge.labels.by_hand import label_command as label_command
 from meshforge.labels.family_comparison import ignore_stage as ignore_stage
 from meshforge.labels.from_files.label_by_files import FileLabeler as FileLabeler
@@ -22,6 +21,7 @@ from meshforge.labels.names.label_by_names import NameLabeler as NameLabeler
 from meshforge.labels.offers import LabelOffers as LabelOffers
 from meshforge.labels.offers import OfferCache as OfferCache
 from meshforge.labels.reference_family import ReferenceFamily as ReferenceFamily
+from meshforge.labels.reference_family import pick_evenly as pick_evenly
 from meshforge.labels.reference_family import read_reference_family as read_reference_family
 from meshforge.labels.registry import LABELERS as LABELERS
 from meshforge.labels.registry import AssetLabeler as AssetLabeler

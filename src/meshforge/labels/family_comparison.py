@@ -93,13 +93,14 @@ def compare_assets(
     hulls = {asset: facts[asset].hulls for asset in current}
     cache = DescriptorCache(store, {asset: facts[asset] for asset in current}, execution)
     del facts
-    described = _describe(cache, list(current), lost, stage)
+    describer = _Describer(cache, lost, execution.stop, stage)
+    described = describer.describe(list(current))
     assets, table = tuple(described), label_model.FamilyTable.of([*described.values()])
     del described
     spoken = (speak(current[asset].get(name)) for asset in assets for name in hulls[asset])
     observed = tuple(label if label and label.name in vocabulary else None for label in spoken)
     seen = label_model.Observations.of(observed)
-    table = _set_upright(cache, assets, table, seen, lost, execution.stop, stage)
+    table = describer.set_upright(assets, table, seen)
     compared = FamilyComparison(hulls, current, lost, assets, observed, _compute_isolated(table, seen, execution.stop))
     if not compared.found.seen.labels:
         best, remedy = compared.next, "Decompose the assets first." if any(current) else _describe_lost(lost)
@@ -114,59 +115,50 @@ def _describe_lost(lost: Mapping[str, str]) -> str:
     return f"No asset can be read; the first problem: {next(iter(lost.values()))}" if lost else "There is no asset."
 
 
-def _describe(
-    cache: DescriptorCache, assets: Sequence[str], lost: dict[str, str], stage: Stage
-) -> dict[str, tuple[Floats, Ints]]:
-    """Rows and contacts of each asset that can be described; why others cannot goes to `lost`."""
-    seen = {asset: cache.read_rows(asset) for asset in assets}
-    missing = [asset for asset, own in seen.items() if own is None]
-    with stage(len(missing), "describing") as advance:
-        lost |= dict(cache.describe(missing, advance))
-    seen |= {asset: cache.read_rows(asset) for asset in missing}
-    described = {asset: own for asset, own in seen.items() if own}
-    lost |= {asset: f"{asset}: how it is described was not kept" for asset in missing if asset not in described | lost}
-    return described
+class _Describer:
+    """Describes assets, and looks at other sides of those that may have fallen; why some cannot be goes to `lost`."""
 
+    def __init__(
+        self, cache: DescriptorCache, lost: dict[str, str], stop: Callable[[], bool] | None, stage: Stage
+    ) -> None:
+        self._cache, self._lost, self._stop, self._stage = cache, lost, stop, stage
 
-def _set_upright(
-    cache: DescriptorCache,
-    assets: Sequence[str],
-    table: label_model.FamilyTable,
-    observed: label_model.Observations,
-    lost: dict[str, str],
-    stop: Callable[[], bool] | None,
-    stage: Stage,
-) -> label_model.FamilyTable:
-    """The table with fallen assets set upright; why some could not be looked at goes to `lost`."""
-    doubtful = list(_find_doubtful(table, observed, assets, cache, stop))
-    with stage(len(doubtful), "looking at other sides") as advance:
-        places = {asset: place for place, asset in enumerate(assets)}
-        sides = _collect_sides(cache.describe_sides(doubtful, advance), places, lost)
-        return label_model.correct_upright(table, observed, sides)
+    def describe(self, assets: Sequence[str]) -> dict[str, tuple[Floats, Ints]]:
+        """Rows and contacts of each asset that can be described."""
+        seen = {asset: self._cache.read_rows(asset) for asset in assets}
+        missing = [asset for asset, own in seen.items() if own is None]
+        with self._stage(len(missing), "describing") as advance:
+            self._lost |= dict(self._cache.describe(missing, advance))
+        seen |= {asset: self._cache.read_rows(asset) for asset in missing}
+        described = {asset: own for asset, own in seen.items() if own}
+        gone = [asset for asset in missing if asset not in described | self._lost]
+        self._lost |= {asset: f"{asset}: how it is described was not kept" for asset in gone}
+        return described
 
+    def set_upright(
+        self, assets: Sequence[str], table: label_model.FamilyTable, observed: label_model.Observations
+    ) -> label_model.FamilyTable:
+        """The table with fallen assets set upright."""
+        doubtful = dict[str, tuple[int, tuple[int, ...]]]()
+        for place, sides in label_model.find_doubtful_sides(
+            table, observed, lambda k: self._cache.read_sides(assets[k])
+        ):
+            raise_if_stopped(self._stop)
+            if sides:
+                doubtful[assets[place]] = place, sides
+        with self._stage(len(doubtful), "looking at other sides") as advance:
+            wanted = [(asset, sides) for asset, (_, sides) in doubtful.items()]
+            found = self._cache.describe_sides(wanted, advance)
+            return label_model.correct_upright(table, observed, self._keep_read(found, doubtful))
 
-def _find_doubtful(
-    table: label_model.FamilyTable,
-    observed: label_model.Observations,
-    assets: Sequence[str],
-    cache: DescriptorCache,
-    stop: Callable[[], bool] | None,
-) -> Iterator[tuple[str, tuple[int, ...]]]:
-    for place, sides in label_model.find_doubtful_sides(table, observed, lambda place: cache.read_sides(assets[place])):
-        raise_if_stopped(stop)
-        if sides:
-            yield assets[place], sides
-
-
-def _collect_sides(
-    found: Iterable[tuple[str, list[Floats] | str]], places: Mapping[str, int], lost: dict[str, str]
-) -> Iterator[tuple[int, list[Floats]]]:
-    """What was found of each asset, by its place; why that of some was not found goes to `lost`."""
-    for asset, rows in found:
-        if isinstance(rows, str):
-            lost[asset] = rows
-        else:
-            yield places[asset], rows
+    def _keep_read(
+        self, found: Iterable[tuple[str, list[Floats] | str]], places: Mapping[str, tuple[int, object]]
+    ) -> Iterator[tuple[int, list[Floats]]]:
+        for asset, rows in found:
+            if isinstance(rows, str):
+                self._lost[asset] = rows
+            else:
+                yield places[asset][0], rows
 
 
 def _compute_isolated(

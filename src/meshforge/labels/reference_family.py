@@ -4,13 +4,14 @@ so that what is found of one does not depend on the others, nor on how many ther
 from __future__ import annotations
 
 import json
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import TypeVar
 
 from meshforge import batch
 from meshforge.geometry import PieceEngine
-from meshforge.label_model import AssetPieces, SpanModel, evidence_beside_rebuilt, model_family, pick_evenly
+from meshforge.label_model import AssetPieces, SpanModel, evidence_beside_rebuilt, model_family
 from meshforge.label_model.describe import describe_mesh, digest_mesh
 from meshforge.labels.family_comparison import Stage
 from meshforge.labels.spans import FinePieces, SpanReport, decompose_surfaces, find_pieces, is_given
@@ -107,6 +108,14 @@ def read_reference_family(
     for mesh in (*meshes.values(), *(mesh for own in pieces.values() for mesh in (own.pieces, own.regions))):
         describe_mesh(mesh)
     return ReferenceFamily(meshes, pieces, store.vocabulary, engine, lost)
+
+
+Item = TypeVar("Item")
+
+
+def pick_evenly(items: Sequence[Item], most: int) -> Sequence[Item]:
+    """Return the items in their order; of more than `most` so many, the first among them."""
+    return [items[place * len(items) // most] for place in range(most)] if len(items) > most else items
 
 
 def choose_labelled(files: Mapping[str, LabelFile], most: int = MOST_COMPARED) -> list[str]:

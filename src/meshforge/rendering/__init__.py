@@ -16,7 +16,7 @@ __getattr__, __all__ = export_lazily(
         ),
         "id_buffer": "ThumbnailPixels render_revealing render_thumbnail",
         "labeling.picture": "LabelingPicture",
-        "labeling.series": "draw_labeling_pictures hull_numbers",
+        "labeling.series": "draw_labeling_pictures",
         "picture": "render up_axis",
         "scene": "RenderMesh to_render_mesh",
         "turntable": "draw_turn encode_gif list_turns write_gif",

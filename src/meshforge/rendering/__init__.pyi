@@ -29,7 +29,6 @@ from meshforge.rendering.id_buffer import render_revealing as render_revealing
 from meshforge.rendering.id_buffer import render_thumbnail as render_thumbnail
 from meshforge.rendering.labeling.picture import LabelingPicture as LabelingPicture
 from meshforge.rendering.labeling.series import draw_labeling_pictures as draw_labeling_pictures
-from meshforge.rendering.labeling.series import hull_numbers as hull_numbers
 from meshforge.rendering.picture import render as render
 from meshforge.rendering.picture import up_axis as up_axis
 from meshforge.rendering.scene import RenderMesh as RenderMesh

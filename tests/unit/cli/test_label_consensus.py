@@ -128,7 +128,7 @@ def test_without_any_label_there_is_one_error_with_the_remedy(run: Run, tmp_path
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (("--with", "consensus", "--labels", "p"), "--labels names labels files, which --with consensus does not read"),
+        (("--with", "consensus", "--labels", "p"), "--labels is for --with file"),
         (("--with", "sources", "--pattern", "a=b"), "--pattern is for --with names and --with file"),
         (("--with", "consensus", "--model", "x"), "--model is for --with vlm"),
     ],

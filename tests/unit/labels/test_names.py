@@ -9,7 +9,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from meshforge.common import UsageError
-from meshforge.labels.names.label_by_names import HullNames, NameMatch, find_pattern, match_names, pattern_of
+from meshforge.labels.names.label_by_names import HullNames, NameMatch, match_names, pattern_of
 from meshforge.labels.names.words import (
     EXACT,
     common,
@@ -241,11 +241,3 @@ texts = st.text("abAB*?[]!-_.\n", max_size=8)
 def test_globs_fit_whole_names_whatever_their_case(pattern: str, name: str) -> None:
     assume(not (pattern.startswith("/") and pattern.endswith("/")))
     assert pattern_of(pattern, "leg").matches(name) == fnmatchcase(name.lower(), pattern.lower())
-
-
-@given(st.lists(texts, max_size=4), texts)
-def test_the_first_pattern_that_fits_wins(patterns: list[str], name: str) -> None:
-    made = [pattern_of(text, str(k)) for k, text in enumerate(patterns)]
-    fits = [k for k, pattern in enumerate(made) if pattern.matches(name)]
-    found = find_pattern(name, made)
-    assert (int(found.label) if found else None) == (fits[0] if fits else None)

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from meshforge.common import UsageError
 from meshforge.formats import load
 from meshforge.geometry import Box, Floats, Ints, Pose, Sphere, convex_hull
-from meshforge.rendering import LabelingPicture, draw_labeling_pictures, encode_png, hull_numbers
+from meshforge.rendering import LabelingPicture, draw_labeling_pictures, encode_png
 from meshforge.rendering.camera import Camera
 from meshforge.rendering.labeling.page import head_height
 from meshforge.rendering.labeling.picture import LabelingCanvas
@@ -116,11 +116,6 @@ def test_a_hull_too_thin_for_any_ray_is_numbered_all_the_same() -> None:
 def test_no_hulls_no_pictures() -> None:
     assert draw_labeling_pictures(SymbolicMesh(())) == ()
     assert draw_labeling_pictures(table(), hulls=()) == ()
-    assert hull_numbers(SymbolicMesh(())) == {}
-
-
-def test_numbers_are_indices() -> None:
-    assert hull_numbers(table()) == {"left": 0, "right": 1, "leg0": 2, "leg1": 3, "knob": 4}
 
 
 def slabs(mesh: SymbolicMesh, camera: Camera, middle: Floats, unit: float) -> Ints:
@@ -207,14 +202,6 @@ def test_a_picture_from_close_up_has_the_whole_in_a_corner_which_hides_what_is_b
     corner = pixels(shot.marked)[head_height(512) : head_height(512) + side, -side:]
     assert corner.min() < 0.2, "a frame marks the place"
     assert np.ptp(corner[:, side // 4], axis=1).max() < 0.1, "the large cube is pale there"
-
-
-def test_pictures_are_no_more_than_asked_for_where_all_is_seen() -> None:
-    mesh = scattered(30)
-    for most in (1, 2, 4):
-        taken = draw_labeling_pictures(mesh, most=most, size=SMALL)
-        assert len(in_place(taken)) <= most
-        assert in_place(taken)[0] is taken[0]
 
 
 def test_the_first_picture_is_from_above_a_corner() -> None:

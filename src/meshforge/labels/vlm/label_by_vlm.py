@@ -21,7 +21,7 @@ from meshforge.symbolic import GIVEN_SOURCES, SymbolicMesh
 
 
 @dataclass(frozen=True, slots=True)
-class _DrawnAsset:
+class _AssetQuestions:
     """What is asked about an asset. hulls: digests by name, in order; wanted: the hulls whose labels may change.
 
     error: why it cannot be read or drawn.
@@ -34,25 +34,27 @@ class _DrawnAsset:
     error: str | None = None
 
 
-def _draw_assets(store: Store, config: PromptConfig, execution: ExecutionOptions) -> Generator[_DrawnAsset, None, None]:
+def _draw_assets(
+    store: Store, config: PromptConfig, execution: ExecutionOptions
+) -> Generator[_AssetQuestions, None, None]:
     """All assets of a project, in their order, as soon as they are drawn; some are drawn ahead of the others."""
     assets = store.assets()
     items = list(zip(assets, store.asset_files(assets), strict=True))
     with closing(execute(partial(_draw, config), items, execution)) as work:
         for asset, found in zip(assets, work, strict=True):
             if isinstance(found, WorkerFailure):
-                found = _DrawnAsset(asset, error=f"{store.path(asset)}: {found.why}")
+                found = _AssetQuestions(asset, error=f"{store.path(asset)}: {found.why}")
             yield found
 
 
-def _draw(config: PromptConfig, item: tuple[str, AssetFiles]) -> _DrawnAsset:
+def _draw(config: PromptConfig, item: tuple[str, AssetFiles]) -> _AssetQuestions:
     asset, place = item
     try:
         mesh = place.read_mesh()
         wanted = tuple(hull.name for hull in mesh.hulls if hull.source not in GIVEN_SOURCES)
-        return _DrawnAsset(asset, hull_digests(mesh), wanted, tuple(build_questions(mesh, wanted, config, asset)))
+        return _AssetQuestions(asset, hull_digests(mesh), wanted, tuple(build_questions(mesh, wanted, config, asset)))
     except Exception as error:  # one asset that cannot be drawn must not cost the others their labels
-        return _DrawnAsset(asset, error=describe_error(error, asset))
+        return _AssetQuestions(asset, error=describe_error(error, asset))
 
 
 def check_vlm_settings(settings: VlmSettings, vocabulary: Sequence[str], typed: Collection[str] = ()) -> None:
@@ -104,7 +106,7 @@ class VlmLabeler(Labeler):
 
     def _ask(self, family: LabelFamily, config: PromptConfig) -> Generator[AssetLabels, None, None]:
         store, stop = family.store, family.execution.stop or (lambda: False)
-        pending, reached = dict[str, tuple[_DrawnAsset, OpenAnswers]](), set[str]()
+        pending, reached = dict[str, tuple[_AssetQuestions, OpenAnswers]](), set[str]()
         with _open_asker(store, config, replace(family.execution, stop=None), stop) as (client, asker, drawn):
 
             def finish(assets: Iterable[str]) -> Iterator[AssetLabels]:
@@ -124,7 +126,7 @@ class VlmLabeler(Labeler):
         self.result = VlmResult(client.usage, unasked, ended, client.is_blind)
 
 
-def _read_answers(store: Store, client: Client, drawn: _DrawnAsset, pending: OpenAnswers) -> AssetLabels | None:
+def _read_answers(store: Store, client: Client, drawn: _AssetQuestions, pending: OpenAnswers) -> AssetLabels | None:
     """The labels of an asset when all its answers are there; None where asking ended before any."""
     if drawn.error:
         return AssetLabels(drawn.asset, error=drawn.error)
@@ -141,7 +143,7 @@ def _read_answers(store: Store, client: Client, drawn: _DrawnAsset, pending: Ope
 @contextmanager
 def _open_asker(
     store: Store, config: PromptConfig, execution: ExecutionOptions, stop: Callable[[], bool] = lambda: False
-) -> Iterator[tuple[Client, MeshAsker, Iterator[_DrawnAsset]]]:
+) -> Iterator[tuple[Client, MeshAsker, Iterator[_AssetQuestions]]]:
     """What asks about a project, and its assets as they are drawn."""
     settings = config.settings
     client = Client(Endpoint(settings), store.layout.vlm, max_cost=settings.max_cost, stop=stop)

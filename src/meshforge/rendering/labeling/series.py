@@ -18,9 +18,7 @@ from meshforge.symbolic import SymbolicMesh
 
 LABELING_SIZES = range(256, 4097)
 _PREVIEW_PIXELS = 2.5  # pixels of a preview: fewer tell little
-_POOR_PIXELS = (
-    10 * LEAST_PIXELS
-)  # pixels: hulls that show fewer of them everywhere are drawn from close up, if pictures are left
+_POOR_PIXELS = 10 * LEAST_PIXELS  # hulls that show fewer everywhere are drawn from close up, if pictures are left
 
 _PUSH = 1.2  # how far hulls are drawn apart
 _NEAR = 0.12  # hulls this near each other, as a share of the diagonal, can share a picture from close up
@@ -29,15 +27,10 @@ _CLOSE = 0.6  # a picture is from close up if it holds at most this share of the
 _FEW, _EXPLODED = 0.85, 0.81  # what a picture of some hulls only, or of moved ones, is worth beside one of all in place
 
 
-def hull_numbers(mesh: SymbolicMesh) -> Mapping[str, int]:
-    """The number that stands on each hull, by name: its index in the mesh."""
-    return {hull.name: k for k, hull in enumerate(mesh.hulls)}
-
-
 def draw_labeling_pictures(
     mesh: SymbolicMesh, *, hulls: Collection[str] | None = None, most: int = 6, size: int = 1024, up: Up | None = None
 ) -> tuple[LabelingPicture, ...]:
-    """Views chosen so that each of `hulls`, by default all, is seen and numbered in at least one.
+    """Draw views chosen so that each of `hulls`, by default all, is seen and numbered in at least one, by its index.
 
     At most `most` of them show the mesh as it is, the most telling first. Hulls that none of these shows are shown
     from close up, alone among faint others, or with all hulls drawn apart, in further ones. Hulls beside `hulls` are
@@ -46,7 +39,7 @@ def draw_labeling_pictures(
     size: pixels along each side; up: the axis that points up, by default that of the mesh. Same input, same pictures.
     Raises UsageError for hulls that are not there, and for an impossible number or size of pictures.
     """
-    names = hull_numbers(mesh)
+    names = mesh.index
     picked = set(names if hulls is None else hulls)
     _check_arguments(names, picked, most, size)
     subject = LabelingSubject(mesh, tuple(k for name, k in names.items() if name in picked), up_axis(mesh, up))
