@@ -160,7 +160,8 @@ def _replace_visuals(flat: compiler.FlatText, spec: mujoco.MjSpec, all_visuals: 
     names = {geom.name for geom in geoms}
     for pair in [pair for pair in spec.pairs if not names >= {pair.geomname1, pair.geomname2}]:
         spec.delete(pair)
-    infos, (first_group, last_group) = {}, spec.compiler.inertiagrouprange
+    infos: dict[str, bool] = {}
+    first_group, last_group = spec.compiler.inertiagrouprange
     for geom in geoms:
         if geom.meshname and not collides[id(geom)] and (all_visuals or geom.meshname in missing):
             weighs = geom.density > 0 if isnan(geom.mass) else geom.mass > 0
