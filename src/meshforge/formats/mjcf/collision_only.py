@@ -68,7 +68,11 @@ def strip_to_collision(tree: MjcfTree, refusal: AssetError, masses: Literal["fix
     last, repaired = refusal, _repair_defaults(tree)
     attempts: list[tuple[bool, _Masses]] = [(False, "authored"), (True, "authored"), (True, masses)]
     for all_visuals, of_masses in attempts:
-        flat = compiler.flatten(repaired, lambda node, of_masses=of_masses: _keep_needed(node, of_masses))
+
+        def keep(node: MjcfNode, masses: _Masses = of_masses) -> Mapping[str, str] | None:
+            return _keep_needed(node, masses)
+
+        flat = compiler.flatten(repaired, keep)
         try:
             spec = compiler.parse_text(flat)
         except AssetError as error:
