@@ -11,15 +11,11 @@ from typing import Literal, get_args
 
 from meshforge import geometry
 from meshforge.common import UsageError, join_names
-from meshforge.formats.assets_with_labels import labels_beside
-from meshforge.formats.mesh_reader import read_triangles
+from meshforge.formats import assets_with_labels, mesh_reader, registry, surface_parts
 from meshforge.formats.meshfile.surface import RawSurface, check_surfaces, stack_triangles
-from meshforge.formats.registry import format_of
 from meshforge.formats.segmentation.parts import SegmentationFile, read_parts
 from meshforge.formats.segmentation.reader import POINTS_MARK, points_beside
-from meshforge.formats.surface_parts import parts_of_surfaces, plain_part_name
 from meshforge.formats.trimesh_meshes import WHERE, TrimeshObject, list_surfaces
-from meshforge.geometry import CoacdSettings, DecomposeSettings, Pose, SurfaceParts
 from meshforge.symbolic import Asset, Body, Document, Geom, Surface, SymbolicMesh, unique_names
 
 DecomposeBy = Literal["whole", "parts", "labels"]
@@ -29,7 +25,7 @@ segmented points say."""
 
 def decompose(
     mesh: str | os.PathLike[str] | TrimeshObject,
-    settings: DecomposeSettings | None = None,
+    settings: geometry.DecomposeSettings | None = None,
     *,
     by: DecomposeBy = "whole",
     labels: SegmentationFile | None = None,
@@ -56,7 +52,7 @@ def decompose(
     notes: list[str] = []
     if by == "labels":
         surface = label_surface(path, surface, labels, notes.append)
-    engine, known = settings or CoacdSettings(), surface.parts
+    engine, known = settings or geometry.CoacdSettings(), surface.parts
     folder = geometry.cache_folder() if cache else None
     control = geometry.EngineControl(progress, timeout=timeout)
     if by != "whole" and known and known.is_divided:
@@ -78,7 +74,7 @@ def decompose(
         names = _number(["hull"] * len(hulls))
         notes += _describe_parts(known, by)
     geoms = tuple(Geom(name, "body", hull) for name, hull in zip(names, hulls, strict=True))
-    body = Body("body", Pose.identity())
+    body = Body("body", geometry.Pose.identity())
     return SymbolicMesh.of(Asset(path, "decomposition", (body,), geoms, Document(), notes=tuple(notes)))
 
 
@@ -86,11 +82,11 @@ def read_surface(mesh: str | os.PathLike[str] | TrimeshObject) -> tuple[Path, Su
     """The triangles of a mesh file, or of a mesh or scene of trimesh, with their parts. Raises AssetError."""
     surfaces: Sequence[RawSurface]
     if isinstance(mesh, str | os.PathLike):
-        path, surfaces = Path(mesh), read_triangles(Path(mesh))
+        path, surfaces = Path(mesh), mesh_reader.read_triangles(Path(mesh))
     else:
         path, surfaces = Path(WHERE), check_surfaces(list_surfaces(mesh), WHERE)
     vertices, faces = stack_triangles((surface.vertices, surface.faces) for surface in surfaces)
-    return path, Surface(vertices, faces, parts=parts_of_surfaces(surfaces))
+    return path, Surface(vertices, faces, parts=surface_parts.parts_of_surfaces(surfaces))
 
 
 def label_surface(
@@ -100,20 +96,20 @@ def label_surface(
 
     Raises UsageError where there is none, AssetError where they do not fit the surface.
     """
-    beside = points_beside(labels_beside(path))
+    beside = points_beside(assets_with_labels.labels_beside(path))
     file = labels or (SegmentationFile(beside) if beside else None)
     if file is None:
         name = f"{path.stem}{POINTS_MARK}.npz"
         remedy = f"Put them beside it, in {name} (or .ply), or name their file: --labels FILE."
         raise UsageError("no labels of points lie beside it", where=str(path), remedy=remedy)
-    up = format_of(path).up if path.is_file() else None
+    up = registry.format_of(path).up if path.is_file() else None
     (parts,) = read_parts([(surface.vertices, surface.faces)], file, up, note)
     return replace(surface, parts=parts)
 
 
 def name_hulls(parts: Sequence[str]) -> list[str]:
     """The names of hulls, each by its part and a number: `handle_0`; parts of one name are numbered together."""
-    return unique_names(_number([plain_part_name(part) for part in parts]))
+    return unique_names(_number([surface_parts.plain_part_name(part) for part in parts]))
 
 
 def _number(bases: Sequence[str]) -> list[str]:
@@ -127,7 +123,7 @@ def _number(bases: Sequence[str]) -> list[str]:
     return names
 
 
-def _describe_parts(known: SurfaceParts | None, by: DecomposeBy) -> list[str]:
+def _describe_parts(known: geometry.SurfaceParts | None, by: DecomposeBy) -> list[str]:
     """A note where parts were asked for and are not there, or are there and were not asked for."""
     names = list(dict.fromkeys(known.names[k] for k in known.numbers)) if known else []
     if by == "parts":

@@ -75,8 +75,8 @@ class ElementMaker(ABC):
         """The reference of a `<mesh>`."""
 
     @abstractmethod
-    def native_lines(self, shape: Shape) -> list[bytes] | None:
-        """The lines of a shape that the format has of its own, without its pose; None for others."""
+    def native_lines(self, shape: Shape) -> tuple[Pose, list[bytes]] | None:
+        """The pose of a shape that the format has of its own, and its lines without that; None for others."""
 
     @abstractmethod
     def mesh_lines(self, reference: str) -> list[bytes]:
@@ -108,11 +108,10 @@ class ElementMaker(ABC):
 
         lead: the blanks before an element without a template.
         """
-        shape, reference = geom.shape.move(root_t_link.inverse()), None
-        kind, pose = self.native_lines(shape), shape.pose if not isinstance(shape, Polytope) else Pose.identity()
-        if kind is None:
-            reference, pose = self._make_mesh(geom, shape, template), Pose.identity()
-            kind = self.mesh_lines(reference)
+        shape = geom.shape.move(root_t_link.inverse())
+        native = self.native_lines(shape)
+        reference = None if native else self._make_mesh(geom, shape, template)
+        pose, kind = native or (Pose.identity(), self.mesh_lines(reference or ""))
         if template is None:
             return OutputElement(geom.body, (geom.name,), text=self.build_collision(pose, kind, lead))
         edits = self.replace_geometry(template, pose, kind, reference)

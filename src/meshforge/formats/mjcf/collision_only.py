@@ -68,7 +68,11 @@ def strip_to_collision(tree: MjcfTree, refusal: AssetError, masses: Literal["fix
     last, repaired = refusal, _repair_defaults(tree)
     attempts: list[tuple[bool, _Masses]] = [(False, "authored"), (True, "authored"), (True, masses)]
     for all_visuals, of_masses in attempts:
-        flat = compiler.flatten(repaired, lambda node, of_masses=of_masses: _keep_needed(node, of_masses))
+
+        def keep(node: MjcfNode, masses: _Masses = of_masses) -> Mapping[str, str] | None:
+            return _keep_needed(node, masses)
+
+        flat = compiler.flatten(repaired, keep)
         try:
             spec = compiler.parse_text(flat)
         except AssetError as error:
@@ -160,7 +164,8 @@ def _replace_visuals(flat: compiler.FlatText, spec: mujoco.MjSpec, all_visuals: 
     names = {geom.name for geom in geoms}
     for pair in [pair for pair in spec.pairs if not names >= {pair.geomname1, pair.geomname2}]:
         spec.delete(pair)
-    infos, (first_group, last_group) = {}, spec.compiler.inertiagrouprange
+    infos: dict[str, bool] = {}
+    first_group, last_group = spec.compiler.inertiagrouprange
     for geom in geoms:
         if geom.meshname and not collides[id(geom)] and (all_visuals or geom.meshname in missing):
             weighs = geom.density > 0 if isnan(geom.mass) else geom.mass > 0

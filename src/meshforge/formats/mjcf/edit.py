@@ -9,11 +9,8 @@ from pathlib import Path
 from meshforge.common import AssetError, join_names
 from meshforge.formats import collision_pieces, element_edits
 from meshforge.formats.base import Mass, Output
-from meshforge.formats.mjcf import edit_check, references
-from meshforge.formats.mjcf.collision_only import strip_to_collision
-from meshforge.formats.mjcf.compiler import drop_scaling
+from meshforge.formats.mjcf import collision_only, compiler, edit_check, elements, references
 from meshforge.formats.mjcf.document import MjcfDocument, MjcfNode, MjcfTree, read_tree
-from meshforge.formats.mjcf.elements import inertial_attributes, tag
 from meshforge.formats.mjcf.geom_edits import GeomEdits
 from meshforge.formats.mjcf.model import MjcfModel, compile_tree
 from meshforge.formats.mjcf.new_geoms import NewGeoms
@@ -37,7 +34,7 @@ def write_mjcf(asset: Asset, document: MjcfDocument, name: str, mass: Mass) -> O
     if not collision_pieces.is_edited(asset, document.names):
         return _build_output(tree, [source.raw for source in tree.sources], {}, copies, notes, {})
     try:
-        before = compile_tree(tree, drop_scaling)
+        before = compile_tree(tree, compiler.drop_scaling)
     except AssetError:
         if not document.refusal:
             raise
@@ -52,7 +49,7 @@ def write_mjcf(asset: Asset, document: MjcfDocument, name: str, mass: Mass) -> O
 
 def _strip(tree: MjcfTree) -> MjcfModel:
     refusal = AssetError("MuJoCo refuses its collision geometry", where=str(tree.main.path))
-    return strip_to_collision(tree, refusal, masses="fixed")
+    return collision_only.strip_to_collision(tree, refusal, masses="fixed")
 
 
 def _build_output(
@@ -165,7 +162,7 @@ class MjcfEdit:
         tree = read_tree(main, files | {main.parent / place: data for place, data in self.maker.files.made.items()})
         if amiss := [fault for fault in tree.faults if fault not in self.tree.faults]:
             raise AssetError(amiss[0], where=str(main))
-        return compile_tree(tree, drop_scaling) if self.before.is_whole else _strip(tree)
+        return compile_tree(tree, compiler.drop_scaling) if self.before.is_whole else _strip(tree)
 
     def _find_changed_bodies(self) -> list[int]:
         """The bodies with a mass whose geoms change."""
@@ -201,7 +198,7 @@ class BodyMasses:
                 )
             model = self.before.model
             numbers = model.body_ipos[body], model.body_iquat[body], model.body_inertia[body]
-            text = tag("inertial", inertial_attributes(float(model.body_mass[body]), *numbers))
+            text = elements.tag("inertial", elements.inertial_attributes(float(model.body_mass[body]), *numbers))
             if id(node) not in self._texts and not node.element.children:
                 self.geoms.ends[self.before.body_names[body]].insert(0, element_edits.OutputElement("", (), text=text))
             self._texts.setdefault(id(node), (node, text))

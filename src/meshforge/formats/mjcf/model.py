@@ -16,7 +16,6 @@ from meshforge.formats.libraries import mujoco
 from meshforge.formats.mjcf.compiler import Compilation, KeepAttributes, compile_text, flatten
 from meshforge.formats.mjcf.document import MjcfTree, body_names, geom_names
 from meshforge.formats.xml import parse_numbers
-from meshforge.geometry import Pose, rotation_of_quaternion
 from meshforge.symbolic import Coupling, Geom, Inertial, Joint, JointKind, Mechanism, Mentions, NonConvexPiece, Surface
 
 _KINDS: tuple[JointKind, ...] = ("floating", "ball", "prismatic", "revolute")  # in the order of MuJoCo's numbers
@@ -56,7 +55,7 @@ class MjcfModel:
         touching = (self.model.geom_contype != 0) | (self.model.geom_conaffinity != 0)
         touching[np.concatenate([self.model.pair_geom1, self.model.pair_geom2])] = True
         self.collides: list[bool] = touching.tolist()
-        self.body_poses = [Pose.identity()]
+        self.body_poses = [geometry.Pose.identity()]
         for k in range(1, self.model.nbody):  # in the reference configuration no joint displaces anything
             parent = self.body_poses[int(self.model.body_parentid[k])]
             self.body_poses.append(parent @ _pose(self.model.body_quat[k], self.model.body_pos[k]))
@@ -135,21 +134,21 @@ class MjcfModel:
                 return geometry.Ellipsoid(pose, size)
         return None
 
-    def mesh_surface(self, mesh: int, root_t_mesh: Pose) -> Surface:
+    def mesh_surface(self, mesh: int, root_t_mesh: geometry.Pose) -> Surface:
         """The triangles of a mesh in the root frame."""
         model = self.model
         first, count = int(model.mesh_faceadr[mesh]), int(model.mesh_facenum[mesh])
         faces = model.mesh_face[first : first + count].astype(np.int64)
         return Surface(root_t_mesh.apply(self._mesh_vertices(mesh)), faces)
 
-    def mesh_frame(self, mesh: int) -> Pose:
+    def mesh_frame(self, mesh: int) -> geometry.Pose:
         """authored_T_kept: from the frame in which MuJoCo keeps a mesh's vertices to that of its scaled file."""
         return _pose(self.model.mesh_quat[mesh], self.model.mesh_pos[mesh])
 
-    def _read_hull(self, mesh: int, pose: Pose) -> CollisionPiece:
+    def _read_hull(self, mesh: int, pose: geometry.Pose) -> CollisionPiece:
         """The hull of a mesh, made once for all geoms that share it; that of MuJoCo's vertices under `maxhullvert`."""
         if mesh not in self._hulls:
-            own, corners = self.mesh_surface(mesh, Pose.identity()), self._mesh_vertices(mesh)
+            own, corners = self.mesh_surface(mesh, geometry.Pose.identity()), self._mesh_vertices(mesh)
             if (start := int(self.model.mesh_graphadr[mesh])) >= 0:
                 count = int(self.model.mesh_graph[start])
                 first = start + 2 + count  # after the numbers of vertices and faces, and each vertex's first edge
@@ -255,8 +254,8 @@ def _read_inertial(compiled: MjcfModel, k: int) -> Inertial | None:
     return Inertial(compiled.body_names[k], mass, frame.translation, inertia)
 
 
-def _pose(quaternion: geometry.Floats, position: geometry.Floats) -> Pose:
-    return Pose(rotation_of_quaternion(quaternion), position)
+def _pose(quaternion: geometry.Floats, position: geometry.Floats) -> geometry.Pose:
+    return geometry.Pose(geometry.rotation_of_quaternion(quaternion), position)
 
 
 def _contact_attributes(model: mujoco.MjModel, geom: int) -> tuple[tuple[str, str], ...]:

@@ -13,8 +13,7 @@ import numpy as np
 
 from meshforge.common import AssetError, relative_name
 from meshforge.formats import element_edits, mesh_output, xml
-from meshforge.formats.mjcf import references
-from meshforge.formats.mjcf.compiler import compile_model
+from meshforge.formats.mjcf import compiler, references
 from meshforge.formats.mjcf.document import MjcfNode, MjcfTree
 from meshforge.formats.mjcf.elements import MjcfShape, geom_attributes, mesh_geom_attributes, tag
 from meshforge.geometry import Pose, Shape, rotation_of_quaternion
@@ -233,11 +232,11 @@ class ElementContext:
         if not any(frames):
             return Pose.identity()
         units: dict[str, str] = {}
-        for compiler in self.tree.root.each("compiler"):
-            units |= {k: v for k, v in compiler.attributes.items() if k in ("angle", "eulerseq")}
+        for setting in self.tree.root.each("compiler"):
+            units |= {k: v for k, v in setting.attributes.items() if k in ("angle", "eulerseq")}
         opened = b"".join(tag("frame", one, closed=False) for one in frames)
         inside = tag("compiler", units), opened, b"</frame>" * len(frames)
         main = Path("frames.xml")
         text = b"<mujoco>%s<worldbody>%s<geom size='1'/>%s</worldbody></mujoco>" % inside
-        model = compile_model(main, {main: text})
+        model = compiler.compile_model(main, {main: text})
         return Pose(rotation_of_quaternion(model.geom_quat[0]), model.geom_pos[0])

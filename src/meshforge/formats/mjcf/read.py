@@ -13,8 +13,7 @@ import numpy as np
 from meshforge.common import AssetError, MeshForgeError, join_names, plain_path, pluralize
 from meshforge.formats.libraries import mujoco
 from meshforge.formats.mesh_reader import READABLE_MESH_SUFFIXES, read_content
-from meshforge.formats.mjcf import references
-from meshforge.formats.mjcf.collision_only import strip_to_collision
+from meshforge.formats.mjcf import collision_only, references
 from meshforge.formats.mjcf.document import MjcfDocument, MjcfNode, MjcfTree, read_tree
 from meshforge.formats.mjcf.model import MjcfModel, compile_tree, read_mechanism
 from meshforge.formats.visuals import Visual, VisualSurfaces
@@ -52,7 +51,7 @@ def read_mjcf(path: Path, files: Mapping[Path, bytes] | None = None) -> Asset:
     except AssetError as error:
         place = Path(error.where or "").name
         refusal = f"{error.problem} ({place})" if ":" in place else error.problem
-        compiled = strip_to_collision(tree, error)
+        compiled = collision_only.strip_to_collision(tree, error)
     geoms, non_convex = compiled.read_pieces()
     return Asset(
         path=path,

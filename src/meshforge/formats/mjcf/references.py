@@ -122,7 +122,7 @@ def list_references(tree: MjcfTree, seen: set[Path] | None = None) -> Iterator[F
 
 def find_files(tree: MjcfTree) -> tuple[tuple[Path, ...], tuple[str, ...]]:
     """The files but for the main one, with their companions, in order of mention; and references without a file."""
-    trees, found, missing = [tree], [], dict[str, None]()
+    trees, found, missing = [tree], list[Path](), dict[str, None]()
     for reference in list_references(tree):
         if not reference.is_there:
             missing[reference.text] = None

@@ -96,9 +96,11 @@ class SdfElementMaker(element_edits.ElementMaker):
     def reference_of(self, mesh: xml.Element) -> str:
         return document.mesh_uri(mesh)
 
-    def native_lines(self, shape: Shape) -> list[bytes] | None:
+    def native_lines(self, shape: Shape) -> tuple[Pose, list[bytes]] | None:
         is_known = self.version >= document.ROUND_SHAPES or not isinstance(shape, Capsule | Ellipsoid)
-        return elements.native_lines(shape) if isinstance(shape, elements.SdfShape) and is_known else None
+        if isinstance(shape, elements.SdfShape) and is_known:
+            return shape.pose, elements.native_lines(shape)
+        return None
 
     def mesh_lines(self, reference: str) -> list[bytes]:
         return elements.mesh_lines(reference)

@@ -8,8 +8,7 @@ from pathlib import Path
 
 from meshforge.common import join_names, plain_path, pluralize
 from meshforge.formats import base, collision_pieces, link_reader, references
-from meshforge.formats.sdf import document, models, shapes
-from meshforge.formats.sdf.frames import WORLD, read_floats, text_of
+from meshforge.formats.sdf import document, frames, models, shapes
 from meshforge.formats.sdf.mechanism import compute_masses, has_computed_mass, read_joints, read_masses
 from meshforge.formats.xml import Element, parse_numbers
 from meshforge.geometry import Floats, Pose
@@ -29,7 +28,7 @@ def read_sdf(path: Path, options: base.ReadOptions) -> Asset:
     numbers = {body: link.scope.source.number for body, link in links.items()}
     own = {n: e for e, one in zip(elements, collisions.authored, strict=True) for n in one.names}
     joints, notes = read_joints(tree)
-    world = [Body(WORLD, Pose.identity())] if any(joint.parent == WORLD for joint in joints) else []
+    world = [Body(frames.WORLD, Pose.identity())] if any(joint.parent == frames.WORLD for joint in joints) else []
     masses = (*read_masses(tree), *compute_masses(tree, own, collisions.geoms, collisions.non_convex))
     files, missing = find_files(tree.sources)
     return Asset(
@@ -73,7 +72,9 @@ class _SdfReader(link_reader.LinkReader):
         return shapes.collada_unit_of(path)
 
     def read_scale(self, mesh: Element, where: str) -> tuple[Floats, str]:
-        return read_floats(mesh, "scale", where, (1.0, 1.0, 1.0)), f"<scale>{text_of(mesh, 'scale')}</scale>"
+        return frames.read_floats(
+            mesh, "scale", where, (1.0, 1.0, 1.0)
+        ), f"<scale>{frames.text_of(mesh, 'scale')}</scale>"
 
     def read_shape(self, element: Element, kind: Element, pose: Pose, where: str) -> collision_pieces.CollisionPiece:
         geometry = element.first("geometry")
@@ -88,20 +89,20 @@ class _SdfReader(link_reader.LinkReader):
         return super().place_mesh(kind, path, linear, offset)
 
     def read_color(self, visual: Element, where: str) -> Rgba | None:
-        found = parse_numbers(text_of(visual.first("material"), "diffuse"))
+        found = parse_numbers(frames.text_of(visual.first("material"), "diffuse"))
         if not found or len(found) not in (3, 4):
             return None
         red, green, blue, alpha = (min(1.0, max(0.0, share)) for share in [*found, 1.0][:4])
-        through = parse_numbers(text_of(visual, "transparency")) or [0.0]
+        through = parse_numbers(frames.text_of(visual, "transparency")) or [0.0]
         return red, green, blue, alpha * (1.0 - min(1.0, max(0.0, through[0])))
 
     def identify_shape(self, element: Element, kind: Element) -> object:
         sizes = tuple((child.tag, " ".join(child.text.split())) for child in kind.children)
-        return sizes, " ".join(text_of(element, "pose").split())
+        return sizes, " ".join(frames.text_of(element, "pose").split())
 
     def material_of(self, element: Element) -> str:
         material = element.first("material")
-        return text_of(material.first("script") if material else None, "name")
+        return frames.text_of(material.first("script") if material else None, "name")
 
 
 def _collect_notes(tree: models.ModelTree, collisions: Sequence[Element]) -> Iterator[str]:

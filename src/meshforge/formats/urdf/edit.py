@@ -170,9 +170,10 @@ class UrdfElementMaker(element_edits.ElementMaker):
     def reference_of(self, mesh: xml.Element) -> str:
         return mesh.attributes.get("filename", "")
 
-    def native_lines(self, shape: Shape) -> list[bytes] | None:
-        is_known = isinstance(shape, UrdfShape) or (self.capsules and isinstance(shape, Capsule))
-        return [native_tag(shape)] if is_known else None
+    def native_lines(self, shape: Shape) -> tuple[Pose, list[bytes]] | None:
+        if isinstance(shape, UrdfShape) or (self.capsules and isinstance(shape, Capsule)):
+            return shape.pose, [native_tag(shape)]
+        return None
 
     def mesh_lines(self, reference: str) -> list[bytes]:
         return [mesh_tag(reference)]

@@ -101,9 +101,11 @@ class _UrdfReader(link_reader.LinkReader):
 
 
 def _read_rgba(color: Element | None, where: str) -> Rgba | None:
+    if color is None:
+        return None
     try:
-        red, green, blue, alpha = document.read_floats(color, "rgba", 4, where).tolist() if color else ()
-    except (AssetError, ValueError):
+        red, green, blue, alpha = document.read_floats(color, "rgba", 4, where).tolist()
+    except AssetError:
         return None
     return red, green, blue, alpha
 
