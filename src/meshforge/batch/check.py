@@ -42,11 +42,11 @@ class CheckInputs:
 
     @staticmethod
     def of(files: Iterable[Path], asked: str) -> CheckInputs:
-        """What there is by now."""
+        """Return what there is by now."""
         return CheckInputs({str(path): file_digest(path) for path in files}, text_digest(asked))
 
     def is_current(self, job: AssetJob, asked: str) -> bool:
-        """Whether all is as it was, without reading the asset."""
+        """Return whether all is as it was, without reading the asset."""
         own = [*source_files(job.path), *([job.labels] if job.labels else [])]
         if self.request != text_digest(asked) or not all(str(path) in self.files for path in own):
             return False
@@ -76,7 +76,7 @@ class CheckJournal:
         self._stream.truncate(end)
 
     def read_row(self, asset: str) -> dict[str, Any]:
-        """What is kept of an asset."""
+        """Return what is kept of an asset."""
         self._stream.seek(self._places[asset])
         found: dict[str, Any] = json.loads(self._stream.readline())
         return found
@@ -91,7 +91,7 @@ class CheckJournal:
 
 @contextmanager
 def open_journal(path: Path) -> Iterator[CheckJournal]:
-    """The journal in a file, made if absent, for the time of a `with` block; one run at a time."""
+    """Open the journal in a file, made if absent, for the time of a `with` block; one run at a time."""
     with hold_lock(path, str(path), wait=0), path.open("r+b") as stream:
         yield CheckJournal(path, stream)
 
@@ -135,7 +135,7 @@ class CheckOutcome:
         return self.examination is None or self.examination.has_failed
 
     def to_json(self) -> dict[str, Any]:
-        """The examination as JSON-able data; in SI units, volumes in litres."""
+        """Return the examination as JSON-able data; in SI units, volumes in litres."""
         rows = [
             {"rule": f.rule, "severity": f.severity, "hulls": list(f.hulls), "message": f.message, "remedy": f.remedy}
             for f in (self.examination.findings if self.examination else ())
@@ -151,7 +151,7 @@ class CheckOutcome:
 
 
 def check_asset(path: Path, base: Path, labels: Path | None, task: CheckTask) -> CheckOutcome:
-    """The examination of an asset, which never raises for what is wrong with it; findings are those after fixes.
+    """Return the examination of an asset, which never raises for what is wrong with it; findings are those after fixes.
 
     base: the common folder of the assets. Raises UsageError for an engine that is not known.
     """
@@ -185,7 +185,7 @@ def check_assets(
     *,
     known: Mapping[str, CheckInputs] = MappingProxyType({}),
 ) -> Iterator[CheckOutcome | None]:
-    """The examinations of many assets, in their order, in worker processes.
+    """Yield the examinations of many assets, in their order, in worker processes.
 
     One that crashes, takes too long or too much memory is an error of its own. known: what earlier examinations
     depended on, by id; None for an asset of which that is as it was.

@@ -48,7 +48,7 @@ class AssetSet:
         return {asset_id(path, self.base_of(path)): path for path in self.paths}
 
     def choose(self, only: Collection[str] | None) -> Mapping[str, Path]:
-        """The assets of some ids, in order; None for all."""
+        """Return the assets of some ids, in order; None for all."""
         if only is None:
             return self.ids
         some = frozenset(only)
@@ -76,7 +76,7 @@ class AssetSet:
         return frozenset(path.suffix for path in self.paths)
 
     def base_of(self, path: Path) -> Path:
-        """The folder that the id of an asset counts from."""
+        """Return the folder that the id of an asset counts from."""
         is_own = self.home is not None and path.is_relative_to(self.added) and not path.is_relative_to(self.base)
         return self.home if self.home is not None and is_own else self.base
 
@@ -87,7 +87,7 @@ class AssetSet:
 
 
 def expand(patterns: Iterable[str | Path], root: Path | None = None) -> AssetSet:
-    """The assets that files, folders and globs (`**` too) name; relative ones count from `root`, or from here.
+    """Return the assets that files, folders and globs (`**` too) name; relative ones count from `root`, or from here.
 
     A folder stands for all assets in it, at any depth: its URDF, MJCF and SDF, or where there are none its glTF and
     mesh files. A folder of nothing but mesh files of one hull each is one asset of pieces.
@@ -105,12 +105,12 @@ def expand(patterns: Iterable[str | Path], root: Path | None = None) -> AssetSet
 
 
 def asset_id(path: Path, base: Path) -> str:
-    """The id of an asset: its path below the common folder, with forward slashes."""
+    """Return the id of an asset: its path below the common folder, with forward slashes."""
     return to_text(relative_name(path, base))
 
 
 def common_folder(folders: Iterable[Path]) -> Path:
-    """The deepest folder that holds all of them. Raises UsageError where there is none (several drives)."""
+    """Return the deepest folder that holds all of them. Raises UsageError where there is none (several drives)."""
     folders = list(folders)
     try:
         return Path(os.path.commonpath(folders))
@@ -161,7 +161,7 @@ def _base_folder(pattern: str, root: Path) -> Path:
 
 
 def find_assets_in(folder: Path) -> list[Path]:
-    """The assets in a folder, at any depth, sorted.
+    """Return the assets in a folder, at any depth, sorted.
 
     A tree with descriptions (URDF, MJCF, SDF) has these as its assets, its mesh files being their parts.
     Otherwise every file is an asset, except that a folder of several mesh files of one hull each is one asset of
@@ -182,7 +182,8 @@ def find_assets_in(folder: Path) -> list[Path]:
 
 
 def is_own(path: Path, root: Path) -> bool:
-    """Whether MeshForge wrote it: below `root`, it lies in an output of `apply` or in a folder that a project keeps."""
+    """Return whether MeshForge wrote it: below `root`, it lies in an output of `apply` or in a folder that a project
+    keeps."""
     inside = path.relative_to(root).parts if path.is_relative_to(root) else ()
     above = [root.joinpath(*inside[:depth]) for depth in range(len(inside) + 1)]
     kept = (step in OWN_FOLDERS and (folder / SETTINGS).is_file() for folder, step in zip(above, inside, strict=False))

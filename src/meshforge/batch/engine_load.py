@@ -33,7 +33,7 @@ _BULLET_HEAD = re.compile(r"b3(?:Warning|Error|Printf)\[[^\]]*\]:\n")
 def examine_file(
     path: Path | None, mesh: SymbolicMesh, wanted: CheckOptions, before: SymbolicMesh | None
 ) -> Examination:
-    """The examination of a mesh, and what the engine whose limits are asked for says of its file.
+    """Return the examination of a mesh, and what the engine whose limits are asked for says of its file.
 
     path: of the file as it is now, None for a mesh that no file is of; before: the mesh that it was edited from.
     Raises UsageError for an unknown engine.
@@ -50,13 +50,14 @@ def _name_of(path: Path | None) -> str:
 
 
 def engine_version(engine: str | None) -> str:
-    """The version of the program that is asked for an engine, empty where none is."""
+    """Return the version of the program that is asked for an engine, empty where none is."""
     program = _PROGRAMS.get(engine or "")
     return f" {program} {version(program)}" if program and find_spec(program) else ""
 
 
 def try_mujoco(engine: str, path: Path | None, mesh: SymbolicMesh) -> EngineLoad:
-    """What MuJoCo says: of an MJCF or a URDF as it is, of any other file as `meshforge convert` writes it as MJCF."""
+    """Return what MuJoCo says: of an MJCF or a URDF as it is, of any other file as `meshforge convert` writes it as
+    MJCF."""
     form = format_of(path).name if path else ""
     own = path is not None and form in _OWN_FORMATS["mujoco"]
     try:
@@ -104,7 +105,7 @@ def _is_taken_converted(mesh: SymbolicMesh) -> bool:
 
 
 def try_bullet(engine: str, path: Path | None, mesh: SymbolicMesh) -> EngineLoad:
-    """What PyBullet says of a URDF, in a process of its own, since it may crash; of other files nothing."""
+    """Return what PyBullet says of a URDF, in a process of its own, since it may crash; of other files nothing."""
     if path is None or format_of(path).name not in _OWN_FORMATS["bullet"]:
         return EngineLoad(engine, _name_of(path))
     if find_spec("pybullet") is None:

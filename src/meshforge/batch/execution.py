@@ -24,7 +24,7 @@ _MOST_RETRIES = 5  # nodes that may die under one chunk
 def execute(
     function: Callable[[Item], Result], items: Sequence[Item], options: ExecutionOptions
 ) -> Generator[Result | WorkerFailure, None, None]:
-    """The results of `function` on the items, in their order, from wherever `options` has them computed.
+    """Return the results of `function` on the items, in their order, from wherever `options` has them computed.
 
     Workers of this machine share its memory evenly where no bound is given. Raises as `run_isolated` and
     `run_on_cluster`.
@@ -40,7 +40,7 @@ def execute(
 def run_on_cluster(
     function: Callable[[Item], Result], items: Sequence[Item], options: ExecutionOptions = processes.UNBOUNDED
 ) -> Generator[Result | WorkerFailure, None, None]:
-    """The results of `function` on the items, in their order, computed on all nodes of a cluster.
+    """Yield the results of `function` on the items, in their order, computed on all nodes of a cluster.
 
     The cluster is that of RAY_ADDRESS, else one that runs on this machine, else one that is started here for as long as
     this takes. MeshForge and the files of the assets have to be on every node, under the same paths. Here `workers` are

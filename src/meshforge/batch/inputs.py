@@ -14,7 +14,7 @@ from meshforge.formats import plugin_of_suffix
 
 
 def inputs_of(task: ApplyTask, job: AssetJob, files: dict[str, str]) -> provenance.OutputInputs:
-    """The digests of all that decides the output of a job; files: those of the asset."""
+    """Return the digests of all that decides the output of a job; files: those of the asset."""
     options, edits = task.options, (one.action for one in job.manual_edits)
     names = {*task.program.templates, *(name for action in edits for name in action.templates)}
     written = {"to": options.to, "names": options.names, "collision": options.collision}

@@ -78,7 +78,7 @@ class ApplyTask:
 
 
 def make_jobs(found: AssetSet, labels: Path | None = None) -> tuple[AssetJob, ...]:
-    """A job for each asset, with its labels.
+    """Return a job for each asset, with its labels.
 
     labels: a labels file for a single asset, or a folder that mirrors the assets' (`ID.json` or the name it would have
     beside the asset); without it, the file beside each asset, if present.
@@ -94,7 +94,7 @@ def make_jobs(found: AssetSet, labels: Path | None = None) -> tuple[AssetJob, ..
 
 
 def find_labels_file(path: Path, labels: Path | None, base: Path) -> Path | None:
-    """The labels file of one asset, None where it has none; the arguments are those of `make_jobs`."""
+    """Return the labels file of one asset, None where it has none; the arguments are those of `make_jobs`."""
     if labels is None:
         beside = formats.labels_beside(path)
         return beside if beside.is_file() else None
@@ -108,12 +108,12 @@ def find_labels_file(path: Path, labels: Path | None, base: Path) -> Path | None
 
 
 def template_folders(program: Path) -> tuple[Path, ...]:
-    """Where the templates of a program file are looked for: beside it, then in the folder templates/ there."""
+    """Return where the templates of a program file are looked for: beside it, then in the folder templates/ there."""
     return program.parent, program.parent / "templates"
 
 
 def load_templates(program: language.Program, folders: Sequence[Path]) -> dict[str, language.Template]:
-    """The templates that a program names, by the path it writes, from the first folder that has each.
+    """Return the templates that a program names, by the path it writes, from the first folder that has each.
 
     Raises ProgramError: a template is in none of the folders, holds no hull, or is not convex.
     """
@@ -121,12 +121,12 @@ def load_templates(program: language.Program, folders: Sequence[Path]) -> dict[s
 
 
 def load_named_templates(names: Iterable[str], folders: Sequence[Path]) -> dict[str, language.Template]:
-    """The templates of these names; from the first folder that has each."""
+    """Return the templates of these names; from the first folder that has each."""
     return {name: read_template(_find_template(name, folders), name) for name in names}
 
 
 def read_template(path: Path, name: str) -> language.Template:
-    """The template in a file. Raises ProgramError, naming it, where it holds no hull or is not convex."""
+    """Return the template in a file. Raises ProgramError, naming it, where it holds no hull or is not convex."""
     asset = formats.read(path)
     if asset.non_convex:
         out = path.with_name(f"{path.stem}_hulls{path.suffix}")
@@ -204,7 +204,7 @@ def plan_run(jobs: Iterable[AssetJob], out: Path | None) -> RunPlan:
 
 
 def format_size(size: int) -> str:
-    """Bytes as people say them: `3.2 MiB`."""
+    """Return bytes as people say them: `3.2 MiB`."""
     return f"{size / GIB:,.1f} GiB" if size >= GIB else f"{size / MIB:,.1f} MiB"
 
 

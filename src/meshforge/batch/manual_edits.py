@@ -20,18 +20,18 @@ class RuleSelection:
 
 
 def action_text_without_each(action: language.Action, label: str | None) -> str:
-    """What a rule does, in the language's text, whether to all hulls together or to each."""
+    """Return what a rule does, in the language's text, whether to all hulls together or to each."""
     return action_text(action.action if isinstance(action, language.Each) else action, label)
 
 
 def action_text(action: language.Action, label: str | None) -> str:
-    """An action as a rule has it after its arrow: `Add(+X, "knob.obj") as handle`."""
+    """Return an action as a rule has it after its arrow: `Add(+X, "knob.obj") as handle`."""
     return f"{action} as {language.show_label(label)}" if label else str(action)
 
 
 def selections_of(meant: Iterable[RuleSelection], program: language.Program) -> dict[int, frozenset[str]]:
-    """What rules of a program are to select on an asset, by their numbers; nothing where its rules do something else
-    than those that a person spoke of."""
+    """Return what rules of a program are to select on an asset, by their numbers; nothing where its rules do something
+    else than those that a person spoke of."""
     known = {one.rule: one for one in meant}
     actions = {
         number: action_text_without_each(rule.action, rule.label) for number, rule in enumerate(program.rules, 1)
@@ -42,7 +42,7 @@ def selections_of(meant: Iterable[RuleSelection], program: language.Program) -> 
 
 
 def selections_digest(meant: Iterable[RuleSelection]) -> str | None:
-    """The digest of what rules are to select, None where nobody said so."""
+    """Return the digest of what rules are to select, None where nobody said so."""
     lines = [f"{one.rule} {one.action} {sorted(one.select)}" for one in meant]
     return text_digest("\n".join(lines)) if lines else None
 
@@ -60,7 +60,7 @@ class ManualEdit:
         return f"{names} => {self.action}" + (f" as {language.show_label(self.label)}" if self.label else "")
 
     def find_problem(self, mesh: symbolic.SymbolicMesh) -> str | None:
-        """Why this edit cannot be replayed on a mesh, None where it can."""
+        """Return why this edit cannot be replayed on a mesh, None where it can."""
         for name, known in self.hulls:
             if name not in mesh.index:
                 return f"{name} is gone"
@@ -76,7 +76,7 @@ def replay_manual_edits(
     program: language.Program,
     templates: Mapping[str, language.Template],
 ) -> tuple[symbolic.SymbolicMesh, tuple[str, ...]]:
-    """The mesh that a program made of `source`, after edits by hand; and a sentence for each that was left out.
+    """Return the mesh that a program made of `source`, after edits by hand; and a sentence for each that was left out.
 
     The edits see the mesh in the program's canonical frame, as its rules do.
     """
@@ -107,6 +107,6 @@ def _restore_program_hulls(mesh: symbolic.SymbolicMesh, edited: symbolic.Symboli
 
 
 def manual_edits_digest(manual_edits: Iterable[ManualEdit]) -> str | None:
-    """The digest of edits by hand, None where there are none."""
+    """Return the digest of edits by hand, None where there are none."""
     lines = [str(manual_edit) for manual_edit in manual_edits]
     return text_digest("\n".join(lines)) if lines else None

@@ -96,7 +96,7 @@ class NeedsReview:
     out: str | None = None
 
     def to_json(self) -> dict[str, Any]:
-        """The line of `apply --json` for it."""
+        """Return the line of `apply --json` for it."""
         return {
             "asset": self.asset,
             "status": "needs review",
@@ -111,7 +111,7 @@ class NeedsReview:
 
 
 def status_of(outcome: AssetOutcome) -> StatusWord:
-    """The word for an outcome: `edited`, `unchanged`, `failed` or `skipped`."""
+    """Return the word for an outcome: `edited`, `unchanged`, `failed` or `skipped`."""
     match outcome:
         case Edited():
             return "edited"
@@ -126,7 +126,7 @@ def status_of(outcome: AssetOutcome) -> StatusWord:
 
 
 def to_json_line(outcome: AssetOutcome, alarms: Sequence[str] | None = None) -> dict[str, Any]:
-    """The line of `apply --json` for an outcome; what a failed asset has not is null or empty.
+    """Return the line of `apply --json` for an outcome; what a failed asset has not is null or empty.
 
     alarms: sentences about it, None where nobody looks for any: then the line does not speak of them.
     """
@@ -187,11 +187,11 @@ class RunSummary:
         return self.counts.total()
 
     def find_alarms(self) -> dict[str, tuple[str, ...]]:
-        """Sentences about the results that stand out of all so far, the weightiest first, by asset."""
+        """Return sentences about the results that stand out of all so far, the weightiest first, by asset."""
         return signoff.describe_outliers(self.measures, self.shown)
 
     def describe_absent_labels(self, program: language.Program) -> list[str]:
-        """A sentence on each label that a program asks for, no rule gives and no asset that ran has.
+        """Return a sentence on each label that a program asks for, no rule gives and no asset that ran has.
 
         None is absent where no asset that ran has any label, nor where labels are not known of all of them.
         """
@@ -219,7 +219,7 @@ class RunSummary:
 
 
 def describe_alarms(alarms: Mapping[str, Sequence[str]]) -> str:
-    """Which results stand out, and the weightiest reason of each; alarms: sentences by asset, at least one."""
+    """Return which results stand out, and the weightiest reason of each; alarms: sentences by asset, at least one."""
     named = [f"{asset} ({alarms[asset][0]})" for asset in list(alarms)[:_MOST_ALARMED]]
     more = len(alarms) - len(named)
     verb = "stands" if len(alarms) == 1 else "stand"

@@ -39,19 +39,20 @@ class WorkerResult:
 
 
 def find_disk_problem(error: BaseException | None) -> str | None:
-    """What is wrong with the disk where that is behind an error, else None."""
+    """Return what is wrong with the disk where that is behind an error, else None."""
     while error and not (isinstance(error, OSError) and error.errno in DISK_ERRORS):
         error = error.__cause__
     return error.strerror if isinstance(error, OSError) else None
 
 
 def drafts_folder(out: Path) -> Path:
-    """The folder for outputs that are not in place yet; on the disk of the output, so that they can be renamed."""
+    """Return the folder for outputs that are not in place yet; on the disk of the output, so that they can be
+    renamed."""
     return out / STATE / "drafts"
 
 
 def plan_draft(task: ApplyTask, job: AssetJob, asset: Asset, draft_folder: Path | None) -> provenance.OutputDraft:
-    """Where the output of an asset would be; aside: a folder that goes, where it is not to be kept."""
+    """Return where the output of an asset would be; aside: a folder that goes, where it is not to be kept."""
     attempt = secrets.token_hex(8)  # two nodes may be at it, when one that was given up for dead lives on
     folder = (draft_folder or drafts_folder(task.out)) / f"{provenance.text_digest(job.id)}-{attempt}" / DRAFT_FILES
     to = task.options.to
@@ -64,7 +65,7 @@ def plan_draft(task: ApplyTask, job: AssetJob, asset: Asset, draft_folder: Path 
 def write_draft(
     plan: provenance.OutputDraft, mesh: SymbolicMesh, vocabulary: tuple[str, ...], options: ApplyOptions
 ) -> provenance.OutputDraft:
-    """The output, with the labels of the edited mesh beside it, by the names that it reads back with.
+    """Return the output, with the labels of the edited mesh beside it, by the names that it reads back with.
 
     Raises AssetError where the format cannot hold the mesh, or what was written reads back as other hulls.
     """

@@ -42,7 +42,7 @@ class OutputInputs(BaseModel):
     software: str
 
     def changes(self, other: OutputInputs) -> tuple[str, ...]:
-        """What differs between the two, in words: `asset`, `labels`, `program`, `manual edits`, ..."""
+        """Return what differs between the two, in words: `asset`, `labels`, `program`, `manual edits`, ..."""
         names = type(self).model_fields
         return tuple(name.replace("_", " ") for name in names if getattr(self, name) != getattr(other, name))
 
@@ -74,7 +74,7 @@ class Stamp(BaseModel):
 
     @staticmethod
     def of(outcome: Edited | Unchanged, inputs: OutputInputs, draft: OutputDraft) -> Stamp:
-        """The stamp of a run that came to its end."""
+        """Return the stamp of a run that came to its end."""
         return Stamp(
             asset=outcome.asset,
             status="edited" if isinstance(outcome, Edited) else "unchanged",
@@ -93,16 +93,16 @@ class Stamp(BaseModel):
 
     @staticmethod
     def of_failure(outcome: Failed, inputs: OutputInputs | None) -> Stamp:
-        """The stamp of an asset that was not written; inputs: as far as they are known."""
+        """Return the stamp of an asset that was not written; inputs: as far as they are known."""
         return Stamp(asset=outcome.asset, status="failed", inputs=inputs, error=outcome.error)
 
     def to_skipped(self, folder: Path) -> Skipped:
-        """The outcome of finding this output up to date."""
+        """Return the outcome of finding this output up to date."""
         out, counts, measures = str(folder / self.out), (self.before, self.after), self.measures
         return Skipped(self.asset, out, self.rules, *counts, 0.0, self.notes, self.flags, measures, self.labels_before)
 
     def to_outcome(self, folder: Path) -> Edited | Unchanged | Failed:
-        """What the run that wrote this output made of the asset."""
+        """Return what the run that wrote this output made of the asset."""
         if self.status == "failed":
             return Failed(self.asset, self.error or "", 0.0)
         kept = self.to_skipped(folder)
@@ -115,7 +115,7 @@ class Stamp(BaseModel):
         return {name: known for name, known in self.outputs.items() if not name.lower().endswith(_LOOKS)}
 
     def is_whole(self, folder: Path) -> bool:
-        """Whether all files of this output are there, as they were written."""
+        """Return whether all files of this output are there, as they were written."""
         return self.status != "failed" and are_unchanged(folder, self.outputs)
 
     def write(self, path: Path) -> None:
@@ -124,17 +124,18 @@ class Stamp(BaseModel):
 
 
 def stamp_path(folder: Path, asset: str) -> Path:
-    """Where the stamp of an asset is kept."""
+    """Return where the stamp of an asset is kept."""
     return folder / STATE / "stamps" / f"{asset}.json"
 
 
 def read_stamp(folder: Path, asset: str) -> Stamp | None:
-    """The stamp of an asset's output; None where there is none, or none that can be read, so that it is made again."""
+    """Return the stamp of an asset's output; None where there is none, or none that can be read, so that it is made
+    again."""
     return read_stamp_file(stamp_path(folder, asset))
 
 
 def read_stamps(folder: Path) -> Iterator[Stamp]:
-    """The stamps of all outputs in a folder, in the order of their paths."""
+    """Yield the stamps of all outputs in a folder, in the order of their paths."""
     for path in sorted((folder / STATE / "stamps").rglob("*.json")):
         stamp = read_stamp_file(path)
         if stamp:
@@ -142,7 +143,7 @@ def read_stamps(folder: Path) -> Iterator[Stamp]:
 
 
 def read_stamp_file(path: Path) -> Stamp | None:
-    """The stamp in a file; None where there is none, or none that can be read."""
+    """Return the stamp in a file; None where there is none, or none that can be read."""
     try:
         return Stamp.model_validate_json(path.read_bytes())
     except (OSError, ValidationError):
@@ -150,17 +151,17 @@ def read_stamp_file(path: Path) -> Stamp | None:
 
 
 def text_digest(text: str) -> str:
-    """Thirty-two hexadecimal digits of a text."""
+    """Return thirty-two hexadecimal digits of a text."""
     return hashlib.blake2b(text.encode(), digest_size=16).hexdigest()
 
 
 def value_digest(value: Any) -> str:
-    """The digest of what JSON can hold, whatever the order of its keys."""
+    """Return the digest of what JSON can hold, whatever the order of its keys."""
     return text_digest(json.dumps(value, sort_keys=True))
 
 
 def content_digest(path: Path) -> str:
-    """The digest of what a JSON file says, however it is laid out; of a file that is no JSON that of its bytes.
+    """Return the digest of what a JSON file says, however it is laid out; of a file that is no JSON that of its bytes.
 
     Raises OSError where it cannot be read.
     """
@@ -171,35 +172,37 @@ def content_digest(path: Path) -> str:
 
 
 def program_digest(program: language.Program) -> str:
-    """The digest of what a program does: its canonical form without comments and without labels that are not used."""
+    """Return the digest of what a program does: its canonical form without comments and without labels that are not
+    used."""
     rules = tuple(replace(rule, comments=language.Comments()) for rule in program.rules)
     return text_digest(str(replace(program, labels=(), rules=rules, comments=language.HeaderComments())))
 
 
 def template_digests(templates: Mapping[str, language.Template]) -> dict[str, str]:
-    """The digest of the shapes of each template."""
+    """Return the digest of the shapes of each template."""
     return {name: text_digest(" ".join(map(shape_digest, templates[name].shapes))) for name in sorted(templates)}
 
 
 def asset_digests(path: Path, referenced: Iterable[Path], base: Path) -> dict[str, str]:
-    """The digest of every file of an asset, by its path relative to `base`; of a folder, of all mesh files in it."""
+    """Return the digest of every file of an asset, by its path relative to `base`; of a folder, of all mesh files in
+    it."""
     return {relative_name(file, base): file_digest(file) for file in sorted({*source_files(path), *referenced})}
 
 
 def has_same_files(recorded: Mapping[str, str], path: Path, base: Path) -> bool:
-    """Whether the files of an asset are those that were recorded, without reading it as an asset."""
+    """Return whether the files of an asset are those that were recorded, without reading it as an asset."""
     if any(relative_name(file, base) not in recorded for file in source_files(path)):
         return False
     return are_unchanged(base, recorded)
 
 
 def are_unchanged(folder: Path, recorded: Mapping[str, str]) -> bool:
-    """Whether all files are there, by their paths from a folder, and have the digests that were recorded."""
+    """Return whether all files are there, by their paths from a folder, and have the digests that were recorded."""
     return all((folder / name).is_file() and file_digest(folder / name) == known for name, known in recorded.items())
 
 
 def source_files(path: Path) -> list[Path]:
-    """The main file of an asset, or the mesh files of a folder of pieces."""
+    """Return the main file of an asset, or the mesh files of a folder of pieces."""
     if not path.is_dir():
         return [path]
     files = (file for file in path.iterdir() if not file.name.startswith("."))
@@ -207,7 +210,7 @@ def source_files(path: Path) -> list[Path]:
 
 
 def software_version(plugins: Iterable[Plugin | None] = ()) -> str:
-    """The version of this program and of the plug-ins that are used, since others may write other files."""
+    """Return the version of this program and of the plug-ins that are used, since others may write other files."""
     own = sorted({f"{plugin.package} {plugin.version}" for plugin in plugins if plugin})
     return ", ".join([_read_own_version(), *own])
 

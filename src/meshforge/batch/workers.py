@@ -80,7 +80,7 @@ class WorkerFailure:
 def run_isolated(
     function: Callable[[Item], Result], items: Sequence[Item], options: ExecutionOptions = UNBOUNDED
 ) -> Generator[Result | WorkerFailure, None, None]:
-    """The results of `function` on the items, in their order, computed in worker processes of this machine.
+    """Yield the results of `function` on the items, in their order, computed in worker processes of this machine.
 
     Raises MeshForgeError when worker processes cannot be started at all, StoppedError when `options.stop` said so.
     """
@@ -98,7 +98,7 @@ def run_isolated(
 
 
 def count_processors() -> int:
-    """How many processors this process may use."""
+    """Return how many processors this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 

@@ -61,12 +61,12 @@ class Measure(ABC):
 
     @abstractmethod
     def to_json(self) -> dict[str, Any]:
-        """The measure as JSON-able data, in SI units, volumes in litres."""
+        """Return the measure as JSON-able data, in SI units, volumes in litres."""
 
     def draw(
         self, mesh: SymbolicMesh, name: str, size: tuple[int, int], unit: LengthUnit
     ) -> Iterator[tuple[str, str, Image]]:
-        """A name for a file, a line of text and a picture each; unit: of legends; name: of the measure."""
+        """Return a name for a file, a line of text and a picture each; unit: of legends; name: of the measure."""
         return iter(())
 
 
@@ -92,10 +92,11 @@ class Check(ABC):
 
     @abstractmethod
     def examine(self, mesh: SymbolicMesh, before: SymbolicMesh | None) -> Iterable[Finding]:
-        """What is wrong with a mesh, nothing where all is well; before: the mesh that it was edited from, if known."""
+        """Return what is wrong with a mesh, nothing where all is well; before: the mesh that it was edited from, if
+        known."""
 
     def measure(self, subject: CheckSubject) -> CheckFindings:
-        """What is wrong, with what was measured to find that out; by default what `examine` says."""
+        """Return what is wrong, with what was measured to find that out; by default what `examine` says."""
         return CheckFindings(tuple(self.examine(subject.mesh, subject.before)))
 
 
@@ -107,4 +108,4 @@ class MeasureCheck(Check):
 
     @abstractmethod
     def measure(self, subject: CheckSubject) -> CheckFindings:
-        """What is wrong, with what was measured to find that out."""
+        """Return what is wrong, with what was measured to find that out."""

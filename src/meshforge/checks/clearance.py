@@ -123,7 +123,8 @@ class ClearanceCheck(MeasureCheck):
 def measure_clearance(
     mesh: SymbolicMesh, before: SymbolicMesh | None = None, *, cell: float | None = None
 ) -> Clearance | None:
-    """What the hulls of a mesh close and open, at rest pose, of the space about the visual mesh; None without one.
+    """Return what the hulls of a mesh close and open, at rest pose, of the space about the visual mesh; None without
+    one.
 
     before: hulls to compare with instead of the visual mesh; cell: of the grid [m], by default the diagonal by 112.
     Space counts as reachable where a path of free cells leads to it from outside: an opening narrower than about two
@@ -142,7 +143,7 @@ def measure_clearance(
 
 
 def measure_kept_space(surface: Surface, shapes: Sequence[Shape]) -> float | None:
-    """The share of the free space about a surface that stays free beside hulls; None where there is hardly any.
+    """Return the share of the free space about a surface that stays free beside hulls; None where there is hardly any.
 
     It is counted as by `measure_clearance`, within the convex hull of the surface: one hull of all keeps nothing of it.
     """
@@ -160,7 +161,7 @@ def measure_kept_space(surface: Surface, shapes: Sequence[Shape]) -> float | Non
 
 
 def visual_corners(mesh: SymbolicMesh) -> Floats:
-    """The triangles (m, 3, 3) of all that the asset of a mesh shows; those that are not finite are left out."""
+    """Return the triangles (m, 3, 3) of all that the asset of a mesh shows; those that are not finite are left out."""
     surfaces = [s for s in mesh.asset.visuals if len(s.faces)] if mesh.asset else []
     corners = np.concatenate([s.vertices[s.faces] for s in surfaces]) if surfaces else np.zeros((0, 3, 3))
     finite: Floats = corners[np.isfinite(corners).all(axis=(1, 2))]

@@ -65,7 +65,8 @@ class EngineLoad(Measure):
             yield Finding(f"{self.engine}-warned", "warning", (), f"{self.asked} warns: {warning}", "")
 
     def to_json(self) -> dict[str, Any]:
-        """The trial as JSON-able data; `against` is `engine` where the engine itself was asked, else `limits`."""
+        """Return the trial as JSON-able data; `against` is `engine` where the engine itself was asked, else
+        `limits`."""
         return {
             "name": self.engine,
             "against": "engine" if self.asked else "limits",

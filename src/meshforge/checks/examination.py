@@ -36,8 +36,8 @@ class CheckOptions:
 
     @staticmethod
     def of(names: Iterable[str], cell: float | None = None) -> CheckOptions:
-        """The checks of some names. Raises UsageError for a name that is not known, or a second engine; PluginError for
-        a plug-in that cannot be loaded."""
+        """Return the checks of some names. Raises UsageError for a name that is not known, or a second engine;
+        PluginError for a plug-in that cannot be loaded."""
         known = tuple(dict.fromkeys(names))
         for name in known:
             if CHECKS.get(name) is None:
@@ -72,7 +72,7 @@ class Examination:
     notes: tuple[str, ...] = ()
 
     def get(self, key: str, kind: type[MeasureKind]) -> MeasureKind | None:
-        """A measure, None where it was not asked for or could not be measured."""
+        """Return a measure, None where it was not asked for or could not be measured."""
         found = self.measures.get(key)
         return found if isinstance(found, kind) else None
 
@@ -82,13 +82,13 @@ class Examination:
         return self.get(ENGINE_LOAD, EngineLoad)
 
     def add_engine_load(self, loaded: EngineLoad) -> Examination:
-        """The same with what an engine itself said."""
+        """Return the same with what an engine itself said."""
         return replace(
             self, findings=(*loaded.findings, *self.findings), measures={**self.measures, ENGINE_LOAD: loaded}
         )
 
     def add_notes(self, notes: Iterable[str]) -> Examination:
-        """The same with more notes, but for what its trial has said in a finding."""
+        """Return the same with more notes, but for what its trial has said in a finding."""
         refused = self.loaded is not None and self.loaded.refusal is not None
         more = (note for note in notes if not (refused and note.startswith(REFUSED)))
         return replace(self, notes=(*self.notes, *more))
@@ -112,7 +112,7 @@ class Examination:
         return (*texts, *(f"note: {note}" for note in self.notes))
 
     def to_json(self) -> dict[str, Any]:
-        """The measures as JSON-able data, without the findings; what was not measured is left out."""
+        """Return the measures as JSON-able data, without the findings; what was not measured is left out."""
         notes = {"notes": list(self.notes)} if self.notes else {}
         return {key: one.to_json() for key, one in self.measures.items()} | notes
 
@@ -134,7 +134,7 @@ def examine_mesh(mesh: SymbolicMesh, wanted: CheckOptions, before: SymbolicMesh 
 
 
 def check(mesh: SymbolicMesh, engine: str | None = None) -> tuple[Finding, ...]:
-    """What is not legal in a mesh, and with an engine, what is beyond its limits; empty where all is well.
+    """Return what is not legal in a mesh, and with an engine, what is beyond its limits; empty where all is well.
 
     Raises UsageError for an engine that is not known.
     """
@@ -146,7 +146,7 @@ def check(mesh: SymbolicMesh, engine: str | None = None) -> tuple[Finding, ...]:
 def draw_examination(
     mesh: SymbolicMesh, found: Examination, size: tuple[int, int] = (640, 480), unit: LengthUnit = "m"
 ) -> Iterator[tuple[str, str, Image]]:
-    """A name for a file, a line of text and a picture each: heat maps of the fit, and what was closed and opened.
+    """Yield a name for a file, a line of text and a picture each: heat maps of the fit, and what was closed and opened.
 
     unit: of the legends; the lines have metres and litres.
     """

@@ -58,7 +58,7 @@ class FitGroup:
     outside: Mask
 
     def measure_out(self, points: Floats) -> Floats:
-        """How far [m] each point (n, 3) of a hull sticks out of the visual mesh, 0 where it is inside of it."""
+        """Return how far [m] each point (n, 3) of a hull sticks out of the visual mesh, 0 where it is inside of it."""
         x, y, z = self.grid.cells_of(points).T
         free = np.flatnonzero(self.outside[x, y, z])
         found = np.zeros(len(points))
@@ -66,7 +66,8 @@ class FitGroup:
         return found
 
     def measure_bare(self, points: Floats) -> tuple[Floats, Ints]:
-        """How far [m] each point (n, 3) of the visual mesh is from all hulls, and which (n,) is nearest, if off."""
+        """Return how far [m] each point (n, 3) of the visual mesh is from all hulls, and which (n,) is nearest, if
+        off."""
         gaps, nearest = np.zeros(len(points)), np.zeros(len(points), np.int64)
         off = np.flatnonzero(~_is_inside(points, self.hulls))
         gaps[off], triangle = self.hull_surface.distances(points[off])
@@ -160,7 +161,7 @@ class FitCheck(MeasureCheck):
 
 
 def measure_fit(mesh: SymbolicMesh, *, cell: float | None = None) -> MeshFit:
-    """How the hulls of a mesh fit what their bodies show, at rest pose.
+    """Return how the hulls of a mesh fit what their bodies show, at rest pose.
 
     A hull is compared with the visual mesh of its own body; where the file does not tell what shows what, all against
     all. A point of a hull sticks out where a path leads to it from outside without crossing the visual mesh, on a grid
@@ -225,14 +226,12 @@ def _measure_group(group: FitGroup) -> list[HullFit]:
 
 
 def _sum_by_hull(hull: Ints, gaps: Floats, area: Floats, count: int, cell: float) -> tuple[Floats, Floats]:
-    """The largest gap (count,) of each hull, and the area (count,) with gaps beyond a cell."""
     largest = np.zeros(count)
     np.maximum.at(largest, hull, gaps)
     return largest, np.asarray(np.bincount(hull, np.where(gaps > cell, area, 0.0), minlength=count), np.float64)
 
 
 def _is_inside(points: Floats, hulls: Sequence[Hull]) -> Mask:
-    """Which points (n, 3) are inside of any hull."""
     inside = np.zeros(len(points), dtype=bool)
     for hull in hulls:
         box = hull.aabb
@@ -246,7 +245,7 @@ def _is_inside(points: Floats, hulls: Sequence[Hull]) -> Mask:
 def draw_fit(
     mesh: SymbolicMesh, found: MeshFit, size: tuple[int, int] = (640, 480), unit: LengthUnit = "m"
 ) -> tuple[Image, Image] | None:
-    """Two pictures: the hulls by how far they stick out, and the visual mesh by how far it lies off all hulls.
+    """Return two pictures: the hulls by how far they stick out, and the visual mesh by how far it lies off all hulls.
 
     None where nothing is shown. The strongest colour is for twice the length that matters; what is below a cell has
     none.

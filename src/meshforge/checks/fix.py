@@ -49,7 +49,7 @@ class FixResult:
     left: tuple[str, ...]
 
     def to_json(self) -> dict[str, Any]:
-        """The changes as JSON-able data; lengths in metres."""
+        """Return the changes as JSON-able data; lengths in metres."""
         rows = [
             {
                 "hull": change.hull,
@@ -66,8 +66,8 @@ class FixResult:
 def fix(
     mesh: SymbolicMesh, engine: Engine | None, tolerance: float | None = None, max_vertices: int | None = None
 ) -> FixResult:
-    """The mesh with fewer vertices where a hull has too many, and more thickness where it has too little, for an engine
-    or a number of vertices.
+    """Return the mesh with fewer vertices where a hull has too many, and more thickness where it has too little, for an
+    engine or a number of vertices.
 
     A new hull is convex, holds all of the old one, and takes over its name, label, body and contact attributes. It is
     left as it is where the new one would stick out by more than `tolerance` [m], by default 1% of the mesh's diagonal
@@ -109,7 +109,6 @@ def _find_broken_limits(limits: Sequence[Limit], hull: Hull) -> list[Limit]:
 
 
 def _enclose_within_limits(hull: Hull, limits: Sequence[Limit], broken: list[Limit]) -> geometry.Enclosure | None:
-    """A hull around another that keeps to the limits, all of them; None where there is none."""
     made = geometry.Enclosure(hull.shape.tessellate(), 0.0)
     for limit in broken:
         if limit.rule == "thin":
@@ -141,7 +140,7 @@ def _find_objection(
 
 
 def thicken(hull: geometry.Polytope, thickness: float) -> geometry.Enclosure:
-    """The hull swept along its thinnest principal axis, to both sides alike, until it is `thickness` [m] thick.
+    """Return the hull swept along its thinnest principal axis, to both sides alike, until it is `thickness` [m] thick.
 
     It holds the hull it was, and sticks out by the step to each side at most; one that is thick enough stays as it is.
     """

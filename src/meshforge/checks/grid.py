@@ -35,16 +35,16 @@ class Grid:
     shape: tuple[int, int, int]
 
     def cells_of(self, points: Floats) -> Ints:
-        """The cell (n, 3) of each point (n, 3), the nearest one for points outside."""
+        """Return the cell (n, 3) of each point (n, 3), the nearest one for points outside."""
         return np.clip(np.floor((points - self.origin) / self.cell), 0, np.array(self.shape) - 1).astype(np.int64)
 
     def cell_centers(self, axis: int) -> Floats:
-        """The coordinates (k,) of the middles of the cells along an axis [m]."""
+        """Return the coordinates (k,) of the middles of the cells along an axis [m]."""
         middles: Floats = self.origin[axis] + (np.arange(self.shape[axis]) + 0.5) * self.cell
         return middles
 
     def litres(self, mask: Mask) -> float:
-        """The volume of some cells [l]."""
+        """Return the volume of some cells [l]."""
         return float(np.count_nonzero(mask)) * self.cell**3 * 1000
 
     def empty_mask(self) -> Mask:
@@ -52,7 +52,7 @@ class Grid:
 
 
 def grid_around(bounds: Aabb, cell: float | None = None) -> Grid:
-    """A grid around a box, with two free cells on each side; cell: its side [m], by default the diagonal by 112.
+    """Return a grid around a box, with two free cells on each side; cell: its side [m], by default the diagonal by 112.
 
     A cell that would give more than 8 million of them is made larger.
     """
@@ -67,7 +67,8 @@ def grid_around(bounds: Aabb, cell: float | None = None) -> Grid:
 
 
 def voxelize_surface(grid: Grid, corners: Floats) -> Mask:
-    """The cells that triangles, corners (m, 3, 3), cross; no path through faces of other cells leads past them."""
+    """Return the cells that triangles, corners (m, 3, 3), cross; no path through faces of other cells leads past
+    them."""
     mask = grid.empty_mask()
     for samples in sample_triangles(corners, _SPACING * grid.cell):
         x, y, z = grid.cells_of(samples.points).T
@@ -76,7 +77,7 @@ def voxelize_surface(grid: Grid, corners: Floats) -> Mask:
 
 
 def voxelize_hulls(grid: Grid, shapes: Iterable[Shape]) -> Mask:
-    """The cells whose middles are inside of any of some shapes; round ones count as their tessellations."""
+    """Return the cells whose middles are inside of any of some shapes; round ones count as their tessellations."""
     mask = grid.empty_mask()
     for shape in shapes:
         _fill_hull(grid, shape, mask)
@@ -110,7 +111,7 @@ def _interval(flat: Floats, normals: Floats, offsets: Floats) -> tuple[Floats, F
 
 
 def flood_from_outside(taken: Mask) -> Mask:
-    """The free cells that a path through faces of free cells joins to the border of the grid, which is free."""
+    """Return the free cells that a path through faces of free cells joins to the border of the grid, which is free."""
     from scipy.ndimage import label  # lazy: 0.3 s, only clearance needs it
 
     parts, _ = label(~taken)
@@ -118,7 +119,7 @@ def flood_from_outside(taken: Mask) -> Mask:
 
 
 def find_pockets(mask: Mask, least: int = 27) -> tuple[Ints, int]:
-    """Connected groups of cells, numbered from 1 in order of size, the largest first, and how many there are.
+    """Return connected groups of cells, numbered from 1 in order of size, the largest first, and how many there are.
 
     Layers of one or two cells, in which rounding to cells shows, belong to none; nor do groups of fewer than `least`.
     """
@@ -135,7 +136,7 @@ def find_pockets(mask: Mask, least: int = 27) -> tuple[Ints, int]:
 
 
 def cells_to_surface(grid: Grid, mask: Mask) -> Surface:
-    """The faces of some cells towards others, as triangles that look outwards."""
+    """Return the faces of some cells towards others, as triangles that look outwards."""
     quads = [_boundary_faces(mask, axis, side) for axis in range(3) for side in (0, 1)]
     corners = np.concatenate(quads) if quads else np.zeros((0, 4, 3), np.int64)
     vertices, inverse = np.unique(corners.reshape(-1, 3), axis=0, return_inverse=True)

@@ -38,7 +38,7 @@ HULL_RULES = (
 
 
 def check_legality(mesh: SymbolicMesh) -> tuple[frozenset[str], tuple[Finding, ...]]:
-    """The names of the hulls that are no hulls, and everything found."""
+    """Return the names of the hulls that are no hulls, and everything found."""
     faults: dict[geometry.HullFault, list[str]] = {rule.name: [] for rule in HULL_RULES}
     for hull in mesh.hulls:
         if fault := geometry.find_fault(hull.shape):
@@ -102,7 +102,7 @@ _PAIRS = 20_000  # that are measured; the nearest come first, and how many were 
 
 
 def find_oddities(mesh: SymbolicMesh, faulty: frozenset[str] = frozenset()) -> tuple[Finding, ...]:
-    """Slivers, oblong and inner hulls, overlaps and gaps within bodies; `faulty` hulls are left out.
+    """Return slivers, oblong and inner hulls, overlaps and gaps within bodies; `faulty` hulls are left out.
 
     A gap is one that is wider than the contact distance of the mesh, but not by more than three times.
     """

@@ -47,7 +47,7 @@ CHECKS: Registry[Callable[[], Check]] = Registry(
 
 
 def run_checks(names: Sequence[str], subject: CheckSubject) -> Iterator[CheckFindings]:
-    """What checks find; of a plug-in's that fails, or is missing here, an error that says so."""
+    """Yield what checks find; of a plug-in's that fails, or is missing here, an error that says so."""
     for name in names:
         try:
             yield _run_check(name, subject)

@@ -28,7 +28,8 @@ class SurfacePoints:
 
 
 def sample_triangles(corners: Floats, spacing: float, most: int = MOST_POINTS) -> Iterator[SurfacePoints]:
-    """Points on triangles, corners (m, 3, 3), in chunks: every point of these has one within 1.12 of the spacing [m].
+    """Yield points on triangles, corners (m, 3, 3), in chunks: every point of these has one within 1.12 of the spacing
+    [m].
 
     Rows along the longest side of each triangle; the corners are always among the points.
     """
@@ -66,13 +67,11 @@ def _sample_chunk(
 
 
 def _count_up(counts: Ints) -> Ints:
-    """0, 1, .., k - 1 for each count k, in a row."""
     ends = np.cumsum(counts)
     return np.arange(ends[-1]) - np.repeat(ends - counts, counts)
 
 
 def _turn_to_longest(corners: Floats) -> Floats:
-    """The triangles with their corners turned so that the first side is the longest."""
     sides = np.linalg.norm(corners[:, [1, 2, 0]] - corners, axis=2)
     first = sides.argmax(axis=1)
     order = (first[:, None] + np.arange(3)) % 3
@@ -97,7 +96,7 @@ class SurfaceIndex:
         return cKDTree(self.points)
 
     def distances(self, points: Floats) -> tuple[Floats, Ints]:
-        """How far [m] each point (n, 3) is from the surface, and the triangle (n,) nearest to it.
+        """Return how far [m] each point (n, 3) is from the surface, and the triangle (n,) nearest to it.
 
         Exact to the triangle that is looked at: never too small, too large by 1.12 of the spacing at most; that is
         wider on surfaces which would need more than 3 million points.

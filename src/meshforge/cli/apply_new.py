@@ -31,7 +31,7 @@ class NewAssets:
 
     @staticmethod
     def of(results: Mapping[str, NewAssetResult], changes: Mapping[str, Mapping[str, Any]]) -> NewAssets:
-        """Those that could be prepared, and those that could not."""
+        """Return those that could be prepared, and those that could not."""
         failed = [
             batch.Failed(asset, f"it could not be prepared: {result.problem}", 0.0)
             for asset, result in results.items()
@@ -43,13 +43,13 @@ class NewAssets:
 
     @staticmethod
     def aside(made: Iterable[tuple[NewAsset, NewAssetResult]]) -> NewAssets:
-        """Those whose preparation and labels are kept beside the project."""
+        """Return those whose preparation and labels are kept beside the project."""
         rows = list(made)
         changes = {work.id: {"labels": work.labels, "preparation": work.preparation} for work, _ in rows}
         return NewAssets.of({work.id: result for work, result in rows}, changes)
 
     def update(self, jobs: Iterable[batch.AssetJob]) -> list[batch.AssetJob]:
-        """The jobs as they are to be done now."""
+        """Return the jobs as they are to be done now."""
         failed = {one.asset for one in self.failed}
         return [replace(job, **self.changes.get(job.id, {})) for job in jobs if job.id not in failed]
 

@@ -100,7 +100,7 @@ class ApplyWork:
 
     @staticmethod
     def of(given: ApplyArguments, stack: ExitStack) -> ApplyWork:
-        """What was asked for; stack: keeps a folder for as long as the run takes."""
+        """Return what was asked for; stack: keeps a folder for as long as the run takes."""
         return _work_of_project(given, stack) if given.program.is_dir() else _work_of_program(given)
 
     def readers(self, assets: Iterable[str]) -> Sequence[batch.MeshReader]:
@@ -116,7 +116,7 @@ class ApplyWork:
         return self.project.renew_sign_offs(alarms) if self.project and is_own else {}
 
     def describe_result_statuses(self) -> dict[str, dict[str, Any]]:
-        """How sure each edit of a project is, as far as its last review holds, by asset."""
+        """Return how sure each edit of a project is, as far as its last review holds, by asset."""
         rows = self.project.status().assets if self.project else ()
         result_statuses = {one.id: one.confidence_to_json() for one in rows}
         result_statuses |= {
@@ -128,13 +128,13 @@ class ApplyWork:
         }
 
     def find_outliers(self, alarms: Alarms) -> list[str]:
-        """The assets whose results stand out, and are neither demonstrated, accepted nor signed off."""
+        """Return the assets whose results stand out, and are neither demonstrated, accepted nor signed off."""
         rows = self.project.status().assets if self.project and alarms else ()
         known = {one.id for one in rows if one.sign_off == "signed off" or one.review == "accepted" or one.demonstrated}
         return [asset for asset in alarms if asset not in known]
 
     def describe_new(self, asset: str) -> dict[str, Any]:
-        """What was done to a new asset before, nothing of another."""
+        """Return what was done to a new asset before, nothing of another."""
         return self.new[asset].to_json() if asset in self.new else {}
 
 

@@ -30,7 +30,7 @@ _TERMINAL_SETTINGS = frozenset({"FORCE_COLOR", "TTY_COMPATIBLE"})
 
 
 def print_table(columns: Sequence[str], rows: Iterable[Sequence[Any]], *, right: Sequence[str] = ()) -> None:
-    """A table on stdout; columns named in `right` are aligned to the right. Piped, no line is broken."""
+    """Print a table on stdout; columns named in `right` are aligned to the right. Piped, no line is broken."""
     texts = [["" if cell is None else escape_name(str(cell)) for cell in row] for row in rows]
     is_plain = all(text.isascii() and text.isprintable() for row in texts for text in row)
     if is_plain and not sys.stdout.isatty() and not _TERMINAL_SETTINGS.intersection(os.environ):
@@ -83,14 +83,14 @@ class Progress:
         self.show(self._words)
 
     def show(self, words: str) -> None:
-        """What the work is at; of `part 3 of 12` two parts are done."""
+        """Show what the work is at; of `part 3 of 12` two parts are done."""
         self._words, found = words, _COUNT.search(words)
         self._share = (int(found[1]) - 1) / int(found[2]) if found else self._share
         if self._is_terminal and monotonic() - self._drawn >= _REFRESH_SECONDS:
             self._draw()
 
     def describe(self) -> str:
-        """`decomposing: 3 of 12, 8 of 40 pieces, 21 s, about 84 s left`."""
+        """Return `decomposing: 3 of 12, 8 of 40 pieces, 21 s, about 84 s left`."""
         seconds, share, texts = monotonic() - self._started, self._share, list[str]()
         if self._total:
             share, texts = self._done / self._total, [f"{self._done} of {self._total}"]
@@ -124,8 +124,8 @@ class Progress:
 
     @contextmanager
     def keep_drawing(self) -> Iterator[Progress]:
-        """Within the block lines come while nothing is counted, too: by a thread, which an alarm starts once the work
-        takes long, since workers could not start by a fork beside it."""
+        """Let lines come within the block while nothing is counted, too: by a thread, which an alarm starts once the
+        work takes long, since workers could not start by a fork beside it."""
         thread = threading.Thread(target=self._draw_often, daemon=True)
         alarm: int | None = getattr(signal, "SIGALRM", None)  # which Windows has not
         is_main = threading.current_thread() is threading.main_thread()
@@ -159,7 +159,6 @@ class _StdoutAboveLine:
 
     @property
     def rich_proxied_file(self) -> Any:
-        """Where rich writes."""
         self._progress.clear()
         return bare_stream(self._stdout)
 
@@ -188,7 +187,8 @@ class NoteLog:
         self._rows = dict[str, list[str]]()  # the number of each kind, and the assets
 
     def describe(self, asset: str, head: str, notes: Iterable[str], start: str = "    note: ") -> str:
-        """What is printed on an asset: a line, with the numbers of notes that were printed already, and new ones."""
+        """Return what is printed on an asset: a line, with the numbers of notes that were printed already, and new
+        ones."""
         new = list[str]()
         for note in fold_notes(notes):
             row = self._rows.setdefault(_kind_of(note, asset), [f"[{len(self._rows) + 1}]"])
@@ -210,7 +210,8 @@ class NoteLog:
 
 
 def fold_notes(notes: Iterable[str]) -> Iterator[str]:
-    """The notes on one asset; of those that differ in quoted names alone the first, with the names of the others."""
+    """Yield the notes on one asset; of those that differ in quoted names alone the first, with the names of the
+    others."""
     kinds = dict[str, list[str]]()
     for note in dict.fromkeys(notes):
         kinds.setdefault(_QUOTED.sub("''", note), []).append(note)

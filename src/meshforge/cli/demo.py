@@ -40,7 +40,7 @@ def demo(
     port: Port = 0,
     browser: Browser = True,
 ) -> None:
-    """The whole loop on the bundled tables: labels, demonstrations, a learned program, edited assets, report.
+    """Run the whole loop on the bundled tables: labels, demonstrations, a learned program, edited assets, report.
 
     With --studio you show the steps yourself; what you did is there again when you come back.
     """
@@ -111,7 +111,7 @@ def _relative_path(path: Path) -> Path:
 
 
 def create_tables(out: Path) -> Project:
-    """A fresh project of the tables below `out`, labelled and demonstrated.
+    """Return a fresh project of the tables below `out`, labelled and demonstrated.
 
     Raises UsageError where the folder holds something else.
     """
@@ -122,7 +122,7 @@ def create_tables(out: Path) -> Project:
 
 
 def open_tables(out: Path) -> Project:
-    """The project that an earlier demo in the studio made below `out`, or a fresh one, labelled.
+    """Return the project that an earlier demo in the studio made below `out`, or a fresh one, labelled.
 
     Raises UsageError where the folder holds something else.
     """

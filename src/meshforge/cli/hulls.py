@@ -25,7 +25,7 @@ LISTING = "meshforge info ASSET"
 def find_hulls(
     text: str, hulls: Collection[str], where: str, listing: str = LISTING, numbered: Sequence[str] | None = None
 ) -> frozenset[str]:
-    """The hulls of names, numbers `#5`, ranges `#22-26` or `geom#22-26`, or patterns, with commas between.
+    """Return the hulls of names, numbers `#5`, ranges `#22-26` or `geom#22-26`, or patterns, with commas between.
 
     A name counts before a number, and both before a pattern, which is compared with the whole name, `BODY/HULL`; `*`
     stands for slashes too. hulls: the names of all; where: the argument that an error is about; listing: the command
@@ -41,7 +41,7 @@ def find_hulls(
 
 
 def is_number(text: str) -> bool:
-    """Whether a text is the number of a hull, `#5`; a hull may have that name."""
+    """Return whether a text is the number of a hull, `#5`; a hull may have that name."""
     return re.fullmatch("#[0-9]+", text) is not None
 
 
@@ -71,7 +71,6 @@ def _find_part(part: str, hulls: Collection[str], where: str, listing: str, numb
 
 
 def _find_number(part: str, hulls: Collection[str], where: str, listing: str, numbered: Sequence[str]) -> str:
-    """The name of the hull of a number, which is its place in the list, from 0."""
     place = int(part[1:])
     if place >= len(numbered):
         count = f"Hulls have the numbers #0 to #{len(numbered) - 1}" if numbered else "There are no hulls"
@@ -82,7 +81,8 @@ def _find_number(part: str, hulls: Collection[str], where: str, listing: str, nu
 
 
 def is_extractor(text: str, hulls: Collection[str]) -> bool:
-    """Whether a text begins as an extractor does, right or wrong, in whatever case; none of its parts names a hull."""
+    """Return whether a text begins as an extractor does, right or wrong, in whatever case; none of its parts names a
+    hull."""
     found = re.match(r"\s*(\w+)\s*(\(|$)", text)
     if found is None or any(part.strip() in hulls for part in text.split(",")):
         return False
@@ -94,7 +94,7 @@ def is_extractor(text: str, hulls: Collection[str]) -> bool:
 def select_hulls(
     text: str, mesh: SymbolicMesh, known: Callable[[], Collection[str]], where: str, extremity: float | None = None
 ) -> frozenset[str]:
-    """The names of the hulls that an extractor selects in a mesh; where: what an error is about.
+    """Return the names of the hulls that an extractor selects in a mesh; where: what an error is about.
 
     known: as of `find_absent_labels`. Raises ProgramError where the text is no extractor; UsageError for a label that
     no asset has, and where nothing is selected.
@@ -112,7 +112,8 @@ def select_hulls(
 def find_absent_labels(
     extractor: Extractor, mesh: SymbolicMesh, known: Callable[[], Collection[str]], where: str
 ) -> list[str]:
-    """The labels that an extractor asks for and only this mesh lacks, as an asset need not have all of its family's.
+    """Return the labels that an extractor asks for and only this mesh lacks, as an asset need not have all of its
+    family's.
 
     known: the labels of the family, asked for where this mesh lacks one. Raises UsageError, naming the nearest one, for
     a label that no asset has.
@@ -130,6 +131,7 @@ def find_absent_labels(
 
 
 def labels_of_project(project: Project) -> Collection[str]:
-    """The labels that hulls of a project can have: its vocabulary, or, without one, those that its assets have."""
+    """Return the labels that hulls of a project can have: its vocabulary, or, without one, those that its assets
+    have."""
     every = (project.labels(asset).labels.values() for asset in project.layout.labels.ids)
     return project.vocabulary or {label.name for label in chain.from_iterable(every)}

@@ -42,7 +42,7 @@ def _describe_result_status(asset: Path, folder: Path | None) -> dict[str, Any]:
 
 
 def describe_asset(mesh: symbolic.SymbolicMesh, asset: str, *, geometry: bool = False) -> dict[str, Any]:
-    """The JSON shape of `info`."""
+    """Return the JSON shape of `info`."""
     names = [hull.name for hull in mesh.hulls]
     source = mesh.asset
     return {

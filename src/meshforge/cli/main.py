@@ -71,7 +71,7 @@ class CommandGroup(TyperGroup):
 
 
 def load_command(name: str) -> TyperCommand:
-    """The command of a name, from its module."""
+    """Return the command of a name, from its module."""
     app = typer.Typer(add_completion=False, pretty_exceptions_enable=False, rich_markup_mode=None)
     function: Callable[..., None] = getattr(import_module(f"meshforge.cli.{name}"), name)
     app.command(name, cls=Command, context_settings=_HELP_OPTIONS)(function)
@@ -79,7 +79,7 @@ def load_command(name: str) -> TyperCommand:
 
 
 def build_application() -> typer.Typer:
-    """The command-line application with all commands."""
+    """Return the command-line application with all commands."""
     app = typer.Typer(
         name="meshforge",
         cls=CommandGroup,

@@ -127,7 +127,7 @@ class ExecutionArguments:
     memory: Memory = None
 
     def to_options(self) -> ExecutionOptions:
-        """The options of the workers."""
+        """Return the options of the workers."""
         from meshforge import batch  # lazy: 200 modules that info, select and convert do not need
 
         timeout = batch.TIMEOUT if self.timeout is None else self.timeout or None
@@ -138,7 +138,7 @@ EXECUTION = ExecutionArguments()
 
 
 def takes(kind: type[Arguments]) -> Callable[[Callable[[Arguments], None]], Callable[..., None]]:
-    """A command of Typer's out of a function of one dataclass, whose fields are the command's parameters.
+    """Return a command of Typer's out of a function of one dataclass, whose fields are the command's parameters.
 
     A field that is a dataclass itself stands for its own fields, in its place.
     """
@@ -219,7 +219,8 @@ def refuse_hull(method: EngineMethod | None, what: str) -> None:
 def parse_engine_settings(
     method: EngineMethod, given: list[str] | None, max_vertices: int | None = None
 ) -> DecomposeSettings:
-    """The settings of an engine with some given as `NAME=VALUE`, and with the most vertices that a hull may have.
+    """Return the settings of an engine with some given as `NAME=VALUE`, and with the most vertices that a hull may
+    have.
 
     Raises UsageError, listing what there is to set.
     """
@@ -244,7 +245,7 @@ def parse_engine_settings(
 
 
 def split_words(text: str) -> list[str]:
-    """The words of a list with commas between."""
+    """Return the words of a list with commas between."""
     return [word.strip() for word in text.split(",") if word.strip()]
 
 
@@ -263,7 +264,7 @@ def refuse_with(context: typer.Context, names: Collection[str], other: str, reme
 
 
 def list_typed(context: typer.Context) -> Iterator[tuple[str, str]]:
-    """The names of the parameters that were typed, each with its option."""
+    """Yield the names of the parameters that were typed, each with its option."""
     for parameter in context.command.params:
         source = context.get_parameter_source(parameter.name or "")
         if parameter.name and source is not None and source.name == "COMMANDLINE":
@@ -279,7 +280,7 @@ def _parse_value(text: str, value: str, kind: type) -> Any:
 
 
 def open_asset(asset: Path, labels: Path | None, project: Path | None) -> SymbolicMesh:
-    """The mesh of a file with its labels; with a project, that of an asset given by its file or by its id there.
+    """Return the mesh of a file with its labels; with a project, that of an asset given by its file or by its id there.
 
     Raises UsageError for labels beside a project, which has its own.
     """
@@ -298,7 +299,8 @@ def open_asset(asset: Path, labels: Path | None, project: Path | None) -> Symbol
 
 
 def asset_id(asset: str | Path, project: Project) -> str:
-    """The id of an asset of a project, given by its file, by that id, or by a part of it that no other asset has.
+    """Return the id of an asset of a project, given by its file, by that id, or by a part of it that no other asset
+    has.
 
     A path that is no file is taken by its last name, where one asset has it. Raises UsageError, naming them, where
     several are meant; ProjectError, naming the nearest, where none is.

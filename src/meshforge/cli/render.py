@@ -140,7 +140,7 @@ def _is_sheet(out: Path) -> bool:
 
 
 def write_part_pictures(mesh: SymbolicMesh, out: Path, size: int) -> str:
-    """Writes what `shots` shows, on one sheet, or one by one where `out` is a folder or has no suffix.
+    """Write what `shots` shows, on one sheet, or one by one where `out` is a folder or has no suffix.
 
     size: pixels along each picture's sides. Returns what is written, in words. Raises UsageError for a mesh without
     hulls, and where it cannot be written.

@@ -35,7 +35,7 @@ def write_report_page(
 
 
 def describe_failure(outcome: batch.Failed) -> str:
-    """That an asset failed, and why."""
+    """Return that an asset failed, and why."""
     return f"failed     {escape_name(outcome.asset)}\n    " + outcome.error.replace("\n", "\n    ")
 
 
@@ -62,7 +62,7 @@ class CheckReport:
         self._lines: batch.TopItems[_ReportLine] = batch.TopItems()
 
     def add(self, job: batch.AssetJob, examined: batch.CheckOutcome | None, row: Mapping[str, Any]) -> None:
-        """One asset more; row: as the journal keeps it, which is all there is where nothing was examined anew."""
+        """Add one asset; row: as the journal keeps it, which is all there is where nothing was examined anew."""
         line = _line_of_examined(job, examined) if examined else _line_of_journal(job, row)
         self._counts[line.status] += 1
         self._lines.add(("failed", "errors", "warnings", "clean").index(line.status), line)
@@ -99,7 +99,7 @@ def _status(severities: Iterable[Severity]) -> batch.ReportStatus:
 
 
 def describe_changes(examined: batch.CheckOutcome) -> tuple[str, ...]:
-    """What was fixed, what was left, and where it was written, a sentence each."""
+    """Return what was fixed, what was left, and where it was written, a sentence each."""
     fixed = examined.fix_result
     if fixed is None:
         return ()

@@ -99,7 +99,7 @@ def _is_written(project: Project) -> bool:
 
 
 def to_json(project: Project, found: ProjectReview) -> dict[str, Any]:
-    """The JSON shape of `review`."""
+    """Return the JSON shape of `review`."""
     assessment, question = found.assessment, found.assessment.question
     pictures: Sequence[Path] = draw_question(project, found, question) if question else ()
     return {

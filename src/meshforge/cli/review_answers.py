@@ -17,7 +17,8 @@ from meshforge.symbolic import HUMAN_SOURCES
 
 
 def format_question(question: ReviewQuestion, pictures: Sequence[Path]) -> str:
-    """A question as it is asked, with its numbered choices, the hulls in question, and where its pictures lie."""
+    """Return a question as it is asked, with its numbered choices, the hulls in question, and where its pictures
+    lie."""
     lines = [f"{question.text}  [{question.id}, about {question.seconds:.0f} s]"]
     each = len(pictures) == len(question.choices) > 1
     for number, choice in enumerate(question.choices, 1):
@@ -32,12 +33,12 @@ def format_question(question: ReviewQuestion, pictures: Sequence[Path]) -> str:
 
 
 def letter_of(place: int) -> str:
-    """What the hull at a place is called where exceptions are typed: a, b, ..., z, aa, ab, ..."""
+    """Return what the hull at a place is called where exceptions are typed: a, b, ..., z, aa, ab, ..."""
     return (letter_of(place // 26 - 1) if place >= 26 else "") + chr(ord("a") + place % 26)
 
 
 def format_prompt(question: ReviewQuestion) -> str:
-    """What can be typed."""
+    """Return what can be typed."""
     count = len(question.choices)
     if not count:
         return "l later, q stop: "
@@ -50,7 +51,7 @@ def format_prompt(question: ReviewQuestion) -> str:
 
 
 def format_reply_help(question: ReviewQuestion, folder: str) -> str:
-    """How to reply where nobody can be asked; folder: of the project, as one types it."""
+    """Return how to reply where nobody can be asked; folder: of the project, as one types it."""
     if not question.choices:
         return f"Show it: meshforge demonstrate {folder} {shlex.quote(question.asset)} 'HULLS => ACTION' ..."
     entry = json.dumps([{"id": question.id, "choice": question.choices[0].id}])
@@ -82,11 +83,11 @@ class ScriptReply:
     by: str | None = None
 
     def find(self, found: Assessment) -> ReviewQuestion | None:
-        """The question that it replies to, if it is asked now."""
+        """Return the question that it replies to, if it is asked now."""
         return next((one for one in found.questions if one.id == self.question), None)
 
     def to_reply(self, question: ReviewQuestion) -> ReviewReply:
-        """The reply. Raises UsageError for a choice that there is not."""
+        """Return the reply. Raises UsageError for a choice that there is not."""
         choice = self.choice
         if isinstance(choice, int):
             if not 0 <= choice < len(question.choices):
@@ -99,7 +100,8 @@ class ScriptReply:
 
 
 def read_replies(path: Path) -> list[ScriptReply]:
-    """Replies from a file. Raises UsageError, naming the entry and the field, where it is not what it should be."""
+    """Return replies from a file. Raises UsageError, naming the entry and the field, where it is not what it should
+    be."""
     try:
         rows = json.loads(path.read_text("utf-8-sig"))
     except (OSError, UnicodeDecodeError) as error:
@@ -148,9 +150,9 @@ def _is_selection(row: tuple[str, Any]) -> bool:
 
 
 def parse_reply(line: str, question: ReviewQuestion) -> ReviewReply:
-    """The reply that a person typed: nothing for the first choice, the number of one from 1 or its id, n for none of
-    them, l for later; after it, for a group, those hulls that are something else, as `c=leg`; for a result that is
-    wrong, `RULE:HULL,HULL` for what a rule should have selected, and `HULL=LABEL`. Raises UsageError for anything
+    """Return the reply that a person typed: nothing for the first choice, the number of one from 1 or its id, n for
+    none of them, l for later; after it, for a group, those hulls that are something else, as `c=leg`; for a result that
+    is wrong, `RULE:HULL,HULL` for what a rule should have selected, and `HULL=LABEL`. Raises UsageError for anything
     else."""
     words = line.split()
     if words == ["l"] or not question.choices:
@@ -201,7 +203,7 @@ def _parse_manual_edit(words: Sequence[str], question: ResultQuestion, chosen: s
 
 
 def find_contradictions(state: ReviewState, question: ReviewQuestion, reply: ReviewReply) -> Iterator[str]:
-    """A sentence for each label of a person that the reply of a person changes: the last word counts."""
+    """Yield a sentence for each label of a person that the reply of a person changes: the last word counts."""
     choice = question.choice(reply.choice)
     given = dict.fromkeys(question.hulls, choice.label) if choice and not reply.later else {}
     given_before = {HullPlace(question.asset, hull): label for hull, label in reply.labels.items()}

@@ -41,7 +41,7 @@ class LearningContext:
 
 
 def format_result(outcome: synthesis.LearningOutcome, about: LearningContext) -> str:
-    """The result: a program, or why there is none."""
+    """Return the result: a program, or why there is none."""
     match outcome:
         case synthesis.Found() | synthesis.Ambiguous():
             return str(outcome.program).rstrip("\n")
@@ -56,7 +56,7 @@ def format_result(outcome: synthesis.LearningOutcome, about: LearningContext) ->
 
 
 def format_remarks(outcome: synthesis.LearningOutcome, about: LearningContext) -> str:
-    """How far the result can be trusted, and what to do next."""
+    """Return how far the result can be trusted, and what to do next."""
     lines = list(_describe_stale(outcome, about))
     if isinstance(outcome, synthesis.Found | synthesis.Ambiguous):
         took = f"learned in {sum(outcome.seconds.values()):.2f} s{_describe_inputs(about)}"
@@ -166,11 +166,11 @@ def _describe_repairs(outcome: synthesis.NeedsRepair, about: LearningContext) ->
 
 
 def describe_change(repair: synthesis.Repair) -> str:
-    """`hull of asset: door -> handle`."""
+    """Return `hull of asset: door -> handle`."""
     wrong = repair.fix
     return f"{wrong.hull} of {wrong.asset}: {wrong.was or 'no label'} -> {wrong.to}"
 
 
 def format_belief(repair: synthesis.Repair) -> str | None:
-    """How likely the repair is right, for people; None where that is not known, as of the paper's strategy."""
+    """Return how likely the repair is right, for people; None where that is not known, as of the paper's strategy."""
     return f"{min(round(100 * repair.belief), 99)} %" if repair.belief < 1 else None

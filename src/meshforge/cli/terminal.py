@@ -28,7 +28,7 @@ class _SafeStream:
 
 
 def bare_stream(stream: Any) -> Any:
-    """The stream below one that escapes, for what is to control the terminal."""
+    """Return the stream below one that escapes, for what is to control the terminal."""
     return getattr(stream, "rich_proxied_file", stream)
 
 
@@ -42,7 +42,7 @@ def _escape(text: str) -> str:
 
 @contextmanager
 def escape_output() -> Iterator[None]:
-    """Within the block, what names and files would do to a terminal is printed, not done, on stdout and stderr."""
+    """Print within the block what names and files would do to a terminal, not done, on stdout and stderr."""
     before = sys.stdout, sys.stderr
     sys.stdout, sys.stderr = _SafeStream(sys.stdout), _SafeStream(sys.stderr)
     try:
@@ -52,7 +52,7 @@ def escape_output() -> Iterator[None]:
 
 
 def print_json(value: Any, *, compact: bool = False) -> None:
-    """One JSON document: indented for reading, or on a single line."""
+    """Print one JSON document: indented for reading, or on a single line."""
     text = json.dumps(value, ensure_ascii=False, indent=None if compact else 2)
     if _escape(text) != text:  # by escapes of JSON, with which it reads back as the same
         text = "".join(one if _escape(one) == one else json.dumps(one)[1:-1] for one in text)
@@ -60,19 +60,19 @@ def print_json(value: Any, *, compact: bool = False) -> None:
 
 
 def print_exact(text: str) -> None:
-    """Text that a program may read: as it is where stdout is no terminal."""
+    """Print text that a program may read: as it is where stdout is no terminal."""
     stream = sys.stdout if sys.stdout.isatty() else bare_stream(sys.stdout)
     stream.write(text)
 
 
 def remark(text: str) -> None:
-    """A remark that is not part of the result."""
+    """Print a remark that is not part of the result."""
     print(text, file=sys.stderr)
 
 
 @contextmanager
 def catch_interrupt() -> Iterator[Callable[[], bool]]:
-    """Within the block the first Ctrl-C only makes the given function say that it is time to stop."""
+    """Let the first Ctrl-C within the block only make the given function say that it is time to stop."""
     stopped = False
 
     def note(number: int, frame: FrameType | None) -> None:

@@ -9,8 +9,8 @@ from typing import Any
 
 
 def export_lazily(package: str, offers: Mapping[str, str]) -> tuple[Callable[[str], Any], list[str]]:
-    """The `__getattr__` and `__all__` of a package. offers: the names that each of its modules has for others, in one
-    string; a module of another package goes by its whole name.
+    """Return the `__getattr__` and `__all__` of a package. offers: the names that each of its modules has for others,
+    in one string; a module of another package goes by its whole name.
 
     A name must not be that of a module of the package, too, which importing the module would put in its place. Type
     checkers read the `__init__.pyi` beside, which `python -m script.stubs` makes of this.

@@ -10,7 +10,8 @@ from meshforge.common.messages import MeshForgeError
 
 
 def import_extra(library: str, extra: str, purpose: str) -> Any:
-    """An optional library. Raises MeshForgeError that names the extra to install; purpose: what needs it, a subject."""
+    """Return an optional library. Raises MeshForgeError that names the extra to install; purpose: what needs it, a
+    subject."""
     try:
         return import_module(library)
     except ImportError as error:

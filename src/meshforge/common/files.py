@@ -66,7 +66,7 @@ def _fill(draft: Path, content: str | bytes, path: Path) -> None:
 
 @contextmanager
 def replace_atomically(path: Path) -> Iterator[Path]:
-    """A new file beside `path`, to be filled and flushed; then it takes that name, or goes where an error came up.
+    """Open a new file beside `path`, to be filled and flushed; then it takes that name, or goes where an error came up.
 
     What the disk refuses is an OSError about `path`.
     """
@@ -87,7 +87,7 @@ def replace_atomically(path: Path) -> Iterator[Path]:
 
 
 def find_drafts(path: Path) -> Iterator[Path]:
-    """What writers of a file left half-written beside it when they were killed; or what one is writing now."""
+    """Return what writers of a file left half-written beside it when they were killed; or what one is writing now."""
     return path.parent.glob(f"{glob.escape(_draft_prefix(path))}????????{_DRAFT_SUFFIX}")
 
 
@@ -96,7 +96,7 @@ def _draft_prefix(path: Path) -> str:
 
 
 def file_state(path: Path) -> FileState | None:
-    """The state of a file, None where it is not there."""
+    """Return the state of a file, None where it is not there."""
     try:
         stat = path.stat()
     except OSError:
@@ -105,18 +105,18 @@ def file_state(path: Path) -> FileState | None:
 
 
 def file_states(paths: Iterable[Path]) -> FileStates:
-    """The states of files."""
+    """Return the states of files."""
     return {path: file_state(path) for path in paths}
 
 
 def file_digest(path: Path) -> str:
-    """A digest of a file's bytes: 32 hexadecimal digits. Raises OSError where it cannot be read."""
+    """Return a digest of a file's bytes: 32 hexadecimal digits. Raises OSError where it cannot be read."""
     with path.open("rb") as stream:
         return hashlib.file_digest(stream, lambda: hashlib.blake2b(digest_size=16)).hexdigest()
 
 
 def is_file(path: Path) -> bool:
-    """Whether there is a file; of a name that no file can have (too long, with a zero byte), that there is none.
+    """Return whether there is a file; of a name that no file can have (too long, with a zero byte), that there is none.
 
     Within `confine_reading`, there is none outside of that folder, whatever the disk holds.
     """
@@ -131,7 +131,7 @@ _REACH: ContextVar[Path | None] = ContextVar("reach", default=None)
 
 @contextmanager
 def confine_reads(folder: Path) -> Iterator[None]:
-    """Within the block, what files refer to outside of a folder is not there.
+    """Hide within the block what files refer to outside of a folder.
 
     For files of strangers: no message then tells whether a file of that name is on the disk.
     """
@@ -143,28 +143,28 @@ def confine_reads(folder: Path) -> Iterator[None]:
 
 
 def reads_folder() -> Path | None:
-    """The folder to which reading is confined, None where it is not."""
+    """Return the folder to which reading is confined, None where it is not."""
     return _REACH.get()
 
 
 def is_beyond_reach(path: Path) -> bool:
-    """Whether a path leads out of the folder to which reading is confined, if it is."""
+    """Return whether a path leads out of the folder to which reading is confined, if it is."""
     folder = _REACH.get()
     return folder is not None and not plain_path(path).is_relative_to(folder)
 
 
 def relative_name(path: Path, base: Path) -> str:
-    """A path as seen from a folder, with forward slashes."""
+    """Return a path as seen from a folder, with forward slashes."""
     return os.path.relpath(path, base).replace(os.sep, "/")
 
 
 def plain_path(path: Path) -> Path:
-    """The absolute path without `..`; symbolic links stay as the user wrote them."""
+    """Return the absolute path without `..`; symbolic links stay as the user wrote them."""
     return Path(os.path.normpath(path.absolute()))
 
 
 def quote_path(path: Path) -> str:
-    """A path as one types it here."""
+    """Return a path as one types it here."""
     here = Path.cwd()
     text = str(path.relative_to(here) if path.is_relative_to(here) else path)
     if escape_name(text) == text:
@@ -181,7 +181,8 @@ def _mode_of(path: Path) -> int:
 
 
 def expand_glob(pattern: str, root: Path | None = None) -> list[str]:
-    """What a glob matches, as names from `root`, sorted; under `**`, links are followed, but never in a circle."""
+    """Return what a glob matches, as names from `root`, sorted; under `**`, links are followed, but never in a
+    circle."""
     base, stars, rest = _split_at_stars(pattern)
     if not stars:
         return sorted(glob.glob(pattern, root_dir=root))  # noqa: PTH207 (Path.glob takes no ".." and no absolute path)
@@ -211,7 +212,7 @@ def _walk_folders(start: str, root: Path) -> Iterator[str]:
 
 
 def is_link_cycle(folder: Path) -> bool:
-    """Whether a folder is a link to one that it lies in, so that going into it would never end."""
+    """Return whether a folder is a link to one that it lies in, so that going into it would never end."""
     real = folder.resolve() if folder.is_symlink() else None
     return real is not None and any(above.resolve() == real for above in plain_path(folder.absolute()).parents)
 

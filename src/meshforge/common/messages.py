@@ -18,12 +18,13 @@ _UNSAFE = re.compile(
 
 
 def escape_name(text: str) -> str:
-    """A name in one line that a terminal only shows: what would control or reorder it becomes `\\x1b` or `\\u202e`."""
+    """Return a name in one line that a terminal only shows: what would control or reorder it becomes `\x1b` or
+    `\u202e`.`."""
     return _UNSAFE.sub(_escape, text)
 
 
 def escape_text(text: str) -> str:
-    """As `escape_name`, for text of several lines: line ends and tabs stay."""
+    """Return it as `escape_name`, for text of several lines: line ends and tabs stay."""
     return _UNSAFE.sub(lambda found: found[0] if found[0] in "\n\t" else _escape(found), text)
 
 
@@ -33,56 +34,58 @@ def _escape(found: re.Match[str]) -> str:
 
 
 def is_text(name: str) -> bool:
-    """Whether a name can be written to a file: whether it holds no byte that is not UTF-8."""
+    """Return whether a name can be written to a file: whether it holds no byte that is not UTF-8."""
     return not any("\ud800" <= letter <= "\udfff" for letter in name)
 
 
 def to_text(name: str) -> str:
-    """A name of a file in which bytes that are not UTF-8 stand as `\\xff`, so that it can be written to a file."""
+    """Return a name of a file in which bytes that are not UTF-8 stand as `\xff`, so that it can be written to a
+    file.."""
     return name if is_text(name) else os.fsencode(name).decode("utf-8", "backslashreplace")
 
 
 def pluralize(number: int, one: str, many: str | None = None) -> str:
-    """`1 hull`, `2 hulls`, `2 bodies`."""
+    """Return `1 hull`, `2 hulls`, `2 bodies`."""
     return f"{number:,} {one if number == 1 else many or one + 's'}"
 
 
 def join_and(names: Sequence[str]) -> str:
-    """All names in a row: `a`, `a and b`, `a, b and c`."""
+    """Return all names in a row: `a`, `a and b`, `a, b and c`."""
     return escape_name(" and ".join(part for part in (", ".join(names[:-1]), *names[-1:]) if part))
 
 
 def join_names(names: Sequence[str], most: int = 5) -> str:
-    """Names in a row, of many the first ones: `a, b, c, d, e and 7 more`."""
+    """Return names in a row, of many the first ones: `a, b, c, d, e and 7 more`."""
     more = len(names) - most
     return escape_name(", ".join(names) if more <= 0 else f"{', '.join(names[:most])} and {more} more")
 
 
 def nearest_name(name: str, available: Iterable[str]) -> str | None:
-    """The available name most like `name`, or None where nothing is alike."""
+    """Return the available name most like `name`, or None where nothing is alike."""
     found = difflib.get_close_matches(name, sorted(available), n=1, cutoff=0.5)
     return found[0] if found else None
 
 
 def format_share(share: float) -> str:
-    """A probability in whole percent, rounded down, so that none below a limit looks as if it were at it."""
+    """Return a probability in whole percent, rounded down, so that none below a limit looks as if it were at it."""
     return f"{int(share * 100 + 1e-9)}%"
 
 
 def suggest_name(name: str, available: Iterable[str], otherwise: str | None = None) -> str | None:
-    """The remedy for a name that is not available: the nearest one that is; otherwise, where nothing is alike."""
+    """Return the remedy for a name that is not available: the nearest one that is; otherwise, where nothing is
+    alike."""
     like = nearest_name(name, available)
     return f"Did you mean {like!r}?" if like else otherwise
 
 
 def suggest_match(name: str, available: Iterable[str]) -> str:
-    """The end of a sentence on a name that is not available: the nearest one that is, or nothing."""
+    """Return the end of a sentence on a name that is not available: the nearest one that is, or nothing."""
     like = nearest_name(name, available)
     return f"; did you mean {like!r}?" if like else ""
 
 
 def suggest_among(name: str, available: Collection[str], listing: str = "The vocabulary is") -> str:
-    """The remedy for a name that is not available: the nearest one that is, and all of them."""
+    """Return the remedy for a name that is not available: the nearest one that is, and all of them."""
     return f"{suggest_name(name, available, '')} {listing} {', '.join(available) or 'empty'}.".lstrip()
 
 
@@ -117,7 +120,7 @@ class MeshForgeError(Exception):
         return f"{escape_name(self.where)}: {self.problem}" if self.where else self.problem
 
     def at(self, where: str) -> MeshForgeError:
-        """The error, about `where` when it did not say yet what it is about."""
+        """Return the error, about `where` when it did not say yet what it is about."""
         return self if self.where else type(self)(self.problem, where=where, remedy=self.remedy)
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -132,7 +135,8 @@ def _rebuild_error(kind: type[MeshForgeError], problem: str, where: str | None, 
 
 
 def describe_error(error: Exception, where: str | None = None, fault: str = "please report it") -> str:
-    """The message of whatever went wrong, about `where` unless it says; fault: what to do about one of our own."""
+    """Return the message of whatever went wrong, about `where` unless it says; fault: what to do about one of our
+    own."""
     match error:
         case MeshForgeError():
             return (error.at(where) if where else error).message

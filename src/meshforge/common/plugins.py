@@ -48,11 +48,11 @@ class Plugin:
         return f"the {_WORDS[self.kind]}{self.name} of the package {self.package} {self.version}"
 
     def error(self, problem: str, where: str | None = None, remedy: str | None = None) -> PluginError:
-        """The error that this plug-in `problem`, such as `makes a hull that is not convex`."""
+        """Return the error that this plug-in `problem`, such as `makes a hull that is not convex`."""
         return PluginError(f"{self} {problem}", where=where, remedy=remedy or f"Update or uninstall {self.package}.")
 
     def load(self) -> Any:
-        """What the entry point names. Raises PluginError where it cannot be imported."""
+        """Return what the entry point names. Raises PluginError where it cannot be imported."""
         module, _, attribute = self.target.partition(":")
         try:
             found: Any = import_module(module)
@@ -97,12 +97,12 @@ _adopted: dict[PluginKind, tuple[Plugin, ...]] = {}
 
 
 def find_plugins(kind: PluginKind) -> tuple[Plugin, ...]:
-    """The plug-ins of a kind that are installed, by name and package; looked for once in a process."""
+    """Return the plug-ins of a kind that are installed, by name and package; looked for once in a process."""
     return _adopted[kind] if kind in _adopted else _find(kind)
 
 
 def collect_plugins() -> dict[PluginKind, tuple[Plugin, ...]]:
-    """The plug-ins of all kinds, for another process to adopt."""
+    """Return the plug-ins of all kinds, for another process to adopt."""
     return {kind: find_plugins(kind) for kind in PLUGIN_KINDS}
 
 
@@ -194,14 +194,14 @@ class Registry(Mapping[str, T], Generic[T]):
         return tuple(name for name in names if not self._is_taken(name))
 
     def plugin(self, name: str) -> Plugin | None:
-        """The plug-in of a name, None where there is none. Raises PluginError where two packages have it."""
+        """Return the plug-in of a name, None where there is none. Raises PluginError where two packages have it."""
         claims = self._claims(name)
         if len(claims) > 1:
             raise _clash(claims)
         return claims[0] if claims else None
 
     def load(self, plugin: Plugin) -> T:
-        """What a plug-in adds. Raises PluginError where it cannot be loaded, or does not fit."""
+        """Return what a plug-in adds. Raises PluginError where it cannot be loaded, or does not fit."""
         if plugin not in self._loaded:
             try:
                 self._loaded[plugin] = self._adopt(plugin, plugin.load())
@@ -213,7 +213,7 @@ class Registry(Mapping[str, T], Generic[T]):
         return found
 
     def find_problem(self, plugin: Plugin) -> str | None:
-        """Why a plug-in cannot be used, None where it can."""
+        """Return why a plug-in cannot be used, None where it can."""
         if self._is_taken(plugin.name):
             return f"{plugin}: MeshForge itself has this name. Rename it in {plugin.package}."
         try:
@@ -224,7 +224,7 @@ class Registry(Mapping[str, T], Generic[T]):
         return None
 
     def loadable(self) -> dict[str, T]:
-        """All that is built in, and all plug-ins that can be used."""
+        """Return all that is built in, and all plug-ins that can be used."""
         found = dict(self.built_in)
         for name in self.plugin_names:
             with suppress(PluginError):

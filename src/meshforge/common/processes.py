@@ -48,8 +48,8 @@ def begin_isolated() -> None:
 
 
 def call_isolated(function: Callable[..., Result], *args: Any, where: str) -> Result:
-    """What a function of a module gives, computed in a process of its own that later calls use again; in a worker
-    process, which is isolated already, there.
+    """Return what a function of a module gives, computed in a process of its own that later calls use again; in a
+    worker process, which is isolated already, there.
 
     where: the file it is about. Raises what the function raises, and AssetError where that process dies, or reports no
     progress for `PATIENCE` seconds.
@@ -77,7 +77,7 @@ def call_isolated(function: Callable[..., Result], *args: Any, where: str) -> Re
 
 
 def report_progress() -> None:
-    """In a call that is isolated, say that it goes on; elsewhere nothing."""
+    """Say that an isolated call goes on; elsewhere do nothing."""
     global _last_beat
     if _caller is not None and time.monotonic() - _last_beat > _BEAT:
         _caller.send_bytes(b"")
@@ -152,7 +152,7 @@ def _serve(connection: Any) -> None:
 
 
 def worker_context() -> Any:
-    """How the workers of one pool start: on Linux by a fork of this process while it has one thread, which takes
+    """Return how the workers of one pool start: on Linux by a fork of this process while it has one thread, which takes
     milliseconds, else as those of `server_context`.
 
     A fork copies the locks that other threads hold, so it is safe where there are none, those of libraries counted.
@@ -162,7 +162,7 @@ def worker_context() -> Any:
 
 
 def server_context() -> Any:
-    """How the workers of one pool start beside threads: on Linux by a fork of a clean server process.
+    """Return how the workers of one pool start beside threads: on Linux by a fork of a clean server process.
 
     The server imports what this process has of MeshForge by now, which is about what workers will need: the first
     worker is there in 0.45 s for `batch`, each further one in 0.02 s (0.45 s each when spawned).
@@ -222,7 +222,7 @@ def _list_modules() -> list[str]:
 
 
 def describe_exit(code: int | None) -> str:
-    """How a process ended: negative codes are signals."""
+    """Return how a process ended: negative codes are signals."""
     try:
         return signal.Signals(-code).name if code and code < 0 else f"exit code {code}"
     except ValueError:
@@ -230,7 +230,8 @@ def describe_exit(code: int | None) -> str:
 
 
 def memory_share(workers: int) -> int | None:
-    """An even share [bytes] of the memory that this machine, or this container, has; None where it does not tell."""
+    """Return an even share [bytes] of the memory that this machine, or this container, has; None where it does not
+    tell."""
     try:
         whole = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
     except (AttributeError, ValueError, OSError):

@@ -59,12 +59,13 @@ _LONGEST = 60  # characters of what was found
 
 
 def first_validation_error(error: ValidationError) -> str:
-    """The complaint about the first field of a file that does not fit, in one line."""
+    """Return the complaint about the first field of a file that does not fit, in one line."""
     return describe_invalid_field(error.errors(include_url=False)[0])
 
 
 def describe_invalid_field(complaint: Mapping[str, Any]) -> str:
-    """One complaint of pydantic's, in one line; complaint: one of those that `ValidationError.errors()` lists."""
+    """Return one complaint of pydantic's, in one line; complaint: one of those that `ValidationError.errors()`
+    lists."""
     kind, about, given = complaint["type"], complaint.get("ctx") or {}, complaint.get("input")
     field = _name_field(complaint["loc"])
     at = f"the field {field}" if field else ""
@@ -85,7 +86,6 @@ def describe_invalid_field(complaint: Mapping[str, Any]) -> str:
 
 
 def _name_field(steps: Sequence[int | str]) -> str:
-    """Where a field lies, as `steps[0].rule`."""
     return "".join(f"[{step}]" if isinstance(step, int) else f".{step}" for step in steps).removeprefix(".")
 
 

@@ -81,7 +81,7 @@ class Engine:
 
 
 def count_polygons_at_vertex(hull: Polytope) -> float:
-    """The number of flat faces that meet at the vertex where most do."""
+    """Return the number of flat faces that meet at the vertex where most do."""
     pairs = neighbour_faces(hull.faces)
     normals = normals_of(hull)
     bent = np.linalg.norm(np.cross(normals[pairs[:, 0]], normals[pairs[:, 1]]), axis=1) > LEVEL
@@ -90,7 +90,8 @@ def count_polygons_at_vertex(hull: Polytope) -> float:
 
 
 def measure_slenderness(hull: Polytope) -> float:
-    """The largest extent, as a multiple of the diameter of the sphere about the centre of mass that fits into it."""
+    """Return the largest extent, as a multiple of the diameter of the sphere about the centre of mass that fits into
+    it."""
     normals = normals_of(hull)
     heights = np.einsum("ij,ij->i", hull.vertices[hull.faces[:, 0]] - hull.centroid, normals)
     inner = float(heights[np.linalg.norm(normals, axis=1) > 0.5].min())
@@ -109,13 +110,13 @@ _RULES: dict[str, tuple[Callable[[Polytope], float], str, Bound, str]] = {
 
 
 def make_limit(rule: str, number: float, severity: Severity, problem: str, source: str) -> Limit:
-    """A limit of one of the rules that there are; number: the most, or the least, as the rule has it."""
+    """Return a limit of one of the rules that there are; number: the most, or the least, as the rule has it."""
     measure, what, bound, remedy = _RULES[rule]
     return Limit(rule, measure, number, what, severity, problem, remedy, source, bound)
 
 
 def check_limits(engine: Engine, mesh: symbolic.SymbolicMesh, faulty: frozenset[str]) -> tuple[Finding, ...]:
-    """What is beyond the limits of an engine; `faulty` hulls are left out."""
+    """Return what is beyond the limits of an engine; `faulty` hulls are left out."""
     hulls = [h for h in mesh.hulls if h.name not in faulty]
     return (
         *(finding for limit in engine.limits if (finding := check_limit(engine, limit, hulls))),
@@ -133,7 +134,7 @@ def _check_names(engine: Engine, mesh: symbolic.SymbolicMesh) -> Iterator[Findin
 
 
 def check_limit(engine: Engine, limit: Limit, hulls: Sequence[symbolic.Hull | symbolic.Geom]) -> Finding | None:
-    """The hulls that are meshes and beyond a limit; None where there are none."""
+    """Return the hulls that are meshes and beyond a limit; None where there are none."""
     values = {h.name: limit.measure(h.shape) for h in hulls if isinstance(h.shape, Polytope)}
     over = {name: value for name, value in values.items() if limit.is_broken(value)}
     if not over:
@@ -145,7 +146,7 @@ def check_limit(engine: Engine, limit: Limit, hulls: Sequence[symbolic.Hull | sy
 
 
 def check_primitives(engine: Engine, hulls: Sequence[symbolic.Hull | symbolic.Geom]) -> Iterator[Finding]:
-    """Native shapes that the engine lacks."""
+    """Yield native shapes that the engine lacks."""
     names = tuple(h.name for h in hulls if h.shape.is_primitive and h.shape.kind not in engine.primitives)
     if names:
         kinds = ", ".join(sorted({h.shape.kind for h in hulls if h.name in names}))

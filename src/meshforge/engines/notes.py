@@ -14,7 +14,8 @@ from meshforge.geometry import Polytope
 def note_limits(
     geoms: Iterable[symbolic.Geom], engines: Iterable[str], holds: Collection[symbolic.FeatureKind]
 ) -> tuple[str, ...]:
-    """A note on each rule that hulls break of the engines a file is for, with the hulls, the engines and the remedy.
+    """Return a note on each rule that hulls break of the engines a file is for, with the hulls, the engines and the
+    remedy.
 
     engines: by name; holds: what the format holds: a native shape that it does not counts as the mesh that stands for
     it.

@@ -196,7 +196,7 @@ ENGINES = MappingProxyType({engine.name: engine for engine in _ENGINES})
 
 
 def find_engine(name: str) -> Engine:
-    """The engine of a name. Raises UsageError for one that is not known."""
+    """Return the engine of a name. Raises UsageError for one that is not known."""
     if name not in ENGINES:
         raise UsageError(f"there is no engine {name!r}", remedy=suggest_among(name, ENGINES, "Known are:"))
     return ENGINES[name]

@@ -19,7 +19,7 @@ from meshforge.symbolic import Label, SymbolicMesh, write_labels
 
 
 def to_mesh(what: symbolic.SymbolicMesh | Source) -> symbolic.SymbolicMesh:
-    """A mesh as it is, anything else as `load` reads it."""
+    """Return a mesh as it is, anything else as `load` reads it."""
     return what if isinstance(what, symbolic.SymbolicMesh) else load(what)
 
 
@@ -28,7 +28,7 @@ Labels = str | os.PathLike[str] | Mapping[str, Label | str]
 
 
 def load(source: Source, labels: Labels | None = None) -> symbolic.SymbolicMesh:
-    """The symbolic mesh of a file or a folder, of the text of an MJCF, of a `mujoco.MjSpec` or a `Usd.Stage`.
+    """Return the symbolic mesh of a file or a folder, of the text of an MJCF, of a `mujoco.MjSpec` or a `Usd.Stage`.
 
     labels: a labels file, or labels by the names of hulls; None takes those of the file beside it if present.
     What is saved of an object in memory is what it said when it was loaded, with the edit; the object does not change.
@@ -45,14 +45,15 @@ def load(source: Source, labels: Labels | None = None) -> symbolic.SymbolicMesh:
 
 
 def label_hulls(mesh: symbolic.SymbolicMesh, labels: Mapping[str, Label | str]) -> symbolic.SymbolicMesh:
-    """The mesh with some labels set. Raises HullNotFoundError: there is no hull of a name."""
+    """Return the mesh with some labels set. Raises HullNotFoundError: there is no hull of a name."""
     for name in labels:
         mesh.hull_of(name)
     return mesh.with_labels(labels)
 
 
 def load_many(patterns: str | Path | Iterable[str | Path]) -> Iterator[symbolic.SymbolicMesh]:
-    """The symbolic meshes of all files that the patterns match (`**` too), sorted, each read when it is asked for.
+    """Return the symbolic meshes of all files that the patterns match (`**` too), sorted, each read when it is asked
+    for.
 
     Raises AssetError at once where a pattern matches no asset.
     """
@@ -68,7 +69,8 @@ def load_many(patterns: str | Path | Iterable[str | Path]) -> Iterator[symbolic.
 
 
 def labels_beside(path: Path) -> Path:
-    """Where the labels of an asset lie: beside it, `table.labels.json` for table.urdf and for a folder `table`."""
+    """Return where the labels of an asset lie: beside it, `table.labels.json` for table.urdf and for a folder
+    `table`."""
     suffix = path.suffix.lower()
     is_file = not path.is_dir() and suffix.removeprefix(".") in FORMATS_BY_SUFFIX
     stem = path.stem if is_file else path.name
@@ -101,7 +103,7 @@ def convert(
 
 
 def to_mjspec(mesh: SymbolicMesh) -> Any:
-    """The mesh as a `mujoco.MjSpec`; see `SymbolicMesh.to_mjspec`."""
+    """Return the mesh as a `mujoco.MjSpec`; see `SymbolicMesh.to_mjspec`."""
     return build_spec(make_output(mesh, "mjcf", "model.xml"))
 
 

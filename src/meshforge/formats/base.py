@@ -68,7 +68,7 @@ class ReadOptions:
 
     @staticmethod
     def from_environment() -> ReadOptions:
-        """The roots that the variables of ROS and Gazebo list: folders, colons between them."""
+        """Return the roots that the variables of ROS and Gazebo list: folders, colons between them."""
         listed = [folder for name in _PATHS for folder in os.environ.get(name, "").split(os.pathsep)]
         return ReadOptions(tuple(Path(folder) for folder in dict.fromkeys(listed) if folder))
 
@@ -123,11 +123,11 @@ class Format(ABC):
 
     @abstractmethod
     def read(self, path: Path, options: ReadOptions) -> Asset:
-        """The asset in a file. Raises AssetError naming the file, what is wrong, and the remedy."""
+        """Return the asset in a file. Raises AssetError naming the file, what is wrong, and the remedy."""
 
     @abstractmethod
     def write(self, asset: Asset, name: str, mass: Mass = "keep") -> Output:
-        """The files of an asset that was read by this format, main file named `name`.
+        """Return the files of an asset that was read by this format, main file named `name`.
 
         Geoms without a parent are written as authored; geoms of the source that are gone are removed; the others
         are new elements, which inherit the contact attributes of their parent.
@@ -136,38 +136,42 @@ class Format(ABC):
         """
 
     def can_write_back(self, asset: Asset) -> bool:
-        """Whether an asset was read from a file of this kind, so that `write` writes it back."""
+        """Return whether an asset was read from a file of this kind, so that `write` writes it back."""
         return asset.format == self.name
 
     def engines_of(self, asset: Asset) -> tuple[str, ...]:
-        """The engines that an asset in this format is for: those of the format, or by whose names it was marked."""
+        """Return the engines that an asset in this format is for: those of the format, or by whose names it was
+        marked."""
         return self.engines
 
     def create(self, asset: Asset, name: str) -> Output:
-        """The files of an asset that came from another format: geometry and bodies, as far as the format holds them."""
+        """Return the files of an asset that came from another format: geometry and bodies, as far as the format holds
+        them."""
         raise self._creation_error(asset)
 
     def _creation_error(self, asset: Asset) -> Exception:
         return AssetError(f"{self.name} files cannot be made from {asset.format} files", where=str(asset.path))
 
     def output_name(self, name: str) -> str:
-        """The name of the file that an edited asset is written to, by that of the file it was read from."""
+        """Return the name of the file that an edited asset is written to, by that of the file it was read from."""
         return name
 
     def features(self, asset: Asset) -> Iterable[Feature]:
-        """What the document of an asset of this format holds that the asset itself does not tell."""
+        """Return what the document of an asset of this format holds that the asset itself does not tell."""
         return ()
 
     def top(self, asset: Asset) -> Path:
-        """The highest folder that the references of an asset name on their way, from that of its file upwards."""
+        """Return the highest folder that the references of an asset name on their way, from that of its file
+        upwards."""
         return asset.path.parent
 
     def is_main(self, path: Path) -> bool:
-        """Whether a file of this format is an asset of its own, and not what stands in for one in older programs."""
+        """Return whether a file of this format is an asset of its own, and not what stands in for one in older
+        programs."""
         return True
 
     def matches_head(self, head: bytes) -> bool:
-        """Whether a file of one of the suffixes may be an asset of this format; head: its first kilobytes."""
+        """Return whether a file of one of the suffixes may be an asset of this format; head: its first kilobytes."""
         return True
 
 
@@ -181,19 +185,19 @@ class SceneFormat(Format):
 
     @abstractmethod
     def is_unmarked(self, asset: Asset) -> bool:
-        """Whether an asset of this format was read from a scene in which nothing is marked as collision."""
+        """Return whether an asset of this format was read from a scene in which nothing is marked as collision."""
 
     @abstractmethod
     def is_edited(self, asset: Asset) -> bool:
-        """Whether the hulls of an asset of this format are not those of its file."""
+        """Return whether the hulls of an asset of this format are not those of its file."""
 
     @abstractmethod
     def surfaces_of(self, asset: Asset) -> Sequence[Surface]:
-        """What an unmarked scene shows, as it was read."""
+        """Return what an unmarked scene shows, as it was read."""
 
     @abstractmethod
     def add_colliders(self, asset: Asset, name: str) -> Output:
-        """The files of an unmarked scene, all of it as it is, with the hulls of the asset beside it, marked.
+        """Return the files of an unmarked scene, all of it as it is, with the hulls of the asset beside it, marked.
 
         They read back as the hulls of the asset, and what was taken for them is only seen. Raises AssetError where a
         file of the scene has changed, or there is no hull.
@@ -201,14 +205,15 @@ class SceneFormat(Format):
 
 
 def feature_of_others(kinds: Iterable[str]) -> Feature:
-    """The feature of elements that no conversion takes: each kind is named once."""
+    """Return the feature of elements that no conversion takes: each kind is named once."""
     each = list(kinds)
     names = tuple(dict.fromkeys(each))
     return Feature(FeatureKind.OTHERS, names, len(each) - len(names))
 
 
 def list_others(top: Any, taken: Collection[str], leaves: Collection[str]) -> Iterator[str]:
-    """The tags below an XML element that a conversion does not take; it takes those of `leaves` with all inside."""
+    """Yield the tags below an XML element that a conversion does not take; it takes those of `leaves` with all
+    inside."""
     waiting = [top]
     while waiting:
         for child in waiting.pop().children:
@@ -219,7 +224,7 @@ def list_others(top: Any, taken: Collection[str], leaves: Collection[str]) -> It
 
 
 def note_renames(names: Mapping[str, str]) -> tuple[str, ...]:
-    """A note on hulls that the file holds under other names."""
+    """Return a note on hulls that the file holds under other names."""
     if not names:
         return ()
     shown = join_names([f"{old} is now {new}" for old, new in names.items()], 3)
@@ -227,13 +232,13 @@ def note_renames(names: Mapping[str, str]) -> tuple[str, ...]:
 
 
 def note_shapes_as_hulls(kinds: Iterable[str], why: str) -> list[str]:
-    """Notes on shapes of some kinds, named once each, that are written as hulls; why: `{}` in it is the kind."""
+    """Return notes on shapes of some kinds, named once each, that are written as hulls; why: `{}` in it is the kind."""
     counts = sorted(Counter(kinds).items())
     return [f"{pluralize(number, kind)} written as hull meshes: {why.format(kind)}" for kind, number in counts]
 
 
 def nothing_collides_error(asset: Asset) -> AssetError:
-    """The error on an asset of which nothing that collides can be written."""
+    """Return the error on an asset of which nothing that collides can be written."""
     problem, where = "there is no hull to write", str(asset.path)
     if not asset.non_convex:
         return AssetError(problem, where=where)

@@ -57,7 +57,7 @@ ElementMentions = Sequence[Sequence[Mentions]]
 def place_pieces(
     pieces: Sequence[Piece], linear: Floats, offset: Floats, surfaces: Sequence[RawSurface] = ()
 ) -> list[CollisionPiece]:
-    """The pieces of a mesh file under x -> linear @ x + offset, reflections included.
+    """Return the pieces of a mesh file under x -> linear @ x + offset, reflections included.
 
     surfaces: those that the pieces are of, where their names and materials are to be kept as parts.
     """
@@ -74,18 +74,18 @@ def place_pieces(
 
 
 def place_surface(vertices: Floats, faces: Ints, linear: Floats, offset: Floats, body: str | None = None) -> Surface:
-    """A surface under x -> linear @ x + offset; a reflection turns its faces round."""
+    """Return a surface under x -> linear @ x + offset; a reflection turns its faces round."""
     return Surface(vertices @ linear.T + offset, faces if np.linalg.det(linear) > 0 else faces[:, ::-1], body)
 
 
 def is_flat(vertices: Floats) -> bool:
-    """Whether points (n, 3) span no volume to speak of; MuJoCo refuses a mesh of such points."""
+    """Return whether points (n, 3) span no volume to speak of; MuJoCo refuses a mesh of such points."""
     extents = principal_extents(vertices)[2]
     return bool(extents.min() <= FLATNESS * extents.max())
 
 
 def turn_z_to(normal: Floats) -> Pose:
-    """The least turn that takes Z onto a direction (3,)."""
+    """Return the least turn that takes Z onto a direction (3,)."""
     length = float(np.linalg.norm(normal))
     x, y, z = normal / length if length > 0 else np.array([0.0, 0.0, 1.0])
     if z < -1 + 1e-12:
@@ -95,7 +95,7 @@ def turn_z_to(normal: Floats) -> Pose:
 
 
 def build_solid(kind: str, sizes: Sequence[float] | Floats, make: Callable[[], Shape]) -> CollisionPiece:
-    """The shape that `make` makes, unless it has no volume; sizes: its own [m], none of which may be zero."""
+    """Return the shape that `make` makes, unless it has no volume; sizes: its own [m], none of which may be zero."""
     if not np.isfinite(sizes).all() or min(sizes) <= 0:
         return CollisionPiece(None, f"a {kind.lower()} without volume: {', '.join(f'{s:g}' for s in sizes)} m")
     try:
@@ -105,7 +105,7 @@ def build_solid(kind: str, sizes: Sequence[float] | Floats, make: Callable[[], S
 
 
 def build_primitive(kind: str, sizes: Floats, pose: Pose) -> CollisionPiece:
-    """A native shape of URDF or SDF about a pose, a cone as a hull; none without volume.
+    """Return a native shape of URDF or SDF about a pose, a cone as a hull; none without volume.
 
     sizes: sides of a box, radii of an ellipsoid, radius and, of what has one, length [m].
     """
@@ -131,7 +131,8 @@ def build_primitive(kind: str, sizes: Floats, pose: Pose) -> CollisionPiece:
 
 
 def build_round(kind: str, pose: Pose, bottom: float, top: float, half: float) -> CollisionPiece:
-    """A cylinder, a cone or a capsule about Z of a pose; bottom, top: its radii; half: of its straight height [m].
+    """Return a cylinder, a cone or a capsule about Z of a pose; bottom, top: its radii; half: of its straight height
+    [m].
 
     A tapered one, which no engine has natively, is a hull; a capsule without a straight part a sphere.
     """
@@ -159,20 +160,20 @@ def _end_points(radius: float, height: float, is_ball: bool) -> Floats:
 
 
 def leaves_volume(linear: Floats, least: float = 1e-12) -> bool:
-    """Whether a map (3, 3) leaves volume: no stretch is less than a share of the largest one."""
+    """Return whether a map (3, 3) leaves volume: no stretch is less than a share of the largest one."""
     stretch = np.linalg.svd(linear, compute_uv=False)
     return bool(stretch[-1] > least * stretch[0])
 
 
 def name_pieces(bases: Iterable[tuple[str, int]]) -> list[tuple[str, ...]]:
-    """The names of pieces; for each element its own name and how many pieces it has: `#k` for one of several."""
+    """Return the names of pieces; for each element its own name and how many pieces it has: `#k` for one of several."""
     each = [[base] if count == 1 else [f"{base}#{k}" for k in range(count)] for base, count in bases]
     unique = iter(unique_names(name for names in each for name in names))
     return [tuple(next(unique) for _ in names) for names in each]
 
 
 def name_element_pieces(elements: Sequence[tuple[str | None, str | None, int]]) -> list[tuple[str, ...]]:
-    """The names that the pieces of collision elements read as; for each element its link, own name and pieces.
+    """Return the names that the pieces of collision elements read as; for each element its link, own name and pieces.
 
     `link/name`, without a link for None; `geomK` for the K-th element of a link where it has no name; `#k` for one of
     several pieces.
@@ -187,25 +188,26 @@ def name_element_pieces(elements: Sequence[tuple[str | None, str | None, int]]) 
 
 
 def own_name_of(names: tuple[str, ...], body: str | None) -> str:
-    """The name of an element whose pieces are to have names: that of the first, without body and `#0`."""
+    """Return the name of an element whose pieces are to have names: that of the first, without body and `#0`."""
     name = names[0].removeprefix(f"{body}/")
     return name if len(names) == 1 else name.removesuffix("#0")
 
 
 def name_elements(found: Iterable[tuple[str, Element]], pieces: Iterable[int]) -> tuple[CollisionElement, ...]:
-    """Collisions with the names of their pieces; found: of each its link and its element; pieces: how many it has."""
+    """Return collisions with the names of their pieces; found: of each its link and its element; pieces: how many it
+    has."""
     own = [(link, e.attributes.get("name"), count) for (link, e), count in zip(found, pieces, strict=True)]
     named = zip(own, name_element_pieces(own), strict=True)
     return tuple(CollisionElement(link, names) for (link, _, _), names in named)
 
 
 def element_of(names: Sequence[str]) -> str:
-    """The name of an element of several pieces by theirs; empty where it has one."""
+    """Return the name of an element of several pieces by theirs; empty where it has one."""
     return names[0].removesuffix("#0") if len(names) > 1 else ""
 
 
 def geoms_of(authored: Sequence[CollisionElement], parts: ElementPieces, mentions: ElementMentions) -> tuple[Geom, ...]:
-    """The pieces that are hulls."""
+    """Return the pieces that are hulls."""
     return tuple(
         Geom(name, one.link, part.shape, mentions=mention_of, element=one.element, fill=part.fill)
         for one, own, words in zip(authored, parts, mentions, strict=True)
@@ -217,7 +219,7 @@ def geoms_of(authored: Sequence[CollisionElement], parts: ElementPieces, mention
 def non_convex_of(
     authored: Sequence[CollisionElement], parts: ElementPieces, mentions: ElementMentions
 ) -> tuple[NonConvexPiece, ...]:
-    """The pieces that are no hulls."""
+    """Return the pieces that are no hulls."""
     return tuple(
         NonConvexPiece(name, one.link, part.reason, part.surface, part.plane, mention_of, one.element)
         for one, own, words in zip(authored, parts, mentions, strict=True)
@@ -242,7 +244,7 @@ class ShapeNames:
 def collect_mentions(
     own: ShapeNames | None, found: Iterable[ShapeNames | None], more: Iterable[tuple[str, str]] = ()
 ) -> Mentions:
-    """What a file calls a shape that collides; found: what its body shows; more: further mentions.
+    """Return what a file calls a shape that collides; found: what its body shows; more: further mentions.
 
     A visual of the same shape is the shape itself to look at. What else the body shows counts where that is one thing.
     """
@@ -259,23 +261,24 @@ def collect_mentions(
 
 
 def names_to_keep(asset: Asset) -> set[str]:
-    """The names of the pieces that an edit leaves as they were: hulls without a parent, and all non-convex pieces."""
+    """Return the names of the pieces that an edit leaves as they were: hulls without a parent, and all non-convex
+    pieces."""
     return {geom.name for geom in asset.geoms if geom.parent is None} | {piece.name for piece in asset.non_convex}
 
 
 def new_hulls(asset: Asset, known: Container[str]) -> list[Geom]:
-    """The hulls that an edit made; known: the names of the pieces of the file."""
+    """Return the hulls that an edit made; known: the names of the pieces of the file."""
     return [geom for geom in asset.geoms if geom.parent is not None or geom.name not in known]
 
 
 def is_edited(asset: Asset, known: Iterable[str]) -> bool:
-    """Whether an edit removed or made a hull; known: the names of the pieces of the file."""
+    """Return whether an edit removed or made a hull; known: the names of the pieces of the file."""
     names = set(known)
     return not names <= names_to_keep(asset) or bool(new_hulls(asset, names))
 
 
 def drop_repeats(found: Iterable[tuple[str, str | None]]) -> Mentions:
-    """The mentions without empty ones, each name once."""
+    """Return the mentions without empty ones, each name once."""
     names: dict[str, str] = {}
     for kind, name in found:
         if name and name.strip():
@@ -284,12 +287,12 @@ def drop_repeats(found: Iterable[tuple[str, str | None]]) -> Mentions:
 
 
 def stem_of(reference: str) -> str:
-    """The name of a file that is referred to, without folder and suffix."""
+    """Return the name of a file that is referred to, without folder and suffix."""
     return posixpath.splitext(posixpath.basename(reference.replace("\\", "/").strip()))[0]
 
 
 def change_error(what: str, where: str) -> AssetError:
-    """The error about a file that is not what it was."""
+    """Return the error about a file that is not what it was."""
     return AssetError(f"{what} has changed since the asset was read", where=where, remedy="Read the asset again.")
 
 

@@ -46,7 +46,7 @@ class ConversionReport:
 def report_conversion(
     asset: Asset, source: Format | None, target: Format, output: Output, remarks: Iterable[str] = ()
 ) -> ConversionReport:
-    """The report on an asset of the format `source` (None: of memory) that `target` has made the output of."""
+    """Return the report on an asset of the format `source` (None: of memory) that `target` has made the output of."""
     own = [*output.lost, *_find_faded_materials(asset, target)]
     if output.names and FeatureKind.NAMES in target.holds:
         now = join_names(list(output.names.values()), 3)
@@ -112,7 +112,7 @@ def _body_feature(what: FeatureKind, bodies: list[str | None]) -> Feature:
 
 
 def turn_upright(asset: Asset, source: Format | None, target: Format) -> tuple[Asset, tuple[str, ...]]:
-    """The asset as it stands upright in the target format, and remarks on that for the user.
+    """Return the asset as it stands upright in the target format, and remarks on that for the user.
 
     A format that does not say what is up takes coordinates as they are.
     """
@@ -129,7 +129,8 @@ def turn_upright(asset: Asset, source: Format | None, target: Format) -> tuple[A
 
 
 def turn_asset(asset: Asset, turn: Pose) -> Asset:
-    """The asset in another root frame, new_T_old; frames of bodies are turned along, so that a root stays one."""
+    """Return the asset in another root frame, new_T_old; frames of bodies are turned along, so that a root stays
+    one."""
 
     def turn_surface(surface: Surface) -> Surface:
         return replace(surface, vertices=turn.apply(surface.vertices))
@@ -151,7 +152,7 @@ def turn_asset(asset: Asset, turn: Pose) -> Asset:
 
 
 def note_hulled(pieces: Sequence[NonConvexPiece], engines: str) -> list[str]:
-    """A note on pieces of which engines make hulls: which, and the share of its hull that each fills."""
+    """Return a note on pieces of which engines make hulls: which, and the share of its hull that each fills."""
     if not pieces:
         return []
     found = [_measure_fill(piece.surface) for piece in pieces if piece.surface]
@@ -181,7 +182,7 @@ class CouplingPlan:
 
 
 def plan_couplings(joints: Sequence[Joint], title: str, *, polynomials: bool = False) -> CouplingPlan:
-    """The couplings that a format gets; polynomials: whether it has those that are not linear."""
+    """Return the couplings that a format gets; polynomials: whether it has those that are not linear."""
     plan = CouplingPlan()
     moving = {joint.name: joint for joint in joints if joint.kind in ("revolute", "prismatic") and joint.name}
     for joint in joints:

@@ -79,7 +79,7 @@ def decompose(
 
 
 def read_surface(mesh: str | os.PathLike[str] | TrimeshObject) -> tuple[Path, Surface]:
-    """The triangles of a mesh file, or of a mesh or scene of trimesh, with their parts. Raises AssetError."""
+    """Return the triangles of a mesh file, or of a mesh or scene of trimesh, with their parts. Raises AssetError."""
     surfaces: Sequence[RawSurface]
     if isinstance(mesh, str | os.PathLike):
         path, surfaces = Path(mesh), mesh_reader.read_triangles(Path(mesh))
@@ -92,7 +92,7 @@ def read_surface(mesh: str | os.PathLike[str] | TrimeshObject) -> tuple[Path, Su
 def label_surface(
     path: Path, surface: Surface, labels: SegmentationFile | None, note: Callable[[str], None]
 ) -> Surface:
-    """The surface of a mesh file with its parts by segmented points, of the file beside it when None.
+    """Return the surface of a mesh file with its parts by segmented points, of the file beside it when None.
 
     Raises UsageError where there is none, AssetError where they do not fit the surface.
     """
@@ -108,7 +108,7 @@ def label_surface(
 
 
 def name_hulls(parts: Sequence[str]) -> list[str]:
-    """The names of hulls, each by its part and a number: `handle_0`; parts of one name are numbered together."""
+    """Return the names of hulls, each by its part and a number: `handle_0`; parts of one name are numbered together."""
     return unique_names(_number([surface_parts.plain_part_name(part) for part in parts]))
 
 
@@ -124,7 +124,6 @@ def _number(bases: Sequence[str]) -> list[str]:
 
 
 def _describe_parts(known: geometry.SurfaceParts | None, by: DecomposeBy) -> list[str]:
-    """A note where parts were asked for and are not there, or are there and were not asked for."""
     names = list(dict.fromkeys(known.names[k] for k in known.numbers)) if known else []
     if by == "parts":
         return ["no parts are known, by groups, nodes or materials: decomposed as a whole"]

@@ -43,7 +43,7 @@ class OutputElement:
         return same_name and not self.edits and not self.copy
 
     def to_bytes(self, data: bytes) -> bytes:
-        """Its text; data: the authored document."""
+        """Return its text; data: the authored document."""
         if self.source is None:
             tag = _TAG.match(self.text)
             assert tag is not None  # a text is an element
@@ -72,39 +72,40 @@ class ElementMaker(ABC):
 
     @abstractmethod
     def reference_of(self, mesh: xml.Element) -> str:
-        """The reference of a `<mesh>`."""
+        """Return the reference of a `<mesh>`."""
 
     @abstractmethod
     def native_lines(self, shape: Shape) -> tuple[Pose, list[bytes]] | None:
-        """The pose of a shape that the format has of its own, and its lines without that; None for others."""
+        """Return the pose of a shape that the format has of its own, and its lines without that; None for others."""
 
     @abstractmethod
     def mesh_lines(self, reference: str) -> list[bytes]:
-        """The lines of a mesh file in metres."""
+        """Return the lines of a mesh file in metres."""
 
     @abstractmethod
     def build_collision(self, pose: Pose, kind: Sequence[bytes], lead: bytes) -> bytes:
-        """A `<collision>` without a name, whose lines but the first are indented by `lead`."""
+        """Return a `<collision>` without a name, whose lines but the first are indented by `lead`."""
 
     @abstractmethod
     def replace_geometry(
         self, collision: xml.Element, pose: Pose, kind: Sequence[bytes], reference: str | None
     ) -> tuple[xml.Splice, ...]:
-        """The edits that give a copy of a collision another pose and geometry, all else of it being inherited.
+        """Return the edits that give a copy of a collision another pose and geometry, all else of it being inherited.
 
         reference: of a mesh.
         """
 
     @abstractmethod
     def extract_piece(self, element: xml.Element, name: str, k: int) -> tuple[xml.Splice, ...]:
-        """The edits that leave of an element its k-th piece alone, triangles as authored; name: of that piece."""
+        """Return the edits that leave of an element its k-th piece alone, triangles as authored; name: of that
+        piece."""
 
     def explain_hull(self, shape: Shape) -> str:
-        """Why a native shape is written as a hull."""
+        """Return why a native shape is written as a hull."""
         return f"{self.title} has no {shape.kind}"
 
     def make_element(self, geom: Geom, root_t_link: Pose, template: xml.Element | None, lead: bytes) -> OutputElement:
-        """The element of a hull; template: that of its parent, all but pose and geometry of which is inherited.
+        """Return the element of a hull; template: that of its parent, all but pose and geometry of which is inherited.
 
         lead: the blanks before an element without a template.
         """
@@ -118,13 +119,14 @@ class ElementMaker(ABC):
         return OutputElement(geom.body, (geom.name,), None, template, edits, copy=True)
 
     def make_surface(self, piece: NonConvexPiece, root_t_link: Pose, surface: Surface, lead: bytes) -> OutputElement:
-        """The element of a non-convex surface as it is."""
+        """Return the element of a non-convex surface as it is."""
         vertices = root_t_link.inverse().apply(np.asarray(surface.vertices))
         kind = self.mesh_lines(self.files.add(piece.name, "", vertices, surface.faces))
         return OutputElement(piece.body, (piece.name,), text=self.build_collision(Pose.identity(), kind, lead))
 
     def make_piece(self, reference: str, part: tuple[str, ...], name: str, k: int) -> tuple[Piece, str]:
-        """The k-th piece of a mesh, or of a part of it, and the reference to a file of its own, which is made."""
+        """Return the k-th piece of a mesh, or of a part of it, and the reference to a file of its own, which is
+        made."""
         assert self.files.resolver is not None and self.meshes is not None  # only meshes have several pieces
         path = self.files.resolver.find(reference)
         if path is None:
@@ -133,7 +135,7 @@ class ElementMaker(ABC):
         return piece, self.files.add(name, self.files.folder_of(reference), piece.vertices, piece.faces)
 
     def find_folder(self, collisions: Iterable[xml.Element]) -> str:
-        """The folder of the first mesh of some collisions, in which hulls go whose parents have none."""
+        """Return the folder of the first mesh of some collisions, in which hulls go whose parents have none."""
         meshes = (kind for element in collisions if (kind := geometry_of(element)) and kind.tag == "mesh")
         first = next(meshes, None)
         return self.files.folder_of(self.reference_of(first) if first else None)
@@ -229,14 +231,14 @@ def refuse_unknown_link(geom: Geom, links: Collection[str], where: str) -> None:
 
 
 def replace_element(data: bytes, element: xml.Element, outputs: Sequence[OutputElement]) -> xml.Splice:
-    """What stands in the place of an authored element; nothing takes its line away."""
+    """Return what stands in the place of an authored element; nothing takes its line away."""
     if not outputs:
         return xml.remove_element(data, element)
     return xml.Splice(element.start, element.end, _join_outputs(data, outputs, xml.indent_of(data, element.start)))
 
 
 def append_elements(data: bytes, parent: xml.Element, outputs: Sequence[OutputElement]) -> xml.Splice:
-    """What is added at the end of an element."""
+    """Return what is added at the end of an element."""
     line_end, before = xml.newline_of(data), xml.indent_of(data, parent.start) or b""
     if parent.children:
         last = parent.children[-1]
@@ -257,7 +259,7 @@ def append_elements(data: bytes, parent: xml.Element, outputs: Sequence[OutputEl
 
 
 def child_indent_of(data: bytes, parent: xml.Element) -> bytes:
-    """The blanks before the children of an element."""
+    """Return the blanks before the children of an element."""
     if parent.children:
         return xml.indent_of(data, parent.children[-1].start) or b""
     return (xml.indent_of(data, parent.start) or b"") + b"  "
@@ -301,5 +303,5 @@ def _find_misread(outputs: Sequence[OutputElement]) -> list[tuple[OutputElement,
 
 
 def name_attribute_of(output: OutputElement) -> str:
-    """The name attribute under which a output's pieces have their names."""
+    """Return the name attribute under which a output's pieces have their names."""
     return collision_pieces.own_name_of(output.names, output.body)

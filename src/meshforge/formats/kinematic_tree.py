@@ -37,7 +37,7 @@ class BodyTree:
 
     @staticmethod
     def of(asset: Asset) -> BodyTree:
-        """The tree of an asset's joints, their names made unique; each body that no joint leads to is a root."""
+        """Return the tree of an asset's joints, their names made unique; each body that no joint leads to is a root."""
         joints: dict[str, list[Joint]] = {body.name: [] for body in asset.bodies}
         below: dict[str, list[str]] = {body.name: [] for body in asset.bodies}
         names = iter(unique_names(joint.name for joint in asset.mechanism.joints if joint.name))
@@ -53,12 +53,12 @@ class BodyTree:
         return BodyTree(tuple(order), joints)
 
     def parent(self, body: str) -> str | None:
-        """The body that a body hangs on, None for a root."""
+        """Return the body that a body hangs on, None for a root."""
         joints = self.joints[body]
         return joints[0].parent if joints else None
 
     def is_static(self, body: str) -> bool:
-        """Whether nothing between a body and its root can move."""
+        """Return whether nothing between a body and its root can move."""
         at: str | None = body
         while at is not None:
             if any(joint.kind != "fixed" for joint in self.joints[at]):
@@ -76,7 +76,7 @@ class BodyTree:
 
 
 def claim_name(wanted: str, taken: set[str]) -> str:
-    """A name that is not taken: the wanted one, or with a number behind it; it is taken from then on."""
+    """Return a name that is not taken: the wanted one, or with a number behind it; it is taken from then on."""
     name, number = wanted, 2
     while name in taken:
         name, number = f"{wanted}_{number}", number + 1
@@ -207,7 +207,7 @@ def _link_origin_of(joint: Joint, pose: Pose) -> Floats:
 
 
 def split_planar(joint: Joint) -> list[tuple[str, JointKind, Floats]]:
-    """The name, kind and axis (3,) of each of the joints that move together as a planar one."""
+    """Return the name, kind and axis (3,) of each of the joints that move together as a planar one."""
     side = np.cross(joint.axis, np.eye(3)[int(np.argmin(np.abs(joint.axis)))])
     across: Floats = side / np.linalg.norm(side)
     slides: list[tuple[str, JointKind, Floats]] = [("x", "prismatic", across)]
@@ -215,31 +215,33 @@ def split_planar(joint: Joint) -> list[tuple[str, JointKind, Floats]]:
 
 
 def place_inertial(inertial: Inertial, root_t_link: Pose) -> tuple[Floats, Floats]:
-    """The centre (3,) [m] of a mass and the inertia (3, 3) [kg m^2] about it, in the frame of a link."""
+    """Return the centre (3,) [m] of a mass and the inertia (3, 3) [kg m^2] about it, in the frame of a link."""
     turn = root_t_link.rotation.T
     centre = turn @ (inertial.centre - root_t_link.translation)
     return centre, drop_rounding(turn @ inertial.inertia @ turn.T)
 
 
 def name_moments(tensor: Floats) -> list[tuple[str, float]]:
-    """The numbers of an inertia (3, 3) by the names of URDF and SDF."""
+    """Return the numbers of an inertia (3, 3) by the names of URDF and SDF."""
     return list(zip(TENSOR_NAMES, tensor[np.triu_indices(3)].tolist(), strict=True))
 
 
 def tensor_of_moments(moments: Iterable[float]) -> Floats:
-    """The inertia (3, 3) of six numbers in the order of `TENSOR_NAMES`."""
+    """Return the inertia (3, 3) of six numbers in the order of `TENSOR_NAMES`."""
     xx, xy, xz, yy, yz, zz = moments
     return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
 
 
 def drop_rounding(values: Floats, scale: float | None = None) -> Floats:
-    """The numbers without those that are but the rounding of larger ones; scale: of these, else of the largest."""
+    """Return the numbers without those that are but the rounding of larger ones; scale: of these, else of the
+    largest."""
     largest = float(np.abs(values).max()) if scale is None else scale
     return np.where(np.abs(values) < _ROUNDING * largest, 0.0, values)
 
 
 def read_numbers(text: str, count: int, given: str, place: str) -> Floats:
-    """The numbers (count,) of a text. Raises AssetError at a place: others, or none of a size; given: the element."""
+    """Return the numbers (count,) of a text. Raises AssetError at a place: others, or none of a size; given: the
+    element."""
     values = parse_numbers(text)
     if values is None or len(values) != count:
         wanted = "a finite number" if count == 1 else f"{count} finite numbers"

@@ -33,7 +33,7 @@ else:
 
 
 def make_folder() -> Path:
-    """A new folder, removed when the process ends."""
+    """Return a new folder, removed when the process ends."""
     folder = Path(tempfile.mkdtemp(prefix="meshforge-"))
     atexit.register(shutil.rmtree, folder, ignore_errors=True)
     return folder

@@ -41,19 +41,19 @@ class LinkCreator(ABC):
         self.shown = {link: self._build_visuals(link) for link in self.links}
 
     def name_links(self, bare: set[str]) -> dict[str, str]:
-        """The name of each link in the file; bare: bodies that have nothing."""
+        """Return the name of each link in the file; bare: bodies that have nothing."""
         return {link: link for link in self.chain.frames}
 
     @abstractmethod
     def refuse_surface(self, surface: Surface) -> str:
-        """Why a non-convex piece of such a surface is not written, empty where it is."""
+        """Return why a non-convex piece of such a surface is not written, empty where it is."""
 
     def build_plane(self, piece: NonConvexPiece, link_t_plane: Pose) -> list[element_edits.OutputElement]:
-        """The collision of an endless plane; none where the format has none."""
+        """Return the collision of an endless plane; none where the format has none."""
         return []
 
     def inertial_of(self, link: str) -> tuple[Inertial | None, Pose]:
-        """The mass of a link, and the frame of the link as the mass has it."""
+        """Return the mass of a link, and the frame of the link as the mass has it."""
         body = next((body for body, own in self.chain.of_body.items() if own == link), None)
         if body:
             return self.inertials.get(body), self.chain.frames[link]
@@ -65,7 +65,7 @@ class LinkCreator(ABC):
         return [link for link in self.links if link not in self.inertials and link not in self.chain.light]
 
     def collect_losses(self) -> tuple[base.Loss, ...]:
-        """What the file does not hold."""
+        """Return what the file does not hold."""
         return (*self.chain.lost, *self.couplings.lost, *self.lost, *unreadable_visuals(self.visuals.refused))
 
     def _build_outputs(self) -> dict[str, list[element_edits.OutputElement]]:

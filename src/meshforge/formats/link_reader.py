@@ -32,7 +32,7 @@ _GEOMETRY_TAGS = (
 
 
 def geometry_of(element: Element) -> Element | None:
-    """What the `<geometry>` of a collision or visual holds, None where there is nothing."""
+    """Return what the `<geometry>` of a collision or visual holds, None where there is nothing."""
     geometry = element.first("geometry")
     if geometry is None or not geometry.children:
         return None
@@ -74,11 +74,11 @@ class CollisionMeshes:
         self.cut: dict[tuple[Path, tuple[str, ...]], list[Piece]] = {}
 
     def select(self, surfaces: Sequence[RawSurface], part: tuple[str, ...]) -> Sequence[RawSurface]:
-        """What a part of a file stands for: all of it."""
+        """Return what a part of a file stands for: all of it."""
         return surfaces
 
     def surfaces(self, path: Path, part: tuple[str, ...]) -> Sequence[RawSurface]:
-        """What an element uses of a file. Raises MeshForgeError: it cannot be read, or has no such part."""
+        """Return what an element uses of a file. Raises MeshForgeError: it cannot be read, or has no such part."""
         if (path, part) not in self._surfaces:
             if path not in self._files:
                 self._files[path] = read_triangles(path)
@@ -86,7 +86,7 @@ class CollisionMeshes:
         return self._surfaces[path, part]
 
     def pieces(self, path: Path, part: tuple[str, ...]) -> list[Piece]:
-        """The pieces of that, in the unit of the file. Raises AssetError also where it has changed."""
+        """Return the pieces of that, in the unit of the file. Raises AssetError also where it has changed."""
         if (path, part) not in self.cut:
             if self._known is not None and file_digest(path) != self._known.get(path):
                 raise collision_pieces.change_error(f"the mesh {path.name!r}", str(path))
@@ -94,7 +94,7 @@ class CollisionMeshes:
         return self.cut[path, part]
 
     def digests(self) -> tuple[tuple[Path, str], ...]:
-        """Digests of the files that hold several pieces, which an edit may have to part."""
+        """Return digests of the files that hold several pieces, which an edit may have to part."""
         several = dict.fromkeys(path for (path, _), pieces in self.cut.items() if len(pieces) > 1)
         return tuple((path, file_digest(path)) for path in several)
 
@@ -118,47 +118,48 @@ class LinkReader(ABC):
 
     @abstractmethod
     def place(self, link: Link, element: Element) -> Pose:
-        """root_T_element of something in a link. Raises AssetError with `where:line`."""
+        """Return root_T_element of something in a link. Raises AssetError with `where:line`."""
 
     @abstractmethod
     def reference_of(self, mesh: Element) -> str:
-        """The reference of a `<mesh>`, empty without one."""
+        """Return the reference of a `<mesh>`, empty without one."""
 
     @abstractmethod
     def read_scale(self, mesh: Element, where: str) -> tuple[Floats, str]:
-        """The factors (3,) by which a `<mesh>` is scaled, and how it says so. Raises AssetError with `where:line`."""
+        """Return the factors (3,) by which a `<mesh>` is scaled, and how it says so. Raises AssetError with
+        `where:line`."""
 
     @abstractmethod
     def read_shape(self, element: Element, kind: Element, pose: Pose, where: str) -> CollisionPiece:
-        """The shape of a collision or visual that is no mesh; pose: root_T_geometry. Raises AssetError."""
+        """Return the shape of a collision or visual that is no mesh; pose: root_T_geometry. Raises AssetError."""
 
     @abstractmethod
     def read_color(self, visual: Element, where: str) -> Rgba | None:
-        """The colour of a `<visual>`, None where that is left to its file."""
+        """Return the colour of a `<visual>`, None where that is left to its file."""
 
     @abstractmethod
     def identify_shape(self, element: Element, kind: Element) -> object:
-        """What tells the shape of an element that is no mesh from others."""
+        """Return what tells the shape of an element that is no mesh from others."""
 
     @abstractmethod
     def material_of(self, element: Element) -> str:
-        """The name of an element's material, empty without one."""
+        """Return the name of an element's material, empty without one."""
 
     def part_of(self, mesh: Element) -> tuple[str, ...]:
-        """What of its file a `<mesh>` uses, see `CollisionMeshes.select`."""
+        """Return what of its file a `<mesh>` uses, see `CollisionMeshes.select`."""
         return ()
 
     def place_mesh(self, kind: Element, path: Path, linear: Floats, offset: Floats) -> list[CollisionPiece]:
-        """The pieces of a mesh under x -> linear @ x + offset. Raises MeshForgeError: it cannot be read."""
+        """Return the pieces of a mesh under x -> linear @ x + offset. Raises MeshForgeError: it cannot be read."""
         pieces, surfaces = self.meshes.pieces(path, self.part_of(kind)), self.meshes.surfaces(path, self.part_of(kind))
         return collision_pieces.place_pieces(pieces, linear, offset, surfaces)
 
     def unit_of(self, path: Path) -> float:
-        """The metres of the unit that the file of a visual is in, where the format's engines obey it."""
+        """Return the metres of the unit that the file of a visual is in, where the format's engines obey it."""
         return 1.0
 
     def read_collisions(self, links: Iterable[Link]) -> LinkCollisions:
-        """The collisions of all links.
+        """Return the collisions of all links.
 
         Raises AssetError naming file, line and element: what is not understood, a mesh that is not there.
         """
@@ -175,12 +176,12 @@ class LinkReader(ABC):
         return LinkCollisions(found, authored, geoms, non_convex, self.meshes.digests())
 
     def read_visuals(self, links: Iterable[Link]) -> VisualSurfaces:
-        """The visuals of all links; one that is not understood is left out, it never fails."""
+        """Return the visuals of all links; one that is not understood is left out, it never fails."""
         found = (self._read_visual(link, element) for link in links for element in link.element.each("visual"))
         return VisualSurfaces(tuple(visual for visual in found if visual))
 
     def mentions_of(self, link: Element, collision: Element) -> Mentions:
-        """What the file calls a `<collision>` of a link besides its own name."""
+        """Return what the file calls a `<collision>` of a link besides its own name."""
         return collision_pieces.collect_mentions(self._names_of(collision), map(self._names_of, link.each("visual")))
 
     def _find_mesh(self, link: Link, element: Element, label: str) -> _MeshUse | None:

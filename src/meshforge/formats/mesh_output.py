@@ -61,7 +61,7 @@ class HullFiles:
         return reference
 
     def folder_of(self, reference: str | None) -> str:
-        """The folder of a mesh reference as it is written, with a final slash, where hulls may join the mesh.
+        """Return the folder of a mesh reference as it is written, with a final slash, where hulls may join the mesh.
 
         The empty text, which is the folder of the description, where the mesh lies outside of it or at an absolute
         place.
@@ -107,7 +107,7 @@ class VisualFiles:
             self._base = Path(os.path.commonpath([path.parent for path in (*paths, *beside)]))
 
     def add_visual(self, body: str, visual: Visual | Surface, root_t_link: Pose) -> LinkVisual | None:
-        """A visual as it is to be written; None where its file cannot be read."""
+        """Return a visual as it is to be written; None where its file cannot be read."""
         link_t_root = root_t_link.inverse()
         if isinstance(visual, Surface):
             reference = self._make_obj(f"{body}-visual", link_t_root.apply(visual.vertices), visual.faces)

@@ -80,7 +80,7 @@ _SIGNATURES = (
 
 
 def read_triangles(path: Path) -> list[RawSurface]:
-    """The surfaces of an OBJ, STL, PLY, Collada, glTF, GLB or VRML file, node transforms applied.
+    """Return the surfaces of an OBJ, STL, PLY, Collada, glTF, GLB or VRML file, node transforms applied.
 
     Raises AssetError naming the file, and the line where there is one: unreadable, damaged, empty, or not finite.
     """
@@ -90,7 +90,7 @@ def read_triangles(path: Path) -> list[RawSurface]:
 
 
 def read_content(path: Path) -> bytes:
-    """The bytes of a file.
+    """Return the bytes of a file.
 
     Raises AssetError: it is not there, may not be read, is no regular file, or plainly is of another kind.
     """
@@ -107,7 +107,7 @@ def read_content(path: Path) -> bytes:
 
 
 def parse_surfaces(data: bytes, path: Path) -> list[RawSurface]:
-    """The surfaces in the bytes of the mesh file at a path. Raises AssetError."""
+    """Return the surfaces in the bytes of the mesh file at a path. Raises AssetError."""
     where = str(path)
     match path.suffix.lower():
         case ".obj":
@@ -138,7 +138,7 @@ def parse_surfaces(data: bytes, path: Path) -> list[RawSurface]:
 
 
 def split_into_pieces(surfaces: Sequence[RawSurface], *, name: str) -> list[Piece]:
-    """The pieces of all surfaces of a file together; a piece's `group` is the index of its surface."""
+    """Return the pieces of all surfaces of a file together; a piece's `group` is the index of its surface."""
     if not surfaces:
         return []
     soup = join_surfaces(surfaces)
@@ -159,7 +159,7 @@ def refuse_lookalike(data: bytes, path: Path) -> None:
 
 
 def is_binary_stl(data: bytes) -> bool:
-    """Whether the length of a file is just what a binary STL's count of triangles says."""
+    """Return whether the length of a file is just what a binary STL's count of triangles says."""
     if len(data) <= _STL_HEADER:
         return False
     count = int.from_bytes(data[80:_STL_HEADER], "little")

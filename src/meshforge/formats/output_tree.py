@@ -95,7 +95,8 @@ def save(
 
 
 def make_output(mesh: SymbolicMesh, kind: str, name: str) -> Output:
-    """The files of a mesh in the format of a name, main file named `name`, without writing them. Raises AssetError."""
+    """Return the files of a mesh in the format of a name, main file named `name`, without writing them. Raises
+    AssetError."""
     known = format_named(kind)
     assert known is not None
     asset = _to_asset(mesh)
@@ -227,7 +228,7 @@ def _put_file(target: Path, content: Content, link: bool) -> None:
 
 
 def output_path_of(asset: Asset, base: Path, out_dir: Path) -> Path:
-    """The path of an asset's output: below `out_dir` as the asset is below `base`.
+    """Return the path of an asset's output: below `out_dir` as the asset is below `base`.
 
     Where the asset has files outside of `base`, or references that pass through a folder above it (MJCF's
     `../cup/a.stl` from within `cup`), it counts from the deepest folder that holds it and them all, so that they still
@@ -245,7 +246,7 @@ def output_path_of(asset: Asset, base: Path, out_dir: Path) -> Path:
 
 
 def has_content(target: Path, content: bytes | Path) -> bool:
-    """Whether a file that exists holds just that already."""
+    """Return whether a file that exists holds just that already."""
     if isinstance(content, Path):
         if not content.is_file():
             raise AssetError("a file that the asset refers to is gone", where=str(content))

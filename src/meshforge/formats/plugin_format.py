@@ -15,7 +15,7 @@ from meshforge.symbolic import Asset, Feature, Geom, NonConvexPiece
 
 
 def guard_format(plugin: Plugin, kind: Any, taken: Iterable[str]) -> Format:
-    """A plug-in's format, guarded; taken: names of other formats. Raises PluginError where it does not fit."""
+    """Return a plug-in's format, guarded; taken: names of other formats. Raises PluginError where it does not fit."""
     if problem := _find_misfit(plugin.name, kind, taken):
         raise plugin.error(f"does not fit: {problem}")
     with blame(plugin):

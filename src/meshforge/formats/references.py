@@ -29,11 +29,11 @@ class Resolver:
     roots: tuple[Path, ...] = ()
 
     def find(self, reference: str) -> Path | None:
-        """The file a reference leads to, None where it is not there."""
+        """Return the file a reference leads to, None where it is not there."""
         return next((path for path in self.candidates(reference) if is_file(path)), None)
 
     def candidates(self, reference: str) -> Iterator[Path]:
-        """The places where the file may be, likeliest first; none for an address in the network."""
+        """Yield the places where the file may be, likeliest first; none for an address in the network."""
         reference = reference.strip()
         if package := _PACKAGE.fullmatch(reference):
             yield from (self._join(home, package[2]) for home in self._homes(package[1]))
@@ -45,11 +45,11 @@ class Resolver:
                 yield self._join(self.folder, reference.replace("\\", "/"))
 
     def place(self, reference: str) -> str | None:
-        """Where the file of a reference goes in an output: `placement`."""
+        """Return where the file of a reference goes in an output: `placement`."""
         return placement(reference)
 
     def find_package(self, package: str) -> Path | None:
-        """The folder of a package, None where it is not there."""
+        """Return the folder of a package, None where it is not there."""
         return next((home for home in self._homes(package) if home.is_dir()), None)
 
     def _homes(self, package: str) -> Iterator[Path]:
@@ -64,7 +64,7 @@ class Resolver:
         return Path(os.path.normpath(folder / rest))
 
     def advice(self, reference: str) -> str:
-        """Where the file of a reference was looked for, and what to do about it."""
+        """Return where the file of a reference was looked for, and what to do about it."""
         reference = reference.strip()
         if is_address(reference):
             return "Addresses are not followed: download the file and refer to the copy."
@@ -93,12 +93,12 @@ class Resolver:
 
 
 def is_address(reference: str) -> bool:
-    """Whether a reference leads into the network."""
+    """Return whether a reference leads into the network."""
     return urlsplit(reference).scheme in ("http", "https", "ftp") if "://" in reference else False
 
 
 def placement(reference: str) -> str | None:
-    """Where the file of a reference goes, relative to the folder of the written URDF, so that it is found there.
+    """Return where the file of a reference goes, relative to the folder of the written URDF, so that it is found there.
 
     None for an absolute reference, which is found wherever the URDF lies, and for an address.
     """
@@ -136,7 +136,7 @@ _GLB_HEADER = 20  # bytes: magic, version, length; length and type of the chunk 
 
 
 def find_companions(mesh: Path) -> dict[str, Path]:
-    """The files beside a mesh file that it refers to and that are there, by their path relative to its folder.
+    """Return the files beside a mesh file that it refers to and that are there, by their path relative to its folder.
 
     An OBJ's material libraries and their textures, a Collada file's images, a glTF file's buffers and images.
     Never raises for what the file holds: what cannot be understood has no companions.
@@ -151,7 +151,7 @@ def find_companions(mesh: Path) -> dict[str, Path]:
 
 
 def find_all(references: Iterable[str], resolver: Resolver) -> tuple[tuple[Path, ...], tuple[str, ...]]:
-    """The files of references that are there, with their companions, and the references that lead nowhere."""
+    """Return the files of references that are there, with their companions, and the references that lead nowhere."""
     found = {reference: resolver.find(reference) for reference in references}
     paths = [path for path in found.values() if path is not None]
     files = dict.fromkeys(file for path in paths for file in (path, *find_companions(path).values()))
@@ -167,7 +167,7 @@ def add_copy(copies: dict[str, Path], place: str, path: Path, remedy: str = "Ren
 
 
 def note_absolute(reference: str) -> str:
-    """The note on a file that is not copied."""
+    """Return the note on a file that is not copied."""
     return f"{reference!r} is an absolute reference: the file is used where it is, not copied"
 
 

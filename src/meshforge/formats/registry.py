@@ -66,12 +66,12 @@ MESH_SUFFIXES: tuple[str, ...] = tuple(s for f in FOLDER.members for s in f.suff
 
 
 def all_suffixes() -> tuple[str, ...]:
-    """The suffixes of all files that can be read, those of plug-ins last; no plug-in is loaded for that."""
+    """Return the suffixes of all files that can be read, those of plug-ins last; no plug-in is loaded for that."""
     return tuple(f".{name}" for name in FORMATS_BY_SUFFIX)
 
 
 def is_description(path: Path) -> bool:
-    """Whether a file is of a format whose files name mesh files as their parts."""
+    """Return whether a file is of a format whose files name mesh files as their parts."""
     try:
         known = _format_of_suffix(path)
     except PluginError:
@@ -80,13 +80,14 @@ def is_description(path: Path) -> bool:
 
 
 def format_named(name: str) -> Format | None:
-    """The format of a name, those of plug-ins last; None where there is none."""
+    """Return the format of a name, those of plug-ins last; None where there is none."""
     built_in = next((known for known in FORMATS if known.name == name), None)
     return built_in or next((known for known in FORMATS_BY_SUFFIX.loadable().values() if known.name == name), None)
 
 
 def plugin_of_suffix(suffix: str) -> Plugin | None:
-    """The plug-in that reads files of a suffix, None where it is built in, unknown, or several plug-ins have it."""
+    """Return the plug-in that reads files of a suffix, None where it is built in, unknown, or several plug-ins have
+    it."""
     try:
         return FORMATS_BY_SUFFIX.plugin(suffix.lower().removeprefix("."))
     except PluginError:
@@ -94,7 +95,8 @@ def plugin_of_suffix(suffix: str) -> Plugin | None:
 
 
 def resolve_asset_path(path: Path) -> Path:
-    """The file or folder that is meant: the folder of a Gazebo model (one with a `model.config`) stands for its SDF.
+    """Return the file or folder that is meant: the folder of a Gazebo model (one with a `model.config`) stands for its
+    SDF.
 
     Raises AssetError: its `model.config` is no XML.
     """
@@ -103,7 +105,7 @@ def resolve_asset_path(path: Path) -> Path:
 
 
 def format_of(path: Path) -> Format:
-    """The format of a file or folder that is to be read.
+    """Return the format of a file or folder that is to be read.
 
     Raises AssetError: there is no such file, or it is of no known format. Raises PluginError: it is of a plug-in that
     cannot be loaded.
@@ -121,7 +123,7 @@ def format_of(path: Path) -> Format:
 
 
 def is_asset(path: Path) -> bool:
-    """Whether a file that a folder or a glob holds is an asset: of a known suffix, and no part of another one.
+    """Return whether a file that a folder or a glob holds is an asset: of a known suffix, and no part of another one.
 
     `package.xml` of ROS is none, nor an MJCF that other ones include, nor an SDF for older versions of Gazebo than that
     beside it, nor segmented points of an asset, `table.points.ply`; named outright, they say what they are.
@@ -139,7 +141,8 @@ def is_asset(path: Path) -> bool:
 
 
 def format_for(path: Path, own: str) -> Format:
-    """The format of a file that is to be written, by its suffix; own: the name of the format that the asset has now.
+    """Return the format of a file that is to be written, by its suffix; own: the name of the format that the asset has
+    now.
 
     A path without a suffix is a folder. Raises AssetError: a suffix of no known format.
     """
@@ -151,7 +154,7 @@ def format_for(path: Path, own: str) -> Format:
 
 
 def format_with_names(known: Format, names: MarkName) -> Format:
-    """A format that marks collision in a way. Raises UsageError: its files cannot be marked so."""
+    """Return a format that marks collision in a way. Raises UsageError: its files cannot be marked so."""
     for marked in MARKED_FORMATS[names]:
         if marked.name == known.name:
             return marked
@@ -189,7 +192,7 @@ Source = str | os.PathLike[str] | SpecObject | StageObject
 
 
 def read(source: Source, options: ReadOptions | None = None) -> symbolic.Asset:
-    """The asset in a file, in a folder (of mesh files, or of a Gazebo model), in text or in an object.
+    """Return the asset in a file, in a folder (of mesh files, or of a Gazebo model), in text or in an object.
 
     options: None takes those of the environment. Raises AssetError; UsageError: nothing that can be read.
     """
@@ -221,9 +224,9 @@ def _note_fills(asset: symbolic.Asset) -> str | None:
 
 
 def notes_after(before: symbolic.Asset, written: symbolic.Asset, hulled: Collection[str] = ()) -> tuple[str, ...]:
-    """What is to be known about how an asset was read, now that it is written: in its own format, of what is there now,
-    since an edit may have dealt with what was to be said of the input; in another one, of what either file is, of the
-    one that was written alone. hulled: its hulls of which enough was said."""
+    """Return what is to be known about how an asset was read, now that it is written: in its own format, of what is
+    there now, since an edit may have dealt with what was to be said of the input; in another one, of what either file
+    is, of the one that was written alone. hulled: its hulls of which enough was said."""
     if written.format == before.format:
         return written.notes
     known = _note_fills(written)
@@ -233,7 +236,8 @@ def notes_after(before: symbolic.Asset, written: symbolic.Asset, hulled: Collect
 
 
 def path_of(source: symbolic.SymbolicMesh | Source) -> Path | None:
-    """The file or folder that is meant, None for text and for objects. Raises AssetError as `resolve_asset_path`."""
+    """Return the file or folder that is meant, None for text and for objects. Raises AssetError as
+    `resolve_asset_path`."""
     is_text = isinstance(source, str) and source.lstrip().startswith("<")
     return resolve_asset_path(Path(source)) if isinstance(source, str | os.PathLike) and not is_text else None
 

@@ -16,7 +16,7 @@ _MATERIALS = tuple[Ints, tuple[str, ...]]
 
 
 def parts_of_surfaces(surfaces: Sequence[RawSurface], name: str = "") -> SurfaceParts:
-    """The parts of surfaces one after the other; name: what one is called that has no name."""
+    """Return the parts of surfaces one after the other; name: what one is called that has no name."""
     group = np.repeat(np.arange(len(surfaces)), [len(surface.faces) for surface in surfaces])
     own_materials = [surface.materials or (np.zeros(len(surface.faces), dtype=np.int64), ("",)) for surface in surfaces]
     known = tuple(dict.fromkeys(name for _, names in own_materials for name in names))
@@ -26,7 +26,7 @@ def parts_of_surfaces(surfaces: Sequence[RawSurface], name: str = "") -> Surface
 
 
 def parts_of_groups(group: Ints, names: Sequence[str | None], materials: _MATERIALS | None = None) -> SurfaceParts:
-    """The parts of triangles of some groups (m,); each group with several materials is a part a material.
+    """Return the parts of triangles of some groups (m,); each group with several materials is a part a material.
 
     group: negative for triangles that are only seen; names: of the groups. A part is called by its group, or by its
     material where it has no other name, or there are several in the group.
@@ -44,6 +44,7 @@ def parts_of_groups(group: Ints, names: Sequence[str | None], materials: _MATERI
 
 
 def plain_part_name(name: str) -> str:
-    """The name of a part as names of hulls begin in every format: letters, digits and underscores, no digit first."""
+    """Return the name of a part as names of hulls begin in every format: letters, digits and underscores, no digit
+    first."""
     plain = _ODD.sub("_", name.strip()).strip("_")
     return plain if plain and not plain[0].isdigit() else f"part_{plain}".rstrip("_")

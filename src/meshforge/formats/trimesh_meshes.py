@@ -56,7 +56,7 @@ def from_trimesh(
     labels: Mapping[str, Label | str] | None = None,
     name: str = WHERE,
 ) -> SymbolicMesh:
-    """The symbolic mesh of meshes and scenes of trimesh.
+    """Return the symbolic mesh of meshes and scenes of trimesh.
 
     what: one, several, or several by name. Each connected convex piece is a hull. It is called as its mesh, or its node
     of the scene, with `#k` where that has several pieces. What is not convex is in `.asset.opaque`, with the reason.
@@ -83,7 +83,7 @@ def from_trimesh(
 
 
 def list_surfaces(what: Any, name: str | None = None) -> Iterator[RawSurface]:
-    """The triangles of meshes and scenes, in the root frame. Raises UsageError."""
+    """Yield the triangles of meshes and scenes, in the root frame. Raises UsageError."""
     if isinstance(what, SceneObject):
         yield from _list_nodes(what)
     elif isinstance(what, MeshObject):

@@ -35,7 +35,7 @@ class Visual:
     rgba: Rgba | None = None
 
     def move(self, pose: Pose) -> Visual:
-        """The visual in another root frame; pose: new_T_old."""
+        """Return the visual in another root frame; pose: new_T_old."""
         if isinstance(self.what, Shape):
             return replace(self, what=self.what.move(pose))
         offset = pose.rotation @ self.offset + pose.translation
@@ -58,7 +58,7 @@ class Visual:
             return []
 
     def surfaces_with_materials(self) -> list[Surface]:
-        """Its surfaces with the base colours and pictures of their file, unless it has a colour itself."""
+        """Return its surfaces with the base colours and pictures of their file, unless it has a colour itself."""
         if isinstance(self.what, Shape) or self.rgba is not None:
             return self.surfaces()
         try:
@@ -125,14 +125,14 @@ class VisualSurfaces(LazySurfaces):
 
 
 def visuals_of(asset: Asset) -> list[tuple[str, Visual | Surface]]:
-    """What each body shows; what belongs to none is shown by the first."""
+    """Return what each body shows; what belongs to none is shown by the first."""
     first = asset.bodies[0].name if asset.bodies else ""
     found = asset.visuals.visuals if isinstance(asset.visuals, VisualSurfaces) else asset.visuals
     return [(visual.body or first, visual) for visual in found]
 
 
 def read_visual_surfaces(asset: Asset) -> tuple[list[tuple[str, Surface]], list[base.Loss]]:
-    """The surfaces of visuals with their bodies, colours and pictures, and what cannot be read."""
+    """Return the surfaces of visuals with their bodies, colours and pictures, and what cannot be read."""
     found: list[tuple[str, Surface]] = []
     refused: list[str] = []
     for body, visual in visuals_of(asset):
@@ -144,13 +144,13 @@ def read_visual_surfaces(asset: Asset) -> tuple[list[tuple[str, Surface]], list[
 
 
 def unreadable_visuals(bodies: Sequence[str]) -> list[base.Loss]:
-    """The loss of the visuals of some bodies, named once each; none where there are no such bodies."""
+    """Return the loss of the visuals of some bodies, named once each; none where there are no such bodies."""
     names = tuple(dict.fromkeys(bodies))
     return [base.Loss(FeatureKind.VISUALS, names, "their files cannot be read")] if names else []
 
 
 def linear_color(rgba: Rgba) -> list[float]:
-    """Red, green and blue of a colour as glTF and USD have them."""
+    """Return red, green and blue of a colour as glTF and USD have them."""
     return [round(float(share), 6) for share in np.clip(rgba[:3], 0, 1) ** GAMMA]
 
 
@@ -160,7 +160,8 @@ _SLIGHT = 1e-4  # share of the size, by which single precision moves a box
 
 
 def read_materials(path: Path) -> list[Surface]:
-    """The surfaces of a mesh file with their base colours or pictures; plain where trimesh does not read the same.
+    """Return the surfaces of a mesh file with their base colours or pictures; plain where trimesh does not read the
+    same.
 
     Raises AssetError: the file cannot be read.
     """

@@ -44,15 +44,15 @@ class Element:
     text: str = ""
 
     def each(self, tag: str) -> Iterator[Element]:
-        """The direct children of that tag."""
+        """Return the direct children of that tag."""
         return (child for child in self.children if child.tag == tag)
 
     def first(self, tag: str) -> Element | None:
-        """The first direct child of that tag."""
+        """Return the first direct child of that tag."""
         return next(self.each(tag), None)
 
     def walk(self) -> Iterator[Element]:
-        """This element and all below it, in order of their start tags."""
+        """Yield this element and all below it, in order of their start tags."""
         waiting = [self]
         while waiting:
             element = waiting.pop()
@@ -61,7 +61,7 @@ class Element:
 
 
 def parse_xml(data: bytes, where: str) -> Element:
-    """The root element of an XML text in UTF-8.
+    """Return the root element of an XML text in UTF-8.
 
     Raises AssetError with `where:line` for text that is not well formed, or that declares entities.
     """
@@ -132,7 +132,7 @@ class XmlText:
 
     @staticmethod
     def of(raw: bytes) -> XmlText:
-        """The text of authored bytes; what is no valid text in its own encoding is taken byte by byte."""
+        """Return the text of authored bytes; what is no valid text in its own encoding is taken byte by byte."""
         for mark, encoding in _MARKS:
             if raw.startswith(mark):
                 return XmlText._decode(raw[len(mark) :], encoding, mark)
@@ -148,7 +148,7 @@ class XmlText:
             return XmlText(raw.decode("latin-1").encode(), "latin-1", mark)
 
     def encode(self, data: bytes) -> bytes:
-        """Edited UTF-8 in the authored encoding, with its byte order mark."""
+        """Return edited UTF-8 in the authored encoding, with its byte order mark."""
         return self.mark + data.decode().encode(self.encoding, "xmlcharrefreplace")
 
 
@@ -172,7 +172,7 @@ class SourceFile:
 
 
 def blank_markup(data: bytes) -> bytes:
-    """The bytes of a text with spaces for comments, raw text, processing instructions and a plain document type.
+    """Return the bytes of a text with spaces for comments, raw text, processing instructions and a plain document type.
 
     Engines read past an XML declaration of version 0.0 or after blank lines, and past `--` in comments; a strict
     parser does not. Offsets and lines stay. A document type with declarations of its own stays too, to be refused.
@@ -199,7 +199,7 @@ class Splice:
 
 
 def apply_splices(data: bytes, splices: Iterable[Splice], start: int = 0, end: int | None = None) -> bytes:
-    """The bytes [start, end) after splices within them, which do not overlap."""
+    """Return the bytes [start, end) after splices within them, which do not overlap."""
     out, at = [], start
     for splice in sorted(splices, key=lambda s: (s.start, s.end)):
         out += [data[at : splice.start], splice.text]
@@ -208,7 +208,7 @@ def apply_splices(data: bytes, splices: Iterable[Splice], start: int = 0, end: i
 
 
 def set_attribute(data: bytes, element: Element, name: str, value: str | None, *, last: bool = False) -> Splice:
-    """The edit that sets an attribute of an element, in its place and quotes where it is there; None removes it.
+    """Return the edit that sets an attribute of an element, in its place and quotes where it is there; None removes it.
 
     last: a new one goes after the others instead of before them.
     """
@@ -223,35 +223,36 @@ def set_attribute(data: bytes, element: Element, name: str, value: str | None, *
 
 
 def escape(value: str) -> bytes:
-    """A text as it stands between the quotes of an attribute."""
+    """Return a text as it stands between the quotes of an attribute."""
     return "".join(_ESCAPES.get(letter, letter) for letter in value).encode()
 
 
 def strip_comments(text: bytes) -> bytes:
-    """An element's text without the comments in it, for a second copy of it."""
+    """Return an element's text without the comments in it, for a second copy of it."""
     return _COMMENT.sub(b"", text)
 
 
 def newline_of(data: bytes) -> bytes:
-    """The line end of a text."""
+    """Return the line end of a text."""
     return b"\r\n" if b"\r\n" in data else b"\n"
 
 
 def indent_of(data: bytes, at: int) -> bytes | None:
-    """The blanks between the start of the line and `at`, None where something else is there."""
+    """Return the blanks between the start of the line and `at`, None where something else is there."""
     line = data.rfind(b"\n", 0, at) + 1
     blanks = data[line:at]
     return blanks if not blanks.strip() else None
 
 
 def line_gap(data: bytes, at: int) -> bytes:
-    """What parts two elements where the first is at `at`: a line end and its indent, nothing where it has no line."""
+    """Return what parts two elements where the first is at `at`: a line end and its indent, nothing where it has no
+    line."""
     lead = indent_of(data, at)
     return b"" if lead is None else newline_of(data) + lead
 
 
 def replace_or_insert(data: bytes, parent: Element, tag: str, before: str, text: bytes) -> Splice:
-    """The edit that replaces a child of an element, or inserts it before another one."""
+    """Return the edit that replaces a child of an element, or inserts it before another one."""
     old, next_ = parent.first(tag), parent.first(before)
     if old is not None:
         return Splice(old.start, old.end, text)
@@ -260,7 +261,7 @@ def replace_or_insert(data: bytes, parent: Element, tag: str, before: str, text:
 
 
 def remove_element(data: bytes, element: Element) -> Splice:
-    """The edit that removes an element, with its lines where it has them for itself."""
+    """Return the edit that removes an element, with its lines where it has them for itself."""
     end = data.find(b"\n", element.end) + 1 or len(data)
     before = indent_of(data, element.start)
     if before is None or data[element.end : end].strip():
@@ -269,12 +270,13 @@ def remove_element(data: bytes, element: Element) -> Splice:
 
 
 def format_numbers(values: Iterable[float]) -> str:
-    """Numbers as text that reads back as the same numbers; no negative zeros."""
+    """Return numbers as text that reads back as the same numbers; no negative zeros."""
     return " ".join(repr(float(value) + 0.0).removesuffix(".0") for value in values)
 
 
 def parse_numbers(text: str) -> list[float] | None:
-    """The numbers of a text, apart by blanks or (as PyBullet reads) commas, None where one is none or not finite."""
+    """Return the numbers of a text, apart by blanks or (as PyBullet reads) commas, None where one is none or not
+    finite."""
     if "_" in text or not text.isascii():  # Python's own ways to write numbers, which no engine reads
         return None
     try:

@@ -21,7 +21,7 @@ _TINY = 1e-300
 
 
 def freeze_floats(values: Any, shape: tuple[int, ...]) -> Floats:
-    """A write-protected float64 copy of `values`; -1 in `shape` stands for any length.
+    """Return a write-protected float64 copy of `values`; -1 in `shape` stands for any length.
 
     Raises: ValueError where the shape does not fit.
     """
@@ -29,12 +29,13 @@ def freeze_floats(values: Any, shape: tuple[int, ...]) -> Floats:
 
 
 def freeze_ints(values: Any, shape: tuple[int, ...]) -> Ints:
-    """A write-protected int64 copy of `values`, as `freeze_floats` makes one."""
+    """Return a write-protected int64 copy of `values`, as `freeze_floats` makes one."""
     return _freeze(np.array(values, dtype=np.int64, order="C"), shape)
 
 
 def distinct(values: Ints) -> Ints:
-    """The distinct values (m,) of an array, ascending. (numpy's `unique` first loads its masked arrays, 0.01 s.)"""
+    """Return the distinct values (m,) of an array, ascending. (numpy's `unique` first loads its masked arrays, 0.01
+    s.)"""
     ordered = np.sort(values, axis=None)
     is_first = np.ones(len(ordered), bool)
     is_first[1:] = ordered[1:] != ordered[:-1]
@@ -51,7 +52,7 @@ def _freeze(array: npt.NDArray[Number], shape: tuple[int, ...]) -> npt.NDArray[N
 
 
 def sort_rows(rows: npt.NDArray[Any]) -> npt.NDArray[Any]:
-    """The distinct rows of (n, columns), at least one, in order; for few rows far quicker than `np.unique`."""
+    """Return the distinct rows of (n, columns), at least one, in order; for few rows far quicker than `np.unique`."""
     rows = rows[np.lexsort(rows.T[::-1])]
     new = np.ones(len(rows), dtype=bool)
     new[1:] = (rows[1:] != rows[:-1]).any(axis=1)
@@ -59,7 +60,8 @@ def sort_rows(rows: npt.NDArray[Any]) -> npt.NDArray[Any]:
 
 
 def cross(a: Floats, b: Floats) -> Floats:
-    """The cross products of rows (n, 3) and (n, 3); for few rows five times as fast as numpy's own, and the same."""
+    """Return the cross products of rows (n, 3) and (n, 3); for few rows five times as fast as numpy's own, and the
+    same."""
     out = np.empty((len(a), 3))
     for k, (i, j) in enumerate(((1, 2), (2, 0), (0, 1))):
         out[:, k] = a[:, i] * b[:, j] - a[:, j] * b[:, i]
@@ -67,7 +69,7 @@ def cross(a: Floats, b: Floats) -> Floats:
 
 
 def nearest_on_triangles(points: Floats, corners: Floats) -> Floats:
-    """The point (n, 3) of each triangle, corners (n, 3, 3), that is nearest to a point (n, 3) each.
+    """Return the point (n, 3) of each triangle, corners (n, 3, 3), that is nearest to a point (n, 3) each.
 
     Triangles may be needles or points.
     """
@@ -87,7 +89,6 @@ def nearest_on_triangles(points: Floats, corners: Floats) -> Floats:
 
 
 def _nearest_on_edges(points: Floats, corners: Floats) -> Floats:
-    """The nearest point (n, 3) on the outline of each triangle."""
     start, along = corners, corners[:, [1, 2, 0]] - corners
     ahead = np.einsum("ikj,ikj->ik", points[:, None] - start, along)
     length = np.einsum("ikj,ikj->ik", along, along)
@@ -119,12 +120,12 @@ class Aabb:
 
     @staticmethod
     def of_points(points: Floats) -> Aabb:
-        """The smallest box around points (n, 3), n at least 1."""
+        """Return the smallest box around points (n, 3), n at least 1."""
         return Aabb(points.min(axis=0), points.max(axis=0))
 
     @staticmethod
     def union(boxes: Iterable[Aabb]) -> Aabb:
-        """The smallest box around all boxes, of which there is at least one."""
+        """Return the smallest box around all boxes, of which there is at least one."""
         low, high = bounds(list(boxes))
         return Aabb(low.min(axis=0), high.max(axis=0))
 
@@ -143,11 +144,11 @@ class Aabb:
         return dist(self.min.tolist(), self.max.tolist())
 
     def intersects(self, other: Aabb) -> bool:
-        """Whether two boxes have more in common than a side, an edge or a corner."""
+        """Return whether two boxes have more in common than a side, an edge or a corner."""
         return bool((np.maximum(self.min, other.min) < np.minimum(self.max, other.max)).all())
 
     def touches(self, other: Aabb) -> bool:
-        """Whether two boxes have anything in common, be it a corner."""
+        """Return whether two boxes have anything in common, be it a corner."""
         return bool((self.min <= other.max).all() and (other.min <= self.max).all())
 
     @property
@@ -157,13 +158,13 @@ class Aabb:
 
 
 def bounds(boxes: Sequence[Aabb]) -> tuple[Floats, Floats]:
-    """The lowest corners (n, 3) of n boxes, at least one, and the highest."""
+    """Return the lowest corners (n, 3) of n boxes, at least one, and the highest."""
     low, high = np.concatenate([box.min for box in boxes]), np.concatenate([box.max for box in boxes])
     return low.reshape(-1, 3), high.reshape(-1, 3)
 
 
 def near_boxes(low: Floats, high: Floats, reach: float) -> list[tuple[int, int]]:
-    """Pairs (i, j), i < j, in order, of boxes (n, 3) within `reach` of each other along every axis."""
+    """Return pairs (i, j), i < j, in order, of boxes (n, 3) within `reach` of each other along every axis."""
     reach += 1e-12 * max(-float(low.min()), float(high.max()))  # rounding must lose no pair
     low, high = low.T - reach, high.T
     pairs: list[tuple[int, int]] = []

@@ -42,7 +42,8 @@ _pool: dict[int, list[_PoolPolytope]] = {size: [] for size in _POOLED_SIZES}
 
 
 def measure_gaps(shapes: Sequence[Shape], pairs: Sequence[tuple[int, int]], low: Floats, high: Floats) -> list[float]:
-    """The distance of each pair of shapes [m], 0 where they touch or overlap; low, high: corners (3,) about all."""
+    """Return the distance of each pair of shapes [m], 0 where they touch or overlap; low, high: corners (3,) about
+    all."""
     frame = CoalFrame.of_bounds(low, high)
     used = list(dict.fromkeys(k for pair in pairs for k in pair))
     with frame.place([shapes[k] for k in used]) as found:
@@ -72,14 +73,14 @@ class CoalFrame:
 
     @staticmethod
     def of_bounds(low: Floats, high: Floats) -> CoalFrame:
-        """The frame of all that is between two corners (3,); rounded, so that small edits mostly keep it."""
+        """Return the frame of all that is between two corners (3,); rounded, so that small edits mostly keep it."""
         bottom, top = low.tolist(), high.tolist()
         unit = 2.0 ** frexp(dist(bottom, top))[1]
         return CoalFrame(np.array([round((a + b) / unit) * (unit / 2) for a, b in zip(bottom, top, strict=True)]), unit)
 
     @contextmanager
     def place(self, shapes: Sequence[Shape]) -> Iterator[list[CoalObject]]:
-        """Shapes in this frame, as long as the context lasts."""
+        """Place shapes in this frame, as long as the context lasts."""
         filled: list[_PoolPolytope] = []
         try:
             yield self._place_all(shapes, filled)
@@ -125,7 +126,7 @@ class CoalFrame:
 
 
 def split_shape(shape: Shape) -> list[Shape]:
-    """Shapes that coal can have, which are the shape together: mostly itself, else what it is cut into.
+    """Return shapes that coal can have, which are the shape together: mostly itself, else what it is cut into.
 
     Raises GeometryError where no cut makes the shape simpler.
     """

@@ -10,7 +10,8 @@ _TURN = 1e-7  # [rad] triangles around an edge closer than this lie on each othe
 
 
 def row_ids(*columns: Floats | Ints) -> tuple[Ints, Ints]:
-    """A number (n,) for each row, equal for equal rows, and the first row of each number; in order of the values."""
+    """Return a number (n,) for each row, equal for equal rows, and the first row of each number; in order of the
+    values."""
     key = np.zeros(len(columns[0]), dtype=np.int64)
     for column in columns:
         values = column - column.min(initial=0) if column.dtype.kind == "i" else _rank_values(column)[0]
@@ -32,19 +33,19 @@ def _rank_values(values: Floats | Ints) -> tuple[Ints, Ints, Bools]:
 
 
 def compact(corners: Ints) -> tuple[Ints, Ints]:
-    """The numbers that occur in corners, ascending, and the corners by their places among these."""
+    """Return the numbers that occur in corners, ascending, and the corners by their places among these."""
     occurs = np.zeros(int(corners.max(initial=-1)) + 1, dtype=bool)
     occurs[corners.ravel()] = True
     return np.flatnonzero(occurs), (np.cumsum(occurs) - 1)[corners]
 
 
 def weld(vertices: Floats) -> Ints:
-    """A number (n,) for each vertex, the same for vertices at exactly one place."""
+    """Return a number (n,) for each vertex, the same for vertices at exactly one place."""
     return row_ids(*(vertices.T + 0.0))[0]  # adding zero makes -0.0 and 0.0 one
 
 
 def weld_nearly(points: Floats, corners: Ints, reach: float) -> Ints | None:
-    """For each point (n,) the lowest number of those within `reach` [m] of it, chains included.
+    """Return for each point (n,) the lowest number of those within `reach` [m] of it, chains included.
 
     Only points that are corners take part; None where no two are that near.
     """
@@ -58,7 +59,8 @@ def weld_nearly(points: Floats, corners: Ints, reach: float) -> Ints | None:
 
 
 def components_by_vertices(corners: Ints) -> Ints:
-    """The component (m,) of each triangle of corners (m, 3), connected by shared vertices, numbered by first face."""
+    """Return the component (m,) of each triangle of corners (m, 3), connected by shared vertices, numbered by first
+    face."""
     count = int(corners.max(initial=-1)) + 1
     return number_by_occurrence(
         component_roots(corners[:, [0, 1]].ravel(), corners[:, [1, 2]].ravel(), count)[corners[:, 0]]
@@ -66,14 +68,15 @@ def components_by_vertices(corners: Ints) -> Ints:
 
 
 def distinct_faces(corners: Ints, component: Ints) -> Ints:
-    """Indices, ascending, of the triangles with three corners; of doubled ones in one component, the first."""
+    """Return indices, ascending, of the triangles with three corners; of doubled ones in one component, the first."""
     proper = np.flatnonzero((corners != corners[:, [2, 0, 1]]).all(axis=1))
     _, first = row_ids(component[proper], *np.sort(corners[proper], axis=1).T)
     return proper[np.sort(first)]
 
 
 def find_closed_components(corners: Ints, component: Ints) -> Ints:
-    """Numbers of the components in which every edge has an even number of triangles, doubled ones counted once."""
+    """Return numbers of the components in which every edge has an even number of triangles, doubled ones counted
+    once."""
     total = int(component.max(initial=-1)) + 1
     large = np.flatnonzero((np.bincount(component, minlength=total) >= 4)[component])  # of a raw STL none
     corners, component = corners[large], component[large]
@@ -88,13 +91,13 @@ def find_closed_components(corners: Ints, component: Ints) -> Ints:
 
 
 def edges_of(corners: Ints) -> tuple[Ints, Bools]:
-    """The edges (3m, 2) of triangles, lower vertex first, and whether each triangle runs along it that way."""
+    """Return the edges (3m, 2) of triangles, lower vertex first, and whether each triangle runs along it that way."""
     directed = np.concatenate([corners[:, :2], corners[:, 1:], corners[:, ::-2]])
     return np.sort(directed, axis=1), directed[:, 0] < directed[:, 1]
 
 
 def component_roots(a: Ints, b: Ints, count: int) -> Ints:
-    """For each of `count` things, of which a[k] and b[k] are linked, the lowest one that it hangs together with.
+    """Return for each of `count` things, of which a[k] and b[k] are linked, the lowest one that it hangs together with.
 
     Each lowest one so far takes on the lowest of its neighbours, until there is nothing to take.
     """
@@ -112,14 +115,15 @@ def component_roots(a: Ints, b: Ints, count: int) -> Ints:
 
 
 def number_by_occurrence(labels: Ints) -> Ints:
-    """Labels (n,) of a partition, numbered by their first occurrence."""
+    """Return labels (n,) of a partition, numbered by their first occurrence."""
     _, first, inverse = np.unique(labels, return_index=True, return_inverse=True)
     rank: Ints = np.argsort(np.argsort(first))
     return rank[inverse.reshape(-1)]
 
 
 def find_closed_runs(corners: Ints) -> Ints:
-    """The run (m,) of each triangle: consecutive ones, cut wherever all edges so far have an even number of them.
+    """Return the run (m,) of each triangle: consecutive ones, cut wherever all edges so far have an even number of
+    them.
 
     Programs write solid by solid, so this tells solids apart that share places in a file without groups.
     """
@@ -136,14 +140,14 @@ def find_closed_runs(corners: Ints) -> Ints:
 
 
 def is_simple(corners: Ints) -> bool:
-    """Whether no edge has more than two triangles."""
+    """Return whether no edge has more than two triangles."""
     edges, _ = edges_of(corners)
     keys = np.sort(edges[:, 0] * (int(corners.max(initial=0)) + 1) + edges[:, 1])
     return not (keys[2:] == keys[:-2]).any()
 
 
 def components_by_edges(points: Floats, corners: Ints, inward: bool) -> Ints:
-    """The component (m,) of each triangle, connected across edges only.
+    """Return the component (m,) of each triangle, connected across edges only.
 
     Where more than two triangles meet in an edge, each goes with the next one around the edge through the solid,
     so that solids which touch in an edge or a wall come apart. inward: the windings are turned inside out.

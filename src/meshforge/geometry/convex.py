@@ -30,7 +30,7 @@ _ROUNDS = 40
 
 
 def convex_hull(points: Floats, *, name: str = "points", thicken: float | None = None) -> Polytope:
-    """The convex hull of points (n, 3); its vertices are some of them, bit for bit.
+    """Return the convex hull of points (n, 3); its vertices are some of them, bit for bit.
 
     Every point is inside to 1e-6 of the hull's length, width and height, mostly to 1e-7; to 1e-3 at worst, where
     rounded, nearly coplanar or collinear points leave no other hull that is convex.
@@ -88,7 +88,7 @@ def _bound_eigenvalue(xx: Any, xy: Any, xz: Any, yy: Any, yz: Any, zz: Any) -> A
 
 
 def spans_volume(points: Floats) -> bool:
-    """Whether points (n, 3) span a volume: `convex_hull` takes them without thickening."""
+    """Return whether points (n, 3) span a volume: `convex_hull` takes them without thickening."""
     if _is_surely_thick(points, 0.0):
         return True
     extents = principal_extents(points)[2]
@@ -96,7 +96,7 @@ def spans_volume(points: Floats) -> bool:
 
 
 def principal_extents(points: Floats) -> tuple[Floats, Floats, Floats]:
-    """Middle (3,), principal axes as rows of a rotation (3, 3), and the extent along each (3,), widest first."""
+    """Return middle (3,), principal axes as rows of a rotation (3, 3), and the extent along each (3,), widest first."""
     center = points.mean(axis=0)
     _, _, axes = np.linalg.svd(np.linalg.qr(points - center, mode="r"), full_matrices=True)
     axes = axes * np.sign(np.linalg.det(axes))
@@ -104,7 +104,7 @@ def principal_extents(points: Floats) -> tuple[Floats, Floats, Floats]:
 
 
 def measure_extents(points: Floats) -> Floats:
-    """The sides (3,) of a small box around points (n, 3), longest first [m].
+    """Return the sides (3,) of a small box around points (n, 3), longest first [m].
 
     Of the boxes that are square to a principal axis, the smallest: where extents along other principal axes are alike,
     these axes are chance, and the box is turned about the first as it fits best.
@@ -184,7 +184,8 @@ def _is_valid_hull(unit: Floats, kept: Ints, faces: Ints, reach: float) -> bool:
 def prune_vertices(
     unit: Floats, attempt: Callable[[Floats], HullIndices | None], altitude: float
 ) -> HullIndices | None:
-    """The hull without vertices that are none: within `altitude` of an edge between two others, or inside a face."""
+    """Return the hull without vertices that are none: within `altitude` of an edge between two others, or inside a
+    face."""
     kept = np.arange(len(unit))
     for _ in range(_ROUNDS):
         made = attempt(unit[kept])
@@ -232,7 +233,7 @@ def _find_spare_vertices(vertices: Floats, faces: Ints, altitude: float) -> list
 
 
 def hull_by_manifold(points: Floats) -> HullIndices | None:
-    """The hull by manifold3d; it leaves out points within 1e-7 of it. None where it finds none."""
+    """Return the hull by manifold3d; it leaves out points within 1e-7 of it. None where it finds none."""
     points = points + 0.0  # no negative zeros: vertices are found again by their bytes
     mesh = manifold3d.Manifold.hull_points(points).to_mesh64()
     faces = np.asarray(mesh.tri_verts, dtype=np.int64)
@@ -244,17 +245,16 @@ def hull_by_manifold(points: Floats) -> HullIndices | None:
 
 
 def measure_hull(points: Floats) -> float:
-    """The volume [m^3] of the hull of points (n, 3), to what manifold3d leaves out: fast, and not verified."""
+    """Return the volume [m^3] of the hull of points (n, 3), to what manifold3d leaves out: fast, and not verified."""
     return float(manifold3d.Manifold.hull_points(points - points.mean(axis=0)).volume())
 
 
 def _bytes_of_rows(points: Floats) -> list[bytes]:
-    """The bytes of each of points (n, 3)."""
     return np.ascontiguousarray(points).view("V24").ravel().tolist()
 
 
 def hull_by_qhull(points: Floats) -> HullIndices | None:
-    """The hull by Qhull; None where it finds none."""
+    """Return the hull by Qhull; None where it finds none."""
     from scipy.spatial import ConvexHull, QhullError  # lazy: half of the import time of geometry, hardly ever needed
 
     try:

@@ -16,7 +16,7 @@ CONVEXITY = 1e-6
 
 
 def find_fault(shape: Shape, convexity: float = CONVEXITY) -> HullFault | None:
-    """What a shape lacks to be a hull, the first of several, from which the others follow; None for a hull.
+    """Return what a shape lacks to be a hull, the first of several, from which the others follow; None for a hull.
 
     finite: coordinates and volume are finite numbers; solid: it has four vertices; flat: it spans no volume; closed:
     its surface is not; volume: it is not positive; convex: it is not; outward: some face looks inwards.
@@ -58,5 +58,5 @@ _WORDS: dict[HullFault, str] = {
 
 
 def describe_fault(fault: HullFault) -> str:
-    """The fault as the end of a sentence: `is not convex`."""
+    """Return the fault as the end of a sentence: `is not convex`."""
     return _WORDS[fault]

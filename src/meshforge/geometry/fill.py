@@ -26,20 +26,20 @@ SAME_LENGTH = 1e-9
 
 
 def longest_axis(bounds: Aabb) -> int:
-    """The axis (0, 1, 2) of the longest side; of equal ones Z, then Y, then X."""
+    """Return the axis (0, 1, 2) of the longest side; of equal ones Z, then Y, then X."""
     longest = float(bounds.size.max())
     return max(axis for axis in range(3) if bounds.size[axis] >= longest * (1 - SAME_LENGTH))
 
 
 def aabb_box(bounds: Aabb) -> Box:
-    """The box that is `bounds`. Raises GeometryError where a side has no extent; so do the other shapes here."""
+    """Return the box that is `bounds`. Raises GeometryError where a side has no extent; so do the other shapes here."""
     check_extent(bounds)
     return Box.of_bounds(bounds)
 
 
 def aabb_cylinder(bounds: Aabb, axis: int | None = None) -> Cylinder | Polytope:
-    """The cylinder along an axis, that of the longest side by default, that fills `bounds`: native where it is round,
-    else of 64 vertices."""
+    """Return the cylinder along an axis, that of the longest side by default, that fills `bounds`: native where it is
+    round, else of 64 vertices."""
     axis = choose_axis(bounds, axis)
     across = np.delete(bounds.size, axis)
     if _are_equal(across):
@@ -48,8 +48,8 @@ def aabb_cylinder(bounds: Aabb, axis: int | None = None) -> Cylinder | Polytope:
 
 
 def aabb_capsule(bounds: Aabb, axis: int | None = None) -> Capsule | Sphere | Ellipsoid | Polytope:
-    """The capsule along an axis, that of the longest side by default, that fills `bounds`: native where it is round,
-    else of 50 vertices.
+    """Return the capsule along an axis, that of the longest side by default, that fills `bounds`: native where it is
+    round, else of 50 vertices.
 
     One without a straight part is a sphere or an ellipsoid. The ends of a polytope rise by the mean of its half widths.
     """
@@ -66,7 +66,7 @@ def aabb_capsule(bounds: Aabb, axis: int | None = None) -> Capsule | Sphere | El
 
 
 def aabb_sphere(bounds: Aabb) -> Sphere | Ellipsoid:
-    """The ellipsoid that fills `bounds`; a sphere where it is round."""
+    """Return the ellipsoid that fills `bounds`; a sphere where it is round."""
     check_extent(bounds)
     if _are_equal(bounds.size):
         return Sphere(Pose.of_translation(bounds.center), float(bounds.size.mean()) / 2)
@@ -76,7 +76,8 @@ def aabb_sphere(bounds: Aabb) -> Sphere | Ellipsoid:
 def shape_of_radius(
     primitive: str, radius: float, bounds: Aabb, axis: int | None = None
 ) -> Capsule | Cylinder | Sphere:
-    """The cylinder, capsule or sphere of a radius [m] about the centre of `bounds`, as long along an axis as these.
+    """Return the cylinder, capsule or sphere of a radius [m] about the centre of `bounds`, as long along an axis as
+    these.
 
     A capsule that is no longer than it is wide is a sphere.
     """
@@ -90,7 +91,7 @@ def shape_of_radius(
 
 
 def map_to_box(shapes: Iterable[Shape], source: Aabb, target: Aabb) -> tuple[Shape, ...]:
-    """The images of shapes under the map that takes the box `source` onto `target`, axis by axis, never turned.
+    """Return the images of shapes under the map that takes the box `source` onto `target`, axis by axis, never turned.
 
     A side of `source` without extent is moved only. Raises GeometryError where a side of `target` has no extent.
     """
@@ -102,7 +103,7 @@ def map_to_box(shapes: Iterable[Shape], source: Aabb, target: Aabb) -> tuple[Sha
 
 
 def check_extent(bounds: Aabb) -> int:
-    """The axis of the longest side. Raises GeometryError where a side has no extent."""
+    """Return the axis of the longest side. Raises GeometryError where a side has no extent."""
     if not (bounds.size > 0).all():
         sides = " x ".join(f"{side:.3g}" for side in bounds.size)
         raise GeometryError(f"a bounding box of {sides} m cannot be filled", remedy="Give it a thickness first.")
@@ -110,7 +111,7 @@ def check_extent(bounds: Aabb) -> int:
 
 
 def choose_axis(bounds: Aabb, axis: int | None) -> int:
-    """The axis itself, that of the longest side for None. Raises GeometryError as `check_extent` does."""
+    """Return the axis itself, that of the longest side for None. Raises GeometryError as `check_extent` does."""
     longest = check_extent(bounds)
     return longest if axis is None else axis
 
@@ -120,7 +121,8 @@ def _are_equal(sides: Floats) -> bool:
 
 
 def pose_along(axis: int, bounds: Aabb) -> Pose:
-    """The pose at the middle of `bounds` whose Z axis is the coordinate axis; the others follow in their order."""
+    """Return the pose at the middle of `bounds` whose Z axis is the coordinate axis; the others follow in their
+    order."""
     return Pose(np.roll(np.eye(3), axis - 2, axis=0), bounds.center)
 
 

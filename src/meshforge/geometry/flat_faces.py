@@ -19,8 +19,8 @@ _SIZES = (2, 3, 4, np.inf)  # the most triangles of a face, in turn, until there
 
 
 def flatten_faces(vertices: Floats, count: int, hull: Polytope) -> Floats:
-    """The vertices (n, 3) of a polytope around a hull, of at most as many as there are to start from (m, 3) and of
-    `count` flat faces, where joining neighbouring triangles leads to so few. Raises GeometryError, QhullError."""
+    """Return the vertices (n, 3) of a polytope around a hull, of at most as many as there are to start from (m, 3) and
+    of `count` flat faces, where joining neighbouring triangles leads to so few. Raises GeometryError, QhullError."""
     inner = InnerHull(hull)
     made = convex_hull((vertices - inner.middle) / inner.size)
     face = _join_triangles(made, count)

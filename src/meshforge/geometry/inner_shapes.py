@@ -25,7 +25,7 @@ _PLANE_DIGITS = 9  # planes that agree to so many, where the hull is of size 1, 
 
 
 def inscribe(primitive: str, hull: Polytope, axis: int | None = None) -> PrimitiveShape:
-    """The largest box, cylinder, capsule or sphere inside a hull.
+    """Return the largest box, cylinder, capsule or sphere inside a hull.
 
     axis: along which a cylinder or a capsule lies. None tries X, Y and Z, the principal axes of the vertices, and the
     direction of the smallest primitive around them, as a box always does; the first of these whose volume is largest.
@@ -37,7 +37,8 @@ def inscribe(primitive: str, hull: Polytope, axis: int | None = None) -> Primiti
 
 
 def shrink(shape: Shape, distance: float, name: str) -> Shape:
-    """A shape with its surface moved inwards by a distance [m]: planes, radii, and the semi-axes of an ellipsoid.
+    """Return a shape with its surface moved inwards by a distance [m]: planes, radii, and the semi-axes of an
+    ellipsoid.
 
     Raises GeometryError naming the hull where nothing is left.
     """

@@ -27,20 +27,20 @@ class Interior:
         self._solid = solid if solid is not None and solid.volume() > 0 else None
 
     def measure(self, shape: Polytope) -> float:
-        """The volume [m^3] that a shape has of it."""
+        """Return the volume [m^3] that a shape has of it."""
         if self._solid is None:
             return shape.volume
         return float((self._solid ^ to_manifold(shape, self._bounds)).volume()) * self._bounds.diagonal**3
 
     def list_voids(self, shape: Polytope) -> list[tuple[Floats, Ints]] | None:
-        """The surface of each connected piece of a shape that is not within; None where nothing is known."""
+        """Return the surface of each connected piece of a shape that is not within; None where nothing is known."""
         if self._solid is None:
             return None
         return [self._surface_of(part) for part in (to_manifold(shape, self._bounds) - self._solid).decompose()]
 
     def clip(self, vertices: Floats, faces: Ints) -> tuple[Floats, Ints]:
-        """The surface of what another one, of vertices (n, 3) [m] and faces (m, 3), encloses of it; that one as it is
-        where nearly all of what it encloses is within."""
+        """Return the surface of what another one, of vertices (n, 3) [m] and faces (m, 3), encloses of it; that one as
+        it is where nearly all of what it encloses is within."""
         other = _find_solid(vertices, faces, self._bounds)
         if self._solid is None or other is None:
             return vertices, faces
@@ -55,7 +55,8 @@ class Interior:
         return corners + self._bounds.center, np.asarray(mesh.tri_verts).astype(np.int64)
 
     def list_hulls(self, shapes: Sequence[Polytope]) -> list[Polytope]:
-        """The convex hulls of what shapes have of it, one of each connected piece; shapes that it nearly fills stay."""
+        """Return the convex hulls of what shapes have of it, one of each connected piece; shapes that it nearly fills
+        stay."""
         if self._solid is None:
             return list(shapes)
         found = list[Polytope]()

@@ -21,13 +21,14 @@ _NEAR = 12  # triangles by height, and as many by distance, among which the near
 
 
 def turn_planes(normals: Floats, hull: Polytope) -> Floats:
-    """The corners (n, 3) of a polytope around a hull, of as many planes as there are normals (k, 3) to start from."""
+    """Return the corners (n, 3) of a polytope around a hull, of as many planes as there are normals (k, 3) to start
+    from."""
     inner = InnerHull(hull)
     return inner.scale_back(descend(_Planes(inner, normals), 0.2).corners)
 
 
 def move_vertices(vertices: Floats, hull: Polytope) -> Floats:
-    """The vertices (n, 3) of a polytope around a hull, of at most as many as there are to start from."""
+    """Return the vertices (n, 3) of a polytope around a hull, of at most as many as there are to start from."""
     inner = InnerHull(hull)
     return inner.scale_back(descend(_Vertices(inner, (vertices - inner.middle) / inner.size), 0.02).corners)
 
@@ -43,12 +44,13 @@ class InnerHull:
         self._middles = self._triangles.mean(axis=1)
 
     def scale_back(self, points: Floats) -> Floats:
-        """Points (n, 3) in metres."""
+        """Return points (n, 3) in metres."""
         found: Floats = self.middle + self.size * points
         return found
 
     def measure_gaps(self, points: Floats) -> tuple[Floats, Floats]:
-        """How far (n,) points (n, 3) outside are from the hull, and the unit vectors (n, 3) that lead away from it."""
+        """Return how far (n,) points (n, 3) outside are from the hull, and the unit vectors (n, 3) that lead away from
+        it."""
         most = min(_NEAR, len(self._triangles)) - 1
         heights = self._offsets - points @ self._normals.T
         squares = (self._middles**2).sum(axis=1) - 2 * points @ self._middles.T
@@ -61,7 +63,7 @@ class InnerHull:
         return gaps, away[nearest] / np.maximum(gaps, 1e-15)[:, None]
 
     def find_supports(self, normals: Floats) -> Ints:
-        """The numbers (k, m) of the points that lie farthest along each normal."""
+        """Return the numbers (k, m) of the points that lie farthest along each normal."""
         most = min(_SUPPORTS, len(self.points)) - 1
         return np.argpartition(-(normals @ self.points.T), most, axis=1)[:, : most + 1]
 
@@ -103,14 +105,16 @@ class State(ABC):
 
     @abstractmethod
     def move(self, step: float) -> Self | None:
-        """The state after a programme whose variables change by at most `step`; None where that has no answer."""
+        """Return the state after a programme whose variables change by at most `step`; None where that has no
+        answer."""
 
 
 _S = TypeVar("_S", bound=State)
 
 
 def descend(state: _S, step: float, rounds: int = _ROUNDS, gain: float = _GAIN, least: float = _LEAST_STEP) -> _S:
-    """The best state that moves lead to, of fewer and shorter steps; gain: see _GAIN; least: the shortest step."""
+    """Return the best state that moves lead to, of fewer and shorter steps; gain: see _GAIN; least: the shortest
+    step."""
     from scipy.spatial import QhullError  # lazy: slow to import
 
     for _ in range(rounds):
@@ -180,7 +184,6 @@ class _Vertices(State):
         self.error = float(self.gaps.max())
 
     def move(self, step: float) -> Self | None:
-        """Variables: moves of the vertices."""
         count = len(self.corners)
         program = LinearProgram(3 * count + 1)
         own = np.arange(count)[:, None]
@@ -206,5 +209,5 @@ class _Vertices(State):
 
 
 def of_vectors(numbers: Ints) -> Ints:
-    """The columns (k, 3 c) of the three variables of each of numbers (k, c)."""
+    """Return the columns (k, 3 c) of the three variables of each of numbers (k, c)."""
     return (numbers[:, :, None] * 3 + np.arange(3)).reshape(len(numbers), -1)

@@ -25,7 +25,7 @@ _ROUNDING = 1e-13  # relative, of squares: what is this near the wall touches it
 
 
 def native_cylinder(shapes: Iterable[Shape], bounds: Aabb, axis: int | None = None) -> Cylinder:
-    """The cylinder along an axis, as long as that side of `bounds`, of the least radius around the shapes.
+    """Return the cylinder along an axis, as long as that side of `bounds`, of the least radius around the shapes.
 
     bounds: the box around them all; axis: that of its longest side by default. Raises GeometryError where a side of it
     has no extent; so do the others here.
@@ -37,7 +37,7 @@ def native_cylinder(shapes: Iterable[Shape], bounds: Aabb, axis: int | None = No
 
 
 def find_cylinder_axis(shapes: Sequence[Shape], bounds: Aabb) -> int:
-    """The axis (0, 1, 2) along which the native cylinder around shapes has the least volume: a disc is a disc.
+    """Return the axis (0, 1, 2) along which the native cylinder around shapes has the least volume: a disc is a disc.
 
     Of equal ones that along the longest side of `bounds`, then Z, then Y, then X.
     """
@@ -48,7 +48,8 @@ def find_cylinder_axis(shapes: Sequence[Shape], bounds: Aabb) -> int:
 
 
 def native_capsule(shapes: Iterable[Shape], bounds: Aabb, axis: int | None = None) -> Capsule | Sphere:
-    """The capsule along an axis, the default as above, around the shapes: of the least radius, then the shortest.
+    """Return the capsule along an axis, the default as above, around the shapes: of the least radius, then the
+    shortest.
 
     A sphere where no straight part is needed.
     """
@@ -63,7 +64,7 @@ def native_capsule(shapes: Iterable[Shape], bounds: Aabb, axis: int | None = Non
 
 
 def native_sphere(shapes: Iterable[Shape], bounds: Aabb) -> Sphere:
-    """The smallest sphere around the shapes; bounds: the box around them all."""
+    """Return the smallest sphere around the shapes; bounds: the box around them all."""
     pose, parts = _split_shapes(shapes, bounds, check_extent(bounds), discs=False)
     center, radius = smallest_ball(parts.centers, parts.radii)
     return Sphere(Pose.of_translation(pose.apply(center[None])[0]), radius)

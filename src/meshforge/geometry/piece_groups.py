@@ -128,7 +128,6 @@ class _Merger:
         return convex_hull(points, name="pieces of a part", thicken=self._thickness)
 
     def _overlap_others(self, shape: Polytope, kind: int) -> float:
-        """What a shape has of pieces of other kinds [m^3]."""
         others = (self._pieces[k] for k in np.flatnonzero(self._kinds != kind).tolist())
         return sum(overlap_volume(shape, piece) for piece in others)
 

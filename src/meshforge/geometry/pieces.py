@@ -46,7 +46,7 @@ class Piece:
 
 
 def split_pieces(vertices: Floats, faces: Ints, *, name: str, groups: Ints | None = None) -> list[Piece]:
-    """The connected pieces of vertices (n, 3) [m] and faces (m, 3), in the order of their first face.
+    """Return the connected pieces of vertices (n, 3) [m] and faces (m, 3), in the order of their first face.
 
     groups: (m,) the group of each face, where the file has groups.
     Raises GeometryError naming `name`: a coordinate that is not finite, an index that is not there.
@@ -76,7 +76,7 @@ class PieceCache(dict[bytes, list[Piece]]):
     size = 0
 
     def add(self, digest: bytes, pieces: list[Piece]) -> list[Piece]:
-        """The pieces, kept."""
+        """Return the pieces, kept."""
         self.size += 0 if digest in self else _size_of(pieces)  # another thread may have been faster
         self[digest] = pieces
         while self.size > _MOST_KNOWN and len(self) > 1:
@@ -101,7 +101,8 @@ def _make_piece(vertices: Floats, faces: Ints, part: PieceFaces, group: Ints) ->
 
 
 def hull_mesh(vertices: Floats, faces: Ints, corners: Floats | None = None) -> tuple[Polytope, float | None]:
-    """The hull of a mesh of vertices (n, 3) and faces (m, 3), or of its corners (k, 3), and the `fill` of it (`Piece`).
+    """Return the hull of a mesh of vertices (n, 3) and faces (m, 3), or of its corners (k, 3), and the `fill` of it
+    (`Piece`).
 
     Raises GeometryError: they span no volume, a coordinate is not finite.
     """
@@ -179,7 +180,6 @@ class PieceReader:
         return hulls + [part for part in found if not np.isin(part.faces[0], used)]
 
     def _split_touching(self, faces: Ints) -> list[PieceFaces]:
-        """All that touches: as whole, or group by group."""
         parts = _subdivide(faces, self.of_group[faces])
         if len(parts) == 1:
             return self._split_by_index(faces, self.in_groups)
@@ -235,7 +235,6 @@ class PieceReader:
         return _join_backs(self._judge_all(parts) if closed else []) or ([whole] if whole.verdict.shape else [])
 
     def _judge_all(self, parts: list[Ints]) -> list[PieceFaces]:
-        """The parts judged, none where one of them is no hull."""
         judged = []
         for part in parts:
             judged.append(self._judge(part))
@@ -293,7 +292,6 @@ def _join_backs(parts: list[PieceFaces]) -> list[PieceFaces]:
 
 
 def _number_by_group(corners: Ints, group: Ints) -> Ints:
-    """Numbers for corners (m, 3) that differ from group to group."""
     return connectivity.row_ids(np.repeat(group, 3), corners.ravel())[0].reshape(-1, 3)
 
 

@@ -40,7 +40,7 @@ class Pose:
 
     @staticmethod
     def from_rpy(xyz: Sequence[float], rpy: Sequence[float]) -> Pose:
-        """The URDF origin: roll, pitch, yaw about the fixed X, Y, Z axes [rad]; xyz [m]."""
+        """Return the URDF origin: roll, pitch, yaw about the fixed X, Y, Z axes [rad]; xyz [m]."""
         (sr, sp, sy), (cr, cp, cy) = np.sin(rpy), np.cos(rpy)
         rotation = [
             [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
@@ -50,7 +50,7 @@ class Pose:
         return Pose(rotation, xyz)
 
     def to_rpy(self) -> tuple[float, float, float]:
-        """Roll, pitch, yaw [rad], the inverse of `from_rpy` (yaw 0 where pitch is +-90 degrees)."""
+        """Return roll, pitch, yaw [rad], the inverse of `from_rpy` (yaw 0 where pitch is +-90 degrees)."""
         r = self.rotation
         horizontal = float(np.hypot(r[0, 0], r[1, 0]))
         pitch = float(np.arctan2(-r[2, 0], horizontal))
@@ -61,7 +61,7 @@ class Pose:
         return roll, pitch, yaw
 
     def to_quaternion(self) -> Floats:
-        """The rotation as a unit quaternion (4,), w x y z, w not negative."""
+        """Return the rotation as a unit quaternion (4,), w x y z, w not negative."""
         r = self.rotation
         # the four squares times four; the largest is divided by, so that nothing is lost near half turns
         squares = 1.0 + np.array([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]]) @ np.diag(r)
@@ -83,13 +83,13 @@ class Pose:
         return Pose(self.rotation.T, -self.rotation.T @ self.translation)
 
     def apply(self, points: Floats) -> Floats:
-        """Points (n, 3) in b to points (n, 3) in a."""
+        """Convert points (n, 3) in b to points (n, 3) in a."""
         return points @ self.rotation.T + self.translation
 
 
 @cache
 def axis_aligned_rotations() -> tuple[Floats, ...]:
-    """The 24 rotations that take axes to axes, (3, 3) each, in a fixed order with the identity first."""
+    """Return the 24 rotations that take axes to axes, (3, 3) each, in a fixed order with the identity first."""
     turns = []
     for order in itertools.permutations(range(3)):
         for signs in itertools.product((1.0, -1.0), repeat=3):
@@ -101,13 +101,13 @@ def axis_aligned_rotations() -> tuple[Floats, ...]:
 
 
 def snap_rotation(rotation: Floats) -> Floats:
-    """The rotation itself, or the axis-aligned one that it is but for rounding."""
+    """Return the rotation itself, or the axis-aligned one that it is but for rounding."""
     rounded = np.rint(rotation) + 0.0
     return rounded if np.abs(rotation - rounded).max() <= _ROUNDING else rotation
 
 
 def rotation_about(axis: Floats, angle: float) -> Floats:
-    """The rotation by an angle [rad] about a unit vector (3,), by the right-hand rule."""
+    """Return the rotation by an angle [rad] about a unit vector (3,), by the right-hand rule."""
     x, y, z = axis
     cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
     turn: Floats = np.eye(3) + np.sin(angle) * cross + (1.0 - np.cos(angle)) * (cross @ cross)
@@ -115,7 +115,7 @@ def rotation_about(axis: Floats, angle: float) -> Floats:
 
 
 def smallest_rotation(start: Floats, end: Floats) -> Floats:
-    """The smallest rotation that takes the unit vector `start` to the axis `end` (3,).
+    """Return the smallest rotation that takes the unit vector `start` to the axis `end` (3,).
 
     For opposite ones it is the half turn about the axis that follows `end` in the order X, Y, Z, X.
     """
@@ -129,12 +129,13 @@ def smallest_rotation(start: Floats, end: Floats) -> Floats:
 
 
 def nearest_aligned_rotation(rotation: Floats) -> Floats:
-    """The axis-aligned rotation nearest to another; of equally near ones the nearest to the identity."""
+    """Return the axis-aligned rotation nearest to another; of equally near ones the nearest to the identity."""
     return _best_aligned(lambda turn: float(np.trace(turn.T @ rotation)))
 
 
 def nearest_aligned_rotation_between(start: Floats, end: Floats) -> Floats:
-    """The axis-aligned rotation that takes `start` nearest to `end` (3,); of these the nearest to the identity."""
+    """Return the axis-aligned rotation that takes `start` nearest to `end` (3,); of these the nearest to the
+    identity."""
     return _best_aligned(lambda turn: float(end @ turn @ start))
 
 
@@ -145,12 +146,12 @@ def _best_aligned(likeness: Callable[[Floats], float]) -> Floats:
 
 
 def rotation_of_quaternion(quaternion: npt.ArrayLike) -> Floats:
-    """The rotation (3, 3) of a quaternion (4,), w x y z, of any length but zero."""
+    """Return the rotation (3, 3) of a quaternion (4,), w x y z, of any length but zero."""
     return np.array(_rotation_rows(np.asarray(quaternion) / np.linalg.norm(quaternion)))
 
 
 def rotations_of_quaternions(quaternions: Floats) -> Floats:
-    """Rotations (k, 3, 3) of quaternions (k, 4), scalar first, of any length."""
+    """Return rotations (k, 3, 3) of quaternions (k, 4), scalar first, of any length."""
     rows = _rotation_rows((quaternions / np.linalg.norm(quaternions, axis=1, keepdims=True)).T)
     return np.moveaxis(np.array(rows), 2, 0)
 
@@ -166,7 +167,7 @@ def _rotation_rows(unit: Floats) -> list[list[Any]]:
 
 
 def quaternions_of_rotations(rotations: Floats) -> Floats:
-    """Quaternions (k, 4) of rotations (k, 3, 3), as eigenvectors of a symmetric matrix of each (Bar-Itzhack)."""
+    """Return quaternions (k, 4) of rotations (k, 3, 3), as eigenvectors of a symmetric matrix of each (Bar-Itzhack)."""
     r = np.moveaxis(rotations, 0, 2)
     form = np.zeros((len(rotations), 4, 4))
     form[:, 0, 0] = np.trace(r)

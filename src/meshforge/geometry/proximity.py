@@ -17,14 +17,14 @@ else:
 
 
 def distance(a: Shape, b: Shape) -> float:
-    """The smallest distance [m] between two convex shapes, 0 where they touch or overlap."""
+    """Return the smallest distance [m] between two convex shapes, 0 where they touch or overlap."""
     return close_pairs([a, b], inf)[0, 1]
 
 
 def close_pairs(
     shapes: Sequence[Shape], reach: float, unchanged: frozenset[int] = frozenset()
 ) -> dict[tuple[int, int], float]:
-    """Distance of each pair (i, j), i < j, of shapes at most `reach` [m] apart, in order of (i, j).
+    """Return distance of each pair (i, j), i < j, of shapes at most `reach` [m] apart, in order of (i, j).
 
     settled: indices among which no pair is wanted, only pairs with one of the others.
     """

@@ -188,7 +188,7 @@ def _dome(steps: int) -> list[tuple[float, float]]:
 
 @cache
 def unit_sphere() -> tuple[Floats, Ints]:
-    """Vertices (58, 3) and outward triangles of the sphere of radius 1 about the origin."""
+    """Return vertices (58, 3) and outward triangles of the sphere of radius 1 about the origin."""
     dome = _dome(4)
     below = [_ring(r, -z, _RING_POINTS) for r, z in reversed(dome[1:])]
     above = [_ring(r, z, _RING_POINTS) for r, z in dome]
@@ -197,7 +197,7 @@ def unit_sphere() -> tuple[Floats, Ints]:
 
 @cache
 def unit_cylinder() -> tuple[Floats, Ints]:
-    """Vertices (64, 3) and outward triangles of the cylinder of radius 1 from z = -1 to z = 1."""
+    """Return vertices (64, 3) and outward triangles of the cylinder of radius 1 from z = -1 to z = 1."""
     vertices = np.concatenate([_ring(1.0, -1.0, _CYLINDER_SIDES), _ring(1.0, 1.0, _CYLINDER_SIDES)])
     side = [t for k in range(_CYLINDER_SIDES) for t in _quad(k, (k + 1) % _CYLINDER_SIDES)]
     caps = [
@@ -213,7 +213,8 @@ def _quad(k: int, n: int) -> list[list[int]]:
 
 
 def tessellate_capsule(radius: float, half_length: float) -> tuple[Floats, Ints]:
-    """Vertices (50, 3) and outward triangles of the capsule about local Z; half_length of its straight part [m]."""
+    """Return vertices (50, 3) and outward triangles of the capsule about local Z; half_length of its straight part
+    [m]."""
     dome = [(radius * r, radius * z + half_length) for r, z in _dome(3)]
     top = radius + half_length
     below = [_ring(r, -z, _RING_POINTS) for r, z in reversed(dome)]

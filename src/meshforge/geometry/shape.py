@@ -49,15 +49,16 @@ class Shape(ABC):
 
     @abstractmethod
     def support(self, direction: Floats) -> Floats:
-        """A point (3,) of the shape that lies farthest along `direction` (3,), which need not be a unit vector."""
+        """Return a point (3,) of the shape that lies farthest along `direction` (3,), which need not be a unit
+        vector."""
 
     @abstractmethod
     def tessellate(self) -> Polytope:
-        """The shape as a polytope: itself, exact for a box, at most 64 inscribed vertices for a round one."""
+        """Return the shape as a polytope: itself, exact for a box, at most 64 inscribed vertices for a round one."""
 
     @abstractmethod
     def transform(self, linear: Floats, offset: Floats) -> Shape:
-        """The image under x -> linear @ x + offset; of the same kind where the map allows it, else a polytope.
+        """Return the image under x -> linear @ x + offset; of the same kind where the map allows it, else a polytope.
 
         linear: (3, 3), regular, reflections included; offset: (3,) [m].
         """
@@ -77,12 +78,12 @@ class Shape(ABC):
         return self.kind != "polytope"
 
     def move(self, pose: Pose) -> Shape:
-        """The shape moved rigidly; primitives stay what they are."""
+        """Return the shape moved rigidly; primitives stay what they are."""
         return self.transform(pose.rotation, pose.translation)
 
 
 def split_scaled_rotation(linear: Floats) -> tuple[Floats, Floats] | None:
-    """The map as a rotation (3, 3) times positive scales (3,) of the columns, or None where it shears.
+    """Return the map as a rotation (3, 3) times positive scales (3,) of the columns, or None where it shears.
 
     The shapes that ask are symmetric under a flip of an axis, so a reflection becomes a turn.
     """
@@ -154,7 +155,7 @@ class Polytope(Shape):
 
 
 def volume_and_centroid(vertices: Floats, faces: Ints) -> tuple[float, Floats]:
-    """Volume [m^3] and centre (3,) of a closed surface, by signed tetrahedra about a vertex near the middle."""
+    """Return volume [m^3] and centre (3,) of a closed surface, by signed tetrahedra about a vertex near the middle."""
     origin = vertices.mean(axis=0)
     a, b, c = (vertices[faces[:, k]] - origin for k in range(3))
     six_volumes = np.einsum("ij,ij->i", a, cross(b, c))
@@ -188,7 +189,7 @@ class Box(PrimitiveShape):
 
     @staticmethod
     def of_bounds(bounds: Aabb) -> Box:
-        """The axis-aligned box that is `bounds`."""
+        """Return the axis-aligned box that is `bounds`."""
         return Box(Pose.of_translation(bounds.center), bounds.size / 2)
 
     @property
@@ -216,7 +217,7 @@ class Box(PrimitiveShape):
 
 
 def digest(shape: Shape) -> str:
-    """Sixteen hexadecimal digits of the shape's kind and its vertices in single precision, in sorted order."""
+    """Return sixteen hexadecimal digits of the shape's kind and its vertices in single precision, in sorted order."""
     if not isinstance(shape, Polytope):
         return _compute_digest(shape)
     known = _digests.get(shape)
@@ -231,7 +232,7 @@ def _compute_digest(shape: Shape) -> str:
 
 
 def is_same_shape(a: Shape, b: Shape, tolerance: float = 0.0) -> bool:
-    """Whether two shapes are of one kind with equal tessellations, each coordinate within `tolerance` [m]."""
+    """Return whether two shapes are of one kind with equal tessellations, each coordinate within `tolerance` [m]."""
     if a.kind != b.kind or a.vertices.shape != b.vertices.shape:
         return False
     return bool(np.abs(a.vertices - b.vertices).max() <= tolerance) and np.array_equal(a.faces, b.faces)

@@ -41,7 +41,8 @@ class Enclosure:
 
 
 def enclose(hull: Polytope, budget: HullBudget) -> Enclosure | None:
-    """A convex hull within a budget that holds all of another hull and sticks out little; None where none was found.
+    """Return a convex hull within a budget that holds all of another hull and sticks out little; None where none was
+    found.
 
     Found in three ways, of which the closest counts: planes around the hull, more and more of them, then turned; the
     outermost vertices of the hull, so many that the triangles between them are within the budget, then moved; and,

@@ -13,7 +13,7 @@ _EXTRA_ROUNDS = 200  # besides one a point: around balls the search comes ever n
 
 
 def smallest_ball(centers: Floats, radii: Floats | None = None) -> tuple[Floats, float]:
-    """Centre (d,) and radius of the smallest ball around balls of centres (n, d); d is 2 or 3.
+    """Return centre (d,) and radius of the smallest ball around balls of centres (n, d); d is 2 or 3.
 
     radii: (n,), 0 where None: the centres are points then. All are inside, the radius sees to it. The ball around the
     few points that bear it grows by the farthest point outside, until there is none.

@@ -48,7 +48,7 @@ class SolidityVerdict:
 
 
 def judge_solidity(points: Floats, corners: Ints) -> SolidityVerdict:
-    """What a piece of points (n, 3) and distinct triangles (m, 3) is; the winding may be inverted or mixed."""
+    """Return what a piece of points (n, 3) and distinct triangles (m, 3) is; the winding may be inverted or mixed."""
     used, corners = compact(corners)
     points = points[used]
     rough = _make_hull(points, _make_roughly, _THIN) if len(corners) > _MANY else None
@@ -59,8 +59,8 @@ def judge_solidity(points: Floats, corners: Ints) -> SolidityVerdict:
 
 
 def refuse_dents(verdict: SolidityVerdict, points: Floats, corners: Ints) -> SolidityVerdict:
-    """The verdict on a piece of points (n, 3) and distinct triangles (m, 3): no hull where it has a hole or a dent that
-    a peg enters; a hull with the share that it fills where it has narrower ones."""
+    """Return the verdict on a piece of points (n, 3) and distinct triangles (m, 3): no hull where it has a hole or a
+    dent that a peg enters; a hull with the share that it fills where it has narrower ones."""
     hull = verdict.shape
     used, corners = compact(corners)
     handles = int(components_by_vertices(corners).max()) + 1 - (2 * len(used) - len(corners)) / 4

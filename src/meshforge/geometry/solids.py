@@ -20,7 +20,7 @@ _SEGMENTS = 96  # segments of a round primitive; the surface is off by about 0.1
 
 
 def overlap_volume(a: Shape, b: Shape) -> float:
-    """The volume [m^3] that two shapes have in common, 0 where they only touch.
+    """Return the volume [m^3] that two shapes have in common, 0 where they only touch.
 
     Polytopes and boxes: to 1e-9 of the smaller volume. Round primitives are finely tessellated to their exact volume,
     which leaves an error of about 0.1% of the smaller volume.
@@ -32,7 +32,7 @@ def overlap_volume(a: Shape, b: Shape) -> float:
 
 
 def volume_of_union(shapes: Sequence[Shape]) -> float:
-    """The volume [m^3] that shapes fill together, what they share counted once; as exact as `overlap_volume`."""
+    """Return the volume [m^3] that shapes fill together, what they share counted once; as exact as `overlap_volume`."""
     if not shapes:
         return 0.0
     bounds = Aabb.union(shape.aabb for shape in shapes)
@@ -41,7 +41,7 @@ def volume_of_union(shapes: Sequence[Shape]) -> float:
 
 
 def to_manifold(shape: Shape, bounds: Aabb) -> Any:
-    """The shape in coordinates where `bounds` has a diagonal of one about the origin."""
+    """Return the shape in coordinates where `bounds` has a diagonal of one about the origin."""
     match shape:
         case Polytope() | Box():
             hull = shape.tessellate()
@@ -56,7 +56,7 @@ def to_manifold(shape: Shape, bounds: Aabb) -> Any:
 
 
 def scale_points(vertices: Floats, bounds: Aabb) -> Floats:
-    """Vertices (n, 3) where `bounds` has a diagonal of one about the origin."""
+    """Return vertices (n, 3) where `bounds` has a diagonal of one about the origin."""
     found: Floats = (vertices - bounds.center) / bounds.diagonal
     return found
 
@@ -91,7 +91,7 @@ def _revolve_capsule(radius: float, half_length: float) -> Any:
 
 
 def inertia(shapes: Sequence[Shape], mass: float, centre: Floats | None = None) -> tuple[Floats, Floats]:
-    """The centre of mass (3,), and the inertia (3, 3) about it, of shapes that weigh `mass` [kg] together.
+    """Return the centre of mass (3,), and the inertia (3, 3) about it, of shapes that weigh `mass` [kg] together.
 
     centre: where that is known to be; None for that of the shapes. Where they overlap, they count twice, as in MuJoCo.
     """
@@ -107,7 +107,7 @@ def inertia(shapes: Sequence[Shape], mass: float, centre: Floats | None = None) 
 def combine_inertias(
     parts: Sequence[tuple[float, Floats, Floats]], about: Floats | None = None
 ) -> tuple[float, Floats, Floats]:
-    """The mass [kg] of parts together, a centre (3,), and the inertia (3, 3) about it.
+    """Return the mass [kg] of parts together, a centre (3,), and the inertia (3, 3) about it.
 
     parts: of each its mass, its centre and its inertia about that; about: the centre, None for the common one.
     """
@@ -119,7 +119,8 @@ def combine_inertias(
 
 
 def principal_axes(inertia: Floats) -> tuple[Floats, Floats]:
-    """The principal moments (3,) and axes, a rotation (3, 3), of an inertia (3, 3); of a diagonal one its own."""
+    """Return the principal moments (3,) and axes, a rotation (3, 3), of an inertia (3, 3); of a diagonal one its
+    own."""
     if not (inertia - np.diag(np.diag(inertia))).any():
         return np.diag(inertia).copy(), np.eye(3)
     moments, axes = np.linalg.eigh(inertia)
@@ -170,7 +171,7 @@ _THIN = 1e-6  # a part that reaches less than this share of the shape's size bey
 
 
 def cut(shape: Shape, point: Floats, normal: Floats) -> tuple[Polytope | None, Polytope | None]:
-    """The parts of a shape below and above the plane through `point` (3,) across `normal` (3,).
+    """Return the parts of a shape below and above the plane through `point` (3,) across `normal` (3,).
 
     None stands for a part that is not there. Vertices of the shape stay what they are, bit for bit; a round primitive
     is cut as its tessellation. A part that is thinner than 1e-6 of the shape's size is left out.
@@ -219,7 +220,7 @@ def _hull_of_part(side: Floats, crossing: Floats) -> Polytope | None:
 
 
 def intersect(a: Shape, b: Shape) -> Polytope | None:
-    """What two convex shapes have in common, to rounding; None where that spans no volume.
+    """Return what two convex shapes have in common, to rounding; None where that spans no volume.
 
     Round primitives count as their tessellations.
     """
@@ -232,7 +233,7 @@ def intersect(a: Shape, b: Shape) -> Polytope | None:
 
 
 def section(shape: Polytope, point: Floats, normal: Floats) -> tuple[float, float]:
-    """The area [m^2] and the perimeter [m] of the section of a polytope by a plane; zeros where it misses it."""
+    """Return the area [m^2] and the perimeter [m] of the section of a polytope by a plane; zeros where it misses it."""
     from scipy.spatial import ConvexHull, QhullError  # lazy: 0.5 s, half of all imports
 
     crossing = _cross_edges(shape, (shape.vertices - point) @ normal)

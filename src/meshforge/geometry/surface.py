@@ -19,7 +19,7 @@ LEVEL = 1e-5
 
 
 def is_closed(faces: Ints) -> bool:
-    """Whether every edge of faces (m, 3) lies in exactly two of them, once in each sense."""
+    """Return whether every edge of faces (m, 3) lies in exactly two of them, once in each sense."""
     if len(faces) == 0:
         return False
     along, against = _number_edges(faces)
@@ -27,7 +27,7 @@ def is_closed(faces: Ints) -> bool:
 
 
 def has_border(faces: Ints) -> bool:
-    """Whether an edge of faces (m, 3) lies in more of them in one sense than in the other."""
+    """Return whether an edge of faces (m, 3) lies in more of them in one sense than in the other."""
     return not np.array_equal(*_number_edges(faces))
 
 
@@ -39,7 +39,8 @@ def _number_edges(faces: Ints) -> tuple[Ints, Ints]:
 
 
 def is_convex_hull(vertices: Floats, faces: Ints, tolerance: float) -> bool:
-    """Whether faces (m, 3) are closed, all face outwards and are convex: `is_closed`, `is_outward` and `is_convex`."""
+    """Return whether faces (m, 3) are closed, all face outwards and are convex: `is_closed`, `is_outward` and
+    `is_convex`."""
     if not is_closed(faces):
         return False
     planes = planes_of(vertices, faces)
@@ -51,7 +52,7 @@ def is_convex_hull(vertices: Floats, faces: Ints, tolerance: float) -> bool:
 
 
 def is_convex(vertices: Floats, faces: Ints, tolerance: float = 1e-9) -> bool:
-    """Whether no vertex lies outside any face plane by more than `tolerance` times the size.
+    """Return whether no vertex lies outside any face plane by more than `tolerance` times the size.
 
     The plane of a needle, which is noise, is left out: its neighbours bound the shape there. Of a surface with very
     many faces each is compared with its neighbours only: a closed surface like a sphere that bends outward at every
@@ -64,7 +65,7 @@ def is_convex(vertices: Floats, faces: Ints, tolerance: float = 1e-9) -> bool:
 
 
 def neighbour_faces(faces: Ints) -> Ints:
-    """The pairs (k, 2) of faces (m, 3) that share an edge."""
+    """Return the pairs (k, 2) of faces (m, 3) that share an edge."""
     edges, _ = edges_of(faces)
     order = np.lexsort((edges[:, 1], edges[:, 0]))
     owners = np.tile(np.arange(len(faces)), 3)[order]
@@ -87,12 +88,13 @@ def _highest_neighbour(vertices: Floats, faces: Ints) -> float:
 
 
 def is_outward(vertices: Floats, faces: Ints) -> bool:
-    """Whether the faces (m, 3) of a convex surface all show their front to the outside: none faces its middle."""
+    """Return whether the faces (m, 3) of a convex surface all show their front to the outside: none faces its
+    middle."""
     return bool((planes_of(vertices, faces).offsets > 0).all())
 
 
 def lowest_altitudes(vertices: Floats, faces: Ints) -> tuple[Floats, Ints]:
-    """The lowest altitude (m,) [m] of each triangle, and which corner (m,) it stands on."""
+    """Return the lowest altitude (m,) [m] of each triangle, and which corner (m,) it stands on."""
     corners = vertices[faces]
     sides = corners[:, [2, 0, 1]] - corners[:, [1, 2, 0]]  # the side opposite to each corner
     lengths = np.linalg.norm(sides, axis=2)
@@ -116,7 +118,7 @@ class Planes:
 
 
 def planes_of(vertices: Floats, faces: Ints) -> Planes:
-    """The planes of the faces (m, 3) that are no needles: of these the plane is noise."""
+    """Return the planes of the faces (m, 3) that are no needles: of these the plane is noise."""
     middle = vertices.mean(axis=0)
     around = vertices - middle
     a, b, c = (around[faces[:, k]] for k in range(3))
@@ -128,7 +130,7 @@ def planes_of(vertices: Floats, faces: Ints) -> Planes:
 
 
 def rises_above(points: Floats, vertices: Floats, faces: Ints, height: float) -> bool:
-    """Whether any of points (n, 3) lies more than `height` [m] above a face plane of a convex surface."""
+    """Return whether any of points (n, 3) lies more than `height` [m] above a face plane of a convex surface."""
     return _rises_above_planes(points, planes_of(vertices, faces), height)
 
 
@@ -155,7 +157,7 @@ def _some_group_rises(points: Floats, normals: Floats, limits: Floats) -> bool:
 
 
 def polygon_sizes(hull: Polytope) -> tuple[int, ...]:
-    """The number of vertices of each flat polygon of a hull."""
+    """Return the number of vertices of each flat polygon of a hull."""
     from scipy.sparse import coo_array  # lazy: slow to import, only engine limits and simplifying need it
     from scipy.sparse.csgraph import connected_components  # lazy: as coo_array
 
@@ -169,14 +171,14 @@ def polygon_sizes(hull: Polytope) -> tuple[int, ...]:
 
 
 def normals_of(hull: Polytope) -> Floats:
-    """The unit normals (m, 3) of a hull's triangles; of a needle, something shorter."""
+    """Return the unit normals (m, 3) of a hull's triangles; of a needle, something shorter."""
     a, b, c = (hull.vertices[hull.faces[:, k]] for k in range(3))
     normals = np.cross(b - a, c - a)
     return np.asarray(normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), np.finfo(float).tiny))
 
 
 def heights_above(points: Floats, hull: Polytope) -> Floats:
-    """How far (n,) [m] points (n, 3) are above the face of a hull that they are highest above."""
+    """Return how far (n,) [m] points (n, 3) are above the face of a hull that they are highest above."""
     a, b, c = (hull.vertices[hull.faces[:, k]] for k in range(3))
     normals = np.cross(b - a, c - a)
     lengths = np.linalg.norm(normals, axis=1)
@@ -186,7 +188,7 @@ def heights_above(points: Floats, hull: Polytope) -> Floats:
 
 
 def sample_surface(vertices: Floats, faces: Ints, count: int) -> tuple[Floats, Ints]:
-    """Points (count, 3) that lie evenly on a surface of faces (m, 3), the same every time, and the face of each.
+    """Return points (count, 3) that lie evenly on a surface of faces (m, 3), the same every time, and the face of each.
 
     Of a surface without area they are the first corners of all faces.
     """

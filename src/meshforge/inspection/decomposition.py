@@ -45,7 +45,7 @@ class DecompositionCandidate:
     kept: float | None
 
     def to_json(self) -> dict[str, Any]:
-        """Without the mesh."""
+        """Return it as JSON, without the mesh."""
         described = {"setting": self.setting, "by": self.by, "hulls": len(self.mesh.hulls)}
         notes = list(self.mesh.asset.notes) if self.mesh.asset else []
         return {**described, "spanning": self.spanning, "free_space": self.kept, "notes": notes}
@@ -60,11 +60,11 @@ class DecompositionAdvice:
     up: Literal["Y", "Z"] = "Z"
 
     def to_json(self) -> dict[str, Any]:
-        """For scripts: `judged`, and `trials` in the order of the table."""
+        """Return for scripts: `judged`, and `trials` in the order of the table."""
         return {"judged": self.judged, "results": [result.to_json() for result in self.results]}
 
     def describe(self) -> list[str]:
-        """A table as lines of text, and by what it was judged."""
+        """Return a table as lines of text, and by what it was judged."""
         rows = [("setting", "by", "hulls", "span parts", "free space kept")]
         for result in self.results:
             spanning = "-" if result.spanning is None else str(result.spanning)
@@ -75,7 +75,7 @@ class DecompositionAdvice:
         return [*lines, f"span parts: {self.judged}"]
 
     def draw(self) -> Image:
-        """A picture of each, three in a row, under one camera."""
+        """Return a picture of each, three in a row, under one camera."""
         from meshforge.rendering import make_contact_sheet, render  # lazy: a table needs no pictures
 
         boxes = [result.mesh.aabb for result in self.results if result.mesh.aabb]
@@ -95,7 +95,8 @@ def advise_decomposition(
     cache: bool = True,
     progress: Callable[[str], None] = lambda _: None,
 ) -> DecompositionAdvice:
-    """What three thresholds of CoACD, or most counts of V-HACD, make of a mesh file, as a whole and by known parts.
+    """Return what three thresholds of CoACD, or most counts of V-HACD, make of a mesh file, as a whole and by known
+    parts.
 
     settings: all else about the engine; labels: segmented points that say what the parts are, None for those
     that the file names; timeout [s]: of each decomposition. Raises AssetError, GeometryError.
@@ -134,7 +135,8 @@ def _list_settings(settings: DecomposeSettings) -> list[tuple[str, DecomposeSett
 
 
 def find_regions(surface: Surface) -> tuple[Ints | None, str]:
-    """The region (m,) of each face that a hull should not leave, and what the regions are; None where there is one."""
+    """Return the region (m,) of each face that a hull should not leave, and what the regions are; None where there is
+    one."""
     if surface.parts and surface.parts.is_divided:
         return surface.parts.of_face, f"judged by {pluralize(len(surface.parts.numbers), 'named part')}"
     component = geometry.components_by_vertices(geometry.weld(surface.vertices)[surface.faces])
@@ -144,7 +146,8 @@ def find_regions(surface: Surface) -> tuple[Ints | None, str]:
 
 
 def find_spanning(surface: Surface, regions: Ints, hulls: Sequence[Polytope]) -> Any:
-    """Which hulls (k,) span regions (m,) of the faces: no region has 90% of the surface that the hull stands for.
+    """Return which hulls (k,) span regions (m,) of the faces: no region has 90% of the surface that the hull stands
+    for.
 
     A place on the surface counts for the hull that it is deepest in.
     """

@@ -31,7 +31,7 @@ class Difference:
         return not (self.removed or self.made or self.changed)
 
     def to_json(self) -> dict[str, Any]:
-        """The names, and counts of hulls and vertices and volumes [m^3] of both, as JSON-able data."""
+        """Return the names, and counts of hulls and vertices and volumes [m^3] of both, as JSON-able data."""
         return {
             "removed": list(self.removed),
             "made": list(self.made),
@@ -72,7 +72,7 @@ def diff(before: SymbolicMesh | Source, after: SymbolicMesh | Source, out: str |
 
 
 def compare_meshes(before: SymbolicMesh, after: SymbolicMesh) -> Difference:
-    """The difference of two meshes; shapes count as one within a millionth of the larger diagonal."""
+    """Return the difference of two meshes; shapes count as one within a millionth of the larger diagonal."""
     near = 1e-6 * max(before.diagonal, after.diagonal)
     both = [name for name in before.index if name in after.index]
     kept = {n for n in both if is_same_shape(before.hull_of(n).shape, after.hull_of(n).shape, near)}

@@ -21,7 +21,7 @@ _HEADINGS = ("", "hull", "label", "body", "shape", "size [m]", "volume [m³]")
 
 
 def to_html(mesh: SymbolicMesh) -> str:
-    """The HTML of a mesh, in itself complete: no scripts, no files."""
+    """Return the HTML of a mesh, in itself complete: no scripts, no files."""
     color_by: ColorBy = "label" if mesh.labels else "hull"
     picture = b64encode(encode_png(render(mesh, color_by=color_by, size=_SIZE))).decode()
     name = escape(str(mesh.asset.path) if mesh.asset else "in memory")

@@ -68,7 +68,7 @@ def check(
     against: SymbolicMesh | Source | None = None,
     cell: float | None = None,
 ) -> Examination:
-    """What is wrong with an asset, as `.findings`, and what was measured; print it to read it.
+    """Return what is wrong with an asset, as `.findings`, and what was measured; print it to read it.
 
     asset: a mesh, or what `load` reads. engine: also check the limits of `mujoco`, `physx-cpu`, `physx-gpu`, `unreal`,
     `unity`, `bullet` or `godot`, and ask MuJoCo, or Bullet about a URDF file, itself. fit: how far hulls stick out of

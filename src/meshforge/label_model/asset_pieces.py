@@ -23,8 +23,8 @@ SurfacePieces = Mapping[str, Sequence[FinePiece]]
 
 
 def piece_mesh(pieces: SurfacePieces, mesh: SymbolicMesh) -> SymbolicMesh:
-    """The fine pieces of an asset as a mesh that lies as its own does; the parent of each is its region, after the
-    solid that this is of."""
+    """Return the fine pieces of an asset as a mesh that lies as its own does; the parent of each is its region, after
+    the solid that this is of."""
     hulls = (
         Hull(f"{body}/{k}", body, piece.shape, parent=f"{body}/{piece.solid}/{piece.region}")
         for body, own in pieces.items()
@@ -100,7 +100,8 @@ class AssetPieces:
         return found
 
     def collect_labels(self, labels: Sequence[Label | None]) -> list[Label | None]:
-        """What labels of pieces say about each region: the label of more than half of it, believed by that share."""
+        """Return what labels of pieces say about each region: the label of more than half of it, believed by that
+        share."""
         found = list[Label | None]()
         for number in range(len(self.regions.hulls)):
             own = self.region_of == number
@@ -114,7 +115,8 @@ class AssetPieces:
         return found
 
     def take_labels(self, labels: Sequence[Label | None]) -> list[Label | None]:
-        """What labels of hulls say about each piece: that of the hull that most of it lies in, not quite believed."""
+        """Return what labels of hulls say about each piece: that of the hull that most of it lies in, not quite
+        believed."""
         best = self.common.argmax(axis=0) if len(labels) else np.zeros(len(self.pieces.hulls), np.int64)
         found = list[Label | None]()
         for piece, hull in zip(self.pieces.hulls, best.tolist(), strict=True):
@@ -125,13 +127,12 @@ class AssetPieces:
 
 
 def _number(names: Sequence[str]) -> Ints:
-    """The number (n,) of each name, in the order in which they first come."""
     numbers = {name: number for number, name in enumerate(dict.fromkeys(names))}
     return np.array([numbers[name] for name in names], dtype=np.int64)
 
 
 def sum_groups(groups: Ints, rows: Floats) -> Floats:
-    """The sum (groups, ...) of rows (n, ...) by the group (n,) of each."""
+    """Return the sum (groups, ...) of rows (n, ...) by the group (n,) of each."""
     found = np.zeros((int(groups.max(initial=-1)) + 1, *rows.shape[1:]))
     np.add.at(found, groups, rows)
     return found

@@ -56,7 +56,7 @@ _PAIRS = 0.5  # pairs of labels count as having touched so often before any are 
 
 @cache
 def consensus_weights() -> Floats:
-    """The weights (rounds, evidence)."""
+    """Return the weights (rounds, evidence)."""
     read = json.loads(files("meshforge.label_model").joinpath(WEIGHTS_FILE).read_text("utf-8"))
     found = np.array(read["weights"], dtype=float)
     found.flags.writeable = False
@@ -66,8 +66,8 @@ def consensus_weights() -> Floats:
 def infer_chances(
     table: FamilyTable, seen: Observations, weights: Floats | None = None, evidence: Floats | None = None
 ) -> tuple[Floats, Floats]:
-    """The probability of each label that anything says for each hull of a family: by all, and but for what is said of
-    the hull itself. Both (n, labels).
+    """Return the probability of each label that anything says for each hull of a family: by all, and but for what is
+    said of the hull itself. Both (n, labels).
 
     evidence: (n, labels), more that speaks for each label of each hull [nats].
     """
@@ -84,7 +84,7 @@ def infer_chances(
 
 
 def softmax(scores: Floats) -> Floats:
-    """Scores (n, k) [nats] as probabilities."""
+    """Return scores (n, k) [nats] as probabilities."""
     weights = np.exp(scores - scores.max(axis=1, keepdims=True, initial=-np.inf))
     found: Floats = weights / weights.sum(axis=1, keepdims=True)
     return found
@@ -117,11 +117,11 @@ class FamilyContext:
         """How far the nearest hull of another mesh is, 0 to 1 (n, 1)."""
 
     def start(self) -> Floats:
-        """What the sources say, each believed alike."""
+        """Return what the sources say, each believed alike."""
         return self.fix_known(softmax(self._own(np.full(len(self.seen.codes), _START), self.seen.known)))
 
     def fix_known(self, chances: Floats) -> Floats:
-        """The same with what people said."""
+        """Return the same with what people said."""
         fixed = self.seen.fixed
         chances[fixed] = (1 - PERSON) / max(self.count - 1, 1)
         chances[fixed, self.seen.codes[fixed]] = PERSON if self.count > 1 else 1.0
@@ -135,7 +135,7 @@ class FamilyContext:
         return found
 
     def collect_evidence(self, chances: Floats) -> Floats:
-        """The evidence (n, labels, len(EVIDENCE)) [nats] on each label of each hull."""
+        """Return the evidence (n, labels, len(EVIDENCE)) [nats] on each label of each hull."""
         seen, rows = self.seen, np.arange(len(chances))
         informed = self._find_helpers(chances)
         counted = chances * np.where(seen.known, 1.0, _UNSAID)[:, None]

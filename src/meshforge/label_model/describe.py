@@ -24,12 +24,12 @@ _OTHER = np.cos(np.radians(30.0))  # directions that turn by less are one and th
 
 
 def up_in_file(mesh: SymbolicMesh) -> Floats:
-    """The axis (3,) that points up by what the file of a mesh says."""
+    """Return the axis (3,) that points up by what the file of a mesh says."""
     return np.array([0.0, 1.0, 0.0] if mesh.asset and mesh.asset.up == "y" else [0.0, 0.0, 1.0])
 
 
 def find_up(mesh: SymbolicMesh, axis: Floats | None = None) -> Floats:
-    """The direction (3,) that points up in a mesh, whatever small turn its file gave it.
+    """Return the direction (3,) that points up in a mesh, whatever small turn its file gave it.
 
     Of the file's upright axis and the directions in which the whole could lie flat, the one in which most of the
     hulls' faces are level or plumb, those near the file's axis before others. axis: another one in its place.
@@ -42,7 +42,7 @@ def find_up(mesh: SymbolicMesh, axis: Floats | None = None) -> Floats:
 
 
 def find_other_sides(mesh: SymbolicMesh, up: Floats, most: int) -> list[Floats]:
-    """Up to `most` directions (3,) that point up if the mesh lies on another side than it seems to.
+    """Return up to `most` directions (3,) that point up if the mesh lies on another side than it seems to.
 
     Those under which most of the hulls' faces are level or plumb come first. up: what seems to be up.
     """
@@ -68,7 +68,7 @@ def _to_degrees(cosines: Floats) -> Floats:
 
 
 def rotation_to_z(up: Floats) -> Floats:
-    """The rotation (3, 3) by the smallest angle that takes a direction to Z."""
+    """Return the rotation (3, 3) by the smallest angle that takes a direction to Z."""
     cosine = float(up[2])
     if cosine < -1 + 1e-12:
         return np.diag([1.0, -1.0, -1.0])
@@ -127,8 +127,8 @@ _SIDES = 5  # on which a mesh may lie, besides the one it seems to lie on
 
 
 def describe_shapes(whole: WholeShape, volumes: Floats) -> Floats:
-    """A row for each hull (n, WIDTH): sizes in logarithms of shares of the whole's, how long, flat and full it is,
-    how its axes lie, from where to where it reaches in height and from the upright axis.
+    """Return a row for each hull (n, WIDTH): sizes in logarithms of shares of the whole's, how long, flat and full it
+    is, how its axes lie, from where to where it reaches in height and from the upright axis.
     """
     size, corners, counts = whole.size, np.concatenate(whole.pieces), np.array([len(piece) for piece in whole.pieces])
     starts = np.cumsum(counts) - counts
@@ -180,11 +180,11 @@ class HullDescriber:
             self._touching[a, b] = self._touching[b, a] = 1.0
 
     def describe_shapes(self, up: Floats) -> Floats:
-        """What each hull is itself, and how it lies: `SHAPE_COLUMNS` of its row, which is quick. up: (3,)."""
+        """Return what each hull is itself, and how it lies: `SHAPE_COLUMNS` of its row, which is quick. up: (3,)."""
         return describe_shapes(self._whole.rotate(rotation_to_z(up)), self._volumes)
 
     def describe(self, up: Floats) -> Floats:
-        """A row for each hull (n, WIDTH). up: (3,).
+        """Return a row for each hull (n, WIDTH). up: (3,).
 
         What is around it, what it is itself, how the hulls that it touches differ from it (the mean, and the largest),
         and how many there are of what. Neither place nor size nor yaw of the mesh changes it, and a tilt hardly.
@@ -246,7 +246,7 @@ class MeshDescriber:
             self._ups = find_other_sides(mesh, self._up, _SIDES)
 
     def describe(self) -> ShapeDescriptor:
-        """The mesh as it seems to stand, and what is quickly told of its other sides."""
+        """Return the mesh as it seems to stand, and what is quickly told of its other sides."""
         count, columns = len(self._mesh.hulls), SHAPE_COLUMNS.stop - SHAPE_COLUMNS.start
         if not count:
             return ShapeDescriptor(np.zeros((0, ROW_WIDTH)), np.zeros((0, 2), np.int64), np.zeros((0, 0, columns)))
@@ -255,12 +255,12 @@ class MeshDescriber:
         return ShapeDescriptor(self._describer.describe(self._up), touching, sides)
 
     def describe_side(self, side: int) -> Floats:
-        """The rows (n, WIDTH) on one of the sides of the sketch."""
+        """Return the rows (n, WIDTH) on one of the sides of the sketch."""
         return self._describer.describe(self._ups[side])
 
 
 def describe_mesh(mesh: SymbolicMesh) -> ShapeDescriptor:
-    """The descriptor of a mesh; that of the same hulls with other labels is not made again."""
+    """Return the descriptor of a mesh; that of the same hulls with other labels is not made again."""
     key = digest_mesh(mesh)
     if key not in _described:
         remember_descriptor(mesh, MeshDescriber(mesh).describe())
@@ -279,7 +279,8 @@ _described: dict[bytes, ShapeDescriptor] = {}
 
 
 def digest_mesh(mesh: SymbolicMesh) -> bytes:
-    """Equal for meshes that are described alike: the same hulls, contact distance and upright axis."""
+    """Return a digest that is equal for meshes that are described alike: the same hulls, contact distance and upright
+    axis."""
     found = blake2b(digest_size=16)
     found.update(f"{mesh.asset.up if mesh.asset else ''} {mesh.contact_distance!r}".encode())
     for hull in mesh.hulls:

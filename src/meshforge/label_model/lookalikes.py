@@ -43,7 +43,7 @@ class Lookalikes:
     own_apart: Floats
 
     def nearest(self, usable: Bools, count: int, per_mesh: int) -> tuple[Places, Floats]:
-        """The `count` nearest usable hulls of other meshes, at most `per_mesh` of one: (n, count) and distances.
+        """Return the `count` nearest usable hulls of other meshes, at most `per_mesh` of one: (n, count) and distances.
 
         What was found last for a count is kept: an answer seldom changes which hulls are usable.
         """
@@ -74,7 +74,7 @@ class Lookalikes:
         return take_nearest(hulls, apart, count)
 
     def nearest_of(self, hull: int, usable: Bools, count: int, per_mesh: int) -> list[int]:
-        """Of one hull the nearest usable ones, of its own mesh too, the nearest first."""
+        """Return of one hull the nearest usable ones, of its own mesh too, the nearest first."""
         one = slice(hull, hull + 1)
         only = Lookalikes(self.others[one], self.apart[one], self.own[one], self.own_apart[one])
         hulls, apart = only.nearest(usable, count, per_mesh)
@@ -85,7 +85,8 @@ class Lookalikes:
 
 
 def take_nearest(hulls: Places, apart: Floats, count: int) -> tuple[Places, Floats]:
-    """Of candidates (n, m) the nearest (n, count), equally near ones in their order; padded where there are fewer."""
+    """Return of candidates (n, m) the nearest (n, count), equally near ones in their order; padded where there are
+    fewer."""
     missing = count - hulls.shape[1]
     if missing > 0:
         hulls = np.pad(hulls, ((0, 0), (0, missing)))
@@ -116,7 +117,7 @@ class LookalikeSearch:
         self._last: tuple[frozenset[int], Lookalikes] | None = None
 
     def find(self, speaking: Sequence[int]) -> Lookalikes:
-        """The nearest hulls of each; what was found last is kept.
+        """Return the nearest hulls of each; what was found last is kept.
 
         speaking: meshes of which something is said; where there are too many meshes to look at all, up to `MOST_MESHES`
         of these are looked at, beside those that always are. One more costs no more than itself.

@@ -99,7 +99,7 @@ class LabelBeliefs:
         return found
 
     def odds_of(self, asset: str, hull: Hull) -> LabelOdds | None:
-        """Of a hull as a rule meets it; None for one that was made, or relabelled, on the way."""
+        """Return of a hull as a rule meets it; None for one that was made, or relabelled, on the way."""
         if asset not in self._shown or hull.parent is not None:
             return None
         mesh = self._meshes[asset]
@@ -111,12 +111,12 @@ class LabelBeliefs:
         return self._known[asset, hull.name]
 
     def odds(self, asset: str, hull: Hull, to: str) -> float:
-        """The odds for the hull's label against the label `to` [nats]; infinite where it has none."""
+        """Return the odds for the hull's label against the label `to` [nats]; infinite where it has none."""
         found = self.odds_of(asset, hull)
         return found.odds.get(to, math.inf) if found else math.inf
 
     def cost(self, asset: str, hull: Hull, to: str) -> float:
-        """The cost of the hypothesis that the hull is to be labelled `to` [nats], never below 0."""
+        """Return the cost of the hypothesis that the hull is to be labelled `to` [nats], never below 0."""
         odds = self.odds(asset, hull, to)
         return odds if odds > 30 else math.log1p(math.exp(odds)) + FIX_COST
 
@@ -174,5 +174,5 @@ def _is_same_asset(mesh: SymbolicMesh, other: SymbolicMesh) -> bool:
 
 
 def is_human(hull: Hull) -> bool:
-    """Whether a person gave the label."""
+    """Return whether a person gave the label."""
     return hull.source in HUMAN_SOURCES

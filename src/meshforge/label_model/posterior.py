@@ -42,7 +42,7 @@ class FamilyPosterior:
 
     @staticmethod
     def of(table: FamilyTable, seen: Observations) -> FamilyPosterior:
-        """That of a family whose meshes stand upright."""
+        """Return that of a family whose meshes stand upright."""
         if not seen.labels or not len(table.owner):
             nothing = np.zeros((len(table.owner), 0))
             return FamilyPosterior(table, seen, nothing, nothing)
@@ -59,16 +59,17 @@ class FamilyPosterior:
         return replace(self, chances=_bound_rebuilt(self.seen, self.chances, others))
 
     def weigh(self, evidence: Floats) -> FamilyPosterior:
-        """The same with more evidence (n, labels) [nats] on the labels of hulls, which counts for look-alikes too."""
+        """Return the same with more evidence (n, labels) [nats] on the labels of hulls, which counts for look-alikes
+        too."""
         chances, by_others = infer_chances(self.table, self.seen, evidence=evidence)
         return replace(self, chances=chances, by_others=by_others)
 
     def chances_of(self, mesh: int) -> Floats:
-        """Those of the hulls of one mesh, in their order."""
+        """Return those of the hulls of one mesh, in their order."""
         return self.chances[self.table.spans.get(mesh, slice(0, 0))]
 
     def labels(self, mesh: int, source: LabelSource = "propagated") -> list[Label | None]:
-        """The likeliest label of each hull of a mesh, with its chance; None where no label is known at all."""
+        """Return the likeliest label of each hull of a mesh, with its chance; None where no label is known at all."""
         rows = self.chances_of(mesh)
         if not self.seen.labels:
             return [None] * len(rows)
@@ -86,8 +87,8 @@ class FamilyPosterior:
         return max(0.0, math.log(right / max(1 - right, 1e-9)) - _FREE_ODDS)
 
     def agree(self, observed: Sequence[Label | None]) -> list[Label | None]:
-        """The labels of all hulls by all that is known: what was said, but where another label is surer, and where
-        nothing was said. What a person said stays, and a label of a file that no other mesh has.
+        """Return the labels of all hulls by all that is known: what was said, but where another label is surer, and
+        where nothing was said. What a person said stays, and a label of a file that no other mesh has.
 
         said: the annotations of all hulls, as `seen` was made from.
         """
@@ -123,8 +124,8 @@ class FamilyPosterior:
         return Label(self.seen.labels[best], round(chance, _DIGITS), "consensus", given)
 
     def find_alike_labels(self) -> tuple[tuple[str, str], ...]:
-        """Pairs of labels that may be two names of one part: others take hulls of one for the other, and hardly any
-        mesh has both."""
+        """Return pairs of labels that may be two names of one part: others take hulls of one for the other, and hardly
+        any mesh has both."""
         codes, has = self.seen.codes, self._presence
         taken = np.zeros((has.shape[1], has.shape[1]))
         for code in range(len(taken)):
@@ -137,7 +138,8 @@ class FamilyPosterior:
         )
 
     def next_to_label(self, count: int = 1) -> list[int]:
-        """The meshes to label next, the best first; those whose hulls all have given labels are not among them."""
+        """Return the meshes to label next, the best first; those whose hulls all have given labels are not among
+        them."""
         from scipy.spatial.distance import cdist  # lazy: 0.5 s, half of all imports
 
         table, seen = self.table, self.seen
@@ -192,7 +194,7 @@ class FamilyModel:
         self._inferred: dict[tuple[tuple[Label | None, ...], tuple[str, ...]], FamilyPosterior] = {}
 
     def infer(self, labels: Sequence[Label | None], vocabulary: Sequence[str] = ()) -> FamilyPosterior:
-        """What labels, one or None for each hull of all meshes, say about all hulls, these included.
+        """Return what labels, one or None for each hull of all meshes, say about all hulls, these included.
 
         vocabulary: labels that hulls may have though nothing says so yet.
 
@@ -222,7 +224,8 @@ class FamilyModel:
 
 
 def model_family(meshes: Sequence[SymbolicMesh]) -> FamilyModel:
-    """The model of some meshes; that of the same hulls with other labels is not made again, of the last few families.
+    """Return the model of some meshes; that of the same hulls with other labels is not made again, of the last few
+    families.
 
     What it keeps of meshes holds for these, whatever their labels.
     """

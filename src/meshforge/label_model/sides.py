@@ -29,11 +29,12 @@ class UprightReference:
         self._speaking = np.unique(table.owner[self.hulls])
 
     def may_turn(self, mesh: int) -> bool:
-        """Whether it can be told how a mesh stands: of a few that speak of themselves nobody knows which one lies."""
+        """Return whether it can be told how a mesh stands: of a few that speak of themselves nobody knows which one
+        lies."""
         return mesh not in self._speaking or len(self._speaking) > _FEW
 
     def apart(self, mesh: int, sides: Sequence[Floats], columns: slice) -> list[float]:
-        """How far hulls of a mesh, described by rows (n, columns) on each of some sides, are from those of other
+        """Return how far hulls of a mesh, described by rows (n, columns) on each of some sides, are from those of other
         meshes, on average.
         """
         from scipy.spatial.distance import cdist  # lazy: 0.5 s, half of all imports
@@ -56,7 +57,7 @@ class UprightReference:
 def find_doubtful_sides(
     table: FamilyTable, seen: Observations, sides: Callable[[int], Floats]
 ) -> Iterator[tuple[int, tuple[int, ...]]]:
-    """Each mesh, and on which other sides it has to be looked at closely, none or some.
+    """Yield each mesh, and on which other sides it has to be looked at closely, none or some.
 
     sides: `ShapeDescriptor.sides` of the mesh of that number.
     """
@@ -76,7 +77,8 @@ def find_doubtful_sides(
 def choose_sides(
     table: FamilyTable, seen: Observations, closer: Iterable[tuple[int, Sequence[Floats]]]
 ) -> dict[int, int]:
-    """Those meshes whose hulls are clearly more like those of others on another side, each with which of its rows.
+    """Return those meshes whose hulls are clearly more like those of others on another side, each with which of its
+    rows.
 
     closer: meshes, each with its rows on those sides that `find_doubtful_sides` names.
     """
@@ -93,7 +95,7 @@ def choose_sides(
 def correct_upright(
     table: FamilyTable, seen: Observations, closer: Iterable[tuple[int, Sequence[Floats]]]
 ) -> FamilyTable:
-    """The table with those meshes turned; closer: as of `choose_sides`."""
+    """Return the table with those meshes turned; closer: as of `choose_sides`."""
     rows = {mesh: list(sides) for mesh, sides in closer}
     chosen = choose_sides(table, seen, rows.items())
     return table.turn((table.spans[mesh], table.scale(rows[mesh][side])) for mesh, side in chosen.items())

@@ -20,7 +20,7 @@ OTHER_STEPS = (8.0, 10.0, 12.0, np.inf)
 
 
 def find_similar(table: FamilyTable, hulls: Ints, excluded: Bools, others: Ints | None, step: int) -> tuple[Ints, int]:
-    """The hulls that look like some of them, these included, in ascending order; and the step that this took.
+    """Return the hulls that look like some of them, these included, in ascending order; and the step that this took.
 
     A hull of the same mesh is taken where a chain of hulls leads to it, each near to the next. One of another mesh is
     taken where it is nearer to what was taken of the first meshes than to the rest of these, and within the step.

@@ -21,7 +21,7 @@ _COUNTS_FOR_KIND = 2.0  # hulls that the mean of a source counts for in one kind
 
 
 def estimate_reliability(seen: Observations, free: Bools, right: Floats) -> Floats:
-    """The probability (n,) that what is said of each hull is right, by source and confidence.
+    """Return the probability (n,) that what is said of each hull is right, by source and confidence.
 
     free: which hulls a machine speaks of; right: (n,) how probable that is by all that is known.
     """
@@ -60,7 +60,8 @@ def _fit_rate(confidence: Floats, right: Floats, expected: float) -> Floats:
 
 
 def find_wrong_kinds(seen: Observations, owner: Ints, free: Bools, right: Floats) -> Floats:
-    """How much less reliable what is said is where one label of one mesh is wrong altogether [nats], (n,), at most 0.
+    """Return how much less reliable what is said is where one label of one mesh is wrong altogether [nats], (n,), at
+    most 0.
 
     right: (n,) the probability that what is said is right by look-alikes alone.
     """

@@ -32,8 +32,8 @@ _IN_COMMON = 0.5  # exponent of what regions of a solid say against one label of
 
 @cache
 def span_weights() -> Floats:
-    """The weights of the evidence (2,): of one, and of the logit of how often a hull spans parts where labels are
-    drawn."""
+    """Return the weights of the evidence (2,): of one, and of the logit of how often a hull spans parts where labels
+    are drawn."""
     read = json.loads(files("meshforge.label_model").joinpath(WEIGHTS_FILE).read_text("utf-8"))
     found = np.array(read["weights"], dtype=float)
     found.flags.writeable = False
@@ -64,8 +64,8 @@ class SpanModel:
         labels: Sequence[Label | None],
         piece_labels: Sequence[Label | None] | None = None,
     ) -> SpanPosterior:
-        """What labels say: of the hulls of all meshes in order, None for an unlabelled one; piece_labels: of all pieces
-        in order, where they are known."""
+        """Return what labels say: of the hulls of all meshes in order, None for an unlabelled one; piece_labels: of all
+        pieces in order, where they are known."""
         rows = _deal(labels, [len(asset.mesh.hulls) for asset in self.assets])
         observed = [asset.take_labels(own) for asset, own in zip(self.assets, rows, strict=True)]
         if piece_labels is not None:
@@ -131,19 +131,20 @@ class SpanPosterior:
         return found
 
     def shares_of(self, mesh: int) -> Floats:
-        """The expected share of each label in each hull (hulls, labels); zeros for one that stands for nothing."""
+        """Return the expected share of each label in each hull (hulls, labels); zeros for one that stands for
+        nothing."""
         common = self.assets[mesh].common
         return scale_rows(common @ self.chances[mesh], common.sum(axis=1))
 
     def chances_of(self, mesh: int) -> Floats:
-        """The probability that each hull (hulls,) holds more than one label; 0 where it stands for nothing, and where
-        nothing is said of any piece."""
+        """Return the probability that each hull (hulls,) holds more than one label; 0 where it stands for nothing, and
+        where nothing is said of any piece."""
         evidence = self.collect_evidence(mesh)
         found: Floats = 1 / (1 + np.exp(-(evidence @ self.weights)))
         return np.where((self.assets[mesh].common.sum(axis=1) > 0) & bool(self.labels), found, 0.0)
 
     def collect_evidence(self, mesh: int) -> Floats:
-        """What the probability is made from (hulls, 2), as `span_weights` has it."""
+        """Return what the probability is made from (hulls, 2), as `span_weights` has it."""
         asset, by_region = self.assets[mesh], self.by_region[mesh]
         shares = scale_rows(asset.common, asset.common.sum(axis=1))
         drawn = np.zeros(len(shares))
@@ -153,8 +154,8 @@ class SpanPosterior:
         return np.column_stack([np.ones(len(drawn)), np.log(drawn / (1 - drawn))])
 
     def rebuild(self, mesh: int, hulls: Ints) -> tuple[RebuiltHull, ...]:
-        """New hulls for what some hulls (n,) stand for together: fine pieces of one label and region, joined where a
-        convex hull around them adds little. Pieces of which no half is in hulls are left out.
+        """Return new hulls for what some hulls (n,) stand for together: fine pieces of one label and region, joined
+        where a convex hull around them adds little. Pieces of which no half is in hulls are left out.
         """
         asset, chances = self.assets[mesh], self.chances[mesh]
         pieces = [piece.shape.tessellate() for piece in asset.pieces.hulls]
@@ -175,7 +176,6 @@ class SpanPosterior:
 
 
 def _deal(items: Sequence[Label | None], counts: Sequence[int]) -> list[list[Label | None]]:
-    """Items by asset, of which each has so many."""
     rest = iter(items)
     return [list(islice(rest, count)) for count in counts]
 
@@ -197,8 +197,8 @@ def _estimate_whole(assets: Sequence[AssetPieces], observed: Sequence[Sequence[L
 
 
 def weigh_solids(asset: AssetPieces, chances: Floats, whole: float) -> Floats:
-    """The probability that each solid (solids,) is one part, if that of a small one is whole: the less of the asset it
-    has the likelier, and the less the labels (pieces, labels) of its regions differ."""
+    """Return the probability that each solid (solids,) is one part, if that of a small one is whole: the less of the
+    asset it has the likelier, and the less the labels (pieces, labels) of its regions differ."""
     volumes, solids = sum_groups(asset.region_of, asset.volumes), asset.solids_of_regions
     of_solids = sum_groups(solids, volumes)
     prior: Floats = whole * (1 - of_solids / max(float(volumes.sum()), np.finfo(float).tiny))
@@ -257,5 +257,5 @@ def _pick(drawn: Floats, chances: Floats) -> Ints:
 
 
 def scale_rows(rows: Floats, totals: Floats) -> Floats:
-    """Rows (n, k) by their totals (n,), zeros where these are zero."""
+    """Return rows (n, k) by their totals (n,), zeros where these are zero."""
     return rows / np.where(totals > 0, totals, 1.0)[:, None]

@@ -33,7 +33,7 @@ SURROUNDINGS_WIDTH = 4 + 8 * len(_RADII) + _CELLS
 
 
 def axes_along(direction: Floats, lengths: Floats, axes: Floats) -> Floats:
-    """How much each axis of n spreads points along a direction (n, 3), or against it: (n, 3), from 0 to 1.
+    """Return how much each axis of n spreads points along a direction (n, 3), or against it: (n, 3), from 0 to 1.
 
     lengths: (n, 3), positive; axes: (n, 3, 3), of unit length, in columns. Axes of the same length share what they
     have, for any other axes in their plane are as good; those of nearly the same do so partly, so that nothing leaps.
@@ -46,7 +46,7 @@ def axes_along(direction: Floats, lengths: Floats, axes: Floats) -> Floats:
 
 
 def points_inside(vertices: Floats, axis: Floats, count: int) -> Floats:
-    """Points (count, 3) within a hull: its middle, and halfway from there to vertices far from each other.
+    """Return points (count, 3) within a hull: its middle, and halfway from there to vertices far from each other.
 
     Of vertices that are equally far those come first that are high and far from an upright axis, which stands at
     `axis` (2,): a hull has the same points however it is turned about Z, unless it is its own mirror image.
@@ -66,7 +66,7 @@ def points_inside(vertices: Floats, axis: Floats, count: int) -> Floats:
 
 
 def points_on_surface(triangles: Floats, count: int) -> Floats:
-    """Points (count, 3) spread evenly over triangles (n, 3, 3)."""
+    """Return points (count, 3) spread evenly over triangles (n, 3, 3)."""
     a, b, c = triangles[:, 0], triangles[:, 1], triangles[:, 2]
     ends = np.cumsum(np.linalg.norm(np.cross(b - a, c - a), axis=1))
     at = np.searchsorted(ends, ((np.arange(count) + 0.5) / count - EQUAL) * ends[-1])
@@ -98,7 +98,7 @@ class WholeShape:
 
     @staticmethod
     def of(pieces: tuple[Floats, ...], seen: Floats, weights: Floats) -> WholeShape:
-        """The same with foot, height, axis and size found."""
+        """Return the same with foot, height, axis and size found."""
         corners = np.concatenate(pieces)
         foot, top = float(corners[:, 2].min()), float(corners[:, 2].max())
         axis = weights @ seen[:, :2]
@@ -110,12 +110,12 @@ class WholeShape:
         )
 
     def rotate(self, turn: Floats) -> WholeShape:
-        """The same after a rotation (3, 3)."""
+        """Return the same after a rotation (3, 3)."""
         return WholeShape.of(tuple(piece @ turn.T for piece in self.pieces), self.seen @ turn.T, self.weights)
 
 
 def whole_of(pieces: tuple[Floats, ...], triangles: tuple[Floats, ...]) -> WholeShape:
-    """All hulls together. pieces: vertices (v, 3) of each; triangles: (t, 3, 3) of each."""
+    """Return all hulls together. pieces: vertices (v, 3) of each; triangles: (t, 3, 3) of each."""
     areas = np.array([np.linalg.norm(np.cross(t[:, 1] - t[:, 0], t[:, 2] - t[:, 0]), axis=1).sum() for t in triangles])
     areas = np.maximum(areas, 1e-9 * areas.max())
     shares = np.sqrt(areas) / np.sqrt(areas).sum()
@@ -126,7 +126,7 @@ def whole_of(pieces: tuple[Floats, ...], triangles: tuple[Floats, ...]) -> Whole
 
 
 def describe_surroundings(whole: WholeShape) -> Floats:
-    """A row for each hull (n, WIDTH): the means over points within the hull of what is seen from there.
+    """Return a row for each hull (n, WIDTH): the means over points within the hull of what is seen from there.
 
     Where the point is, how the whole is spread within balls about it, a picture of the whole in rings about it.
     """

@@ -29,7 +29,8 @@ _MOST_SPREADS = 3.0  # spreads from the median beyond which nothing is farther
 
 @cache
 def metric_weights() -> Floats:
-    """The weights (columns,) of the distance between two rows, which is the weighted sum of their differences."""
+    """Return the weights (columns,) of the distance between two rows, which is the weighted sum of their
+    differences."""
     read = json.loads(files("meshforge.label_model").joinpath(METRIC_FILE).read_text("utf-8"))
     found = np.array(read["weights"], dtype=float)
     found.flags.writeable = False
@@ -45,7 +46,7 @@ class ColumnScale:
 
     @staticmethod
     def of(rows: Floats) -> ColumnScale:
-        """The medians and spreads of some rows (n, columns)."""
+        """Return the medians and spreads of some rows (n, columns)."""
         if not len(rows):
             return ColumnScale(np.zeros(rows.shape[1]), np.ones(rows.shape[1]))
         some = (rows[:, start : start + _AT_ONCE] for start in range(0, rows.shape[1], _AT_ONCE))
@@ -53,7 +54,7 @@ class ColumnScale:
         return ColumnScale(middle, np.maximum(rows.std(axis=0), _LEAST_SPREAD))
 
     def of_columns(self, columns: slice) -> ColumnScale:
-        """That of some columns."""
+        """Return that of some columns."""
         return ColumnScale(self.middle[columns], self.spread[columns])
 
     def __call__(self, rows: Floats) -> Floats:
@@ -79,7 +80,8 @@ class FamilyTable:
 
     @staticmethod
     def of(described: Sequence[tuple[Floats, Ints]], metric: Floats | None = None) -> FamilyTable:
-        """described: `rows` and `touching` of the descriptor of each mesh; metric: None for the one that ships."""
+        """Return described: `rows` and `touching` of the descriptor of each mesh; metric: None for the one that
+        ships."""
         rows = np.concatenate([np.zeros((0, ROW_WIDTH)), *(own for own, _ in described)])
         sizes = np.array([len(own) for own, _ in described], dtype=np.int64)
         pairs = (touching + start for (_, touching), start in zip(described, np.cumsum(sizes) - sizes, strict=True))
@@ -105,12 +107,13 @@ class FamilyTable:
         return LookalikeSearch(self.rows, self.metric, self.owner)
 
     def find_lookalikes(self, seen: Observations) -> Lookalikes:
-        """The nearest hulls of each; where there are too many meshes, those with given labels are looked at, too."""
+        """Return the nearest hulls of each; where there are too many meshes, those with given labels are looked at,
+        too."""
         which = seen.given if seen.given.any() else seen.known
         return self._search.find(np.unique(self.owner[which]).tolist())
 
     def turn(self, turned: Iterator[tuple[slice, Floats]]) -> FamilyTable:
-        """The table with other rows for some meshes."""
+        """Return the table with other rows for some meshes."""
         rows = self.rows.copy()
         for span, found in turned:
             rows[span] = found
@@ -135,7 +138,7 @@ class Observations:
 
     @staticmethod
     def of(observed: Sequence[Label | None], vocabulary: Sequence[str] = ()) -> Observations:
-        """What annotations of hulls say; a label that was inferred says nothing but what it was inferred over.
+        """Return what annotations of hulls say; a label that was inferred says nothing but what it was inferred over.
 
         vocabulary: labels that hulls may have though nothing says so yet.
         """
@@ -172,7 +175,7 @@ class Observations:
 
 
 def evidence_of(label: Label | None) -> Label | None:
-    """What a label says that was not inferred from other labels: that which it replaced, where it was."""
+    """Return what a label says that was not inferred from other labels: that which it replaced, where it was."""
     if label is not None and label.source in INFERRED_SOURCES:
         return label.given
     return label
@@ -185,7 +188,8 @@ def evidence_beside_rebuilt(label: Label | None) -> Label | None:
 
 
 def reference_label(label: Label | None) -> str | None:
-    """The label that others may be taken from: one that a person gave, or that came in a file and is not unsure."""
+    """Return the label that others may be taken from: one that a person gave, or that came in a file and is not
+    unsure."""
     if label is None or label.source not in GIVEN_SOURCES:
         return None
     return label.name if label.source in HUMAN_SOURCES or label.confidence >= UNSURE else None

@@ -11,13 +11,13 @@ EQUAL = 1e-9
 
 
 def first_greatest(values: Floats, within: float = EQUAL) -> Ints:
-    """The place (...) of the first of those values (..., n) that are the greatest but for `within`."""
+    """Return the place (...) of the first of those values (..., n) that are the greatest but for `within`."""
     found: Ints = np.argmax(values >= values.max(axis=-1, keepdims=True) - within, axis=-1)
     return found
 
 
 def greatest_first(values: Floats) -> list[int]:
-    """The places of values (n,), the greatest first; those that are equal in their order."""
+    """Return the places of values (n,), the greatest first; those that are equal in their order."""
     left, found = values.astype(float), list[int]()
     for _ in values:
         found.append(int(first_greatest(left)))
@@ -26,12 +26,12 @@ def greatest_first(values: Floats) -> list[int]:
 
 
 def share_ranks(values: Floats) -> Floats:
-    """How many of some values (n,), none negative, are greater than each; of those that are equal, half."""
+    """Return how many of some values (n,), none negative, are greater than each; of those that are equal, half."""
     greater = values[None] > values[:, None] * (1 + EQUAL)
     found: Floats = (len(values) - 1 + greater.sum(axis=1) - greater.sum(axis=0)) / 2
     return found
 
 
 def pick_evenly(items: Ints, most: int) -> Ints:
-    """Of very many some, evenly."""
+    """Return of very many some, evenly."""
     return items if len(items) <= most else items[np.arange(most) * len(items) // most]

@@ -10,8 +10,8 @@ from meshforge.common import quote_path
 
 
 def label_command(folder: Path, asset: str, hull: str, vocabulary: Collection[str]) -> str:
-    """The command that labels a hull of an asset of the project in a folder, as one types it here; LABEL stands for its
-    label, and without a vocabulary `a,b,c` for that."""
+    """Return the command that labels a hull of an asset of the project in a folder, as one types it here; LABEL stands
+    for its label, and without a vocabulary `a,b,c` for that."""
     quoted = shlex.quote(f"{hull}=LABEL")
     words = "" if vocabulary else " --vocabulary a,b,c"
     what = quoted if quoted.startswith("'") else f"'{quoted}'"

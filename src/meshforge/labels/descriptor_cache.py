@@ -39,7 +39,7 @@ def write_arrays(path: Path, key: str, arrays: Arrays) -> None:
 
 
 def read_arrays(path: Path, key: str, *names: str) -> list[NDArray[Any]] | None:
-    """The arrays of some names; None where none are kept, they were made from something else, or are damaged."""
+    """Return the arrays of some names; None where none are kept, they were made from something else, or are damaged."""
     try:
         with np.load(BytesIO(path.read_bytes()), allow_pickle=False) as kept:
             return [kept[name] for name in names] if str(kept[_KEY]) == key else None
@@ -65,7 +65,6 @@ class _Work:
     sides: tuple[int, ...] = ()
 
     def place(self, what: str) -> Path:
-        """The file of the sketch, or of one side."""
         return self.folder / what / f"{self.id}.npz"
 
 
@@ -103,12 +102,12 @@ class DescriptorCache:
                 yield asset, result
 
     def read_rows(self, asset: str) -> tuple[Floats, Ints] | None:
-        """The `rows` and `touching` of the asset's `ShapeDescriptor`; None where it is not described yet."""
+        """Return the `rows` and `touching` of the asset's `ShapeDescriptor`; None where it is not described yet."""
         found = _read_kept(self._work[asset], "seen", "rows", "touching")
         return (found[0], found[1]) if found else None
 
     def read_sides(self, asset: str) -> Floats:
-        """The `sides` of the `ShapeDescriptor` of an asset that was described."""
+        """Return the `sides` of the `ShapeDescriptor` of an asset that was described."""
         if found := _read_kept(self._work[asset], "seen", "sides"):
             return found[0]
         raise AssetError("how it is described is gone", where=str(self._work[asset].path), remedy=_REMEDY)
@@ -116,7 +115,7 @@ class DescriptorCache:
     def describe_sides(
         self, wanted: Sequence[tuple[str, tuple[int, ...]]], done: Callable[[], None]
     ) -> Iterator[tuple[str, list[Floats] | str]]:
-        """The rows of assets on some of their other sides, or why there are none; done: called for each asset."""
+        """Yield the rows of assets on some of their other sides, or why there are none; done: called for each asset."""
         work = [replace(self._work[asset], sides=sides) for asset, sides in wanted]
         for (asset, _), result in zip(
             wanted, batch.execute(_describe_sides, work, replace(self._execution, progress=done)), strict=True

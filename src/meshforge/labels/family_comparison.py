@@ -31,7 +31,7 @@ WriteBlock = Callable[[str | None], AbstractContextManager[object]]
 
 @contextmanager
 def ignore_stage(total: int, what: str) -> Iterator[Callable[[], None]]:
-    """A stage that reports nothing."""
+    """Give a stage that reports nothing."""
     yield lambda: None
 
 
@@ -56,7 +56,7 @@ class FamilyComparison:
         return next((self.assets[place] for place in self.found.next_to_label()), None)
 
     def share_out(self, labels: Sequence[Label | None]) -> Iterator[tuple[str, dict[str, Label]]]:
-        """Each asset that is not lost, with its share of labels of all hulls."""
+        """Yield each asset that is not lost, with its share of labels of all hulls."""
         for place, asset in enumerate(self.assets):
             own = labels[self.found.table.spans.get(place, slice(0, 0))]
             rows, current = zip(self.hulls[asset], own, strict=True), self.current[asset]
@@ -124,7 +124,6 @@ class _Describer:
         self._cache, self._lost, self._stop, self._stage = cache, lost, stop, stage
 
     def describe(self, assets: Sequence[str]) -> dict[str, tuple[Floats, Ints]]:
-        """Rows and contacts of each asset that can be described."""
         seen = {asset: self._cache.read_rows(asset) for asset in assets}
         missing = [asset for asset, own in seen.items() if own is None]
         with self._stage(len(missing), "describing") as advance:
@@ -138,7 +137,6 @@ class _Describer:
     def set_upright(
         self, assets: Sequence[str], table: label_model.FamilyTable, observed: label_model.Observations
     ) -> label_model.FamilyTable:
-        """The table with fallen assets set upright."""
         doubtful = dict[str, tuple[int, tuple[int, ...]]]()
         for place, sides in label_model.find_doubtful_sides(
             table, observed, lambda k: self._cache.read_sides(assets[k])

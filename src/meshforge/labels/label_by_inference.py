@@ -35,7 +35,6 @@ def _share_labels(
     labels: Sequence[Label | None],
     kind_of: Callable[[Label | None, Label], str],
 ) -> Generator[AssetLabels, None, None]:
-    """Each asset with its share of the labels of all hulls; kind_of: the kind of reason for replacing one."""
     shares = dict(compared.share_out(labels))
     for asset in family.store.assets():
         if asset in compared.lost:
@@ -47,7 +46,6 @@ def _share_labels(
 
 
 def _as_evidence(label: Label | None) -> Label | None:
-    """A label that others may be taken from."""
     return label if label_model.reference_label(label) else None
 
 
@@ -72,7 +70,7 @@ class ConsensusLabeler(Labeler):
         return LabelProposal(assets, compared.next, compared.found.find_alike_labels())
 
     def can_replace(self, current: Label | None, given: Label | None) -> bool:
-        """Whether what the label was inferred from is still the evidence on its hull."""
+        """Return whether what the label was inferred from is still the evidence on its hull."""
         return label_model.evidence_of(current) == label_model.evidence_of(given)
 
 

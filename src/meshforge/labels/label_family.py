@@ -87,7 +87,6 @@ def label_project(
 
 
 def _count(assets: Iterable[AssetLabels], total: int, what: str, stage: Stage) -> Iterator[AssetLabels]:
-    """The same assets, each counted when it is done with."""
     with stage(total, what) as advance:
         for one in assets:
             yield one

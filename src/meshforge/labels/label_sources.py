@@ -67,7 +67,7 @@ def _line_of(store: Store, labeler: Labeler) -> LabelSourceLine | None:
 
 
 def rename_in_label_sources(kept: LabelSourcesFile, old: str, new: str) -> LabelSourcesFile:
-    """The same where a label has another name."""
+    """Return the same where a label has another name."""
     lines = list[LabelSourceLine]()
     for one in kept.lines:
         meanings = tuple((text, new if label == old else label) for text, label in one.options.meanings)
@@ -85,7 +85,7 @@ class FamilyLabelSources:
 
     @staticmethod
     def of(store: Store) -> FamilyLabelSources:
-        """What labelled a project, and is in its labels still; files beside new assets count in any case."""
+        """Return what labelled a project, and is in its labels still; files beside new assets count in any case."""
         kept = read_json(store.layout.label_sources, LabelSourcesFile) or LabelSourcesFile()
         lines = {"file": LabelSourceLine(source="file")} | {one.source: one for one in kept.lines}
         lines.setdefault("names", LabelSourceLine(source="names"))  # of projects of before this was kept
@@ -98,13 +98,14 @@ class FamilyLabelSources:
         return FamilyLabelSources(store.folder, store.settings, tuple(lines[n] for n in lines if kinds[n] in seen))
 
     def digest(self, asset: str, path: Path) -> str:
-        """Equal where the sources say the same of an asset that is the same itself."""
+        """Return equal where the sources say the same of an asset that is the same itself."""
         file = self._find_file(self.lines[0], asset, path)
         own = [self.settings.vocabulary, [*self.settings.names.items()], file and file_digest(file)]
         return batch.text_digest(json.dumps([[one.model_dump_json() for one in self.lines], own]))
 
     def label(self, asset: str, path: Path, mesh: SymbolicMesh) -> tuple[dict[str, Label], list[str]]:
-        """Labels of the hulls that have none, by name; and a sentence on each that was left out. path: the asset's.
+        """Return labels of the hulls that have none, by name; and a sentence on each that was left out. path: the
+        asset's.
 
         Raises AssetError: a file beside it is damaged; PluginError: a labeller fails.
         """

@@ -61,14 +61,14 @@ class LabelFamily:
     stage: Stage
 
     def require_vocabulary(self) -> tuple[str, ...]:
-        """The vocabulary. Raises ProjectError where it is empty."""
+        """Return the vocabulary. Raises ProjectError where it is empty."""
         if not self.vocabulary:
             remedy = "Say first what hulls can be: --vocabulary a,b,c."
             raise ProjectError("the vocabulary is empty", where=str(self.store.folder), remedy=remedy)
         return self.vocabulary
 
     def iterate_facts(self) -> Iterator[tuple[str, AssetFacts]]:
-        """Names and digests of the hulls of each asset, in the order of the project."""
+        """Return names and digests of the hulls of each asset, in the order of the project."""
         return iterate_asset_index(self.store.found, self.store.layout, execution=self.execution)
 
 
@@ -87,11 +87,11 @@ class Labeler(ABC):
 
     @abstractmethod
     def propose(self, family: LabelFamily) -> LabelProposal:
-        """The labels for the hulls of a family. Nothing is written here.
+        """Return the labels for the hulls of a family. Nothing is written here.
 
         Raises MeshForgeError where there can be none at all; what is wrong with one asset is an error of that asset.
         """
 
     def can_replace(self, current: Label | None, given: Label | None) -> bool:
-        """Whether a label, None for none, may be replaced by a given one; a person's label stays in any case."""
+        """Return whether a label, None for none, may be replaced by a given one; a person's label stays in any case."""
         return given is not None and can_replace_less_certain(current, given)

@@ -96,7 +96,7 @@ def merge_labels(
     given: Mapping[str, Label | None],
     vocabulary: Sequence[str],
 ) -> tuple[dict[str, Label], LabelOutcome]:
-    """The labels of an asset with those that may be taken, and what became of each of these.
+    """Return the labels of an asset with those that may be taken, and what became of each of these.
 
     hulls: the names of all; current: the labels that there are, by hull; given: by hull, None to remove its label.
     """
@@ -119,14 +119,14 @@ def merge_labels(
 
 
 def is_protected(current: Label | None, given: Label) -> bool:
-    """Whether a label stays though another one is given: a machine's does not take the place of a person's."""
+    """Return whether a label stays though another one is given: a machine's does not take the place of a person's."""
     return (
         current is not None and current.source in symbolic.HUMAN_SOURCES and given.source not in symbolic.HUMAN_SOURCES
     )
 
 
 def infer_over(current: Label | None, given: Label) -> Label:
-    """A given label; one that was inferred with the evidence on its hull before that."""
+    """Return a given label; one that was inferred with the evidence on its hull before that."""
     return (
         replace(given, given=label_model.evidence_of(current)) if given.source in symbolic.INFERRED_SOURCES else given
     )
@@ -190,19 +190,19 @@ class LabelWriter:
         may: ReplacePolicy,
         vocabulary: Sequence[str],
     ) -> LabelMerge:
-        """The labels that `write` would write. Raises AssetError where the present labels cannot be read."""
+        """Return the labels that `write` would write. Raises AssetError where the present labels cannot be read."""
         current = symbolic.match_labels(self._store.labels(asset), hulls).labels
         wanted = {name: label for name, label in given.items() if may(current.get(name), label)}
         return LabelMerge(current, *merge_labels(asset, hulls, current, wanted, vocabulary))
 
 
 def can_fill_gap(current: Label | None, given: Label | None) -> bool:
-    """Only hulls without a label get one."""
+    """Return only hulls without a label get one."""
     return current is None
 
 
 def can_replace_less_certain(current: Label | None, given: Label) -> bool:
-    """Whether a label may be replaced: an earlier one of that machine, or one that another was less sure of.
+    """Return whether a label may be replaced: an earlier one of that machine, or one that another was less sure of.
 
     That of a part of a hull stays: the surface, or a person's cut, says more than the shape of the part.
     """
@@ -222,7 +222,7 @@ class NewHullLabels:
     notes: tuple[str, ...]
 
     def format(self, *, keep_old: bool) -> str | None:
-        """What the labels file says, None for no file; keep_old: labels of hulls that go stay beside them."""
+        """Return what the labels file says, None for no file; keep_old: labels of hulls that go stay beside them."""
         mesh, away = self.mesh, () if keep_old else self.gone
         return self.store.labels_text(self.asset, hull_digests(mesh), mesh.labels, self.store.vocabulary, away)
 
@@ -234,7 +234,7 @@ def label_new_hulls(
     mesh: symbolic.SymbolicMesh,
     known: Mapping[str, Label | None] | None = None,
 ) -> NewHullLabels | None:
-    """The labels where hulls `old`, by name, become those of a mesh; None where no label is concerned.
+    """Return the labels where hulls `old`, by name, become those of a mesh; None where no label is concerned.
 
     known: labels of new hulls that are known otherwise than by overlap, None for no label. One of a person, by
     overlap, stays where it says the same.
@@ -266,7 +266,6 @@ def _choose_label(by_overlap: Label | None, known: Label | None) -> Label | None
 
 
 def _label_by_overlap(hull: symbolic.Hull, gone: Mapping[str, Shape], labels: Mapping[str, Label]) -> Label | None:
-    """The label of most of what a hull overlaps, with the certainty of the hull that had it."""
     common = {name: overlap_volume(hull.shape, shape) for name, shape in gone.items()}
     covered = sum(common.values())
     if not covered > 0:

@@ -36,7 +36,7 @@ class OfferCache:
         self._known: dict[str, tuple[object, _AssetOffer]] = {}
 
     def of(self, store: Store, only: Collection[str] | None = None) -> LabelOffers:
-        """What all assets offer, or some; those that cannot be read, or whose labels cannot, are left out.
+        """Return what all assets offer, or some; those that cannot be read, or whose labels cannot, are left out.
 
         Raises UsageError: a pattern of the project that makes no sense.
         """

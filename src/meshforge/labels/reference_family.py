@@ -45,7 +45,7 @@ class ReferenceFamily:
         return batch.text_digest(json.dumps([rows, fine, self.words, self.engine]))
 
     def find_spans(self, source: Asset, mesh: SymbolicMesh) -> SpanReport:
-        """Which hulls of an asset that is not among these span parts; where a person or a file labelled all, its
+        """Return which hulls of an asset that is not among these span parts; where a person or a file labelled all, its
         surface is not looked at.
 
         source: the asset as it was read; mesh: it as it is prepared, with its labels.
@@ -61,14 +61,14 @@ class ReferenceFamily:
         return SpanReport(mesh, SpanModel(assets).infer(labels), own)
 
     def without(self, asset: str) -> ReferenceFamily:
-        """The family without one of its assets, to which that is to be compared."""
+        """Return the family without one of its assets, to which that is to be compared."""
         if asset not in self.meshes:
             return self
         meshes = {name: mesh for name, mesh in self.meshes.items() if name != asset}
         return replace(self, meshes=meshes, pieces={n: one for n, one in self.pieces.items() if n != asset})
 
     def infer_labels(self, mesh: SymbolicMesh) -> dict[str, Label]:
-        """The likeliest label of each hull of an asset that has none, by its name, with its probability."""
+        """Return the likeliest label of each hull of an asset that has none, by its name, with its probability."""
         meshes = [mesh, *self.meshes.values()]
         found = model_family(meshes).infer([self._speak(hull.annotation) for own in meshes for hull in own.hulls])
         rows = zip(mesh.hulls, found.labels(0), strict=True)
@@ -88,7 +88,7 @@ def read_reference_family(
     without: Collection[str] = (),
     spans: bool = True,
 ) -> ReferenceFamily | None:
-    """The labelled assets of a project; None where no hull has a label that was not inferred.
+    """Return the labelled assets of a project; None where no hull has a label that was not inferred.
 
     engine: which makes the fine pieces of surfaces; without: assets that do not count; spans: whether their surfaces
     are needed. Raises AssetError where a labels file cannot be read.
@@ -119,7 +119,7 @@ def pick_evenly(items: Sequence[Item], most: int) -> Sequence[Item]:
 
 
 def choose_labelled(files: Mapping[str, LabelFile], most: int = MOST_COMPARED) -> list[str]:
-    """The assets that new ones are compared with, in the order of the project."""
+    """Return the assets that new ones are compared with, in the order of the project."""
     observed = {
         asset: [label for own in file.labels.values() if (label := evidence_beside_rebuilt(own))]
         for asset, file in files.items()

@@ -43,7 +43,7 @@ LABELERS: Registry[type[Labeler]] = Registry("labelers", {kind.name: kind for ki
 
 
 def make_labeler(name: str) -> Labeler:
-    """A labeler without options. Raises UsageError: not known; PluginError: it cannot be loaded."""
+    """Return a labeler without options. Raises UsageError: not known; PluginError: it cannot be loaded."""
     if name not in LABELERS:
         raise UsageError(f"there are no labels from {name!r}", remedy=suggest_among(name, LABELERS, "--with takes"))
     labeler = LABELERS[name]()
@@ -56,7 +56,7 @@ class AssetLabeler(Labeler):
 
     @abstractmethod
     def label(self, mesh: SymbolicMesh, vocabulary: Sequence[str]) -> Mapping[str, Label]:
-        """Labels out of the vocabulary by the names of hulls, each with its confidence in 0..1.
+        """Return labels out of the vocabulary by the names of hulls, each with its confidence in 0..1.
 
         Hulls without a label are left out. The source of the labels is set to `plugin`.
         """
@@ -86,7 +86,7 @@ def _label_asset(name: str, vocabulary: tuple[str, ...], item: tuple[str, AssetF
 
 
 def label_mesh(name: str, mesh: SymbolicMesh, vocabulary: Sequence[str], where: str) -> dict[str, Label]:
-    """The labels that a plug-in's labeler gives to hulls, by name; none by one that sees whole families only.
+    """Return the labels that a plug-in's labeler gives to hulls, by name; none by one that sees whole families only.
 
     where: the asset. Raises PluginError where it fails.
     """
@@ -101,7 +101,6 @@ def label_mesh(name: str, mesh: SymbolicMesh, vocabulary: Sequence[str], where: 
 
 
 def _find_wrong_label(labels: Mapping[Any, Any]) -> str | None:
-    """What is wrong with the first thing that is no label of a hull; None where all are."""
     for hull, label in labels.items():
         if not isinstance(label, Label):
             return f"gave the hull {hull!r} a {type(label).__name__}, not a Label"

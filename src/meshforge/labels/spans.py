@@ -83,8 +83,8 @@ class SpanReport:
                 yield f"{hull.name} stands for no surface: left as it is"
 
     def rebuild(self, body: str) -> dict[str, list[RebuiltHull]]:
-        """New hulls for all of a body that stand for its surface, each of one label, by the old hull that has most of
-        it; nothing where there is none."""
+        """Return new hulls for all of a body that stand for its surface, each of one label, by the old hull that has
+        most of it; nothing where there is none."""
         own = [k for k, hull in enumerate(self.mesh.hulls) if hull.body == body and hull.name not in self._bare]
         if self.posterior is None:
             return {}
@@ -102,7 +102,7 @@ class SpanReport:
 
 
 def is_given(hull: Hull) -> bool:
-    """Whether a person or a file says what a hull is, so that it is of one part."""
+    """Return whether a person or a file says what a hull is, so that it is of one part."""
     return hull.source in GIVEN_SOURCES
 
 
@@ -122,8 +122,8 @@ class FinePieces:
 
     @staticmethod
     def of(found: SurfacePieces, mesh: SymbolicMesh, notes: Iterable[str] = ()) -> FinePieces:
-        """Those found by body, of all bodies that have a surface; one of quite another size than its hulls says nothing
-        of them, and does not count."""
+        """Return those found by body, of all bodies that have a surface; one of quite another size than its hulls says
+        nothing of them, and does not count."""
         remarks, kept = list(notes), dict(found)
         for body, pieces in found.items():
             hulls = [hull.vertices for hull in mesh.hulls if hull.body == body]
@@ -141,7 +141,6 @@ class FinePieces:
 
 
 def _diagonal(points: Sequence[Floats]) -> float:
-    """That of the box around all [m]."""
     return float(np.linalg.norm(np.ptp(np.concatenate(points), axis=0)))
 
 
@@ -160,7 +159,7 @@ def find_pieces(
     stage: Stage,
     engine: PieceEngine = "coacd",
 ) -> tuple[dict[str, FinePieces], dict[str, str]]:
-    """The fine pieces of the surfaces of assets, by id, and why those of others are not known."""
+    """Return the fine pieces of the surfaces of assets, by id, and why those of others are not known."""
     work = [_Work(store.path(asset), engine) for asset in meshes]
     pieces, lost = dict[str, FinePieces](), dict[str, str]()
     with stage(len(work), "decomposing finely") as advance:
@@ -182,8 +181,8 @@ def _find_pieces(work: _Work) -> tuple[SurfacePieces, list[str]] | str:
 
 
 def decompose_surfaces(source: Asset, engine: PieceEngine = "coacd") -> tuple[SurfacePieces, list[str]]:
-    """The fine pieces of the surfaces of an asset by body, as it was read; and notes on what it shows that cannot be
-    read."""
+    """Return the fine pieces of the surfaces of an asset by body, as it was read; and notes on what it shows that
+    cannot be read."""
     found = dict[str, Sequence[FinePiece]]()
     for body, surface in batch.find_surfaces(source).items():
         try:

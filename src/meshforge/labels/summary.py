@@ -71,7 +71,7 @@ class Proposals:
 def group_evidence(
     found: Iterable[LabelEvidence], vocabulary: Sequence[str], labelled: int, problems: Iterable[str]
 ) -> Proposals:
-    """All evidence, put together by label, kind and whether it is sure; in the order of the vocabulary."""
+    """Return all evidence, put together by label, kind and whether it is sure; in the order of the vocabulary."""
     groups: dict[tuple[str | None, str, bool], list[LabelEvidence]] = {}
     for one in found:
         unsure = one.label is not None and one.label.confidence < rendering.UNSURE
@@ -157,7 +157,8 @@ def tally_labels(store: Store, progress: Callable[[], None] | None = None) -> Ta
 
 
 def describe_label_plan(store: Store) -> str:
-    """A sentence on how many assets there are of what, how many have labels, and how many of these a person's."""
+    """Return a sentence on how many assets there are of what, how many have labels, and how many of these a
+    person's."""
     layout, found = store.layout, store.found
     places = {asset: layout.labels(asset) for asset in found.ids}
     jobs = [

@@ -42,7 +42,7 @@ def apply_action(
     label: str | None = None,
     used: frozenset[str] = frozenset(),
 ) -> ActionResult:
-    """Does an action to the hulls of a bit set, in the frame the mesh is in.
+    """Do an action to the hulls of a bit set, in the frame the mesh is in.
 
     label: for what is made, None takes over that of the largest hull; used: in a run of several actions, the names
     that the result before has. Kept hulls stay the same objects, made ones follow after them.
@@ -97,7 +97,7 @@ def _verify_edits(plugin: Plugin, groups: list[HullGroup], edits: list[GroupEdit
 
 
 def names_in_use(mesh: SymbolicMesh) -> frozenset[str]:
-    """The names that a made hull must not take: those of the mesh and of the file it came from."""
+    """Return the names that a made hull must not take: those of the mesh and of the file it came from."""
     source = mesh.asset.geoms if mesh.asset else ()
     return frozenset([hull.name for hull in mesh.hulls] + [geom.name for geom in source])
 
@@ -139,7 +139,7 @@ def _relabel(groups: list[HullGroup], edits: list[GroupEdit], label: str | None)
 
 
 def inheritance_notes(made: Iterable[NewShape], mesh: SymbolicMesh) -> list[str]:
-    """A sentence for each hull whose sources differ in contact attributes: it takes those of the largest."""
+    """Return a sentence for each hull whose sources differ in contact attributes: it takes those of the largest."""
     known = {geom.name: dict(geom.contact) for geom in mesh.asset.geoms if geom.contact} if mesh.asset else {}
     return [note for one in made if known and (note := _inheritance_note(one, known))]
 
@@ -154,8 +154,8 @@ def _inheritance_note(made: NewShape, known: dict[str, dict[str, str]]) -> str |
 
 
 def describe_lost_gaps(mesh: SymbolicMesh, selected_mask: int, made: Iterable[tuple[Hull, NewShape]]) -> str | None:
-    """A sentence on the gaps to hulls beside a selection that made primitives narrow, by more than a tenth and by more
-    than the contact distance; None where there is none."""
+    """Return a sentence on the gaps to hulls beside a selection that made primitives narrow, by more than a tenth and
+    by more than the contact distance; None where there is none."""
     beside = [hull for k, hull in enumerate(mesh.hulls) if not selected_mask >> k & 1]
     made = [(new, one) for new, one in made if new.primitive]
     if not beside or not made:
@@ -182,7 +182,7 @@ def describe_lost_gaps(mesh: SymbolicMesh, selected_mask: int, made: Iterable[tu
 
 
 def ensure_valid(shape: geometry.Shape, name: str, thickness: float) -> geometry.Shape:
-    """The shape itself where it is sound, else the convex hull of its points, thickened to `thickness` [m].
+    """Return the shape itself where it is sound, else the convex hull of its points, thickened to `thickness` [m].
 
     Raises GeometryError naming `name` where no sound shape can be made of it.
     """

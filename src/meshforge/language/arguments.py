@@ -33,24 +33,25 @@ class ArgumentType(ABC):
 
     @abstractmethod
     def read(self, kind: TokenKind, text: str) -> Any | None:
-        """The value of a piece of program text (a quoted text without its quotes), None where it does not fit."""
+        """Return the value of a piece of program text (a quoted text without its quotes), None where it does not
+        fit."""
 
     @abstractmethod
     def fits(self, value: Any) -> bool:
-        """Whether a value may stand in the field."""
+        """Return whether a value may stand in the field."""
 
     def check(self, kind: type[Operation], name: str, value: Any) -> None:
-        """Raises ProgramError for a value that may not stand in the field `name` of an operation."""
+        """Raise ProgramError for a value that may not stand in the field `name` of an operation."""
         if not self.fits(value):
             problem = f"{kind.__name__} takes {self.wants} as its {name}, not {value!r}"
             raise ProgramError(problem, remedy=f"Write {kind.usage()}.")
 
     def show(self, value: Any) -> str:
-        """The value as program text."""
+        """Return the value as program text."""
         return str(value)
 
     def sort_key(self, value: Any, labels: Mapping[str, int]) -> Any:
-        """What sorts values, those first that are believed more; labels: the place of each in the vocabulary."""
+        """Return what sorts values, those first that are believed more; labels: the place of each in the vocabulary."""
         return value
 
 
@@ -246,27 +247,27 @@ class Operation:
         return self.owner
 
     def conflict(self) -> str | None:
-        """Why the arguments do not go together, None where they do."""
+        """Return why the arguments do not go together, None where they do."""
         return None
 
     @classmethod
     def arguments(cls) -> Mapping[str, ArgumentType]:
-        """The kind of each argument by the name of its field, in order."""
+        """Return the kind of each argument by the name of its field, in order."""
         return _read_fields(cast(Any, cls))[0]
 
     @classmethod
     def options(cls) -> Mapping[str, Any]:
-        """The arguments that may be left out, the last ones, with their defaults."""
+        """Return the arguments that may be left out, the last ones, with their defaults."""
         return _read_fields(cast(Any, cls))[1]
 
     @classmethod
     def min_arguments(cls) -> int:
-        """How many arguments cannot be left out."""
+        """Return how many arguments cannot be left out."""
         return len(cls.arguments()) - len(cls.options())
 
     @classmethod
     def usage(cls) -> str:
-        """How it is written: `Add(+X|-X|..., "file"[, keep])`."""
+        """Return how it is written: `Add(+X|-X|..., "file"[, keep])`."""
         parts = ""
         for k, argument in enumerate(cls.arguments().values()):
             text = f"{', ' if k else ''}{argument.usage}"
@@ -275,11 +276,11 @@ class Operation:
 
     @classmethod
     def summary(cls) -> str:
-        """What it does, in one sentence."""
+        """Return what it does, in one sentence."""
         return (cls.__doc__ or "").strip().splitlines()[0]
 
     def values(self) -> dict[str, Any]:
-        """The arguments that differ from their defaults, by name."""
+        """Return the arguments that differ from their defaults, by name."""
         given = {name: getattr(self, name) for name in self.arguments()}
         return {name: value for name, value in given.items() if not self._leaves_out(name, value)}
 
@@ -304,7 +305,7 @@ class MissingOperation(Operation):
         return self.source
 
     def fail(self) -> NoReturn:
-        """Raises PluginError: why it cannot be loaded."""
+        """Raise PluginError: why it cannot be loaded."""
         raise PluginError(self.error.problem, where=self.error.where, remedy=self.error.remedy)
 
     def __str__(self) -> str:
@@ -319,11 +320,11 @@ def _read_fields(kind: Any) -> tuple[Mapping[str, ArgumentType], Mapping[str, An
 
 
 def join_alternatives(words: Iterable[str]) -> str:
-    """The words as `a, b or c`."""
+    """Return the words as `a, b or c`."""
     *most, last = words
     return f"{', '.join(most)} or {last}" if most else last
 
 
 def show_number(value: float) -> str:
-    """The shortest decimal that reads back as the same float."""
+    """Return the shortest decimal that reads back as the same float."""
     return repr(float(value)).removesuffix(".0")

@@ -79,13 +79,13 @@ class HullTable:
         return places
 
     def with_label(self, label: str) -> Bools:
-        """The hulls with a label."""
+        """Return the hulls with a label."""
         found = np.zeros(len(self), dtype=np.bool_)
         found[self._places.get(label, [])] = True
         return found
 
     def split(self) -> tuple[HullTable, ...]:
-        """The same for each mesh by itself."""
+        """Return the same for each mesh by itself."""
         return self.recall("meshes", self._split)
 
     def _split(self) -> tuple[HullTable, ...]:
@@ -96,7 +96,7 @@ class HullTable:
         return tuple(parts)
 
     def recall(self, key: Hashable, make: Callable[[], Value]) -> Value:
-        """What `make` gave for this key when it was first asked for."""
+        """Return what `make` gave for this key when it was first asked for."""
         if key not in self._known:
             self._known[key] = make()
         found: Value = self._known[key]  # type: ignore[assignment]  # of this key
@@ -104,5 +104,5 @@ class HullTable:
 
 
 def reference_length(mesh: SymbolicMesh) -> float:
-    """L, the length [m] that relative thresholds refer to: fixed in a run, else the diagonal."""
+    """Return l, the length [m] that relative thresholds refer to: fixed in a run, else the diagonal."""
     return mesh.diagonal if mesh.scale is None else mesh.scale

@@ -61,13 +61,13 @@ class Orient:
 
 
 def rename_in_orient(orient: Orient, old: str, new: str) -> Orient:
-    """The orientation with a label by another name."""
+    """Return the orientation with a label by another name."""
     pairs = (replace(pair, start=pair.start.rename(old, new), end=pair.end.rename(old, new)) for pair in orient.pairs)
     return replace(orient, pairs=tuple(pairs))
 
 
 def orient_mesh(mesh: SymbolicMesh, orient: Orient | None) -> tuple[SymbolicMesh, Pose]:
-    """The mesh turned about its frame's origin as the directive says, and the pose oriented_T_incoming.
+    """Return the mesh turned about its frame's origin as the directive says, and the pose oriented_T_incoming.
 
     None, and a turn by nothing, give the mesh itself. Raises ProgramError naming a landmark that selects nothing,
     or landmarks that give no direction.
@@ -80,8 +80,8 @@ def orient_mesh(mesh: SymbolicMesh, orient: Orient | None) -> tuple[SymbolicMesh
 
 
 def find_rotation(mesh: SymbolicMesh, orient: Orient, labels: Sequence[str | None] | None = None) -> Floats:
-    """The rotation (3, 3) by which `orient_mesh` turns a mesh; raises likewise. labels: of the hulls, instead of those
-    that they have."""
+    """Return the rotation (3, 3) by which `orient_mesh` turns a mesh; raises likewise. labels: of the hulls, instead of
+    those that they have."""
     return geometry.snap_rotation(_measure_rotation(mesh, orient, labels))
 
 
@@ -110,7 +110,6 @@ def _frame_of(first: Floats, second: Floats) -> Floats:
 
 
 def _perpendicular_part(directions: list[Floats], orient: Orient) -> Floats:
-    """The part of the second direction that is perpendicular to the first, at unit length."""
     first, second = directions
     part = second - (second @ first) * first
     norm = float(np.linalg.norm(part))
@@ -153,7 +152,7 @@ def _axis_vector(direction: Direction) -> Floats:
 
 
 def square_up_angle(footprint: Floats) -> float:
-    """The angle [rad], at most an eighth of a turn, that squares up points (n, 2) which span an area.
+    """Return the angle [rad], at most an eighth of a turn, that squares up points (n, 2) which span an area.
 
     Of the four quarter turns that do, it is the one nearest to the incoming frame (of two, the positive one).
     A smallest rectangle has a side along an edge of the convex hull, so the edges are all that is tried.

@@ -34,7 +34,7 @@ _TEXT_OR_COMMENT = re.compile(r'"(?:[^"\\\n]|\\.)*"|#(?P<comment>[^\n]*)')
 
 
 def parse_extractor(text: str, name: str = "extractor") -> base.Extractor:
-    """The extractor in a text; any label is known. Raises ProgramError at `name:line:column`."""
+    """Return the extractor in a text; any label is known. Raises ProgramError at `name:line:column`."""
     source = program_text.ProgramText(text.strip(), name)
     return build_extractor(program_text.TreeReader(source), _only_child(parse_tree(source, "only_extractor")))
 
@@ -83,7 +83,7 @@ def _arguments_rule(kind: type[base.Leaf]) -> str:
 def parse_tree(
     source: program_text.ProgramText, start: str, plugins: tuple[type[base.Leaf], ...] = ()
 ) -> program_text.Node:
-    """The parse tree of a text; plugins: leaves of plug-ins that it uses, found as it is read.
+    """Return the parse tree of a text; plugins: leaves of plug-ins that it uses, found as it is read.
 
     Raises ProgramError where it has none, PluginError for a leaf that cannot be loaded.
     """
@@ -131,7 +131,7 @@ def _only_child(tree: program_text.Node) -> program_text.Node:
 
 
 def attach_comments(text: str, lines: Sequence[int]) -> tuple[list[Comments], CommentLines]:
-    """The comments of the statements on some lines (from 1, rising), and those after the last one.
+    """Return the comments of the statements on some lines (from 1, rising), and those after the last one.
 
     A comment alone on its line belongs to the next statement; empty lines between are kept, several as one.
     """
@@ -160,14 +160,14 @@ def _squeeze_blanks(lines: Iterable[str | None], *, first: bool) -> CommentLines
 
 
 def build_rule(text: program_text.TreeReader, tree: program_text.Node, comments: Comments) -> Rule:
-    """The rule of a `rule` node."""
+    """Return the rule of a `rule` node."""
     extractor, action, *label = program_text.subtrees_of(tree)
     parts = build_extractor(text, extractor), build_action(text, action), text.read_label(label[0]) if label else None
     return text.locate_errors(label[0] if label else tree, lambda: Rule(*parts, comments))
 
 
 def build_extractor(text: program_text.TreeReader, tree: program_text.Node) -> base.Extractor:
-    """The extractor of a node of the grammar's `_extractor`."""
+    """Return the extractor of a node of the grammar's `_extractor`."""
     kind = _SET_OPERATORS.get(tree.data)
     if kind:
         left, right = program_text.subtrees_of(tree)
@@ -204,7 +204,7 @@ def _build_leaf_argument(
 
 
 def build_orient(text: program_text.TreeReader, tree: program_text.Node) -> Orient:
-    """The directive of an `orient` node; an error is about the pair that is one too many or turns back."""
+    """Return the directive of an `orient` node; an error is about the pair that is one too many or turns back."""
     nodes = program_text.subtrees_of(tree)
     pairs = tuple(_build_pair(text, node) for node in nodes)
     wrong = nodes[min(2, len(nodes) - 1)]
@@ -230,7 +230,7 @@ def _build_direction(text: program_text.TreeReader, token: Token) -> Direction:
 
 
 def collect_headers(text: program_text.TreeReader, statements: list[program_text.Node]) -> dict[str, program_text.Node]:
-    """The header statements by their kind. Raises ProgramError for one that is given twice."""
+    """Return the header statements by their kind. Raises ProgramError for one that is given twice."""
     headers: dict[str, program_text.Node] = {}
     for node in statements:
         if node.data in headers:
@@ -241,7 +241,7 @@ def collect_headers(text: program_text.TreeReader, statements: list[program_text
 
 
 def build_labels(text: program_text.TreeReader, tree: program_text.Node) -> tuple[str, ...]:
-    """The labels that a `labels` header declares. Raises ProgramError for one that is declared twice."""
+    """Return the labels that a `labels` header declares. Raises ProgramError for one that is declared twice."""
     labels: list[str] = []
     for node in program_text.subtrees_of(tree):
         label = text.read_label(node)
@@ -252,7 +252,7 @@ def build_labels(text: program_text.TreeReader, tree: program_text.Node) -> tupl
 
 
 def build_threshold(text: program_text.TreeReader, tree: program_text.Node | None) -> float | None:
-    """The number of a threshold header; None where the header is missing."""
+    """Return the number of a threshold header; None where the header is missing."""
     if tree is None:
         return None
     (token,) = program_text.tokens_of(tree)
@@ -261,7 +261,7 @@ def build_threshold(text: program_text.TreeReader, tree: program_text.Node | Non
 
 
 def build_action(text: program_text.TreeReader, tree: program_text.Node) -> Action:
-    """The action of an `action` node. Raises ProgramError at its name or at the argument that does not fit."""
+    """Return the action of an `action` node. Raises ProgramError at its name or at the argument that does not fit."""
     (name,) = program_text.tokens_of(tree)[:1]
     parts = [part for part in tree.children[1:] if part is not None]
     kind = text.locate_errors(name, lambda: ACTIONS.get(name))
@@ -362,7 +362,6 @@ def _build_argument(
 def _read_argument(
     text: program_text.TreeReader, argument: arguments.ArgumentType, given: program_text.Node | Token
 ) -> Any | None:
-    """The value of an argument, None where it is no such."""
     token = _bare_token(given)
     if token is None:
         return None

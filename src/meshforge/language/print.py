@@ -53,7 +53,7 @@ SyntaxNode = Extractor | Action | LandmarkPair | Orient | Rule
 
 
 def show(node: SyntaxNode) -> str:
-    """A node as program text."""
+    """Return a node as program text."""
     match node:
         case Operation() | Union() | Intersect() | Diff():
             return str(node)
@@ -68,13 +68,13 @@ def show(node: SyntaxNode) -> str:
 
 
 def show_rule(rule: Rule, width: int) -> str:
-    """A rule on one line, its arrow behind `width` characters at least."""
+    """Return a rule on one line, its arrow behind `width` characters at least."""
     label = f" as {show_label(rule.label)}" if rule.label is not None else ""
     return f"{show(rule.extractor):<{width}} => {rule.action}{label}"
 
 
 def explain(node: Rule | Orient | Extractor) -> str:
-    """A sentence for a rule or an orientation, a noun phrase for an extractor."""
+    """Return a sentence for a rule or an orientation, a noun phrase for an extractor."""
     match node:
         case Rule(extractor, action, label):
             relabel = f"; what is made is labelled {quote_label(label)}" if label is not None else ""
@@ -114,7 +114,6 @@ def _explain_orient(orient: Orient) -> str:
 
 
 def _action_sentence(action: Action, hulls: str) -> str:
-    """What an action does to `hulls`; a sentence without its end."""
     if isinstance(action, Each):
         return f"each connected group of {hulls.removeprefix('the ')} is {action.action.phrase('its')}"
     parts = ", one for each body" if action.by_body else ""

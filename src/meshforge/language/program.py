@@ -90,7 +90,7 @@ class Program:
 
     @staticmethod
     def parse(text: str, name: str = "program") -> Program:
-        """The program in a text. Raises ProgramError at `name:line:column`, with the line and a caret."""
+        """Return the program in a text. Raises ProgramError at `name:line:column`, with the line and a caret."""
         source = ProgramText(text.removeprefix("\ufeff").removesuffix("\n") + "\n", name)
         try:
             return _build_program(source, parse.parse_tree(source, "program"))
@@ -99,7 +99,7 @@ class Program:
 
     @staticmethod
     def read(path: Path | str) -> Program:
-        """The program in a file. Raises ProgramError where it cannot be read or does not parse."""
+        """Return the program in a file. Raises ProgramError where it cannot be read or does not parse."""
         path = Path(path)
         try:
             return Program.parse(path.read_text(encoding="utf-8"), str(path))
@@ -116,7 +116,7 @@ class Program:
         selections: Mapping[int, Collection[str]] = MappingProxyType({}),
         memo: Memo = make_anew,
     ) -> RunResult:
-        """The program's edit of a mesh, with a trace.
+        """Return the program's edit of a mesh, with a trace.
 
         selections: names of hulls that rules select on this mesh whatever their extractors do, by their numbers; memo:
         where many programs are run on the same mesh, keeps what each step made, for those that begin alike.
@@ -142,7 +142,7 @@ class Program:
         selections: Mapping[int, Collection[str]] = MappingProxyType({}),
         memo: Memo = make_anew,
     ) -> Iterator[Replay]:
-        """A mesh as each rule meets it, and after the last one; see `run` for the arguments and errors.
+        """Yield a mesh as each rule meets it, and after the last one; see `run` for the arguments and errors.
 
         name: how errors call the mesh.
         """
@@ -163,7 +163,7 @@ class Program:
 
 
 def rename_in_program(program: Program, old: str, new: str) -> Program:
-    """The program with a label by another name; declared twice by that, it is declared once."""
+    """Return the program with a label by another name; declared twice by that, it is declared once."""
     rules = (
         replace(
             rule,

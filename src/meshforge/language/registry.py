@@ -46,7 +46,7 @@ class OperationRegistry(Registry[type[T]]):
         self._base, self._missing, self._rebuild = base, missing, rebuild
 
     def require(self, name: str) -> type[T]:
-        """The class of a name. Raises UsageError where there is none, PluginError where it cannot be loaded."""
+        """Return the class of a name. Raises UsageError where there is none, PluginError where it cannot be loaded."""
         if name not in self:
             remedy = suggest_among(name, self, f"Known {self.kind}:")
             raise UsageError(f"there is no {self.kind.removesuffix('s')} {name!r}", remedy=remedy)
@@ -81,7 +81,7 @@ class OperationRegistry(Registry[type[T]]):
         return self._rebuild, (made.plugin, str(made), pickle.dumps(values))
 
     def rebuild(self, plugin: Plugin, text: str, values: bytes) -> Operation:
-        """An operation that another process sent."""
+        """Return an operation that another process sent."""
         try:
             kind = self.load(plugin)
             with blame(plugin):
@@ -92,7 +92,7 @@ class OperationRegistry(Registry[type[T]]):
 
 
 def make_operation(kind: type[T], values: Mapping[str, Any]) -> T:
-    """An operation of its arguments by name. Raises ProgramError where they do not go together."""
+    """Return an operation of its arguments by name. Raises ProgramError where they do not go together."""
     with blame(kind.owner):
         return kind(**values)
 

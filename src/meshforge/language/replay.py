@@ -29,7 +29,7 @@ class Memo(Protocol):
 
 
 def make_anew(mesh: SymbolicMesh, key: Hashable, kind: type[Value], make: Callable[[], Value]) -> Value:
-    """The memo that keeps nothing."""
+    """Return the memo that keeps nothing."""
     return make()
 
 
@@ -79,7 +79,8 @@ class Replay:
         selections: Mapping[int, Collection[str]] | None = None,
         memo: Memo = make_anew,
     ) -> Replay:
-        """A mesh before its first edit, see `to_canonical_frame`. Raises ProgramError where it cannot be turned."""
+        """Return a mesh before its first edit, see `to_canonical_frame`. Raises ProgramError where it cannot be
+        turned."""
         try:
             start, pose = to_canonical_frame(mesh, orient, contact, memo)
         except MeshForgeError as error:
@@ -102,7 +103,7 @@ class Replay:
         return self.number in self.selections
 
     def mask_of(self, names: Iterable[str]) -> int:
-        """Hulls by name as a bit set. Raises DemonstrationError for one that is not there."""
+        """Return hulls by name as a bit set. Raises DemonstrationError for one that is not there."""
         names = sorted(names)
         for name in names:
             if name not in self.mesh.index:
@@ -110,17 +111,18 @@ class Replay:
         return mask_of(self.mesh.index[name] for name in names)
 
     def select(self, rule: Rule, extremity: float | None = None) -> int:
-        """The bit set of the hulls that the next rule selects: those that are given for its number, if any are."""
+        """Return the bit set of the hulls that the next rule selects: those that are given for its number, if any
+        are."""
         if self.is_given:
             return self.mask_of(self.selections[self.number])
         return select_mask(rule.extractor, self.mesh, EXTREMITY if extremity is None else extremity)
 
     def advance(self, rule: Rule, templates: Mapping[str, Template], extremity: float | None = None) -> Replay:
-        """After one more rule. Raises MeshForgeError where it cannot be done."""
+        """Return after one more rule. Raises MeshForgeError where it cannot be done."""
         return self.apply(self.select(rule, extremity), rule.action, rule.label, templates)
 
     def apply(self, mask: int, action: Action, label: str | None, templates: Mapping[str, Template]) -> Replay:
-        """After one more action, on the hulls of a bit set. Raises MeshForgeError where it cannot be done."""
+        """Return after one more action, on the hulls of a bit set. Raises MeshForgeError where it cannot be done."""
         try:
             done = self._act(mask, action, label, templates)
         except MeshForgeError as error:
@@ -131,7 +133,7 @@ class Replay:
         return replace(self, mesh=mesh, used=done.used, trace=(*self.trace, line))
 
     def skip(self, error: str | None = None) -> Replay:
-        """After an edit that is left out, and why."""
+        """Return after an edit that is left out, and why."""
         return replace(self, trace=(*self.trace, RuleTrace(self.number, error=error)))
 
     def _act(self, mask: int, action: Action, label: str | None, templates: Mapping[str, Template]) -> ActionResult:
@@ -155,7 +157,7 @@ class Replay:
 def to_canonical_frame(
     mesh: SymbolicMesh, orient: Orient | None, contact: float | None = None, memo: Memo = make_anew
 ) -> tuple[SymbolicMesh, geometry.Pose]:
-    """The mesh as the first rule sees it: oriented, with L fixed; and the pose oriented_T_incoming.
+    """Return the mesh as the first rule sees it: oriented, with L fixed; and the pose oriented_T_incoming.
 
     contact: the program's epsilon, None keeps the mesh's.
     """
@@ -174,7 +176,8 @@ def _to_canonical_frame(
 
 
 def from_canonical_frame(incoming: SymbolicMesh, staged: SymbolicMesh, pose: geometry.Pose) -> SymbolicMesh:
-    """An edited mesh back in the frame it came in; pose: oriented_T_incoming. The inverse of `to_canonical_frame`."""
+    """Return an edited mesh back in the frame it came in; pose: oriented_T_incoming. The inverse of
+    `to_canonical_frame`."""
     back = pose.inverse()
     turned = not np.array_equal(pose.rotation, np.eye(3))
     hulls = tuple(_restore_hull(incoming, hull, back if turned else None) for hull in staged.hulls)

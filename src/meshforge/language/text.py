@@ -39,18 +39,19 @@ class ProgramText:
     name: str
 
     def piece_at(self, offset: int) -> str:
-        """The word, text, number or sign at an offset; empty at the end of a line."""
+        """Return the word, text, number or sign at an offset; empty at the end of a line."""
         found = _PIECE.match(self.text, offset)
         thing = found.group() if found else ""
         return "" if thing.startswith("#") or thing.isspace() else thing
 
     def position_of(self, offset: int) -> tuple[int, int]:
-        """Line and column of an offset, both from 1."""
+        """Return line and column of an offset, both from 1."""
         before = self.text[:offset]
         return before.count("\n") + 1, offset - (before.rfind("\n") + 1) + 1
 
     def error_at(self, offset: int, problem: str, remedy: str | None = None, width: int | None = None) -> ProgramError:
-        """The error at an offset, with the line and `width` carets below it (the length of what stands there)."""
+        """Return the error at an offset, with the line and `width` carets below it (the length of what stands
+        there)."""
         line, column = self.position_of(offset)
         text = self.text.split("\n")[line - 1].replace("\t", " ").rstrip("\r")
         carets = "^" * max(1, len(self.piece_at(offset)) if width is None else width)
@@ -66,7 +67,7 @@ class TreeReader:
     declared: tuple[str, ...] = ()
 
     def read_label(self, node: Node) -> str:
-        """The label of a `label` node: no operator name, and declared where labels are."""
+        """Return the label of a `label` node: no operator name, and declared where labels are."""
         (token,) = tokens_of(node)
         if token.type == "NAME" and token in RESERVED:
             raise self.error_at(token, f"{token} is the name of an operator", f'As a label it is written "{token}".')
@@ -77,7 +78,7 @@ class TreeReader:
         return label
 
     def unquote(self, token: Token) -> str:
-        """The text between quotation marks."""
+        """Return the text between quotation marks."""
         try:
             return str(json.loads(token))
         except ValueError:
@@ -85,7 +86,7 @@ class TreeReader:
             raise self.error_at(token, "a backslash in this text begins nothing known", remedy) from None
 
     def locate_errors(self, at: Node | Token, make: Callable[[], T], width: int | None = None) -> T:
-        """What is made; an error on the way is given its place in the text."""
+        """Return what is made; an error on the way is given its place in the text."""
         try:
             return make()
         except (ProgramError, PluginError) as error:
@@ -96,22 +97,22 @@ class TreeReader:
 
 
 def subtrees_of(tree: Node) -> list[Node]:
-    """The trees below a tree."""
+    """Return the trees below a tree."""
     return [part for part in tree.children if part is not None and not isinstance(part, str)]
 
 
 def tokens_of(tree: Node) -> list[Token]:
-    """The pieces of text below a tree."""
+    """Return the pieces of text below a tree."""
     return [part for part in tree.children if isinstance(part, str)]
 
 
 def start_of(part: Node | Token) -> int:
-    """The offset in the text at which a part begins."""
+    """Return the offset in the text at which a part begins."""
     return int((part.start_pos if isinstance(part, str) else part.meta.start_pos) or 0)
 
 
 def syntax_error(source: ProgramText, offset: int, accepted: Set[str], before: str) -> ProgramError:
-    """The error for an unexpected piece of text.
+    """Return the error for an unexpected piece of text.
 
     accepted: names of the grammar's terminals that may stand there; before: the text of the token before it.
     """
@@ -124,17 +125,17 @@ def syntax_error(source: ProgramText, offset: int, accepted: Set[str], before: s
 
 
 def text_of_leaf(name: str) -> str:
-    """How the word of a leaf extractor is told from terminals of the grammar that may stand at a place."""
+    """Return how the word of a leaf extractor is told from terminals of the grammar that may stand at a place."""
     return _LEAF + name
 
 
 def leaves_among(accepted: Set[str]) -> list[str]:
-    """The leaf extractors that may stand at a place."""
+    """Return the leaf extractors that may stand at a place."""
     return [name.removeprefix(_LEAF) for name in sorted(accepted) if name.startswith(_LEAF)]
 
 
 def list_operators() -> tuple[str, ...]:
-    """The words that an extractor may begin with, those of plug-ins among them."""
+    """Return the words that an extractor may begin with, those of plug-ins among them."""
     return (*EXTRACTORS, *_SETS)
 
 
@@ -143,7 +144,7 @@ def _list_bases() -> list[str]:
 
 
 def likely_word(word: str, words: Iterable[str]) -> str | None:
-    """The one of the words that was probably meant, whatever its case."""
+    """Return the one of the words that was probably meant, whatever its case."""
     lower = {w.lower(): w for w in words}
     signless = {w[1:].lower(): w for w in words if w[0] in "+-" and w[0] == "+"}
     found = nearest_name(word.lower(), lower)
@@ -151,7 +152,7 @@ def likely_word(word: str, words: Iterable[str]) -> str | None:
 
 
 def quote_code(found: str) -> str:
-    """A piece of program text, for use in a sentence."""
+    """Return a piece of program text, for use in a sentence."""
     return f"`{found}`" if found else "the end of the line"
 
 

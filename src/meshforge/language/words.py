@@ -18,35 +18,35 @@ RESERVED = frozenset((*OPERATORS, "Delete", "Replace", "Add", "Merge", "Scale", 
 
 
 def check_direction(direction: str) -> None:
-    """Raises ProgramError for what is no direction."""
+    """Raise ProgramError for what is no direction."""
     if direction not in DIRECTIONS:
         raise ProgramError(f"unknown direction {direction!r}", remedy=f"Directions are {', '.join(DIRECTIONS)}.")
 
 
 def check_label(label: str) -> None:
-    """Raises ProgramError for what cannot be a label."""
+    """Raise ProgramError for what cannot be a label."""
     if not isinstance(label, str) or not label:
         raise ProgramError(f"a label is a text of at least one character, not {label!r}")
 
 
 def check_declared(label: str, declared: tuple[str, ...]) -> None:
-    """Raises ProgramError for a label that is not among those declared."""
+    """Raise ProgramError for a label that is not among those declared."""
     if label not in declared:
         raise ProgramError(f"unknown label {label!r}", remedy=suggest_among(label, declared, "Declared labels:"))
 
 
 def show_label(label: str) -> str:
-    """A label as it is written: bare where it is a word and no operator, else quoted."""
+    """Return a label as it is written: bare where it is a word and no operator, else quoted."""
     plain = WORD.fullmatch(label) and label not in RESERVED
     return label if plain else json.dumps(label, ensure_ascii=False)
 
 
 def quote_label(label: str) -> str:
-    """A label in a sentence: bare where it is a word."""
+    """Return a label in a sentence: bare where it is a word."""
     return label if WORD.fullmatch(label) else f"“{label}”"
 
 
 def check_threshold(name: str, value: float | None) -> None:
-    """Raises ProgramError for a threshold that is not a number above 0 and at most 1."""
+    """Raise ProgramError for a threshold that is not a number above 0 and at most 1."""
     if value is not None and not (math.isfinite(value) and 0 < value <= 1):
         raise ProgramError(f"{name} is a share of a diagonal, above 0 and at most 1, not {value:g}")

@@ -42,7 +42,7 @@ def demonstrate(store: Store, asset: str, steps: Iterable[synthesis.Step]) -> No
 
 
 def shows(steps: Iterable[synthesis.Step], done: Iterable[batch.RuleSelection]) -> bool:
-    """Whether steps select just what rules did, as far as they are not open."""
+    """Return whether steps select just what rules did, as far as they are not open."""
     selected = {one.rule: frozenset(one.select) for one in done}
     return bool(selected) and all(step.select is None or selected.get(step.rule) == step.select for step in steps)
 
@@ -67,7 +67,8 @@ def correct_selection(store: Store, asset: str, rule: int, select: Sequence[str]
 
 
 def find_unknown_hulls(steps: Iterable[synthesis.Step], hulls: Container[str]) -> Iterator[tuple[int, str]]:
-    """The rules and names of steps that cannot be meant: no such hull, and none that an edit could have made it of."""
+    """Yield the rules and names of steps that cannot be meant: no such hull, and none that an edit could have made it
+    of."""
     for step in steps:
         for name in sorted(step.select or ()):
             stem = name.rpartition("~")[0] if step.rule > 1 else name
@@ -173,7 +174,8 @@ def add_answer(store: Store, answer: synthesis.Answer) -> str:
 
 
 def check_answer(store: Store, given: synthesis.Answer) -> files.AnswerEvent:
-    """An answer as it is kept. Raises ProjectError: no such asset, or no such rule. Its hulls may be made by a rule."""
+    """Return an answer as it is kept. Raises ProjectError: no such asset, or no such rule. Its hulls may be made by a
+    rule."""
     store.path(given.asset)
     actions = actions_of(map(store.steps, store.demonstration_ids()))
     if given.rule not in actions:
@@ -187,7 +189,7 @@ def check_answer(store: Store, given: synthesis.Answer) -> files.AnswerEvent:
 
 
 def actions_of(demonstrations: Iterable[Iterable[synthesis.Step]]) -> dict[int, str]:
-    """What each rule does, as the first demonstration that shows it says, without `Each`."""
+    """Return what each rule does, as the first demonstration that shows it says, without `Each`."""
     found: dict[int, str] = {}
     for step in (step for steps in demonstrations for step in steps if step.shown):
         found.setdefault(step.rule, batch.action_text_without_each(step.action, step.label))

@@ -22,7 +22,7 @@ _LEAST_CHANCE = 0.05  # that labels on an asset are at fault
 def sort_answers(
     feedback: Feedback, demos: Mapping[str, synthesis.Demonstration]
 ) -> tuple[list[synthesis.Answer], list[synthesis.Answer]]:
-    """The answers to learn from, and those to a rule that does something else by now."""
+    """Return the answers to learn from, and those to a rule that does something else by now."""
     actions = demonstrations.actions_of(demo.steps for demo in demos.values())
     fitting = [line.answer for line in feedback.answers.values() if line.fits(actions)]
     return fitting, [line.answer for line in feedback.answers.values() if not line.fits(actions)]
@@ -31,7 +31,8 @@ def sort_answers(
 def list_accepted(
     store: Store, demos: Mapping[str, synthesis.Demonstration], feedback: Sequence[synthesis.Answer]
 ) -> list[synthesis.Answer]:
-    """What rules select on results that were accepted, but for what was said otherwise, or of rules that are others."""
+    """Return what rules select on results that were accepted, but for what was said otherwise, or of rules that are
+    others."""
     known = {(answer.rule, answer.asset) for answer in feedback}
     every = (one for asset, seen in find_accepted_results(store).items() for one in _number(demos, asset, seen))
     return [one for one in every if (one.rule, one.asset) not in known]
@@ -40,8 +41,8 @@ def list_accepted(
 def list_wrong(
     feedback: Feedback, demos: Mapping[str, synthesis.Demonstration], meshes: Mapping[str, symbolic.SymbolicMesh]
 ) -> list[synthesis.Answer]:
-    """What rules should have selected on results that were called wrong, or that they should not have selected what
-    they did where one rule alone did anything there; unsure where labels may be the reason."""
+    """Return what rules should have selected on results that were called wrong, or that they should not have selected
+    what they did where one rule alone did anything there; unsure where labels may be the reason."""
     last = {asset: some[-1] for asset, some in feedback.verdicts.items() if asset in meshes and asset not in demos}
     wrong = {asset: one for asset, one in last.items() if one.meant or one.verdict == "wrong"}
     if not wrong:
@@ -70,7 +71,7 @@ def list_wrong(
 
 
 def soften(answers: Iterable[synthesis.Answer], price: float = UNSURE_PRICE) -> list[synthesis.Answer]:
-    """The same answers, which no reading has to keep to; what is unsure stays so."""
+    """Return the same answers, which no reading has to keep to; what is unsure stays so."""
     return [
         synthesis.Answer(one.rule, one.asset, one.select, one.refused, price if one.price is None else one.price)
         for one in answers
@@ -87,7 +88,7 @@ def _number(
 
 
 def list_rejections(feedback: Feedback) -> list[synthesis.LabelFix]:
-    """What is not to be proposed: what was refused, and what would undo a fix that was made."""
+    """Return what is not to be proposed: what was refused, and what would undo a fix that was made."""
     undone = (line.fix.reverse for line in feedback.fixes.values() if line.accepted)
     refused = (line.fix for line in feedback.fixes.values() if not line.accepted)
     return [*refused, *(reverse for reverse in undone if reverse)]

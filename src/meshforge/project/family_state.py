@@ -48,7 +48,7 @@ class FamilyStateReader:
     inputs: Mapping[str, OutputInputs]
 
     def read(self) -> ReviewState:
-        """All that is known. Raises MeshForgeError for files of the project that cannot be read."""
+        """Return all that is known. Raises MeshForgeError for files of the project that cannot be read."""
         store, feedback = self.store, self.store.feedback()
         demos = {
             asset: replace(demo, mesh=self.meshes[asset])
@@ -123,7 +123,6 @@ class _Verdicts:
     by_asset: Mapping[str, Sequence[VerdictEvent]]
 
     def list_accepted(self) -> Iterator[tuple[str, VerdictEvent]]:
-        """Those that are accepted now."""
         yield from ((asset, some[-1]) for asset, some in self.by_asset.items() if some[-1].verdict == "accepted")
 
     def list_meant(self, program: Program | None) -> dict[str, Selections]:
@@ -142,7 +141,6 @@ class _Verdicts:
         return frozenset(_fit(((asset, some[-1].meant) for asset, some in self.by_asset.items()), program))
 
     def list_wrong(self, program: Program | None) -> frozenset[str]:
-        """The assets of which the last word is that the result is wrong."""
         wrong = (asset for asset, some in self.by_asset.items() if some[-1].verdict == "wrong")
         return frozenset(wrong) - self.list_corrected(program)
 
@@ -166,7 +164,7 @@ def measure_results(
     inputs: Mapping[str, OutputInputs],
     stop: Callable[[], bool] = lambda: False,
 ) -> dict[str, EditMeasures]:
-    """The measures of the results of a program, by asset; of some only once `stop` says so.
+    """Return the measures of the results of a program, by asset; of some only once `stop` says so.
 
     meshes: of the family, by id; inputs: of the edits as they are now. What is known of an output, or of the last
     review, is not measured again while it is up to date; an asset on which the program cannot run has no result.

@@ -16,7 +16,7 @@ from meshforge.store import Layout
 
 
 def choose_next_step(state: FamilyState) -> NextStep:
-    """The first thing that is missing."""
+    """Return the first thing that is missing."""
     return (
         _decompose(state)
         or (None if state.is_begun else _label_first(state) or _complete_labels(state) or _demonstrate(state))
@@ -250,7 +250,6 @@ def _end(state: FamilyState) -> NextStep:
 
 
 def _count_assets(assets: Sequence[AssetStatus], one: str, many: str) -> str:
-    """The asset by its id, or how many there are, with the verb."""
     return f"{assets[0].id} {one}" if len(assets) == 1 else f"{pluralize(len(assets), 'asset')} {many}"
 
 

@@ -28,7 +28,8 @@ class HullMapping:
 
     @staticmethod
     def between(preparation: Preparation, old: Mapping[str, str], new: Mapping[str, str]) -> HullMapping:
-        """Of the hulls that are no more after a preparation; old, new: digests of the hulls before and after it."""
+        """Return of the hulls that are no more after a preparation; old, new: digests of the hulls before and after
+        it."""
         replaced = {r.what: tuple(r.made) for step in preparation.steps for r in step.replaced if r.kind == "hull"}
 
         def expand(name: str) -> tuple[str, ...]:
@@ -40,11 +41,12 @@ class HullMapping:
         return HullMapping({name: parts for name, parts in found.items() if parts}, {**new, **old})
 
     def map_names(self, names: Iterable[str]) -> tuple[str, ...]:
-        """Names with the parts of each hull in its place, sorted."""
+        """Return names with the parts of each hull in its place, sorted."""
         return tuple(sorted(part for name in names for part in self.parts.get(name, (name,))))
 
     def list_writes(self, store: Store, asset: str) -> list[tuple[Path, bytes]]:
-        """What to write to the files of which lines name other hulls. Raises ProjectError where one cannot be read."""
+        """Return what to write to the files of which lines name other hulls. Raises ProjectError where one cannot be
+        read."""
         layout, events = store.layout, files.load_events(store.layout)
         known = [one for one in store.feedback().answers_and_fixes.values() if one.asset == asset]
         after = tuple(one for event in events for one in (self._map_event(event) if event in known else (event,)))
@@ -97,7 +99,7 @@ def _map_steps(
 
 
 def describe_replaced(store: Store, asset: str) -> Iterator[str]:
-    """A sentence for each selection that names parts of a hull in its place and that no person has confirmed.
+    """Yield a sentence for each selection that names parts of a hull in its place and that no person has confirmed.
 
     Raises ProjectError where a file cannot be read.
     """

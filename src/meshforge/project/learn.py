@@ -24,7 +24,8 @@ MOST_COMPARED = 100
 
 
 def select_assets(store: Store) -> tuple[str, ...]:
-    """The assets to learn from: all, or of very many those that a person said something about, and some evenly."""
+    """Return the assets to learn from: all, or of very many those that a person said something about, and some
+    evenly."""
     feedback, every = store.feedback(), store.assets()
     if len(every) <= MOST_ASSETS:
         return every
@@ -35,12 +36,12 @@ def select_assets(store: Store) -> tuple[str, ...]:
 
 
 def sees_whole_family(store: Store) -> bool:
-    """Whether learning looks at all assets."""
+    """Return whether learning looks at all assets."""
     return len(store.assets()) <= MOST_ASSETS
 
 
 def suggest_first_demonstration(store: Store, assets: Sequence[str]) -> str | None:
-    """The id of the asset that tells most when it is demonstrated, None where there is nothing to choose by.
+    """Return the id of the asset that tells most when it is demonstrated, None where there is nothing to choose by.
 
     assets: ids of those that come into question.
     """
@@ -83,7 +84,7 @@ def accept_outcome(store: Store, outcome: synthesis.Found | synthesis.Ambiguous,
 
 
 def program_by_hand(store: Store) -> synthesis.Found | None:
-    """The program that a person wrote, as if it were learned; None where there is none."""
+    """Return the program that a person wrote, as if it were learned; None where there is none."""
     program = store.program()
     if program is None or not program_state_of(store, program).by_hand:
         return None
@@ -91,7 +92,7 @@ def program_by_hand(store: Store) -> synthesis.Found | None:
 
 
 def read_program_state(store: Store) -> ProgramState:
-    """The state of the project's program; one that does not parse was written by a person."""
+    """Return the state of the project's program; one that does not parse was written by a person."""
     try:
         return program_state_of(store, store.program())
     except ProgramError:
@@ -99,7 +100,7 @@ def read_program_state(store: Store) -> ProgramState:
 
 
 def program_state_of(store: Store, program: language.Program | None) -> ProgramState:
-    """The state of a program; one that a person wrote or changed is never outdated."""
+    """Return the state of a program; one that a person wrote or changed is never outdated."""
     if program is None:
         return ProgramState()
     record = store.program_record()
@@ -128,8 +129,8 @@ def replace_program(
 
 
 def digest_learning_inputs(store: Store, settings: Settings | None = None) -> str:
-    """The digest of all that is learned from: settings, what a person said, and all about the assets of which they said
-    something: steps, labels and files. settings: in place of those that are written.
+    """Return the digest of all that is learned from: settings, what a person said, and all about the assets of which
+    they said something: steps, labels and files. settings: in place of those that are written.
     """
     layout, feedback = store.layout, store.feedback()
     words: list[object] = [digest_settings(settings or store.settings), digest_demonstrations(store)]
@@ -147,13 +148,13 @@ def digest_learning_inputs(store: Store, settings: Settings | None = None) -> st
 
 
 def digest_settings(settings: Settings) -> str:
-    """The digest of the settings that decide labels and program."""
+    """Return the digest of the settings that decide labels and program."""
     words = [settings.orient, settings.vocabulary, settings.thresholds.model_dump(), *settings.extractors]
     return batch.value_digest(words)
 
 
 def digest_demonstrations(store: Store) -> str:
-    """The digest of all steps that people showed."""
+    """Return the digest of all steps that people showed."""
     return batch.value_digest(
         {asset: batch.content_digest(store.layout.demonstration(asset)) for asset in store.demonstration_ids()}
     )

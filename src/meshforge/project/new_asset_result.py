@@ -75,7 +75,7 @@ class NewAssetResult:
         return 1 - max((one.share for one in self.reasons), default=0.0)
 
     def describe(self) -> tuple[str, ...]:
-        """A sentence on each body that was rebuilt, each hull that was left, and on the labels."""
+        """Return a sentence on each body that was rebuilt, each hull that was left, and on the labels."""
         rows = [*map(str, self.rebuilt), *(f"{span}: left as it is" for span in self.spanning)]
         counts = Counter(_BY.get(one.source, "from a file") for one in self.taken.values())
         rows += [f"{pluralize(count, 'label')} {by}" for by, count in counts.items()]
@@ -88,7 +88,7 @@ class NewAssetResult:
         return (*rows, *self.notes)
 
     def to_json(self) -> dict[str, Any]:
-        """What the line of `apply --json` says of it."""
+        """Return what the line of `apply --json` says of it."""
         return {
             "rebuilt": [
                 {
@@ -116,7 +116,7 @@ def _span_to_json(span: HullSpan) -> dict[str, Any]:
 
 
 def describe_new(results: Sequence[NewAssetResult]) -> str | None:
-    """How many bodies of new assets were rebuilt, and how many hulls likely span parts and were left; None where
+    """Return how many bodies of new assets were rebuilt, and how many hulls likely span parts and were left; None where
     none."""
     bodies, left = sum(len(one.rebuilt) for one in results), sum(len(one.spanning) for one in results)
     rebuilt = [one.asset for one in results if one.rebuilt]
@@ -142,7 +142,7 @@ def assess_new_assets(
     results: Mapping[str, NewAssetResult],
     execution: batch.ExecutionOptions,
 ) -> dict[str, AssetConfidence]:
-    """How probable the edits of assets are that were prepared beside a project, each by itself, by id.
+    """Return how probable the edits of assets are that were prepared beside a project, each by itself, by id.
 
     results: what was guessed of them: an edit is at most as sure as that a body which was rebuilt has a hull that
     spans parts, and that a hull which was left does not. What their labels mean for the edit, the review of the project
@@ -215,7 +215,8 @@ class NewAssetFolder:
         return self.folder / "results" / f"{self.id}.json"
 
     def read(self, basis: str) -> NewAssetResult | None:
-        """What became of the asset; None where it, what it was prepared from or what was made of it is another now."""
+        """Return what became of the asset; None where it, what it was prepared from or what was made of it is another
+        now."""
         try:
             kept = _ResultRecord.model_validate_json(self._kept.read_bytes())
             same = kept.basis == basis and (kept.preparation, kept.labels) == self._digest()
@@ -241,7 +242,7 @@ class NewAssetFolder:
 def digest_basis(
     plan: PreparationPlan, labels: Path | None, preparation: Path | None, rest: Sequence[str | bool | float | None]
 ) -> str:
-    """A digest of all that a new asset is prepared from but its files. labels, preparation: what it has of these
+    """Return a digest of all that a new asset is prepared from but its files. labels, preparation: what it has of these
     before, None for nothing; rest: what is the same for all."""
     own = file_digest(labels) if labels and labels.exists() else None
     before = batch.record_digest(preparation) if preparation else None

@@ -107,8 +107,8 @@ def prepare_in_project(
 
 
 def list_new(store: Store) -> tuple[list[NewAsset], str | None]:
-    """The assets that came to a project after the others were prepared; and why they are not decomposed, where it is
-    unclear how."""
+    """Return the assets that came to a project after the others were prepared; and why they are not decomposed, where
+    it is unclear how."""
     plans, unclear = find_new_assets(store)
     layout = store.layout
     return [

@@ -43,7 +43,7 @@ def compute_status(
     stop: Callable[[], bool] | None = None,
     verify: bool = False,
 ) -> Status:
-    """How far everything is, what is stale, and the next sensible step.
+    """Return how far everything is, what is stale, and the next sensible step.
 
     only: ids; then the status holds these assets alone, and its next step counts besides them `others`, which are
     known already. workers, progress, stop: as of `meshforge.batch.run_isolated`, for assets that have to be read;
@@ -119,7 +119,7 @@ def _find_question(state: ProgramState, assets: Sequence[AssetStatus]) -> OpenQu
 def find_offers(
     store: Store, cache: labels.OfferCache | None = None, only: Collection[str] | None = None
 ) -> labels.LabelOffers:
-    """Labels in files and names; none where the settings make no sense, which taking the labels reports."""
+    """Return labels in files and names; none where the settings make no sense, which taking the labels reports."""
     try:
         return (cache or labels.OfferCache()).of(store, only)
     except MeshForgeError:
@@ -248,7 +248,7 @@ class ResultStatuses:
     last: AssessmentFile | None
 
     def add_to(self, asset: AssetStatus) -> AssetStatus:
-        """An asset with how it stands."""
+        """Return an asset with how it stands."""
         line = self.last.assets.get(asset.id) if self.last else None
         sign_off = self.signed.get(asset.id)
         void = self._find_void(asset, sign_off)

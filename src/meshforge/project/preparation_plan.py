@@ -59,7 +59,7 @@ class PreparationPlan:
 
 
 def read_preparation_plan(store: Store) -> PreparationPlan:
-    """What a project says about new assets. Raises ProjectError where its file is damaged."""
+    """Return what a project says about new assets. Raises ProjectError where its file is damaged."""
     kept = _read(store)
     known = kept.min_confidence
     rebuild = None if known is None else RebuildSettings(known, kept.pieces, kept.only)
@@ -138,7 +138,8 @@ def extend_plan(store: Store, assets: Collection[str], *, decomposed: bool, rebu
 
 
 def read_piece_engine(store: Store) -> PieceEngine:
-    """The engine of the fine pieces by which the hulls of all assets were looked at last, CoACD where they were not."""
+    """Return the engine of the fine pieces by which the hulls of all assets were looked at last, CoACD where they were
+    not."""
     return _read(store).pieces
 
 
@@ -157,7 +158,7 @@ def _change(store: Store, values: Mapping[str, Any]) -> None:
 
 
 def find_new_assets(store: Store) -> tuple[dict[str, PreparationPlan], str | None]:
-    """The assets that came after the others were prepared, with what is to be done to each; and why they are not
+    """Return the assets that came after the others were prepared, with what is to be done to each; and why they are not
     decomposed, where that is unclear. Raises ProjectError where the project's file is damaged."""
     kept = _read(store)
     every = frozenset(store.assets())

@@ -94,7 +94,7 @@ def exchange_preparation(
 
 
 def check_selections(store: Store, asset: str) -> None:
-    """Raises ProjectError, naming the file, where a demonstration, edits by hand or the events cannot be read."""
+    """Raise ProjectError, naming the file, where a demonstration, edits by hand or the events cannot be read."""
     store.steps(asset)
     store.manual_edits(asset)
     store.feedback()
@@ -114,7 +114,7 @@ class HullChange:
 
     @staticmethod
     def read(store: Store, asset: str, after: batch.Preparation) -> HullChange:
-        """Raises AssetError where the asset cannot be read, or the preparation does not fit it."""
+        """Raise AssetError where the asset cannot be read, or the preparation does not fit it."""
         source = read(store.path(asset))
         before = read_or_empty(store.layout.preparation(asset))
         mesh = SymbolicMesh.of(batch.apply_preparation(source, after))
@@ -151,19 +151,19 @@ class HullChange:
         History(self.store.folder).write(title, edit_of(kind, self.asset), [*writes, *others])
 
     def describe_gone(self) -> list[str]:
-        """A note on hulls that the demonstration names and that are no more."""
+        """Return a note on hulls that the demonstration names and that are no more."""
         gone = sorted({name for _, name in find_unknown_hulls(self.store.steps(self.asset), self.mesh.index)})
         note = f"the demonstration on it names {join_names(gone)}, which it has no more: demonstrate it anew"
         return [note] if gone else []
 
 
 def edit_of(kind: str, asset: str) -> dict[str, str]:
-    """What the history notes of a preparation, or of undoing one."""
+    """Return what the history notes of a preparation, or of undoing one."""
     return {"kind": kind, "asset": asset}
 
 
 def read_or_empty(folder: Path) -> batch.Preparation:
-    """The preparation in a folder, an empty one where there is none or it is damaged."""
+    """Return the preparation in a folder, an empty one where there is none or it is damaged."""
     try:
         return batch.read_preparation(folder) or batch.Preparation()
     except AssetError:
@@ -250,7 +250,7 @@ def _decompose_one(work: _DecomposeWork) -> tuple[batch.DecompositionResult, str
 
 
 def count_pieces(folder: Path) -> tuple[int, int]:
-    """How many pieces are done, of how many that are known, by the files of `decompose`."""
+    """Return how many pieces are done, of how many that are known, by the files of `decompose`."""
     rows = [path.read_text().split() for path in folder.iterdir() if path.name.isdecimal()]
     return sum(int(done) for done, _ in rows), sum(int(known) for _, known in rows)
 

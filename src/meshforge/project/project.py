@@ -48,11 +48,12 @@ class Project(Store):
         return Project.open(create_folder(folder, assets, name, vocabulary, orient))
 
     def with_cache(self, cache: MeshCache | None = None) -> Self:
-        """The same project, whose meshes stay in memory as long as their files do not change."""
+        """Return the same project, whose meshes stay in memory as long as their files do not change."""
         return replace(self, cache=cache or MeshCache())
 
     def add_assets(self, paths: Iterable[str | Path]) -> Project:
-        """The project with more assets: files below the folder that ids count from. Raises ProjectError for others."""
+        """Return the project with more assets: files below the folder that ids count from. Raises ProjectError for
+        others."""
         with self.lock():
             added = add_assets(self.folder, self.every, paths)
             if away := [asset for asset in added if asset in self.exclusions()]:

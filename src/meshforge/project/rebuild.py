@@ -159,7 +159,7 @@ class Rebuild:
         return {name: label for one in self.bodies for name, label in one.labels.items()}
 
     def describe_left(self, min_confidence: float) -> Iterator[str]:
-        """A sentence on hulls that stay as they are though they likely span parts."""
+        """Yield a sentence on hulls that stay as they are though they likely span parts."""
         below = [str(span) for span in self.left if span.chance < min_confidence]
         if below:
             more = f"; and {len(below) - _NAMED} more" if len(below) > _NAMED else ""
@@ -171,8 +171,8 @@ class Rebuild:
 def plan_rebuild(
     family: ReferenceFamily, source: Asset, before: batch.Preparation, mesh: SymbolicMesh, how: RebuildSettings
 ) -> Rebuild:
-    """How bodies of an asset are made anew. source: the asset as it was read; before: what is prepared already; mesh:
-    it as it is prepared, with its labels."""
+    """Return how bodies of an asset are made anew. source: the asset as it was read; before: what is prepared already;
+    mesh: it as it is prepared, with its labels."""
     report = family.find_spans(source, mesh)
     notes, likely = tuple(report.notes), _find_likely(report, before, how)
     spans = {span.hull: span for span in likely if span.chance >= how.min_confidence}
@@ -222,7 +222,7 @@ def _label_hull(hull: RebuiltHull) -> Label:
 
 
 def describe_labels(labels: Iterable[Label]) -> str:
-    """How many hulls have which label, and how sure these are: `10 wall (75% to 92%), handle (93%)`."""
+    """Return how many hulls have which label, and how sure these are: `10 wall (75% to 92%), handle (93%)`."""
     confidences = dict[str, list[float]]()
     for label in labels:
         confidences.setdefault(label.name, []).append(min(label.confidence, MOST_SHOWN))
@@ -242,7 +242,7 @@ _OF_FILES = "-one-hull-a-file"
 def describe_limits(
     source: Asset, before: batch.Preparation, after: batch.Preparation, engine: str | None = None
 ) -> list[str]:
-    """A sentence on each limit that the hulls exceed which a preparation makes more than another.
+    """Return a sentence on each limit that the hulls exceed which a preparation makes more than another.
 
     source: the asset as it was read; engine: its name, None for those that the asset's format is for. Raises UsageError
     for an unknown engine.

@@ -85,8 +85,8 @@ def reply_again(store: Store, question: ReviewQuestion, reply: ReviewReply) -> N
 
 
 def find_choice(question: ReviewQuestion, reply: ReviewReply) -> ReviewChoice | None:
-    """The choice that a reply names, None for none of them. Raises ProjectError for one that there is not, and for more
-    than can be said to the question."""
+    """Return the choice that a reply names, None for none of them. Raises ProjectError for one that there is not, and
+    for more than can be said to the question."""
     choice = question.choice(reply.choice)
     ids = [one.id for one in question.choices]
     if reply.choice is not None and choice is None:
@@ -171,7 +171,7 @@ def _repair(store: Store, question: signoff.RepairQuestion, choice: ReviewChoice
 
 
 def has_agreed_labels(store: Store) -> bool:
-    """Whether consensus gave labels, so that those of other hulls may follow what a person says of one."""
+    """Return whether consensus gave labels, so that those of other hulls may follow what a person says of one."""
     return any(label.source == "consensus" for asset in store.assets() for label in store.labels(asset).labels.values())
 
 

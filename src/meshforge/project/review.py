@@ -89,7 +89,7 @@ def assess_family(
     lost: Mapping[str, str] = MappingProxyType({}),
     stop: Callable[[], bool] = lambda: False,
 ) -> FamilyAssessment | None:
-    """How sure the edits of a family are; None once `stop` says so.
+    """Return how sure the edits of a family are; None once `stop` says so.
 
     meshes: of its assets that can be read, by id; outcome: what was learned, or by hand the program that a person
     wrote; before: taken before the meshes were read; lost: why others cannot be read.

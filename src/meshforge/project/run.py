@@ -22,7 +22,7 @@ from meshforge.store import NO_ORIGIN, ExclusionEvent, Feedback, Origin, Store, 
 
 
 def build_jobs(store: Store, only: Collection[str] | None = None) -> tuple[batch.AssetJob, ...]:
-    """A job for each asset, or for some, with the project's labels and edits by hand."""
+    """Return a job for each asset, or for some, with the project's labels and edits by hand."""
     layout, feedback = store.layout, store.feedback()
     return tuple(
         batch.AssetJob(
@@ -39,7 +39,7 @@ def build_jobs(store: Store, only: Collection[str] | None = None) -> tuple[batch
 
 
 def build_task(store: Store, program: language.Program) -> batch.ApplyTask:
-    """What `apply` does to each asset; the templates are those of the program and of all edits by hand."""
+    """Return what `apply` does to each asset; the templates are those of the program and of all edits by hand."""
     corrected = store.found.ids.keys() & set(store.layout.manual_edits.ids)
     edits = (edit for asset in sorted(corrected) for edit in store.manual_edits(asset))
     by_hand = (name for edit in edits for name in edit.action.templates)
@@ -51,7 +51,8 @@ def build_task(store: Store, program: language.Program) -> batch.ApplyTask:
 def build_work(
     store: Store, only: Collection[str] | None = None
 ) -> tuple[language.Program, tuple[batch.AssetJob, ...], Mapping[str, language.Template]]:
-    """What `apply` runs on all assets that are not excluded, or on some: the program, their jobs, and the templates.
+    """Return what `apply` runs on all assets that are not excluded, or on some: the program, their jobs, and the
+    templates.
 
     Where there is no program, but something is prepared, it is one without rules, which writes what is prepared.
     Raises ProjectError: no program yet and nothing prepared, or no such asset.
@@ -68,7 +69,7 @@ def build_work(
 
 
 def make_empty_program(store: Store) -> language.Program | None:
-    """A program without rules, by which assets are written as they are prepared; None where nothing is."""
+    """Return a program without rules, by which assets are written as they are prepared; None where nothing is."""
     return language.Program() if store.found.ids.keys() & set(store.layout.preparation.ids) else None
 
 
@@ -79,7 +80,7 @@ def mesh_before_rule(
     program: language.Program,
     meshes: Mapping[str, symbolic.SymbolicMesh] | None = None,
 ) -> symbolic.SymbolicMesh:
-    """An asset as a rule of a program meets it, rules counted from 1: turned, and edited by the rules before.
+    """Return an asset as a rule of a program meets it, rules counted from 1: turned, and edited by the rules before.
 
     These are done on the hulls that a demonstration shows for them, if there is one. meshes: assets in memory, by id.
     Raises MeshForgeError where the asset cannot be turned, or an action fails.
@@ -123,7 +124,8 @@ class RunWithManualEdits:
 def run_with_manual_edits(
     store: Store, asset: str, mesh: symbolic.SymbolicMesh, program: language.Program | None
 ) -> RunWithManualEdits:
-    """An asset after a program and its corrections; None changes nothing. Raises MeshForgeError where it cannot run."""
+    """Return an asset after a program and its corrections; None changes nothing. Raises MeshForgeError where it cannot
+    run."""
     plan = program or language.Program(orient=store.orientation)
     manual_edits = store.manual_edits(asset)
     names = [*plan.templates, *(name for one in manual_edits for name in one.action.templates)]
@@ -136,7 +138,7 @@ def run_with_manual_edits(
 def make_manual_edit(
     mesh: symbolic.SymbolicMesh, asset: str, select: Sequence[str], action: language.Action, label: str | None
 ) -> batch.ManualEdit:
-    """One more edit by hand, on hulls of the mesh. Raises ProjectError for a hull that is not there."""
+    """Return one more edit by hand, on hulls of the mesh. Raises ProjectError for a hull that is not there."""
     for name in select:
         if name not in mesh.index:
             remedy = suggest_name(name, mesh.index)
@@ -149,7 +151,7 @@ MOST_ACCEPTED = 100
 
 
 def find_selections(feedback: Feedback, asset: str) -> tuple[batch.RuleSelection, ...]:
-    """What a person said that rules select on an asset, when they called its result wrong."""
+    """Return what a person said that rules select on an asset, when they called its result wrong."""
     verdict = feedback.verdict_on(asset)
     return verdict.meant if verdict else ()
 
@@ -180,8 +182,8 @@ def review_assets(
 
 
 def revise_verdict(store: Store, before: VerdictEvent, reply: signoff.ReviewReply, origin: Origin) -> None:
-    """Another verdict on the result that one was given on before; where it is right now, what the rules did there is
-    what they should do. Raises ProjectError, with nothing written: no such rule, hull or label."""
+    """Give another verdict on the result that one was given on before; where it is right now, what the rules did there
+    is what they should do. Raises ProjectError, with nothing written: no such rule, hull or label."""
     verdict: Verdict = "wrong" if reply.choice == WRONG else "accepted"
     meant = before.seen if verdict == "accepted" else ()
     if reply.selections:
@@ -249,7 +251,8 @@ def _replace_selections(
 
 
 def find_accepted_results(store: Store) -> dict[str, tuple[batch.RuleSelection, ...]]:
-    """What the program did by itself on results that were looked at and accepted, by asset; of very many some."""
+    """Return what the program did by itself on results that were looked at and accepted, by asset; of very many
+    some."""
     verdicts = ((asset, some[-1]) for asset, some in store.feedback().verdicts.items() if asset in store.found.ids)
     rows = [(asset, one) for asset, one in verdicts if one.verdict == "accepted" and one.seen and not one.meant]
     some = labelling.pick_evenly(rows, MOST_ACCEPTED)
@@ -274,7 +277,7 @@ def number_selections(
 
 
 def output_digest(stamp: batch.Stamp | None) -> str | None:
-    """One digest of all files of an output, None where there is none."""
+    """Return one digest of all files of an output, None where there is none."""
     if not stamp or stamp.status not in ("edited", "unchanged"):
         return None
     return batch.text_digest("\n".join(f"{name} {digest}" for name, digest in sorted(stamp.outputs.items())))

@@ -30,7 +30,7 @@ MOST_LISTED = 12
 def format_counts(
     signed_off: int, total: int, need_review: int, excluded: Sequence[ExclusionReason], threshold: float
 ) -> str:
-    """The sentence that says how far a family is signed off; total: assets, but for those not of the family."""
+    """Return the sentence that says how far a family is signed off; total: assets, but for those not of the family."""
     others = excluded.count(NOT_OF_FAMILY)
     if not total:
         return f"Nothing is signed off: all {others} assets are excluded." if others else "There is no asset."
@@ -44,8 +44,8 @@ def format_counts(
 
 
 def format_review(found: ProjectReview, need_review: int = MOST_LISTED) -> str:
-    """How the family stands: the counts, then why assets need review, the least probable first; need_review: lines at
-    most."""
+    """Return how the family stands: the counts, then why assets need review, the least probable first; need_review:
+    lines at most."""
     one = found.assessment
     names = one.need_review
     lines = [format_counts(len(one.signed_off), len(one.assets), len(names), [*one.excluded.values()], one.threshold)]
@@ -58,7 +58,7 @@ def format_review(found: ProjectReview, need_review: int = MOST_LISTED) -> str:
 
 
 def format_status(found: Status) -> str:
-    """How far a project is signed off by its last review, and what is not, the least sure first."""
+    """Return how far a project is signed off by its last review, and what is not, the least sure first."""
     waits = found.count(lambda asset: asset.sign_off == "sure")
     done = waits + found.count(lambda asset: asset.sign_off == "signed off")
     excluded = [asset.excluded for asset in found.assets if asset.excluded] + [NOT_OF_FAMILY] * len(found.not_of_family)
@@ -109,7 +109,7 @@ def _format_range(shares: Sequence[float]) -> str:
 
 
 def format_result_status(asset: AssetStatus) -> str:
-    """How one asset stands: how sure its result is, and whether it is signed off, and by whom."""
+    """Return how one asset stands: how sure its result is, and whether it is signed off, and by whom."""
     if asset.sign_off == "void":
         return f"void, {join_names(asset.void)} changed since it was signed off"
     if asset.sign_off == "unknown":
@@ -136,7 +136,7 @@ class RunReport:
 
 
 def summarize_outputs(project: Project) -> batch.RunSummary:
-    """What runs have made of each asset so far, as if one run had just made all of it."""
+    """Return what runs have made of each asset so far, as if one run had just made all of it."""
     summary, out = batch.RunSummary(shown=project.reference_measures()), project.layout.edited
     for asset in project.assets():
         stamp = batch.read_stamp(out, asset)
@@ -160,7 +160,7 @@ def build_run_report(
     title: str | None = None,
     execution: batch.ExecutionOptions = batch.EXECUTION_DEFAULTS,
 ) -> RunReport:
-    """The report of a run, what needs review first; what was not written is shown as it would be.
+    """Return the report of a run, what needs review first; what was not written is shown as it would be.
 
     title: by default the name of the project; measures: what is measured of each result. Raises StoppedError where
     `execution.stop` says so.
@@ -187,7 +187,8 @@ def build_run_report(
 def add_result_status(
     assets: Iterable[batch.ReportAsset], found: Status, not_written: Collection[str] = ()
 ) -> list[batch.ReportAsset]:
-    """The assets of a project with how sure each result is; alarms of the run take the place of those of a review."""
+    """Return the assets of a project with how sure each result is; alarms of the run take the place of those of a
+    review."""
     known = {asset.id: asset for asset in found.assets}
     return [_add_result_status(asset, known[asset.name], asset.name in not_written) for asset in assets]
 
@@ -204,6 +205,6 @@ def _add_result_status(shown: batch.ReportAsset, asset: AssetStatus, is_not_writ
 
 
 def word_of(asset: AssetStatus) -> batch.ResultStatusWord:
-    """How an asset of a project stands, in a word."""
+    """Return how an asset of a project stands, in a word."""
     state = asset.sign_off
     return "needs review" if state == "needs review" or state == "void" or state == "unknown" else state

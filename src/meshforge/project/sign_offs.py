@@ -34,12 +34,13 @@ Clock = Callable[[], datetime]
 
 
 def now_utc() -> datetime:
-    """The present time."""
+    """Return the present time."""
     return datetime.now(UTC)
 
 
 def find_inputs(store: Store, execution: batch.ExecutionOptions = EXECUTION_DEFAULTS) -> dict[str, batch.OutputInputs]:
-    """The digests of all that decides the edit of each asset that can be read; none where there is no program."""
+    """Return the digests of all that decides the edit of each asset that can be read; none where there is no
+    program."""
     program = store.program()
     return _digest_edits(store, run.build_task(store, program), execution) if program else {}
 
@@ -56,14 +57,14 @@ def _digest_edits(
 
 
 def digest_inputs(store: Store) -> str:
-    """The digest of all that probabilities rest on beside the assets: what is learned from, what a person said, and
-    whether they saw what preparations changed of it."""
+    """Return the digest of all that probabilities rest on beside the assets: what is learned from, what a person said,
+    and whether they saw what preparations changed of it."""
     unconfirmed = [text for asset in store.demonstration_ids() for text in describe_replaced(store, asset)]
     return batch.value_digest([digest_learning_inputs(store), digest_feedback(store), unconfirmed])
 
 
 def digest_feedback(store: Store) -> str:
-    """The digest of what people said: answers and fixes, verdicts without notes, and exclusions."""
+    """Return the digest of what people said: answers and fixes, verdicts without notes, and exclusions."""
     feedback = store.feedback()
     lines = [*feedback.answers_and_fixes.values(), *(one for some in feedback.verdicts.values() for one in some)]
     answers = [one.model_dump(mode="json", exclude={"note", "by", "question"}) for one in lines]
@@ -74,7 +75,7 @@ def digest_feedback(store: Store) -> str:
 def find_bases(
     store: Store, edits: Mapping[str, batch.OutputInputs], outputs: Mapping[str, AssetOutput]
 ) -> dict[str, SignOffBasis]:
-    """What a sign-off of each asset would rest on now. edits: the digests of all that decides its edit."""
+    """Return what a sign-off of each asset would rest on now. edits: the digests of all that decides its edit."""
     settings, answers = (
         digest_settings(store.settings),
         batch.value_digest([digest_demonstrations(store), digest_feedback(store)]),
@@ -93,13 +94,13 @@ class AssessmentBasis:
 
     @staticmethod
     def take(store: Store, execution: batch.ExecutionOptions = EXECUTION_DEFAULTS) -> AssessmentBasis:
-        """The digests as they are, of edits by an empty program: which it will be is often learned since."""
+        """Return the digests as they are, of edits by an empty program: which it will be is often learned since."""
         return AssessmentBasis(
             digest_inputs(store), _digest_edits(store, run.build_task(store, language.Program()), execution)
         )
 
     def under(self, store: Store, program: language.Program | None) -> AssessmentBasis:
-        """The same of edits by a program; without one there are none."""
+        """Return the same of edits by a program; without one there are none."""
         if program is None:
             return AssessmentBasis(self.inputs_digest, {})
         digest, templates = batch.program_digest(program), batch.template_digests(store.templates(program.templates))
@@ -195,6 +196,6 @@ def _describe_loss(old: SignOff, line: ConfidenceLine, changes: tuple[str, ...],
 
 
 def is_written(stamp: batch.Stamp | None, now: batch.OutputInputs) -> bool:
-    """Whether an output is what the edit would make."""
+    """Return whether an output is what the edit would make."""
     made = stamp.inputs if stamp and stamp.status in ("edited", "unchanged") else None
     return made is not None and not find_changes(now, made)

@@ -87,7 +87,7 @@ class AssetStatus:
         return self.output in ("edited", "unchanged") and not self.stale
 
     def confidence_to_json(self) -> dict[str, Any]:
-        """How sure its edit is, as `status`, `apply` and `info` say it in JSON."""
+        """Return how sure its edit is, as `status`, `apply` and `info` say it in JSON."""
         share = None if self.probability is None else round(self.probability, 4)
         return {"probability": share, "reasons": [reason.to_json() for reason in self.reasons]}
 
@@ -194,11 +194,11 @@ class Status:
         return "signed off" in states and states <= {"signed off", "excluded"}
 
     def count(self, holds: Callable[[AssetStatus], bool]) -> int:
-        """How many assets a condition holds for."""
+        """Return how many assets a condition holds for."""
         return sum(map(holds, self.assets))
 
     def to_json(self) -> dict[str, Any]:
-        """The status for scripts."""
+        """Return the status for scripts."""
         return {
             "name": self.name,
             "vocabulary": list(self.vocabulary),

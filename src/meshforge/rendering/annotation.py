@@ -29,25 +29,25 @@ PixelBox = tuple[float, float, float, float]
 
 @cache
 def font(size: int) -> Any:
-    """The scalable default font at a size in pixels."""
+    """Return the scalable default font at a size in pixels."""
     from PIL import ImageFont  # lazy: 0.03 s, only words on pictures need it
 
     return ImageFont.load_default(size)
 
 
 def text_scale(size: tuple[int, int]) -> float:
-    """How large words and gaps are in a picture of this size; 1 at 800 by 600."""
+    """Return how large words and gaps are in a picture of this size; 1 at 800 by 600."""
     width, height = size
     return min(max(min(width / 800, height / 600), 0.62), 4.0)
 
 
 def text_width(text: str, size: int) -> float:
-    """The width of one line of text in pixels."""
+    """Return the width of one line of text in pixels."""
     return float(font(size).getlength(text))
 
 
 def shorten(text: str, size: int, room: float) -> str:
-    """The text, its end replaced by an ellipsis where it is wider than `room` pixels."""
+    """Return the text, its end replaced by an ellipsis where it is wider than `room` pixels."""
     text = " ".join(text.split())
     if text_width(text, size) <= room:
         return text
@@ -57,7 +57,7 @@ def shorten(text: str, size: int, room: float) -> str:
 
 
 def draw_heading(draw: Any, size: tuple[int, int], title: str | None, caption: str | None) -> int:
-    """Writes title (left) and caption (right, or left alone) along the top; returns the height it takes."""
+    """Write title (left) and caption (right, or left alone) along the top; returns the height it takes."""
     if not title and not caption:
         return 0
     u = text_scale(size)
@@ -77,14 +77,14 @@ def draw_heading(draw: Any, size: tuple[int, int], title: str | None, caption: s
 
 
 def legend_height(coloring: HullColors, size: tuple[int, int]) -> int:
-    """The height that the legend takes at the bottom of a picture."""
+    """Return the height that the legend takes at the bottom of a picture."""
     rows = 1 + max((row for _, _, row in _lay_out_entries(coloring, size)), default=-1)
     u = text_scale(size)
     return round(rows * 24 * u + 12 * u) if rows or coloring.gradient else 0
 
 
 def draw_legend(draw: Any, size: tuple[int, int], coloring: HullColors) -> None:
-    """Draws colours with their names and counts along the bottom."""
+    """Draw colours with their names and counts along the bottom."""
     u = text_scale(size)
     small, box = round(13 * u), round(12 * u)
     top = size[1] - legend_height(coloring, size) + round(6 * u)
@@ -150,7 +150,8 @@ class LabelAnchor:
 
 
 def find_label_anchors(items: Ints, wanted: Collection[int] | None = None, least: int = 1) -> dict[int, LabelAnchor]:
-    """The middle of each wanted item, by default of all, that at least so many pixels (h, w) show; most room first."""
+    """Return the middle of each wanted item, by default of all, that at least so many pixels (h, w) show; most room
+    first."""
     from scipy.ndimage import find_objects  # lazy: 0.3 s, only pictures need it
 
     counts = count_pixels(items)
@@ -164,7 +165,7 @@ def find_label_anchors(items: Ints, wanted: Collection[int] | None = None, least
 
 
 def count_pixels(items: Ints, count: int = 0) -> Ints:
-    """How many pixels (h, w) show each item, for `count` items at least; -1 is none."""
+    """Return how many pixels (h, w) show each item, for `count` items at least; -1 is none."""
     return np.bincount(items.ravel() + 1, minlength=count + 1)[1:]
 
 

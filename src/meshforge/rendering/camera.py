@@ -67,24 +67,24 @@ class Camera:
     size: tuple[int, int]
 
     def project(self, points: Floats) -> Floats:
-        """Points (n, 3) on the image plane: right and up (n, 2)."""
+        """Return points (n, 3) on the image plane: right and up (n, 2)."""
         if self.eye is None:
             return points @ self.axes[:2].T
         local = (points - self.eye) @ self.axes.T
         return local[:, :2] / -local[:, 2:]
 
     def to_pixels(self, points: Floats) -> Floats:
-        """Points (n, 3) in the picture: column and row (n, 2), the first pixel's centre at (0, 0)."""
+        """Return points (n, 3) in the picture: column and row (n, 2), the first pixel's centre at (0, 0)."""
         offset = (self.project(points) - self.middle) / self.scale
         return (np.array(self.size) - 1) / 2 + offset * [1, -1]
 
     def supersample(self, factor: int) -> Camera:
-        """The same camera with `factor` times as many pixels along each side."""
+        """Return the same camera with `factor` times as many pixels along each side."""
         width, height = self.size
         return Camera(self.axes, self.eye, self.middle, self.scale / factor, (width * factor, height * factor))
 
     def pixel_rays(self, columns: PixelCoordinates, rows: PixelCoordinates) -> tuple[Floats, Floats]:
-        """Origins (n, 3) and directions (n, 3), or (1, 3) where all agree, of the rays through n pixels."""
+        """Return origins (n, 3) and directions (n, 3), or (1, 3) where all agree, of the rays through n pixels."""
         right, up = self.plane_coordinates(columns, rows)
         aside = right[:, None] * self.axes[0] + up[:, None] * self.axes[1]
         if self.eye is None:
@@ -92,18 +92,18 @@ class Camera:
         return np.broadcast_to(self.eye, aside.shape), aside - self.axes[2]
 
     def directions_to_eye(self, points: Floats) -> Floats:
-        """Directions (n, 3) from points to the eye, not of unit length."""
+        """Return directions (n, 3) from points to the eye, not of unit length."""
         return np.broadcast_to(self.axes[2], points.shape) if self.eye is None else self.eye - points
 
     def plane_coordinates(self, columns: PixelCoordinates, rows: PixelCoordinates) -> tuple[Floats, Floats]:
-        """Right and up of pixel columns and rows on the image plane."""
+        """Return right and up of pixel columns and rows on the image plane."""
         width, height = self.size
         right = self.middle[0] + (columns - (width - 1) / 2) * self.scale
         return right, self.middle[1] - (rows - (height - 1) / 2) * self.scale
 
 
 def aim_camera(view: View, up: Up, size: tuple[int, int], points: Floats, margin: float = _MARGIN) -> Camera:
-    """The camera of a named view that fills a picture of size (width, height) with points (n, 3).
+    """Return the camera of a named view that fills a picture of size (width, height) with points (n, 3).
 
     The points are in a frame where their middle is near the origin and their diagonal near one. margin: the free border
     on every side, as a share of the picture.
@@ -118,7 +118,7 @@ def aim_camera(view: View, up: Up, size: tuple[int, int], points: Floats, margin
 
 
 def aim_orbit(turns: Sequence[float], up: Up, size: tuple[int, int], points: Floats) -> list[Camera]:
-    """Cameras on a circle about points (n, 3), all at the height and distance of the view `iso`.
+    """Return cameras on a circle about points (n, 3), all at the height and distance of the view `iso`.
 
     turns: places on it, 0 is `iso`, 1 once round; points: as for `aim_camera`.
     All cameras have the same scale and centre, so that what turns stands still.
@@ -139,7 +139,7 @@ def aim_orbit(turns: Sequence[float], up: Up, size: tuple[int, int], points: Flo
 
 
 def axes_of(view: View, up: Up) -> Floats:
-    """The rows (3, 3) right, up and towards the eye of a named view."""
+    """Return the rows (3, 3) right, up and towards the eye of a named view."""
     return _axes_towards(np.array(_EYE_DIRECTIONS[view]), up, view)
 
 

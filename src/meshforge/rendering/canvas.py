@@ -52,7 +52,7 @@ class Canvas:
         annotation.draw_legend(self._draw, size, coloring)
 
     def paste_drawing(self, pixels: Floats32, at: tuple[int, int]) -> None:
-        """Lays a premultiplied drawing (h, w, 4) over the paper, its corner at (left, top)."""
+        """Lay a premultiplied drawing (h, w, 4) over the paper, its corner at (left, top)."""
         from PIL import Image  # lazy: 0.01 s, only pictures need it
 
         part = self.image.crop((*at, at[0] + pixels.shape[1], at[1] + pixels.shape[0]))
@@ -65,7 +65,7 @@ class Canvas:
         self.image.paste(Image.fromarray(np.rint(np.clip(mixed, 0, 1) * 255).astype(np.uint8), self.image.mode), at)
 
     def outline_items(self, items: Ints, colors: Mapping[int, str], at: tuple[int, int] = (0, 0)) -> None:
-        """Draws a line, white and then of its colour `#rrggbb`, about each of some items seen at (left, top)."""
+        """Draw a line, white and then of its colour `#rrggbb`, about each of some items seen at (left, top)."""
         from PIL import Image  # lazy: 0.01 s, only pictures need it
         from scipy.ndimage import distance_transform_edt  # lazy: 0.3 s, only pictures need it
 
@@ -81,13 +81,13 @@ class Canvas:
                 self.image.paste(ink, box, Image.fromarray(np.rint(share * 255).astype(np.uint8)))
 
     def write_message(self, text: str, box: tuple[int, int, int, int]) -> None:
-        """Writes a text into the middle of a box."""
+        """Write a text into the middle of a box."""
         left, top, right, bottom = box
         font = annotation.font(round(20 * annotation.text_scale(self.size)))
         self._draw.text(((left + right) / 2, (top + bottom) / 2), text, fill=annotation.FAINT, font=font, anchor="mm")
 
     def write_view_name(self, text: str, at: tuple[int, int]) -> None:
-        """Writes the name of a view into the corner at (left, top)."""
+        """Write the name of a view into the corner at (left, top)."""
         u = annotation.text_scale(self.size)
         place, font = (at[0] + 16 * u, at[1] + 8 * u), annotation.font(round(13 * u))
         self._draw.text(place, text, fill=annotation.FAINT, font=font, anchor="lt")
@@ -115,7 +115,7 @@ def make_contact_sheet(
     titles: Sequence[str] = (),
     colors: Mapping[str, str] = _NO_COLORS,
 ) -> Image:
-    """Pictures in rows, `columns` in each (about as many as rows by default), centred in cells of equal size.
+    """Return pictures in rows, `columns` in each (about as many as rows by default), centred in cells of equal size.
 
     titles: a line below each picture; none, or one each. colors: what the legend at the bottom says, a colour
     `#rrggbb` by its meaning. Raises UsageError where there is no picture.
@@ -148,21 +148,21 @@ def make_contact_sheet(
 
 
 def encode_png(image: Image) -> bytes:
-    """The picture as a PNG file."""
+    """Return the picture as a PNG file."""
     stream = BytesIO()
     image.save(stream, "PNG", optimize=False, compress_level=6)
     return stream.getvalue()
 
 
 def encode_webp(image: Image, quality: int = 82) -> bytes:
-    """The picture as a small WebP file, transparency kept."""
+    """Return the picture as a small WebP file, transparency kept."""
     stream = BytesIO()
     image.save(stream, "WEBP", quality=quality, alpha_quality=90, method=2)
     return stream.getvalue()
 
 
 def encode_jpeg(image: Image) -> bytes:
-    """The picture as a JPEG file; what is transparent becomes white."""
+    """Return the picture as a JPEG file; what is transparent becomes white."""
     from PIL import Image as Images  # lazy: 0.01 s, only pictures need it
 
     stream, paper = BytesIO(), image
@@ -189,18 +189,18 @@ def check_picture_path(path: Path) -> None:
 
 
 def write_picture(path: Path, image: Image) -> None:
-    """Writes a picture as its suffix says. Raises UsageError for another suffix, and where it cannot be written."""
+    """Write a picture as its suffix says. Raises UsageError for another suffix, and where it cannot be written."""
     check_picture_path(path)
     write_file(path, PICTURE_FORMATS[path.suffix.lower()](image))
 
 
 def write_png(path: Path, image: Image) -> None:
-    """Writes a picture as a PNG file. Raises UsageError where it cannot be written."""
+    """Write a picture as a PNG file. Raises UsageError where it cannot be written."""
     write_file(path, encode_png(image))
 
 
 def write_file(path: Path, data: bytes) -> None:
-    """Writes an encoded picture. Raises UsageError where it cannot be written."""
+    """Write an encoded picture. Raises UsageError where it cannot be written."""
     try:
         write_atomically(path, data)
     except OSError as error:

@@ -56,36 +56,37 @@ _DIMMER = 0.86  # and this much darker each time
 
 
 def rgb(color: str) -> Floats:
-    """A colour `#rrggbb` as red, green and blue (3,) in 0..1."""
+    """Return a colour `#rrggbb` as red, green and blue (3,) in 0..1."""
     return np.array([int(color[k : k + 2], 16) / 255 for k in (1, 3, 5)])
 
 
 def hexadecimal(color: Floats) -> str:
-    """Red, green and blue (3,) in 0..1 as `#rrggbb`."""
+    """Return red, green and blue (3,) in 0..1 as `#rrggbb`."""
     return "#" + "".join(f"{round(float(c) * 255):02X}" for c in color)
 
 
 def label_color(index: int) -> str:
-    """The colour of the label at this place of the vocabulary; after two dozen they come round again."""
+    """Return the colour of the label at this place of the vocabulary; after two dozen they come round again."""
     return LABEL_COLORS[index % len(LABEL_COLORS)]
 
 
 def confidence_color(confidence: float) -> Floats:
-    """A colour (3,) for a confidence in 0..1."""
+    """Return a colour (3,) for a confidence in 0..1."""
     stops = np.array([rgb(c) for c in CONFIDENCE])
     at = np.linspace(0, 1, len(stops))
     return np.array([np.interp(confidence, at, stops[:, k]) for k in range(3)])
 
 
 def perceive_colors(colors: Floats) -> Floats:
-    """Colours (n, 3) as seen by three kinds of eyes (3, n, 3) in Oklab, where distance is difference."""
+    """Return colours (n, 3) as seen by three kinds of eyes (3, n, 3) in Oklab, where distance is difference."""
     linear = to_linear(colors)
     seen = [np.clip(linear @ eye.T, 0, 1) for eye in (np.eye(3), _DEUTERANOPIA, _PROTANOPIA)]
     return np.array([np.cbrt(s @ _TO_CONES.T) @ _TO_LAB.T for s in seen])
 
 
 def color_distance(seen: Floats, other: Floats) -> Floats:
-    """How different perceived colours (3, n, 3) are from one other (3, 1, 3): for most eyes, and for the worst."""
+    """Return how different perceived colours (3, n, 3) are from one other (3, 1, 3): for most eyes, and for the
+    worst."""
     gaps = np.linalg.norm(seen - other, axis=2)
     difference: Floats = 0.5 * gaps[0] + 0.5 * gaps.min(axis=0)
     return difference
@@ -93,7 +94,8 @@ def color_distance(seen: Floats, other: Floats) -> Floats:
 
 @cache
 def candidate_colors() -> tuple[Floats, Floats]:
-    """Friendly colours of even strength (n, 3), a blue first, that hulls are given; and how each is perceived."""
+    """Return friendly colours of even strength (n, 3), a blue first, that hulls are given; and how each is
+    perceived."""
     lightness, chroma, hue = np.meshgrid([0.68, 0.77, 0.86], [0.07, 0.12], 4.4 + np.arange(30) * (np.pi / 15))
     lab = np.stack([lightness, chroma * np.cos(hue), chroma * np.sin(hue)], axis=-1).reshape(-1, 3)
     linear = (lab @ np.linalg.inv(_TO_LAB).T) ** 3 @ np.linalg.inv(_TO_CONES).T
@@ -105,7 +107,7 @@ def candidate_colors() -> tuple[Floats, Floats]:
 
 
 def to_linear(colors: Floats) -> Floats:
-    """Colours in sRGB as linear light, both in 0..1."""
+    """Return colours in sRGB as linear light, both in 0..1."""
     return np.where(colors <= 0.04045, colors / 12.92, ((colors + 0.055) / 1.055) ** 2.4)
 
 
@@ -134,7 +136,7 @@ class HullColors:
 def color_hulls(
     mesh: SymbolicMesh, color_by: ColorBy, vocabulary: Sequence[str] = (), known: Mapping[str, Floats] | None = None
 ) -> HullColors:
-    """The colours of a mesh's hulls.
+    """Return the colours of a mesh's hulls.
 
     vocabulary: the order in which labels get colours; labels outside it come after it, in order of the alphabet.
     known: colours of hulls, by name, that stay as they are when colouring by hull.
@@ -156,12 +158,12 @@ def color_hulls(
 
 
 def label_colors(labels: Iterable[str]) -> dict[str, str]:
-    """The colour `#rrggbb` of each label of a vocabulary."""
+    """Return the colour `#rrggbb` of each label of a vocabulary."""
     return {label: label_color(k) for k, label in enumerate(dict.fromkeys(labels))}
 
 
 def highlight_hulls(mesh: SymbolicMesh, names: frozenset[str]) -> HullColors:
-    """Hulls of these names in a strong colour, all others pale."""
+    """Return hulls of these names in a strong colour, all others pale."""
     picked = [h.name in names for h in mesh.hulls]
     colors = np.array([rgb(SELECTED if p else PALE) for p in picked]).reshape(-1, 3)
     rest = LegendEntry(PALE, "others", picked.count(False))
@@ -188,7 +190,8 @@ def _color_by_confidence(mesh: SymbolicMesh) -> HullColors:
 def pick_distinct_colors(
     mesh: SymbolicMesh, picked: Iterable[int], known: Mapping[int, Floats] | None = None
 ) -> Floats:
-    """Colours (k, 3) of the picked hulls, far from each other, those of hulls in contact farthest; greedy, in order.
+    """Return colours (k, 3) of the picked hulls, far from each other, those of hulls in contact farthest; greedy, in
+    order.
 
     known: colours of hulls, by index, that are settled.
     """

@@ -42,7 +42,7 @@ def compare(
     background: str | None = "light",
     up: Up | None = None,
 ) -> tuple[Image, Image]:
-    """The two pictures, without words, seen by one camera; a hull that stays keeps its colour."""
+    """Return the two pictures, without words, seen by one camera; a hull that stays keeps its colour."""
     first = color_hulls(before, color_by, vocabulary)
     known = {h.name: c for h, c in zip(before.hulls, first.colors, strict=True)}
     second = color_hulls(after, color_by, vocabulary, known)
@@ -63,7 +63,7 @@ def draw_before_after(
     vocabulary: Sequence[str] = (),
     up: Up | None = None,
 ) -> Image:
-    """Both pictures side by side, each of `size`, with the number of hulls below each."""
+    """Return both pictures side by side, each of `size`, with the number of hulls below each."""
     pair = compare(before, after, view=view, color_by=color_by, size=size, vocabulary=vocabulary, up=up)
     titles = (f"before: {pluralize(len(before.hulls), 'hull')}", f"after: {pluralize(len(after.hulls), 'hull')}")
     return make_contact_sheet(pair, columns=2, titles=titles)
@@ -77,7 +77,8 @@ def draw_changes(
     view: View = "iso",
     size: tuple[int, int] = (640, 480),
 ) -> Image:
-    """Both pictures side by side, each of `size`, under one camera: what an edit changed is marked, the rest as it was.
+    """Return both pictures side by side, each of `size`, under one camera: what an edit changed is marked, the rest as
+    it was.
 
     Hulls that only one of them has are removed or made; changed: names of hulls of both that have another shape. These
     have a colour and an outline of their own, all but the made ones stripes, and a legend below says what each is. All
@@ -120,7 +121,6 @@ class _ChangeKinds:
     changed: frozenset[str]
 
     def of(self, name: str) -> str | None:
-        """`removed`, `made` or `changed`, None for a hull that is as it was."""
         if name not in self.before:
             return "made"
         if name not in self.after:
@@ -143,7 +143,7 @@ def draw_difference(
     background: str | None = "light",
     up: Up | None = None,
 ) -> Image:
-    """What an edit did: made hulls green, kept ones grey, removed ones as red, striped shells."""
+    """Return what an edit did: made hulls green, kept ones grey, removed ones as red, striped shells."""
     gone, fresh = find_replaced(before, after)
     colors = np.array([rgb(palette.MADE if k in fresh else palette.KEPT) for k in range(len(after.hulls))]).reshape(
         -1, 3
@@ -161,8 +161,8 @@ def draw_difference(
 
 
 def find_replaced(before: SymbolicMesh, after: SymbolicMesh) -> tuple[list[Hull], frozenset[int]]:
-    """The hulls that an edit took away, and the numbers of those that it made; one that it replaced may have its name
-    still, but not its shape."""
+    """Return the hulls that an edit took away, and the numbers of those that it made; one that it replaced may have its
+    name still, but not its shape."""
     near = 1e-6 * max(before.diagonal, after.diagonal)
     same = {
         hull.name
@@ -174,7 +174,7 @@ def find_replaced(before: SymbolicMesh, after: SymbolicMesh) -> tuple[list[Hull]
 
 
 def joint_bounds(*meshes: SymbolicMesh) -> Aabb | None:
-    """The box around all hulls of some meshes, None where there is none."""
+    """Return the box around all hulls of some meshes, None where there is none."""
     boxes = [m.aabb for m in meshes if m.aabb]
     return Aabb.union(boxes) if boxes else None
 
@@ -215,7 +215,7 @@ def draw_heat_map(
     title: str,
     unit: LengthUnit = "m",
 ) -> Image:
-    """Things coloured by `measure`, a length [m] at points (n, 3) of things of these numbers (n,), in six bands.
+    """Return things coloured by `measure`, a length [m] at points (n, 3) of things of these numbers (n,), in six bands.
 
     most: where the last band begins [m], the first is a quarter of it wide; mesh: says which axis points up; unit: of
     the legend.
@@ -242,7 +242,7 @@ def _band_legend(edges: Floats, unit: LengthUnit) -> tuple[LegendEntry, ...]:
 
 
 def draw_volumes(mesh: SymbolicMesh, marked: Sequence[VolumeMark], *, size: tuple[int, int], title: str) -> Image:
-    """The marked parts of space, solid, within the hulls of a mesh as grey shells."""
+    """Return the marked parts of space, solid, within the hulls of a mesh as grey shells."""
     parts, shells = [to_render_mesh(surface) for _, _, surface in marked], picture.render_meshes_of(mesh.hulls)
     colors = np.array([rgb(color) for _, color, _ in marked]).reshape(-1, 3)
     names = dict.fromkeys((color, name) for name, color, _ in marked)

@@ -14,7 +14,7 @@ _REACH = 4.0  # standard deviations beyond which a Gaussian is nothing
 
 
 def blur(picture: npt.NDArray[Any], sigma: float) -> npt.NDArray[Any]:
-    """A picture (h, w) under a Gaussian of some standard deviation [px], mirrored at its sides."""
+    """Return a picture (h, w) under a Gaussian of some standard deviation [px], mirrored at its sides."""
     reach = int(_REACH * sigma + 0.5)
     weights = np.exp(-0.5 / (sigma * sigma) * np.arange(-reach, reach + 1) ** 2)
     weights /= weights.sum()
@@ -29,7 +29,8 @@ def blur(picture: npt.NDArray[Any], sigma: float) -> npt.NDArray[Any]:
 
 
 def sample(picture: npt.NDArray[Any], places: Floats) -> npt.NDArray[Any]:
-    """What a picture (h, w) shows at places (n, 2) between its pixels, rows first; 0 beyond the outer ones' middles."""
+    """Return what a picture (h, w) shows at places (n, 2) between its pixels, rows first; 0 beyond the outer ones'
+    middles."""
     last = np.array(picture.shape) - 1
     inside = ((places >= 0) & (places <= last)).all(axis=1)
     low = np.floor(places[inside]).astype(np.int64)
@@ -45,7 +46,7 @@ def sample(picture: npt.NDArray[Any], places: Floats) -> npt.NDArray[Any]:
 
 
 def keep_reached(low: Bools, high: Bools) -> Bools:
-    """The pixels (h, w) of `low` that hang together, by corners too, with one that is `high` besides."""
+    """Return the pixels (h, w) of `low` that hang together, by corners too, with one that is `high` besides."""
     number = np.full((low.shape[0] + 2, low.shape[1] + 2), -1)
     inner = number[1:-1, 1:-1]
     count = int(np.count_nonzero(low))

@@ -24,7 +24,8 @@ DrawnView = tuple[Ints, tuple[int, int]]
 
 
 def write_hull_names(image: Image, views: Sequence[DrawnView], names: Sequence[str], colors: Floats) -> Image:
-    """The picture with the names of hulls on it, or with their numbers, which count from 0 in the order of `names`.
+    """Return the picture with the names of hulls on it, or with their numbers, which count from 0 in the order of
+    `names`.
 
     Numbers stand there where the names would not fit; a legend below the picture then has the name of each. Hulls that
     are hidden, or too small for a text, in all views are listed there in any case. colors: (n, 3), of the hulls.
@@ -50,7 +51,8 @@ def write_hull_names(image: Image, views: Sequence[DrawnView], names: Sequence[s
 
 
 def place_texts(items: Ints, texts: Mapping[int, str], size: tuple[int, int]) -> list[NumberPlace]:
-    """Where texts go in a drawing, none over another; items: (h, w), what each pixel shows; size: of the picture."""
+    """Return where texts go in a drawing, none over another; items: (h, w), what each pixel shows; size: of the
+    picture."""
     u = text_scale(size)
     heights = [max(11, round(share * u)) for share in (14, 11)]
     sizes: dict[int, dict[int, TextSize]] = {

@@ -40,8 +40,8 @@ def render_thumbnail(
     view: View = "iso",
     through: Collection[int] = (),
 ) -> ThumbnailPixels:
-    """Pixels (height, width, 4): red * 256 + green is the index of a hull plus one, 0 for what is no hull (background,
-    opaque pieces); blue is the light there, alpha how much of the pixel is covered. Z points up.
+    """Return pixels (height, width, 4): red * 256 + green is the index of a hull plus one, 0 for what is no hull
+    (background, opaque pieces); blue is the light there, alpha how much of the pixel is covered. Z points up.
 
     pose: shown_T_incoming. through: places of hulls that are seen through what lies before them: of each square of two
     by two pixels, two show them.

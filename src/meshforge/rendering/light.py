@@ -30,7 +30,7 @@ _SOFTNESS = 1.2  # blur in cells, enough to hide the pattern of turns
 
 
 def shade(colors: Floats, normals: Floats, camera: Camera, upright: Floats) -> Floats32:
-    """The colours (n, 3), sRGB in 0..1, of surfaces with such normals (n, 3); double-sided."""
+    """Return the colours (n, 3), sRGB in 0..1, of surfaces with such normals (n, 3); double-sided."""
     normals = normals * np.where(normals @ camera.axes[2] < 0, -1.0, 1.0)[:, None]
     key, fill = (np.clip(normals @ (d @ camera.axes / np.linalg.norm(d)), 0, None) for d in (_KEY, _FILL))
     sky = 0.5 + 0.5 * normals @ upright
@@ -46,7 +46,7 @@ def _compress_highlights(linear: Floats) -> Floats:
 
 
 def measure_ground_sky(scene: RayScene, points: Floats, upright: Floats, turn: Floats) -> Floats32:
-    """The share (n,) of the sky above points (n, 3) of the ground that nothing blocks, with a wider reach."""
+    """Return the share (n,) of the sky above points (n, 3) of the ground that nothing blocks, with a wider reach."""
     return _measure_free_share(scene, points, np.broadcast_to(upright, points.shape), turn, _GROUND_RAYS, GROUND_REACH)
 
 
@@ -80,7 +80,7 @@ def _tangents(normals: Floats) -> tuple[Any, Any]:
 
 
 def compute_openness(hits: RayHits, camera: Camera, rows: Ints, columns: Ints) -> Floats32:
-    """How open (n,) in 0..1 the places are that some pixels (n,) show."""
+    """Return how open (n,) in 0..1 the places are that some pixels (n,) show."""
     half = _SKY_STEP // 2
     coarse = hits.triangle[half::_SKY_STEP, half::_SKY_STEP]
     r, c = np.nonzero(coarse >= 0)
@@ -94,7 +94,7 @@ def compute_openness(hits: RayHits, camera: Camera, rows: Ints, columns: Ints) -
 
 
 def dither_turns(rows: Ints, columns: Ints) -> Floats:
-    """A turn in 0..1 for each cell: sixteen different ones in every block of four by four."""
+    """Return a turn in 0..1 for each cell: sixteen different ones in every block of four by four."""
     order = np.array([[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]])
     return order[rows % 4, columns % 4] / 16
 
@@ -141,7 +141,8 @@ def _interpolation_taps(places: Ints, count: int) -> list[tuple[Ints, Floats32]]
 
 
 def compute_ground_shadow(scene: RayScene, frame: ViewFrame, camera: Camera) -> Floats32:
-    """How much of the sky is hidden from the ground behind each pixel (h, w), in 0..1; 0 where there is no ground."""
+    """Return how much of the sky is hidden from the ground behind each pixel (h, w), in 0..1; 0 where there is no
+    ground."""
     from PIL import Image  # lazy: 0.01 s, only pictures need it
 
     width, height = camera.size

@@ -44,7 +44,7 @@ class Framebuffer:
         self._alpha = np.ascontiguousarray(alpha, np.float32).ravel()
 
     def blend(self, rows: Ints, columns: Ints, color: Floats32, share: Floats32 | None = None) -> None:
-        """Lays colours (n, 3) over pixels (n,), as much of them as `share` (n,) in 0..1 says, wholly by default."""
+        """Lay colours (n, 3) over pixels (n,), as much of them as `share` (n,) in 0..1 says, wholly by default."""
         at = rows * self._shape[1] + columns
         if share is None:
             self._rgb[at], self._alpha[at] = color, 1.0
@@ -54,7 +54,7 @@ class Framebuffer:
         self._alpha[at] = self._alpha[at] * keep + share
 
     def downsample(self, fine: int) -> Floats32:
-        """The mean (h, w, 4) of each block of `fine` times `fine` pixels."""
+        """Return the mean (h, w, 4) of each block of `fine` times `fine` pixels."""
         height, width = self._shape
         out = np.empty((height // fine, width // fine, 4), np.float32)
         for part, values in ((slice(0, 3), self._rgb.reshape(height, width, 3)), (slice(3, 4), self._alpha)):
@@ -65,13 +65,13 @@ class Framebuffer:
 
 
 def pixels_where(mask: Any) -> tuple[Ints, Ints]:
-    """Rows and columns of the pixels (h, w) that are set; quicker than `nonzero`."""
+    """Return rows and columns of the pixels (h, w) that are set; quicker than `nonzero`."""
     rows, columns = np.divmod(np.flatnonzero(mask), mask.shape[1])
     return rows, columns
 
 
 def trace_lines(hits: RayHits, width: int) -> LineStrengths:
-    """The strongest line through each pixel (h, w), 0 where there is none, drawn `width` pixels wide."""
+    """Return the strongest line through each pixel (h, w), 0 where there is none, drawn `width` pixels wide."""
     whole = np.zeros(hits.item.shape, np.uint8)
     triangle, item = hits.triangle[hits.window], hits.item[hits.window]
     found = np.zeros(item.shape, np.uint8)
@@ -108,7 +108,7 @@ def _widen(found: LineStrengths, by: int) -> LineStrengths:
 
 
 def paint(layers: Sequence[DrawLayer], frame: ViewFrame, camera: Camera, fine: int) -> Raster:
-    """The drawing, of the camera's size, from `fine` times as many rays along each side.
+    """Return the drawing, of the camera's size, from `fine` times as many rays along each side.
 
     layers: a solid one, then shells.
     """

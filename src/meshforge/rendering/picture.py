@@ -47,7 +47,7 @@ def render(
     vocabulary: Sequence[str] = (),
     up: Up | None = None,
 ) -> Image:
-    """A picture of a mesh, of `size` (width, height); several views share it in a grid. Same input, same bytes.
+    """Return a picture of a mesh, of `size` (width, height); several views share it in a grid. Same input, same bytes.
 
     highlight: hulls of these names in a strong colour, seen through others, the rest pale.
     ghost: surfaces shown as grey shells; None shows the asset's opaque pieces.
@@ -160,7 +160,7 @@ def build_subject(
     lifted: frozenset[str] = frozenset(),
     up: Up | None = None,
 ) -> Subject:
-    """A mesh in its colours; ghost: grey shells around it; lifted: hulls that shine through what hides them.
+    """Return a mesh in its colours; ghost: grey shells around it; lifted: hulls that shine through what hides them.
 
     up: the axis that points up, None for that of the mesh.
     """
@@ -176,18 +176,19 @@ def build_subject(
 
 
 def up_axis(mesh: SymbolicMesh, up: Up | None = None) -> Up:
-    """The axis that points up in a picture: the given one, or that of the mesh's file, or Z."""
+    """Return the axis that points up in a picture: the given one, or that of the mesh's file, or Z."""
     return up or ("Y" if mesh.asset and mesh.asset.up == "y" else "Z")
 
 
 def render_meshes_of(hulls: Sequence[Hull]) -> list[RenderMesh]:
-    """The triangles to draw hulls with; the more round ones there are, the fewer sides each has."""
+    """Return the triangles to draw hulls with; the more round ones there are, the fewer sides each has."""
     count = sum(h.shape.is_primitive for h in hulls)
     return [to_render_mesh(h.shape, 96 if count <= _MANY else 32) for h in hulls]
 
 
 def points_to_frame(render_meshes: Sequence[RenderMesh], shells: Sequence[RenderMesh]) -> Floats:
-    """The points (n, 3) [m] that a picture of hulls must hold, and of what lies around them unless it is far larger."""
+    """Return the points (n, 3) [m] that a picture of hulls must hold, and of what lies around them unless it is far
+    larger."""
     points = [s.vertices for s in render_meshes]
     size = Aabb.of_points(np.concatenate(points)).diagonal if points else np.inf
     points += [s.vertices for s in shells if Aabb.of_points(s.vertices).diagonal <= _FAR_OUT * size]
@@ -195,7 +196,7 @@ def points_to_frame(render_meshes: Sequence[RenderMesh], shells: Sequence[Render
 
 
 def draw_subject(what: Subject, bounds: Aabb | None, view: View, size: tuple[int, int]) -> Raster:
-    """The subject, framed on `bounds`, or on all of its points."""
+    """Return the subject, framed on `bounds`, or on all of its points."""
     extent = bounds or what.bounds
     if extent is None:
         width, height = size

@@ -49,7 +49,8 @@ def place_numbers(
     known: Mapping[int, LabelAnchor] | None = None,
     taken: Sequence[PixelBox] = (),
 ) -> list[NumberPlace]:
-    """Places for the numbers of hulls as far as they are seen and fit; none covers another, or a box that is taken.
+    """Return places for the numbers of hulls as far as they are seen and fit; none covers another, or a box that is
+    taken.
 
     items: (h, w), what each pixel shows; sizes: of each number to be placed, the room it takes for each height of
     type [px] that it may be written in, the one liked best first; known: where hulls are that hardly any pixel shows.
@@ -142,7 +143,6 @@ class _FreeSpace:
         return bad | find_box_overlaps(boxes, others, 0).any(axis=1)
 
     def _share_covered(self, summed: Ints, boxes: Floats) -> Floats:
-        """How much of each box (n, 4) is covered by what is summed up."""
         left, top, right, bottom = (boxes // _CELL).astype(int).T
         right, bottom = right + 1, bottom + 1
         right, bottom = np.minimum(right, summed.shape[1] - 1), np.minimum(bottom, summed.shape[0] - 1)
@@ -154,7 +154,7 @@ class _FreeSpace:
 def draw_texts(
     draw: Any, places: Sequence[NumberPlace], texts: Mapping[int, str], colors: Floats, corner: tuple[int, int]
 ) -> None:
-    """Writes the texts of hulls at their places in a drawing; colors: (n, 3); corner: where the drawing lies [px]."""
+    """Write the texts of hulls at their places in a drawing; colors: (n, 3); corner: where the drawing lies [px]."""
     right, down = corner
     for place in places:
         if place.spot:
@@ -185,13 +185,14 @@ def _integral_image(mask: Any) -> Ints:
 
 
 def find_box_overlaps(boxes: Floats, others: Floats, gap: float) -> Any:
-    """Which boxes (n, 4) come nearer than `gap` to which others (m, 4): (n, m); left, top, right, bottom [px]."""
+    """Return which boxes (n, 4) come nearer than `gap` to which others (m, 4): (n, m); left, top, right, bottom
+    [px]."""
     (left, top, right, bottom), (west, north, east, south) = _columns(boxes), _rows(others)
     return (left - gap < east) & (west - gap < right) & (top - gap < south) & (north - gap < bottom)
 
 
 def find_box_crossings(lines: Floats, boxes: Floats) -> Any:
-    """Which lines (n, 4), from one point to another, enter which boxes (m, 4): (n, m) (Liang and Barsky)."""
+    """Return which lines (n, 4), from one point to another, enter which boxes (m, 4): (n, m) (Liang and Barsky)."""
     (x, y, end_x, end_y), (left, top, right, bottom) = _columns(lines), _rows(boxes)
     step_x, step_y = _avoid_zero(end_x - x), _avoid_zero(end_y - y)
     a, b, c, d = (left - x) / step_x, (right - x) / step_x, (top - y) / step_y, (bottom - y) / step_y
@@ -200,7 +201,7 @@ def find_box_crossings(lines: Floats, boxes: Floats) -> Any:
 
 
 def find_line_crossings(lines: Floats, others: Floats) -> Any:
-    """Which lines (n, 4) cross which others (m, 4): (n, m)."""
+    """Return which lines (n, 4) cross which others (m, 4): (n, m)."""
     (ax, ay, bx, by), (cx, cy, dx, dy) = _columns(lines), _rows(others)
     apart = _side_of(ax, ay, bx, by, cx, cy) * _side_of(ax, ay, bx, by, dx, dy) < 0
     return apart & (_side_of(cx, cy, dx, dy, ax, ay) * _side_of(cx, cy, dx, dy, bx, by) < 0)
@@ -212,7 +213,6 @@ def _side_of(ax: Floats, ay: Floats, bx: Floats, by: Floats, x: Floats, y: Float
 
 
 def _avoid_zero(step: Floats) -> Floats:
-    """A step that can be divided by."""
     return np.where(np.abs(step) < 1e-9, 1e-9, step)
 
 

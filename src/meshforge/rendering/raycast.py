@@ -68,7 +68,7 @@ class ViewFrame:
 
 
 def up_vector(up: Up) -> Floats:
-    """The direction (3,) that points up."""
+    """Return the direction (3,) that points up."""
     return np.array([0.0, 0.0, 1.0] if up == "Z" else [0.0, 1.0, 0.0])
 
 
@@ -82,23 +82,23 @@ class RayHits:
     window: tuple[slice, slice]
 
     def points(self, camera: Camera, rows: Ints, columns: Ints) -> Floats:
-        """Where the rays through some pixels (n,), each of which shows something, meet it (n, 3)."""
+        """Return where the rays through some pixels (n,), each of which shows something, meet it (n, 3)."""
         origins, directions = camera.pixel_rays(columns, rows)
         return origins + directions * self.scene.depth(self.triangle[rows, columns], origins, directions)[:, None]
 
     def depth(self, camera: Camera, rows: Ints, columns: Ints) -> Floats:
-        """How far along their rays (n,) those places are."""
+        """Return how far along their rays (n,) those places are."""
         return self.scene.depth(self.triangle[rows, columns], *camera.pixel_rays(columns, rows))
 
 
 def cast_layer(layer: DrawLayer, frame: ViewFrame, camera: Camera) -> RayHits:
-    """The first thing of a layer behind each pixel."""
+    """Return the first thing of a layer behind each pixel."""
     return cast_rays(build_scene(layer.render_meshes, frame.bounds.center, frame.unit), camera)
 
 
 def cast_rays(whole: RayScene, camera: Camera, window: tuple[slice, slice] | None = None) -> RayHits:
-    """The first thing of an assembled scene behind each pixel; window: the columns and rows to look in, by default
-    those that it can be seen in."""
+    """Return the first thing of an assembled scene behind each pixel; window: the columns and rows to look in, by
+    default those that it can be seen in."""
     scene = prepare_for_rays(whole, camera.axes[2]) if whole.embree is None else whole
     width, height = camera.size
     triangle = np.full((height, width), -1, np.int64)
@@ -115,7 +115,7 @@ def cast_rays(whole: RayScene, camera: Camera, window: tuple[slice, slice] | Non
 
 
 def window_of(scene: RayScene, camera: Camera) -> tuple[slice, slice]:
-    """The columns and rows that the scene can be seen in."""
+    """Return the columns and rows that the scene can be seen in."""
     places = np.ascontiguousarray(
         camera.to_pixels(scene.corners.reshape(-1, 3)).T
     )  # extremes of rows are found quickly
@@ -125,7 +125,7 @@ def window_of(scene: RayScene, camera: Camera) -> tuple[slice, slice]:
 
 
 def cast_rays_adaptively(scene: RayScene, camera: Camera) -> RayHits:
-    """The first thing of a scene behind each pixel, found by one ray for four pixels where it is even.
+    """Return the first thing of a scene behind each pixel, found by one ray for four pixels where it is even.
 
     What is thinner than two pixels may be missed.
     """
@@ -133,7 +133,8 @@ def cast_rays_adaptively(scene: RayScene, camera: Camera) -> RayHits:
 
 
 def cast_rays_with_steps(scene: RayScene, camera: Camera) -> tuple[RayHits, Any]:
-    """The hits as `cast_rays_adaptively` finds them, and at which pixels (h, w) a thing steps back behind itself."""
+    """Return the hits as `cast_rays_adaptively` finds them, and at which pixels (h, w) a thing steps back behind
+    itself."""
     return _cast_adaptively(scene, camera, stepping=True)
 
 
@@ -228,6 +229,6 @@ def _find_edges(hits: RayHits, camera: Camera, about: Any) -> Any:
 
 
 def neighbour_slices(axis: int, step: int = 1) -> tuple[tuple[slice, slice], tuple[slice, slice]]:
-    """The pixels that have one `step` further along an axis, and those."""
+    """Return the pixels that have one `step` further along an axis, and those."""
     first, second, whole = slice(None, -step), slice(step, None), slice(None)
     return ((first, whole), (second, whole)) if axis == 0 else ((whole, first), (whole, second))

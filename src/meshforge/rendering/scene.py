@@ -34,7 +34,7 @@ class RenderMesh:
 
 
 def to_render_mesh(shape: Shape | Surface, sides: int = 96) -> RenderMesh:
-    """The triangles to draw a shape with; sides: how many a round one has about its axis."""
+    """Return the triangles to draw a shape with; sides: how many a round one has about its axis."""
     match shape:
         case Sphere():
             return _revolve(_dome_profile(sides), sides, shape.pose, np.full(3, shape.radius))
@@ -61,7 +61,6 @@ def _dome_profile(sides: int) -> Floats:
 
 
 def _capsule_profile(shape: Capsule, sides: int) -> Floats:
-    """The profile in units of the radius."""
     dome = _dome_profile(sides)
     middle = len(dome) // 2 + 1
     straight = np.array([0.0, shape.half_length / shape.radius, 0.0, 0.0])
@@ -121,7 +120,7 @@ class RayScene:
         return np.isfinite(self.bent[:, 0, 0])
 
     def smooth_normals(self, triangles: Ints, points: Floats) -> Floats:
-        """The smooth normals at points (n, 3) of round triangles (n,)."""
+        """Return the smooth normals at points (n, 3) of round triangles (n,)."""
         a, b, c = (self.corners[triangles, k] for k in range(3))
         normal = np.cross(b - a, c - a)
         area = np.einsum("ij,ij->i", normal, normal)
@@ -132,12 +131,12 @@ class RayScene:
         return smooth
 
     def is_blocked(self, origins: Floats32, directions: Floats32, reach: float) -> Any:
-        """Which rays (n,) meet something within `reach`."""
+        """Return which rays (n,) meet something within `reach`."""
         reaches = np.full(len(origins), reach, np.float32)
         return self.embree.run(origins, directions, dists=reaches, query="OCCLUDED") >= 0
 
     def depth(self, triangles: Ints, origins: Floats, directions: Floats) -> Floats:
-        """How far along its ray each hit of a known triangle (n,) lies."""
+        """Return how far along its ray each hit of a known triangle (n,) lies."""
         normals = self.normals[triangles]
         ahead = np.einsum("ij,ij->i", self.corners[triangles, 0] - origins, normals)
         facing = np.einsum("ij,ij->i", np.broadcast_to(directions, normals.shape), normals)
@@ -146,7 +145,7 @@ class RayScene:
 
 
 def build_scene(render_meshes: Sequence[RenderMesh], center: Floats, unit: float) -> RayScene:
-    """The triangles of some render_meshes, moved so that `center` becomes the origin and `unit` [m] becomes one.
+    """Return the triangles of some render_meshes, moved so that `center` becomes the origin and `unit` [m] becomes one.
 
     No rays can meet them before `prepare_for_rays`.
     """
@@ -160,7 +159,7 @@ def build_scene(render_meshes: Sequence[RenderMesh], center: Floats, unit: float
 
 
 def prepare_for_rays(scene: RayScene, towards: Floats | None) -> RayScene:
-    """The scene, ready for rays from one side; towards: (3,), of unit length.
+    """Return the scene, ready for rays from one side; towards: (3,), of unit length.
 
     None makes it ready for all sides: things in one place then differ a little in size, not in depth.
     Raises MeshForgeError where embreex, which casts the rays, is not installed: it has no wheel for Linux on ARM.
@@ -194,7 +193,6 @@ def _corners_of(render_mesh: RenderMesh, center: Floats, unit: float) -> tuple[F
 
 
 def _compute_normals(corners: Floats) -> tuple[Any, Floats]:
-    """Which triangles have an area, and unit normals of all."""
     cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     length = np.linalg.norm(cross, axis=1)
     solid = length > 1e-14
@@ -209,7 +207,7 @@ def _number_facets(item: Ints, normals: Floats, bent: Floats) -> Ints:
 
 
 def window_rays(camera: Camera, columns: Floats, rows: Floats, start: float) -> tuple[Floats32, Floats32]:
-    """Origins (n, 3) and directions (n, 3), or (1, 3) where all agree, of the rays through pixels.
+    """Return origins (n, 3) and directions (n, 3), or (1, 3) where all agree, of the rays through pixels.
 
     columns (w,) and rows (h,) give the n = h * w pixels of a window, row by row; start: how far towards the eye
     parallel rays begin.

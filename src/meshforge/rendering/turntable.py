@@ -39,7 +39,7 @@ def draw_turn(
     color_by: ColorBy,
     vocabulary: Sequence[str] = (),
 ) -> list[tuple[Image, ...]]:
-    """For each turn a picture of each mesh, all of `size` and seen by one camera; a hull keeps its colour.
+    """Return for each turn a picture of each mesh, all of `size` and seen by one camera; a hull keeps its colour.
 
     turns: 0 is the view `iso`, 1 is once round. meshes: one, or several states of one asset, the first says which axis
     points up. vocabulary: the order in which labels take their colours.
@@ -73,12 +73,12 @@ def _draw_empty(size: tuple[int, int]) -> Image:
 
 
 def list_turns(frames: int = FRAMES) -> list[float]:
-    """The turns of so many pictures."""
+    """Return the turns of so many pictures."""
     return [number / frames for number in range(frames)]
 
 
 def encode_gif(frames: Sequence[Image], milliseconds: int = FRAME_MILLISECONDS) -> bytes:
-    """Pictures of equal size as a GIF that begins anew for ever; the same pictures give the same bytes.
+    """Return pictures of equal size as a GIF that begins anew for ever; the same pictures give the same bytes.
 
     Raises UsageError where there is none.
     """
@@ -99,5 +99,5 @@ def encode_gif(frames: Sequence[Image], milliseconds: int = FRAME_MILLISECONDS) 
 
 
 def write_gif(path: Path, frames: Sequence[Image]) -> None:
-    """Writes pictures as a GIF. Raises UsageError where it cannot be written."""
+    """Write pictures as a GIF. Raises UsageError where it cannot be written."""
     write_file(path, encode_gif(frames))

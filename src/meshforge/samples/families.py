@@ -35,7 +35,7 @@ class SampleFamily:
         return Path(__file__).parent / self.name
 
     def read(self) -> Files:
-        """What its files hold."""
+        """Return what its files hold."""
         paths = (path for path in sorted(self.folder.glob(self.files)) if path.is_file())
         return {path.relative_to(self.folder).as_posix(): path.read_bytes() for path in paths}
 
@@ -71,7 +71,7 @@ FAMILIES = (
 
 
 def family_of(name: str) -> SampleFamily:
-    """The family of a name. Raises UsageError, naming the nearest."""
+    """Return the family of a name. Raises UsageError, naming the nearest."""
     known = {family.name: family for family in FAMILIES}
     if name not in known:
         raise UsageError(f"there is no family {name!r}", remedy=suggest_among(name, known, "There are"))

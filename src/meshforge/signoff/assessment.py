@@ -88,7 +88,7 @@ class AssetConfidence:
     reasons: tuple[Reason, ...] = ()
 
     def with_reasons(self, more: Iterable[Reason]) -> AssetConfidence:
-        """The same with further doubts: it is at most as probable as that the weightiest of them is none."""
+        """Return the same with further doubts: it is at most as probable as that the weightiest of them is none."""
         more = list(more)
         probability = min([self.probability, *(1 - one.share for one in more)])
         reasons = sorted([*self.reasons, *more], key=lambda one: -one.share)[:MOST_REASONS]

@@ -53,7 +53,7 @@ class Calibration:
 
 @cache
 def read_calibration() -> Calibration:
-    """What ships."""
+    """Return what ships."""
     read = json.loads(files("meshforge.signoff").joinpath(WEIGHTS_FILE).read_text("utf-8"))
     weights = np.array([read["weights"][name] for name in WEIGHTS], dtype=float)
     weights.flags.writeable = False
@@ -61,8 +61,8 @@ def read_calibration() -> Calibration:
 
 
 def combine(features: Floats, weights: Floats) -> Floats:
-    """The probability (n,) that edits are right under a program that is not wrong nearly everywhere: that each reading
-    means there what it does, times that no other label would change it.
+    """Return the probability (n,) that edits are right under a program that is not wrong nearly everywhere: that each
+    reading means there what it does, times that no other label would change it.
 
     features: (n, 5), of edits; weights: (len(WEIGHTS),).
     """
@@ -103,9 +103,9 @@ class AssetEvidence:
         return min(found, STANDS_OUT) if self.alarms else found
 
     def credit(self, *, candidates: float = 1.0, labels: float = 1.0, program: float = 1.0) -> float:
-        """What it is worth to tell some of it, in edits that are right: the probability that this one is wrong, times
-        the share of the doubt [nats] that is gone. What decides an edit is a conjunction: the last doubt of many alone
-        makes it right, and yet each has to go.
+        """Return what it is worth to tell some of it, in edits that are right: the probability that this one is wrong,
+        times the share of the doubt [nats] that is gone. What decides an edit is a conjunction: the last doubt of many
+        alone makes it right, and yet each has to go.
 
         readings, labels, program: by which these probabilities grow, as factors.
         """

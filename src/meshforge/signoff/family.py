@@ -119,8 +119,8 @@ class FamilyRun:
         )
 
     def labels_right(self, place: int, known_hulls: Collection[str] = ()) -> float:
-        """The probability that no other labels would change the edit of an asset: hulls that look alike err together,
-        so of each such cluster the most doubtful one counts.
+        """Return the probability that no other labels would change the edit of an asset: hulls that look alike err
+        together, so of each such cluster the most doubtful one counts.
 
         told: names of hulls whose labels are known.
         """
@@ -141,14 +141,14 @@ class FamilyRun:
         ]
 
     def rows_of(self, place: int, hulls: Iterable[str]) -> Floats:
-        """What describes some hulls of an asset (hulls, columns), so that distances are sums of differences."""
+        """Return what describes some hulls of an asset (hulls, columns), so that distances are sums of differences."""
         table = self.posterior.table
         index, start = self.state.meshes[self.runs[place].asset].index, table.spans.get(place, slice(0, 0)).start
         return table.rows[[start + index[hull] for hull in hulls]] * table.metric
 
     def trust_in_program(self, looks: int = 0) -> float:
-        """The probability that the program is not wrong nearly everywhere, by Bayes: each result that is as a person
-        accepted or meant it speaks for it, each that is not against it, the more the less that was expected.
+        """Return the probability that the program is not wrong nearly everywhere, by Bayes: each result that is as a
+        person accepted or meant it speaks for it, each that is not against it, the more the less that was expected.
 
         looks: more results that are found right.
         """
@@ -212,13 +212,14 @@ class FamilyRun:
         return found
 
     def select(self, known: RuleCandidates, candidate: int, place: int) -> int:
-        """What a reading of a rule selects on the asset at a place, as a bit set; nothing where it is not reached."""
+        """Return what a reading of a rule selects on the asset at a place, as a bit set; nothing where it is not
+        reached."""
         delta = EXTREMITY if self.program.extremity is None else self.program.extremity
         return select_by(self.runs[place], known.rule, known.extractors[candidate], delta) or 0
 
 
 def cluster(rows: Floats) -> list[int]:
-    """The clusters of some hulls: each belongs to the first one that it looks like."""
+    """Return the clusters of some hulls: each belongs to the first one that it looks like."""
     heads, found = list[int](), list[int]()
     for place, row in enumerate(rows):
         alike = (k for k, head in enumerate(heads) if np.abs(rows[head] - row).sum() <= ALIKE)
@@ -229,7 +230,7 @@ def cluster(rows: Floats) -> list[int]:
 
 
 def alternative_shares(alternatives: Sequence[AlternativeLabel]) -> dict[str, float]:
-    """How probable it is for each hull that it has a label which changes the edit."""
+    """Return how probable it is for each hull that it has a label which changes the edit."""
     found = defaultdict[str, float](float)
     for alternative in alternatives:
         found[alternative.hull] += alternative.chance

@@ -35,7 +35,7 @@ class RuleMistake:
 
 
 def find_mistakes(state: ReviewState, program: Program, runs: Sequence[ProgramRun]) -> Iterator[RuleMistake]:
-    """The likely mistakes under a program that does what was shown, of each rule at most one; those that a person
+    """Yield the likely mistakes under a program that does what was shown, of each rule at most one; those that a person
     denied are not among them, and there are none where nothing was shown, as under a program that a person wrote."""
     if state.by_hand or not state.demos:
         return
@@ -96,7 +96,7 @@ def _is_refused(state: ReviewState, rule: int, run: ProgramRun, mask: int | None
 
 
 def ask_about_mistake(state: ReviewState, found: RuleMistake) -> MistakeQuestion:
-    """The question whether it is one."""
+    """Return the question whether it is one."""
     mistake, rule = found.mistake, found.rule
     text = _liken_to_shown(state, found) or (
         f"{_describe(mistake.missing, mistake.extra)} rule {rule} would just be {show(mistake.extractor)}"
@@ -107,7 +107,7 @@ def ask_about_mistake(state: ReviewState, found: RuleMistake) -> MistakeQuestion
 
 
 def ask_about_nearest(state: ReviewState, nearest: Nearest, everyone: float) -> MistakeQuestion | None:
-    """The question where nothing fits what was shown and said, and an extractor nearly does."""
+    """Return the question where nothing fits what was shown and said, and an extractor nearly does."""
     if len(nearest.extra) + len(nearest.missing) > MOST_MISTAKES:
         return None
     if nearest.asset in state.corrected or nearest.asset not in state.meshes:
@@ -122,8 +122,8 @@ def ask_about_nearest(state: ReviewState, nearest: Nearest, everyone: float) -> 
 
 
 def ask_about_kept_label(state: ReviewState, repair: Repair, everyone: float) -> MistakeQuestion | None:
-    """The question where a person kept the label that would have to be another one for what was shown and said: what
-    was shown or said of that hull may be the mistake."""
+    """Return the question where a person kept the label that would have to be another one for what was shown and said:
+    what was shown or said of that hull may be the mistake."""
     hull, asset = repair.fix.hull, repair.fix.asset
     shown = _read_selection(state, asset, repair.rule)
     kept = state.meshes[asset].hull_of(hull).source in HUMAN_SOURCES if asset in state.meshes else False
@@ -149,8 +149,8 @@ def _liken_to_shown(state: ReviewState, found: RuleMistake) -> str | None:
 
 
 def offer_label(state: ReviewState, posterior: FamilyPosterior, question: MistakeQuestion) -> MistakeQuestion:
-    """The same question with one more choice: that the label of its hull is wrong, where another one is likely by what
-    is said of other hulls."""
+    """Return the same question with one more choice: that the label of its hull is wrong, where another one is likely
+    by what is said of other hulls."""
     if len(question.hulls) != 1 or not posterior.seen.labels:
         return question
     asset, hull = question.hulls[0]

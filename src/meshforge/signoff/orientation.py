@@ -32,7 +32,8 @@ def ask_orientation(
 
 
 def find_turned_asset(state: ReviewState, suggested: OrientationSuggestion) -> str | None:
-    """The asset to ask about: one that turns neither least nor most, of those whose selections change if there are any.
+    """Return the asset to ask about: one that turns neither least nor most, of those whose selections change if there
+    are any.
 
     None where some asset that has labels cannot be turned, or none turns so that it is seen. Beside a program only what
     is set upright counts, and None also where as many assets lean once they are turned.

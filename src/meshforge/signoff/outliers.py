@@ -48,7 +48,7 @@ class EditMeasures:
 
 
 def measure_edit(before: SymbolicMesh, after: SymbolicMesh) -> EditMeasures:
-    """The measures of an edit; both meshes are in one frame, as a program leaves them."""
+    """Return the measures of an edit; both meshes are in one frame, as a program leaves them."""
     free, filled, freed = _compare_space(before, after)
     gone = {hull.name for hull in before.hulls} - {hull.name for hull in after.hulls}
     return EditMeasures(
@@ -172,8 +172,8 @@ class _Figure:
 def find_alarms(
     measures: Mapping[str, EditMeasures], shown: Iterable[EditMeasures] = ()
 ) -> dict[str, tuple[Alarm, ...]]:
-    """The alarms of those edits of a family that have any, the farthest out first; measures: by asset; shown: of the
-    same program on assets that a person demonstrated or accepted."""
+    """Return the alarms of those edits of a family that have any, the farthest out first; measures: by asset; shown: of
+    the same program on assets that a person demonstrated or accepted."""
     block = max([BLOCK, *(one.filled + MORE for one in shown if one.free >= _LEAST_FREE)])
     found: dict[str, list[Alarm]] = {name: list(_find_absolute(one, block)) for name, one in measures.items()}
     known = [one for name, one in measures.items() if not found[name]]
@@ -187,7 +187,7 @@ def find_alarms(
 def describe_outliers(
     measures: Mapping[str, EditMeasures], shown: Iterable[EditMeasures] = ()
 ) -> dict[str, tuple[str, ...]]:
-    """Sentences on those edits of a family that stand out, the farthest out first, by asset."""
+    """Return sentences on those edits of a family that stand out, the farthest out first, by asset."""
     return {name: tuple(alarm.text for alarm in alarms) for name, alarms in find_alarms(measures, shown).items()}
 
 

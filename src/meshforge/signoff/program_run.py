@@ -51,7 +51,7 @@ class ProgramRun:
     error: str | None = None
 
     def names(self, rule: int, mask: int) -> tuple[str, ...]:
-        """The hulls of a bit set, as a rule meets them; rule: its number."""
+        """Return the hulls of a bit set, as a rule meets them; rule: its number."""
         return tuple(self.meshes[rule - 1].names_of(mask))
 
     @property
@@ -61,7 +61,7 @@ class ProgramRun:
 
 
 def run_on_asset(asset: str, mesh: SymbolicMesh, program: Program, templates: Mapping[str, Template]) -> ProgramRun:
-    """The program on an asset."""
+    """Return the program on an asset."""
     delta = EXTREMITY if program.extremity is None else program.extremity
     meshes, selections = list[SymbolicMesh](), list[int]()
     try:
@@ -79,7 +79,7 @@ def run_on_asset(asset: str, mesh: SymbolicMesh, program: Program, templates: Ma
 def find_alternatives(
     run: ProgramRun, mesh: SymbolicMesh, program: Program, labels: Sequence[str], chances: Floats
 ) -> tuple[AlternativeLabel, ...]:
-    """The other labels of hulls with which a rule would select otherwise, or the asset be turned otherwise.
+    """Return the other labels of hulls with which a rule would select otherwise, or the asset be turned otherwise.
 
     mesh: the asset; chances: (hulls, labels) of it.
     """
@@ -134,7 +134,7 @@ def _frame_of(mesh: SymbolicMesh, orient: Orient, labels: Sequence[str | None] |
 
 
 def select_by(run: ProgramRun, rule: int, extractor: Extractor, delta: float) -> int | None:
-    """What another extractor of a rule selects on an asset, None where the rule is not reached."""
+    """Return what another extractor of a rule selects on an asset, None where the rule is not reached."""
     return select_mask(extractor, run.meshes[rule - 1], delta) if rule <= len(run.meshes) else None
 
 
@@ -167,7 +167,7 @@ class RuleCandidates:
         return found
 
     def discount(self, some: Bools, share: float) -> RuleCandidates:
-        """The same where some readings (k,) are wrong with that probability besides."""
+        """Return the same where some readings (k,) are wrong with that probability besides."""
         beliefs = np.where(some, self.beliefs * (1 - share), self.beliefs)
         return replace(self, beliefs=beliefs / beliefs.sum())
 
@@ -186,7 +186,7 @@ class CandidateSplit:
 def compare_candidates(
     program: Program, candidates: Sequence[CandidateProgram], runs: Sequence[ProgramRun]
 ) -> tuple[RuleCandidates, ...]:
-    """The readings of each rule over a family; a rule without any is what it says."""
+    """Return the readings of each rule over a family; a rule without any is what it says."""
     delta = EXTREMITY if program.extremity is None else program.extremity
     found = []
     for number, rule in enumerate(program.rules, 1):
@@ -212,7 +212,7 @@ def compare_candidates(
 
 
 def split_candidates(known: RuleCandidates, places: Collection[int]) -> list[CandidateSplit]:
-    """The questions about a rule on some of the assets, given by their places."""
+    """Return the questions about a rule on some of the assets, given by their places."""
     found = []
     for asset in places:
         kinds = known.kinds[:, asset]

@@ -80,7 +80,7 @@ class QuestionBase:
         return round(self.gain / self.seconds, 9)
 
     def choice(self, wanted: str | None) -> ReviewChoice | None:
-        """The choice of an id, None where there is none."""
+        """Return the choice of an id, None where there is none."""
         return next((one for one in self.choices if one.id == wanted), None)
 
     def to_json(self) -> dict[str, Any]:
@@ -158,8 +158,8 @@ _KINDS: Mapping[str, type[ReviewQuestion]] = {one.kind: one for one in (*get_arg
 
 
 def question_of(asked: Mapping[str, Any]) -> ReviewQuestion | None:
-    """The question that somebody was asked, None where only an earlier version asks such; asked: as `to_json` writes
-    it."""
+    """Return the question that somebody was asked, None where only an earlier version asks such; asked: as `to_json`
+    writes it."""
     kind = _KINDS.get(asked["kind"])
     if kind is None:
         return None
@@ -182,7 +182,7 @@ Draft = TypeVar("Draft", bound=QuestionBase)
 
 
 def identify(draft: Draft, bound: Sequence[str] = ()) -> Draft:
-    """A question with its id, which all that it is about decides. bound: what else it is about."""
+    """Return a question with its id, which all that it is about decides. bound: what else it is about."""
     words = [draft.kind, draft.asset, str(draft.rule), *(f"{one.asset}#{one.hull}" for one in draft.hulls), *bound]
     words += [f"{one.id} {one.label} {one.select}" for one in draft.choices]
     name = blake2b("\n".join(words).encode(), digest_size=6).hexdigest()
@@ -207,7 +207,7 @@ class ReviewReply:
     by: str | None = None
 
     def to_json(self) -> dict[str, Any]:
-        """As an entry of a file of replies, without its id; what is empty is left out."""
+        """Return it as an entry of a file of replies, without its id; what is empty is left out."""
         exceptions = {f"{place.asset}#{place.hull}": label for place, label in sorted(self.exceptions.items())}
         selections = {str(rule): sorted(hulls) for rule, hulls in sorted(self.selections.items())}
         parts = {"exceptions": exceptions, "selections": selections, "labels": dict(sorted(self.labels.items()))}
@@ -226,12 +226,12 @@ _USUAL_DEMONSTRATION = (2.0, 4.0)  # steps and hulls, where nothing was demonstr
 
 
 def price_group(hulls: int, exceptions: float = 0.0) -> float:
-    """A group of look-alike hulls looked at and confirmed, but for some that are clicked."""
+    """Return a group of look-alike hulls looked at and confirmed, but for some that are clicked."""
     return _THINK + _HULL_OF_GROUP * hulls + _CLICK * (1 + exceptions)
 
 
 def price_demonstration(demos: Iterable[Demonstration]) -> float:
-    """An asset demonstrated, as those before were on average."""
+    """Return an asset demonstrated, as those before were on average."""
     steps = [[step.select for step in demo.steps if step.select] for demo in demos]
     if not steps:
         count, hulls = _USUAL_DEMONSTRATION

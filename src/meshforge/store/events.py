@@ -81,7 +81,6 @@ class _Withdrawable(_Line):
         """Follows from the other fields; of one id only the last event counts."""
 
     def with_origin(self, origin: Origin) -> Self:
-        """The same as the reply to a question."""
         return self.model_copy(update=origin._asdict())
 
 
@@ -110,7 +109,7 @@ class AnswerEvent(_Withdrawable):
         return synthesis.Answer(self.rule, self.asset, self.select, self.refused)
 
     def fits(self, actions: Mapping[int, str]) -> bool:
-        """Whether its rule still does what it did; actions: what rules do, by number, in the same text."""
+        """Return whether its rule still does what it did; actions: what rules do, by number, in the same text."""
         return actions.get(self.rule) == (self.action or actions.get(self.rule, ""))
 
 
@@ -139,7 +138,7 @@ class LabelBefore(JsonFile):
         return symbolic.Label(self.label, self.confidence, self.source, self.given.annotation if self.given else None)
 
     def rename(self, old: str, new: str) -> LabelBefore:
-        """The same where a label has another name."""
+        """Return the same where a label has another name."""
         given = self.given.rename(old, new) if self.given else None
         return self.model_copy(update={"label": new if self.label == old else self.label, "given": given})
 
@@ -166,7 +165,7 @@ class LabelFixEvent(_Withdrawable):
         return synthesis.LabelFix(self.asset, self.hull, self.was, self.to)
 
     def rename(self, old: str, new: str) -> LabelFixEvent:
-        """The same where a label has another name."""
+        """Return the same where a label has another name."""
         was, to = (new if label == old else label for label in (self.was, self.to))
         before = self.before.rename(old, new) if self.before else None
         return self.model_copy(update={"was": was, "to": to, "before": before})
@@ -236,7 +235,7 @@ _ADAPTER: TypeAdapter[Event] = TypeAdapter(Annotated[Event, Field(discriminator=
 
 
 def parse_events(text: str, where: str) -> tuple[Event, ...]:
-    """The events of a file. Raises ProjectError, naming the line, for one that is none."""
+    """Return the events of a file. Raises ProjectError, naming the line, for one that is none."""
     return tuple(parse_line(_ADAPTER.validate_json, line, number, where) for number, line in list_lines(text))
 
 
@@ -252,12 +251,12 @@ def read_lines(path: Path) -> str:
 
 
 def list_lines(text: str) -> Iterator[tuple[int, str]]:
-    """The lines of a file that hold anything, with their numbers."""
+    """Yield the lines of a file that hold anything, with their numbers."""
     yield from ((number, line) for number, line in enumerate(text.split("\n"), 1) if line.strip())
 
 
 def parse_line(parse: Callable[[str], Line], line: str, number: int, where: str) -> Line:
-    """What a line holds. Raises ProjectError, naming it, where it is not what it should be."""
+    """Return what a line holds. Raises ProjectError, naming it, where it is not what it should be."""
     try:
         return parse(line)
     except ValidationError as error:
@@ -266,5 +265,5 @@ def parse_line(parse: Callable[[str], Line], line: str, number: int, where: str)
 
 
 def format_lines(lines: Iterable[JsonFile]) -> str:
-    """The text of a file of lines."""
+    """Return the text of a file of lines."""
     return "".join(f"{line.model_dump_json(by_alias=True)}\n" for line in lines)

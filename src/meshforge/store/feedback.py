@@ -32,13 +32,13 @@ class Feedback:
         return {**self.answers, **self.fixes}
 
     def verdict_on(self, asset: str) -> kinds.VerdictEvent | None:
-        """The last verdict on an asset."""
+        """Return the last verdict on an asset."""
         every = self.verdicts.get(asset, ())
         return every[-1] if every else None
 
     @staticmethod
     def of(events: Iterable[Event]) -> Feedback:
-        """What events come to; of several on one thing the last counts."""
+        """Return what events come to; of several on one thing the last counts."""
         answers, fixes = dict[str, kinds.AnswerEvent](), dict[str, kinds.LabelFixEvent]()
         verdicts, exclusions = dict[str, tuple[kinds.VerdictEvent, ...]](), dict[str, kinds.ExclusionEvent]()
         snoozed, replied = dict[str, None](), dict[str, Event]()

@@ -78,8 +78,8 @@ class History:
 
     @classmethod
     def open(cls, folder: Path, derived: Callable[[], frozenset[str]] = frozenset) -> History:
-        """The history of a project, with what a kill left under way brought to an end, and without contents that no
-        entry mentions."""
+        """Return the history of a project, with what a kill left under way brought to an end, and without contents that
+        no entry mentions."""
         history = cls(folder, derived)
         with history._lock():
             history.recover()
@@ -120,11 +120,11 @@ class History:
             return self._files.refresh()
 
     def path_of(self, digest: str) -> Path:
-        """A file with the content of that digest. There is none where the history was damaged from outside."""
+        """Return a file with the content of that digest. There is none where the history was damaged from outside."""
         return self._snapshots.blobs.path_of(digest)
 
     def read_contents(self, state: FileState) -> dict[Path, bytes | None]:
-        """The contents of files in a state, by path; None for no file. Raises ProjectError where one is lost."""
+        """Return the contents of files in a state, by path; None for no file. Raises ProjectError where one is lost."""
         places = {self._folder / name: digest for name, digest in state.items()}
         return {
             path: None if digest is None else self._snapshots.blobs.read(digest, path)
@@ -199,8 +199,8 @@ class History:
         return self._move("redo")
 
     def find_before(self, entries: Sequence[HistoryEntry]) -> tuple[FileState, tuple[FileConflict, ...]]:
-        """What files were before some entries, the last one first: the state of those that are as these left them, and
-        the others."""
+        """Return what files were before some entries, the last one first: the state of those that are as these left
+        them, and the others."""
         names = {name for entry in entries for name in entry.names}
         state, changed = self._snapshots.read_state(names), dict[str, FileConflict]()
         for entry in entries:

@@ -34,13 +34,13 @@ class Snapshots:
     blobs: BlobStore
 
     def take(self, paths: Iterable[Path]) -> FileState:
-        """The state of files, and of all files in folders; their contents are stored."""
+        """Return the state of files, and of all files in folders; their contents are stored."""
         files = sorted(_list_files(paths))
         digests = do_at_once(self.blobs.store, files)
         return {relative_name(file, self.folder): digest for file, digest in zip(files, digests, strict=True)}
 
     def read_state(self, names: Iterable[str]) -> FileState:
-        """The state of files by their names; nothing is stored."""
+        """Return the state of files by their names; nothing is stored."""
         return {name: _digest_or_none(self.folder / name) for name in names}
 
     def restore(self, wanted: Mapping[str, str | None], now: Mapping[str, str | None]) -> None:
@@ -65,7 +65,7 @@ class Snapshots:
 
 
 def diff_states(before: FileState, after: FileState) -> tuple[FileState, FileState]:
-    """Two states, reduced to the files that differ."""
+    """Return two states, reduced to the files that differ."""
     names = [name for name in sorted({*before, *after}) if before.get(name) != after.get(name)]
     return {name: before.get(name) for name in names}, {name: after.get(name) for name in names}
 
@@ -98,7 +98,7 @@ class BlobStore:
         return digest
 
     def read(self, digest: str, file: Path) -> bytes:
-        """The content that a file had. Raises ProjectError where it is lost or damaged."""
+        """Return the content that a file had. Raises ProjectError where it is lost or damaged."""
         return self._find(digest, file).read_bytes()
 
     def restore(self, digest: str, file: Path) -> None:
@@ -122,7 +122,7 @@ class BlobStore:
                 place.unlink()
 
     def path_of(self, digest: str) -> Path:
-        """The path of a content."""
+        """Return the path of a content."""
         return self.folder / digest[:2] / digest[2:]
 
 
@@ -233,7 +233,7 @@ class EntryFiles:
         self._state = self._read_state()
 
     def read_pending(self) -> PendingEntry | None:
-        """What is under way, None for nothing."""
+        """Return what is under way, None for nothing."""
         try:
             return PendingEntry.model_validate_json(self._pending.read_bytes())
         except (FileNotFoundError, ValueError):
@@ -245,7 +245,7 @@ class EntryFiles:
             draft.write_text(pending.model_dump_json(), encoding="utf-8")
 
     def end(self) -> None:
-        """Nothing is under way any more."""
+        """Record that nothing is under way any more."""
         self._pending.unlink(missing_ok=True)
 
     def _path_of(self, number: int) -> Path:
@@ -261,7 +261,7 @@ class EntryFiles:
 
 
 def count_group(entries: Sequence[HistoryEntry], first: int, step: int) -> int:
-    """How many entries belong to one group, from a place on in a direction (step: 1 or -1)."""
+    """Return how many entries belong to one group, from a place on in a direction (step: 1 or -1)."""
     group, count = entries[first].group, 1
     while group and 0 <= first + count * step < len(entries) and entries[first + count * step].group == group:
         count += 1

@@ -47,13 +47,13 @@ class ProjectFile:
         )
 
     def match(self, name: str) -> str | None:
-        """The id of the asset whose file a path from the project's folder is, empty for a file of no asset; None where
-        it is another file."""
+        """Return the id of the asset whose file a path from the project's folder is, empty for a file of no asset; None
+        where it is another file."""
         found = self._pattern.fullmatch(name)
         return found and found.groupdict().get("asset", "")
 
     def path(self, folder: Path, asset: str | None = None) -> Path:
-        """The file in a project's folder; for no asset the folder of those of all assets."""
+        """Return the file in a project's folder; for no asset the folder of those of all assets."""
         return folder / (self.name.partition("{asset}")[0] if asset is None else self.name.format(asset=asset))
 
     @property
@@ -153,18 +153,19 @@ class Layout:
         return self.folder, self.own_templates
 
     def list_kept(self, asset: str) -> tuple[Path, ...]:
-        """The files and folders that a project keeps for an asset, whether they are there or not."""
+        """Return the files and folders that a project keeps for an asset, whether they are there or not."""
         return tuple(file.path(self.folder, asset) for file in list_files() if file.is_of_asset and file.hulls)
 
 
 @cache
 def list_files() -> tuple[ProjectFile, ...]:
-    """All files of a project."""
+    """Return all files of a project."""
     return tuple(value for value in vars(Layout).values() if isinstance(value, ProjectFile))
 
 
 def identify_file(name: str) -> tuple[ProjectFile, str] | None:
-    """The file that a path from a project's folder is, and the id of the asset whose it is; None for another file."""
+    """Return the file that a path from a project's folder is, and the id of the asset whose it is; None for another
+    file."""
     found = [(file, asset) for file in list_files() if (asset := file.match(name)) is not None]
     return max(found, key=lambda pair: len(pair[0].name), default=None)
 
@@ -181,7 +182,8 @@ a person has confirmed them."""
 
 
 def read_json(path: Path, model: type[Model]) -> Model | None:
-    """What a JSON file holds, None where there is no such file. Raises ProjectError naming the file and the field."""
+    """Return what a JSON file holds, None where there is no such file. Raises ProjectError naming the file and the
+    field."""
     try:
         return model.model_validate_json(path.read_bytes().removeprefix(codecs.BOM_UTF8))
     except FileNotFoundError:
@@ -193,7 +195,7 @@ def read_json(path: Path, model: type[Model]) -> Model | None:
 
 
 def read_derived(path: Path, model: type[Model]) -> Model | None:
-    """What a JSON file holds that can be made again; None where there is no such file, or it is damaged."""
+    """Return what a JSON file holds that can be made again; None where there is no such file, or it is damaged."""
     try:
         return read_json(path, model)
     except ProjectError:
@@ -206,12 +208,12 @@ def write_json(path: Path, content: BaseModel) -> None:
 
 
 def json_text(content: BaseModel) -> str:
-    """The text of a JSON file."""
+    """Return the text of a JSON file."""
     return content.model_dump_json(indent=2, by_alias=True) + "\n"
 
 
 def invalid_file(
     path: Path, error: ValidationError, remedy: str = "Correct the file by hand, or remove it."
 ) -> ProjectError:
-    """The error that names the first field that does not fit."""
+    """Return the error that names the first field that does not fit."""
     return ProjectError(first_validation_error(error), where=str(path), remedy=remedy)

@@ -42,7 +42,7 @@ class MeshCache:
         self._entries: OrderedDict[Path, _CacheEntry] = OrderedDict()
 
     def get(self, files: AssetFiles) -> symbolic.SymbolicMesh:
-        """An asset as it is prepared, with the labels it has now. Raises AssetError where it cannot be read."""
+        """Return an asset as it is prepared, with the labels it has now. Raises AssetError where it cannot be read."""
         with self._lock:
             busy = self._busy.setdefault(files.path, Lock())
         with busy:  # who asks for it at the same time waits for one reading

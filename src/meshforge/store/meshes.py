@@ -33,8 +33,8 @@ class FileRecord(BaseModel):
 
 
 def look_at_files(folder: Path, names: Iterable[str], known: Mapping[str, FileRecord]) -> dict[str, FileRecord]:
-    """Files by their paths from a folder as they are now, without those that cannot be read. known: as they were; one
-    that is in the same state is not hashed again."""
+    """Return files by their paths from a folder as they are now, without those that cannot be read. known: as they
+    were; one that is in the same state is not hashed again."""
     found = dict[str, FileRecord]()
     for name in names:
         state, old = file_state(folder / name), known.get(name)
@@ -90,7 +90,7 @@ def iterate_asset_index(
     progress: Callable[[], None] | None = None,
     verify: bool = False,
 ) -> Generator[tuple[str, AssetFacts], None, None]:
-    """The ids of all assets in order, or of some, with their facts, as soon as these are known.
+    """Yield the ids of all assets in order, or of some, with their facts, as soon as these are known.
 
     Those whose files changed since are read; what was read is kept now and then, and at the end. layout: where the
     project keeps preparations, and these facts; progress: called for each that had to be read; verify: hash every file.
@@ -143,7 +143,6 @@ class _FactsMemory:
         return same and batch.record_digest(work.preparation) == facts.preparation
 
     def add(self, key: str, facts: AssetFacts) -> None:
-        """Take up the facts of an asset."""
         self.facts[key] = facts
         self._has_news = True
         if monotonic() - self._kept_at > self._pause:
@@ -164,7 +163,7 @@ class _FactsMemory:
 
 
 def geometry_digest(hulls: Mapping[str, str]) -> str:
-    """One digest of all hulls of an asset; hulls: the digest of each by its name, in order."""
+    """Return one digest of all hulls of an asset; hulls: the digest of each by its name, in order."""
     return batch.text_digest("\n".join(f"{name} {known}" for name, known in hulls.items()))
 
 
@@ -223,14 +222,14 @@ class AssetFiles:
     contact: float | None
 
     def read_mesh(self) -> symbolic.SymbolicMesh:
-        """The asset as it is prepared, with its labels. Raises AssetError where it cannot be read."""
+        """Return the asset as it is prepared, with its labels. Raises AssetError where it cannot be read."""
         source = batch.read_prepared(self.path, self.preparation)
         labelled = symbolic.transfer_labels(read_labels_file(self.labels), symbolic.SymbolicMesh.of(source)).mesh
         return labelled if self.contact is None else replace(labelled, epsilon=self.contact)
 
 
 def read_labels_file(path: Path) -> symbolic.LabelFile:
-    """The labels of an asset as they are kept; empty where there are none."""
+    """Return the labels of an asset as they are kept; empty where there are none."""
     return symbolic.read_labels(path) if path.exists() else symbolic.LabelFile()
 
 
@@ -255,5 +254,5 @@ def format_labels_file(
 
 
 def hull_digests(mesh: symbolic.SymbolicMesh) -> dict[str, str]:
-    """The digests of all hulls of a mesh by name, in order."""
+    """Return the digests of all hulls of a mesh by name, in order."""
     return {hull.name: geometry.digest(hull.shape) for hull in mesh.hulls}

@@ -39,7 +39,7 @@ class AssetOutput:
 
 
 def find_outputs(layout: Layout, assets: Iterable[str], *, verify: bool = False) -> dict[str, AssetOutput]:
-    """The outputs of assets, by id. verify: hash every file, also those that do not seem to have changed."""
+    """Return the outputs of assets, by id. verify: hash every file, also those that do not seem to have changed."""
     stamps = {asset: read_stamp(layout.edited, asset) for asset in assets}
     names = {name for stamp in stamps.values() if stamp for name in stamp.essential}
     known = _read_known(layout.outputs, file_state(layout.outputs))

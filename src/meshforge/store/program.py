@@ -19,14 +19,14 @@ from meshforge.store.layout import JsonFile, Layout, ReplacedHulls, read_json, w
 
 
 def list_templates(layout: Layout) -> tuple[str, ...]:
-    """The names of templates as actions write them, sorted."""
+    """Return the names of templates as actions write them, sorted."""
     folder = layout.own_templates
     paths = (path for path in folder.rglob("*") if path.is_file() and not path.name.startswith("."))
     return tuple(sorted(relative_name(path, folder) for path in paths if path.suffix.lower() in MESH_SUFFIXES))
 
 
 def check_template(layout: Layout, name: str, data: bytes) -> None:
-    """Raises ProjectError where the contents of a file cannot be a template: no plain name, or no convex hulls."""
+    """Raise ProjectError where the contents of a file cannot be a template: no plain name, or no convex hulls."""
     beside, _ = layout.templates
     _check_name(name)
     if (beside / name).exists():
@@ -102,7 +102,7 @@ class ManualEditsFile(JsonFile):
 
 
 def parse_action_text(text: str, where: str | Path) -> tuple[language.Action, str | None]:
-    """The action and the label it gives. Raises ProjectError, about `where`, where the text is no action."""
+    """Return the action and the label it gives. Raises ProjectError, about `where`, where the text is no action."""
     try:
         (rule,) = language.Program.parse(f"All => {text}", "action").rules
     except (MeshForgeError, ValueError) as error:
@@ -111,14 +111,15 @@ def parse_action_text(text: str, where: str | Path) -> tuple[language.Action, st
 
 
 def read_steps(path: Path) -> tuple[synthesis.Step, ...]:
-    """The steps in a demonstrations file, none where there is no such file. Raises ProjectError for no action."""
+    """Return the steps in a demonstrations file, none where there is no such file. Raises ProjectError for no
+    action."""
     kept = read_json(path, DemonstrationFile)
     lines = kept.steps if kept else ()
     return tuple(synthesis.Step(line.rule, line.select, *parse_action_text(line.action, path)) for line in lines)
 
 
 def read_manual_edits(path: Path) -> tuple[ManualEdit, ...]:
-    """The edits by hand in a file, none where there is no such file. Raises ProjectError for no action."""
+    """Return the edits by hand in a file, none where there is no such file. Raises ProjectError for no action."""
     kept = read_json(path, ManualEditsFile)
     lines = kept.steps if kept else ()
     return tuple(ManualEdit(tuple(line.hulls.items()), *parse_action_text(line.action, path)) for line in lines)

@@ -96,7 +96,7 @@ class Settings(BaseModel):
 
 
 def read_settings(folder: Path) -> Settings:
-    """The settings of a project. Raises ProjectError: no project here, no TOML, or a field that does not fit."""
+    """Return the settings of a project. Raises ProjectError: no project here, no TOML, or a field that does not fit."""
     path = folder / batch.SETTINGS
     text = _read_text(path)
     try:
@@ -153,7 +153,7 @@ def edit_settings(folder: Path, values: Mapping[str, TomlValue | None]) -> str:
 
 
 def toml_value(value: TomlValue) -> str:
-    """A value as TOML writes it: a string, a number, or an array of strings."""
+    """Return a value as TOML writes it: a string, a number, or an array of strings."""
     import tomlkit  # lazy: reading settings needs the standard library only
 
     if isinstance(value, str | int | float):
@@ -162,7 +162,7 @@ def toml_value(value: TomlValue) -> str:
 
 
 def set_value(text: str, key: str, value: TomlValue | None, table: str | None = None) -> str:
-    """A TOML text with one key of the top level, or of a table (`a` or `a.b`), set, or removed by None.
+    """Return a TOML text with one key of the top level, or of a table (`a` or `a.b`), set, or removed by None.
 
     Comments and layout stay as their author wrote them. Raises ProjectError for a key inside an inline table.
     """
@@ -187,12 +187,12 @@ def set_value(text: str, key: str, value: TomlValue | None, table: str | None = 
 
 
 def orientation(settings: Settings, folder: Path) -> language.Orient | None:
-    """The orientation directive. Raises ProjectError where its text does not parse."""
+    """Return the orientation directive. Raises ProjectError where its text does not parse."""
     return parse_orientation(settings.orient, str(folder / batch.SETTINGS))
 
 
 def parse_orientation(text: str, where: str = "orient") -> language.Orient | None:
-    """The directive in a text, with or without the word `orient`; None for an empty text."""
+    """Return the directive in a text, with or without the word `orient`; None for an empty text."""
     text = text.strip()
     if not text:
         return None
@@ -203,7 +203,7 @@ def parse_orientation(text: str, where: str = "orient") -> language.Orient | Non
 
 
 def orientation_text(orient: language.Orient | None) -> str:
-    """The text of a directive, without the word `orient`."""
+    """Return the text of a directive, without the word `orient`."""
     return language.show(orient).removeprefix("orient ") if orient else ""
 
 
@@ -221,7 +221,7 @@ def _read_text(path: Path) -> str:
 
 
 def path_seen_from(folder: Path, pattern: str) -> str:
-    """A path or glob, given from here, as it is written in a file of that folder."""
+    """Return a path or glob, given from here, as it is written in a file of that folder."""
     try:
         return Path(os.path.relpath(pattern, folder)).as_posix()
     except ValueError:  # another drive
@@ -263,7 +263,8 @@ def _merge_events_by_lines(path: Path) -> None:
 
 
 def find_assets(folder: Path) -> batch.AssetSet:
-    """The assets that the settings of a project name. Raises ProjectError where one is gone or lies elsewhere."""
+    """Return the assets that the settings of a project name. Raises ProjectError where one is gone or lies
+    elsewhere."""
     settings = read_settings(folder)
     base = Path(os.path.normpath(folder / settings.base))
     try:

@@ -35,7 +35,7 @@ class SignOffBasis(OutputInputs):
         return SignOffBasis.model_construct(**fields)
 
     def changes(self, other: OutputInputs) -> tuple[str, ...]:
-        """What differs between the two, in words."""
+        """Return what differs between the two, in words."""
         if isinstance(other, SignOffBasis) and other.answers is None:
             return ("how sign-offs are kept",)
         return tuple(ANSWERS if one == "answers" else one for one in super().changes(other))
@@ -51,7 +51,7 @@ class SignOff(JsonFile):
     rests_on: SignOffBasis
 
     def meets(self, threshold: float) -> bool:
-        """Whether a person signed it off, or the tool at this probability at least."""
+        """Return whether a person signed it off, or the tool at this probability at least."""
         return self.by == "person" or self.probability >= threshold
 
 
@@ -75,12 +75,12 @@ class ConfidenceLine(JsonFile):
     measures: signoff.EditMeasures | None = None
 
     def passes(self, threshold: float) -> bool:
-        """Whether it may be signed off."""
+        """Return whether it may be signed off."""
         return self.looked_at or (self.probability >= threshold and not self.is_outlier)
 
     def with_alarms(self, alarms: Sequence[str]) -> ConfidenceLine:
-        """The same where these alarms are not more than those it knows, or a person looked at it; else an outlier,
-        and by what."""
+        """Return the same where these alarms are not more than those it knows, or a person looked at it; else an
+        outlier, and by what."""
         if self.looked_at or len(alarms) <= sum(reason.kind == "alarm" for reason in self.reasons):
             return self
         others = tuple(reason for reason in self.reasons if reason.kind != "alarm")
@@ -114,18 +114,19 @@ class AssessmentFile(JsonFile):
     assets: dict[str, ConfidenceLine] = Field(default_factory=dict)
 
     def with_alarms(self, alarms: Mapping[str, Sequence[str]]) -> AssessmentFile:
-        """The same, and what stands out among outputs that were written since; alarms: sentences by asset."""
+        """Return the same, and what stands out among outputs that were written since; alarms: sentences by asset."""
         lines = {name: line.with_alarms(alarms.get(name, ())) for name, line in self.assets.items()}
         return self.model_copy(update={"assets": lines})
 
     def holds(self, inputs_digest: str, inputs: Mapping[str, OutputInputs]) -> bool:
-        """Whether nothing changed since; inputs: of the edits of all assets that can be read, or of some."""
+        """Return whether nothing changed since; inputs: of the edits of all assets that can be read, or of some."""
         return inputs_digest == self.inputs_digest and all(
             name in self.assets and not find_changes(now, self.assets[name].rests_on) for name, now in inputs.items()
         )
 
 
 def find_changes(now: OutputInputs, then: OutputInputs) -> tuple[str, ...]:
-    """What changed of all that an edit rests on; not how outputs are written, nor the version of this software."""
+    """Return what changed of all that an edit rests on; not how outputs are written, nor the version of this
+    software."""
     kept: Mapping[str, object] = {"settings": then.settings, "software": then.software}
     return now.model_copy(update=dict(kept)).changes(then)

@@ -45,7 +45,8 @@ class Store:
 
     @classmethod
     def open(cls, folder: str | Path) -> Self:
-        """The project in a folder. Raises ProjectError: none there, its settings do not fit, or an asset is gone."""
+        """Return the project in a folder. Raises ProjectError: none there, its settings do not fit, or an asset is
+        gone."""
         folder = Path(folder).absolute()
         return cls(folder, settings_file.find_assets(folder))
 
@@ -55,7 +56,8 @@ class Store:
         return Layout(self.folder)
 
     def lock(self) -> AbstractContextManager[None]:
-        """The project's lock, under which files are read, changed and written; a thread may take it again and again."""
+        """Return the project's lock, under which files are read, changed and written; a thread may take it again and
+        again."""
         return batch.hold_lock(self.layout.lock, str(self.folder), again=True)
 
     # Settings
@@ -148,17 +150,17 @@ class Store:
         return ids[asset]
 
     def asset_files(self, assets: Iterable[str]) -> tuple[AssetFiles, ...]:
-        """What each of some assets is read from, for reading it in another process."""
+        """Return what each of some assets is read from, for reading it in another process."""
         layout, contact = self.layout, self.settings.thresholds.contact
         return tuple(AssetFiles(self.path(a), layout.preparation(a), layout.labels(a), contact) for a in assets)
 
     def mesh(self, asset: str) -> symbolic.SymbolicMesh:
-        """An asset as it is prepared, with its labels. Raises AssetError where it cannot be read."""
+        """Return an asset as it is prepared, with its labels. Raises AssetError where it cannot be read."""
         (files,) = self.asset_files([asset])
         return self.cache.get(files) if self.cache else files.read_mesh()
 
     def meshes_by_id(self, assets: Iterable[str] | None = None) -> Iterator[tuple[str, symbolic.SymbolicMesh]]:
-        """All assets, or some, with their ids and labels; those that cannot be read are left out."""
+        """Yield all assets, or some, with their ids and labels; those that cannot be read are left out."""
         for asset in self.assets() if assets is None else assets:
             try:
                 yield asset, self.mesh(asset)
@@ -166,11 +168,11 @@ class Store:
                 continue
 
     def readers(self, assets: Iterable[str]) -> tuple[Callable[[], symbolic.SymbolicMesh], ...]:
-        """Functions that read each of some assets as `mesh` does, in this process or another."""
+        """Return functions that read each of some assets as `mesh` does, in this process or another."""
         return tuple(files.read_mesh for files in self.asset_files(assets))
 
     def preparation(self, asset: str) -> batch.Preparation:
-        """What is done to an asset before the program. Raises AssetError where its files are damaged."""
+        """Return what is done to an asset before the program. Raises AssetError where its files are damaged."""
         self.path(asset)
         return batch.read_preparation(self.layout.preparation(asset)) or batch.Preparation()
 
@@ -199,7 +201,7 @@ class Store:
     # Labels
 
     def labels(self, asset: str) -> symbolic.LabelFile:
-        """The labels file of an asset; an empty one where there is none."""
+        """Return the labels file of an asset; an empty one where there is none."""
         return read_labels_file(self.layout.labels(asset))
 
     def write_labels(
@@ -238,19 +240,19 @@ class Store:
     # Demonstrations, and edits by hand
 
     def demonstration_ids(self) -> tuple[str, ...]:
-        """The ids of the assets that have a demonstration."""
+        """Return the ids of the assets that have a demonstration."""
         shown = set(self.layout.demonstration.ids)
         return tuple(asset for asset in self.assets() if asset in shown)
 
     def demonstrations(self) -> dict[str, synthesis.Demonstration]:
-        """All demonstrations, by asset."""
+        """Return all demonstrations, by asset."""
         return {
             asset: synthesis.Demonstration(self.mesh(asset), self.steps(asset), asset)
             for asset in self.demonstration_ids()
         }
 
     def steps(self, asset: str) -> tuple[synthesis.Step, ...]:
-        """The steps that were demonstrated on an asset; none where nothing was."""
+        """Return the steps that were demonstrated on an asset; none where nothing was."""
         return program_files.read_steps(self.layout.demonstration(asset))
 
     def write_steps(self, asset: str, steps: Sequence[synthesis.Step]) -> None:
@@ -259,7 +261,7 @@ class Store:
             program_files.write_steps(self.layout.demonstration(asset), asset, steps)
 
     def manual_edits(self, asset: str) -> tuple[batch.ManualEdit, ...]:
-        """The edits by hand that are replayed on an asset after the program."""
+        """Return the edits by hand that are replayed on an asset after the program."""
         return program_files.read_manual_edits(self.layout.manual_edits(asset))
 
     def write_manual_edits(self, asset: str, manual_edits: Sequence[batch.ManualEdit]) -> None:
@@ -270,7 +272,7 @@ class Store:
     # The program
 
     def program(self) -> language.Program | None:
-        """The accepted program, None where there is none yet. Raises ProgramError where it does not parse."""
+        """Return the accepted program, None where there is none yet. Raises ProgramError where it does not parse."""
         return language.Program.read(self.layout.program) if self.layout.program.exists() else None
 
     def write_program(self, program: language.Program) -> None:
@@ -279,7 +281,7 @@ class Store:
             program_files.write_program(self.layout, program)
 
     def program_record(self) -> program_files.ProgramRecord | None:
-        """What the program was learned from; None where none was learned."""
+        """Return what the program was learned from; None where none was learned."""
         return read_json(self.layout.learned, program_files.ProgramRecord)
 
     def write_program_record(self, record: program_files.ProgramRecord) -> None:
@@ -292,7 +294,7 @@ class Store:
         return batch.load_named_templates(names, self.layout.templates)
 
     def template_names(self) -> tuple[str, ...]:
-        """The names of all templates in the project's folder of them, as actions write them."""
+        """Return the names of all templates in the project's folder of them, as actions write them."""
         return program_files.list_templates(self.layout)
 
     def add_template(self, name: str, data: bytes) -> None:
@@ -304,7 +306,8 @@ class Store:
     # What a person said
 
     def feedback(self) -> Feedback:
-        """What all that people said comes to. Raises ProjectError, naming file and line, where it cannot be read."""
+        """Return what all that people said comes to. Raises ProjectError, naming file and line, where it cannot be
+        read."""
         return load_feedback(self.layout)
 
     def add_events(self, *events: Event) -> None:
@@ -341,7 +344,7 @@ class Store:
                 save_events(self.layout, after)
 
     def sign_offs(self) -> dict[str, SignOff]:
-        """Which assets are signed off, by asset."""
+        """Return which assets are signed off, by asset."""
         return load_sign_offs(self.layout.sign_offs)
 
     def write_sign_offs(self, signed: Mapping[str, SignOff]) -> None:
@@ -350,11 +353,11 @@ class Store:
             write_atomically(self.layout.sign_offs, format_lines(one for _, one in sorted(signed.items())))
 
     def assessment(self) -> AssessmentFile | None:
-        """How the family stood when it was looked at last; None where that is not kept, or damaged."""
+        """Return how the family stood when it was looked at last; None where that is not kept, or damaged."""
         return read_derived(self.layout.assessment, AssessmentFile)
 
     def reference_measures(self) -> list[signoff.EditMeasures]:
-        """The measures of edits that a person showed, accepted or corrected, as the last review found them."""
+        """Return the measures of edits that a person showed, accepted or corrected, as the last review found them."""
         last = self.assessment()
         return [one.measures for one in last.assets.values() if one.looked_at and one.measures] if last else []
 

@@ -45,13 +45,13 @@ Choice = tuple[Value | None, Value]
 
 
 def list_action_forms() -> tuple[ActionForm, ...]:
-    """A form for each action, those of plug-ins among them; `Each` is a switch of all."""
+    """Return a form for each action, those of plug-ins among them; `Each` is a switch of all."""
     forms = (_try_form(kind) for kind in language.ACTIONS.loadable().values() if kind is not language.Each)
     return tuple(form for form in forms if form)
 
 
 def list_operator_views() -> tuple[Operator, ...]:
-    """The leaves of extractors, of plug-ins those whose arguments the page knows, and the set operators."""
+    """Return the leaves of extractors, of plug-ins those whose arguments the page knows, and the set operators."""
     kinds = (kind for kind in language.EXTRACTORS.loadable().values() if _has_fields(kind))
     return (*map(_view_leaf, kinds), *map(_view_set_operator, language.SET_OPERATORS))
 
@@ -78,12 +78,11 @@ def _view_operator(name: str, summary: str, operands: Sequence[Argument], base: 
 
 
 def _has_fields(kind: type[language.Operation]) -> bool:
-    """Whether the page has a field for each argument."""
     return all(type(argument) in _KINDS for argument in kind.arguments().values())
 
 
 def view_action(action: Action, label: str | None) -> ActionView:
-    """An action, and the label that it gives, as the page shows it."""
+    """Return an action, and the label that it gives, as the page shows it."""
     inner = action.action if isinstance(action, language.Each) else action
     kinds = inner.arguments()
     return ActionView(
@@ -101,7 +100,8 @@ def view_action(action: Action, label: str | None) -> ActionView:
 
 
 def read_action(call: ActionCall, where: str) -> tuple[Action, str | None]:
-    """The action that the page sends, and the label that it gives. Raises ProjectError, about `where`, for none."""
+    """Return the action that the page sends, and the label that it gives. Raises ProjectError, about `where`, for
+    none."""
     given = {name: value for name, value in call.arguments.items() if value not in ("", False)}
     text = f"{call.name}({', '.join(_show_arguments(call.name, given, where))})" if given else call.name
     text = f"Each({text})" if call.each else text

@@ -16,7 +16,7 @@ class TooLargeError(UsageError):
 
 
 def status_of(error: Exception) -> int:
-    """The HTTP status of an error."""
+    """Return the HTTP status of an error."""
     match error:
         case ConflictError():
             return 409
@@ -31,7 +31,7 @@ def status_of(error: Exception) -> int:
 
 
 def problem_of(error: Exception) -> Problem:
-    """An error in its parts; a fault of the studio in one sentence."""
+    """Return an error in its parts; a fault of the studio in one sentence."""
     if isinstance(error, MeshForgeError):
         return Problem(
             message=error.problem,

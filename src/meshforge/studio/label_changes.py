@@ -43,7 +43,8 @@ class LabelChanges:
         self._no_change: tuple[tuple[HistoryEntry, ...], str | None] | None = None
 
     def last_change(self, names: HullNames) -> LabelUpdate | None:
-        """What the last edit did to assets whose hulls are known by now; None where it did not edit all labels."""
+        """Return what the last edit did to assets whose hulls are known by now; None where it did not edit all
+        labels."""
         done = self._history.entries
         if not done or done[-1].edit.get("kind") not in _LABEL_EDIT_KINDS:
             return None
@@ -57,7 +58,7 @@ class LabelChanges:
         self._no_change = self._history.entries[:entries], best
 
     def propagation_state(self, project: Project, cards: Sequence[Card]) -> PropagationState | None:
-        """What is known of the last propagation; None where there was none, or where it is undone."""
+        """Return what is known of the last propagation; None where there was none, or where it is undone."""
         done = self._history.entries
         used = self._last_propagation(done)
         if used is None:
@@ -120,7 +121,7 @@ def _labels_files(names: Iterable[str]) -> dict[str, str]:
 
 
 def diff_labels(asset: str, names: Sequence[str], before: HullLabels, after: HullLabels) -> AssetLabelUpdate | None:
-    """Which hulls got another label, None where none did; names: of all hulls, in order."""
+    """Return which hulls got another label, None where none did; names: of all hulls, in order."""
     pairs = [(k, before.get(name), after.get(name)) for k, name in enumerate(names)]
     new = tuple(k for k, was, now in pairs if now and not was)
     changed = {k: was.name for k, was, now in pairs if was and now and was.name != now.name}
@@ -130,13 +131,13 @@ def diff_labels(asset: str, names: Sequence[str], before: HullLabels, after: Hul
 
 
 def count_newly_sure(before: HullLabels, after: HullLabels) -> int:
-    """How many labels are sure now and were not."""
+    """Return how many labels are sure now and were not."""
     pairs = ((was, after.get(name)) for name, was in before.items())
     return sum(was.confidence < UNSURE <= now.confidence for was, now in pairs if now)
 
 
 def count_new_labels(before: HullLabels, now: HullLabels) -> int:
-    """How many labels of people and files are new or changed."""
+    """Return how many labels of people and files are new or changed."""
     given = {name: label.name for name, label in before.items() if label.source in GIVEN_SOURCES}
     return sum(label.source in GIVEN_SOURCES and given.get(name) != label.name for name, label in now.items())
 
@@ -161,7 +162,6 @@ class EarlyLabels:
             raise
 
     def _put_on_cards(self, labels: LabelsByAsset) -> tuple[Card, ...]:
-        """Show labels; gives the cards as they were."""
         cards = {card.asset: card for card in self._pages.cards if card.asset in labels}
         places = {word.name: place for place, word in enumerate(self._pages.shown.project.vocabulary)}
         names = self._names()
@@ -172,7 +172,8 @@ class EarlyLabels:
 
 
 def relabel_card(card: Card, names: Sequence[str], labels: Mapping[str, str | None], places: Mapping[str, int]) -> Card:
-    """A card with labels that a person gave; names: of its hulls, in order; places: of the labels in the vocabulary.
+    """Return a card with labels that a person gave; names: of its hulls, in order; places: of the labels in the
+    vocabulary.
 
     Those that will be refused, of other hulls or outside of the vocabulary, are left out.
     """

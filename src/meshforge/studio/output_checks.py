@@ -38,7 +38,7 @@ class OutputChecks:
         self._cache.remove_oldest()
 
     def check_part(self, project: Project, asset: str, part: CheckPart) -> Future[CheckResult]:
-        """One part of what is measured of an asset's output. Raises ProjectError where there is no output."""
+        """Return one part of what is measured of an asset's output. Raises ProjectError where there is no output."""
         work = _make_task(project, asset)
         kept = self._cache.read(work.key, part)
         return future_of(kept) if kept else self._workers.start(_measure_part, work, part, self._cache)
@@ -46,20 +46,20 @@ class OutputChecks:
     def draw_pictures(
         self, project: Project, asset: str, part: CheckPart, unit: LengthUnit = "m"
     ) -> Future[tuple[CheckPicture, ...]]:
-        """The pictures of a part, drawn if they are not cached. Raises ProjectError where there is no output."""
+        """Return the pictures of a part, drawn if they are not cached. Raises ProjectError where there is no output."""
         work = _make_task(project, asset)
         kept = self._cache.read_pictures(work.key, part, unit)
         return future_of(kept) if kept is not None else self._workers.start(_draw, work, part, unit, self._cache)
 
     def read_picture(self, asset: str, key: str, name: str) -> bytes:
-        """A picture that was drawn. Raises NotHereError for any other."""
+        """Return a picture that was drawn. Raises NotHereError for any other."""
         try:
             return self._cache.picture_path(key, name).read_bytes()
         except OSError:
             raise NotHereError("there is no such picture", where=asset) from None
 
     def faults_of(self, key: str | None) -> tuple[Fault, ...] | None:
-        """The faults of the output of a key, None where not all of its parts are measured."""
+        """Return the faults of the output of a key, None where not all of its parts are measured."""
         if key is None:
             return None
         if key not in self._faults and (found := self._cache.read_faults(key)) is not None:
@@ -69,7 +69,8 @@ class OutputChecks:
     def check_all(
         self, project: Project, assets: Sequence[str], done: Callable[[], None], stop: Callable[[], bool]
     ) -> Iterator[tuple[str, tuple[Fault, ...] | str]]:
-        """The faults of the outputs of some assets, or why one was not checked; those measured already come first.
+        """Yield the faults of the outputs of some assets, or why one was not checked; those measured already come
+        first.
 
         done: called for each output. Raises StoppedError where `stop` says so; what was measured stays.
         """
@@ -140,7 +141,7 @@ class ResultCache:
     folder: Path
 
     def read(self, key: str, part: CheckPart) -> CheckResult | None:
-        """A part that was measured."""
+        """Return a part that was measured."""
         try:
             return CheckResult.model_validate_json((self.folder / f"{key}.{part}.json").read_bytes())
         except (OSError, ValidationError):
@@ -151,11 +152,11 @@ class ResultCache:
         write_atomically(self.folder / f"{key}.{checked.part}.json", checked.model_dump_json())
 
     def missing_parts(self, key: str) -> tuple[CheckPart, ...]:
-        """The parts that were not measured yet."""
+        """Return the parts that were not measured yet."""
         return tuple(part for part in CHECK_PARTS if self.read(key, part) is None)
 
     def read_faults(self, key: str) -> tuple[Fault, ...] | None:
-        """The faults of all parts, None where one is not measured."""
+        """Return the faults of all parts, None where one is not measured."""
         parts = [checked for part in CHECK_PARTS if (checked := self.read(key, part))]
         if len(parts) < len(CHECK_PARTS):
             return None
@@ -163,7 +164,7 @@ class ResultCache:
         return tuple(Fault(rule=f.rule, severity=f.severity, engine=f.engine, new=f.new) for f in found)
 
     def read_pictures(self, key: str, part: CheckPart, unit: LengthUnit) -> tuple[CheckPicture, ...] | None:
-        """The pictures of a part that were drawn."""
+        """Return the pictures of a part that were drawn."""
         try:
             return _PICTURE_LIST.validate_json(self._list_path(key, part, unit).read_bytes())
         except (OSError, ValidationError):
@@ -183,7 +184,7 @@ class ResultCache:
         return self.folder / f"{key}.{part}.{unit}.pictures.json"
 
     def picture_path(self, key: str, name: str) -> Path:
-        """Where a picture is kept."""
+        """Return where a picture is kept."""
         return self.folder / f"{key}.{name}.png"
 
     def remove_oldest(self) -> None:

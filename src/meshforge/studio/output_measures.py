@@ -26,7 +26,7 @@ _VERSION = "1"
 
 
 def measure(pair: OutputPair, part: CheckPart) -> CheckResult:
-    """One part of what `meshforge check OUTPUT --against ASSET` reports."""
+    """Return one part of what `meshforge check OUTPUT --against ASSET` reports."""
     if part == "engines":
         return _check_engines(pair)
     now = checks.examine_mesh(pair.after, checks.CheckOptions((part,)), pair.before)
@@ -102,7 +102,7 @@ def _fit_of(found: checks.Examination) -> checks.MeshFit | None:
 
 
 def fit_figures(was: checks.Examination, now: checks.Examination) -> Iterator[Figure]:
-    """How far hulls stick out, and what they leave uncovered."""
+    """Yield how far hulls stick out, and what they leave uncovered."""
     before, after = _fit_of(was), _fit_of(now)
     if after is None:
         return
@@ -112,7 +112,7 @@ def fit_figures(was: checks.Examination, now: checks.Examination) -> Iterator[Fi
 
 
 def clearance_figures(was: checks.Examination, now: checks.Examination) -> Iterator[Figure]:
-    """How much of the space about the visual mesh hulls close and open; then what the edit closed and opened."""
+    """Yield how much of the space about the visual mesh hulls close and open; then what the edit closed and opened."""
     for key, what in (("clearance", ", against the visual"), (checks.OF_EDIT, " by the edit")):
         before, after = was.get(key, checks.Clearance), now.get(key, checks.Clearance)
         if after:
@@ -121,7 +121,7 @@ def clearance_figures(was: checks.Examination, now: checks.Examination) -> Itera
 
 
 def physics_figures(now: checks.Examination) -> Iterator[Figure]:
-    """How the asset rests, and which bodies overlap."""
+    """Yield how the asset rests, and which bodies overlap."""
     physics, earlier = now.get("physics", checks.Physics), now.get(checks.BEFORE, checks.Physics)
     was, rest = earlier.rest if earlier else None, physics.rest if physics else None
     if rest is not None:
@@ -188,7 +188,7 @@ def _is_unchanged(project: Project, asset: str, stamp: Stamp) -> bool:
 
 
 def check_key(stamp: Stamp | None) -> str | None:
-    """A digest of the files of an output and of the asset it was made from, None where there is no output."""
+    """Return a digest of the files of an output and of the asset it was made from, None where there is no output."""
     output = output_digest(stamp)
     if stamp is None or stamp.inputs is None or output is None:
         return None

@@ -65,7 +65,7 @@ class SimilarHulls:
             self._describe(project, asset)
 
     def find(self, project: Project, readable: Sequence[str], request: SimilarRequest) -> SimilarView:
-        """Hulls that look like some. readable: the assets of the project that can be looked in.
+        """Return hulls that look like some. readable: the assets of the project that can be looked in.
 
         Raises NotHereError for a hull that is not there, AssetError where its asset cannot be read.
         """
@@ -119,7 +119,7 @@ class SimilarHulls:
 
 
 def choose_assets(first: Sequence[str], assets: Sequence[str], most: int = MOST_ASSETS) -> tuple[str, ...]:
-    """Some assets with those that come first, evenly chosen where there are too many."""
+    """Return some assets with those that come first, evenly chosen where there are too many."""
     rest = [asset for asset in assets if asset not in set(first)]
     room = max(most - len(first), 0)
     if len(rest) > room:

@@ -47,7 +47,7 @@ class Thumbnails:
         _remove_oldest(folder)
 
     def get(self, project: Project, asset: str, of: ThumbnailOf, digest: str) -> Future[bytes]:
-        """The thumbnail of an asset, or of its output, as a PNG file; digest: that of its card.
+        """Return the thumbnail of an asset, or of its output, as a PNG file; digest: that of its card.
 
         The result is NotHereError where the asset looks otherwise by now, and has another digest therefore.
         """

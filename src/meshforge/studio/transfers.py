@@ -61,12 +61,13 @@ class Uploads:
         return path
 
     def list_files(self) -> tuple[Path, tuple[str, ...]]:
-        """The folder of the uploaded files, and their paths in it."""
+        """Return the folder of the uploaded files, and their paths in it."""
         home = self.folder / "assets"
         return home, tuple(sorted(file.relative_to(home).as_posix() for file in home.rglob("*") if file.is_file()))
 
     def keep_readable(self, workers: Workers) -> _Readable:
-        """The assets that can be read; the files of the others are removed. Raises ProjectError where there is none."""
+        """Return the assets that can be read; the files of the others are removed. Raises ProjectError where there is
+        none."""
         home, _ = self.list_files()
         sent = find_assets(workers, home)
         for name in sent.unreadable:
@@ -99,7 +100,7 @@ async def save_stream(target: Path, chunks: AsyncIterator[bytes], most: int, nam
 
 
 def confine_path(path: str) -> PurePosixPath:
-    """A relative path without tricks. Raises UsageError for any other."""
+    """Return a relative path without tricks. Raises UsageError for any other."""
     pure = PurePosixPath(path)
     parts = path.split("/")
     unknown = any(part in ("", ".", "..") or part.startswith(".") or not part.isprintable() for part in parts)
@@ -122,7 +123,7 @@ class _Readable:
 
 
 def find_assets(workers: Workers, home: Path) -> _Readable:
-    """The assets among uploaded files. Raises ProjectError: there are none, or none can be read."""
+    """Return the assets among uploaded files. Raises ProjectError: there are none, or none can be read."""
     with confine_reads(home):
         found = find_assets_in(home) if home.is_dir() else []
     if not found:
@@ -172,11 +173,12 @@ class Downloads:
         self.clear()
 
     def path_for(self, number: str, name: str) -> Path:
-        """Where a file is to be written. number: of its making, which no other has; name: what the browser calls it."""
+        """Return where a file is to be written. number: of its making, which no other has; name: what the browser calls
+        it."""
         return self._folder / number / name
 
     def add(self, job: str, path: Path) -> None:
-        """A job has made a file."""
+        """Add a file that a job has made."""
         with self._lock:
             self._files[job] = path
             while len(self._files) > MOST_DOWNLOADS:
@@ -184,7 +186,7 @@ class Downloads:
                 shutil.rmtree(oldest.parent, ignore_errors=True)
 
     def give_ticket(self, job: str) -> str:
-        """A ticket for the file of a job. Raises NotHereError where there is none, or none any more."""
+        """Return a ticket for the file of a job. Raises NotHereError where there is none, or none any more."""
         with self._lock:
             path, now = self._files.get(job), monotonic()
             if path is None or not path.is_file():
@@ -195,7 +197,7 @@ class Downloads:
             return ticket
 
     def redeem(self, ticket: str) -> Path:
-        """The file of a ticket, which is good no more. Raises NotHereError for one that is not good."""
+        """Return the file of a ticket, which is good no more. Raises NotHereError for one that is not good."""
         with self._lock:
             found = self._tickets.pop(ticket, None)
         if found is None or found.until <= monotonic() or not found.path.is_file():
@@ -210,5 +212,5 @@ class Downloads:
 
 
 def to_file_name(*words: str) -> str:
-    """Words as the name of a file on every system, joined by `-`."""
+    """Return words as the name of a file on every system, joined by `-`."""
     return "-".join(plain for word in words if (plain := _ODD.sub("-", word).strip("-."))) or "meshforge"

@@ -70,19 +70,19 @@ class Workers:
 
 
 def future_of(result: Result) -> Future[Result]:
-    """A future that has its result already."""
+    """Return a future that has its result already."""
     future: Future[Result] = Future()
     future.set_result(result)
     return future
 
 
 def project_of_one(project: Project, asset: str) -> Project:
-    """The same project with one asset, for a worker process."""
+    """Return the same project with one asset, for a worker process."""
     return Project(project.folder, replace(project.every, paths=(project.path(asset),)))
 
 
 def wait_for(future: Future[Result]) -> Result:
-    """The result of some work. Raises MeshForgeError where its process died, took too long or was stopped."""
+    """Return the result of some work. Raises MeshForgeError where its process died, took too long or was stopped."""
     from concurrent.futures.process import BrokenProcessPool  # lazy: as above
 
     from pebble import ProcessExpired  # lazy: as above

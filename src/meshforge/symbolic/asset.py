@@ -168,7 +168,7 @@ class Mechanism:
     paired: tuple[tuple[str, str], ...] = ()
 
     def move(self, pose: Pose) -> Mechanism:
-        """The mechanism in another root frame; pose: new_T_old."""
+        """Return the mechanism in another root frame; pose: new_T_old."""
         turn = pose.rotation
         return replace(
             self,
@@ -242,7 +242,8 @@ class Asset:
 
 
 def unique_names(names: Iterable[str]) -> list[str]:
-    """The names in order, a repeated one made unique by `@2`, `@3`, ...; a name that is unique stays as it is."""
+    """Return the names in order, a repeated one made unique by `@2`, `@3`, ...; a name that is unique stays as it
+    is."""
     names = list(names)
     taken, out = set(names), []
     seen: dict[str, int] = {}
@@ -258,6 +259,6 @@ def unique_names(names: Iterable[str]) -> list[str]:
 
 
 def unit_vector(axis: Floats) -> Floats | None:
-    """An axis (3,) in unit length; None where it has no direction."""
+    """Return an axis (3,) in unit length; None where it has no direction."""
     length = float(np.linalg.norm(axis))
     return axis / length if length > 0 else None

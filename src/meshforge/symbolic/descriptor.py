@@ -28,7 +28,7 @@ _CORNERS = np.array(list(product((-1.0, 1.0), repeat=3)))
 
 
 def descriptors(meshes: Sequence[SymbolicMesh]) -> Floats:
-    """A row for each hull of each mesh, in order: (hulls, len(DESCRIPTOR_NAMES)).
+    """Return a row for each hull of each mesh, in order: (hulls, len(DESCRIPTOR_NAMES)).
 
     Lengths are in diagonals of the mesh, in logarithms where they are sizes; height runs from 0 at the foot of the
     mesh to 1 at its top, along Z.

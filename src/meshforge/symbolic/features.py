@@ -71,7 +71,7 @@ PRIMITIVE_FEATURES = {
 
 
 def features_of(asset: Asset) -> list[Feature]:
-    """What an asset has, whatever its format; kinds that it has none of are left out."""
+    """Return what an asset has, whatever its format; kinds that it has none of are left out."""
     return [feature for feature in (*_features_of_geoms(asset), *_features_of_mechanism(asset)) if feature.count]
 
 

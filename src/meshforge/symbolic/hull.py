@@ -34,7 +34,7 @@ class Label:
 
     @staticmethod
     def of(value: Label | str) -> Label:
-        """A label as it is; one that is given by its name is a person's, and sure."""
+        """Return a label as it is; one that is given by its name is a person's, and sure."""
         return value if isinstance(value, Label) else Label(value)
 
     @property
@@ -43,7 +43,7 @@ class Label:
         return (self.name, *(self.given.names if self.given else ()))
 
     def rename(self, old: str, new: str) -> Label:
-        """The same where a label has another name."""
+        """Return the same where a label has another name."""
         given = self.given.rename(old, new) if self.given else None
         return replace(self, name=new if self.name == old else self.name, given=given)
 
@@ -104,7 +104,7 @@ class Hull:
         return self.shape if self.shape.is_primitive else None
 
     def to_trimesh(self) -> Any:
-        """A `trimesh.Trimesh` of the vertices and faces; `.metadata` has name, body and label.
+        """Return a `trimesh.Trimesh` of the vertices and faces; `.metadata` has name, body and label.
 
         Raises MeshForgeError where trimesh is not installed.
         """

@@ -37,7 +37,7 @@ class LabelFile:
 
 
 def write_labels(path: Path | None, mesh: SymbolicMesh, vocabulary: Sequence[str]) -> str:
-    """The text of the labels of a mesh, in its order, written to `path` unless that is None."""
+    """Return the text of the labels of a mesh, in its order, written to `path` unless that is None."""
     digests = {hull.name: digest(hull.shape) for hull in mesh.hulls if hull.annotation}
     text = format_labels(LabelFile(tuple(vocabulary), mesh.labels, digests))
     if path is not None:
@@ -46,7 +46,8 @@ def write_labels(path: Path | None, mesh: SymbolicMesh, vocabulary: Sequence[str
 
 
 def format_labels(file: LabelFile) -> str:
-    """The text of a labels file: one hull a line; labels that its vocabulary lacks are added at the end of that."""
+    """Return the text of a labels file: one hull a line; labels that its vocabulary lacks are added at the end of
+    that."""
     labels = [name for label in file.labels.values() for name in label.names]
     words = json.dumps(list(dict.fromkeys([*file.vocabulary, *labels])), ensure_ascii=False)
     rows = [_format_row(name, label, file.digests.get(name)) for name, label in file.labels.items()]
@@ -66,7 +67,8 @@ def _to_json(label: Label) -> dict[str, Any]:
 
 
 def read_labels(path: Path) -> LabelFile:
-    """The labels of a file; the short form `{"hulls": {name: label}}` is read too, its labels have the source `file`.
+    """Return the labels of a file; the short form `{"hulls": {name: label}}` is read too, its labels have the source
+    `file`.
 
     Raises AssetError naming file and hull: unreadable, no JSON, or not of that form.
     """
@@ -78,7 +80,7 @@ def read_labels(path: Path) -> LabelFile:
 
 
 def parse_labels_text(text: str | None) -> LabelFile:
-    """The labels in the text of a labels file, none for None. Raises AssetError as `read_labels` does."""
+    """Return the labels in the text of a labels file, none for None. Raises AssetError as `read_labels` does."""
     return _parse(text.encode(), Path("labels")) if text else LabelFile()
 
 
@@ -216,13 +218,13 @@ class LabelTransfer:
 
 
 def transfer_labels(file: LabelFile, mesh: SymbolicMesh) -> LabelTransfer:
-    """The mesh with the labels of the file, in the places that `match_labels` gives them."""
+    """Return the mesh with the labels of the file, in the places that `match_labels` gives them."""
     homes = match_labels(file, {hull.name: digest(hull.shape) if file.digests else "" for hull in mesh.hulls})
     return LabelTransfer(mesh.with_labels(homes.labels), homes.changed, homes.renamed, homes.gone)
 
 
 def match_labels(file: LabelFile, hulls: Mapping[str, str]) -> LabelMatch:
-    """Where labels belong among hulls, given as digests by name; hulls are known again by name and by digest.
+    """Return where labels belong among hulls, given as digests by name; hulls are known again by name and by digest.
 
     A label stays with its name. Where the name is gone, or has other geometry, it goes to the one hull that has the
     digest, provided that the file gives that digest once; so the labels of a renumbered file move with their hulls.

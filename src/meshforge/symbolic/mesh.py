@@ -44,7 +44,7 @@ class SymbolicMesh:
 
     @staticmethod
     def of(asset: Asset, labels: Mapping[str, Label | str] | None = None) -> SymbolicMesh:
-        """The mesh of an asset, with labels by the names of hulls; other names in `labels` are ignored."""
+        """Return the mesh of an asset, with labels by the names of hulls; other names in `labels` are ignored."""
         mesh = SymbolicMesh(tuple(Hull(g.name, g.body, g.shape, parent=g.parent) for g in asset.geoms), asset)
         return mesh.with_labels(labels) if labels else mesh
 
@@ -78,11 +78,11 @@ class SymbolicMesh:
         return _find_above("inspection.display", "show")(self, port=port, browser=browser, wait=wait)
 
     def to_trimesh(self) -> Any:
-        """A `trimesh.Scene` with a mesh for each hull, under its name. Raises MeshForgeError without trimesh."""
+        """Return a `trimesh.Scene` with a mesh for each hull, under its name. Raises MeshForgeError without trimesh."""
         return make_scene({hull.name: hull.to_trimesh() for hull in self.hulls})
 
     def to_mjspec(self) -> Any:
-        """A `mujoco.MjSpec` of the asset with these hulls; of an MJCF, all the rest as the file has it.
+        """Return a `mujoco.MjSpec` of the asset with these hulls; of an MJCF, all the rest as the file has it.
 
         It holds the files it refers to in memory. Raises AssetError where an MJCF cannot hold the hulls.
         """
@@ -155,7 +155,7 @@ class SymbolicMesh:
         return tuple(rows)
 
     def neighbours(self, index: int) -> frozenset[int]:
-        """Indices of the hulls in contact with hull `index`; never itself."""
+        """Return indices of the hulls in contact with hull `index`; never itself."""
         return bits_of(self.adjacency[index])
 
     @property
@@ -171,7 +171,7 @@ class SymbolicMesh:
         return {hull.name: k for k, hull in enumerate(self.hulls)}
 
     def hull_of(self, name: str) -> Hull:
-        """The hull of that name. Raises HullNotFoundError where there is none."""
+        """Return the hull of that name. Raises HullNotFoundError where there is none."""
         if name not in self.index:
             where = str(self.asset.path) if self.asset else None
             remedy = suggest_name(str(name), self.index, f"It has {pluralize(len(self.hulls), 'hull')}; see `.index`.")
@@ -183,16 +183,16 @@ class SymbolicMesh:
         return {h.name: h.annotation for h in self.hulls if h.annotation}
 
     def names_of(self, mask: int) -> tuple[str, ...]:
-        """The names of the hulls in a bit set, in their order."""
+        """Return the names of the hulls in a bit set, in their order."""
         return tuple(self.hulls[index].name for index in sorted(bits_of(mask)))
 
     def with_labels(self, labels: Mapping[str, Label | str | None]) -> SymbolicMesh:
-        """The mesh with some labels set, or taken away by None; names that no hull has are ignored."""
+        """Return the mesh with some labels set, or taken away by None; names that no hull has are ignored."""
         given = {name: None if label is None else Label.of(label) for name, label in labels.items()}
         return self.with_hulls(h.with_label(given[h.name]) if h.name in given else h for h in self.hulls)
 
     def with_hulls(self, hulls: Iterable[Hull]) -> SymbolicMesh:
-        """The mesh with other hulls; distances between hulls whose shapes stay are not measured again."""
+        """Return the mesh with other hulls; distances between hulls whose shapes stay are not measured again."""
         edited = replace(self, hulls=tuple(hulls))
         if self.known_graph is not None and edited.contact_distance == self.contact_distance:
             known, now = _positions_by_shape(self.hulls), _positions_by_shape(edited.hulls)
@@ -202,14 +202,16 @@ class SymbolicMesh:
         return edited
 
     def to_asset(self) -> Asset:
-        """The asset with the hulls of this mesh as its geoms. Raises MeshForgeError for a mesh made in memory."""
+        """Return the asset with the hulls of this mesh as its geoms. Raises MeshForgeError for a mesh made in
+        memory."""
         if self.asset is None:
             raise MeshForgeError("this mesh was made in memory and has no file to be written back to")
         named = self.names_in_file
         return self.asset.with_geoms(Geom(named.get(h.name, h.name), h.body, h.shape, h.parent) for h in self.hulls)
 
     def as_written(self, names: Mapping[str, str], back: Asset) -> SymbolicMesh:
-        """The mesh with the names and shapes of its hulls in the file that was written of it, for the labels beside it.
+        """Return the mesh with the names and shapes of its hulls in the file that was written of it, for the labels
+        beside it.
 
         names: those in the file, of hulls that have another one there; back: the file as it reads back.
         """
@@ -237,7 +239,7 @@ def _positions_by_shape(hulls: tuple[Hull, ...]) -> dict[int, int]:
 
 
 def bits_of(mask: int) -> frozenset[int]:
-    """The positions of the set bits."""
+    """Return the positions of the set bits."""
     found = []
     while mask:
         low = mask & -mask
@@ -247,7 +249,7 @@ def bits_of(mask: int) -> frozenset[int]:
 
 
 def mask_of(indices: Iterable[int]) -> int:
-    """The bit set of some positions."""
+    """Return the bit set of some positions."""
     mask = 0
     for index in indices:
         mask |= 1 << index
@@ -257,7 +259,7 @@ def mask_of(indices: Iterable[int]) -> int:
 def contact_graph(
     shapes: Sequence[Shape], reach: float, known: ContactGraph | None = None, kept: Mapping[int, int] | None = None
 ) -> ContactGraph:
-    """Distances of all pairs of shapes that are at most `reach` [m] apart, in the order of their indices.
+    """Return distances of all pairs of shapes that are at most `reach` [m] apart, in the order of their indices.
 
     known, kept: distances of an earlier list of shapes, and for each shape that was in it, its index there;
     pairs of two kept shapes are taken over, all others are measured.
@@ -274,7 +276,7 @@ def contact_graph(
 
 
 def split_by_body(mesh: SymbolicMesh, mask: int) -> list[int]:
-    """The parts of a selection in one body each, as bit sets, in order of their lowest index."""
+    """Return the parts of a selection in one body each, as bit sets, in order of their lowest index."""
     parts: dict[str, int] = {}
     for index, hull in enumerate(mesh.hulls):
         if mask >> index & 1:
@@ -283,7 +285,7 @@ def split_by_body(mesh: SymbolicMesh, mask: int) -> list[int]:
 
 
 def split_by_contact(mesh: SymbolicMesh, mask: int) -> list[int]:
-    """The connected components of a selection within one body each, as bit sets, in order of their lowest index.
+    """Return the connected components of a selection within one body each, as bit sets, in order of their lowest index.
 
     mask: the selection as a bit set. Hulls outside the selection, or of another body, connect nothing.
     """
@@ -296,7 +298,6 @@ def split_by_contact(mesh: SymbolicMesh, mask: int) -> list[int]:
 
 
 def _reach(adjacency: tuple[int, ...], seed: int, allowed: int) -> int:
-    """All positions that can be reached from the seed within those allowed."""
     reached = frontier = seed
     while frontier:
         lowest = frontier & -frontier

@@ -38,7 +38,7 @@ right as without, with noisy ones a third of the corrections are spared."""
 def find_open_rule(
     rule: int, ranked: RankedCandidates, names: Sequence[str], trust: Mapping[str, float], declined: Collection[str]
 ) -> OpenRule | None:
-    """The asset on which an answer about a rule is worth a person's time, None where there is none.
+    """Return the asset on which an answer about a rule is worth a person's time, None where there is none.
 
     names: of the meshes of the field; trust: how much an answer about each is worth; declined: those for which a person
     said that neither choice is right.
@@ -53,7 +53,7 @@ def find_open_rule(
 
 
 def suggest_demonstration(learned: Sequence[tuple[RankedCandidates, Sequence[str]]]) -> Hint | None:
-    """The asset on which the readings of all rules differ most; else the one with most hulls unlike those shown.
+    """Return the asset on which the readings of all rules differ most; else the one with most hulls unlike those shown.
 
     learned: for each rule its readings, and the names of the meshes of their field.
     """
@@ -84,7 +84,7 @@ def _hull_names(ranked: RankedCandidates, candidate: int, mesh: int) -> tuple[st
 
 
 def select_sample(learned: Sequence[FieldCandidates], trust: Mapping[str, float]) -> tuple[str, ...]:
-    """The assets whose results to look at, the most revealing first; none of which every rule is known.
+    """Return the assets whose results to look at, the most revealing first; none of which every rule is known.
 
     First each time the asset on which most belief is in readings that none before it would refute, then the one that
     stands for most hulls unlike any before. trust: how much each shows; where labels are doubtful less, since what is
@@ -155,8 +155,8 @@ def choose_first_demonstration(
     extremity: float | None = None,
     among: Collection[str] | None = None,
 ) -> str | None:
-    """The id of the mesh on which the small selections that people mean come out in most different ways, for its hulls
-    and the labels that may be wrong.
+    """Return the id of the mesh on which the small selections that people mean come out in most different ways, for its
+    hulls and the labels that may be wrong.
 
     Of equals the first. None where no mesh can be turned as `orient` says, or none has a label. orient, contact,
     extremity: of the program; among: the ids of those in question, by default all: labels are judged by all.

@@ -73,7 +73,7 @@ class Demonstration:
             )
 
     def step(self, rule: int) -> Step | None:
-        """The step of that rule, None where the mesh says nothing about it."""
+        """Return the step of that rule, None where the mesh says nothing about it."""
         step = self.steps[rule - 1] if rule <= len(self.steps) else None
         return None if step is None or step.open else step
 
@@ -83,18 +83,18 @@ class Demonstration:
         return {step.rule: step.select for step in self.steps if step.select is not None}
 
     def with_selection(self, rule: int, select: Iterable[str]) -> Demonstration:
-        """The same with other hulls selected in a step that is there."""
+        """Return the same with other hulls selected in a step that is there."""
         steps = [Step(one.rule, select, one.action, one.label) if one.rule == rule else one for one in self.steps]
         return Demonstration(self.mesh, steps, self.name)
 
 
 def name_demonstrations(demos: Iterable[Demonstration]) -> tuple[tuple[str, Demonstration], ...]:
-    """Each demonstration with the name that messages use; one without a name is `demonstration 1`, `2`, ..."""
+    """Return each demonstration with the name that messages use; one without a name is `demonstration 1`, `2`, ..."""
     return tuple((demo.name or f"demonstration {k}", demo) for k, demo in enumerate(demos, 1))
 
 
 def strip_each(action: Action) -> Action:
-    """The action without `Each` around it."""
+    """Return the action without `Each` around it."""
     return action.action if isinstance(action, Each) else action
 
 
@@ -115,7 +115,7 @@ LabelChange = tuple[int, str]
 
 
 def to_fix(example: Example, change: LabelChange) -> LabelFix:
-    """A change as it is called outside."""
+    """Return a change as it is called outside."""
     hull = example.mesh.hulls[change[0]]
     return LabelFix(example.name, hull.name, hull.label, change[1])
 
@@ -135,7 +135,7 @@ class RuleSpec:
 
 
 def collect_rule_specs(demos: Sequence[Demonstration]) -> tuple[RuleSpec, ...]:
-    """The rules in order. Raises DemonstrationError where actions differ, or where a rule is shown nowhere."""
+    """Return the rules in order. Raises DemonstrationError where actions differ, or where a rule is shown nowhere."""
     count = max((len(demo.steps) for demo in demos), default=0)
     if not count:
         raise DemonstrationError("there is no demonstrated step to learn from")

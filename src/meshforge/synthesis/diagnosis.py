@@ -20,7 +20,7 @@ _MAX_SENTENCES = 4
 
 
 def give_advice(miss: NearestExtractor, examples: Sequence[Example], answered: Sequence[str] = ()) -> tuple[str, ...]:
-    """What a person can look at, the likeliest first; answered: the meshes that an answer is about."""
+    """Return what a person can look at, the likeliest first; answered: the meshes that an answer is about."""
     example = next(example for example in examples if example.name == miss.asset)
     lines = [*_advise_on_missing_labels(miss, example), *_advise_on_near_contacts(miss, example)]
     if answered:
@@ -89,7 +89,7 @@ def _advise_on_near_contacts(miss: NearestExtractor, example: Example) -> Iterat
 
 
 def find_obstacles(task: LearningTask, wanted: language.Program) -> tuple[str, ...]:
-    """What keeps a wanted program from being learned before any rule is searched for."""
+    """Return what keeps a wanted program from being learned before any rule is searched for."""
     lines = []
     if len(wanted.rules) != len(task.rules):
         lines.append(f"{pluralize(len(task.rules), 'rule is', 'rules are')} demonstrated, not {len(wanted.rules)}")
@@ -107,7 +107,8 @@ def follow_rule(
     examples: Sequence[Example],
     task: LearningTask,
 ) -> str:
-    """One sentence on a rule; ranked: what was learned for it, with the names of the meshes, None where nothing."""
+    """Return one sentence on a rule; ranked: what was learned for it, with the names of the meshes, None where
+    nothing."""
     text = f"rule {rule.number}, {show(wanted)}: "
     barred = next(_find_exclusion(wanted, task), None)
     if barred:

@@ -29,7 +29,7 @@ def synthesize(
     confirm: Callable[[Repair], bool] | None = None,
     answers: Sequence[Answer] = (),
 ) -> LearningOutcome:
-    """The program that does on every demonstration what was shown, and whatever else these leave open.
+    """Return the program that does on every demonstration what was shown, and whatever else these leave open.
 
     batch: the meshes it is meant for, by name or by their files' paths; vocabulary: labels it may ask for, by default
     all on the meshes. templates: by the paths that actions name.
@@ -93,7 +93,6 @@ class _RepairConfirmer:
         return tuple(right)
 
     def confirm(self, repair: Repair) -> bool:
-        """Whether a repair is confirmed."""
         assert self._confirm
         if repair.fix not in self._decisions:
             with self._budget.pause():
@@ -107,7 +106,7 @@ def choose_vocabulary(
     orient: Orient | None,
     vocabulary: Sequence[str] | None,
 ) -> tuple[str, ...]:
-    """The given vocabulary, or else every label of the meshes, the steps and the orientation, sorted.
+    """Return the given vocabulary, or else every label of the meshes, the steps and the orientation, sorted.
 
     Raises DemonstrationError for a demonstration with a label that a given vocabulary lacks.
     """

@@ -58,7 +58,7 @@ class LearningRun:
         self._repairs = RepairCollector(task, meshes, budget)
 
     def run(self) -> outcome.LearningOutcome:
-        """What comes of it."""
+        """Return what comes of it."""
         failed = next((failure for spec in self._task.rules if (failure := self._learn(spec))), None)
         if self._question_landmarks(failed):
             return outcome.NeedsRepair(
@@ -81,7 +81,6 @@ class LearningRun:
             return False
 
     def _learn_with_repairs(self) -> Program | None:
-        """The program once the labels are corrected, None where there is none."""
         fixes, task = [repair.fix for repair in self._repairs.repairs], self._task
         options = replace(task.options, repair=False, suggest_orientation=False, follow=None)
         corrected = replace(task, demos=correct_demonstrations(task.demos, fixes), options=options)

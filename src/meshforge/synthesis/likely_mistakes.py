@@ -46,8 +46,8 @@ def find_mistake(
     options: Options,
     answered: Collection[str] = (),
 ) -> LikelyMistake | None:
-    """The likeliest mistake in what was selected on some meshes, None where the extractor is simple enough. Where
-    several are needed for a simpler one, the first of them.
+    """Return the likeliest mistake in what was selected on some meshes, None where the extractor is simple enough.
+    Where several are needed for a simpler one, the first of them.
 
     extractor: what was learned; options: with the extremity under which it was; answered: the examples that are answers
     or verdicts, by name, of which each is one mistake, whatever it selects.

@@ -114,7 +114,7 @@ class TimeBudget:
 
     @contextmanager
     def pause(self) -> Iterator[None]:
-        """While a person thinks, no time passes."""
+        """Stop the time while a person thinks."""
         began = self._clock()
         try:
             yield

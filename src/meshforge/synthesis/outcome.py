@@ -125,7 +125,7 @@ LearningOutcome = Found | Ambiguous | NeedsRepair | NoProgram | TimedOut
 
 
 def outcome_to_json(outcome: LearningOutcome) -> dict[str, Any]:
-    """The outcome as `synthesize --json` prints it."""
+    """Return the outcome as `synthesize --json` prints it."""
     return {
         "status": outcome.status,
         "program": str(outcome.program) if outcome.program else None,
@@ -203,5 +203,5 @@ def _nearest_json(nearest: Nearest) -> dict[str, Any]:
 
 
 def candidate_id(rule: int, place: int) -> str:
-    """The id of a reading by its place among those of its rule, from 0."""
+    """Return the id of a reading by its place among those of its rule, from 0."""
     return f"{rule}.{place + 1}"

@@ -29,26 +29,26 @@ class RuleOutcome:
         return self.candidates.terms[0].size
 
     def select(self) -> dict[str, frozenset[str]]:
-        """The names of the hulls that the rule selects on each mesh of the field."""
+        """Return the names of the hulls that the rule selects on each mesh of the field."""
         field, bits = self.candidates.field, self.candidates.terms[0].bits
         rows = zip(self.names, field.meshes, strict=True)
         return {name: frozenset(mesh.names_of(field.on(bits, place))) for place, (name, mesh) in enumerate(rows)}
 
 
 def list_candidates(rule: int, ranked: RankedCandidates, names: Sequence[str]) -> Iterator[outcome.CandidateProgram]:
-    """The readings of a rule, the most believable first; names: of the meshes of their field."""
+    """Yield the readings of a rule, the most believable first; names: of the meshes of their field."""
     for place, (term, belief) in enumerate(zip(ranked.terms, ranked.beliefs, strict=True)):
         differs = tuple(names[k] for k in ranked.differences(place))
         yield outcome.CandidateProgram(outcome.candidate_id(rule, place), rule, term.extractor, belief, differs)
 
 
 def to_nearest(rule: int, miss: NearestExtractor) -> outcome.Nearest:
-    """What came nearest, as callers read it."""
+    """Return what came nearest, as callers read it."""
     return outcome.Nearest(rule, miss.extractor, miss.asset, miss.extra, miss.missing)
 
 
 def verify(program: Program, demos: Sequence[Demonstration], templates: Mapping[str, Template]) -> None:
-    """Raises AssertionError, an error of ours, where the program selects something else than was shown.
+    """Raise AssertionError, an error of ours, where the program selects something else than was shown.
 
     Raises ProgramError where it cannot run: it asks for labels, and a demonstrated mesh has none.
     """

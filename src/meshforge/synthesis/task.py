@@ -42,7 +42,7 @@ class LearningTask:
 
 
 def name_family(batch: Iterable[SymbolicMesh] | Family, demos: Sequence[Demonstration]) -> dict[str, SymbolicMesh]:
-    """The meshes of a batch in the order of their names, without those that are demonstrated.
+    """Return the meshes of a batch in the order of their names, without those that are demonstrated.
 
     By default the name is the file's path.
     """
@@ -57,13 +57,13 @@ def _pair_with_names(batch: Iterable[SymbolicMesh]) -> Iterable[tuple[str, Symbo
 
 
 def apply_fixes(mesh: SymbolicMesh, name: str, fixes: Iterable[LabelFix]) -> SymbolicMesh:
-    """A mesh with the labels that corrections give to its hulls, as far as they are there."""
+    """Return a mesh with the labels that corrections give to its hulls, as far as they are there."""
     given: dict[str, Label | None] = {c.hull: Label(c.to, 1.0, "repair") for c in fixes if c.asset == name}
     return mesh.with_labels(given) if given else mesh
 
 
 def correct_demonstrations(demos: Sequence[Demonstration], fixes: Sequence[LabelFix]) -> tuple[Demonstration, ...]:
-    """Demonstrations with their names, on meshes with corrected labels."""
+    """Return demonstrations with their names, on meshes with corrected labels."""
     rows = name_demonstrations(demos)
     return tuple(Demonstration(apply_fixes(demo.mesh, name, fixes), demo.steps, name) for name, demo in rows)
 
@@ -101,7 +101,6 @@ class ReplaySet:
         return tuple(dict.fromkeys(self._stale))
 
     def _answers_without_asset(self, answers: Iterable[Answer]) -> list[Answer]:
-        """Those about assets that are not, or no longer, on their way."""
         names = {replay.name for replay in [*self.shown, *self.others]}
         return [answer for answer in answers if answer.asset not in names]
 
@@ -112,7 +111,7 @@ class ReplaySet:
             return None
 
     def examples(self, rule: RuleSpec) -> tuple[list[Example], list[Replay]]:
-        """What is known about a rule, by demonstrations and answers, and the meshes about which nothing is."""
+        """Return what is known about a rule, by demonstrations and answers, and the meshes about which nothing is."""
         examples, open_ = [], []
         answered = {a.asset: a for a in self._answers if a.rule == rule.number}  # the last one counts
         for replay in [*self.shown, *self.others]:
@@ -129,13 +128,13 @@ class ReplaySet:
         return examples, open_
 
     def assets_with_answers(self, rule: int) -> tuple[str, ...]:
-        """The meshes of which an answer, and no demonstration, says what the rule selects."""
+        """Return the meshes of which an answer, and no demonstration, says what the rule selects."""
         silent = {replay.name for replay in [*self.shown, *self.others] if rule not in replay.selections}
         selections = {a.asset: a.select for a in self._answers if a.rule == rule}
         return tuple(name for name, select in selections.items() if select is not None and name in silent)
 
     def preferences(self, rule: int, meshes: Sequence[SymbolicMesh]) -> list[Preference]:
-        """What a person said is not meant, or is probably meant."""
+        """Return what a person said is not meant, or is probably meant."""
         places = {id(mesh): place for place, mesh in enumerate(meshes)}
         by_name = {replay.name: replay.mesh for replay in [*self.shown, *self.others] if id(replay.mesh) in places}
         last = {a.asset: a for a in self._answers if a.rule == rule}.values()
@@ -192,12 +191,12 @@ _memo: WeakKeyDictionary[SymbolicMesh, dict[Hashable, object]] = WeakKeyDictiona
 
 
 def begin_replay(name: str, demo: Demonstration, orient: language.Orient | None, contact: float | None) -> Replay:
-    """A demonstration before its first rule. Raises ProgramError where the orientation fails on its mesh."""
+    """Return a demonstration before its first rule. Raises ProgramError where the orientation fails on its mesh."""
     return Replay.begin(demo.mesh, orient, contact, name=name, selections=demo.selections, memo=memoize)
 
 
 def example_of(replay: Replay, demo: Demonstration | None, rule: RuleSpec) -> Example | None:
-    """What a demonstration says about the next rule, None where it says nothing.
+    """Return what a demonstration says about the next rule, None where it says nothing.
 
     Raises DemonstrationError for a hull that is not there, and where `Each` would do something else than was shown.
     """
@@ -221,7 +220,7 @@ def _check_single(replay: Replay, shown: Step, rule: RuleSpec, selection: int) -
 
 
 def memoize(mesh: SymbolicMesh, key: Hashable, kind: type[Value], make: Callable[[], Value]) -> Value:
-    """What `make` gives for the mesh and the key, made once.
+    """Return what `make` gives for the mesh and the key, made once.
 
     It must not hold on to the mesh itself, which would then live for ever; errors are not remembered.
     """

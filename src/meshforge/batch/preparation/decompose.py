@@ -100,7 +100,7 @@ def decompose_asset(
 
 
 def replace_concave(asset: Asset, how: Concave) -> Asset:
-    """An asset with hulls in the place of its non-convex collision meshes; what has no triangles stays.
+    """Return an asset with hulls in the place of its non-convex collision meshes; what has no triangles stays.
 
     how: `hull` makes one of each collision element that is not convex, as MuJoCo and Bullet do, `decompose` several by
     CoACD, `keep` none. Raises GeometryError naming a piece of which none can be made.
@@ -197,7 +197,8 @@ def _describe_no_match(only: Sequence[str], there: Sequence[str]) -> str | None:
 
 
 def matches_only(name: str, only: Sequence[str]) -> bool:
-    """Whether a piece or body is one of these names, or matches one of these patterns; all are where there are none."""
+    """Return whether a piece or body is one of these names, or matches one of these patterns; all are where there are
+    none."""
     return not only or any(name == pattern or fnmatchcase(name, pattern) for pattern in only)
 
 
@@ -210,7 +211,7 @@ def decompose_surface(
     cache: Path | None,
     note: Callable[[str], None],
 ) -> list[Polytope]:
-    """The convex hulls of a surface, in the engine's order. Raises GeometryError, about `name`.
+    """Return the convex hulls of a surface, in the engine's order. Raises GeometryError, about `name`.
 
     hollow: planar holes stay open, so that shells of one sheet are not filled.
     """
@@ -225,17 +226,18 @@ def decompose_surface(
 
 
 def settings_to_json(settings: DecomposeSettings, hollow: bool) -> dict[str, Any]:
-    """The settings as a preparation keeps them."""
+    """Return the settings as a preparation keeps them."""
     return {"method": settings.engine, "hollow": hollow, **settings.as_dict()}
 
 
 def software_versions(settings: DecomposeSettings | None = None) -> dict[str, str]:
-    """The versions of what makes hulls."""
+    """Return the versions of what makes hulls."""
     return {name: version(name) for name in ("meshforge", settings.package if settings else "manifold3d")}
 
 
 def describe_fit(surface: Surface, hulls: Sequence[Polytope]) -> str:
-    """`12 hulls, 97% of the free space stays free, 2% of the surface outside`; see `checks.measure_kept_space`."""
+    """Return `12 hulls, 97% of the free space stays free, 2% of the surface outside`; see
+    `checks.measure_kept_space`."""
     parts = [pluralize(len(hulls), "hull")]
     kept = measure_kept_space(surface, hulls)
     parts += [] if kept is None else [f"{floor(100 * kept)}% of the free space stays free"]
@@ -245,7 +247,7 @@ def describe_fit(surface: Surface, hulls: Sequence[Polytope]) -> str:
 
 
 def measure_uncovered(surface: Surface, hulls: Sequence[Polytope]) -> float:
-    """The share of a surface's area that is farther outside of all hulls than 1% of its diagonal."""
+    """Return the share of a surface's area that is farther outside of all hulls than 1% of its diagonal."""
     points, _ = geometry.sample_surface(surface.vertices, surface.faces, _POINTS)
     reach = _NEAR * float(np.linalg.norm(np.ptp(points, axis=0)))
     outside = np.ones(len(points), dtype=bool)

@@ -77,7 +77,7 @@ class Preparation:
         return {name: known for step in self.steps for r in step.replaced for name, known in r.made.items()}
 
     def has_done(self, do: str, hull: str, settings: Mapping[str, Any]) -> bool:
-        """Whether a step did just that to a hull, which is not there any more."""
+        """Return whether a step did just that to a hull, which is not there any more."""
         alike = (step for step in self.steps if step.do == do and step.settings == settings)
         return any(entry.what == hull for step in alike for entry in step.replaced)
 
@@ -92,22 +92,22 @@ class Preparation:
         return frozenset(r.what for step in self.steps for r in step.replaced if r.kind == "hull")
 
     def with_step(self, step: PreparationStep, hulls: Iterable[Polytope]) -> Preparation:
-        """With one step more, which makes these hulls."""
+        """Return the preparation with one step more, which makes these hulls."""
         return Preparation((*self.steps, step), {**self.hulls, **{hull_digest(hull): hull for hull in hulls}})
 
     def with_only(self, steps: Iterable[PreparationStep]) -> Preparation:
-        """With these of its steps, and their hulls."""
+        """Return the preparation with these of its steps, and their hulls."""
         shorter = replace(self, steps=tuple(steps))
         return replace(shorter, hulls={known: self.hulls[known] for known in shorter.hull_digests.values()})
 
 
 def hull_digest(hull: Polytope) -> str:
-    """A digest of a hull to the last bit; zero has no sign."""
+    """Return a digest of a hull to the last bit; zero has no sign."""
     return hashlib.blake2b((hull.vertices + 0.0).tobytes() + hull.faces.tobytes(), digest_size=8).hexdigest()
 
 
 def free_names(base: str, count: int, taken: Iterable[str]) -> list[str]:
-    """Names `base#0`, `base#1`, ... for new hulls, numbers that are taken left out."""
+    """Return names `base#0`, `base#1`, ... for new hulls, numbers that are taken left out."""
     taken, number = set(taken), 0
     names: list[str] = []
     while len(names) < count:
@@ -138,7 +138,7 @@ class DecompositionSource:
 
 
 def find_sources(asset: Asset, as_read: Asset | None = None) -> tuple[DecompositionSource, ...]:
-    """All that can be decomposed, in the order of the file; planes and the like, which have no triangles, stay.
+    """Return all that can be decomposed, in the order of the file; planes and the like, which have no triangles, stay.
 
     as_read: where it is given, a collision element of which all pieces are still as they were read is one source.
     """
@@ -154,7 +154,6 @@ def find_sources(asset: Asset, as_read: Asset | None = None) -> tuple[Decomposit
 
 
 def _find_elements(asset: Asset) -> dict[str, list[Geom | NonConvexPiece]]:
-    """The pieces of each collision element that has several."""
     found = dict[str, list[Geom | NonConvexPiece]]()
     pieces: list[Geom | NonConvexPiece] = [*asset.geoms, *asset.non_convex]
     for piece in pieces:
@@ -181,14 +180,16 @@ def _find_bare_bodies(asset: Asset) -> Iterable[DecompositionSource]:
 
 
 def merge_visuals(asset: Asset, body: str) -> Surface | None:
-    """All that a body shows, None where that is nothing; what belongs to no body counts for one that is alone."""
+    """Return all that a body shows, None where that is nothing; what belongs to no body counts for one that is
+    alone."""
     alone = len(asset.bodies) == 1
     own = [s for s in asset.visuals if len(s.faces) and (s.body == body or (s.body is None and alone))]
     return _stack(own, body)
 
 
 def find_surfaces(asset: Asset) -> dict[str, Surface]:
-    """The surface that the hulls of each body stand for, of an asset as it was read; bodies without any are left out.
+    """Return the surface that the hulls of each body stand for, of an asset as it was read; bodies without any are left
+    out.
 
     Non-convex collision pieces of a body count where it has any, since hulls are made of these; else what it shows.
     """
@@ -209,7 +210,7 @@ def _stack(own: Sequence[Surface], body: str) -> Surface | None:
 
 
 def surface_digest(surface: Surface) -> str:
-    """A digest of triangles in their order, the same for coordinates that differ by rounding."""
+    """Return a digest of triangles in their order, the same for coordinates that differ by rounding."""
     steps = np.rint(surface.vertices[surface.faces] / _GRID).astype(np.int64)
     return hashlib.blake2b(steps.tobytes(), digest_size=8).hexdigest()
 
@@ -232,7 +233,7 @@ class ReplayResult:
 
 
 def apply_preparation(asset: Asset, preparation: Preparation) -> Asset:
-    """The asset with the hulls of a preparation.
+    """Return the asset with the hulls of a preparation.
 
     Raises AssetError where a piece has changed since: hulls are never put in place of other geometry.
     """
@@ -245,7 +246,7 @@ def apply_preparation(asset: Asset, preparation: Preparation) -> Asset:
 
 
 def replay_preparation(asset: Asset, preparation: Preparation) -> ReplayResult:
-    """The asset with those hulls of a preparation whose source is what it was."""
+    """Return the asset with those hulls of a preparation whose source is what it was."""
     authored = {geom.name for geom in asset.geoms}
     current, kept, lost = asset, [], []
     for step in preparation.steps:
@@ -262,7 +263,6 @@ def replay_preparation(asset: Asset, preparation: Preparation) -> ReplayResult:
 
 
 def _drop_outdated_note(asset: Asset) -> Asset:
-    """The asset without the note that it has no collision geometry, where it has some."""
     if NO_GEOMETRY not in asset.notes or not asset.geoms:
         return asset
     return replace(asset, notes=tuple(note for note in asset.notes if note != NO_GEOMETRY))

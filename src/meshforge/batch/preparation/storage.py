@@ -32,7 +32,7 @@ class _Record:
 
 
 def read_prepared(path: Path, folder: Path | None) -> symbolic.Asset:
-    """The asset in a file, after the preparation in a folder where there is one.
+    """Return the asset in a file, after the preparation in a folder where there is one.
 
     Raises AssetError: the asset cannot be read, or its preparation is damaged or out of date.
     """
@@ -41,13 +41,14 @@ def read_prepared(path: Path, folder: Path | None) -> symbolic.Asset:
 
 
 def prepare_from_folder(asset: symbolic.Asset, folder: Path) -> symbolic.Asset:
-    """An asset as it was read, after the preparation in a folder. Raises AssetError: that is damaged or out of date."""
+    """Return an asset as it was read, after the preparation in a folder. Raises AssetError: that is damaged or out of
+    date."""
     preparation = read_preparation(folder)
     return apply_preparation(asset, preparation) if preparation else asset
 
 
 def read_preparation(folder: Path) -> Preparation | None:
-    """The preparation in a folder, None where there is none. Raises AssetError where it is damaged."""
+    """Return the preparation in a folder, None where there is none. Raises AssetError where it is damaged."""
     steps = read_steps(folder)
     if steps is None:
         return None
@@ -60,7 +61,7 @@ def read_preparation(folder: Path) -> Preparation | None:
 
 
 def read_steps(folder: Path) -> tuple[PreparationStep, ...] | None:
-    """What was done, without the hulls, None where nothing was. Raises AssetError where that is damaged."""
+    """Return what was done, without the hulls, None where nothing was. Raises AssetError where that is damaged."""
     path = folder / RECORD_FILE
     try:
         return _read_record(path)
@@ -71,7 +72,8 @@ def read_steps(folder: Path) -> tuple[PreparationStep, ...] | None:
 
 
 def record_digest(folder: Path) -> str | None:
-    """The digest of what was done, hulls included, None where nothing was; an empty text where it cannot be read."""
+    """Return the digest of what was done, hulls included, None where nothing was; an empty text where it cannot be
+    read."""
     try:
         return content_digest(folder / RECORD_FILE)
     except (FileNotFoundError, NotADirectoryError):
@@ -95,8 +97,8 @@ def write_preparation(folder: Path, preparation: Preparation) -> None:
 
 
 def list_preparation_writes(folder: Path, preparation: Preparation) -> list[tuple[Path, bytes | None]]:
-    """The contents to write to files, in this order, so that a preparation takes the place of the one in a folder; None
-    removes a file. Raises AssetError as `write_preparation` does.
+    """Return the contents to write to files, in this order, so that a preparation takes the place of the one in a
+    folder; None removes a file. Raises AssetError as `write_preparation` does.
 
     The hulls of both are in the file while what was done is exchanged, so that hulls are never missed.
     """

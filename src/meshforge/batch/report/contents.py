@@ -149,14 +149,14 @@ class RunFigures:
 
     @staticmethod
     def of_run(summary: RunSummary, words: Mapping[ReportStatus, ReportStatus] | None = None) -> RunFigures:
-        """Those of a program's run, or of a conversion; words: other ones for what became of assets."""
+        """Return those of a program's run, or of a conversion; words: other ones for what became of assets."""
         counts: dict[ReportStatus, int] = {(words or {}).get(word, word): n for word, n in summary.counts.items()}
         counts |= {"not written": len(summary.need_review)} if summary.need_review else {}
         return RunFigures(counts, _hull_figures(summary.before, summary.after))
 
     @staticmethod
     def of_assets(assets: Iterable[ReportAsset]) -> RunFigures:
-        """Those of a run of which all assets are shown."""
+        """Return those of a run of which all assets are shown."""
         shown = list(assets)
         known = [asset.counts for asset in shown if asset.counts]
         before, after = (sum(counts[k] for counts in known) for k in (0, 1))
@@ -194,7 +194,7 @@ class TopItems(Generic[Item]):
 def read_again(
     readers: Sequence[MeshReader | None], execution: ExecutionOptions = EXECUTION_DEFAULTS
 ) -> list[SymbolicMesh | None]:
-    """The meshes, in their order, read in worker processes: one that crashes or hangs costs no more than itself.
+    """Return the meshes, in their order, read in worker processes: one that crashes or hangs costs no more than itself.
 
     None for what cannot be read any more, or has no reader. Raises StoppedError where `execution.stop` says so.
     """
@@ -204,7 +204,8 @@ def read_again(
 
 
 def read_job(job: AssetJob) -> SymbolicMesh:
-    """An asset with its labels, after what is done to it before the program. Raises as `load` and `read_prepared`."""
+    """Return an asset with its labels, after what is done to it before the program. Raises as `load` and
+    `read_prepared`."""
     if job.preparation is None:
         return load(job.path, labels=job.labels)
     mesh = SymbolicMesh.of(read_prepared(job.path, job.preparation))
@@ -219,7 +220,7 @@ def _try_read(reader: MeshReader) -> SymbolicMesh | None:
 
 
 def format_change(before: int, after: int) -> str:
-    """How much less or more, in per cent, with a true minus sign; `no change` where there is none."""
+    """Return how much less or more, in per cent, with a true minus sign; `no change` where there is none."""
     if before == after:
         return "no change"
     if before == 0:
@@ -229,7 +230,7 @@ def format_change(before: int, after: int) -> str:
 
 
 def format_duration(seconds: float) -> str:
-    """Seconds below two minutes with one decimal, else minutes."""
+    """Return seconds below two minutes with one decimal, else minutes."""
     return f"{seconds:.1f} s" if seconds < 120 else f"{seconds / 60:.0f} min"
 
 
@@ -265,7 +266,7 @@ class AssetPictures:
 
 
 def draw_asset(asset: ReportAsset, options: PictureOptions) -> AssetPictures | None:
-    """The pictures of an asset, on transparent ground; None where there is no mesh to be seen."""
+    """Return the pictures of an asset, on transparent ground; None where there is no mesh to be seen."""
     before, after = asset.before, asset.after
     if before is None:
         return None

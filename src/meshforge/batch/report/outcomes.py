@@ -23,7 +23,8 @@ from meshforge.symbolic import SymbolicMesh
 def choose_outcomes(
     out: Path, summary: RunSummary, need_review: Sequence[AssetOutcome] = (), doubted: Sequence[str] = ()
 ) -> list[AssetOutcome]:
-    """Those that a report shows; of too many failed ones, then those in doubt or with alarms, then the first others.
+    """Return those that a report shows; of too many failed ones, then those in doubt or with alarms, then the first
+    others.
 
     need_review: what would have become of those that were not written; alarms are looked for among these, too. doubted:
     ids.
@@ -49,7 +50,7 @@ def compare_outcomes(
     alarms: Mapping[str, tuple[str, ...]] | None = None,
     execution: ExecutionOptions = EXECUTION_DEFAULTS,
 ) -> Iterator[ReportAsset]:
-    """Each asset before and after, standing upright where the program orients it; readers: of the assets before.
+    """Yield each asset before and after, standing upright where the program orients it; readers: of the assets before.
 
     measures: what is measured of it after; such assets are shown as they lie, for what they show was not turned.
     alarms: sentences about results that stand out, by asset. Raises StoppedError where `execution.stop` says so.

@@ -195,7 +195,6 @@ class _LegendRow(NamedTuple):
 
     @staticmethod
     def of(name: str, color: str, before: int, after: int) -> _LegendRow:
-        """A name and its numbers of hulls."""
         return _LegendRow(color, name, f"{before:,}" if before == after else f"{before:,} → {after:,}")
 
 

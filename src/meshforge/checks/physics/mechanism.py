@@ -32,7 +32,7 @@ class JointTree:
 
     @staticmethod
     def of(mesh: SymbolicMesh) -> JointTree:
-        """The tree of a mesh; bodies that a floating joint holds are roots, loops are cut."""
+        """Return the tree of a mesh; bodies that a floating joint holds are roots, loops are cut."""
         known = {body.name: body.pose for body in (mesh.asset.bodies if mesh.asset else ())}
         bodies = {**known, **{hull.body: Pose.identity() for hull in mesh.hulls if hull.body not in known}}
         tree = JointTree(bodies)
@@ -51,7 +51,7 @@ class JointTree:
         return at is not None
 
     def roots_of(self, bodies: Iterable[str]) -> set[str]:
-        """The roots, which nothing holds, that some bodies hang on."""
+        """Return the roots, which nothing holds, that some bodies hang on."""
         found = set()
         for body in bodies:
             while body in self.above:
@@ -60,11 +60,11 @@ class JointTree:
         return found
 
     def children_of(self, body: str) -> list[str]:
-        """The bodies joined to one directly."""
+        """Return the bodies joined to one directly."""
         return [child for child, parent in self.above.items() if parent == body]
 
     def rigid_roots(self) -> dict[str, str]:
-        """For each body the highest one that it is welded to."""
+        """Return for each body the highest one that it is welded to."""
         found: dict[str, str] = {}
         for name in self.bodies:
             top = name
@@ -85,7 +85,7 @@ class ContactAttributes:
     friction: tuple[float, ...] = (1.0, 0.005, 0.0001)
 
     def can_meet(self, other: ContactAttributes) -> bool:
-        """Whether the bits let the two collide."""
+        """Return whether the bits let the two collide."""
         return bool(self.contype & other.conaffinity or other.contype & self.conaffinity)
 
 
@@ -106,7 +106,7 @@ class ContactRules:
         self.paired = set(_number_pairs(mechanism.paired, sources)) if mechanism else set()
 
     def may_touch(self, first: int, second: int) -> bool:
-        """Whether two hulls may touch, by their numbers; joints say nothing here."""
+        """Return whether two hulls may touch, by their numbers; joints say nothing here."""
         if frozenset((first, second)) in self.paired:
             return True
         bodies = frozenset((self.hulls[first].body, self.hulls[second].body))
@@ -152,7 +152,7 @@ class _MassProblem:
 
 
 def check_masses(mesh: SymbolicMesh) -> Iterator[Finding]:
-    """What is odd about the masses in the asset of a mesh: a finding for each rule, with its bodies."""
+    """Yield what is odd about the masses in the asset of a mesh: a finding for each rule, with its bodies."""
     mass_problems = list(_find_problems(mesh))
     for rule, remedy in _REMEDIES.items():
         problems = [
@@ -177,7 +177,7 @@ def _find_problems(mesh: SymbolicMesh) -> Iterator[_MassProblem]:
 
 
 def find_inertial_problem(inertial: Inertial) -> str | None:
-    """Why no solid has such a mass and inertia, None where one may."""
+    """Return why no solid has such a mass and inertia, None where one may."""
     if not (np.isfinite(inertial.mass) and np.isfinite(inertial.inertia).all() and np.isfinite(inertial.centre).all()):
         return "mass or inertia is not a finite number"
     if inertial.mass <= 0:

@@ -22,7 +22,7 @@ _UPRIGHT = Pose([[1, 0, 0], [0, 0, -1], [0, 1, 0]], [0, 0, 0])  # z-up_T_y-up
 
 
 def compile_model(mesh: SymbolicMesh, tree: mechanism.JointTree, *, everything: bool = False) -> Any:
-    """MuJoCo's model of a mesh that stands on a plane; geoms are numbered as the hulls, after the plane's.
+    """Return MuJoCo's model of a mesh that stands on a plane; geoms are numbered as the hulls, after the plane's.
 
     everything: whether all touches, which else bodies do not that a joint holds together, and what the file keeps
     apart. On the plane, a hull rubs as the file has it. Joints are damped, so that what swings comes to rest. Raises

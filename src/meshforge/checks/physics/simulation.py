@@ -80,7 +80,7 @@ class Physics(Measure):
         return (*self.mass_problems, *_report_refusal(self.refused), *_report_overlaps(self), *_report_unrest(self))
 
     def to_json(self) -> dict[str, Any]:
-        """The behaviour as JSON-able data; lengths in metres, speeds in metres a second, angles in degrees."""
+        """Return the behaviour as JSON-able data; lengths in metres, speeds in metres a second, angles in degrees."""
         return {
             "rest": asdict(self.rest) if self.rest else None,
             "refused": self.refused,
@@ -100,7 +100,7 @@ class PhysicsCheck(MeasureCheck):
 
 
 def simulate(mesh: SymbolicMesh) -> Physics:
-    """How a mesh behaves on a plane, with the masses of its file, or the density of water where there are none.
+    """Return how a mesh behaves on a plane, with the masses of its file, or the density of water where there are none.
 
     The lowest point is put on the plane; roots may fall, joints move within their limits, damped. What an MJCF says of
     friction and contact bits is kept, and the pairs of bodies that an MJCF or a USD keeps apart. Deterministic: six
@@ -127,7 +127,6 @@ def simulate(mesh: SymbolicMesh) -> Physics:
 
 
 def _simulate_rest(mesh: SymbolicMesh, tree: JointTree) -> Rest | None:
-    """The rest of a mesh; None where the simulation blows up."""
     import mujoco  # lazy: 0.3 s, only the physics checks need it
 
     model = compile_model(mesh, tree)
@@ -167,7 +166,6 @@ def _speeds(velocities: Floats, size: Floats) -> Floats:
 
 
 def _body_size(model: Any, body: int) -> float:
-    """About how large a body is [m]."""
     geoms = [g for g in range(model.ngeom) if model.geom_bodyid[g] == body]
     return 2 * max((float(model.geom_rbound[g]) for g in geoms), default=0.0)
 
@@ -222,7 +220,7 @@ class BodyOverlap:
 
 
 def find_body_overlaps(mesh: SymbolicMesh, tree: JointTree) -> tuple[BodyOverlap, ...]:
-    """The deepest contact of each pair of bodies that can move against each other, at rest pose, deepest first.
+    """Return the deepest contact of each pair of bodies that can move against each other, at rest pose, deepest first.
 
     Contacts that the file excludes count for themselves. Raises ValueError where MuJoCo refuses the model.
     """

@@ -34,7 +34,7 @@ class EngineBodies:
 
 
 def name_bodies(asset: Asset, engine: CollisionNames, stem: str) -> EngineBodies:
-    """The bodies of an asset under the names of an engine; stem: of the file, for a body without a name.
+    """Return the bodies of an asset under the names of an engine; stem: of the file, for a body without a name.
 
     Raises AssetError: there is nothing that collides.
     """
@@ -67,12 +67,13 @@ def name_bodies(asset: Asset, engine: CollisionNames, stem: str) -> EngineBodies
 
 
 def lose_non_convex(engine: CollisionNames, pieces: Sequence[NonConvexPiece], *, is_seen: bool) -> base.Loss:
-    """The loss of non-convex pieces of which an engine takes none; is_seen: whether they are there to be seen."""
+    """Return the loss of non-convex pieces of which an engine takes none; is_seen: whether they are there to be
+    seen."""
     why = f"{engine.title} makes one hull of any mesh that collides; meshforge prepare makes better ones"
     names = tuple(piece.name for piece in pieces)
     return base.Loss(FeatureKind.NON_CONVEX, names, why, "written to be seen alone" if is_seen else None)
 
 
 def has_triangles(piece: NonConvexPiece) -> bool:
-    """Whether a piece has a surface to write."""
+    """Return whether a piece has a surface to write."""
     return piece.surface is not None and len(piece.surface.faces) > 0

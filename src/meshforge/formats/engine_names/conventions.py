@@ -47,23 +47,25 @@ class CollisionNames(ABC):
 
     @abstractmethod
     def body(self, wanted: str) -> str:
-        """A name for what is seen of a body, as near to the wanted one as the engine lets it be seen alone."""
+        """Return a name for what is seen of a body, as near to the wanted one as the engine lets it be seen alone."""
 
     @abstractmethod
     def hull(self, body: str, geom: Geom, number: int, own: str) -> str:
-        """The name of a hull; body: of the mesh that it stands for; number: its place there, from 0; own: it had."""
+        """Return the name of a hull; body: of the mesh that it stands for; number: its place there, from 0; own: it
+        had."""
 
     def holder(self, body: str) -> str | None:
-        """The name of a node that holds what collides of a body; None where that lies right below the body's."""
+        """Return the name of a node that holds what collides of a body; None where that lies right below the body's."""
         return None
 
     def non_convex(self, own: str) -> str:
-        """The name of a piece that collides with its triangles."""
+        """Return the name of a piece that collides with its triangles."""
         raise AssertionError(f"{self.title} takes no such pieces")
 
 
 def clean_name(name: str, not_taken: str) -> str:
-    """A name without characters that an engine changes, and without marks of any; not_taken: a pattern of them."""
+    """Return a name without characters that an engine changes, and without marks of any; not_taken: a pattern of
+    them."""
     name = re.sub(not_taken, "_", name)
     while (bare := strip_godot_suffix(_UNREAL.sub("", name, count=1))) != name:
         name = bare
@@ -71,7 +73,8 @@ def clean_name(name: str, not_taken: str) -> str:
 
 
 def claim_name(named: Callable[[str], str], wanted: str, taken: set[str]) -> str:
-    """What `named` makes of a name, or of it with a number, that is not taken, lower case; it is taken from then on."""
+    """Return what `named` makes of a name, or of it with a number, that is not taken, lower case; it is taken from then
+    on."""
     name, number = named(wanted), 2
     while name.lower() in taken:
         name, number = named(f"{wanted}-{number}"), number + 1
@@ -80,31 +83,32 @@ def claim_name(named: Callable[[str], str], wanted: str, taken: set[str]) -> str
 
 
 def fallbacks_of(names: CollisionNames) -> dict[FeatureKind, str]:
-    """How a scene has what names do not say."""
+    """Return how a scene has what names do not say."""
     triangles = {what: "written as triangles" for what in PRIMITIVE_FEATURES.values() if what not in names.holds}
     return triangles if FeatureKind.BODIES in names.holds else {**triangles, FeatureKind.BODIES: "written as nodes"}
 
 
 def unreal_kind(name: str | None) -> UnrealPrefix | None:
-    """The prefix by which Unreal takes a node or mesh for collision: hull, box, sphere or capsule."""
+    """Return the prefix by which Unreal takes a node or mesh for collision: hull, box, sphere or capsule."""
     found = _UNREAL.match(name or "")
     return next((kind for kind in _KINDS if found and found[1].upper() == kind), None)
 
 
 def visible_mesh_of(name: str, meshes: Sequence[str]) -> str:
-    """The name of the mesh for which an Unreal collision node stands; meshes: those that there are."""
+    """Return the name of the mesh for which an Unreal collision node stands; meshes: those that there are."""
     rest = _UNREAL.sub("", name, count=1)
     known = [mesh for mesh in meshes if rest == mesh or rest.startswith(f"{mesh}_")]
     return max(known, key=len) if known else re.sub(r"_\d+\Z", "", rest)
 
 
 def godot_kind(name: str | None) -> GodotSuffix | None:
-    """The suffix by which Godot makes collision of a node or mesh: after `-` or `_` at the end, after `$` anywhere."""
+    """Return the suffix by which Godot makes collision of a node or mesh: after `-` or `_` at the end, after `$`
+    anywhere."""
     return next((kind for kind in _GODOT if has_godot_word(name or "", kind)), None)
 
 
 def strip_godot_suffix(name: str) -> str:
-    """A name without what Godot makes collision of; the number behind it goes too, as Godot does it."""
+    """Return a name without what Godot makes collision of; the number behind it goes too, as Godot does it."""
     kind = godot_kind(name)
     if kind is None:
         return name
@@ -114,7 +118,7 @@ def strip_godot_suffix(name: str) -> str:
 
 
 def has_godot_word(name: str, word: str) -> bool:
-    """Whether Godot takes a word in a name for its own; numbers behind it do not count."""
+    """Return whether Godot takes a word in a name for its own; numbers behind it do not count."""
     text = _NUMBER.sub("", name).lower()
     return f"${word}" in text or text.endswith((f"-{word}", f"_{word}"))
 
@@ -148,7 +152,7 @@ class UnrealNames(CollisionNames):
     takes_non_convex: ClassVar[bool] = False
 
     def body(self, wanted: str) -> str:
-        """No prefix in it, nor a number at its end: `leg_01` would take the hull `UCX_leg_01` of `leg`."""
+        """Return no prefix in it, nor a number at its end: `leg_01` would take the hull `UCX_leg_01` of `leg`."""
         name = _END.sub("", clean_name(wanted, _REFUSED)) or "part"
         return _ANYWHERE.sub(lambda found: found[0].lower(), name)
 
@@ -157,13 +161,14 @@ class UnrealNames(CollisionNames):
 
 
 def number_hulls(base: str, names: Iterable[str]) -> Iterator[int]:
-    """The numbers for new hulls of the mesh `base`, after the last of those that there are."""
+    """Return the numbers for new hulls of the mesh `base`, after the last of those that there are."""
     taken = [re.fullmatch(rf"U\w\w_{re.escape(base)}_(\d+)", name, re.I) for name in names]
     return count(max((int(found[1]) for found in taken if found), default=-1) + 1)
 
 
 def interpret_unreal_shape(name: str, hull: Shape) -> tuple[Shape, str | None]:
-    """The primitive that the prefix of a name makes of a hull; where it is another shape, the hull and a note."""
+    """Return the primitive that the prefix of a name makes of a hull; where it is another shape, the hull and a
+    note."""
     kind = unreal_kind(name)
     made = _MAKERS[kind](hull) if kind in _MAKERS else hull
     return (hull, f"{name!r} is no {_WORDS[kind]}: it is read as a hull") if made is None else (made, None)
@@ -222,7 +227,7 @@ class GodotNames(CollisionNames):
     holds: ClassVar[frozenset[FeatureKind]] = CollisionNames.holds | {FeatureKind.BODIES, FeatureKind.MASSES}
 
     def body(self, wanted: str) -> str:
-        """No word at its end that Godot makes something else of: `front_wheel` would be a wheel of a vehicle."""
+        """Return no word at its end that Godot makes something else of: `front_wheel` would be a wheel of a vehicle."""
         name = clean_name(wanted, _GODOT_REFUSED)
         return f"{name}-seen" if any(has_godot_word(name, word) for word in _GODOT_WORDS) else name
 
@@ -267,5 +272,5 @@ class UnityNames(CollisionNames):
 
 
 def holds_colliders(name: object) -> bool:
-    """Whether what lies below a node of this name collides."""
+    """Return whether what lies below a node of this name collides."""
     return isinstance(name, str) and name.lower().endswith(COLLIDERS)

@@ -21,8 +21,8 @@ _REMEDY = "Is {} meant? Spell it so."
 def find_name_problems(
     meshes: Iterable[Sequence[str]], parents: Collection[str] = (), marks: str = "", hull: str = ""
 ) -> Iterator[NameProblem]:
-    """What is wrong with the names of meshes and of their nodes, several of one thing, and of nodes without a mesh.
-    marks: the engine whose marks are read, if any; hull: the first hull by them."""
+    """Yield what is wrong with the names of meshes and of their nodes, several of one thing, and of nodes without a
+    mesh. marks: the engine whose marks are read, if any; hull: the first hull by them."""
     things = [names for names in meshes if names]
     every = [*parents, *(name for names in things for name in names)]
     for engine in (one for one, bears in _MARKS.items() if marks in _MARKS and not any(map(bears, every))):

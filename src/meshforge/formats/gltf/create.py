@@ -101,7 +101,7 @@ def create_for_engine(asset: Asset, name: str, engine: conventions.CollisionName
 
 
 def create_for_godot(asset: Asset, name: str, names: conventions.CollisionNames) -> Output:
-    """The files of an asset: rigid bodies where anything moves, else nodes that Godot knows by their names."""
+    """Return the files of an asset: rigid bodies where anything moves, else nodes that Godot knows by their names."""
     tree = BodyTree.of(asset)
     if not all(map(tree.is_static, tree.order)):
         return _create_rigid_bodies(asset, tree, PurePosixPath(name))

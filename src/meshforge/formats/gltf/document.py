@@ -68,7 +68,7 @@ class _Item:
 
 
 def rewrite_json(text: str, new: Any) -> str:
-    """A JSON text with another value: what is the same in both keeps its text."""
+    """Return a JSON text with another value: what is the same in both keeps its text."""
     at = _skip_blanks(text, 0)
     old, end = _decode(text, at)
     out, done = [], 0
@@ -164,7 +164,6 @@ class _Layout:
         return _Layout(f",{line_end}{before}", colon, line_end + before, step or "  ")
 
     def format(self, value: Any) -> str:
-        """A value laid out alike."""
         if self.lead is None:
             return json.dumps(value, separators=(self.between, self.colon))
         return json.dumps(value, indent=self.step).replace("\n", self.lead)

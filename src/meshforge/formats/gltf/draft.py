@@ -37,7 +37,7 @@ class SceneDraft:
         self._bodies = physics.body_nodes(scene)
 
     def node(self, index: int) -> Json:
-        """A node of the edited tree."""
+        """Return a node of the edited tree."""
         return entry(self.tree, "nodes", index)
 
     def empty_node(self, index: int) -> None:
@@ -74,7 +74,8 @@ class SceneDraft:
         return gone
 
     def add_node(self, node: Json, holder: int | None, at: int | None = None) -> int:
-        """A new node below another one, or at the root of the scene; at: before which child, None for the last."""
+        """Return a new node below another one, or at the root of the scene; at: before which child, None for the
+        last."""
         nodes: list[Any] = self.tree.setdefault("nodes", [])
         nodes.append(node)
         index = len(nodes) - 1
@@ -92,7 +93,7 @@ class SceneDraft:
             used.append(extension)
 
     def add_mesh(self, mesh: Json, instead_of: int | None = None) -> int:
-        """A new mesh; in the place of another one where that one stood in a single node only."""
+        """Return a new mesh; in the place of another one where that one stood in a single node only."""
         meshes: list[Any] = self.tree.setdefault("meshes", [])
         if instead_of is not None and self.referred.users.get(instead_of, 0) == 1:
             self.referred.users[instead_of] = 0
@@ -104,7 +105,8 @@ class SceneDraft:
     def add_surface_mesh(
         self, points: Floats, faces: Ints, name: str, material: int | None = None, texture: Texture | None = None
     ) -> tuple[int, Floats]:
-        """A new mesh of vertices (n, 3) and faces (m, 3), about the middle (3,) of their box; and that middle."""
+        """Return a new mesh of vertices (n, 3) and faces (m, 3), about the middle (3,) of their box; and that
+        middle."""
         middle = (points.min(axis=0) + points.max(axis=0)) / 2
         primitive = self.build_primitive(points - middle, faces, material, texture)
         return self.add_mesh({"name": name, "primitives": [primitive]}), middle
@@ -112,7 +114,7 @@ class SceneDraft:
     def build_primitive(
         self, points: Floats, faces: Ints, material: int | None = None, texture: Texture | None = None
     ) -> Json:
-        """A primitive of vertices (n, 3) and faces (m, 3), where they are; texture: that its material has."""
+        """Return a primitive of vertices (n, 3) and faces (m, 3), where they are; texture: that its material has."""
         part: Json = {"attributes": {"POSITION": self.geometry.add_vertex_data(points.astype("<f4"), bounds=True)}}
         if texture is not None:
             downwards = np.column_stack([texture.coordinates[:, 0], 1 - texture.coordinates[:, 1]])
@@ -158,7 +160,7 @@ class SceneDraft:
         return {**part, "extensions": extensions} if extensions else part
 
     def holder_of(self, body: int | None, source: int | None) -> int | None:
-        """The node below which a new hull goes, None for the root of the scene.
+        """Return the node below which a new hull goes, None for the root of the scene.
 
         body: the node that is its body; source: the node of the hull that it comes after, beside which it goes, or
         below which where that one is a body or is moved by an animation.
@@ -172,18 +174,18 @@ class SceneDraft:
         return holder if self.keeps_volume(holder) else body
 
     def keeps_volume(self, index: int) -> bool:
-        """Whether a node leaves a volume to what is below it."""
+        """Return whether a node leaves a volume to what is below it."""
         return leaves_volume(self.scene.placements[index].linear, 1e-9)
 
     def shape_in(self, shape: Shape, holder: int | None) -> Shape:
-        """A shape of the root frame in the space of a node."""
+        """Return a shape of the root frame in the space of a node."""
         if holder is None:
             return shape
         inverse = self.matrix_below(None, holder)
         return shape.transform(inverse[:3, :3], inverse[:3, 3])
 
     def triangles_in(self, what: Geom | NonConvexPiece, holder: int | None) -> tuple[Floats, Ints]:
-        """The vertices (n, 3) of a hull or a piece in the space of a node, and its faces (m, 3)."""
+        """Return the vertices (n, 3) of a hull or a piece in the space of a node, and its faces (m, 3)."""
         if isinstance(what, Geom):
             hull = self.shape_in(what.shape, holder).tessellate()
             return hull.vertices, hull.faces
@@ -191,14 +193,14 @@ class SceneDraft:
         return self.points_in(np.asarray(what.surface.vertices), holder), what.surface.faces
 
     def points_in(self, points: Floats, holder: int | None) -> Floats:
-        """Points (n, 3) of the root frame in the space of a node."""
+        """Return points (n, 3) of the root frame in the space of a node."""
         if holder is None:
             return points
         inverse = self.matrix_below(None, holder)
         return np.asarray(points @ inverse[:3, :3].T + inverse[:3, 3], dtype=np.float64)
 
     def matrix_below(self, node: int | None, holder: int | None) -> Floats:
-        """The place (4, 4) of a node in the space of another one; None is the root frame."""
+        """Return the place (4, 4) of a node in the space of another one; None is the root frame."""
         if node is None and holder is not None:
             return np.asarray(np.linalg.inv(self.scene.placements[holder].world), dtype=np.float64)
         world = np.eye(4) if node is None else self.scene.placements[node].world
@@ -216,7 +218,7 @@ class SceneDraft:
 
 
 def name_of(thing: Json) -> str:
-    """The name of a node, mesh or material, empty where it has none."""
+    """Return the name of a node, mesh or material, empty where it has none."""
     name = thing.get("name")
     return name if isinstance(name, str) else ""
 

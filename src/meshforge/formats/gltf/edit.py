@@ -28,7 +28,7 @@ _ENGINES: dict[Convention, type[EngineStyle]] = {"unreal": UnrealStyle, "godot":
 
 
 def write_gltf(asset: Asset, document: GltfDocument, name: str) -> Output:
-    """The files of an asset that was read from a glTF file; without an edit, its own bytes.
+    """Return the files of an asset that was read from a glTF file; without an edit, its own bytes.
 
     Raises AssetError: a buffer changed since the asset was read, nothing would be left, or an animation is in the way.
     """
@@ -88,7 +88,7 @@ def _own_name(piece: Geom | NonConvexPiece, document: GltfDocument) -> str:
 
 
 def style_of(convention: Convention, draft: SceneDraft, stem: str) -> Style:
-    """What writes hulls in a convention; stem: of the file."""
+    """Return what writes hulls in a convention; stem: of the file."""
     if convention in _ENGINES:
         return _ENGINES[convention](draft, stem)
     return PlainStyle(draft, stem) if convention == "plain" else PhysicsStyle(draft, convention)
@@ -130,7 +130,7 @@ def _find_misread(draft: SceneDraft, document: GltfDocument) -> dict[int, tuple[
 
 
 def add_gltf_colliders(asset: Asset, document: GltfDocument, name: str, engine: CollisionNames | None) -> Output:
-    """The files of a scene with the hulls of an asset beside it, as colliders of KHR_physics_rigid_bodies.
+    """Return the files of a scene with the hulls of an asset beside it, as colliders of KHR_physics_rigid_bodies.
 
     engine: by whose names they collide instead. Raises AssetError: a buffer changed since the asset was read, or there
     is no hull to write.
@@ -160,7 +160,6 @@ def add_gltf_colliders(asset: Asset, document: GltfDocument, name: str, engine: 
 
 
 def _list_pieces(asset: Asset, document: GltfDocument, draft: SceneDraft) -> Iterator[NewPiece]:
-    """All that collides, hulls first, with where it comes from."""
     nodes, kept = {name: node for node, name in document.bodies}, names_to_keep(asset)
     sources = {name: (element, k) for element in document.authored for k, name in enumerate(element.names)}
     pieces: list[Geom | NonConvexPiece] = [*asset.geoms, *asset.non_convex]

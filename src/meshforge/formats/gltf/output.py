@@ -48,7 +48,8 @@ class EditBase:
 
 
 def prepare_base(source: bytes, scene: GltfScene, name: str) -> EditBase:
-    """The file to be edited, which becomes `name`: a `.gltf` as GLB has its first buffer inside, a GLB as text beside.
+    """Return the file to be edited, which becomes `name`: a `.gltf` as GLB has its first buffer inside, a GLB as text
+    beside.
 
     A file whose suffix stays keeps its container, whatever the suffix says.
     """
@@ -68,7 +69,7 @@ def prepare_base(source: bytes, scene: GltfScene, name: str) -> EditBase:
 
 
 def pack_scene(base: EditBase, scene: GltfScene, geometry: GeometryBuffer | None, name: str) -> Output:
-    """The files of an edited scene; geometry: what was added to it, the tree edited with it."""
+    """Return the files of an edited scene; geometry: what was added to it, the tree edited with it."""
     tree = base.tree if geometry is None else geometry.tree
     copies, made = find_companions(scene.path), dict(base.made)
     if base.container.is_binary != base.is_binary and scene.tree != base.tree:
@@ -93,7 +94,7 @@ def pack_scene(base: EditBase, scene: GltfScene, geometry: GeometryBuffer | None
 
 
 def free_buffer_name(stem: str, taken: Collection[str]) -> str:
-    """A name of a buffer file that is not taken."""
+    """Return a name of a buffer file that is not taken."""
     used = {name.lower() for name in taken}
     name, number = f"{stem}.bin", 2
     while name.lower() in used:
@@ -131,12 +132,12 @@ class GeometryBuffer:
         return before + b"\0" * (self._start - len(before)) + bytes(self.added)
 
     def add_triangles(self, faces: Ints) -> int:
-        """The accessor of triangles (m, 3)."""
+        """Return the accessor of triangles (m, 3)."""
         kind = "<u2" if faces.max(initial=0) < 65535 else "<u4"
         return self._add_accessor(faces.ravel().astype(kind)[:, None], _INDICES)
 
     def add_vertex_data(self, rows: npt.NDArray[Any], *, bounds: bool = False, normalized: bool = False) -> int:
-        """The accessor of a vertex attribute (n, k); bounds: with the least and the largest of each column."""
+        """Return the accessor of a vertex attribute (n, k); bounds: with the least and the largest of each column."""
         index = self._add_accessor(rows, _VERTICES)
         accessor = self.tree["accessors"][index]
         if bounds:
@@ -146,7 +147,7 @@ class GeometryBuffer:
         return index
 
     def add_bytes(self, data: bytes) -> int:
-        """The buffer view of some bytes, such as a picture."""
+        """Return the buffer view of some bytes, such as a picture."""
         view = {"buffer": self.buffer, "byteOffset": self._start + len(self.added), "byteLength": len(data)}
         self.added += data + b"\0" * (-len(data) % 4)
         return self._append("bufferViews", view)

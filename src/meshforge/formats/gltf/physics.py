@@ -57,7 +57,7 @@ def physics_extension_of(scene: GltfScene) -> Convention | None:
 
 
 def has_collider(node: Json, kind: Convention) -> bool:
-    """Whether a node collides, by that extension; a trigger does not."""
+    """Return whether a node collides, by that extension; a trigger does not."""
     own = (extension(node, EXTENSIONS[kind].name) or {}).get("collider")
     return bool(own) if kind == "khr" else isinstance(own, dict) and own.get("shape", -1) != -1
 
@@ -119,13 +119,14 @@ _SIZES = {"inertiaDiagonal": 3, "inertiaTensor": 9}
 
 
 def motion_of(asset: Asset, body: Body) -> Json:
-    """The `motion` of a body: kinematic where it is the fixed part of something with joints; its mass where known."""
+    """Return the `motion` of a body: kinematic where it is the fixed part of something with joints; its mass where
+    known."""
     is_kinematic = asset.mechanism.joints and BodyTree.of(asset).is_static(body.name)
     return {**({"isKinematic": True} if is_kinematic else {}), **mass_keys(asset, body)}
 
 
 def mass_keys(asset: Asset, body: Body) -> Json:
-    """The mass of a body as a motion has it, moments about its own axes where these are principal ones."""
+    """Return the mass of a body as a motion has it, moments about its own axes where these are principal ones."""
     inertial = next((known for known in asset.mechanism.inertials if known.body == body.name), None)
     if inertial is None or inertial.mass <= 0:
         return {}
@@ -140,7 +141,8 @@ def mass_keys(asset: Asset, body: Body) -> Json:
 
 
 def read_motion(node: Json) -> Json:
-    """What a node says of how it moves as a body: KHR's `motion`, else OMI's, whose older form is the extension itself.
+    """Return what a node says of how it moves as a body: KHR's `motion`, else OMI's, whose older form is the extension
+    itself.
 
     Zeros of OMI that leave the inertia to the engine are left out.
     """
@@ -153,7 +155,7 @@ def read_motion(node: Json) -> Json:
 
 
 def read_inertial(placement: Placement, body: str, hulls: Sequence[Shape]) -> Inertial | None:
-    """What a node that is a body weighs; hulls: of the body, whose inertia it has where it says none.
+    """Return what a node that is a body weighs; hulls: of the body, whose inertia it has where it says none.
 
     None where it is endless, or where the file leaves that to the engine. Raises ValueError.
     """
@@ -176,13 +178,13 @@ def read_inertial(placement: Placement, body: str, hulls: Sequence[Shape]) -> In
 
 
 def explain_missing_mass(motion: Json) -> str:
-    """Why a body that says its mass has none in the asset."""
+    """Return why a body that says its mass has none in the asset."""
     is_endless = number(motion, "mass", 0.0) <= 0 or _SIZES.keys() & motion.keys()
     return "they or their inertia are endless" if is_endless else "no hull of these bodies gives their inertia"
 
 
 def body_nodes(scene: GltfScene) -> dict[int, int]:
-    """For each node of the scene in a body, the node that is that body: itself, or the nearest one above."""
+    """Return for each node of the scene in a body, the node that is that body: itself, or the nearest one above."""
     found: dict[int, int] = {}
     for index, placement in scene.placements.items():
         own = extension(placement.node, OMI) or {}
@@ -194,7 +196,7 @@ def body_nodes(scene: GltfScene) -> dict[int, int]:
 
 
 def rigid_pose_of(placement: Placement) -> Pose:
-    """The pose of a node without its scale: the rotation nearest to its map."""
+    """Return the pose of a node without its scale: the rotation nearest to its map."""
     left, _, right = np.linalg.svd(placement.linear)
     left[:, 2] *= np.sign(np.linalg.det(left @ right))
     return Pose(left @ right, placement.offset)

@@ -46,7 +46,7 @@ class PhysicsStyle(Style):
             self.draft.empty_node(element.node)
 
     def keep_pieces(self, element: NodeRecord, kept: Sequence[int]) -> None:
-        """Each piece that is left becomes a collider of its own, on a node below."""
+        """Make each piece that is left a collider of its own, on a node below."""
         draft = self.draft
         source = draft.scene.placements[element.node]
         mesh = physics.collider_of(source, self.convention, draft.scene).mesh
@@ -105,7 +105,6 @@ class PhysicsStyle(Style):
     def _add_collider(
         self, node: Json, holder: int | None, geometry: Json, name: str, like: Json, at: int | None = None
     ) -> None:
-        """Add a node that collides with a geometry, and has all else of the collider of another node."""
         self.draft.declare_extension(self.marks.name)
         old = copy.deepcopy((extension(like, self.marks.name) or {}).get("collider", {}))
         rest = {key: value for key, value in old.items() if key not in ("geometry", "shape")}
@@ -149,7 +148,7 @@ class PhysicsStyle(Style):
 
 
 def is_drawn(node: Json) -> bool:
-    """Whether a node's mesh only shows its collider."""
+    """Return whether a node's mesh only shows its collider."""
     extras = node.get("extras")
     own = extras.get("meshforge") if isinstance(extras, dict) else None
     return isinstance(own, dict) and own.get("drawn") is True
@@ -186,7 +185,7 @@ def _strip_look(part: Json) -> Json:
 
 
 def pose_keys(pose: Pose) -> Json:
-    """A pose as a node has it."""
+    """Return a pose as a node has it."""
     w, x, y, z = pose.to_quaternion().tolist()
     place: Json = {"translation": pose.translation.tolist()} if pose.translation.any() else {}
     return place if w == 1.0 else {**place, "rotation": [x, y, z, w]}

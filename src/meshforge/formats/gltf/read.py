@@ -39,7 +39,7 @@ _DRAFTS = {"OMI_collider": "OMI_physics_shape", "KHR_collision_shapes": "KHR_imp
 
 
 def read_gltf(path: Path) -> Asset:
-    """The asset in a glTF file or GLB.
+    """Return the asset in a glTF file or GLB.
 
     Raises AssetError: damaged, compressed in a way that is not read, a buffer is missing, or there is nothing in it.
     """
@@ -126,7 +126,7 @@ def _find_files(scene: GltfScene, path: Path) -> tuple[tuple[Path, ...], tuple[s
 
 
 def read_scene_surfaces(asset: Asset, document: GltfDocument) -> SceneSurfaces:
-    """What a scene shows in which all meshes are taken for collision."""
+    """Return what a scene shows in which all meshes are taken for collision."""
     with report_damage(str(asset.path)):
         owners, _ = _name_bodies(GltfScene.of(document.source, asset.path))
     return SceneSurfaces(document.source, asset.path, owners, unmarked=True)
@@ -206,7 +206,6 @@ def _materials(tree: Json, mesh: Json) -> Iterator[Json]:
 
 
 def _collect_notes(scene: GltfScene, convention: Convention) -> Iterator[str]:
-    """The notes on a scene, whose collision was read by a convention."""
     if convention in _HOW:
         yield FileNote(_HOW[convention])
     elif "Texture" in str(entries(scene.tree, "materials")):  # else it is a mesh file as any other

@@ -88,7 +88,7 @@ class PlainStyle(Style):
         self.draft.empty_node(element.node)
 
     def keep_pieces(self, element: NodeRecord, kept: Sequence[int]) -> None:
-        """The pieces stay in the node where they keep their names; else each goes to a node of its own below it."""
+        """Keep the pieces in the node where they keep their names; else put each into a node of its own below it."""
         if len(kept) > 1 and list(kept) == list(range(len(kept))):
             self.keep_in_mesh(element, kept)
             return
@@ -199,7 +199,7 @@ class GodotStyle(EngineStyle):
             self.draft.empty_node(element.node)
 
     def keep_pieces(self, element: NodeRecord, kept: Sequence[int]) -> None:
-        """The pieces that are left stay in one mesh; where the whole is seen, they get a node of their own."""
+        """Keep the pieces that are left in one mesh; where the whole is seen, they get a node of their own."""
         if not self._is_visible(element):
             self.keep_in_mesh(element, kept)
             return

@@ -24,7 +24,7 @@ _NOT_FINITE = re.compile(r"\b(nan|inf)", re.I)
 
 
 def parse_dae(data: bytes, where: str) -> list[RawSurface]:
-    """The surfaces of a Collada file. Raises AssetError: not such a file, or no scene in it."""
+    """Return the surfaces of a Collada file. Raises AssetError: not such a file, or no scene in it."""
     with _report_damage(where):
         document = _open_document(data, where)
         unit, roots = float(document.assetInfo.unitmeter or 1.0), document.scene.nodes if document.scene else []
@@ -63,7 +63,6 @@ def _report_damage(where: str) -> Iterator[None]:
 
 
 def _list_geometries(node: Any, world: Floats) -> Iterator[tuple[Any, str | None]]:
-    """Each geometry below a node as its nodes place it, with the name of the last."""
     from collada.scene import GeometryNode, Node, NodeNode  # lazy: as collada
 
     if isinstance(node, NodeNode):

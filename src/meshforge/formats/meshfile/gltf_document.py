@@ -40,7 +40,8 @@ class Container:
 
     @staticmethod
     def of(data: bytes) -> Container:
-        """The container in the bytes of a file. Raises ValueError: a GLB that is damaged, or not of version 2."""
+        """Return the container in the bytes of a file. Raises ValueError: a GLB that is damaged, or not of version
+        2."""
         if data[:4] != MAGIC:
             return Container(data)
         if len(data) < _HEADER + 8:
@@ -61,7 +62,7 @@ class Container:
         return next((content for kind, content in self.chunks if kind == _BIN), None)
 
     def with_text(self, text: bytes, binary: bytes | None) -> Container:
-        """The container with another JSON, and another binary chunk where one is given."""
+        """Return the container with another JSON, and another binary chunk where one is given."""
         chunks = list(self.chunks)
         if binary is not None:
             at = next((k for k, (kind, _) in enumerate(chunks) if kind == _BIN), None)
@@ -69,7 +70,7 @@ class Container:
         return Container(text, self.is_binary, tuple(chunks), self.rest)
 
     def as_bytes(self) -> bytes:
-        """The bytes of the file; chunks are padded to multiples of four, as the format asks for."""
+        """Return the bytes of the file; chunks are padded to multiples of four, as the format asks for."""
         if not self.is_binary:
             return self.text
         body = b""
@@ -93,7 +94,7 @@ def _split_chunks(data: bytes, length: int) -> tuple[list[tuple[int, bytes]], in
 
 
 def entries(owner: Any, key: str) -> list[Any]:
-    """The array under a key, empty where there is none. Raises ValueError: it is something else."""
+    """Return the array under a key, empty where there is none. Raises ValueError: it is something else."""
     found = owner.get(key, []) if isinstance(owner, dict) else None
     if not isinstance(found, list):
         raise ValueError(f"its {key!r} are no array")
@@ -101,7 +102,7 @@ def entries(owner: Any, key: str) -> list[Any]:
 
 
 def entry(owner: Any, key: str, index: Any) -> Json:
-    """The object of an index in the array under a key. Raises ValueError: it is not there, or no object."""
+    """Return the object of an index in the array under a key. Raises ValueError: it is not there, or no object."""
     found = entries(owner, key)
     if not isinstance(index, int) or isinstance(index, bool) or not 0 <= index < len(found):
         raise ValueError(f"there is no {index!r} in its {key!r}")
@@ -111,13 +112,13 @@ def entry(owner: Any, key: str, index: Any) -> Json:
 
 
 def extension(owner: Any, name: str) -> Json | None:
-    """An extension of an object, None where it has none of that name."""
+    """Return an extension of an object, None where it has none of that name."""
     found = owner.get("extensions", {}).get(name)
     return found if isinstance(found, dict) else None
 
 
 def numbers(owner: Json, key: str, count: int, default: tuple[float, ...]) -> Floats:
-    """So many finite numbers under a key. Raises ValueError: others, or another count."""
+    """Return so many finite numbers under a key. Raises ValueError: others, or another count."""
     values = np.array(owner.get(key, default), dtype=np.float64)
     if values.shape != (count,) or not np.isfinite(values).all():
         raise ValueError(f"its {key!r} should be {count} finite numbers")
@@ -125,13 +126,13 @@ def numbers(owner: Json, key: str, count: int, default: tuple[float, ...]) -> Fl
 
 
 def number(owner: Json, key: str, default: float) -> float:
-    """A finite number under a key. Raises ValueError."""
+    """Return a finite number under a key. Raises ValueError."""
     return float(numbers({key: [owner[key]]} if key in owner else {}, key, 1, (default,))[0])
 
 
 @contextmanager
 def report_damage(where: str) -> Iterator[None]:
-    """Makes one clear AssetError of all that reading a damaged file may raise."""
+    """Make one clear AssetError of all that reading a damaged file may raise."""
     try:
         with np.errstate(over="ignore", invalid="ignore"):  # numbers beyond all bounds are found and refused
             yield
@@ -143,7 +144,8 @@ def report_damage(where: str) -> Iterator[None]:
 
 
 def parse_json(text: bytes) -> Json:
-    """The JSON of a file, `?` for each half of a character in it. Raises ValueError: none, or another version."""
+    """Return the JSON of a file, `?` for each half of a character in it. Raises ValueError: none, or another
+    version."""
     plain = text.decode("utf-8-sig").rstrip("\0")
     tree = json.loads(plain, parse_constant=_refuse_constant)
     if _SURROGATE.search(plain):

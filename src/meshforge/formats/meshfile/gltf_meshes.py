@@ -37,7 +37,7 @@ class Buffers:
         self._refuse_compressed(entries(tree, "extensionsRequired"))
 
     def accessor(self, index: Any) -> npt.NDArray[Any]:
-        """The values (count, width) of an accessor: floats where they are normalized or floats in the file."""
+        """Return the values (count, width) of an accessor: floats where they are normalized or floats in the file."""
         accessor = entry(self.tree, "accessors", index)
         count, number, shape = accessor["count"], accessor["componentType"], accessor["type"]
         if not isinstance(count, int) or count < 0 or number not in TYPES or shape not in _WIDTHS:
@@ -58,13 +58,13 @@ class Buffers:
         return values
 
     def geometry(self, index: Any) -> npt.NDArray[Any]:
-        """The values of an accessor that must have its own: geometry of all zeros is lost, never meant."""
+        """Return the values of an accessor that must have its own: geometry of all zeros is lost, never meant."""
         if not {"bufferView", "sparse"} & entry(self.tree, "accessors", index).keys():
             raise ValueError(f"the values of accessor {index}, geometry of a mesh, are not in it")
         return self.accessor(index)
 
     def view(self, index: Any) -> bytes:
-        """The bytes of a buffer view. Raises ValueError where it goes beyond its buffer."""
+        """Return the bytes of a buffer view. Raises ValueError where it goes beyond its buffer."""
         view = entry(self.tree, "bufferViews", index)
         start, length = view.get("byteOffset", 0), view["byteLength"]
         data = self.buffer(view["buffer"])
@@ -73,7 +73,8 @@ class Buffers:
         return data[start : start + length]
 
     def buffer(self, index: Any) -> bytes:
-        """The bytes of a buffer. Raises AssetError: its file is not there; ValueError: it is shorter than it says."""
+        """Return the bytes of a buffer. Raises AssetError: its file is not there; ValueError: it is shorter than it
+        says."""
         if index not in self._loaded:
             buffer = entry(self.tree, "buffers", index)
             data = self._fetch(buffer, index)
@@ -83,7 +84,7 @@ class Buffers:
         return self._loaded[index]
 
     def files(self) -> list[Path]:
-        """The files beside the main one that hold buffers."""
+        """Return the files beside the main one that hold buffers."""
         uris = [b.get("uri") for b in entries(self.tree, "buffers") if isinstance(b, dict)]
         return [self._beside(uri) for uri in uris if isinstance(uri, str) and not uri.startswith("data:")]
 
@@ -152,7 +153,7 @@ class Buffers:
 
 
 def decode_data_uri(uri: str) -> bytes:
-    """The bytes in a data URI. Raises ValueError: damaged."""
+    """Return the bytes in a data URI. Raises ValueError: damaged."""
     head, comma, text = uri.partition(",")
     if not comma:
         raise ValueError("a data URI of it is damaged")
@@ -184,7 +185,7 @@ class GltfMesh:
 
 
 def read_mesh(mesh: Json, buffers: Buffers) -> GltfMesh:
-    """The triangles of a mesh; points and lines are passed over. Raises ValueError: damaged."""
+    """Return the triangles of a mesh; points and lines are passed over. Raises ValueError: damaged."""
     found = [_read_primitive(k, part, buffers) for k, part in enumerate(entries(mesh, "primitives"))]
     patches = tuple(patch for patch in found if patch is not None)
     return GltfMesh(*stack_triangles((patch.points, patch.faces) for patch in patches), patches)
@@ -238,7 +239,7 @@ class DracoMesh:
 
 
 def decode_draco(data: bytes, names: Json) -> DracoMesh:
-    """What the bytes of a compressed primitive hold; names: the number of each attribute by its name.
+    """Return what the bytes of a compressed primitive hold; names: the number of each attribute by its name.
 
     Raises ValueError: they are damaged, hold no triangles, or not all of the attributes.
     """

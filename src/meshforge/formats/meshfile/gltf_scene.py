@@ -31,7 +31,7 @@ _PLACED = frozenset(("matrix", "translation", "rotation", "scale"))
 
 
 def parse_gltf(data: bytes, path: Path) -> list[RawSurface]:
-    """The surfaces of a glTF or GLB file, whose buffers may lie beside it.
+    """Return the surfaces of a glTF or GLB file, whose buffers may lie beside it.
 
     Raises AssetError: damaged, compressed in a way that is not read, or a buffer is missing.
     """
@@ -51,7 +51,6 @@ def _read_surface(scene: GltfScene, placement: Placement) -> Iterator[RawSurface
 
 
 def _materials_of(scene: GltfScene, index: int, mesh: gltf_meshes.GltfMesh) -> tuple[Ints, tuple[str, ...]] | None:
-    """The material of each face of a mesh, and the names of all, the first of those without; None where none is."""
     parts = entries(entry(scene.tree, "meshes", index), "primitives")
     numbers = [parts[patch.index].get("material") for patch in mesh.patches]
     names = [str(entry(scene.tree, "materials", k).get("name") or f"material_{k}") for k in numbers if k is not None]
@@ -94,7 +93,7 @@ class GltfScene:
 
     @staticmethod
     def of(data: bytes, path: Path) -> GltfScene:
-        """The scene in the bytes of the file at a path."""
+        """Return the scene in the bytes of the file at a path."""
         container = Container.of(data)
         return GltfScene(parse_json(container.text), container.binary, path)
 
@@ -130,13 +129,14 @@ class GltfScene:
         return found
 
     def mesh(self, index: Any) -> gltf_meshes.GltfMesh:
-        """The triangles of a mesh, in its own space."""
+        """Return the triangles of a mesh, in its own space."""
         if index not in self._meshes:
             self._meshes[index] = gltf_meshes.read_mesh(entry(self.tree, "meshes", index), self.buffers)
         return self._meshes[index]
 
     def place_mesh(self, placement: Placement) -> tuple[gltf_meshes.GltfMesh, Floats, Floats]:
-        """The triangles of the mesh of a node, and the map x -> linear @ x + offset that puts them in the root frame.
+        """Return the triangles of the mesh of a node, and the map x -> linear @ x + offset that puts them in the root
+        frame.
 
         A skinned mesh is put in place by its joints, as the file has them.
         """
@@ -147,7 +147,7 @@ class GltfScene:
 
 
 def matrix_of(node: Json) -> Floats:
-    """The transform (4, 4) of a node to its parent. Raises ValueError."""
+    """Return the transform (4, 4) of a node to its parent. Raises ValueError."""
     matrix = np.eye(4)
     if _PLACED.isdisjoint(node):
         return matrix
@@ -175,7 +175,7 @@ def _ancestors_of(found: dict[int, Placement], index: int | None) -> set[int]:
 
 
 def pose_skin(scene: GltfScene, node: Json, mesh: gltf_meshes.GltfMesh) -> gltf_meshes.GltfMesh:
-    """The triangles of a node's skinned mesh in the root frame. Raises ValueError: its skin is damaged."""
+    """Return the triangles of a node's skinned mesh in the root frame. Raises ValueError: its skin is damaged."""
     bones = _bone_transforms(scene, entry(scene.tree, "skins", node["skin"]))
     parts = entries(entry(scene.tree, "meshes", node["mesh"]), "primitives")
     moved = [_move_points(scene, patch, parts[patch.index]["attributes"], bones) for patch in mesh.patches]
@@ -196,7 +196,6 @@ def _bone_transforms(scene: GltfScene, skin: Json) -> Floats:
 
 
 def _move_points(scene: GltfScene, patch: gltf_meshes.GltfPrimitive, attributes: Json, bones: Floats) -> Floats:
-    """The points (n, 3) of a primitive, each moved by its joints."""
     total = np.zeros((len(patch.points), 4, 4))
     for number in range(8):
         if f"JOINTS_{number}" not in attributes:

@@ -44,7 +44,7 @@ class ObjText:
     groups: tuple[ObjGroup, ...]
 
     def soup(self, where: str) -> surface.Soup:
-        """All triangles in file order. Raises AssetError: there is none, or a coordinate is not finite."""
+        """Return all triangles in file order. Raises AssetError: there is none, or a coordinate is not finite."""
         surface.check_surfaces([surface.RawSurface(None, self.vertices, self.faces)], where)
         named = tuple(group_names(self.groups))
         within = tuple(g if o and g and o == name != g else "" for (o, g), name in zip(self.groups, named, strict=True))
@@ -52,13 +52,13 @@ class ObjText:
         return surface.Soup(self.vertices, self.faces, self.face_group, named, mentions)
 
     def materials(self) -> tuple[Ints, tuple[str, ...]]:
-        """The material (m,) of each triangle, and the names of all; the first has none."""
+        """Return the material (m,) of each triangle, and the names of all; the first has none."""
         marks = [k for k, statement in enumerate(self.statements) if statement.lstrip()[:6] == b"usemtl"]
         names = [surface.text_of(self.statements[k].strip()[6:].strip()) for k in marks]
         return np.searchsorted(np.array(marks, dtype=np.int64), self.face_at), ("", *names)
 
     def surfaces(self, where: str) -> list[surface.RawSurface]:
-        """A surface for each group that has faces; they share the vertices of the file. Raises AssetError."""
+        """Return a surface for each group that has faces; they share the vertices of the file. Raises AssetError."""
         names = group_names(self.groups)
         of_face, materials = self.materials()
         parts = []
@@ -70,7 +70,7 @@ class ObjText:
 
 
 def statements_of(data: bytes) -> list[bytes]:
-    """The statements of an OBJ file, line ends included, without a byte order mark."""
+    """Return the statements of an OBJ file, line ends included, without a byte order mark."""
     lines = data.removeprefix(codecs.BOM_UTF8).splitlines(keepends=True)
     if b"\\\n" not in data and b"\\\r" not in data:
         return lines
@@ -86,7 +86,7 @@ def statements_of(data: bytes) -> list[bytes]:
 
 
 def group_names(groups: tuple[ObjGroup, ...]) -> list[str | None]:
-    """The name of each group: its object where that holds one group only, else object and group."""
+    """Return the name of each group: its object where that holds one group only, else object and group."""
     objects = [o for o, _ in groups]
     names: list[str | None] = []
     for o, g in groups:
@@ -98,7 +98,7 @@ def group_names(groups: tuple[ObjGroup, ...]) -> list[str | None]:
 
 
 def parse_obj(data: bytes, where: str) -> ObjText:
-    """An OBJ file taken apart. Raises AssetError with file and line: a statement that cannot be read."""
+    """Return an OBJ file taken apart. Raises AssetError with file and line: a statement that cannot be read."""
     return _parse_remembered(data, where) if len(data) <= _MOST_REMEMBERED else _parse(data, where)
 
 
@@ -134,12 +134,12 @@ def _parse(data: bytes, where: str) -> ObjText:
 
 
 def line_of(statements: tuple[bytes, ...] | list[bytes], index: int) -> int:
-    """The line on which a statement starts, from 1."""
+    """Return the line on which a statement starts, from 1."""
     return 1 + sum(s.count(b"\n") or s.count(b"\r") for s in statements[:index])
 
 
 def arguments(statement: bytes) -> list[bytes]:
-    """The words after the keyword, without a comment at the end."""
+    """Return the words after the keyword, without a comment at the end."""
     if b"\\" in statement:
         statement = re.sub(rb"\\\r?\n?", b" ", statement)
     return statement.split(b"#", 1)[0].split()[1:]
@@ -167,7 +167,6 @@ def _parse_vertices(statements: list[bytes], at: Ints, where: str) -> Floats:
 
 
 def _parse_faces(statements: list[bytes], words: list[bytes], vertex_at: Ints, where: str) -> tuple[Ints, Ints]:
-    """The statement of each triangle, and the triangles (m, 3)."""
     at = np.array([k for k, word in enumerate(words) if word in (b"f", b"fo")], dtype=np.int64)
     rows, ahead = [statements[k] for k in at.tolist()], np.searchsorted(vertex_at, at)
     found = _plain_faces(rows, ahead, len(vertex_at))
@@ -211,7 +210,7 @@ def _parse_groups(statements: list[bytes], words: list[bytes], at: Ints) -> tupl
 
 
 def group_name_of(statement: bytes) -> str:
-    """The name that an `o` or `g` statement gives: all after the keyword, spaces within included."""
+    """Return the name that an `o` or `g` statement gives: all after the keyword, spaces within included."""
     return surface.text_of(statement.strip()[1:].strip())
 
 
@@ -225,12 +224,12 @@ def _error_at(problem: str, statements: list[bytes], index: int, where: str, rem
 
 
 def keywords(statements: Sequence[bytes]) -> list[bytes]:
-    """The first word of each statement, none where it is empty."""
+    """Return the first word of each statement, none where it is empty."""
     return [_QUICK.get(s[:2]) or _QUICK.get(s[:3]) or keyword(s) for s in statements]
 
 
 def keyword(statement: bytes) -> bytes:
-    """The first word of a statement, none where it is empty."""
+    """Return the first word of a statement, none where it is empty."""
     words = statement.split(None, 1)
     return words[0] if words else b""
 

@@ -77,12 +77,12 @@ class PlyText:
     face_at: Ints
 
     def surfaces(self, where: str) -> list[surface.RawSurface]:
-        """The one surface of the file. Raises AssetError."""
+        """Return the one surface of the file. Raises AssetError."""
         return surface.check_surfaces([surface.RawSurface(None, self.vertices, self.faces)], where)
 
 
 def parse_ply(data: bytes, where: str) -> PlyText:
-    """A PLY file taken apart. Raises AssetError: cut short, damaged, or not a PLY file."""
+    """Return a PLY file taken apart. Raises AssetError: cut short, damaged, or not a PLY file."""
     header = parse_header(data, where)
     rows: list[PlyRows] = []
     at = header.size
@@ -102,7 +102,8 @@ def parse_ply(data: bytes, where: str) -> PlyText:
 
 
 def parse_header(data: bytes, where: str) -> PlyHeader:
-    """The header at the start of a PLY file. Raises AssetError with the line: this is none, or it makes no sense."""
+    """Return the header at the start of a PLY file. Raises AssetError with the line: this is none, or it makes no
+    sense."""
     if data.removeprefix(codecs.BOM_UTF8)[:3] != b"ply":
         raise AssetError("this is no PLY file", where=where, remedy="Export it again.")
     end = re.search(rb"^end_header[ \t]*(\r\n|\n|\r)", data, re.M)
@@ -150,7 +151,6 @@ def _truncation_error(element: PlyElement, where: str) -> AssetError:
 
 
 def _row_error(element: PlyElement, row: int, data: bytes, span: tuple[int, int], where: str) -> AssetError:
-    """The error on a row of an ASCII file that is not as its element says."""
     text = data[slice(*span)]
     if not text.strip():
         return _truncation_error(element, where)
@@ -189,7 +189,6 @@ def _line_end_of(data: bytes, at: int) -> int:
 
 
 def _to_whole(values: Sequence[float]) -> int:
-    """The one value, -1 where there is none, or one that is no whole number."""
     return int(values[0]) if len(values) and float(values[0]).is_integer() else -1
 
 

@@ -40,7 +40,7 @@ class StlText:
     binary: bool
 
     def surfaces(self, where: str) -> list[RawSurface]:
-        """A surface for each solid, named where there are several. Raises AssetError."""
+        """Return a surface for each solid, named where there are several. Raises AssetError."""
         several = len(self.solids) > 1 and len(np.unique(self.solid)) > 1
         found = []
         for k, name in enumerate(self.solids):
@@ -50,7 +50,7 @@ class StlText:
 
 
 def parse_stl(data: bytes, where: str) -> StlText:
-    """An STL file taken apart. Raises AssetError: cut short, or not an STL file."""
+    """Return an STL file taken apart. Raises AssetError: cut short, or not an STL file."""
     count = int.from_bytes(data[80:HEADER], "little") if len(data) >= HEADER else -1
     room = (len(data) - HEADER) // RECORD.itemsize
     # the title of a binary file may say `solid` too, the numbers behind it are no text
@@ -68,7 +68,7 @@ def parse_stl(data: bytes, where: str) -> StlText:
 
 
 def facet_spans(data: bytes) -> Ints:
-    """The bytes (m, 2) of each triangle in an ASCII file."""
+    """Return the bytes (m, 2) of each triangle in an ASCII file."""
     return _spans_in(_blank_names(data))
 
 

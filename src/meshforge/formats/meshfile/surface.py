@@ -36,7 +36,7 @@ class RawSurface:
 
 
 def check_surfaces(surfaces: Iterable[RawSurface], where: str) -> list[RawSurface]:
-    """The surfaces that have triangles.
+    """Return the surfaces that have triangles.
 
     Raises AssetError at `where`: no triangle at all, an index without a vertex, a coordinate that is not finite or
     so large that its square is none.
@@ -66,7 +66,8 @@ def check_surfaces(surfaces: Iterable[RawSurface], where: str) -> list[RawSurfac
 
 
 def to_doubles(values: npt.ArrayLike) -> Floats:
-    """Numbers in double precision; signalling NaN, which a damaged file may hold, stays NaN without a warning."""
+    """Return numbers in double precision; signalling NaN, which a damaged file may hold, stays NaN without a
+    warning."""
     with np.errstate(invalid="ignore"):
         return np.asarray(values).astype(np.float64)
 
@@ -84,7 +85,7 @@ def cut_fans(corners: Ints, counts: Ints) -> tuple[Ints, Ints]:
 
 
 def stack_triangles(surfaces: Iterable[tuple[Floats, Ints]], start: int = 0) -> tuple[Floats, Ints]:
-    """The vertices (n, 3) of surfaces one after the other, and all their faces (m, 3), numbered from `start`."""
+    """Return the vertices (n, 3) of surfaces one after the other, and all their faces (m, 3), numbered from `start`."""
     vertices, faces = [np.zeros((0, 3))], [np.zeros((0, 3), dtype=np.int64)]
     for points, triangles in surfaces:
         vertices.append(points)
@@ -110,7 +111,7 @@ class Soup:
 
 
 def join_surfaces(surfaces: Sequence[RawSurface]) -> Soup:
-    """Surfaces as one soup, a group each."""
+    """Return surfaces as one soup, a group each."""
     if all(s.vertices is surfaces[0].vertices for s in surfaces):
         vertices, faces = surfaces[0].vertices, np.concatenate([s.faces for s in surfaces])
     else:
@@ -120,7 +121,8 @@ def join_surfaces(surfaces: Sequence[RawSurface]) -> Soup:
 
 
 def text_of(name: bytes) -> str:
-    """A name in a mesh file as text: UTF-8, or what is none taken byte by byte, as Windows has it in the west."""
+    """Return a name in a mesh file as text: UTF-8, or what is none taken byte by byte, as Windows has it in the
+    west."""
     try:
         return name.decode("utf-8")
     except UnicodeDecodeError:
@@ -128,11 +130,11 @@ def text_of(name: bytes) -> str:
 
 
 def is_number(word: bytes) -> bool:
-    """Whether a word is a decimal number as mesh files have them, `nan` and `inf` included."""
+    """Return whether a word is a decimal number as mesh files have them, `nan` and `inf` included."""
     return _NUMBER.fullmatch(word) is not None
 
 
 def remedy_for(words: Sequence[bytes]) -> str:
-    """What to do about words that are no numbers."""
+    """Return what to do about words that are no numbers."""
     commas = any(b"," in word for word in words)
     return "Decimal commas are not read: export it with points." if commas else "Fix or export it again."

@@ -48,7 +48,6 @@ _Masses = Literal["authored", "fixed", "none"]
 
 
 def _keep_needed(node: MjcfNode, masses: _Masses) -> Mapping[str, str] | None:
-    """The attributes of an element that are needed, None where the element is not."""
     if node.tag in _WHOLE:
         return node.attributes
     if node.tag == "inertial" and masses != "authored":
@@ -60,7 +59,7 @@ def _keep_needed(node: MjcfNode, masses: _Masses) -> Mapping[str, str] | None:
 
 
 def strip_to_collision(tree: MjcfTree, refusal: AssetError, masses: Literal["fixed", "none"] = "none") -> MjcfModel:
-    """The model of the collision geometry of a tree that MuJoCo refuses as a whole.
+    """Return the model of the collision geometry of a tree that MuJoCo refuses as a whole.
 
     masses: what stands for authored masses that are refused: ones that no geom changes, or those of the geoms.
     Raises AssetError: a collision mesh that is not there; else `refusal`, where the collision geometry is refused too.

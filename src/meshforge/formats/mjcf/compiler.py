@@ -77,7 +77,7 @@ class Compilation:
 
 
 def compile_model(main: Path, files: Mapping[Path, bytes] | None = None) -> mujoco.MjModel:
-    """The model that MuJoCo makes of an MJCF; files: contents that count instead of those on disk, meshes too.
+    """Return the model that MuJoCo makes of an MJCF; files: contents that count instead of those on disk, meshes too.
 
     Static bodies are not fused and visual geoms not discarded, whatever the compiler settings say.
     Raises AssetError with MuJoCo's message, at `file:line` where that is known.
@@ -86,19 +86,19 @@ def compile_model(main: Path, files: Mapping[Path, bytes] | None = None) -> mujo
 
 
 def compile_text(flat: FlatText) -> Compilation:
-    """What MuJoCo makes of a text. Raises AssetError with MuJoCo's message."""
+    """Return what MuJoCo makes of a text. Raises AssetError with MuJoCo's message."""
     warnings: list[str] = []
     return compile_spec(flat, parse_text(flat, warnings), warnings)
 
 
 def parse_text(flat: FlatText, warnings: list[str] | None = None) -> mujoco.MjSpec:
-    """The spec of a text, assets not yet read; warnings: gets those of MuJoCo. Raises AssetError."""
+    """Return the spec of a text, assets not yet read; warnings: gets those of MuJoCo. Raises AssetError."""
     with collect_warnings([] if warnings is None else warnings), _provide_files(flat) as vfs:
         return mujoco.MjSpec.from_file(str(flat.tree.main.path), vfs=vfs)
 
 
 def compile_spec(flat: FlatText, spec: mujoco.MjSpec, warnings: Sequence[str] = ()) -> Compilation:
-    """The model of a spec; warnings: those that MuJoCo gave before. Raises AssetError with MuJoCo's message."""
+    """Return the model of a spec; warnings: those that MuJoCo gave before. Raises AssetError with MuJoCo's message."""
     bodies = tuple(spec.bodies)
     geoms = geoms_of(bodies)
     for kind, of_kind in (("body", bodies), ("geom", geoms)):
@@ -113,7 +113,7 @@ def compile_spec(flat: FlatText, spec: mujoco.MjSpec, warnings: Sequence[str] = 
 
 
 def geoms_of(bodies: Iterable[mujoco.MjsBody]) -> tuple[mujoco.MjsGeom, ...]:
-    """The geoms of a spec's bodies; asked for all at once, MuJoCo takes the square of their number in time."""
+    """Return the geoms of a spec's bodies; asked for all at once, MuJoCo takes the square of their number in time."""
     return tuple(geom for body in bodies for geom in body.geoms)
 
 
@@ -127,7 +127,7 @@ def _refuse_bad_pose(flat: FlatText, kind: str, thing: mujoco.MjsBody | mujoco.M
 
 
 def failure_types() -> tuple[type[Exception], ...]:
-    """What MuJoCo raises."""
+    """Return what MuJoCo raises."""
     return (ValueError, RuntimeError, mujoco.FatalError, mujoco.UnexpectedError)
 
 
@@ -154,7 +154,7 @@ def _provide_files(flat: FlatText) -> Iterator[mujoco.MjVfs]:
 
 @contextmanager
 def collect_warnings(warnings: list[str]) -> Iterator[None]:
-    """Warnings go into a list, neither to the console nor to a MUJOCO_LOG.TXT in the current folder."""
+    """Collect warnings in a list, neither to the console nor to a MUJOCO_LOG.TXT in the current folder."""
     with _LOCK, python_warnings.catch_warnings(record=True) as raised:
         python_warnings.simplefilter("always")
         handler, config = mujoco.get_mju_user_warning(), mujoco.MjLogConfig.get()
@@ -185,18 +185,18 @@ class FlatText:
     nodes: tuple[MjcfNode, ...]
 
     def node_at(self, info: str) -> MjcfNode | None:
-        """The element that MuJoCo means by `line 7`; None where that is a line of another file."""
+        """Return the element that MuJoCo means by `line 7`; None where that is a line of another file."""
         line = int(info.removeprefix("line ")) if info.startswith("line ") and info[5:].isdigit() else 0
         return self.nodes[line - 1] if 0 < line <= len(self.nodes) else None
 
     def where(self, info: str) -> str:
-        """`file:line` of such an element; the main file where it is in another one."""
+        """Return `file:line` of such an element; the main file where it is in another one."""
         node = self.node_at(info)
         return self.tree.where(node) if node else str(self.tree.main.path)
 
 
 def flatten(tree: MjcfTree, keep: KeepAttributes | None = None) -> FlatText:
-    """The text of a tree; keep: for a part of it.
+    """Return the text of a tree; keep: for a part of it.
 
     References of included files are made absolute where MuJoCo would find them beside the included file. Static
     bodies are not fused and visual geoms not discarded, whatever the compiler settings say.
@@ -216,7 +216,8 @@ def flatten(tree: MjcfTree, keep: KeepAttributes | None = None) -> FlatText:
 
 
 def drop_scaling(node: MjcfNode) -> Mapping[str, str]:
-    """The attributes without those that scale masses to a total, or put frames of free bodies at their centres."""
+    """Return the attributes without those that scale masses to a total, or put frames of free bodies at their
+    centres."""
     return {name: value for name, value in node.attributes.items() if name not in _SCALING.get(node.tag, ())}
 
 

@@ -40,7 +40,7 @@ _FAR = 100.0  # sizes away from its body, beyond which a mesh is placed: MuJoCo 
 
 
 def create_mjcf(asset: Asset, name: str) -> Output:
-    """The files of an asset that came from another format.
+    """Return the files of an asset that came from another format.
 
     Bodies are nested as joints have it, those without a joint stand in the world and do not move. Hulls become native
     geoms or meshes, one a file; non-convex pieces meshes as they are, with whose hulls MuJoCo collides; visuals geoms
@@ -149,7 +149,6 @@ class _Creator:
         return parts
 
     def _mass_lines(self, body: str, moves: bool, volume: float) -> Iterator[bytes]:
-        """The mass of a body, whose hulls have a volume [m^3]; one that is to move has some mass in any case."""
         inertial = self.inertials.get(body)
         if self.bodies[body] == WORLD:
             if inertial is not None:
@@ -198,7 +197,6 @@ class _GeomTexts:
         self._mesh_of_visual: dict[tuple[str, tuple[float, ...]], str] = {}
 
     def make_hull(self, geom: Geom) -> bytes:
-        """The geom of a hull."""
         shape = geom.shape.move(self.poses[geom.body].inverse())
         if isinstance(shape, elements.MjcfShape):
             return tag("geom", {**self._head_of(geom.name), **elements.geom_attributes(shape)})
@@ -208,7 +206,6 @@ class _GeomTexts:
         return self._make_mesh(geom.name, own.vertices, own.faces, place, inertia)
 
     def make_surface(self, piece: NonConvexPiece, surface: Surface) -> bytes:
-        """The geom of a non-convex surface."""
         vertices = self.poses[piece.body].inverse().apply(surface.vertices)
         place, volume = _place_mesh(Aabb.of_points(vertices)), convex_hull(vertices, name=piece.name).volume
         self.hulled.append((piece, volume))
@@ -216,12 +213,10 @@ class _GeomTexts:
         return self._make_mesh(piece.name, place.inverse().apply(vertices), surface.faces, place, inertia)
 
     def make_plane(self, piece: NonConvexPiece, plane: Pose) -> bytes:
-        """The geom of an endless plane."""
         place = elements.pose_attributes(self.poses[piece.body].inverse() @ plane)
         return tag("geom", {**self._name_attribute(piece.name), "type": "plane", "size": "0 0 1", **place})
 
     def make_visuals(self, body: str) -> Iterator[bytes]:
-        """The geoms that show what a body shows."""
         for own, visual in self.shown:
             if own != body or (seen := self.visuals.add_visual(body, visual, self.poses[body])) is None:
                 continue

@@ -36,7 +36,8 @@ class MjcfDocument(Document):
 
 
 def geom_names(geoms: Sequence[tuple[str, str]]) -> list[str]:
-    """The names that geoms read as; for each, in MuJoCo's order, the name of its body and its own, empty without one.
+    """Return the names that geoms read as; for each, in MuJoCo's order, the name of its body and its own, empty without
+    one.
 
     `body/name`, or `body/geomK` for the K-th geom of a body, visual ones counted too: so a name does not depend on
     contact bits, which a default class may set. A name that begins with `body/` is the whole name: in MuJoCo names are
@@ -52,7 +53,7 @@ def geom_names(geoms: Sequence[tuple[str, str]]) -> list[str]:
 
 
 def body_names(names: Sequence[str]) -> list[str]:
-    """The names of bodies in MuJoCo's order; the K-th is `bodyK` where it has none, the world is the 0-th."""
+    """Return the names of bodies in MuJoCo's order; the K-th is `bodyK` where it has none, the world is the 0-th."""
     return unique_names(name or f"body{k}" for k, name in enumerate(names))
 
 
@@ -73,7 +74,7 @@ class MjcfNode:
         return self.element.attributes
 
     def each(self, tag: str) -> Iterator[MjcfNode]:
-        """The direct children of that tag."""
+        """Return the direct children of that tag."""
         return (child for child in self.children if child.tag == tag)
 
     @property
@@ -83,7 +84,7 @@ class MjcfNode:
         return self.tag == "joint" and "joint2" in own and own.get("active") != "false"
 
     def walk(self) -> Iterator[MjcfNode]:
-        """This node and all below it, in document order."""
+        """Yield this node and all below it, in document order."""
         waiting = [self]
         while waiting:
             node = waiting.pop()
@@ -108,16 +109,16 @@ class MjcfTree:
         return self.sources[0]
 
     def where(self, node: MjcfNode) -> str:
-        """`file:line` of an element."""
+        """Return `file:line` of an element."""
         return f"{self.sources[node.source].path}:{node.element.line}"
 
     def has(self, path: Path) -> bool:
-        """Whether a file is there."""
+        """Return whether a file is there."""
         return path in self.files or is_file(path)
 
 
 def read_tree(main: Path, files: Mapping[Path, bytes] | None = None) -> MjcfTree:
-    """The tree of a main file and all that it includes; files: contents that count instead of those on disk.
+    """Return the tree of a main file and all that it includes; files: contents that count instead of those on disk.
 
     An include is searched from the main file's folder, then from that of the file it stands in.
     Raises AssetError with `file:line`: a file that cannot be read, is not well formed, or is included twice.

@@ -23,7 +23,7 @@ _FROM_GEOMS = "inertiafromgeom"
 
 
 def write_mjcf(asset: Asset, document: MjcfDocument, name: str, mass: Mass) -> Output:
-    """The files of an asset that was read from an MJCF; without an edit, their own bytes.
+    """Return the files of an asset that was read from an MJCF; without an edit, their own bytes.
 
     MuJoCo compiles what is written, and finds what it found before but for the edited geoms.
     Raises AssetError: a hull that cannot be removed or made, a reference to a geom that goes, a file that MuJoCo
@@ -81,7 +81,7 @@ class MjcfEdit:
         self.masses = BodyMasses(self.geoms)
 
     def build_checked_texts(self, mass: Mass) -> list[bytes]:
-        """The bytes of each of the files, with the masses that bodies have to say.
+        """Return the bytes of each of the files, with the masses that bodies have to say.
 
         Raises AssetError where MuJoCo refuses them, or finds in them what the edit does not say.
         """
@@ -107,7 +107,7 @@ class MjcfEdit:
         return texts
 
     def build_texts(self) -> list[bytes]:
-        """The bytes of each of the files. Raises AssetError where one of them cannot be edited."""
+        """Return the bytes of each of the files. Raises AssetError where one of them cannot be edited."""
         rest = [*self.masses.build_splices(), *self._asset_splices()]
         return [
             self._edit_file(k, [*self.geoms.build_splices(k), *(splice for owner, splice in rest if owner == k)])
@@ -165,7 +165,6 @@ class MjcfEdit:
         return compile_tree(tree, compiler.drop_scaling) if self.before.is_whole else _strip(tree)
 
     def _find_changed_bodies(self) -> list[int]:
-        """The bodies with a mass whose geoms change."""
         found = map(self.before.body_names.index, self.geoms.changed_bodies)
         return [body for body in found if self.before.model.body_mass[body] > 0]
 
@@ -206,7 +205,7 @@ class BodyMasses:
         return bool(new)
 
     def build_splices(self) -> Iterator[tuple[int, Splice]]:
-        """The edits, with their files, that put an `<inertial>` before the children of a body's element.
+        """Yield the edits, with their files, that put an `<inertial>` before the children of a body's element.
 
         Where every `<inertial>` was ignored so far, they count now, and those of the bodies give way.
         """

@@ -54,7 +54,7 @@ _POSE = 1e-9  # relative: a pose through quaternions and frames
 
 
 def find_differences(before: MjcfModel, after: MjcfModel, edit: GeomEdits, masses: bool) -> Iterator[str]:
-    """What an edited file says otherwise than it should; masses: whether they are to be as before.
+    """Yield what an edited file says otherwise than it should; masses: whether they are to be as before.
 
     Elements refer to geoms by names, and the text of other elements is as it was: where names are right, so are these.
     """
@@ -142,7 +142,7 @@ def _is_equal(
 
 
 def find_changed_masses(before: MjcfModel, after: MjcfModel) -> list[int]:
-    """The bodies of another mass, centre or inertia, by number."""
+    """Return the bodies of another mass, centre or inertia, by number."""
     differ = np.zeros(before.model.nbody, dtype=bool)
     for field in _MASS_FIELDS:
         one, other = (getattr(r.model, field).reshape(len(differ), -1) for r in (before, after))

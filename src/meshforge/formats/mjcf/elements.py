@@ -28,13 +28,13 @@ _SLIGHT = 1e-6  # of the largest moment, by which two may fall short of the thir
 
 
 def tag(name: str, attributes: Mapping[str, str], closed: bool = True) -> bytes:
-    """An element without children; closed: else only its start tag."""
+    """Return an element without children; closed: else only its start tag."""
     text = "".join(f' {key}="{escape(value).decode()}"' for key, value in attributes.items())
     return f"<{name}{text}{'/' if closed else ''}>".encode()
 
 
 def geom_attributes(shape: MjcfShape) -> dict[str, str]:
-    """Type, size and pose of a native shape, in the frame in which the shape is."""
+    """Return type, size and pose of a native shape, in the frame in which the shape is."""
     match shape:
         case Box():
             size: Iterable[float] = shape.half
@@ -50,7 +50,7 @@ def geom_attributes(shape: MjcfShape) -> dict[str, str]:
 
 
 def mesh_geom_attributes(mesh: str, pose: Pose) -> dict[str, str]:
-    """Type and pose of a geom of the mesh of that name; pose: of the file's frame."""
+    """Return type and pose of a geom of the mesh of that name; pose: of the file's frame."""
     return {"type": "mesh", "mesh": mesh, **pose_attributes(pose)}
 
 
@@ -65,14 +65,14 @@ def pose_attributes(pose: Pose) -> dict[str, str]:
 
 
 def inertial_attributes(mass: float, pos: Floats, quaternion: Floats, diagonal: Floats) -> dict[str, str]:
-    """A mass [kg], its centre (3,), and the moments (3,) about axes that a quaternion (4,) w x y z turns."""
+    """Return a mass [kg], its centre (3,), and the moments (3,) about axes that a quaternion (4,) w x y z turns."""
     turned = {} if np.array_equal(quaternion, (1, 0, 0, 0)) else {"quat": format_numbers(quaternion)}
     weight = {"mass": format_numbers([mass]), "diaginertia": format_numbers(diagonal)}
     return {"pos": format_numbers(pos), **turned, **weight}
 
 
 def split_joint(joint: Joint, top: bool, taken: set[str]) -> Sequence[Joint]:
-    """The joints that move together as one does; top: whether its body may have a free joint.
+    """Return the joints that move together as one does; top: whether its body may have a free joint.
 
     A planar joint is two slides and a hinge; a floating one that is not at the top three slides and a ball.
     """
@@ -93,7 +93,7 @@ def split_joint(joint: Joint, top: bool, taken: set[str]) -> Sequence[Joint]:
 
 
 def joint_tag(joint: Joint, root_t_body: Pose) -> bytes:
-    """The element of a joint that is neither fixed nor planar, in its body."""
+    """Return the element of a joint that is neither fixed nor planar, in its body."""
     named = {"name": joint.name} if joint.name else {}
     if joint.kind == "floating":
         return tag("freejoint", named)
@@ -115,7 +115,7 @@ def joint_tag(joint: Joint, root_t_body: Pose) -> bytes:
 
 
 def inertial_tag(inertial: Inertial, root_t_body: Pose) -> tuple[bytes, bool]:
-    """The `<inertial>` of a body; and whether its moments had to be changed, being those of no rigid body."""
+    """Return the `<inertial>` of a body; and whether its moments had to be changed, being those of no rigid body."""
     centre, tensor = place_inertial(inertial, root_t_body)
     moments, axes = principal_axes(tensor)
     legal = _legal_moments(moments, inertial.mass)
@@ -125,7 +125,7 @@ def inertial_tag(inertial: Inertial, root_t_body: Pose) -> tuple[bytes, bool]:
 
 
 def light_tag() -> bytes:
-    """The `<inertial>` of a body without a mass."""
+    """Return the `<inertial>` of a body without a mass."""
     moments = np.full(3, _LIGHT_MOMENT)
     return tag("inertial", inertial_attributes(LIGHT_MASS, np.zeros(3), np.array([1.0, 0, 0, 0]), moments))
 

@@ -76,7 +76,8 @@ class MjcfFormat(Format):
 
 
 def features_of(document: MjcfDocument) -> Iterator[Feature]:
-    """The features of an MJCF that its asset does not have, as its elements say; those that classes set count once."""
+    """Yield the features of an MJCF that its asset does not have, as its elements say; those that classes set count
+    once."""
     root = document.tree.root
     others = [*list_others(root, _TAKEN, _LEAVES)]
     constraints = [child for node in root.each("equality") for child in node.children]
@@ -98,11 +99,11 @@ class SpecObject(Protocol):
     modelname: Any
 
     def to_xml(self) -> str:
-        """Its XML."""
+        """Return its XML."""
 
 
 def read_text(text: str) -> Asset:
-    """The asset in the text of an MJCF; its references count from the current folder. Raises AssetError."""
+    """Return the asset in the text of an MJCF; its references count from the current folder. Raises AssetError."""
     from meshforge.formats.mjcf.read import read_mjcf  # lazy: only MJCF needs it
 
     path = Path.cwd() / "text.xml"
@@ -110,7 +111,7 @@ def read_text(text: str) -> Asset:
 
 
 def read_spec(spec: SpecObject) -> Asset:
-    """The asset in a spec, as its XML says it.
+    """Return the asset in a spec, as its XML says it.
 
     References count from the folder that the spec was read from. Files that it holds in memory are put into a folder
     that lasts as long as this process, together with those on disk. Raises AssetError.
@@ -155,7 +156,7 @@ def _put(path: Path, data: bytes) -> None:
 
 
 def build_spec(output: Output) -> Any:
-    """The spec of an output, which holds all of its files. Raises AssetError where MuJoCo refuses it."""
+    """Return the spec of an output, which holds all of its files. Raises AssetError where MuJoCo refuses it."""
     files = {name: path.read_bytes() for name, path in output.copies.items()} | output.made
     files = {os.path.normpath(name): data for name, data in files.items()}
     included = {name: data for name, data in files.items() if name.endswith((".xml", ".mjcf"))}

@@ -79,7 +79,7 @@ class GeomEdits:
         return list(dict.fromkeys([*gone, *(geom.body for geom in self._hulls.values())]))
 
     def body_node(self, body: str) -> MjcfNode | None:
-        """The element of a body; of the world, the last one, in which its last geoms stand. None without one."""
+        """Return the element of a body; of the world, the last one, in which its last geoms stand. None without one."""
         if body == self.before.body_names[0]:
             return next(iter([*self.tree.root.each("worldbody")][-1:]), None)
         if body not in self._poses:
@@ -87,7 +87,7 @@ class GeomEdits:
         return self.before.flat.node_at(self.before.spec_bodies[self.before.body_names.index(body)].info)
 
     def build_splices(self, source: int) -> Iterator[Splice]:
-        """The edits of one of the files."""
+        """Yield the edits of one of the files."""
         data = self.tree.sources[source].text.data
         for element in self.elements:
             outputs = [*([element.own] if element.own else []), *element.after]
@@ -204,7 +204,7 @@ class GeomEdits:
         return {geom.name: name for geom, name in misread}
 
     def read_names(self) -> list[str]:
-        """The names that the geoms of the output read back as."""
+        """Return the names that the geoms of the output read back as."""
         return geom_names([(geom.body, geom.attribute) for geom in self.geoms])
 
 

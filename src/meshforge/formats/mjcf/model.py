@@ -66,7 +66,7 @@ class MjcfModel:
         self._hulls: dict[int, tuple[geometry.Polytope, float | None] | str] = {}
 
     def read_pieces(self) -> tuple[tuple[Geom, ...], tuple[NonConvexPiece, ...]]:
-        """The hulls, and the collision geometry that is none."""
+        """Return the hulls, and the collision geometry that is none."""
         geoms, non_convex = [], []
         for k, (name, body) in enumerate(zip(self.names, self.body_of, strict=True)):
             if not self.collides[k]:
@@ -100,7 +100,7 @@ class MjcfModel:
         return found
 
     def read_piece(self, geom: int) -> CollisionPiece:
-        """The shape of a geom; of a mesh it is the convex hull, with which MuJoCo collides."""
+        """Return the shape of a geom; of a mesh it is the convex hull, with which MuJoCo collides."""
         kinds, pose = mujoco.mjtGeom, self.geom_poses[geom]
         kind = kinds(int(self.model.geom_type[geom]))
         match kind:
@@ -118,7 +118,7 @@ class MjcfModel:
         return CollisionPiece(shape) if shape else CollisionPiece(None, f"{kind.name} is no geometry that is known")
 
     def primitive_of(self, geom: int) -> geometry.Shape | None:
-        """The shape of a geom that is no mesh; MuJoCo's sizes are half sizes."""
+        """Return the shape of a geom that is no mesh; MuJoCo's sizes are half sizes."""
         kinds, pose = mujoco.mjtGeom, self.geom_poses[geom]
         size = self.model.geom_size[geom].astype(np.float64)
         match kinds(int(self.model.geom_type[geom])):
@@ -135,14 +135,14 @@ class MjcfModel:
         return None
 
     def mesh_surface(self, mesh: int, root_t_mesh: geometry.Pose) -> Surface:
-        """The triangles of a mesh in the root frame."""
+        """Return the triangles of a mesh in the root frame."""
         model = self.model
         first, count = int(model.mesh_faceadr[mesh]), int(model.mesh_facenum[mesh])
         faces = model.mesh_face[first : first + count].astype(np.int64)
         return Surface(root_t_mesh.apply(self._mesh_vertices(mesh)), faces)
 
     def mesh_frame(self, mesh: int) -> geometry.Pose:
-        """authored_T_kept: from the frame in which MuJoCo keeps a mesh's vertices to that of its scaled file."""
+        """Return authored_T_kept: from the frame in which MuJoCo keeps a mesh's vertices to that of its scaled file."""
         return _pose(self.model.mesh_quat[mesh], self.model.mesh_pos[mesh])
 
     def _read_hull(self, mesh: int, pose: geometry.Pose) -> CollisionPiece:
@@ -182,12 +182,12 @@ class MjcfModel:
 
 
 def compile_tree(tree: MjcfTree, keep: KeepAttributes | None = None) -> MjcfModel:
-    """The model of all that a tree says; keep: of a part of it. Raises AssetError with MuJoCo's message."""
+    """Return the model of all that a tree says; keep: of a part of it. Raises AssetError with MuJoCo's message."""
     return MjcfModel(tree, compile_text(flatten(tree, keep)))
 
 
 def read_mechanism(compiled: MjcfModel) -> Mechanism:
-    """The mechanism of a model, `<exclude>` and `<pair>` too; a body without a joint is fixed to its parent."""
+    """Return the mechanism of a model, `<exclude>` and `<pair>` too; a body without a joint is fixed to its parent."""
     model, couplings = compiled.model, _read_couplings(compiled.tree)
     joints: list[Joint] = []
     for k in range(1, model.nbody):

@@ -51,7 +51,7 @@ class NewGeoms:
     def make_geom(
         self, geom: Geom, root_t_body: Pose, body: MjcfNode, parent: MjcfNode | None, volume: float, is_adjacent: bool
     ) -> element_edits.OutputElement:
-        """The element of a hull, which inherits all but geometry, at the density of its parent.
+        """Return the element of a hull, which inherits all but geometry, at the density of its parent.
 
         volume: what has the mass of the parent [m^3]; is_adjacent: whether it is to stand right after its parent, else
         at the end of its body. Raises AssetError where a default class of all geoms cannot be undone.
@@ -195,22 +195,22 @@ class ElementContext:
             self._add_classes(child, own)
 
     def ancestors_of(self, node: MjcfNode) -> Iterator[MjcfNode]:
-        """The elements around an element, the nearest first."""
+        """Yield the elements around an element, the nearest first."""
         while id(node) in self._parents:
             node = self._parents[id(node)]
             yield node
 
     def class_of(self, geom: MjcfNode) -> str:
-        """The default class of a geom: its own, or that of the children of what is around it."""
+        """Return the default class of a geom: its own, or that of the children of what is around it."""
         return geom.attributes.get("class") or self.class_inside(self._parents[id(geom)])
 
     def class_inside(self, node: MjcfNode) -> str:
-        """The default class of what stands in an element without a class of its own."""
+        """Return the default class of what stands in an element without a class of its own."""
         classes = (n.attributes.get("childclass") for n in (node, *self.ancestors_of(node)))
         return next((name for name in classes if name), _MAIN_CLASS)
 
     def defaults_of(self, name: str, kind: str = "geom") -> dict[str, str]:
-        """The attributes that a default class sets for a kind of element, those it inherits included."""
+        """Return the attributes that a default class sets for a kind of element, those it inherits included."""
         found: dict[str, str] = {}
         for default in (*self._classes[_MAIN_CLASS], *(self._classes.get(name, ()) if name != _MAIN_CLASS else ())):
             for element in default.each(kind):
@@ -218,7 +218,7 @@ class ElementContext:
         return found
 
     def body_t_frame(self, node: MjcfNode) -> Pose:
-        """The pose of the frames around a geom, one in another, in their body.
+        """Return the pose of the frames around a geom, one in another, in their body.
 
         It is MuJoCo's own answer, from a model of nothing else.
         """

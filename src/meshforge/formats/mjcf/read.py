@@ -37,8 +37,8 @@ _SHOWN_GROUPS = 3  # MuJoCo's viewers show the groups 0, 1 and 2
 
 
 def read_mjcf(path: Path, files: Mapping[Path, bytes] | None = None) -> Asset:
-    """The asset in an MJCF, its includes and collision meshes taken in; files: contents that count instead of those on
-    disk, of the main file and of includes.
+    """Return the asset in an MJCF, its includes and collision meshes taken in; files: contents that count instead of
+    those on disk, of the main file and of includes.
 
     Raises AssetError naming file and line: text that is not understood, an include or a collision mesh that is not
     there, a model whose collision geometry MuJoCo refuses too.
@@ -164,7 +164,7 @@ def _read_numbers(node: MjcfNode, names: tuple[str, ...]) -> list[float]:
 
 
 def read_visuals(compiled: MjcfModel) -> VisualSurfaces:
-    """The visuals of all bodies."""
+    """Return the visuals of all bodies."""
     meshes = {mesh.id: mesh for mesh in compiled.spec.meshes}
     folders = references.AssetFolders(compiled.tree)
     shown = (k for k in range(compiled.model.ngeom) if k not in compiled.stand_ins)

@@ -44,7 +44,7 @@ class AssetFolders:
         self.strip = strip == "true"
 
     def find(self, node: MjcfNode, attribute: str = "file") -> Path:
-        """Where the file of an attribute is, or would be."""
+        """Return where the file of an attribute is, or would be."""
         beside = self.path_beside_include(node, attribute)
         reference = str(beside or node.attributes[attribute].replace("\\", "/"))
         if self.strip:
@@ -52,7 +52,7 @@ class AssetFolders:
         return self._join(self._folder(node), reference)
 
     def place(self, node: MjcfNode, attribute: str = "file") -> str | None:
-        """Where the file of an attribute goes beside a main file in another folder, None for an absolute place.
+        """Return where the file of an attribute goes beside a main file in another folder, None for an absolute place.
 
         As references say, not as the disk is: `../cup/a.stl` stays so, whatever the main file's folder is called.
         """
@@ -64,7 +64,7 @@ class AssetFolders:
         return posixpath.normpath(posixpath.join(folder, posixpath.basename(reference) if self.strip else reference))
 
     def path_beside_include(self, node: MjcfNode, attribute: str = "file") -> Path | None:
-        """The path of a file beside the included file that refers to it, None where the usual place counts."""
+        """Return the path of a file beside the included file that refers to it, None where the usual place counts."""
         reference = node.attributes[attribute].replace("\\", "/")
         usual = self._join(self._folder(node), reference)
         if not node.source or Path(reference).is_absolute() or self.tree.has(usual):
@@ -97,7 +97,7 @@ class FileReference:
 
 
 def list_references(tree: MjcfTree, seen: set[Path] | None = None) -> Iterator[FileReference]:
-    """The files that elements refer to, in document order, those of a sub-model right behind it.
+    """Yield the files that elements refer to, in document order, those of a sub-model right behind it.
 
     Raises AssetError for one that lies where reading is not allowed to go, before anything looks into it.
     """
@@ -121,7 +121,8 @@ def list_references(tree: MjcfTree, seen: set[Path] | None = None) -> Iterator[F
 
 
 def find_files(tree: MjcfTree) -> tuple[tuple[Path, ...], tuple[str, ...]]:
-    """The files but for the main one, with their companions, in order of mention; and references without a file."""
+    """Return the files but for the main one, with their companions, in order of mention; and references without a
+    file."""
     trees, found, missing = [tree], list[Path](), dict[str, None]()
     for reference in list_references(tree):
         if not reference.is_there:
@@ -148,13 +149,15 @@ def _plugin_files(tree: MjcfTree) -> Iterator[Path]:
 
 
 def read_submodels(tree: MjcfTree, lines: int) -> dict[Path, bytes]:
-    """The texts of all sub-models, moved down below line `lines`, so that no line is one of the model's own text."""
+    """Return the texts of all sub-models, moved down below line `lines`, so that no line is one of the model's own
+    text."""
     models = {reference.path: reference.model for reference in list_references(tree)}
     return {path: b"\n" * lines + model.main.text.data for path, model in models.items() if model is not None}
 
 
 def output_places(tree: MjcfTree) -> list[str | None]:
-    """Where each of the authored files goes, relative to the main one's folder; None for one at an absolute path.
+    """Return where each of the authored files goes, relative to the main one's folder; None for one at an absolute
+    path.
 
     As the `<include>` says, not as the disk is: `../kettle/body.xml` stays so, whatever the main file's folder is
     called.
@@ -169,7 +172,7 @@ def output_places(tree: MjcfTree) -> list[str | None]:
 
 
 def list_copies(asset: Asset, tree: MjcfTree) -> tuple[dict[str, Path], list[str]]:
-    """The files besides the authored ones; and notes on those that stay where they are.
+    """Return the files besides the authored ones; and notes on those that stay where they are.
 
     Raises AssetError where two of them would become one.
     """
@@ -195,7 +198,7 @@ def _list_to_copy(tree: MjcfTree) -> list[FileReference]:
 
 
 def top_folder(document: MjcfDocument) -> Path:
-    """The highest folder that references pass through, from the main file's folder."""
+    """Return the highest folder that references pass through, from the main file's folder."""
     tree = document.tree
     meshes = posixpath.normpath(posixpath.join(AssetFolders(tree).mesh.replace("\\", "/"), "hull.obj"))
     named = [meshes, *output_places(tree), *(reference.place for reference in _list_to_copy(tree))]
@@ -204,7 +207,7 @@ def top_folder(document: MjcfDocument) -> Path:
 
 
 def is_shown_whole(path: Path) -> bool:
-    """Whether MuJoCo shows all triangles of a mesh file.
+    """Return whether MuJoCo shows all triangles of a mesh file.
 
     Of an OBJ it shows the first group alone, and refuses corners of different kinds; of STLs it takes binary ones.
     """

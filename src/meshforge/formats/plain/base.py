@@ -76,15 +76,15 @@ class PlainFormat(Format):
 
     @abstractmethod
     def parse_soup(self, data: bytes, path: Path) -> Soup:
-        """The triangles in the bytes of a file. Raises AssetError."""
+        """Return the triangles in the bytes of a file. Raises AssetError."""
 
     @abstractmethod
     def apply_edit(self, edit: MeshFileEdit) -> bytes:
-        """The bytes of the edited file, triangles that stay first and in order. Raises AssetError."""
+        """Return the bytes of the edited file, triangles that stay first and in order. Raises AssetError."""
 
     @abstractmethod
     def format_parts(self, parts: Sequence[MeshPart]) -> bytes:
-        """The bytes of a new file of these parts."""
+        """Return the bytes of a new file of these parts."""
 
     def read(self, path: Path, options: ReadOptions) -> Asset:
         document, found, soup = self.parse(mesh_reader.read_content(path), path)
@@ -117,11 +117,12 @@ class PlainFormat(Format):
     def interpret_hulls(
         self, document: PlainDocument, found: Sequence[Piece]
     ) -> tuple[dict[str, Shape], tuple[str, ...]]:
-        """The shapes of the hulls of a file by their names, and what a user should know about how they were read."""
+        """Return the shapes of the hulls of a file by their names, and what a user should know about how they were
+        read."""
         return {name: p.shape for name, p in zip(document.names, found, strict=True) if p.shape}, ()
 
     def name_hulls(self, document: PlainDocument, geoms: Sequence[Geom]) -> list[str]:
-        """The names that made hulls get in a file."""
+        """Return the names that made hulls get in a file."""
         return [geom.name for geom in geoms]
 
     def parse(self, data: bytes, path: Path) -> tuple[PlainDocument, list[Piece], Soup]:

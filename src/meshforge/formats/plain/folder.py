@@ -66,14 +66,14 @@ class FolderFormat(Format):
         )
 
     def mesh_files(self, folder: Path) -> list[Path]:
-        """The mesh files of a folder, in natural order."""
+        """Return the mesh files of a folder, in natural order."""
         files = [f for f in folder.iterdir() if f.is_file() and not f.name.startswith(".")]
         known = tuple(suffix for member in self.members for suffix in member.suffixes)
         found = (f for f in files if f.suffix.lower() in known and not is_segmentation(f))
         return sorted(found, key=lambda f: natural_key(f.name))
 
     def format_of(self, path: Path) -> PlainFormat:
-        """The format of a member. Raises StopIteration for a file of another kind."""
+        """Return the format of a member. Raises StopIteration for a file of another kind."""
         return next(member for member in self.members if path.suffix.lower() in member.suffixes)
 
     def write(self, asset: Asset, name: str, mass: Mass = "keep") -> Output:
@@ -156,7 +156,7 @@ class FolderWriter:
         self.hulls[file] = dict.fromkeys(self.documents[file].names, part.name)
 
     def to_output(self, hulls: Collection[str]) -> Output:
-        """All files, and which of the hulls will read back under another name."""
+        """Return all files, and which of the hulls will read back under another name."""
         files = sorted(self.documents, key=natural_key)
         back = name_members(files, [self.documents[file] for file in files])
         names = {

@@ -127,7 +127,8 @@ class ObjForUnreal(ObjFormat):
 
 
 def regroup_by_marks(text: ObjText, soup: Soup) -> Soup:
-    """The triangles of a file with a group for each hull, and -1 for what is only seen; as they are without marks."""
+    """Return the triangles of a file with a group for each hull, and -1 for what is only seen; as they are without
+    marks."""
     marks = [next((name for name in group if conventions.unreal_kind(name)), None) for group in text.groups]
     names = list(dict.fromkeys(name for name in marks if name is not None))
     if not names:
@@ -137,7 +138,7 @@ def regroup_by_marks(text: ObjText, soup: Soup) -> Soup:
 
 
 def next_hull_names(text: ObjText, geoms: Sequence[Geom]) -> list[str]:
-    """The names of made hulls in a file with marks, each after the mesh that its parent stands for."""
+    """Return the names of made hulls in a file with marks, each after the mesh that its parent stands for."""
     names = [name for group in text.groups for name in group if name]
     rendered = [name for name in names if not conventions.unreal_kind(name)]
     numbers: dict[str, Iterator[int]] = {}

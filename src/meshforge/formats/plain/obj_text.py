@@ -21,7 +21,7 @@ _FREE_FORM = (b"curv", b"curv2", b"surf", b"bzp", b"bsp", b"cdc", b"cdp")
 
 
 def edit_obj(text: ObjText, edit: MeshFileEdit) -> bytes:
-    """The bytes of the edited file. Raises AssetError: free-form surfaces, which also use the vertices."""
+    """Return the bytes of the edited file. Raises AssetError: free-form surfaces, which also use the vertices."""
     return _ObjEditor(text, edit).to_bytes()
 
 
@@ -141,7 +141,7 @@ class _ObjEditor:
 def format_obj(
     parts: Sequence[MeshPart], start: int = 0, end: bytes = b"\n", colors: int = 0, words: Sequence[bytes] = (b"o",)
 ) -> bytes:
-    """Parts as text, an object each.
+    """Return parts as text, an object each.
 
     start: the vertices ahead of them in the file; end: the line end; colors: values behind the coordinates of each
     vertex, where the file has colours there (some readers want them for all); words: the statements that name a part.
@@ -156,7 +156,7 @@ def format_obj(
 
 
 def format_obj_rows(vertices: Floats, faces: Ints, end: bytes = b"\n", tail: str = "") -> bytes:
-    """The statements of vertices (n, 3) in full precision and of triangles (m, 3), whose numbers count from 0.
+    """Return the statements of vertices (n, 3) in full precision and of triangles (m, 3), whose numbers count from 0.
 
     end: the line end; tail: what follows the coordinates of each vertex.
     """
@@ -166,6 +166,7 @@ def format_obj_rows(vertices: Floats, faces: Ints, end: bytes = b"\n", tail: str
 
 
 def format_group_line(word: bytes, name: str) -> bytes:
-    """An `o` or `g` statement without its line end; a line break in the name becomes a blank, a last backslash goes."""
+    """Return an `o` or `g` statement without its line end; a line break in the name becomes a blank, a last backslash
+    goes."""
     clean = re.sub(r"[\r\n]+", " ", name).rstrip("\\")
     return word + b" " + clean.encode("utf-8", "surrogateescape")

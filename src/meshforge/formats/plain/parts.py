@@ -62,18 +62,19 @@ class TargetTriangles:
 
 
 def owners_of(parts: Sequence[MeshPart]) -> list[str]:
-    """The owner that each triangle of a file of these parts should have."""
+    """Return the owner that each triangle of a file of these parts should have."""
     return [part.name for part in parts for _ in part.surface.faces]
 
 
 def corners_of(parts: Sequence[MeshPart]) -> Floats:
-    """The corners (m, 3, 3) of the triangles of parts."""
+    """Return the corners (m, 3, 3) of the triangles of parts."""
     corners = [part.surface.vertices[part.surface.faces] for part in parts]
     return np.concatenate([np.zeros((0, 3, 3)), *corners]) + 0.0
 
 
 def name_file_pieces(pieces: Sequence[Piece], groups: Sequence[str | None]) -> list[str]:
-    """A unique name for each piece: its group's, `geomK` where that has none, with `#k` where it has several pieces."""
+    """Return a unique name for each piece: its group's, `geomK` where that has none, with `#k` where it has several
+    pieces."""
     unnamed = {k: f"geom{n}" for n, k in enumerate(k for k, name in enumerate(groups) if not name)}
     several = Counter(piece.group for piece in pieces)
     seen: Counter[int] = Counter()
@@ -86,7 +87,7 @@ def name_file_pieces(pieces: Sequence[Piece], groups: Sequence[str | None]) -> l
 
 
 def name_members(files: Sequence[str], documents: Sequence[PlainDocument]) -> list[dict[str, str]]:
-    """For each file of a folder, the name in the folder of each of its pieces.
+    """Return for each file of a folder, the name in the folder of each of its pieces.
 
     That is the file's stem where it has one piece, else the stem and the number of the piece, or the stem and the
     piece's own name where the file has several groups.
@@ -106,13 +107,13 @@ def name_members(files: Sequence[str], documents: Sequence[PlainDocument]) -> li
 
 
 def natural_key(name: str) -> tuple[tuple[bool, int, str], ...]:
-    """A key that sorts names as people do: `2` before `10`."""
+    """Return a key that sorts names as people do: `2` before `10`."""
     words = re.findall(r"\d+|\D+", name)
     return (*((not word.isdigit(), int(word) if word.isdigit() else 0, word) for word in words),)
 
 
 def to_parts(geoms: Iterable[Geom], native: Collection[str] = ()) -> tuple[tuple[MeshPart, ...], tuple[str, ...]]:
-    """Geoms as triangles, and notes on those that lose by it; native: kinds of round shapes that come back."""
+    """Return geoms as triangles, and notes on those that lose by it; native: kinds of round shapes that come back."""
     parts, round_ones = [], []
     for geom in geoms:
         shape = geom.shape.tessellate()
@@ -123,7 +124,7 @@ def to_parts(geoms: Iterable[Geom], native: Collection[str] = ()) -> tuple[tuple
 
 
 def collect_parts(asset: Asset) -> tuple[MeshPart, ...]:
-    """The hulls and the non-convex surfaces of an asset. Raises AssetError where there are none."""
+    """Return the hulls and the non-convex surfaces of an asset. Raises AssetError where there are none."""
     seen = tuple(MeshPart(piece.name, piece.surface) for piece in asset.non_convex if piece.surface)
     parts = to_parts(asset.geoms)[0] + seen
     if not parts:
@@ -139,7 +140,7 @@ def find_renamed_hulls(
     hulls: Collection[str],
     where: str,
 ) -> dict[str, str]:
-    """The hulls that read back under another name, with that name.
+    """Return the hulls that read back under another name, with that name.
 
     document, found, soup: the written file, its pieces and its triangles; wanted: what it should hold; hulls: those of
     its owners that are hulls. Raises AssetError at `where`: hulls that the file cannot hold apart, or holds as

@@ -20,7 +20,7 @@ _MAIN = "model.sdf"
 
 
 def create_sdf(asset: Asset, name: str) -> Output:
-    """The files of an asset that came from another format.
+    """Return the files of an asset that came from another format.
 
     Bodies become links, each with its frame on the joint that leads to it, so that at zero all is where it was; hulls
     become native shapes or mesh files, non-convex pieces meshes. `model.sdf` gets a `model.config` beside it.

@@ -47,7 +47,7 @@ _MOST_SCRIPTS = 1000  # files of one folder of material scripts
 
 
 def parse_version(text: str) -> Version | None:
-    """The version in a text, None where there is none."""
+    """Return the version in a text, None where there is none."""
     found = _VERSION_TEXT.fullmatch(text)
     return (int(found[1]), int(found[2])) if found else None
 
@@ -91,7 +91,8 @@ class ModelResolver(Resolver):
     """Finds what a file refers to, from its folder, upwards, and in the roots."""
 
     def candidates(self, reference: str) -> Iterator[Path]:
-        """The places where the file may be; what no model of that name has may be in this one, under another name."""
+        """Yield the places where the file may be; what no model of that name has may be in this one, under another
+        name."""
         reference = reference.strip()
         rest = reference.removeprefix(_FILE)
         if rest != reference and not rest.startswith("/"):  # Gazebo takes it for a path
@@ -101,7 +102,7 @@ class ModelResolver(Resolver):
             yield self._join(self.folder, model[2])
 
     def place(self, reference: str) -> str | None:
-        """Where the file goes in an output: what is in the model's own folder stays there."""
+        """Return where the file goes in an output: what is in the model's own folder stays there."""
         reference = reference.strip()
         rest = reference.removeprefix(_FILE)
         if rest != reference and not rest.startswith("/") and self.find(reference) == self._join(self.folder, rest):
@@ -118,7 +119,8 @@ class ModelResolver(Resolver):
         return self.folder.name == name or not any(home.is_dir() for home in self._homes(name))
 
     def find_model_file(self, reference: str) -> Path | None:
-        """The file of a model that an `<include>` names: a file, or the folder of a model; None where it is not there.
+        """Return the file of a model that an `<include>` names: a file, or the folder of a model; None where it is not
+        there.
 
         Raises AssetError: the folder's `model.config` is no XML.
         """
@@ -131,7 +133,7 @@ class ModelResolver(Resolver):
         return None
 
     def advise_on_model(self, reference: str) -> str:
-        """Where the model of an `<include>` was looked for, and what to do about it."""
+        """Return where the model of an `<include>` was looked for, and what to do about it."""
         is_folder = reference.strip().startswith("model:") and not _MODEL.fullmatch(reference.strip())
         return self.advice(f"{reference.strip()}/model.sdf" if is_folder else reference)
 
@@ -144,7 +146,8 @@ def _exists(path: Path, kind: str) -> bool:
 
 
 def find_main_file(folder: Path) -> Path | None:
-    """The SDF file of a model's folder: that of the newest known version which `model.config` names, or `model.sdf`.
+    """Return the SDF file of a model's folder: that of the newest known version which `model.config` names, or
+    `model.sdf`.
 
     None where there is none. Raises AssetError: `model.config` is no XML.
     """
@@ -155,7 +158,7 @@ def find_main_file(folder: Path) -> Path | None:
 
 
 def is_main_file(path: Path) -> bool:
-    """Whether a file is the one of its folder's model, or none of those that `model.config` names."""
+    """Return whether a file is the one of its folder's model, or none of those that `model.config` names."""
     try:
         named = read_versions(path.parent)
         return path.name not in named.values() or find_main_file(path.parent) == path
@@ -164,7 +167,8 @@ def is_main_file(path: Path) -> bool:
 
 
 def read_versions(folder: Path) -> dict[tuple[int, int], str]:
-    """The files that a folder's `model.config` names, by the version of SDF they are in; none where there is none."""
+    """Return the files that a folder's `model.config` names, by the version of SDF they are in; none where there is
+    none."""
     path = folder / CONFIG
     if not is_file(path):
         return {}
@@ -176,7 +180,7 @@ def read_versions(folder: Path) -> dict[tuple[int, int], str]:
 
 
 def parse_root(data: bytes, where: str) -> tuple[Element, Version]:
-    """The root element of an SDF text in UTF-8, and its version.
+    """Return the root element of an SDF text in UTF-8, and its version.
 
     Raises AssetError: not well formed, of another kind, or of a version that is too old or not known.
     """
@@ -197,13 +201,14 @@ def parse_root(data: bytes, where: str) -> tuple[Element, Version]:
 
 
 def mesh_uri(mesh: Element) -> str:
-    """The reference of a `<mesh>`; up to version 1.2 it was called `<filename>`."""
+    """Return the reference of a `<mesh>`; up to version 1.2 it was called `<filename>`."""
     found = mesh.first("uri") or mesh.first("filename")
     return found.text if found else ""
 
 
 def references(root: Element) -> list[str]:
-    """Every mesh and texture that a file refers to, in order of mention, each once; not what Gazebo brings along."""
+    """Return every mesh and texture that a file refers to, in order of mention, each once; not what Gazebo brings
+    along."""
     return [text for text in dict.fromkeys(_iterate_references(root)) if text and not text.startswith(_BUILT_IN)]
 
 
@@ -219,7 +224,7 @@ def _iterate_references(root: Element) -> Iterator[str]:
 
 
 def find_scripts(source: SdfSource) -> Iterator[tuple[str, Path]]:
-    """The files of material scripts: how a file refers to each, or to the folder of it, and where it is."""
+    """Yield the files of material scripts: how a file refers to each, or to the folder of it, and where it is."""
     root, _ = parse_root(source.text.data, str(source.path))
     scripts = (element for element in root.walk() if element.tag == "script")
     found = dict.fromkeys(uri.text for script in scripts for uri in script.each("uri"))

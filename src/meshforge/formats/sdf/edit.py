@@ -20,7 +20,7 @@ _REMEDY = "Rename one of them, or put both under one folder."
 
 
 def write_sdf(asset: Asset, origin: document.SdfDocument, name: str, mass: Mass) -> Output:
-    """The files of an asset that was read from an SDF; without an edit, their own bytes.
+    """Return the files of an asset that was read from an SDF; without an edit, their own bytes.
 
     Raises AssetError: an edit of a world or of a model that is included several times, a hull on a link that is not
     there, a mesh file that changed since the asset was read, or a mass of which a part is not known.
@@ -51,7 +51,6 @@ def _plan_source(
     files: mesh_output.HullFiles,
     meshes: shapes.SdfMeshes,
 ) -> element_edits.ElementEdits:
-    """The collision elements of one file."""
     source = origin.sources[number]
     data = source.text.data
     root, version = document.parse_root(data, str(source.path))
@@ -140,7 +139,7 @@ class SdfElementMaker(element_edits.ElementMaker):
 
 
 def keep_masses(asset: Asset, origin: document.SdfDocument, plan: element_edits.ElementEdits) -> list[xml.Splice]:
-    """The edits that make computed masses of the links that are edited explicit.
+    """Return the edits that make computed masses of the links that are edited explicit.
 
     Raises AssetError for a link of which a collision is no hull, so that its mass is not known.
     """
@@ -167,8 +166,8 @@ def keep_masses(asset: Asset, origin: document.SdfDocument, plan: element_edits.
 def list_copies(
     sources: Sequence[document.SdfSource], texts: Sequence[bytes], name: str
 ) -> tuple[dict[str, Path], list[str]]:
-    """The files, and notes on those that stay where they are; texts: of the sources as they are written; name: of the
-    main one, whose `model.config` goes along where that names a file of that name.
+    """Return the files, and notes on those that stay where they are; texts: of the sources as they are written; name:
+    of the main one, whose `model.config` goes along where that names a file of that name.
 
     Raises AssetError where two of them would become one.
     """

@@ -21,7 +21,7 @@ _ENDLESS = (-1e16, 1e16)
 
 
 def leaf(tag: str, text: str) -> bytes:
-    """An element that holds a text."""
+    """Return an element that holds a text."""
     return b"<%s>%s</%s>" % (tag.encode(), escape(text), tag.encode())
 
 
@@ -30,17 +30,17 @@ def _number_leaf(tag: str, number: float) -> bytes:
 
 
 def nest(tag: str, *inside: bytes) -> list[bytes]:
-    """The lines of an element that holds others, each line of which is indented."""
+    """Return the lines of an element that holds others, each line of which is indented."""
     return [b"<%s>" % tag.encode(), *(STEP + line for line in inside), b"</%s>" % tag.encode()]
 
 
 def pose_leaf(pose: Pose) -> bytes:
-    """The element of a pose, its numbers in full precision."""
+    """Return the element of a pose, its numbers in full precision."""
     return leaf("pose", format_numbers([*pose.translation, *pose.to_rpy()]))
 
 
 def native_lines(shape: SdfShape) -> list[bytes]:
-    """The lines of the element of a native shape, without its pose."""
+    """Return the lines of the element of a native shape, without its pose."""
     match shape:
         case Box():
             inside = [leaf("size", format_numbers(2 * shape.half))]
@@ -56,19 +56,19 @@ def native_lines(shape: SdfShape) -> list[bytes]:
 
 
 def mesh_lines(reference: str, scale: Floats | None = None) -> list[bytes]:
-    """The lines of the element of a mesh file in metres."""
+    """Return the lines of the element of a mesh file in metres."""
     scaled = [] if scale is None else [leaf("scale", format_numbers(scale))]
     return nest("mesh", leaf("uri", reference), *scaled)
 
 
 def nest_with_name(tag: str, name: str, *inside: bytes, more: bytes = b"") -> list[bytes]:
-    """The lines of an element with a name; more: further attributes."""
+    """Return the lines of an element with a name; more: further attributes."""
     first, *rest = nest(tag, *inside)
     return [first[:-1] + b' name="%s"%s>' % (escape(name), more), *rest]
 
 
 def joint_lines(made: LinkJoint, parent: str, child: str, coupling: Coupling | None = None) -> list[bytes]:
-    """The lines of a `<joint>`, whose frame is that of its child; coupling: to another joint, from 1.11 on."""
+    """Return the lines of a `<joint>`, whose frame is that of its child; coupling: to another joint, from 1.11 on."""
     joint = made.joint
     kind = joint.kind if joint else "fixed"
     inside = [leaf("parent", parent), leaf("child", child)]
@@ -91,14 +91,14 @@ def joint_lines(made: LinkJoint, parent: str, child: str, coupling: Coupling | N
 
 
 def inertial_lines(inertial: Inertial, root_t_link: Pose) -> list[bytes]:
-    """The lines of an `<inertial>`, its axes those of the link."""
+    """Return the lines of an `<inertial>`, its axes those of the link."""
     centre, tensor = place_inertial(inertial, root_t_link)
     moments = nest("inertia", *(_number_leaf(name, value) for name, value in name_moments(tensor)))
     return nest("inertial", pose_leaf(Pose.of_translation(centre)), _number_leaf("mass", inertial.mass), *moments)
 
 
 def visual_lines(name: str, visual: LinkVisual, reference: str | None) -> list[bytes]:
-    """The lines of a `<visual>`; reference: the mesh file of a shape that SDF lacks."""
+    """Return the lines of a `<visual>`; reference: the mesh file of a shape that SDF lacks."""
     if isinstance(visual.what, SdfShape):
         pose, kind = visual.what.pose, native_lines(visual.what)
     else:

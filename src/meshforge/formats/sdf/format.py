@@ -60,7 +60,7 @@ class SdfFormat(base.Format):
 
 
 def features_of(document: SdfDocument) -> Iterator[Feature]:
-    """The features of an SDF, and of what it includes, that its asset does not have."""
+    """Yield the features of an SDF, and of what it includes, that its asset does not have."""
     roots = [parse_root(source.text.data, "")[0] for source in document.sources]
     others = [tag for root in roots for tag in base.list_others(root, _TAKEN, _LEAVES)]
     others += ["comment"] * sum(source.text.data.count(b"<!--") for source in document.sources)

@@ -43,14 +43,15 @@ class FrameTable:
         self._poses = {"": Pose.identity()}
 
     def find(self, scope: str, name: str) -> str | None:
-        """The path of the frame that a name in a scope stands for, None where there is none."""
+        """Return the path of the frame that a name in a scope stands for, None where there is none."""
         if name.rpartition("::")[2] == MODEL or (not scope and name in (WORLD, "__root__")):
             name = name.rpartition("::")[0] + "::" * ("::" in name)
         path = scope + name
         return next((known for known in (path, f"{path}::") if known in self.by_path), None)
 
     def find_body(self, scope: str, name: str) -> str | None:
-        """The body that a frame moves with, of a model its first link or the one that it names; None without one."""
+        """Return the body that a frame moves with, of a model its first link or the one that it names; None without
+        one."""
         passed: set[str | None] = {None}
         while name and (path := self.find(scope, name)) not in passed:
             passed.add(path)
@@ -61,7 +62,7 @@ class FrameTable:
         return None
 
     def pose_of(self, scope: str, name: str, where: str) -> Pose:
-        """root_T_frame of a name in a scope. Raises AssetError: it is not there, or counts from itself."""
+        """Return root_T_frame of a name in a scope. Raises AssetError: it is not there, or counts from itself."""
         return self._pose_at(self._resolve(scope, name, where), self._poses)
 
     def _pose_at(self, path: str, poses: dict[str, Pose]) -> Pose:
@@ -94,18 +95,18 @@ class FrameTable:
 
 
 def text_of(parent: Element | None, tag: str, default: str = "") -> str:
-    """The text of an element's first child of a tag."""
+    """Return the text of an element's first child of a tag."""
     child = parent.first(tag) if parent else None
     return child.text if child else default
 
 
 def is_true(text: str) -> bool:
-    """Whether a switch is on, as libsdformat reads it."""
+    """Return whether a switch is on, as libsdformat reads it."""
     return text.strip().lower() in ("true", "1")
 
 
 def read_floats(parent: Element, tag: str, where: str, default: tuple[float, ...]) -> Floats:
-    """The numbers of a child element, `default` where it is left out, as long as that.
+    """Return the numbers of a child element, `default` where it is left out, as long as that.
 
     Raises AssetError with `where:line`: of another length, or not of finite numbers.
     """
@@ -114,7 +115,7 @@ def read_floats(parent: Element, tag: str, where: str, default: tuple[float, ...
 
 
 def read_values(element: Element, count: int, where: str) -> Floats:
-    """The numbers (count,) that an element holds. Raises AssetError with `where:line`."""
+    """Return the numbers (count,) that an element holds. Raises AssetError with `where:line`."""
     text = element.text if len(element.text) <= _LONGEST else f"{element.text[:_LONGEST]}..."
     return read_numbers(element.text, count, f"<{element.tag}>{text}</{element.tag}>", f"{where}:{element.line}")
 
@@ -129,7 +130,8 @@ class PoseElement:
 
 
 def pose_of(owner: Element | None, where: str) -> PoseElement:
-    """The pose of an element's first `<pose>`, identity where there is none. Raises AssetError with `where:line`."""
+    """Return the pose of an element's first `<pose>`, identity where there is none. Raises AssetError with
+    `where:line`."""
     element = owner.first("pose") if owner else None
     if element is None:
         return PoseElement(Pose.identity(), "", owner.line if owner else 0)

@@ -32,7 +32,8 @@ _UNIT_TENSOR = (1.0, 0.0, 0.0, 1.0, 0.0, 1.0)
 
 
 def read_joints(tree: ModelTree) -> tuple[list[Joint], list[str]]:
-    """The joints of all models that make trees of their bodies, and notes, which name those that would close rings."""
+    """Return the joints of all models that make trees of their bodies, and notes, which name those that would close
+    rings."""
     joints, notes = list[Joint](), list[str]()
     parents: dict[str, str] = {}
     passed: dict[str, list[str]] = {"not understood": [], "which would close a ring": []}
@@ -128,7 +129,6 @@ def _read_axis(tree: ModelTree, scope: ModelScope, axis: Element | None, pose: P
 
 
 def _read_limits(limit: Element | None) -> tuple[float, float] | None:
-    """The range; none where it is empty or has no end."""
     lower, upper = _read_number(limit, "lower"), _read_number(limit, "upper")
     low, high = -np.inf if lower is None else lower, np.inf if upper is None else upper
     if not low < high or low <= -_ENDLESS or high >= _ENDLESS:
@@ -147,13 +147,13 @@ def _read_number(parent: Element | None, tag: str) -> float | None:
 
 
 def has_computed_mass(link: Element) -> bool:
-    """Whether the mass of a link is computed of its collisions (`<inertial auto="true">`)."""
+    """Return whether the mass of a link is computed of its collisions (`<inertial auto="true">`)."""
     inertial = link.first("inertial")
     return inertial is not None and is_true(inertial.attributes.get("auto", ""))
 
 
 def read_masses(tree: ModelTree) -> Iterator[Inertial]:
-    """The masses that the file says. Raises AssetError with `where:line`: the pose of one is not understood."""
+    """Yield the masses that the file says. Raises AssetError with `where:line`: the pose of one is not understood."""
     for body, link in tree.links.items():
         element = link.element.first("inertial")
         if element is None or has_computed_mass(link.element):
@@ -170,7 +170,7 @@ def read_masses(tree: ModelTree) -> Iterator[Inertial]:
 def compute_masses(
     tree: ModelTree, elements: Mapping[str, Element], geoms: Sequence[Geom], non_convex: Sequence[NonConvexPiece]
 ) -> Iterator[Inertial]:
-    """The masses that Gazebo computes of collisions; none for a link with one that is no hull, of unknown volume.
+    """Yield the masses that Gazebo computes of collisions; none for a link with one that is no hull, of unknown volume.
 
     elements: the `<collision>` of each hull by its name.
     """

@@ -65,7 +65,8 @@ class ModelTree:
     links: dict[str, SdfLink] = field(default_factory=dict)
 
     def pose_in_link(self, link: link_reader.Link, element: Element) -> Pose:
-        """root_T_element of something in a link, whose pose counts from the link or from a frame of its model."""
+        """Return root_T_element of something in a link, whose pose counts from the link or from a frame of its
+        model."""
         at, scope = pose_of(element, link.where), self.links[link.body].scope
         if not at.base:
             return link.pose @ at.pose
@@ -73,7 +74,7 @@ class ModelTree:
 
 
 def read_models(path: Path, roots: tuple[Path, ...]) -> ModelTree:
-    """The models of the file at an absolute path, and of those it includes.
+    """Return the models of the file at an absolute path, and of those it includes.
 
     Raises AssetError with `file:line`: text that is not understood, a model that is not there or includes itself, no
     link at all, two models or links of one name, a frame that is not there.
@@ -128,7 +129,6 @@ class _Composer:
         files: list[Path],
         prefix: str | None = None,
     ) -> None:
-        """Add a `<model>` to the scope around it; files: those that are open, the innermost last."""
         name = text_of(include, "name") or element.attributes.get("name", "")
         prefix = f"{around.prefix}{name}::" if prefix is None else prefix
         scope = ModelScope(f"{around.path}{name}::", prefix, element, file, str(files[-1]), around.depth + 1)
@@ -145,7 +145,6 @@ class _Composer:
                 self._add_include(scope, child, files)
 
     def _add_model_frame(self, around: ModelScope, scope: ModelScope, name: str, include: Element | None) -> None:
-        """Add the frame of a model; what an include says goes before what the model does."""
         is_placed = include is not None and include.first("pose") is not None
         owner, where = (include, around.where) if is_placed else (scope.element, scope.where)
         at = pose_of(owner, where)

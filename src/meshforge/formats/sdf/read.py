@@ -16,7 +16,7 @@ from meshforge.symbolic import Asset, Body, FileNote, Mechanism, Rgba
 
 
 def read_sdf(path: Path, options: base.ReadOptions) -> Asset:
-    """The asset in an SDF file with all that it includes; the root frame is that of the world around the model.
+    """Return the asset in an SDF file with all that it includes; the root frame is that of the world around the model.
 
     Raises AssetError naming file, line, link and element: text that is not understood, a frame, an included model or a
     collision mesh that is not there.
@@ -130,7 +130,8 @@ def _collect_notes(tree: models.ModelTree, collisions: Sequence[Element]) -> Ite
 
 
 def find_files(sources: Sequence[document.SdfSource]) -> tuple[tuple[Path, ...], tuple[str, ...]]:
-    """The included and referenced files that are there, with their companions, and the references that lead nowhere."""
+    """Return the included and referenced files that are there, with their companions, and the references that lead
+    nowhere."""
     files: dict[Path, None] = {}
     missing: dict[str, None] = {}
     for number, source in enumerate(sources):

@@ -23,7 +23,7 @@ _NO_HULLS = {"heightmap": "a height map is no hull", "image": "an image is no hu
 
 
 def read_shape(geometry: Element, kind: Element, pose: Pose, where: str) -> collision_pieces.CollisionPiece:
-    """The shape of an element of a geometry that is no mesh; pose: root_T_geometry.
+    """Return the shape of an element of a geometry that is no mesh; pose: root_T_geometry.
 
     What is left out has libsdformat's default. Raises AssetError with `where:line` for an unreadable number.
     """
@@ -71,7 +71,8 @@ def _read_polylines(lines: Sequence[Element], pose: Pose, where: str) -> collisi
 
 
 def read_submesh(mesh: Element) -> tuple[str, ...]:
-    """What of its file a `<mesh>` uses: nothing for all, else the name of a submesh, and `center` where it is moved."""
+    """Return what of its file a `<mesh>` uses: nothing for all, else the name of a submesh, and `center` where it is
+    moved."""
     submesh = mesh.first("submesh")
     name = text_of(submesh, "name")
     if not name or name == "__default__":
@@ -83,7 +84,7 @@ class SdfMeshes(link_reader.CollisionMeshes):
     """The mesh files of an SDF, of which elements use submeshes."""
 
     def select(self, surfaces: Sequence[RawSurface], part: tuple[str, ...]) -> Sequence[RawSurface]:
-        """What a part of `read_submesh` stands for, in metres: Gazebo obeys the unit of a Collada file.
+        """Return what a part of `read_submesh` stands for, in metres: Gazebo obeys the unit of a Collada file.
 
         Raises AssetError: there is no such submesh.
         """
@@ -101,7 +102,8 @@ class SdfMeshes(link_reader.CollisionMeshes):
 
 
 def hull_of(surfaces: Sequence[RawSurface], linear: Floats, offset: Floats) -> collision_pieces.CollisionPiece:
-    """The convex hull of a mesh that says it is one (`optimization="convex_hull"`), under x -> linear @ x + offset."""
+    """Return the convex hull of a mesh that says it is one (`optimization="convex_hull"`), under x -> linear @ x +
+    offset."""
     whole = join_surfaces(surfaces)
     try:
         hull, fill = hull_mesh(whole.vertices, whole.faces)
@@ -111,7 +113,7 @@ def hull_of(surfaces: Sequence[RawSurface], linear: Floats, offset: Floats) -> c
 
 
 def collada_unit_of(mesh: Path) -> float:
-    """The metres of the unit that a mesh file is in: as a Collada file says, 1 for all others."""
+    """Return the metres of the unit that a mesh file is in: as a Collada file says, 1 for all others."""
     if mesh.suffix.lower() != ".dae":
         return 1.0
     try:

@@ -66,7 +66,7 @@ def read_parts(
     note: Callable[[str], None] = lambda _: None,
     beside: Sequence[Aabb] = (),
 ) -> list[SurfaceParts]:
-    """The parts of surfaces, vertices (n, 3) [m] and faces (m, 3) each, by a file about all of them together.
+    """Return the parts of surfaces, vertices (n, 3) [m] and faces (m, 3) each, by a file about all of them together.
 
     Each connected patch of a class is a part; what has no class, or is far from all points, is `rest`. up: the axis
     that the format of the surfaces says points up; note: called with what a user should know; beside: boxes of more
@@ -133,8 +133,8 @@ def _find_classes(
 def align_points(
     points: Floats, boxes: Sequence[Aabb], placing: PointAlignment, where: str, up: Up | None = None
 ) -> Floats:
-    """Points (n, 3) in the frame of an asset; boxes: of its hulls, and of what it shows; where: the file of the points;
-    up: the axis that its format says points up, None where it says none: then it is the other one than theirs.
+    """Return points (n, 3) in the frame of an asset; boxes: of its hulls, and of what it shows; where: the file of the
+    points; up: the axis that its format says points up, None where it says none: then it is the other one than theirs.
 
     Raises AssetError where the box of the points fits none of them, with what would make it fit.
     """

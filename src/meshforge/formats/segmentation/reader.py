@@ -43,24 +43,25 @@ class Segmentation:
     names: tuple[str, ...] = ()
 
     def class_names(self, given: Sequence[str] = ()) -> Mapping[int, str]:
-        """The names of classes by their number: those given, of 0, 1, ..., else the file's; an empty one is none."""
+        """Return the names of classes by their number: those given, of 0, 1, ..., else the file's; an empty one is
+        none."""
         return {k: name for k, name in enumerate(given or self.names) if name}
 
 
 def points_beside(place: Path) -> Path | None:
-    """The file of segmented points beside an asset, None where there is none; place: that of its labels file."""
+    """Return the file of segmented points beside an asset, None where there is none; place: that of its labels file."""
     stem = place.name.removesuffix(".labels.json")
     candidates = (place.with_name(f"{stem}{POINTS_MARK}{suffix}") for suffix in POINTS_SUFFIXES)
     return next((path for path in candidates if path.is_file()), None)
 
 
 def is_segmentation(path: Path) -> bool:
-    """Whether a file is one of segmented points of some asset by its name, `table.points.ply`."""
+    """Return whether a file is one of segmented points of some asset by its name, `table.points.ply`."""
     return path.suffix.lower() in POINTS_SUFFIXES and Path(path.stem).suffix.lower() == POINTS_MARK
 
 
 def read_segmentation(path: Path) -> Segmentation:
-    """The points in a `.ply` or `.npz` file, with the class of each.
+    """Return the points in a `.ply` or `.npz` file, with the class of each.
 
     Raises AssetError naming the file: unreadable, of another kind, with faces, without classes, not finite.
     """

@@ -16,7 +16,7 @@ from meshforge.symbolic import Asset, FeatureKind, Surface
 
 
 def create_urdf(asset: Asset, name: str, *, capsules: bool = False) -> Output:
-    """The files of an asset that came from another format; capsules: whether they are written as such.
+    """Return the files of an asset that came from another format; capsules: whether they are written as such.
 
     Bodies become links, each with its frame on the joint that leads to it, so that at zero all is where it was; hulls
     become native shapes or mesh files, non-convex pieces meshes as they are.

@@ -35,7 +35,7 @@ class UrdfDocument(Document):
 
 
 def parse_robot(data: bytes, where: str) -> Element:
-    """The `<robot>` of a URDF text in UTF-8. Raises AssetError: not well formed, or of another kind."""
+    """Return the `<robot>` of a URDF text in UTF-8. Raises AssetError: not well formed, or of another kind."""
     root = parse_xml(data, where)
     if root.tag != "robot":
         raise AssetError(f"is no URDF: its root element is <{root.tag}>, not <robot>", where=f"{where}:{root.line}")
@@ -43,14 +43,14 @@ def parse_robot(data: bytes, where: str) -> Element:
 
 
 def collisions(robot: Element) -> Iterator[tuple[str, Element]]:
-    """The name of the link and the element of each `<collision>`, in the order of the file."""
+    """Yield the name of the link and the element of each `<collision>`, in the order of the file."""
     for link in robot.each("link"):
         for collision in link.each("collision"):
             yield link.attributes["name"], collision
 
 
 def references(robot: Element) -> list[str]:
-    """Every mesh and texture reference of the document, in order of mention, each once."""
+    """Return every mesh and texture reference of the document, in order of mention, each once."""
     found = (e.attributes.get("filename") for e in robot.walk() if e.tag in ("mesh", "texture"))
     return list(dict.fromkeys(reference for reference in found if reference))
 
@@ -58,7 +58,7 @@ def references(robot: Element) -> list[str]:
 def read_floats(
     element: Element, attribute: str, count: int, where: str, default: tuple[float, ...] | None = None
 ) -> Floats:
-    """The numbers (count,) of an attribute, `default` where it is left out.
+    """Return the numbers (count,) of an attribute, `default` where it is left out.
 
     Raises AssetError with `where:line`: the attribute is missing, of another length, or not of finite numbers.
     """
@@ -75,7 +75,7 @@ def read_floats(
 
 
 def read_origin(element: Element, where: str) -> Pose:
-    """The pose of an element's first `<origin>`, identity where there is none."""
+    """Return the pose of an element's first `<origin>`, identity where there is none."""
     place = element.first("origin")
     if place is None:
         return Pose.identity()
@@ -115,7 +115,7 @@ class _JointEnds:
 
 
 def read_links(robot: Element, where: str) -> UrdfLinks:
-    """The links of a `<robot>`, placed.
+    """Return the links of a `<robot>`, placed.
 
     Raises AssetError with `where:line`: no link, a link without name or named twice, a joint that names a link
     which is not there, a link with two parents, a cycle.
@@ -184,14 +184,13 @@ def _place_links(links: Mapping[str, Element], parents: Mapping[str, _JointEnds]
 
 
 def read_mechanism(robot: Element, links: UrdfLinks) -> Mechanism:
-    """The mechanism of a `<robot>` whose links are placed; a joint of unknown type counts as fixed."""
+    """Return the mechanism of a `<robot>` whose links are placed; a joint of unknown type counts as fixed."""
     joints = tuple(_read_joint(element, links) for element in robot.each("joint"))
     inertials = (_read_inertial(name, link, links.poses[name]) for name, link in links.elements.items())
     return Mechanism(joints, tuple(i for i in inertials if i is not None))
 
 
 def _read_joint(element: Element, links: UrdfLinks) -> Joint:
-    """A `<joint>`; its frame is that of its child link."""
     parent, child = (end.attributes["link"] for role in ("parent", "child") if (end := element.first(role)))
     type_ = element.attributes.get("type", "fixed")
     pose = links.poses[child]
@@ -221,7 +220,6 @@ def _read_coupling(mimic: Element | None) -> Coupling | None:
 
 
 def _read_limits(limit: Element | None) -> tuple[float, float] | None:
-    """The range; none where it is empty, as MuJoCo reads that."""
     lower, upper = _read_number(limit, "lower") or 0.0, _read_number(limit, "upper") or 0.0
     return (lower, upper) if lower < upper else None
 
@@ -243,7 +241,6 @@ def _read_inertial(name: str, link: Element, root_t_link: Pose) -> Inertial | No
 
 
 def _read_number(element: Element | None, attribute: str) -> float | None:
-    """A number, None where there is none that can be read."""
     if element is None or attribute not in element.attributes:
         return None
     try:

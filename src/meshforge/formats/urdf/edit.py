@@ -26,7 +26,7 @@ _UNKNOWN_MAXIMUM = 1000.0  # [N, Nm, m/s, rad/s], for joints of which no largest
 
 
 def native_tag(shape: UrdfShape | Capsule) -> bytes:
-    """The element of a native shape, without its pose."""
+    """Return the element of a native shape, without its pose."""
     match shape:
         case Box():
             return b'<box size="%s"/>' % _text_of(*2 * shape.half)
@@ -41,12 +41,12 @@ def native_tag(shape: UrdfShape | Capsule) -> bytes:
 
 
 def mesh_tag(reference: str) -> bytes:
-    """The element of a mesh file in metres."""
+    """Return the element of a mesh file in metres."""
     return b'<mesh filename="%s"/>' % xml.escape(reference)
 
 
 def origin_tag(pose: Pose) -> bytes:
-    """The element of a pose, its numbers in full precision."""
+    """Return the element of a pose, its numbers in full precision."""
     return b'<origin xyz="%s" rpy="%s"/>' % (_text_of(*pose.translation), _text_of(*pose.to_rpy()))
 
 
@@ -55,7 +55,7 @@ def _place_lines(pose: Pose, tag: bytes) -> list[bytes]:
 
 
 def joint_lines(made: kinematic_tree.LinkJoint, coupling: Coupling | None) -> list[bytes]:
-    """The lines of a `<joint>`, which may follow another one."""
+    """Return the lines of a `<joint>`, which may follow another one."""
     joint = made.joint
     kind = joint.kind if joint else "fixed"
     type_ = "continuous" if joint and kind == "revolute" and joint.limits is None else kind
@@ -83,7 +83,7 @@ def joint_lines(made: kinematic_tree.LinkJoint, coupling: Coupling | None) -> li
 
 
 def inertial_lines(inertial: Inertial, root_t_link: Pose) -> list[bytes]:
-    """The lines of an `<inertial>`, its axes those of the link."""
+    """Return the lines of an `<inertial>`, its axes those of the link."""
     centre, tensor = kinematic_tree.place_inertial(inertial, root_t_link)
     moments = b" ".join(
         b'%s="%s"' % (name.encode(), _text_of(value)) for name, value in kinematic_tree.name_moments(tensor)
@@ -98,7 +98,7 @@ def inertial_lines(inertial: Inertial, root_t_link: Pose) -> list[bytes]:
 
 
 def visual_lines(visual: mesh_output.LinkVisual, reference: str | None = None) -> list[bytes]:
-    """The lines of a `<visual>`; reference: the mesh file of a shape that URDF lacks."""
+    """Return the lines of a `<visual>`; reference: the mesh file of a shape that URDF lacks."""
     if isinstance(visual.what, Box | Cylinder | Sphere):
         pose, tag = visual.what.pose, native_tag(visual.what)
     else:
@@ -119,7 +119,7 @@ def _text_of(*values: float) -> bytes:
 
 
 def write_urdf(asset: Asset, document: UrdfDocument, name: str, *, capsules: bool = False) -> base.Output:
-    """The files of an asset that was read from a URDF; without an edit, its own bytes.
+    """Return the files of an asset that was read from a URDF; without an edit, its own bytes.
 
     capsules: whether they are written as such, which they are in any case where the file has one.
 
@@ -185,7 +185,7 @@ class UrdfElementMaker(element_edits.ElementMaker):
     def replace_geometry(
         self, collision: xml.Element, pose: Pose, kind: Sequence[bytes], reference: str | None
     ) -> tuple[xml.Splice, ...]:
-        """Where the element has a mesh and gets one, the other attributes of that stay."""
+        """Return where the element has a mesh and gets one, the other attributes of that stay."""
         old = link_reader.geometry_of(collision)
         assert old is not None  # only elements with pieces are copied
         origin = xml.replace_or_insert(self.data, collision, "origin", "geometry", origin_tag(pose))

@@ -72,7 +72,7 @@ class UrdfWithCapsules(UrdfFormat):
 
 
 def features_of(document: UrdfDocument) -> Iterator[Feature]:
-    """The features of a URDF that its asset does not have."""
+    """Yield the features of a URDF that its asset does not have."""
     data = XmlText.of(document.source).data
     robot = parse_robot(data, "")
     yield base.feature_of_others([*base.list_others(robot, _TAKEN, _LEAVES), *["comment"] * data.count(b"<!--")])

@@ -20,7 +20,8 @@ _UP = (0.0, 0.0, 1.0)
 
 
 def read_urdf(path: Path, options: base.ReadOptions, source: bytes | None = None) -> Asset:
-    """The asset in a URDF file, its collision meshes included; source: what counts instead of what the file holds.
+    """Return the asset in a URDF file, its collision meshes included; source: what counts instead of what the file
+    holds.
 
     Raises AssetError naming file, line, link and element: text that is not understood, links and joints that make no
     tree, a collision mesh that is not there.

@@ -32,7 +32,7 @@ class XacroFormat(UrdfFormat):
     title = "xacro"
 
     def is_main(self, path: Path) -> bool:
-        """Whether it is a robot, and not macros for others to include: these give their `<robot>` no name."""
+        """Return whether it is a robot, and not macros for others to include: these give their `<robot>` no name."""
         try:
             root = parse_xml(XmlText.of(read_content(path)).data, str(path))
         except AssetError:
@@ -64,7 +64,7 @@ class XacroFormat(UrdfFormat):
 
 
 def expand(path: Path, options: ReadOptions) -> tuple[bytes, tuple[Path, ...]]:
-    """The URDF text of a xacro file, its arguments at their defaults, and the files that it includes.
+    """Return the URDF text of a xacro file, its arguments at their defaults, and the files that it includes.
 
     Raises MeshForgeError: xacro is not installed; AssetError: it cannot be read or expanded.
     """

@@ -48,24 +48,24 @@ class PrimCollision:
 
 
 def has_schema(prim: Any, schema: str) -> bool:
-    """Whether an applied schema is on a prim, of a library that is not installed too."""
+    """Return whether an applied schema is on a prim, of a library that is not installed too."""
     return schema in prim.GetPrimTypeInfo().GetAppliedAPISchemas()
 
 
 def is_collider(scene: UsdStage, prim: Any) -> bool:
-    """Whether a prim of a stage with physics collides: not switched off, and no trigger."""
+    """Return whether a prim of a stage with physics collides: not switched off, and no trigger."""
     if not has_schema(prim, COLLISION) or has_schema(prim, TRIGGER):
         return False
     return scene.get(prim.GetAttribute("physics:collisionEnabled")) is not False
 
 
 def is_drawn(prim: Any) -> bool:
-    """Whether a prim that renders is nothing but its own collision, drawn since nothing else was."""
+    """Return whether a prim that renders is nothing but its own collision, drawn since nothing else was."""
     return bool(prim.GetCustomDataByKey(DRAWN))
 
 
 def is_seen(scene: UsdStage, prim: Any) -> bool:
-    """Whether a prim is geometry that renders: visible, and of the default or the render purpose."""
+    """Return whether a prim is geometry that renders: visible, and of the default or the render purpose."""
     if not prim.IsA(pxr.UsdGeom.Gprim) or is_drawn(prim):
         return False
     image = pxr.UsdGeom.Imageable(prim)
@@ -73,7 +73,7 @@ def is_seen(scene: UsdStage, prim: Any) -> bool:
 
 
 def body_of(scene: UsdStage, prim: Any) -> Any:
-    """The nearest rigid body at or above a prim, None where there is none that is switched on."""
+    """Return the nearest rigid body at or above a prim, None where there is none that is switched on."""
     while prim and not prim.IsPseudoRoot():
         if has_schema(prim, RIGID_BODY):
             return prim if scene.get(prim.GetAttribute("physics:rigidBodyEnabled")) is not False else None
@@ -104,12 +104,12 @@ class StageBodies:
         return self.names.get(str(own.GetPath()), BODY) if own else BODY
 
     def list_bodies(self) -> tuple[Body, ...]:
-        """The body of the root frame where something is part of it, then the rigid ones."""
+        """Return the body of the root frame where something is part of it, then the rigid ones."""
         fixed = [Body(BODY, Pose.identity())] if self.used else []
         return (*fixed, *(Body(self.names[path], self.scene.pose(prim)) for path, prim in self.prims.items()))
 
     def hull_name(self, path: str, body: str) -> str:
-        """The name of what a prim collides with, after the body's name where there are any bodies.
+        """Return the name of what a prim collides with, after the body's name where there are any bodies.
 
         It is the one that the prim says in its custom data, else its path below the body.
         """
@@ -125,7 +125,7 @@ class StageBodies:
 
 
 def contact_attributes(prim: Any) -> tuple[tuple[str, str], ...]:
-    """Names and values of what is authored on a prim, its physics material by path, in order of name."""
+    """Return names and values of what is authored on a prim, its physics material by path, in order of name."""
     values = {attribute.GetName(): attribute.Get() for attribute in prim.GetAuthoredAttributes()}
     if material := physics_material(prim):
         values[_PHYSICS_MATERIAL] = material.GetPath()
@@ -135,7 +135,7 @@ def contact_attributes(prim: Any) -> tuple[tuple[str, str], ...]:
 
 
 def physics_material(prim: Any) -> Any:
-    """The material that a prim is bound to for physics, itself or from above; None where it is bound to none."""
+    """Return the material that a prim is bound to for physics, itself or from above; None where it is bound to none."""
     material, relationship = pxr.UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial("physics")
     return material.GetPrim() if material and relationship else None
 
@@ -158,7 +158,6 @@ def inherit_contact(spec: Any, prim: Any) -> None:
 
 
 def _has_physics_material(prim: Any) -> bool:
-    """Whether the plain material binding of a prim leads to a material with physics."""
     targets = prim.GetRelationship(_MATERIAL_BINDING).GetTargets() if prim.HasRelationship(_MATERIAL_BINDING) else []
     materials = [prim.GetStage().GetPrimAtPath(path) for path in targets]
     return any(material and has_schema(material, "PhysicsMaterialAPI") for material in materials)

@@ -24,7 +24,7 @@ _WORLDS = (BODY, "world")
 
 
 def create_usd(asset: Asset, name: str) -> Output:
-    """The files of an asset that came from another format.
+    """Return the files of an asset that came from another format.
 
     Bodies become rigid bodies side by side, hulls native shapes or convex meshes below them, in metres with Z up; what
     is part of the world collides without one. Hulls are hidden, unless the asset shows nothing else.

@@ -32,7 +32,7 @@ _COMMENTS = re.compile(
 
 
 def write_usd(asset: Asset, document: stage.UsdDocument, name: str, mass: Mass) -> Output:
-    """The files of an asset that was read from a USD file; without an edit, its own bytes.
+    """Return the files of an asset that was read from a USD file; without an edit, its own bytes.
 
     Raises AssetError: a file changed since the asset was read, or the edit cannot be made in its root layer.
     """

@@ -102,20 +102,20 @@ class StageObject(Protocol):
     """A `Usd.Stage`."""
 
     def GetRootLayer(self) -> Any:  # noqa: N802
-        """Its root layer."""
+        """Return its root layer."""
 
     def GetUsedLayers(self) -> Any:  # noqa: N802
-        """All its layers."""
+        """Return all its layers."""
 
     def GetSessionLayer(self) -> Any:  # noqa: N802
-        """The layer of what is changed for this session only."""
+        """Return the layer of what is changed for this session only."""
 
     def Flatten(self) -> Any:  # noqa: N802
-        """All of it in one layer."""
+        """Return all of it in one layer."""
 
 
 def read_stage(stage: StageObject) -> Asset:
-    """The asset in a stage.
+    """Return the asset in a stage.
 
     A stage as its saved files have it is read from these, so that an edit keeps all the rest of them. One that is made
     in memory, or has unsaved changes, is flattened, references resolved, in a folder that lasts as long as the process.

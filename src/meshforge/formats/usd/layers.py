@@ -25,12 +25,12 @@ _PADDING = 0x1986  # the id of the extra field that holds nothing
 
 
 def is_crate(data: bytes) -> bool:
-    """Whether bytes are a layer in the binary form."""
+    """Return whether bytes are a layer in the binary form."""
     return data.startswith(_CRATE_MARK)
 
 
 def is_crate_wanted(suffix: str, source: bytes | None) -> bool:
-    """Whether a file of a suffix is binary; `.usd` is what its source was, and binary where it is new."""
+    """Return whether a file of a suffix is binary; `.usd` is what its source was, and binary where it is new."""
     return source is None or is_crate(source) if suffix == ".usd" else suffix != ".usda"
 
 

@@ -29,7 +29,8 @@ _STILL = 1e-6  # rad, below which a turn is the rounding of single precision
 
 
 def read_mechanism(scene: UsdStage, bodies: StageBodies, geoms: Sequence[Geom]) -> Mechanism:
-    """Joints, masses, pairs apart; a joint that would close a loop, or is of a kind that no tree has, is left out."""
+    """Return joints, masses, pairs apart; a joint that would close a loop, or is of a kind that no tree has, is left
+    out."""
     if not bodies.prims:
         return Mechanism()
     hulls: dict[str, list[Shape]] = {name: [] for name in (BODY, *bodies.names.values())}
@@ -133,7 +134,7 @@ def _keep_trees(joints: Iterable[Joint]) -> list[Joint]:
 
 
 def read_inertial(scene: UsdStage, prim: Any, body: str, hulls: Sequence[Shape]) -> Inertial | None:
-    """What a body weighs by what it says itself; hulls: of the body, whose inertia it has where it says none.
+    """Return what a body weighs by what it says itself; hulls: of the body, whose inertia it has where it says none.
 
     None where it leaves its mass to the density of its colliders, or where nothing says its inertia.
     """
@@ -150,14 +151,14 @@ def read_inertial(scene: UsdStage, prim: Any, body: str, hulls: Sequence[Shape])
 
 
 def read_number(scene: UsdStage, prim: Any, name: str) -> float | None:
-    """An authored number of a prim, None where there is none that is finite."""
+    """Return an authored number of a prim, None where there is none that is finite."""
     attribute = prim.GetAttribute(name)
     value = scene.get(attribute) if attribute and attribute.HasAuthoredValue() else None
     return float(value) if value is not None and np.isfinite(value) else None
 
 
 def centre_of(scene: UsdStage, prim: Any) -> Floats | None:
-    """The centre of mass (3,) [m] that a body says; minus infinity stands for none."""
+    """Return the centre of mass (3,) [m] that a body says; minus infinity stands for none."""
     value = scene.get(prim.GetAttribute("physics:centerOfMass"))
     if value is None or not np.isfinite(value).all():
         return None
@@ -167,7 +168,7 @@ def centre_of(scene: UsdStage, prim: Any) -> Floats | None:
 
 
 def moments_of(scene: UsdStage, prim: Any) -> Floats | None:
-    """The inertia (3, 3) [kg m^2] that a body says, None where its moments are not all positive."""
+    """Return the inertia (3, 3) [kg m^2] that a body says, None where its moments are not all positive."""
     moments = scene.get(prim.GetAttribute("physics:diagonalInertia"))
     axes = scene.get(prim.GetAttribute("physics:principalAxes"))
     if moments is None or not np.isfinite(moments).all() or min(moments) <= 0:
@@ -185,7 +186,7 @@ def _rotation_of_value(quaternion: Any) -> Floats:
 
 
 def weigh(scene: UsdStage, prim: Any, body: str, sources: Sequence[PrimCollision]) -> Inertial | None:
-    """What a body weighs by all that its stage says, colliders included; None where a volume is not known."""
+    """Return what a body weighs by all that its stage says, colliders included; None where a volume is not known."""
     pieces = [(source, _solids_of(source.parts)) for source in sources]
     solids = [(source, shapes) for source, shapes in pieces if shapes]
     if not solids or any(shapes is None for _, shapes in pieces):

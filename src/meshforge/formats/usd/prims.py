@@ -34,16 +34,17 @@ class PrimSpace:
         return PrimSpace(*scene.placement(prim))
 
     def holds_volume(self) -> bool:
-        """Whether what is put into it keeps its volume."""
+        """Return whether what is put into it keeps its volume."""
         is_finite = bool(np.isfinite(self.linear).all() and np.isfinite(self.offset).all())
         return is_finite and leaves_volume(self.linear, 1e-9)
 
     def to_local(self, points: Floats) -> Floats:
-        """Points (n, 3) of the root frame in this space."""
+        """Return points (n, 3) of the root frame in this space."""
         return np.asarray(np.linalg.solve(self.linear, (points - self.offset).T).T)
 
     def split_pose(self, pose: Pose) -> tuple[Floats, Floats, Floats] | None:
-        """A pose of the root frame here: translation (3,), rotation (3, 3), scales (3,); None where it would shear."""
+        """Return a pose of the root frame here: translation (3,), rotation (3, 3), scales (3,); None where it would
+        shear."""
         linear = np.linalg.solve(self.linear, pose.rotation)
         scales = np.linalg.norm(linear, axis=0)
         turn = linear / scales
@@ -55,7 +56,7 @@ class PrimSpace:
 
 
 def add_prim(holder: Any, name: str, kind: str) -> Any:
-    """A new prim in a layer below the spec of another one, under a name that no child of it has."""
+    """Return a new prim in a layer below the spec of another one, under a name that no child of it has."""
     return pxr.Sdf.PrimSpec(holder, name, pxr.Sdf.SpecifierDef, kind)
 
 
@@ -107,7 +108,7 @@ def add_shape(holder: Any, name: str, shape: Shape, space: PrimSpace) -> tuple[A
 
 
 def add_plane(holder: Any, name: str, translation: Floats, rotation: Floats) -> Any:
-    """The prim of an endless plane."""
+    """Return the prim of an endless plane."""
     spec = add_prim(holder, name, "Plane")
     set_place(spec, translation, rotation)
     return spec
@@ -140,7 +141,8 @@ def _add_native(holder: Any, name: str, shape: Shape, space: PrimSpace) -> Any:
 
 
 def add_mesh(holder: Any, name: str, points: Floats, faces: Ints, space: PrimSpace) -> Any:
-    """The prim of triangles (m, 3) on points (n, 3) of the root frame, about their middle, where floats are finest."""
+    """Return the prim of triangles (m, 3) on points (n, 3) of the root frame, about their middle, where floats are
+    finest."""
     local = space.to_local(points)
     middle = (local.min(axis=0) + local.max(axis=0)) / 2
     spec = add_prim(holder, name, "Mesh")

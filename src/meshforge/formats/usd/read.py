@@ -27,7 +27,7 @@ _ISAAC = "SemanticsAPI:"
 
 
 def read_usd(path: Path) -> Asset:
-    """The asset in a USD file, the layers it refers to included.
+    """Return the asset in a USD file, the layers it refers to included.
 
     Raises AssetError: damaged, more than memory holds, or there is nothing in it.
     """
@@ -82,7 +82,7 @@ def _build_asset(scene: UsdStage, source: bytes) -> Asset:
 def read_collisions(
     scene: UsdStage, bodies: colliders.StageBodies, physics: bool, notes: list[str]
 ) -> Iterator[PrimCollision]:
-    """All prims with collision, in the order of the stage."""
+    """Yield all prims with collision, in the order of the stage."""
     for prim in scene.prims():
         if (colliders.is_collider if physics else colliders.is_seen)(scene, prim) and (
             parts := read_parts(scene, prim, notes)
@@ -120,7 +120,6 @@ def _file_of(place: Any) -> Path | None:
 
 
 def _mentions_of_prim(prim: Any) -> Mentions:
-    """What is said of a prim with collision."""
     found = [("class", label) for each in (prim, prim.GetParent()) for label in _labels_of(each)]
     found += [("node", prim.GetName()), ("node", prim.GetParent().GetName())]
     material, _ = pxr.UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial()
@@ -166,7 +165,7 @@ def _collect_notes(scene: UsdStage, physics: bool) -> Iterator[str]:
 
 
 def read_stage_surfaces(asset: Asset, document: UsdDocument) -> tuple[Surface, ...]:
-    """What a stage shows in which all that is seen is taken for collision."""
+    """Return what a stage shows in which all that is seen is taken for collision."""
     with usd(str(asset.path)):
         scene = UsdStage.open(asset.path)
         shown = StageSurfaces.of(scene, colliders.StageBodies(scene, document.physics))
@@ -181,7 +180,7 @@ class StageSurfaces(LazySurfaces):
 
     @staticmethod
     def of(scene: UsdStage, bodies: colliders.StageBodies) -> StageSurfaces:
-        """The surfaces of an open stage."""
+        """Return the surfaces of an open stage."""
         return StageSurfaces(
             scene.path,
             {str(prim.GetPath()): bodies.of(prim) for prim in scene.prims() if colliders.is_seen(scene, prim)},

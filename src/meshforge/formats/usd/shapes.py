@@ -27,7 +27,7 @@ _WHOLE = ("convexHull", "boundingCube", "boundingSphere")
 
 
 def read_parts(scene: UsdStage, prim: Any, notes: list[str]) -> list[CollisionPiece]:
-    """What a prim collides with; notes: gets what a user should know of how it was read."""
+    """Return what a prim collides with; notes: gets what a user should know of how it was read."""
     linear, offset = scene.placement(prim)
     if not _is_regular(linear, offset):
         return [CollisionPiece(None, "it is scaled to nothing, or out of all bounds")]
@@ -41,7 +41,6 @@ def read_parts(scene: UsdStage, prim: Any, notes: list[str]) -> list[CollisionPi
 
 
 def _parts_of_mesh(scene: UsdStage, prim: Any, linear: Floats, offset: Floats) -> list[CollisionPiece]:
-    """A mesh as its approximation has it: one shape, or its pieces."""
     mesh = None
     try:
         mesh = read_mesh(scene, prim)
@@ -134,7 +133,7 @@ def _is_regular(linear: Floats, offset: Floats) -> bool:
 
 
 def read_mesh(scene: UsdStage, prim: Any) -> RawSurface:
-    """The surface of a Mesh prim in its own space; subdivision is not applied, as in engines.
+    """Return the surface of a Mesh prim in its own space; subdivision is not applied, as in engines.
 
     Raises GeometryError: its counts and indices do not fit together, or a coordinate is not finite.
     """

@@ -51,7 +51,7 @@ class UsdDocument(Document):
     digests: tuple[tuple[Path, str], ...] = ()
 
     def is_edited(self, asset: Asset) -> bool:
-        """Whether the hulls of an asset are not those of its stage."""
+        """Return whether the hulls of an asset are not those of its stage."""
         return is_edited(asset, (piece for element in self.authored for piece in element.names))
 
 
@@ -67,7 +67,7 @@ _CENTIMETRES = 0.01  # metersPerUnit of a stage that does not say it
 
 @contextmanager
 def usd(where: str) -> Iterator[list[str]]:
-    """The library, for one asset alone; the list gets what it complains about in between.
+    """Lock the library for one asset alone; the list gets what it complains about in between.
 
     Raises AssetError at `where`, with its first complaint where it gives up, or where it is not installed.
     """
@@ -96,13 +96,12 @@ def usd(where: str) -> Iterator[list[str]]:
 
 
 def shorten(text: str, where: str) -> str:
-    """A complaint in one line, of a long one the beginning; paths count from the folder of the asset."""
+    """Return a complaint in one line, of a long one the beginning; paths count from the folder of the asset."""
     line = " ".join(_INSIDE.sub("", _STAGE.sub("", text)).replace(f"{Path(where).absolute().parent}/", "").split())
     return line if len(line) <= _LONGEST else f"{line[:_LONGEST]} ..."
 
 
 def _text_of(complaint: object) -> str:
-    """The text of a complaint; of one that repeats damaged text, that it does."""
     try:
         return str(getattr(complaint, "commentary", ""))
     except UnicodeDecodeError:
@@ -118,7 +117,7 @@ class UsdStage:
 
     @staticmethod
     def open(path: Path) -> UsdStage:
-        """The stage of a file. Raises AssetError: it holds no prim, or its unit is none."""
+        """Return the stage of a file. Raises AssetError: it holds no prim, or its unit is none."""
         scene = UsdStage(pxr.Usd.Stage.Open(str(path)), path)
         if not np.isfinite(scene.metres) or scene.metres <= 0:
             raise AssetError(f"its metersPerUnit is {scene.metres:g}", where=str(path), remedy="Give it a unit.")
@@ -148,7 +147,7 @@ class UsdStage:
         return pxr.UsdGeom.XformCache(self.time)
 
     def prims(self) -> Iterator[Any]:
-        """All prims in the order of the stage, those of instances too; of point instancers, nothing below."""
+        """Yield all prims in the order of the stage, those of instances too; of point instancers, nothing below."""
         predicate = pxr.Usd.TraverseInstanceProxies(pxr.Usd.PrimDefaultPredicate)
         below = iter(pxr.Usd.PrimRange(self.stage.GetPseudoRoot(), predicate))
         for prim in below:
@@ -158,17 +157,17 @@ class UsdStage:
                 below.PruneChildren()
 
     def placement(self, prim: Any) -> tuple[Floats, Floats]:
-        """The map (3, 3), (3,) from the space of a prim, in units of the stage, to the root frame in metres."""
+        """Return the map (3, 3), (3,) from the space of a prim, in units of the stage, to the root frame in metres."""
         matrix = np.array(self._cache.GetLocalToWorldTransform(prim), dtype=np.float64)
         return self.metres * matrix[:3, :3].T, self.metres * matrix[3, :3]
 
     def pose(self, prim: Any) -> Pose:
-        """root_T_prim without its scale: the rotation nearest to its map."""
+        """Return root_T_prim without its scale: the rotation nearest to its map."""
         linear, offset = self.placement(prim)
         return Pose(rotation_of(linear), offset)
 
     def get(self, attribute: Any) -> Any:
-        """The value of an attribute, None where it has none."""
+        """Return the value of an attribute, None where it has none."""
         return attribute.Get(self.time) if attribute else None
 
     @cached_property
@@ -178,7 +177,7 @@ class UsdStage:
         return str(prim.GetPath()) if prim else "/"
 
     def shorten_path(self, path: str, base: str = "") -> str:
-        """A path as names have it: below another one, or the default prim; that prim's own name for itself."""
+        """Return a path as names have it: below another one, or the default prim; that prim's own name for itself."""
         base = base or self.base
         if path == base:
             return path.rsplit("/", 1)[-1]
@@ -186,7 +185,7 @@ class UsdStage:
 
 
 def rotation_of(linear: Floats) -> Floats:
-    """The rotation (3, 3) nearest to a map, which may scale and shear; of one that mirrors, to its opposite.
+    """Return the rotation (3, 3) nearest to a map, which may scale and shear; of one that mirrors, to its opposite.
 
     That is how the library, and engines with it, take a reflection apart.
     """

@@ -53,7 +53,7 @@ def decompose_by_parts(
     note: Callable[[str], None] = lambda _: None,
     control: engines.EngineControl = UNCONTROLLED,
 ) -> list[PartHull]:
-    """Convex hulls of a surface, each within the convex hull of its part; those of a part follow each other.
+    """Return convex hulls of a surface, each within the convex hull of its part; those of a part follow each other.
 
     vertices (n, 3) [m], faces (m, 3), parts: of these faces. Sizes and counts in the settings are of the whole: a part
     gets a threshold, voxels and a share of the most hulls by its size. close: see `decompose`; of a surface that is
@@ -181,8 +181,8 @@ def _share_settings(
 def scale_settings(
     settings: engines.DecomposeSettings, size: Floats, whole: Floats, most: int
 ) -> engines.DecomposeSettings:
-    """The settings of a part of some extents (3,) [m] of a whole of others, so that they mean for it what they mean for
-    the whole; most: its share of the hulls."""
+    """Return the settings of a part of some extents (3,) [m] of a whole of others, so that they mean for it what they
+    mean for the whole; most: its share of the hulls."""
     if isinstance(settings, engines.HullSettings):
         return settings
     if isinstance(settings, engines.CoacdSettings):

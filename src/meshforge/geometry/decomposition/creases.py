@@ -52,7 +52,7 @@ class Creases:
 
 
 def find_creases(vertices: Floats, faces: Ints) -> Creases:
-    """The creases of welded vertices (n, 3) [m] and faces (m, 3)."""
+    """Return the creases of welded vertices (n, 3) [m] and faces (m, 3)."""
     faces = drop_degenerate(vertices, faces)
     corners = vertices[faces]
     normal, areas = _find_normals(corners)
@@ -77,7 +77,7 @@ def _number_planes(middles: Floats, normals: Floats, loops: Bools, near: float) 
 
 
 def drop_degenerate(vertices: Floats, faces: Ints) -> Ints:
-    """Those of some faces (m, 3) that have an area."""
+    """Return those of some faces (m, 3) that have an area."""
     corners = vertices[faces]
     areas = np.linalg.norm(cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
     proper: Ints = faces[areas > 1e-12 * max(float(areas.max(initial=0.0)), np.finfo(float).tiny)]
@@ -85,7 +85,7 @@ def drop_degenerate(vertices: Floats, faces: Ints) -> Ints:
 
 
 def find_concave(corners: Floats, pairs: Ints) -> Bools:
-    """Whether the surface turns inward between each of some pairs (k, 2) of triangles, of corners (m, 3, 3)."""
+    """Return whether the surface turns inward between each of some pairs (k, 2) of triangles, of corners (m, 3, 3)."""
     normal, _ = _find_normals(corners)
     one, other = normal[pairs[:, 0]], normal[pairs[:, 1]]
     away = corners[pairs[:, 1]].mean(axis=1) - corners[pairs[:, 0]].mean(axis=1)
@@ -160,7 +160,7 @@ def _spread(sizes: Floats) -> Ints:
 
 
 def cut_at_creases(piece: Polytope, creases: Creases, interior: Interior) -> list[Polytope]:
-    """The convex parts of a piece between the creases that go through it, none mostly outside of the surface."""
+    """Return the convex parts of a piece between the creases that go through it, none mostly outside of the surface."""
     return _cut(piece, creases, interior, _DEPTH)
 
 
@@ -226,7 +226,6 @@ def _choose_tightest(
 
 
 def _measure_hulls(shapes: Sequence[Polytope], interior: Interior) -> float:
-    """The volume [m^3] of the hulls of what shapes have of the interior."""
     return sum(hull.volume for hull in interior.list_hulls(shapes))
 
 

@@ -47,7 +47,6 @@ class _Settings:
             _check(f"{self.engine} {option.name}", getattr(self, option.name), **option.metadata)
 
     def as_dict(self) -> dict[str, Any]:
-        """The fields by name, for JSON."""
         return asdict(self)  # type: ignore[call-overload,no-any-return]  # as above
 
     def as_engine_options(self) -> dict[str, Any]:
@@ -100,7 +99,7 @@ class CoacdSettings(_Settings):
 
     @staticmethod
     def limit_vertices(most: int) -> dict[str, int]:
-        """The fields that say how many vertices a hull may have."""
+        """Return the fields that say how many vertices a hull may have."""
         return {"decimate": True, "max_ch_vertex": most}
 
 
@@ -130,7 +129,7 @@ class VhacdSettings(_Settings):
 
     @staticmethod
     def limit_vertices(most: int) -> dict[str, int]:
-        """The field that says how many vertices a hull may have."""
+        """Return the field that says how many vertices a hull may have."""
         return {"max_hull_vertices": most}
 
 
@@ -180,8 +179,8 @@ EngineJob = tuple[TriangleMesh, DecomposeSettings]
 
 
 def run_engines(jobs: Sequence[EngineJob], control: EngineControl) -> list[list[EnginePiece] | GeometryError]:
-    """The pieces that engines make of meshes, one after the other in one process, or why there are none: an engine
-    crashed. After a crash another process goes on with the next mesh, so each result is what it is alone.
+    """Return the pieces that engines make of meshes, one after the other in one process, or why there are none: an
+    engine crashed. After a crash another process goes on with the next mesh, so each result is what it is alone.
 
     Raises GeometryError: the engines took too long; DecompositionCancelledError.
     """
@@ -260,7 +259,7 @@ def _last_message(log: Path, code: int) -> str:
 
 
 def unpack_pieces(content: bytes) -> list[EnginePiece]:
-    """The pieces of `pack_pieces`. Raises ValueError, KeyError, EOFError or BadZipFile for anything else."""
+    """Return the pieces of `pack_pieces`. Raises ValueError, KeyError, EOFError or BadZipFile for anything else."""
     vertices, faces, counts = unpack_arrays(content, "vertices", "faces", "counts")
     ends = np.cumsum(counts.reshape(-1, 2), axis=0)
     if (len(vertices), len(faces)) != tuple(ends[-1] if len(ends) else (0, 0)):
@@ -272,6 +271,6 @@ def unpack_pieces(content: bytes) -> list[EnginePiece]:
 
 
 def unpack_arrays(content: bytes, *names: str) -> list[Any]:
-    """Arrays of `pack_pieces` by name. Raises as `unpack_pieces` does."""
+    """Return arrays of `pack_pieces` by name. Raises as `unpack_pieces` does."""
     with np.load(io.BytesIO(content), allow_pickle=False) as arrays:
         return [arrays[name] for name in names]

@@ -59,7 +59,7 @@ _NAME = "a piece of the surface"
 def decompose_finely(
     vertices: Floats, faces: Ints, engine: PieceEngine = "coacd", *, cache: Path | None = None
 ) -> tuple[regions.FinePiece, ...]:
-    """Fine convex pieces of vertices (n, 3) [m] and faces (m, 3), the same for the same input.
+    """Return fine convex pieces of vertices (n, 3) [m] and faces (m, 3), the same for the same input.
 
     engine: which makes them; cache: a folder for the pieces and for results of the engine, None keeps none.
     Raises GeometryError: nothing that has an area, a coordinate that is not finite.
@@ -143,7 +143,6 @@ def _list_solids(mesh: TriangleMesh, settings: DecomposeSettings) -> list[_Solid
 
 
 def _list_regions(solid: _Solid) -> list[_Solid]:
-    """The solids of the regions of one; none where it is one piece, or one region encloses all."""
     if solid.settings is None:
         return []
     size = np.ptp(solid.vertices[solid.faces], axis=(0, 1))

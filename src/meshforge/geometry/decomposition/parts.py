@@ -43,12 +43,12 @@ class SurfaceParts:
         return len(self.of_face) > 0 and bool((self.of_face != self.of_face[0]).any())
 
     def select(self, faces: Ints) -> SurfaceParts:
-        """The parts of some triangles (k,), by their places."""
+        """Return the parts of some triangles (k,), by their places."""
         return SurfaceParts(self.of_face[faces], self.names)
 
 
 def stack_parts(found: Sequence[SurfaceParts]) -> SurfaceParts:
-    """The parts of surfaces one after the other; parts of different surfaces stay apart."""
+    """Return the parts of surfaces one after the other; parts of different surfaces stay apart."""
     starts = np.cumsum([0, *(len(parts.names) for parts in found)])
     numbers = [parts.of_face + start for parts, start in zip(found, starts, strict=False)]
     names = tuple(name for parts in found for name in parts.names)
@@ -56,7 +56,8 @@ def stack_parts(found: Sequence[SurfaceParts]) -> SurfaceParts:
 
 
 def separate_parts(vertices: Floats, faces: Ints, parts: SurfaceParts) -> SurfaceParts:
-    """The parts of vertices (n, 3) and faces (m, 3) with each connected patch a part of its own, of the same name.
+    """Return the parts of vertices (n, 3) and faces (m, 3) with each connected patch a part of its own, of the same
+    name.
 
     A patch of less than a hundredth of the area of the largest one of its part is noise: it joins what it touches most.
     Where there are more than 2000 patches, the parts stay what they are.
@@ -83,7 +84,7 @@ def separate_parts(vertices: Floats, faces: Ints, parts: SurfaceParts) -> Surfac
 def join_small_parts(
     vertices: Floats, faces: Ints, parts: SurfaceParts, note: Callable[[str], None] = lambda _: None
 ) -> SurfaceParts:
-    """The parts of vertices (n, 3) and faces (m, 3), small ones joined with the one that they touch most.
+    """Return the parts of vertices (n, 3) and faces (m, 3), small ones joined with the one that they touch most.
 
     Small is what reaches no farther than a thousandth of the diagonal, or has two triangles at most; and, of a closed
     surface, what bounds a hollow of it: its triangles would be taken for a solid where there is none. A part that

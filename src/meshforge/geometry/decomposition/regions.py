@@ -23,16 +23,16 @@ _NEAR = 0.01  # of the surface's diagonal, within which a point of a piece lies 
 
 
 def find_regions(vertices: Floats, faces: Ints) -> Ints:
-    """The number (m,) of the region of each of faces (m, 3) that have an area, of welded vertices (n, 3)."""
+    """Return the number (m,) of the region of each of faces (m, 3) that have an area, of welded vertices (n, 3)."""
     pairs = neighbour_faces(faces)
     concave = find_concave(vertices[faces], pairs)
     return connectivity.component_roots(pairs[~concave, 0], pairs[~concave, 1], len(faces))
 
 
 def list_region_solids(vertices: Floats, faces: Ints) -> list[TriangleMesh]:
-    """What the regions of a solid, of welded vertices (n, 3) [m] and faces (m, 3), enclose of it: each with the holes
-    closed where it meets others, as far as these lie about in planes. Nothing where one region encloses all, or the
-    solid is open.
+    """Return what the regions of a solid, of welded vertices (n, 3) [m] and faces (m, 3), enclose of it: each with the
+    holes closed where it meets others, as far as these lie about in planes. Nothing where one region encloses all, or
+    the solid is open.
     """
     proper = drop_degenerate(vertices, faces)
     numbers, regions = np.unique(find_regions(vertices, proper), return_inverse=True)
@@ -63,8 +63,8 @@ class FinePiece:
 
 
 def find_solids(vertices: Floats, faces: Ints) -> list[Ints]:
-    """The connected components of faces (m, 3), each as the places of its faces, a cavity with the solid that it is
-    in."""
+    """Return the connected components of faces (m, 3), each as the places of its faces, a cavity with the solid that it
+    is in."""
     own, volumes, closed = _list_components(vertices, faces)
     found = {number: [places] for number, places in enumerate(own)}
     for number in closed:
@@ -74,8 +74,8 @@ def find_solids(vertices: Floats, faces: Ints) -> list[Ints]:
 
 
 def turn_outward(mesh: TriangleMesh) -> TriangleMesh:
-    """A mesh whose solids face outward: all its closed components are turned where they are inside out together, then
-    each that is and lies in no other."""
+    """Return a mesh whose solids face outward: all its closed components are turned where they are inside out together,
+    then each that is and lies in no other."""
     vertices, faces = mesh.vertices, mesh.faces.copy()
     own, volumes, closed = _list_components(vertices, faces)
     turned = set[int](closed if sum(volumes[number] for number in closed) < 0 else ())
@@ -115,8 +115,8 @@ def _corners_of(vertices: Floats, faces: Ints) -> tuple[Floats, Floats]:
 
 
 def number_pieces(pieces: Sequence[Polytope], vertices: Floats, faces: Ints) -> tuple[FinePiece, ...]:
-    """Pieces with the region that has most of the surface at each, and its solid; region by region, in the order in
-    which these first come."""
+    """Return pieces with the region that has most of the surface at each, and its solid; region by region, in the order
+    in which these first come."""
     from scipy.spatial import cKDTree  # lazy: 0.5 s, half of all imports
 
     faces = drop_degenerate(vertices, faces)

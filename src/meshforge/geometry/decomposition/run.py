@@ -38,7 +38,7 @@ def decompose(
     note: Callable[[str], None] = lambda _: None,
     control: engines.EngineControl = UNCONTROLLED,
 ) -> list[Polytope]:
-    """Convex hulls that together approximate a mesh, in the engine's order, the same for the same input.
+    """Return convex hulls that together approximate a mesh, in the engine's order, the same for the same input.
 
     vertices (n, 3) [m], faces (m, 3); settings: CoACD's defaults when None; close: planar holes are closed first where
     that makes the mesh a solid, so it counts as filled; cache: a folder for results (see `cache_folder`), None keeps
@@ -64,7 +64,7 @@ def read_solid(
     close: bool,
     note: Callable[[str], None] = lambda _: None,
 ) -> engines.EngineJob:
-    """A mesh as an engine takes it. Raises GeometryError: one that cannot be decomposed."""
+    """Return a mesh as an engine takes it. Raises GeometryError: one that cannot be decomposed."""
     mesh = clean_triangles(vertices, faces)
     if close:
         mesh, holes = cap_holes(mesh)
@@ -80,7 +80,7 @@ def decompose_solids(
     note: Callable[[str], None] = lambda _: None,
     control: engines.EngineControl = UNCONTROLLED,
 ) -> list[list[Polytope] | GeometryError]:
-    """The convex hulls of each of some meshes, or why there are none; see `decompose`."""
+    """Return the convex hulls of each of some meshes, or why there are none; see `decompose`."""
     keys = [cache_key(*solid) if cache else "" for solid in solids]
     kept = [_read_pieces(cache, key) if cache else None for key in keys]
     new = [number for number, pieces in enumerate(kept) if pieces is None]
@@ -152,7 +152,8 @@ def _make_hulls(
 
 
 def cache_folder(environment: Mapping[str, str] = os.environ) -> Path:
-    """Where results are usually kept: `MESHFORGE_CACHE`, else `XDG_CACHE_HOME/meshforge`, else `~/.cache/meshforge`."""
+    """Return where results are usually kept: `MESHFORGE_CACHE`, else `XDG_CACHE_HOME/meshforge`, else
+    `~/.cache/meshforge`."""
     if own := environment.get("MESHFORGE_CACHE"):
         return Path(own)
     base = environment.get("XDG_CACHE_HOME")
@@ -160,14 +161,14 @@ def cache_folder(environment: Mapping[str, str] = os.environ) -> Path:
 
 
 def cache_key(mesh: TriangleMesh, settings: engines.DecomposeSettings) -> str:
-    """A digest of geometry, settings, engine and its version."""
+    """Return a digest of geometry, settings, engine and its version."""
     wheel = version(settings.package)
     header = json.dumps([settings.engine, wheel, settings.as_engine_options(), mesh.vertices.shape], sort_keys=True)
     return hashlib.blake2b(header.encode() + mesh.vertices.tobytes() + mesh.faces.tobytes(), digest_size=20).hexdigest()
 
 
 def read_entry(folder: Path, key: str) -> bytes | None:
-    """What is kept under a key, as it was written; None where there is no entry, or one that is damaged."""
+    """Return what is kept under a key, as it was written; None where there is no entry, or one that is damaged."""
     try:
         content = (folder / "decompositions" / f"{key}.npz").read_bytes()
     except OSError:

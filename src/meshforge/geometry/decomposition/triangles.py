@@ -46,7 +46,7 @@ class TriangleMesh:
 
 
 def clean_triangles(vertices: Any, faces: Any) -> TriangleMesh:
-    """The triangles with equal vertices welded and collapsed triangles dropped.
+    """Return the triangles with equal vertices welded and collapsed triangles dropped.
 
     Raises GeometryError: nothing to decompose, a coordinate that is not finite, an index out of range, a flat mesh.
     """
@@ -73,7 +73,8 @@ def _refuse_flat(points: Floats, any_triangle: bool) -> None:
 
 
 def cap_holes(mesh: TriangleMesh, rough: float = 0.0) -> tuple[TriangleMesh, int]:
-    """The mesh with caps on its holes, and how many these were; 0 where caps on planar holes alone do not close it.
+    """Return the mesh with caps on its holes, and how many these were; 0 where caps on planar holes alone do not close
+    it.
 
     rough: of the size of a hole, how far from a plane its rim may be to count as planar. Where flat caps do not close
     the mesh, as an edge of one may be there already, holes are closed by fans around the middles of their rims.
@@ -99,7 +100,8 @@ def _make_fans(mesh: TriangleMesh, loops: list[Ints]) -> TriangleMesh:
 
 
 def volume_inside(vertices: Any, faces: Any) -> float | None:
-    """The volume [m^3] inside of triangles with their planar holes closed, None where they are open all the same."""
+    """Return the volume [m^3] inside of triangles with their planar holes closed, None where they are open all the
+    same."""
     try:
         mesh, _ = cap_holes(clean_triangles(vertices, faces))
     except GeometryError:
@@ -178,18 +180,18 @@ def _area_with_sign(outline: Floats) -> float:
 
 
 def is_sheet(vertices: Any) -> bool:
-    """Whether points (n, 3) lie in a plane."""
+    """Return whether points (n, 3) lie in a plane."""
     return not spans_volume(freeze_floats(vertices, (-1, 3)))
 
 
 def is_line(vertices: Any) -> bool:
-    """Whether points (n, 3) lie on a line, so that there are no hulls of what they span."""
+    """Return whether points (n, 3) lie on a line, so that there are no hulls of what they span."""
     points = freeze_floats(vertices, (-1, 3))
     return not spans_volume(points) and _is_narrow(principal_extents(points)[2])
 
 
 def sheet_hulls(vertices: Any, faces: Any, decompose: DecomposeSolid, name: str) -> list[Polytope]:
-    """The thin hulls of a flat surface of vertices (n, 3) [m] and faces (m, 3), 1e-4 of its length thick.
+    """Return the thin hulls of a flat surface of vertices (n, 3) [m] and faces (m, 3), 1e-4 of its length thick.
 
     decompose: what makes hulls of a solid one. Raises GeometryError naming `name` where the surface has no area.
     """
@@ -212,7 +214,6 @@ def sheet_hulls(vertices: Any, faces: Any, decompose: DecomposeSolid, name: str)
 
 
 def _is_narrow(extents: Floats) -> bool:
-    """Whether what has these extents (3,), widest first, is too narrow to be a sheet."""
     return bool(extents[1] <= FLATNESS * extents[0])
 
 

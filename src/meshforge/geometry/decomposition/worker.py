@@ -22,7 +22,7 @@ JOBS, MESH, PIECES = "jobs.json", "mesh-{}.npz", "pieces-{}.npz"
 
 
 def pack_pieces(pieces: Iterable[tuple[Any, Any]], **more: Any) -> bytes:
-    """Pieces, each vertices (n, 3) and faces (m, 3), and more arrays by name, as the content of an `.npz`."""
+    """Return pieces, each vertices (n, 3) and faces (m, 3), and more arrays by name, as the content of an `.npz`."""
     rows = [(np.asarray(v, np.float64), np.asarray(f, np.int64)) for v, f in pieces]
     buffer = io.BytesIO()
     np.savez_compressed(

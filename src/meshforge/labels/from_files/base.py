@@ -28,7 +28,7 @@ Meaning = tuple[str | None, float] | None
 
 
 def meaning_of(name: str, vocabulary: Sequence[str], patterns: Sequence[NamePattern]) -> Meaning:
-    """What a name means: by a pattern, else the label of its name, else the one whose words are in it.
+    """Return what a name means: by a pattern, else the label of its name, else the one whose words are in it.
 
     `rotation_door` means `door`; words that are only nearly those of a label do not count.
     """
@@ -41,7 +41,8 @@ def meaning_of(name: str, vocabulary: Sequence[str], patterns: Sequence[NamePatt
 
 
 def to_file_labels(found_names: Mapping[str, tuple[str, Meaning, float]], vocabulary: Sequence[str]) -> FileLabels:
-    """The labels that are said of hulls; said: by hull, its name in the file, what that means, and a confidence."""
+    """Return the labels that are said of hulls; said: by hull, its name in the file, what that means, and a
+    confidence."""
     labels, unknown = dict[str, Label](), Counter[str]()
     for hull, (name, meaning, confidence) in found_names.items():
         if meaning is None:

@@ -24,7 +24,7 @@ LabelFileKind = Literal["labels file", "points", "semantics"]
 
 
 def find_label_files(found: AssetSet, source: Path | None) -> dict[str, Path]:
-    """The file of each asset that has one; beside each asset: labels file, then points, then semantics.
+    """Return the file of each asset that has one; beside each asset: labels file, then points, then semantics.
 
     source: a file for a single asset, or a folder that mirrors the assets; None for those beside them.
     Raises UsageError: nothing there, a kind of file that says no labels, or one file for several assets.
@@ -45,7 +45,7 @@ def find_label_files(found: AssetSet, source: Path | None) -> dict[str, Path]:
 
 
 def kind_of(file: Path) -> LabelFileKind:
-    """What a file is by its name. Raises UsageError for one that says no labels."""
+    """Return what a file is by its name. Raises UsageError for one that says no labels."""
     match file.suffix.lower():
         case ".json":
             return "labels file"
@@ -58,13 +58,13 @@ def kind_of(file: Path) -> LabelFileKind:
 
 
 def label_file_beside(asset: Path) -> Path | None:
-    """The file beside an asset, None where there is none."""
+    """Return the file beside an asset, None where there is none."""
     labels = labels_beside(asset)
     return labels if labels.is_file() else points_beside(labels) or semantics_beside(asset)
 
 
 def find_file_in_mirror(place: Path, asset: Path) -> Path | None:
-    """The file in a folder of them; place: where the asset would be there, which may be where it is."""
+    """Return the file in a folder of them; place: where the asset would be there, which may be where it is."""
     labels = labels_beside(place)
     plain = (place.with_name(place.name + ".json"), labels)
     others = (place.with_suffix(suffix) for suffix in POINTS_SUFFIXES)
@@ -116,7 +116,7 @@ def read_label_files(
     patterns: Sequence[NamePattern],
     execution: ExecutionOptions,
 ) -> Iterator[tuple[str, LabelFileContent]]:
-    """What the file of each asset says, in their order, as soon as it is known; read in worker processes."""
+    """Yield what the file of each asset says, in their order, as soon as it is known; read in worker processes."""
     plain = {asset for asset, file in files.items() if kind_of(file) == "labels file"}
     layout, words, known = store.layout, tuple(vocabulary), tuple(patterns)
     work = [
@@ -166,7 +166,7 @@ def _read_by_mesh(work: _Work) -> LabelFileContent:
 def read_label_file(
     mesh: SymbolicMesh, file: Path, how: LabelFileOptions, vocabulary: Sequence[str], patterns: Sequence[NamePattern]
 ) -> FileLabels:
-    """What a file of any kind says of the hulls of an asset. Raises AssetError where it cannot be read."""
+    """Return what a file of any kind says of the hulls of an asset. Raises AssetError where it cannot be read."""
     match kind_of(file):
         case "labels file":
             return _take_labels_file(file, hull_digests(mesh))

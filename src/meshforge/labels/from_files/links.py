@@ -18,13 +18,13 @@ _REMEDY = "Each line has a link, the kind of its joint and what it is: link_0 hi
 
 
 def semantics_beside(asset: Path) -> Path | None:
-    """The file beside an asset, None where there is none."""
+    """Return the file beside an asset, None where there is none."""
     file = asset.with_name(SEMANTICS_FILE)
     return file if asset.suffix.lower() == _LINKS_SUFFIX and file.is_file() else None
 
 
 def read_semantics(path: Path) -> Mapping[str, str]:
-    """What links are, by their names, in the order of the file.
+    """Return what links are, by their names, in the order of the file.
 
     Raises AssetError with the line: it cannot be read, a line of other than three words, a link listed twice.
     """
@@ -53,7 +53,7 @@ def read_semantics(path: Path) -> Mapping[str, str]:
 def label_by_links(
     mesh: SymbolicMesh, path: Path, vocabulary: Sequence[str], patterns: Sequence[NamePattern]
 ) -> FileLabels:
-    """What a file says of the hulls of an asset.
+    """Return what a file says of the hulls of an asset.
 
     A hull whose own names say another label of the vocabulary, and that alone, is that: PartNet calls what is on a link
     by its finer parts, `handle-7` on a drawer.

@@ -26,7 +26,7 @@ _ROUNDED = 6  # digits by which planes of one flat side are told to be the same
 
 
 def read_class_names(path: Path, given: Sequence[str]) -> list[str]:
-    """The names of the classes in a file, in their order. Raises AssetError."""
+    """Return the names of the classes in a file, in their order. Raises AssetError."""
     found = read_segmentation(path)
     names = _require_names(found.classes, found.class_names(given), path)
     return list(dict.fromkeys(names[number] for number in sorted(names)))
@@ -54,7 +54,7 @@ def label_by_points(
     vocabulary: Sequence[str],
     patterns: Sequence[NamePattern],
 ) -> FileLabels:
-    """What a file says of the hulls of an asset; classes: the names of classes 0, 1, ..., or `vocabulary` alone.
+    """Return what a file says of the hulls of an asset; classes: the names of classes 0, 1, ..., or `vocabulary` alone.
 
     Raises AssetError: it cannot be read, does not lie where the asset does, or says classes that have no names.
     """
@@ -84,8 +84,8 @@ def label_by_points(
 
 
 def vote_by_points(hulls: Sequence[Shape], points: Floats, classes: Ints) -> tuple[list[tuple[int, float]], float]:
-    """The class of each hull by the points (n, 3) in it, else by those near it, which is much less sure, with its
-    confidence; and the share of points that hulls hold.
+    """Return the class of each hull by the points (n, 3) in it, else by those near it, which is much less sure, with
+    its confidence; and the share of points that hulls hold.
 
     classes: (n,); -1, of points and of hulls, is none. Of classes with as many points the lowest counts.
     """

@@ -45,7 +45,7 @@ class NamePattern:
 
 
 def pattern_of(text: str, label: str) -> NamePattern:
-    """A pattern. Raises UsageError for a regular expression that is none."""
+    """Return a pattern. Raises UsageError for a regular expression that is none."""
     is_expression = len(text) > 1 and text.startswith("/") and text.endswith("/")
     try:
         expression = re.compile(text[1:-1] if is_expression else rf"\A{translate(text)}", re.IGNORECASE)
@@ -55,7 +55,7 @@ def pattern_of(text: str, label: str) -> NamePattern:
 
 
 def find_pattern(name: str, patterns: Iterable[NamePattern]) -> NamePattern | None:
-    """The first pattern that fits a name."""
+    """Return the first pattern that fits a name."""
     return next((pattern for pattern in patterns if pattern.matches(name)), None)
 
 
@@ -73,12 +73,12 @@ class HullNames:
         return self.hull.removeprefix(f"{self.body}/")
 
     def own_names(self) -> Iterator[tuple[str, str]]:
-        """The kinds and the names that are its own, not its body's."""
+        """Yield the kinds and the names that are its own, not its body's."""
         yield _HULL, self.own
         yield from ((kind, name) for kind, name in self.mentions if kind in _OWN)
 
     def all_names(self) -> Iterator[tuple[str, str]]:
-        """The kinds and the names, what is most its own first; a body that has no real name is left out."""
+        """Yield the kinds and the names, what is most its own first; a body that has no real name is left out."""
         yield from self.own_names()
         if self.body != NAMELESS:
             yield "body", self.body
@@ -98,7 +98,7 @@ class NameMatch:
 
 
 def match_names(names: HullNames, vocabulary: Sequence[str], patterns: Sequence[NamePattern] = ()) -> NameMatch | None:
-    """What the names of a hull say, None where they say nothing.
+    """Return what the names of a hull say, None where they say nothing.
 
     Patterns come first, then words; each name of the hull is asked in turn, its own first.
     """
@@ -135,7 +135,7 @@ PatternPairs = Sequence[tuple[str, str]]
 def name_patterns(
     folder: Path, settings: Settings, vocabulary: Sequence[str], more: PatternPairs = ()
 ) -> tuple[NamePattern, ...]:
-    """The patterns of the project in a folder; more: others, which come first.
+    """Return the patterns of the project in a folder; more: others, which come first.
 
     Raises UsageError: a label that is not in the vocabulary, or a regular expression that is none.
     """
@@ -193,16 +193,16 @@ def _reason_of(names: HullNames, one: NameMatch | None) -> LabelReason:
 
 
 def to_label(one: NameMatch) -> Label | None:
-    """The label that names say, None where a pattern leaves the hull without one."""
+    """Return the label that names say, None where a pattern leaves the hull without one."""
     return Label(one.label, one.confidence, "name") if one.label else None
 
 
 def names_of_mesh(mesh: SymbolicMesh) -> Iterator[HullNames]:
-    """The names of each hull of a mesh."""
+    """Return the names of each hull of a mesh."""
     mentions = {geom.name: geom.mentions for geom in mesh.asset.geoms} if mesh.asset else {}
     return (HullNames(hull.name, hull.body, mentions.get(hull.name, ())) for hull in mesh.hulls)
 
 
 def names_of_facts(facts: AssetFacts) -> Iterator[HullNames]:
-    """The names of each hull of an asset, from its facts."""
+    """Return the names of each hull of an asset, from its facts."""
     return map(HullNames, facts.hulls, facts.bodies, facts.mentions)

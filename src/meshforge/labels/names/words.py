@@ -21,7 +21,7 @@ _LONG = 6  # letters of a word in which any one letter may be wrong; in shorter 
 
 
 def words_of(name: str) -> Words:
-    """The words in a name, in lower case: `leftDoor_2` and `left-door` have two, `URDFLink` too."""
+    """Return the words in a name, in lower case: `leftDoor_2` and `left-door` have two, `URDFLink` too."""
     spaced = "".join(
         f" {here}" if here.isupper() and (not before.isupper() or after.islower()) else here if here.isalpha() else " "
         for before, here, after in zip(f" {name}", name, f"{name[1:]} ", strict=False)
@@ -30,7 +30,7 @@ def words_of(name: str) -> Words:
 
 
 def forms(word: str) -> set[str]:
-    """What a word may be in the singular: `shelves` is one shelf, or one shelve."""
+    """Return what a word may be in the singular: `shelves` is one shelf, or one shelve."""
     found = {word, word.removesuffix("s"), word.removesuffix("es")}
     if word.endswith("ves"):
         found |= {f"{word[:-3]}f", f"{word[:-3]}fe"}
@@ -40,34 +40,34 @@ def forms(word: str) -> set[str]:
 
 
 def is_one_of(word: str, words: Container[str]) -> bool:
-    """Whether a word is one of some, be it in the plural."""
+    """Return whether a word is one of some, be it in the plural."""
     return any(form in words for form in forms(word))
 
 
 def is_same(one: str, other: str) -> bool:
-    """Whether two words are the same, be it in the plural."""
+    """Return whether two words are the same, be it in the plural."""
     return not forms(one).isdisjoint(forms(other))
 
 
 def common() -> frozenset[str]:
-    """Words that are often in names of things and mean just what they say."""
+    """Return words that are often in names of things and mean just what they say."""
     return _read_words("common.txt")
 
 
 @cache
 def fillers() -> frozenset[str]:
-    """Words that say nothing of what a thing is, or only which one."""
+    """Return words that say nothing of what a thing is, or only which one."""
     return _read_words("fillers.txt") | places()
 
 
 @cache
 def dictionary() -> frozenset[str]:
-    """All these words."""
+    """Return all these words."""
     return common() | fillers()
 
 
 def places() -> frozenset[str]:
-    """Words that tell which one as often as what: `drawer_top` is a drawer, `table_top` a top."""
+    """Return words that tell which one as often as what: `drawer_top` is a drawer, `table_top` a top."""
     return _read_words("places.txt")
 
 
@@ -77,7 +77,7 @@ def _read_words(file: str) -> frozenset[str]:
 
 
 def split_joined_word(word: str, more: Collection[str]) -> Words:
-    """A word that is several words joined, `kettlehandle`, as these, the fewest; any other as it is.
+    """Return a word that is several words joined, `kettlehandle`, as these, the fewest; any other as it is.
 
     more: words besides the known ones. Parts have three letters at least.
     """
@@ -95,7 +95,7 @@ def split_joined_word(word: str, more: Collection[str]) -> Words:
 
 
 def word_similarity(word: str, meant: str) -> float:
-    """How surely one word stands for another, 0 where it does not. Common words stand for themselves alone."""
+    """Return how surely one word stands for another, 0 where it does not. Common words stand for themselves alone."""
     if is_same(word, meant):
         return EXACT
     if (
@@ -177,7 +177,7 @@ class _Mention:
 
 
 def match_label(name: str, vocabulary: Sequence[str]) -> LabelInName | None:
-    """The label that a name says, None where it says none, or several as surely.
+    """Return the label that a name says, None where it says none, or several as surely.
 
     The words of a label may be in the plural, shortened or misspelt, or joined with others: the last thing in a name
     is what it names, `drawer_handle` is a handle.
@@ -187,7 +187,6 @@ def match_label(name: str, vocabulary: Sequence[str]) -> LabelInName | None:
 
 @lru_cache(maxsize=1 << 14)
 def _match_words(spoken: Words, vocabulary: tuple[str, ...]) -> LabelInName | None:
-    """The same of the words of a name, of which there are far fewer than names."""
     known = {label: words_of(label) for label in vocabulary}
     parts = {word for own in known.values() for word in own}
     words = tuple(part for word in _put_thing_last(spoken) for part in _split_word(word, parts))
@@ -241,5 +240,4 @@ def _outdoes(one: _Mention, other: _Mention) -> bool:
 
 
 def _are_all(words: Words, kind: Container[str]) -> bool:
-    """Whether words are all of a kind, be it in the plural."""
     return all(is_one_of(word, kind) for word in words)

@@ -127,7 +127,6 @@ class VlmLabeler(Labeler):
 
 
 def _read_answers(store: Store, client: Client, drawn: _AssetQuestions, pending: OpenAnswers) -> AssetLabels | None:
-    """The labels of an asset when all its answers are there; None where asking ended before any."""
     if drawn.error:
         return AssetLabels(drawn.asset, error=drawn.error)
     answers, end = pending.result(), client.end

@@ -97,7 +97,6 @@ class PromptConfig:
 
 
 def _task_message(config: PromptConfig, up: str, repeat: int) -> Message:
-    """What the task is; up: the axis that points up, as `+Z`."""
     words, known, about = config.words(repeat), config.settings.descriptions, config.settings.about
     labels = [f"- {word}: {_to_line(known[word])}" if word in known else f"- {word}" for word in words]
     about = f". The objects are: {_to_line(about)}" if about else ""
@@ -139,7 +138,6 @@ def example_messages(mesh: SymbolicMesh, config: PromptConfig) -> tuple[Message,
 
 
 def _number_hulls(mesh: SymbolicMesh, hulls: Sequence[str], shots: Sequence[LabelingPicture]) -> dict[int, str]:
-    """Those of some hulls, in the order of the mesh, that have their number in a picture."""
     return {mesh.index[hull]: hull for hull in hulls if any(hull in shot.numbered for shot in shots)}
 
 

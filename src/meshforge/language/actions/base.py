@@ -29,16 +29,16 @@ class Action(Operation, ABC):
     """Its picture in the studio."""
 
     def groups(self, mesh: SymbolicMesh, mask: int) -> list[int]:
-        """The parts of a selection that are edited one by one, as bit sets."""
+        """Return the parts of a selection that are edited one by one, as bit sets."""
         return split_by_body(mesh, mask) if self.by_body else [mask] if mask else []
 
     def note_on(self, mesh: SymbolicMesh, mask: int) -> str | None:
-        """What a user should know of acting on a selection, besides the notes on its parts."""
+        """Return what a user should know of acting on a selection, besides the notes on its parts."""
         return None
 
     @abstractmethod
     def edit(self, group: HullGroup) -> GroupEdit:
-        """What becomes of one group of at least one hull. Raises ProgramError for a missing template."""
+        """Return what becomes of one group of at least one hull. Raises ProgramError for a missing template."""
 
     @property
     def makes_hulls(self) -> bool:
@@ -57,11 +57,11 @@ class Action(Operation, ABC):
 
     @classmethod
     def title(cls) -> str:
-        """What it does to a selection, as a command in the studio."""
+        """Return what it does to a selection, as a command in the studio."""
         return f"{cls.__name__} the selection"
 
     def phrase(self, whose: str) -> str:
-        """What is done, in words after "is" or "are": `merged into one convex hull`; whose: "its" or "their"."""
+        """Return what is done, in words after "is" or "are": `merged into one convex hull`; whose: "its" or "their"."""
         return f"edited by {self}"
 
 

@@ -82,7 +82,7 @@ class GroupEdit:
     note: str | None = None
 
     def replaces_one(self, made: NewShape) -> bool:
-        """Whether a made shape takes the place of one hull alone."""
+        """Return whether a made shape takes the place of one hull alone."""
         return (
             self.removes
             and len(made.sources) == 1
@@ -93,7 +93,7 @@ class GroupEdit:
     def insert(
         shapes: tuple[Shape, ...], group: HullGroup, *, removes: bool = True, note: str | None = None
     ) -> GroupEdit:
-        """The edit that puts shapes made from the whole group into the mesh."""
+        """Return the edit that puts shapes made from the whole group into the mesh."""
         return GroupEdit(tuple(NewShape(shape, group.largest, group.hulls) for shape in shapes), removes, note)
 
 
@@ -124,7 +124,7 @@ class Template:
 
 
 def check_templates(wanted: Iterable[str], templates: Mapping[str, Template]) -> None:
-    """Raises ProgramError naming the first wanted template that is not among those given."""
+    """Raise ProgramError naming the first wanted template that is not among those given."""
     for name in wanted:
         if name not in templates:
             known = ", ".join(sorted(templates)) or "none"

@@ -88,7 +88,7 @@ class Replace(Action):
 
 
 def fit_primitive(group: HullGroup, action: Replace) -> Shape:
-    """The primitive that replaces a group."""
+    """Return the primitive that replaces a group."""
     shapes, bounds, primitive = [hull.shape for hull in group.hulls], group.bounds, action.geometry
     axis = _choose_axis(shapes, bounds, action)
     if action.radius is not None:
@@ -156,7 +156,7 @@ def _note_on_fit(group: HullGroup, action: Replace, made: Shape) -> str | None:
 
 
 def fit_template(group: HullGroup, name: str, *, turned: bool) -> tuple[Shape, ...]:
-    """The shapes of a template, its bounding box mapped onto that of the group, axis by axis.
+    """Return the shapes of a template, its bounding box mapped onto that of the group, axis by axis.
 
     turned: whether its longest axis is first turned onto that of the group.
     """

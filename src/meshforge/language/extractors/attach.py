@@ -48,7 +48,6 @@ class Attach(Leaf):
 
 
 def _find_touching(hulls: HullTable, anchor: Bools) -> Bools:
-    """The hulls in contact with one of the anchor; no hull touches itself."""
     found = np.zeros_like(anchor)
     for here, there in ((0, 1), (1, 0)):
         found[hulls.contacts[anchor[hulls.contacts[:, there]], here]] = True

@@ -33,7 +33,6 @@ class _Selector:
         return Diff(_as_extractor(self), other)
 
     def select(self, mesh: SymbolicMesh, extremity: float = EXTREMITY) -> frozenset[int]:
-        """Indices of the hulls selected in the mesh, in the frame it is in."""
         return select(_as_extractor(self), mesh, extremity)
 
 
@@ -60,7 +59,7 @@ class Leaf(_Selector, Operation, ABC):
 
     @abstractmethod
     def mask(self, hulls: HullTable, *bases: Bools) -> Bools:
-        """Which hulls it selects (hulls,); bases: what each of its base extractors selects.
+        """Return which hulls it selects (hulls,); bases: what each of its base extractors selects.
 
         What is built in gets the hulls of many meshes side by side, and keeps them apart by `hulls.owner`; a leaf of a
         plug-in those of one mesh.
@@ -74,7 +73,7 @@ class Leaf(_Selector, Operation, ABC):
 
     @classmethod
     def enumerate(cls: type[L], candidates: Candidates) -> Iterator[L]:
-        """The leaves of this kind that a search may use: none, where only people write it."""
+        """Yield the leaves of this kind that a search may use: none, where only people write it."""
         yield from ()
 
     @property
@@ -105,7 +104,7 @@ class Leaf(_Selector, Operation, ABC):
         return (*own, *(label for base in self.bases for label in base.labels))
 
     def rename(self: L, old: str, new: str) -> L:
-        """The same with a label by another name."""
+        """Return the same with a label by another name."""
         given = {name: (kind, getattr(self, name)) for name, kind in self.arguments().items()}
         changed: dict[str, Any] = {
             name: value.rename(old, new) if isinstance(value, BaseExtractor) else new
@@ -121,7 +120,7 @@ class BaseExtractor(Leaf):
     __slots__ = ()
 
     def one(self, *, other: bool) -> str:
-        """One of its hulls, in words; other: one besides the hull that is spoken of."""
+        """Return one of its hulls, in words; other: one besides the hull that is spoken of."""
         return f"{'another' if other else 'one'} of {self.phrase}"
 
 
@@ -198,24 +197,25 @@ def _as_extractor(node: _Selector) -> Extractor:
 
 
 def select(extractor: Extractor, mesh: SymbolicMesh, extremity: float = EXTREMITY) -> frozenset[int]:
-    """Indices of the hulls that an extractor selects, in the frame the mesh is in."""
+    """Return indices of the hulls that an extractor selects, in the frame the mesh is in."""
     return bits_of(select_mask(extractor, mesh, extremity))
 
 
 def select_mask(
     extractor: Extractor, mesh: SymbolicMesh, extremity: float = EXTREMITY, labels: Sequence[str | None] | None = None
 ) -> int:
-    """The selection as a bit set. labels: of the hulls, in place of those that they have."""
+    """Return the selection as a bit set. labels: of the hulls, in place of those that they have."""
     return to_bits(select_hulls(extractor, HullTable([mesh], labels, extremity)))
 
 
 def to_bits(selected: Bools) -> int:
-    """The selection of some hulls (hulls,) as a bit set."""
+    """Return the selection of some hulls (hulls,) as a bit set."""
     return int.from_bytes(np.packbits(selected, bitorder="little").tobytes(), "little")
 
 
 def select_hulls(extractor: Extractor, hulls: HullTable) -> Bools:
-    """Which of the hulls of some meshes an extractor selects (hulls,); of the same table each leaf is asked once.
+    """Return which of the hulls of some meshes an extractor selects (hulls,); of the same table each leaf is asked
+    once.
 
     Raises PluginError for what a leaf of a plug-in does wrong.
     """
@@ -249,7 +249,7 @@ def _select_by_leaf(leaf: Leaf, hulls: HullTable) -> Bools:
 
 
 def size_of(extractor: Extractor) -> int:
-    """The number of syntax nodes: All, Is 1; Geo 2; Attach 3; set operators 1 and both operands."""
+    """Return the number of syntax nodes: All, Is 1; Geo 2; Attach 3; set operators 1 and both operands."""
     match extractor:
         case Leaf():
             return extractor.size
@@ -260,7 +260,7 @@ def size_of(extractor: Extractor) -> int:
 
 
 def leaves_of(extractor: Extractor) -> Iterator[Leaf]:
-    """The leaves between the set operators, from left to right."""
+    """Yield the leaves between the set operators, from left to right."""
     match extractor:
         case Leaf():
             yield extractor
@@ -272,12 +272,12 @@ def leaves_of(extractor: Extractor) -> Iterator[Leaf]:
 
 
 def labels_of(extractor: Extractor) -> tuple[str, ...]:
-    """The labels an extractor asks for, each once, in order of mention."""
+    """Return the labels an extractor asks for, each once, in order of mention."""
     return tuple(dict.fromkeys(label for leaf in leaves_of(extractor) for label in leaf.labels))
 
 
 def rename_in_extractor(node: Extractor, old: str, new: str) -> Extractor:
-    """An extractor that asks for the label `new` wherever it asked for `old`."""
+    """Return an extractor that asks for the label `new` wherever it asked for `old`."""
     match node:
         case Leaf():
             return node.rename(old, new)

@@ -31,7 +31,7 @@ _FLAT = 0.3  # up is drawn as a ring when it is seen this short, as seen along i
 
 
 def draw_surfaces(hits: RayHits, colors: Floats, view_frame: ViewFrame, camera: Camera) -> PagePixels:
-    """What the pixels show; colors: (k, 3), sRGB in 0..1, of the scene's things."""
+    """Return what the pixels show; colors: (k, 3), sRGB in 0..1, of the scene's things."""
     scene = hits.scene
     height, width = hits.item.shape
     page = np.full((height, width), 0xFFFFFFFF, np.uint32)
@@ -44,7 +44,8 @@ def draw_surfaces(hits: RayHits, colors: Floats, view_frame: ViewFrame, camera: 
 
 
 def trace_ink(hits: RayHits, width: int, steps: Any = None, smooth: Any = None) -> LineStrengths:
-    """How much of each pixel (h, w) the lines of a drawing cover, of 255; lines are `width` pixels wide and soft.
+    """Return how much of each pixel (h, w) the lines of a drawing cover, of 255; lines are `width` pixels wide and
+    soft.
 
     steps: pixels (h, w) that are on a line besides; smooth: which things (k,) show no creases.
     """
@@ -66,7 +67,7 @@ def trace_ink(hits: RayHits, width: int, steps: Any = None, smooth: Any = None) 
 
 
 def lay_ink(page: PagePixels, share: LineStrengths, strength: float = 1.0) -> None:
-    """Lays ink over a page, as much of it as `share` (h, w) of 255 says."""
+    """Lay ink over a page, as much of it as `share` (h, w) of 255 says."""
     at = np.flatnonzero(share)
     flat: Any = page.reshape(-1, 4)
     part = share.ravel()[at, None] * np.float32(strength / 255)
@@ -75,7 +76,7 @@ def lay_ink(page: PagePixels, share: LineStrengths, strength: float = 1.0) -> No
 
 
 def to_square_image(page: PagePixels, size: int, top: int) -> Image:
-    """A page as a square picture, `top` pixels below its upper edge."""
+    """Return a page as a square picture, `top` pixels below its upper edge."""
     from PIL import Image  # lazy: 0.01 s, only pictures need it
 
     whole = np.full((size, size, 4), 255, np.uint8)
@@ -84,7 +85,7 @@ def to_square_image(page: PagePixels, size: int, top: int) -> Image:
 
 
 def number_sizes(texts: Mapping[int, str], size: int) -> dict[int, dict[int, TextSize]]:
-    """The room that each number takes, for the two heights [px] it may be written in."""
+    """Return the room that each number takes, for the two heights [px] it may be written in."""
     share = 0.0265 if len(texts) <= 45 else 0.0225 if len(texts) <= 90 else 0.019
     heights = [max(11, round(part * share * size)) for part in (1.0, 0.8)]
     return {
@@ -94,12 +95,12 @@ def number_sizes(texts: Mapping[int, str], size: int) -> dict[int, dict[int, Tex
 
 
 def head_height(size: int) -> int:
-    """The height of the line along the top [px]."""
+    """Return the height of the line along the top [px]."""
     return round(0.045 * size)
 
 
 def draw_head(draw: Any, size: int, name: str, camera: Camera, upright: Floats) -> None:
-    """Writes along the top what is seen, and draws at its end where up is."""
+    """Write along the top what is seen, and draws at its end where up is."""
     middle = head_height(size) / 2
     big, small = max(11, round(0.021 * size)), max(10, round(0.017 * size))
     _draw_up_arrow(draw, camera, upright, (size - 0.03 * size, middle), size, small)
@@ -140,7 +141,7 @@ class NumberLegend:
         self.height = round(rows * self._row + 0.01 * size)
 
     def draw(self, draw: Any, items: Sequence[int], colors: Floats) -> None:
-        """Lists some of the hulls."""
+        """List some of the hulls."""
         box = 0.75 * self._small
         for k, item in enumerate(items):
             x = 0.015 * self._size + k % self._columns * self._cell

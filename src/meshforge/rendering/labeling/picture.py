@@ -64,7 +64,7 @@ class LabelingCanvas:
         return self.size, self.size - page.head_height(self.size) - self._legend.height
 
     def draw(self, arrangement: Arrangement, view: View) -> LabelingPicture:
-        """The picture of an arrangement from one side."""
+        """Return the picture of an arrangement from one side."""
         from PIL import ImageDraw  # lazy: 0.01 s, only pictures need it
 
         subject, top = self.subject, page.head_height(self.size)
@@ -104,7 +104,6 @@ class LabelingCanvas:
 
     @property
     def _line_width(self) -> int:
-        """How wide lines are [px]."""
         return max(2, round(self.size / 512))
 
     def _draw_page(
@@ -179,7 +178,8 @@ def _end_points(arrangement: Arrangement, camera: Camera) -> tuple[Floats, Float
 
 
 def draw_inset(arrangement: Arrangement, view: View, size: int) -> Image:
-    """The whole mesh, pale, the hulls that an arrangement is about shining through, and a frame about what it shows.
+    """Return the whole mesh, pale, the hulls that an arrangement is about shining through, and a frame about what it
+    shows.
 
     size: pixels along the sides of the picture that it is put on.
     """
@@ -204,7 +204,7 @@ def draw_inset(arrangement: Arrangement, view: View, size: int) -> Image:
 
 
 def find_free_corner(items: Ints, side: int) -> tuple[int, int]:
-    """Column and row where a square of `side` pixels in a corner of a picture (h, w) covers fewest hulls."""
+    """Return column and row where a square of `side` pixels in a corner of a picture (h, w) covers fewest hulls."""
     height, width = items.shape
     corners = [(column, row) for row in (0, height - side) for column in (width - side, 0)]
     return min(corners, key=lambda at: int((items[at[1] : at[1] + side, at[0] : at[0] + side] >= 0).sum()))

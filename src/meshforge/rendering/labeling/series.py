@@ -127,7 +127,7 @@ class _PictureSeries:
 
 
 def propose_arrangements(subject: LabelingSubject, left: Sequence[int]) -> Iterator[tuple[Arrangement, float]]:
-    """Ways to show hulls that are left, and how much each is liked."""
+    """Yield ways to show hulls that are left, and how much each is liked."""
     group = tuple(_group_near(subject, left))
     near = _close_up_frame(subject, group)
     every = tuple(range(len(subject.render_meshes)))
@@ -141,7 +141,7 @@ def propose_arrangements(subject: LabelingSubject, left: Sequence[int]) -> Itera
 
 
 def isolate_hull(subject: LabelingSubject, hull: int) -> Arrangement:
-    """One hull, as large as a picture can hold it."""
+    """Return one hull, as large as a picture can hold it."""
     frame = subject.points_of([hull])
     small = Aabb.of_points(frame).diagonal < _CLOSE * subject.diagonal
     return Arrangement(subject, (hull,), frame, close=(hull,) if small else ())
@@ -150,7 +150,7 @@ def isolate_hull(subject: LabelingSubject, hull: int) -> Arrangement:
 def choose_best(
     choices: Sequence[tuple[Arrangement, float]], left: Sequence[int], least: float, shape: float
 ) -> tuple[Arrangement, View]:
-    """The arrangement, and the view of it, that shows hulls best that are left."""
+    """Return the arrangement, and the view of it, that shows hulls best that are left."""
     values: list[tuple[float, int, View]] = []
     for k, (arrangement, liked) in enumerate(choices):
         for view in VIEW_PREFERENCES:

@@ -101,7 +101,7 @@ class LabelingSubject:
         return ViewFrame(Aabb.of_points(self.points), up_vector(self.up))
 
     def visual_scene(self, view_frame: ViewFrame) -> RayScene:
-        """The visual mesh, ready to be drawn in a frame."""
+        """Return the visual mesh, ready to be drawn in a frame."""
         return self._whole_visual_scene if view_frame is self.view_frame else self._build_visual_scene(view_frame)
 
     @cached_property
@@ -112,7 +112,7 @@ class LabelingSubject:
         return prepare_for_rays(build_scene(self.visuals[0], view_frame.bounds.center, view_frame.unit), None)
 
     def points_of(self, hulls: Sequence[int]) -> Floats:
-        """The corners (n, 3) [m] of some hulls."""
+        """Return the corners (n, 3) [m] of some hulls."""
         return np.concatenate([self.render_meshes[k].vertices for k in hulls])
 
     @cached_property
@@ -137,17 +137,17 @@ class Arrangement:
 
     @staticmethod
     def in_place(subject: LabelingSubject) -> Arrangement:
-        """All hulls in their places."""
+        """Return all hulls in their places."""
         return Arrangement(subject, tuple(range(len(subject.render_meshes))), subject.points)
 
     @staticmethod
     def explode(subject: LabelingSubject, push: float) -> Arrangement:
-        """All hulls, pushed away from the middle of all."""
+        """Return all hulls, pushed away from the middle of all."""
         moved = Arrangement(subject, tuple(range(len(subject.render_meshes))), subject.points, push)
         return replace(moved, frame=np.concatenate([s.vertices for s in moved.render_meshes]))
 
     def describe(self, view: View) -> str:
-        """What a picture from there shows, in words."""
+        """Return what a picture from there shows, in words."""
         words = VIEW_WORDS[view]
         if self.push:
             return f"{words}, drawn apart"
@@ -175,22 +175,22 @@ class Arrangement:
         return aim_camera(view, self.subject.up, size, self.view_frame.to_unit(self.frame), _MARGIN)
 
     def preview(self, view: View, shape: float = 1.0) -> ViewPreview:
-        """What a small picture, `shape` times as high as wide, shows of each hull (n,)."""
+        """Return what a small picture, `shape` times as high as wide, shows of each hull (n,)."""
         size = PREVIEW_SIZE, max(1, round(PREVIEW_SIZE * shape))
         hits = cast_rays(self._preview_scene, self.camera(view, size), (slice(0, size[0]), slice(0, size[1])))
         return ViewPreview.of(self.hull_pixels(hits), len(self.render_meshes))
 
     def cast_solid(self, camera: Camera) -> RayHits:
-        """What the pixels show of the hulls that are drawn in full."""
+        """Return what the pixels show of the hulls that are drawn in full."""
         return cast_rays(self._solid_scene, camera)
 
     def cast_faint(self, camera: Camera) -> RayHits | None:
-        """What the pixels show of the faint hulls and of what is no hull, None where there is neither."""
+        """Return what the pixels show of the faint hulls and of what is no hull, None where there is neither."""
         scene = self._faint_scene
         return raycast.cast_rays_adaptively(scene, camera) if len(scene.corners) else None
 
     def cast_visual(self, camera: Camera) -> tuple[RayHits, Any] | None:
-        """What the pixels show of the visual mesh, and where a part of it steps back behind another (h, w).
+        """Return what the pixels show of the visual mesh, and where a part of it steps back behind another (h, w).
 
         None where there is no visual mesh, where the hulls are not in their places, and from close up where some are
         drawn alone: what is around them would hide all.
@@ -201,7 +201,7 @@ class Arrangement:
         return raycast.cast_rays_with_steps(self.subject.visual_scene(self.view_frame), camera)
 
     def hull_pixels(self, hits: RayHits) -> Ints:
-        """The index of the hull that each pixel (h, w) shows in full, -1 for none."""
+        """Return the index of the hull that each pixel (h, w) shows in full, -1 for none."""
         whole = len(self.solid) == len(self.render_meshes)
         return hits.item if whole else np.append(np.array(self.solid, np.int64), -1)[hits.item]
 

@@ -39,7 +39,7 @@ _WORTHLESS = 0.05  # a view that adds less than this a hull is not drawn
 
 
 def outermost_points(points: Floats, up: Up) -> Floats:
-    """Those of points (n, 3) that are the outermost in a picture from some view."""
+    """Return those of points (n, 3) that are the outermost in a picture from some view."""
     along = np.concatenate([axes_of(view, up)[:2] for view in VIEW_WORDS]) @ points.T
     kept: Floats = points[np.unique(np.concatenate([along.argmin(axis=1), along.argmax(axis=1)]))]
     return kept
@@ -54,7 +54,7 @@ class ViewPreview:
 
     @staticmethod
     def of(items: Ints, count: int) -> ViewPreview:
-        """What pixels (h, w) show of `count` hulls."""
+        """Return what pixels (h, w) show of `count` hulls."""
         inner = items >= 0
         for axis in (0, 1):
             for here, there in (neighbour_slices(axis), neighbour_slices(axis)[::-1]):
@@ -62,13 +62,14 @@ class ViewPreview:
         return ViewPreview(*(np.bincount(items[mask], minlength=count) / items.size for mask in (items >= 0, inner)))
 
     def quality(self, least: float) -> Floats:
-        """How well each hull is seen (n,), from 0 to 1; not at all below a share of `least`."""
+        """Return how well each hull is seen (n,), from 0 to 1; not at all below a share of `least`."""
         wide, deep = (np.sqrt(np.minimum(part / _WELL, 1)) for part in (self.shares, self.inner))
         return np.where(self.shares >= least, 0.2 + 0.3 * wide + 0.5 * deep, 0.0)
 
 
 def choose_views(quality: Mapping[View, Floats], most: int) -> list[View]:
-    """At most so many views, the most telling first; quality: how well each shows each hull (n,), from 0 to 1."""
+    """Return at most so many views, the most telling first; quality: how well each shows each hull (n,), from 0 to
+    1."""
     taken: list[View] = []
     while len(taken) < min(most, len(quality)):
         before = _value_of(taken, quality)

@@ -160,7 +160,7 @@ CurrentSession = Annotated[Session, Depends(_get_session)]
 
 
 def packet_response(data: bytes) -> Response:
-    """A packet of shapes, which pages fetch anew each time."""
+    """Return a packet of shapes, which pages fetch anew each time."""
     return Response(data, media_type="application/octet-stream", headers={"Cache-Control": "no-store"})
 
 

@@ -44,44 +44,44 @@ _CACHE_FOREVER = {"Cache-Control": "private, max-age=31536000, immutable"}
 
 @router.get("/api/asset")
 def get_asset(session: CurrentSession, asset: str) -> AssetView:
-    """An asset with its steps."""
+    """Return an asset with its steps."""
     return assets.build_asset_view(session.project, asset, session.mesh(asset))
 
 
 @router.get("/api/shapes")
 def get_shapes(session: CurrentSession, asset: str) -> Response:
-    """The hulls and non-convex pieces of an asset."""
+    """Return the hulls and non-convex pieces of an asset."""
     return packet_response(packets.pack_asset(session.mesh(asset)))
 
 
 @router.get("/api/visual")
 def get_visual(session: CurrentSession, asset: str) -> Response:
-    """The visual surfaces of an asset."""
+    """Return the visual surfaces of an asset."""
     return packet_response(packets.pack_visual(session.mesh(asset)))
 
 
 @router.get("/api/stage")
 def get_stage(session: CurrentSession, asset: str, steps: int) -> Response:
-    """An asset after some of its steps."""
+    """Return an asset after some of its steps."""
     return packet_response(packets.preview_steps(session.project, asset, session.mesh(asset), steps))
 
 
 @router.post("/api/preview")
 def preview(session: CurrentSession, request: requests.PreviewRequest) -> Response:
-    """What one more action would do."""
+    """Return what one more action would do."""
     return packet_response(packets.preview_action(session.project, request.asset, session.mesh(request.asset), request))
 
 
 @router.post("/api/select")
 def select(session: CurrentSession, request: requests.SelectRequest) -> SelectionView:
-    """What an extractor selects on an asset."""
+    """Return what an extractor selects on an asset."""
     program = None if request.rule is None else session.present_program
     return programs.select_hulls(session.project, request.asset, session.mesh(request.asset), request, program)
 
 
 @router.post("/api/similar")
 def find_similar(session: CurrentSession, request: requests.SimilarRequest) -> requests.SimilarView:
-    """Which hulls look like some."""
+    """Return which hulls look like some."""
     session.check_assets(*(one.asset for one in request.hulls), *(request.assets or ()))
     return session.similar.find(session.project, session.pages.with_hulls, request)
 
@@ -95,27 +95,27 @@ def prepare_similar(session: CurrentSession) -> requests.EditReceipt:
 
 @router.post("/api/generalise")
 def generalise(session: CurrentSession, extractor: BodyText, rule: Annotated[int, Body()] = 1) -> CoverageView:
-    """What an extractor selects on all assets."""
+    """Return what an extractor selects on all assets."""
     return wait_for(session.learning.generalise(extractor, rule))
 
 
 @router.get("/api/result")
 def get_result(session: CurrentSession, asset: str, of: Literal["program", "output"]) -> Response:
-    """What the program makes of an asset, or the output that was written."""
+    """Return what the program makes of an asset, or the output that was written."""
     program = session.project.program() if of == "program" else None
     return packet_response(packets.preview_result(session.project, asset, session.mesh(asset), of, program))
 
 
 @router.get("/api/guesses")
 def get_guesses(session: CurrentSession, asset: str) -> tuple[Guess, ...]:
-    """What the program would select for each rule."""
+    """Return what the program would select for each rule."""
     mesh, program = session.mesh(asset), session.present_program
     return programs.guess_selections(session.project, asset, mesh, program) if program else ()
 
 
 @router.get("/api/thumbnail")
 async def get_thumbnail(session: CurrentSession, asset: str, of: ThumbnailOf, v: str) -> Response:
-    """The thumbnail of an asset or of its output; v: the digest on its card."""
+    """Return the thumbnail of an asset or of its output; v: the digest on its card."""
     session.check_assets(asset)
     if not (v.isalnum() and v.isascii() and len(v) == 32):
         raise NotHereError("there is no such picture", where=asset)
@@ -127,14 +127,14 @@ async def get_thumbnail(session: CurrentSession, asset: str, of: ThumbnailOf, v:
 def get_picture(
     session: CurrentSession, asset: str, rule: int, show: Annotated[tuple[str, ...], Query()] = ()
 ) -> Response:
-    """An asset as it is before a rule of the present program; show: hulls that are to be seen in it."""
+    """Return an asset as it is before a rule of the present program; show: hulls that are to be seen in it."""
     program = session.present_program
     return packet_response(assets.draw_rule_picture(session.project, asset, session.mesh(asset), rule, program, show))
 
 
 @router.get("/api/turned")
 def get_turned(session: CurrentSession, asset: str, orient: str) -> Response:
-    """The thumbnail of an asset as a directive turns it."""
+    """Return the thumbnail of an asset as a directive turns it."""
     mesh = session.mesh(asset)
     pose, _ = assets.compute_upright(session.project, mesh, Program.parse(f"orient {orient}\n").orient)
     return Response(assets.draw_thumbnail(mesh, pose), media_type="image/png")
@@ -142,13 +142,13 @@ def get_turned(session: CurrentSession, asset: str, orient: str) -> Response:
 
 @router.post("/api/program/check")
 def check_program(text: BodyText) -> ProgramCheck:
-    """Whether a text is a program."""
+    """Return whether a text is a program."""
     return programs.check_text(text)
 
 
 @router.get("/api/checked")
 async def get_checked(session: CurrentSession, request: Request, asset: str, part: CheckPart) -> CheckResult:
-    """What is measured of the output of an asset."""
+    """Return what is measured of the output of an asset."""
     session.check_assets(asset)
     known = session.checks.check_part(session.project, asset, part)
     fresh = not known.done()
@@ -162,14 +162,14 @@ async def get_checked(session: CurrentSession, request: Request, asset: str, par
 async def get_check_pictures(
     session: CurrentSession, request: Request, asset: str, part: Literal["fit", "clearance"], unit: LengthUnit = "m"
 ) -> tuple[CheckPicture, ...]:
-    """The pictures of what is measured; unit: of the lengths in them."""
+    """Return the pictures of what is measured; unit: of the lengths in them."""
     session.check_assets(asset)
     return await _wait_while_connected(request, session.checks.draw_pictures(session.project, asset, part, unit))
 
 
 @router.get("/api/checked/picture")
 def get_check_picture(session: CurrentSession, asset: str, name: str, v: str) -> Response:
-    """One of these pictures; v: the digest on the card."""
+    """Return one of these pictures; v: the digest on the card."""
     session.check_assets(asset)
     if not (v.isalnum() and v.isascii() and name.replace("-", "").isalpha() and name.isascii()):
         raise NotHereError("there is no such picture", where=asset)
@@ -236,7 +236,7 @@ def cancel_job(session: CurrentSession, id: BodyText) -> Job:
 
 @router.get("/api/labels/sources")
 def get_label_sources(session: CurrentSession) -> requests.LabelSources:
-    """Where labels could come from, as far as assets are read by now."""
+    """Return where labels could come from, as far as assets are read by now."""
     offered = session.offers.of(session.project, session.pages.readable)
     return requests.LabelSources(files=len(offered.files), names=offered.named, model=model_of(session.project))
 

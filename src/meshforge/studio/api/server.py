@@ -119,7 +119,8 @@ def _stop_on_signal() -> Iterator[None]:
 
 
 def build_app(host: Host, token: str, page: Path) -> ASGIApp:
-    """The web application of a studio. page: the folder of the built page. Raises MeshForgeError as `open_page`."""
+    """Return the web application of a studio. page: the folder of the built page. Raises MeshForgeError as
+    `open_page`."""
     app = FastAPI(title="MeshForge studio", docs_url=None, redoc_url=None, openapi_url=None)
     app.state.host = host
     for module in (routes, start, connection):
@@ -154,7 +155,7 @@ class PageFiles(StaticFiles):
 
 
 def open_page(folder: Path) -> Any:
-    """The page in a folder. Raises MeshForgeError where it was not built."""
+    """Return the page in a folder. Raises MeshForgeError where it was not built."""
     if not (folder / "index.html").is_file():
         raise MeshForgeError(
             "the page of the studio is not built", where=str(folder), remedy="Build it: script/build-web"

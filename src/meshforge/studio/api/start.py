@@ -27,13 +27,13 @@ CurrentStart = Annotated[StartPage, Depends(_get_start)]
 
 @router.get("/folder")
 def get_folder(start: CurrentStart, folder: str) -> FolderView:
-    """The folders in a folder."""
+    """Return the folders in a folder."""
     return folders.list_folder(folders.parse_path(folder))
 
 
 @router.get("/look")
 def look_at_folder(start: CurrentStart, folder: str) -> AssetsFound:
-    """The assets in a folder."""
+    """Return the assets in a folder."""
     return start.look_at_folder(folder)
 
 
@@ -46,7 +46,8 @@ async def put_file(start: CurrentStart, request: Request, path: str) -> UploadRe
 
 @router.post("/files")
 def look_at_files(start: CurrentStart) -> AssetsFound:
-    """The assets among the files that were sent; where one cannot be taken, all are thrown away, with an error."""
+    """Return the assets among the files that were sent; where one cannot be taken, all are thrown away, with an
+    error."""
     return start.look_at_upload()
 
 

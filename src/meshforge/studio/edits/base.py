@@ -31,15 +31,15 @@ class Edit(Wire):
 
     @abstractmethod
     def describe(self, project: Project) -> str:
-        """What it does, in a few words: `label 3 hulls of table_04 as leg`."""
+        """Return what it does, in a few words: `label 3 hulls of table_04 as leg`."""
 
     def list_paths(self, project: Project) -> tuple[Path, ...]:
-        """The files and folders that `apply` may change."""
+        """Return the files and folders that `apply` may change."""
         asset: str | None = getattr(self, "asset", None)
         return tuple(file.path(project.folder, asset) for file in self.touches)
 
     def list_labels(self) -> LabelsByAsset:
-        """The labels that `apply` gives, as far as they are known without reading anything."""
+        """Return the labels that `apply` gives, as far as they are known without reading anything."""
         return {}
 
 
@@ -54,12 +54,12 @@ def make_edit(history: History, project: Project, edit: Edit, by: str | None = N
 
 
 def steps_version(project: Project, asset: str) -> str:
-    """The version of the steps of an asset; empty where nothing is demonstrated."""
+    """Return the version of the steps of an asset; empty where nothing is demonstrated."""
     return _digest_or_empty(project.layout.demonstration(asset))
 
 
 def program_version(project: Project) -> str:
-    """The version of the accepted program; empty where there is none."""
+    """Return the version of the accepted program; empty where there is none."""
     return _digest_or_empty(project.layout.program)
 
 

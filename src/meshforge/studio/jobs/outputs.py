@@ -93,11 +93,11 @@ class NewAssetPreparation:
                 yield batch.Failed(one.asset, f"it could not be prepared: {one.problem}", 0.0)
 
     def describe(self, asset: str) -> tuple[str, ...]:
-        """What was done to an asset, in sentences."""
+        """Return what was done to an asset, in sentences."""
         return self.results[asset].describe() if asset in self.results else ()
 
     def add_notes(self, jobs: Iterable[batch.AssetJob]) -> list[batch.AssetJob]:
-        """The jobs, of which those of new assets say what was done to these before."""
+        """Return the jobs, of which those of new assets say what was done to these before."""
         return [replace(job, notes=self.describe(job.id)) for job in jobs]
 
     def __str__(self) -> str:
@@ -154,7 +154,8 @@ def start_check(session: Session) -> Job:
 
 
 def to_line(asset: str, found: tuple[Fault, ...] | str) -> JobLine:
-    """The line of one output: the rules that do not hold, without limits of engines, or why it was not checked."""
+    """Return the line of one output: the rules that do not hold, without limits of engines, or why it was not
+    checked."""
     if isinstance(found, str):
         return JobLine(asset=asset, status="failed", text=found)
     rules = dict.fromkeys(fault.rule for fault in found if fault.engine is None)
@@ -162,7 +163,7 @@ def to_line(asset: str, found: tuple[Fault, ...] | str) -> JobLine:
 
 
 def list_signed_off(session: Session) -> list[Card]:
-    """The assets whose output is up to date and signed off: sure enough, or accepted by a person."""
+    """Return the assets whose output is up to date and signed off: sure enough, or accepted by a person."""
     known = session.pages.shown.assessment
     unreviewed = {row.asset for row in known.assets if row.state == "signed"} if known else set()
     written = [card for card in session.pages.cards if card.output in ("edited", "unchanged") and not card.stale]

@@ -60,7 +60,7 @@ def start_decompose(session: Session, request: DecomposeJob) -> Job:
 
 
 def choose_decomposition(project: Project, request: DecomposeJob) -> tuple[DecomposeSettings, DecomposeOptions]:
-    """The settings of a decomposition, and how pieces are taken.
+    """Return the settings of a decomposition, and how pieces are taken.
 
     Where nothing is asked for, those of the project's other assets, so that it stays clear how new ones are decomposed.
     """

@@ -53,7 +53,7 @@ class _TurnPictures:
 def draw_turntable(
     assets: Sequence[TurntableAsset], program: Program, vocabulary: tuple[str, ...], execution: batch.ExecutionOptions
 ) -> list[Image]:
-    """The pictures of one turn, each with all assets before and after.
+    """Return the pictures of one turn, each with all assets before and after.
 
     execution: its `progress` is called for every `FRAMES_A_TASK` pictures of an asset. Raises StoppedError where its
     `stop` says so, MeshForgeError for an asset that cannot be drawn.

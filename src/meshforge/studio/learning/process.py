@@ -43,7 +43,6 @@ class _FamilyMemory:
     digest: str = ""
 
     def holds(self, meshes: Mapping[str, SymbolicMesh], digest: str) -> bool:
-        """Whether nothing changed since."""
         same = meshes.keys() == self.meshes.keys() and all(meshes[name] is mesh for name, mesh in self.meshes.items())
         return same and digest == self.digest
 
@@ -73,7 +72,8 @@ def learn(folder: Path, token: CancelToken, number: int) -> OutcomeView:
 
 
 def assess(folder: Path, token: CancelToken, number: int) -> AssessmentView | None:
-    """How sure the edits are that a learning run came to, None where that was interrupted, or was not the last one.
+    """Return how sure the edits are that a learning run came to, None where that was interrupted, or was not the last
+    one.
 
     It is kept, as a review is, where nothing changed since that run. None too where nothing is demonstrated yet.
     """
@@ -98,7 +98,7 @@ def assess(folder: Path, token: CancelToken, number: int) -> AssessmentView | No
 
 
 def compute_reach(folder: Path, token: CancelToken, program: str) -> tuple[Reach, ...] | None:
-    """What a program does on every asset that can be read, None where it was interrupted.
+    """Return what a program does on every asset that can be read, None where it was interrupted.
 
     In a family of more than 400 only on those that learning looks at (`select_assets`): memory has no room for all
     assets of a very large family, and reading them anew after each change would take minutes.
@@ -113,7 +113,7 @@ def compute_reach(folder: Path, token: CancelToken, program: str) -> tuple[Reach
 
 
 def generalise(folder: Path, token: CancelToken, extractor: str, rule: int, program: str | None) -> CoverageView | None:
-    """What an extractor selects on the assets that `compute_reach` looks at, None where it was interrupted.
+    """Return what an extractor selects on the assets that `compute_reach` looks at, None where it was interrupted.
 
     rule: the number of the rule that it belongs to; program: whose rules before that one are applied first.
     """
@@ -130,7 +130,6 @@ def generalise(folder: Path, token: CancelToken, extractor: str, rule: int, prog
 
 
 def _load_program(project: Project, program: Program, before: int | None = None) -> ProgramWithTemplates:
-    """A program with its templates; before: only the rules before that one."""
     rules = program.rules if before is None else program.rules[: max(0, before - 1)]
     shortened = Program(program.labels, program.orient, rules, program.contact, program.extremity)
     return ProgramWithTemplates(shortened, project.templates(shortened.templates))
@@ -150,7 +149,7 @@ class FamilyCache:
     def read_meshes(
         self, project: Project, assets: Iterable[str], stop: Callable[[], bool]
     ) -> Iterator[tuple[str, SymbolicMesh]]:
-        """The ids and meshes of those assets that can be read. Raises ReadInterrupted when `stop` says so."""
+        """Yield the ids and meshes of those assets that can be read. Raises ReadInterrupted when `stop` says so."""
         cached = project.with_cache(self._meshes)
         for asset in assets:
             if stop():

@@ -139,7 +139,7 @@ class CancelFlag:
             _COUNT.pack_into(self._counts, self._offset_of(kind), self._count_of(kind) + 1)
 
     def make_token(self, kind: CallKind) -> CancelToken:
-        """The token of a call that is made now."""
+        """Return the token of a call that is made now."""
         return CancelToken(self.path, kind, self._count_of(kind))
 
     def close(self) -> None:

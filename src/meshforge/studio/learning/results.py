@@ -56,7 +56,7 @@ def assess_project(
     basis: AssessmentBasis,
     stop: Callable[[], bool] = lambda: False,
 ) -> FamilyAssessment | None:
-    """How sure the edits of a project are under its program, None where that was interrupted.
+    """Return how sure the edits of a project are under its program, None where that was interrupted.
 
     meshes: those that were learned from; outcome: what that came to, which does not matter where a person wrote the
     program; basis: taken before the meshes were read.
@@ -141,7 +141,7 @@ class HullOrigins:
         self._own: dict[str, frozenset[int]] = {name: frozenset({k}) for name, k in mesh.index.items()}
 
     def of(self, names: Iterable[str]) -> tuple[int, ...]:
-        """Positions of the asset's own hulls, sorted."""
+        """Return positions of the asset's own hulls, sorted."""
         return tuple(sorted(frozenset[int]().union(*(self._own[name] for name in names))))
 
     def add(self, made: Sequence[str], sources: Sequence[Sequence[str]]) -> None:
@@ -151,7 +151,7 @@ class HullOrigins:
 
 
 def measure_reach(plan: ProgramWithTemplates, asset: str, mesh: SymbolicMesh) -> wire.Reach:
-    """What a program does on an asset; cached with the mesh."""
+    """Return what a program does on an asset; cached with the mesh."""
     return synthesis.memoize(mesh, ("reach", asset, plan.key), wire.Reach, lambda: _measure_reach(plan, asset, mesh))
 
 
@@ -183,8 +183,8 @@ class RuleSelector:
         self._last: WeakKeyDictionary[SymbolicMesh, _RuleMesh] = WeakKeyDictionary()
 
     def select(self, plan: ProgramWithTemplates, mesh: SymbolicMesh, extractor: Extractor) -> tuple[int, ...]:
-        """Positions of the asset's own hulls that an extractor selects after the rules of a plan, or that the hulls it
-        selects were made of; empty where these rules cannot be done."""
+        """Return positions of the asset's own hulls that an extractor selects after the rules of a plan, or that the
+        hulls it selects were made of; empty where these rules cannot be done."""
         after = self._last.get(mesh)
         if after is None or after.key != plan.key:
             after = self._last[mesh] = _run_rules(plan, mesh)

@@ -86,7 +86,7 @@ class LearningScheduler:
             self.restart()
 
     def is_latest(self, number: int) -> bool:
-        """Whether a learning run is the last one that was started."""
+        """Return whether a learning run is the last one that was started."""
         return number == self._number
 
     def measure_reach(self) -> None:
@@ -110,7 +110,7 @@ class LearningScheduler:
         self._learner.assess(number).add_done_callback(partial(self._take_assessment, number))
 
     def generalise(self, extractor: str, rule: int) -> Future[CoverageView]:
-        """What an extractor selects on all assets."""
+        """Return what an extractor selects on all assets."""
         return self._learner.generalise(extractor, rule, self._pages.shown.program.text or None)
 
     def close(self) -> None:
@@ -202,7 +202,7 @@ class Learner:
         return self._put("learn", process.learn, number)
 
     def reach(self, program: str) -> Future[tuple[Reach, ...]]:
-        """What a program does on every asset that `process.compute_reach` looks at.
+        """Return what a program does on every asset that `process.compute_reach` looks at.
 
         Raises ProgramError for a text that is no program, or a template that is not there.
         """
@@ -210,7 +210,7 @@ class Learner:
         return self._put("reach", process.compute_reach, program)
 
     def generalise(self, extractor: str, rule: int, program: str | None) -> Future[CoverageView]:
-        """What an extractor selects on these assets before the rule of that number, after the rules before it.
+        """Return what an extractor selects on these assets before the rule of that number, after the rules before it.
 
         Raises ProgramError for a text that is no extractor.
         """
@@ -218,7 +218,7 @@ class Learner:
         return self._put("generalise", process.generalise, extractor, rule, program)
 
     def assess(self, number: int) -> Future[AssessmentView]:
-        """How sure the edits are after the learning run of that number."""
+        """Return how sure the edits are after the learning run of that number."""
         return self._put("assess", process.assess, number)
 
     def interrupt(self) -> None:

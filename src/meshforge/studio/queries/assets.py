@@ -34,7 +34,8 @@ _DRAW_VERSION = "1"
 
 
 def build_asset_view(project: Project, asset: str, mesh: SymbolicMesh) -> AssetView:
-    """An asset as it is prepared; mesh: its mesh. Contacts are those that a program sees, in the canonical frame."""
+    """Return an asset as it is prepared; mesh: its mesh. Contacts are those that a program sees, in the canonical
+    frame."""
     source = mesh.asset
     if source is None:
         raise MeshForgeError("this mesh was made in memory and has no file")
@@ -108,19 +109,19 @@ def compute_upright(project: Project, mesh: SymbolicMesh, orient: Orient | None 
 
 
 def is_y_up(mesh: SymbolicMesh, orient: Orient | None) -> bool:
-    """Whether Y still points up after an orientation: the file says so, and no landmark says what +Z is."""
+    """Return whether Y still points up after an orientation: the file says so, and no landmark says what +Z is."""
     return not (orient and orient.names_z) and mesh.asset is not None and mesh.asset.up == "y"
 
 
 def to_numbers(pose: Pose) -> tuple[float, ...] | None:
-    """The 16 numbers of a pose row by row, None for the identity."""
+    """Return the 16 numbers of a pose row by row, None for the identity."""
     matrix: Floats = np.eye(4)
     matrix[:3, :3], matrix[:3, 3] = pose.rotation, pose.translation
     return None if np.array_equal(matrix, np.eye(4)) else tuple(matrix.ravel().tolist())
 
 
 def draw_thumbnail(mesh: SymbolicMesh, pose: Pose | None = None, size: tuple[int, int] = THUMBNAIL_SIZE) -> bytes:
-    """A picture of a mesh, encoded as `rendering.render_thumbnail` describes, as a PNG file.
+    """Return a picture of a mesh, encoded as `rendering.render_thumbnail` describes, as a PNG file.
 
     pose: shown_T_incoming of `compute_upright`; for an output, that of the asset as it comes.
     """
@@ -136,7 +137,7 @@ def _to_png(pixels: rendering.ThumbnailPixels) -> bytes:
 def draw_rule_picture(
     project: Project, asset: str, mesh: SymbolicMesh, rule: int, program: Program | None, show: Collection[str] = ()
 ) -> bytes:
-    """A packet of an asset before a rule: the names of the hulls in order, and a picture encoded as a thumbnail.
+    """Return a packet of an asset before a rule: the names of the hulls in order, and a picture encoded as a thumbnail.
 
     mesh: the asset as it comes; program: None for one without rules, which only turns the asset. show: names of hulls
     that are to be seen in it, from whichever side that is, or through others.
@@ -150,7 +151,7 @@ def draw_rule_picture(
 
 
 def picture_digest(geometry: str, labels: Iterable[Label | None], orient: str) -> str:
-    """A digest of all that decides how an asset is drawn: its hulls, and labels that turn it.
+    """Return a digest of all that decides how an asset is drawn: its hulls, and labels that turn it.
 
     geometry: the digest in AssetStatus; labels: of its hulls in order; orient: the orientation's text.
     """
@@ -159,5 +160,6 @@ def picture_digest(geometry: str, labels: Iterable[Label | None], orient: str) -
 
 
 def output_picture_digest(picture: str, output: str) -> str:
-    """A digest of all that decides how an output is drawn. picture: of the asset; output: the digest of its files."""
+    """Return a digest of all that decides how an output is drawn. picture: of the asset; output: the digest of its
+    files."""
     return text_digest(f"{picture} {output}")

@@ -33,34 +33,36 @@ PacketRow = tuple[wire.ShapeRow, RenderMesh]
 
 
 def pack_asset(mesh: SymbolicMesh) -> bytes:
-    """The shapes of an asset: its hulls in their order, then its non-convex pieces that have a surface."""
+    """Return the shapes of an asset: its hulls in their order, then its non-convex pieces that have a surface."""
     pieces = mesh.asset.non_convex if mesh.asset else ()
     surfaces = (_make_row(piece.name, to_render_mesh(piece.surface)) for piece in pieces if piece.surface)
     return _pack_rows([*hull_rows(mesh.hulls), *surfaces])
 
 
 def pack_visual(mesh: SymbolicMesh) -> bytes:
-    """The surfaces that an asset shows, each named after its body."""
+    """Return the surfaces that an asset shows, each named after its body."""
     visuals = mesh.asset.visuals if mesh.asset else ()
     return _pack_rows([_make_row(surface.body or "", to_render_mesh(surface)) for surface in visuals])
 
 
 def hull_rows(hulls: Iterable[Hull]) -> list[PacketRow]:
-    """The rows of some hulls; round primitives have fewer sides where there are many of them."""
+    """Return the rows of some hulls; round primitives have fewer sides where there are many of them."""
     hulls = list(hulls)
     sides = _SIDES if sum(hull.shape.is_primitive for hull in hulls) <= _MANY else _FEWER
     return [_make_row(hull.name, to_render_mesh(hull.shape, sides)) for hull in hulls]
 
 
 def pack_shapes(header: Wire, rows: Sequence[PacketRow]) -> bytes:
-    """A packet as `ShapesHeader` describes it; header: one of these, or a message with the same `rows` and more."""
+    """Return a packet as `ShapesHeader` describes it; header: one of these, or a message with the same `rows` and
+    more."""
     vertices = [np.asarray(drawn.vertices, "<f4").tobytes() for _, drawn in rows]
     faces = [np.asarray(drawn.faces, "<u4").tobytes() for _, drawn in rows]
     return frame_packet(header.model_dump_json().encode(), *vertices, *faces)
 
 
 def frame_packet(header: bytes, *parts: bytes) -> bytes:
-    """The length of a JSON header as uint32, the header padded with spaces to whole words, and what follows it."""
+    """Return the length of a JSON header as uint32, the header padded with spaces to whole words, and what follows
+    it."""
     padded = header + b" " * (-len(header) % _ALIGNED)
     return b"".join([len(padded).to_bytes(4, "little"), padded, *parts])
 
@@ -106,13 +108,13 @@ def pack_edited(
 
 
 def findings_of_new(before: SymbolicMesh, after: SymbolicMesh) -> tuple[wire.FindingView, ...]:
-    """Findings about the legality of the hulls that an edit made."""
+    """Return findings about the legality of the hulls that an edit made."""
     made = replace(after, hulls=tuple(hull for hull in after.hulls if hull.name not in before.index))
     return finding_views(found for found in check(made) if found.rule != "non_convex")
 
 
 def finding_views(findings: Iterable[Finding]) -> tuple[wire.FindingView, ...]:
-    """Findings, one for each hull that they name."""
+    """Return findings, one for each hull that they name."""
     return tuple(
         wire.FindingView(severity=found.severity, text=f"{found.message}. {found.remedy}", hull=hull)
         for found in findings
@@ -132,7 +134,7 @@ def _names_not_in(mesh: SymbolicMesh, other: SymbolicMesh) -> tuple[str, ...]:
 
 
 def hull_view(hull: Hull) -> wire.HullView:
-    """A hull; vertices and faces of a round primitive are those of its tessellation."""
+    """Return a hull; vertices and faces of a round primitive are those of its tessellation."""
     return wire.HullView(
         name=hull.name,
         body=hull.body,
@@ -148,12 +150,12 @@ def hull_view(hull: Hull) -> wire.HullView:
 
 
 def hull_views(mesh: SymbolicMesh) -> tuple[wire.HullView, ...]:
-    """All hulls of a mesh, in their order."""
+    """Return all hulls of a mesh, in their order."""
     return tuple(map(hull_view, mesh.hulls))
 
 
 def contact_names(mesh: SymbolicMesh) -> tuple[tuple[str, str], ...]:
-    """The pairs of hulls in contact, by name, in the order of the hulls."""
+    """Return the pairs of hulls in contact, by name, in the order of the hulls."""
     return tuple((mesh.hulls[i].name, mesh.hulls[j].name) for i, j in sorted(mesh.contacts))
 
 
@@ -161,7 +163,7 @@ ResultOf = Literal["program", "output"]
 
 
 def preview_steps(project: Project, asset: str, mesh: SymbolicMesh, steps: int) -> bytes:
-    """The packet of an asset after its first steps; mesh: the asset as it comes.
+    """Return the packet of an asset after its first steps; mesh: the asset as it comes.
 
     A step that fails is left out, and the note says why. Raises ProgramError where the asset cannot be turned.
     """
@@ -172,7 +174,7 @@ def preview_steps(project: Project, asset: str, mesh: SymbolicMesh, steps: int) 
 
 
 def preview_action(project: Project, asset: str, mesh: SymbolicMesh, request: PreviewRequest) -> bytes:
-    """The packet of an asset after one more action, on its own steps or on what the program makes of it.
+    """Return the packet of an asset after one more action, on its own steps or on what the program makes of it.
 
     Raises MeshForgeError: no such hull, no such action, or one that fails.
     """
@@ -205,7 +207,7 @@ def _describe_problems(replay: Replay) -> str | None:
 
 
 def preview_result(project: Project, asset: str, mesh: SymbolicMesh, of: ResultOf, program: Program | None) -> bytes:
-    """The packet of an edited asset. mesh: the asset as it comes; program: what is run, None changes nothing.
+    """Return the packet of an edited asset. mesh: the asset as it comes; program: what is run, None changes nothing.
 
     Raises MeshForgeError where the program cannot run on it, or where there is no output.
     """

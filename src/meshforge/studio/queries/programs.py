@@ -32,7 +32,7 @@ _POSITION = re.compile(r".*:(\d+):(\d+)")
 
 
 def read_program_view(project: Project) -> wire.ProgramView:
-    """The accepted program as its file has it, an empty view where there is none."""
+    """Return the accepted program as its file has it, an empty view where there is none."""
     version = program_version(project)
     if not version:
         return wire.ProgramView()
@@ -54,7 +54,7 @@ def read_program_view(project: Project) -> wire.ProgramView:
 
 
 def check_text(text: str) -> wire.ProgramCheck:
-    """Whether a text is a program, and what it says."""
+    """Return whether a text is a program, and what it says."""
     try:
         program = Program.parse(text)
     except MeshForgeError as error:
@@ -70,12 +70,12 @@ def rule_views(program: Program) -> tuple[wire.RuleView, ...]:
 
 
 def orient_sentence(orient: Orient | None) -> str:
-    """An orientation in words, empty for none."""
+    """Return an orientation in words, empty for none."""
     return explain(orient) if orient else ""
 
 
 def mark_error(error: MeshForgeError, line: int = 0, column: int = 0) -> wire.Mark:
-    """The place of an error of parsing, the very beginning where it names none.
+    """Return the place of an error of parsing, the very beginning where it names none.
 
     line, column: how many lines and columns into the page's text the parsed text begins; columns matter on its first
     line only.
@@ -88,7 +88,7 @@ def mark_error(error: MeshForgeError, line: int = 0, column: int = 0) -> wire.Ma
 
 
 def build_language_view() -> wire.LanguageView:
-    """Actions, operators and directions; `Each` is no form of its own."""
+    """Return actions, operators and directions; `Each` is no form of its own."""
     return wire.LanguageView(
         actions=list_action_forms(), operators=list_operator_views(), directions=language.DIRECTIONS
     )
@@ -97,7 +97,7 @@ def build_language_view() -> wire.LanguageView:
 def select_hulls(
     project: Project, asset: str, mesh: SymbolicMesh, request: SelectRequest, program: Program | None = None
 ) -> wire.SelectionView:
-    """What an extractor selects on an asset after some of its steps, or what is wrong with its text.
+    """Return what an extractor selects on an asset after some of its steps, or what is wrong with its text.
 
     mesh: the asset as it comes; program: the one that `request.rule` counts in. Raises MeshForgeError where the asset
     cannot be turned, or a rule before that one fails.
@@ -137,7 +137,7 @@ def _mark_unknown_label(extractor: Extractor, text: str, known: Iterable[str]) -
 
 
 def guess_selections(project: Project, asset: str, mesh: SymbolicMesh, program: Program) -> tuple[wire.Guess, ...]:
-    """A guess for each rule of a program; mesh: the asset as it comes.
+    """Return a guess for each rule of a program; mesh: the asset as it comes.
 
     A rule that was demonstrated on the asset, or left out there, does that before the next one is guessed. Raises
     ProgramError where the asset cannot be turned.
@@ -160,7 +160,7 @@ def guess_selections(project: Project, asset: str, mesh: SymbolicMesh, program: 
 
 
 def replay_steps(project: Project, asset: str, mesh: SymbolicMesh, steps: int | None = None) -> Replay:
-    """An asset after its first steps, all by default; a step that fails is skipped, and its trace has the error.
+    """Return an asset after its first steps, all by default; a step that fails is skipped, and its trace has the error.
 
     A step without a selection does what the rule of its number does in the present program, as in learning, or nothing
     without such a rule. Raises ProgramError where the orientation does not turn the asset.

@@ -48,7 +48,8 @@ def add_session(
     propagation: PropagationState | None,
     problem: str | None,
 ) -> FamilyState:
-    """What the next step depends on, with what this session knows; it learns by itself, so no program is outdated."""
+    """Return what the next step depends on, with what this session knows; it learns by itself, so no program is
+    outdated."""
     rows = {row.asset: row for row in assessment.assets} if assessment else {}
     return replace(
         family,
@@ -90,7 +91,7 @@ def build_project_view(
     propagated: PropagationState | None = None,
     new: NewAssetsView | None = None,
 ) -> ProjectView:
-    """The project as the page shows it. problem, lost, propagated, new: see the fields of `ProjectView`."""
+    """Return the project as the page shows it. problem, lost, propagated, new: see the fields of `ProjectView`."""
     settings = project.settings
     return ProjectView(
         name=settings.name,
@@ -168,7 +169,8 @@ def build_card(
     check: str | None = None,
     faults: tuple[Fault, ...] | None = None,
 ) -> Card:
-    """The card of an asset; orient: the orientation's text, in whose frame it is drawn; check, faults: see `Card`."""
+    """Return the card of an asset; orient: the orientation's text, in whose frame it is drawn; check, faults: see
+    `Card`."""
     places = {label: k for k, label in enumerate(vocabulary)}
     labels = tuple(places.get(label.name, -1) if label else -1 for label in status.labels)
     picture = None if status.hulls is None else picture_digest(status.geometry, status.labels, orient)
@@ -200,7 +202,7 @@ def build_card(
 
 
 def model_of(project: Project) -> Model | None:
-    """The model that can be asked for labels; None where the settings name none, or cannot be read."""
+    """Return the model that can be asked for labels; None where the settings name none, or cannot be read."""
     try:
         settings = project.settings.vlm
     except MeshForgeError:

@@ -145,7 +145,7 @@ class FileChanges:
 
 
 def changes_of(project: Project, names: Iterable[str]) -> FileChanges:
-    """What a change of files means; names: paths from the project's folder."""
+    """Return what a change of files means; names: paths from the project's folder."""
     ids = project.found.ids
     sources = {relative_name(path, project.folder): asset for asset, path in ids.items()}
     effects, cards, shapes = set[Effect](), set[str](), {sources[name] for name in names if name in sources}
@@ -162,7 +162,8 @@ def changes_of(project: Project, names: Iterable[str]) -> FileChanges:
 
 
 def read_stamps(project: Project) -> FileStamps:
-    """The stamps of a project's files, of those of its assets, and of the folders of assets, where new ones come."""
+    """Return the stamps of a project's files, of those of its assets, and of the folders of assets, where new ones
+    come."""
     folder = project.folder
     assets = [file for path in project.found.paths for file in _source_files(path)]
     homes = {path.parent for path in project.found.paths}
@@ -173,12 +174,11 @@ def read_stamps(project: Project) -> FileStamps:
 
 
 def _list_files(path: Path) -> Iterator[Path]:
-    """A file, or those in a folder, without drafts."""
     return (one for one in path.rglob("*") if not one.name.startswith(".")) if path.is_dir() else iter([path])
 
 
 def diff_stamps(before: FileStamps, now: FileStamps) -> frozenset[str]:
-    """The names of files that are other, new or gone."""
+    """Return the names of files that are other, new or gone."""
     return frozenset(name for name in before | now if before.get(name) != now.get(name))
 
 

@@ -37,11 +37,11 @@ class JobProgress:
             return self._job.model_copy(update={"lines": tuple(lines)})
 
     def is_stopped(self) -> bool:
-        """Whether the job is to stop."""
+        """Return whether the job is to stop."""
         return self._stopped.is_set()
 
     def raise_if_stopped(self) -> None:
-        """Raises StoppedError where the job is to stop."""
+        """Raise StoppedError where the job is to stop."""
         if self.is_stopped():
             raise StoppedError("the job was cancelled")
 
@@ -50,7 +50,7 @@ class JobProgress:
         self._stopped.set()
 
     def advance(self, done: int | None = None) -> None:
-        """One more thing is done; or set how many are."""
+        """Count one more thing as done, or set how many are."""
         with self._lock:
             now = self._job.done + 1 if done is None else done
             self._job = self._job.model_copy(update={"done": min(now, self._job.total)})
@@ -58,8 +58,8 @@ class JobProgress:
 
     @contextmanager
     def stage(self, total: int, what: str) -> Iterator[Callable[[], None]]:
-        """One of several parts, with so many things to do: gives a function that counts one more of them. what: says
-        so; where there is nothing to do, what was done last stays."""
+        """Begin one of several parts, with so many things to do: gives a function that counts one more of them. what:
+        says so; where there is nothing to do, what was done last stays."""
         with self._lock:
             if total:
                 self._job = self._job.model_copy(update={"done": 0, "total": total, "doing": what})
@@ -73,7 +73,7 @@ class JobProgress:
             self._send()
 
     def end(self, state: str, message: str, out: str | None = None) -> None:
-        """The job is over."""
+        """End the job."""
         with self._lock:
             self._job = self._job.model_copy(update={"state": state, "message": message, "out": out})
             self._send(at_once=True)

@@ -28,7 +28,8 @@ _REPORT_SECONDS = 0.2
 
 
 def initial_view(project: Project) -> ProjectView:
-    """The project before its assets are read. Raises ProjectError for a file of the project that cannot be read."""
+    """Return the project before its assets are read. Raises ProjectError for a file of the project that cannot be
+    read."""
     return build_project_view(project, NextStep("wait", "The assets are being read."), None, ())
 
 
@@ -60,7 +61,7 @@ class Refresher:
         return {asset: row.names for asset, row in self._rows.items()}
 
     def portion_size(self) -> int:
-        """How many assets are looked at together: few, so that their cards come soon."""
+        """Return how many assets are looked at together: few, so that their cards come soon."""
         return max(_FEWEST, len(self._project().assets()) // _PORTIONS)
 
     def refresh(self, assets: tuple[str, ...]) -> None:
@@ -196,7 +197,7 @@ class RefreshQueue:
             return len(self._urgent) + len(self._rest)
 
     def is_closed(self) -> bool:
-        """Whether the queue is closed, so that the refresh that is running is to stop."""
+        """Return whether the queue is closed, so that the refresh that is running is to stop."""
         return self._closed
 
     def close(self) -> None:

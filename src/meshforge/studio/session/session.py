@@ -120,7 +120,7 @@ class Session:
     # Reading
 
     def mesh(self, asset: str) -> SymbolicMesh:
-        """An asset with its labels. Raises NotHereError, or AssetError where it cannot be read."""
+        """Return an asset with its labels. Raises NotHereError, or AssetError where it cannot be read."""
         self.check_assets(asset)
         return self.project.mesh(asset)
 
@@ -135,7 +135,7 @@ class Session:
         return Program.parse(accepted.text) if accepted.text else None
 
     def check_assets(self, *assets: str) -> None:
-        """Raises NotHereError for an id that no asset has."""
+        """Raise NotHereError for an id that no asset has."""
         for asset in assets:
             if asset not in self.project.found.ids:
                 raise NotHereError(f"there is no asset {asset!r}", where=self.project.name)
@@ -194,7 +194,7 @@ class Session:
         return self.record(title, {"asset": asset}, paths, group)
 
     def note_output(self, asset: str) -> None:
-        """The output of an asset was written."""
+        """Record that the output of an asset was written."""
         self.update([relative_name(stamp_path(self.project.layout.edited, asset), self.project.folder)])
 
     def update(self, names: Iterable[str]) -> None:

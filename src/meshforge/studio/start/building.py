@@ -26,7 +26,7 @@ class _Journal(JsonFile):
 
 
 def check_place(folder: Path) -> None:
-    """Raises UsageError where no new project can be made: something is there already, or it cannot be written."""
+    """Raise UsageError where no new project can be made: something is there already, or it cannot be written."""
     try:
         if is_project(folder):
             raise UsageError(
@@ -46,7 +46,7 @@ def check_place(folder: Path) -> None:
 
 @contextmanager
 def build_project(folder: Path, state: Path) -> Iterator[Path]:
-    """A new folder to fill; then it takes the place of `folder`, or goes where an error came up.
+    """Open a new folder to fill; then it takes the place of `folder`, or goes where an error came up.
 
     state: the user's state folder, which knows what is being built, so that the next studio removes it after a kill.
     Raises UsageError where no project can be made there, ProjectError while another studio makes one.

@@ -29,7 +29,8 @@ _ABSOLUTE = "Type the whole path, as /home/me/assets or ~/assets."
 
 
 def parse_path(text: str, what: str = "the folder") -> Path:
-    """The absolute path that a person typed; `~` is the home folder. Raises UsageError: empty, relative, or no path."""
+    """Return the absolute path that a person typed; `~` is the home folder. Raises UsageError: empty, relative, or no
+    path."""
     text = text.strip()
     if not text:
         raise UsageError(f"{what} has no name", remedy=_ABSOLUTE)
@@ -45,7 +46,7 @@ def parse_path(text: str, what: str = "the folder") -> Path:
 
 
 def check_folder(path: Path) -> None:
-    """Raises UsageError where there is no folder that can be read."""
+    """Raise UsageError where there is no folder that can be read."""
     try:
         if not path.exists():
             raise UsageError("there is no such folder", where=str(path), remedy="Check the spelling, or browse for it.")
@@ -59,7 +60,7 @@ def check_folder(path: Path) -> None:
 
 
 def list_folder(path: Path) -> FolderView:
-    """The folders in a folder, by name; hidden ones are left out. Raises UsageError where it cannot be read."""
+    """Return the folders in a folder, by name; hidden ones are left out. Raises UsageError where it cannot be read."""
     check_folder(path)
     folders, files, suffixes = list[str](), 0, set(all_suffixes())
     try:
@@ -86,7 +87,7 @@ def list_folder(path: Path) -> FolderView:
 
 
 def is_project(folder: Path) -> bool:
-    """Whether a folder is a project."""
+    """Return whether a folder is a project."""
     return is_file(folder / SETTINGS)
 
 
@@ -98,13 +99,14 @@ def _is_folder(entry: os.DirEntry[str]) -> bool:
 
 
 def default_places() -> tuple[Path, ...]:
-    """Where a person begins to look for assets: the folder that the studio was started in, and the home folder."""
+    """Return where a person begins to look for assets: the folder that the studio was started in, and the home
+    folder."""
     return tuple(dict.fromkeys((Path.cwd(), Path.home())))
 
 
 def suggest_project(name: str) -> Path:
-    """A folder that is not there yet, for a new project of that name: where the studio was started, or else in the home
-    folder where that cannot be written."""
+    """Return a folder that is not there yet, for a new project of that name: where the studio was started, or else in
+    the home folder where that cannot be written."""
     here, home = Path.cwd(), Path.home()
     parent = here if here != Path(here.anchor) and os.access(here, os.W_OK) else home / "meshforge"
     name = name.strip().strip(".") or "project"
@@ -123,13 +125,14 @@ class _Look:
 
 
 def look_at_folder(workers: Workers, folder: Path) -> AssetsFound:
-    """The assets in a folder. Raises UsageError where there is no such folder, or no asset in it."""
+    """Return the assets in a folder. Raises UsageError where there is no such folder, or no asset in it."""
     check_folder(folder)
     return look_at_assets(workers, folder, expand([folder]).paths, folder.name)
 
 
 def look_at_assets(workers: Workers, folder: Path, paths: Sequence[Path], name: str) -> AssetsFound:
-    """What some assets hold, as far as they can be read in a few seconds. name: what the project may be called."""
+    """Return what some assets hold, as far as they can be read in a few seconds. name: what the project may be
+    called."""
     looks = _look_at_some(workers, paths)
     problems = [look.problem for look in looks if look.problem]
     return AssetsFound(

@@ -63,12 +63,12 @@ class StartPage:
         return self._uploads
 
     def look_at_folder(self, folder: str) -> wire.AssetsFound:
-        """What a folder holds. Raises UsageError where there is no such folder, or no asset in it."""
+        """Return what a folder holds. Raises UsageError where there is no such folder, or no asset in it."""
         return folders.look_at_folder(self._workers, folders.parse_path(folder, "the folder of assets"))
 
     def look_at_upload(self) -> wire.AssetsFound:
-        """What was sent; assets that cannot be read are left out. Raises ProjectError, and throws all away, where no
-        project can be made of it."""
+        """Return what was sent; assets that cannot be read are left out. Raises ProjectError, and throws all away,
+        where no project can be made of it."""
         home, files = self.uploads.list_files()
         try:
             sent = self.uploads.keep_readable(self._workers)

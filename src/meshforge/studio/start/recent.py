@@ -20,7 +20,7 @@ MOST_RECENT = 30
 
 
 def state_folder(environment: Mapping[str, str] = os.environ) -> Path:
-    """Where the studio remembers things: `MESHFORGE_STATE`, else `XDG_STATE_HOME/meshforge`, else
+    """Return where the studio remembers things: `MESHFORGE_STATE`, else `XDG_STATE_HOME/meshforge`, else
     `~/.local/state/meshforge`."""
     if own := environment.get("MESHFORGE_STATE"):
         return Path(own)
@@ -50,7 +50,7 @@ class RecentProjects:
         self._path, self._lock = state / "recent.json", state / "recent.lock"
 
     def list(self) -> tuple[RecentProject, ...]:
-        """All of them, those that are gone too."""
+        """Return all of them, those that are gone too."""
         return tuple(
             RecentProject(
                 folder=entry.folder,

@@ -53,7 +53,7 @@ def compute_beliefs(
     against: Sequence[float] | None = None,
     unneeded: Sequence[int] | None = None,
 ) -> tuple[float, ...]:
-    """The belief in each of the consistent terms of a rule, in 0..1, in all 1.
+    """Return the belief in each of the consistent terms of a rule, in 0..1, in all 1.
 
     found: what the batch says of each; shown: the groups of demonstrated hulls; assets: that are not demonstrated.
     against: what a person said against each of the terms [nats]; unneeded: how much in each of them
@@ -74,7 +74,8 @@ def compute_beliefs(
 
 
 def choose_candidate(terms: Sequence[Term], shares: Sequence[float]) -> int:
-    """The place of the reading that the program takes: a smallest one, unless a larger is far more believable."""
+    """Return the place of the reading that the program takes: a smallest one, unless a larger is far more
+    believable."""
     smallest = min(term.size for term in terms)
     best = max(range(len(terms)), key=lambda k: (shares[k], -k))
     first = max((k for k in range(len(terms)) if terms[k].size == smallest), key=lambda k: (shares[k], -k))
@@ -82,7 +83,7 @@ def choose_candidate(terms: Sequence[Term], shares: Sequence[float]) -> int:
 
 
 def count_nats(term: Term, shown: int, known: dict[Extractor, float] | None = None) -> float:
-    """How little a term is believed for what it says alone [nats]; shown: the groups of demonstrated hulls."""
+    """Return how little a term is believed for what it says alone [nats]; shown: the groups of demonstrated hulls."""
     reason = _prior_nats(term, {} if known is None else known)
     return NODE * term.size + reason + UNTRIED * count_untested(term, shown)
 
@@ -112,7 +113,7 @@ NO_EVIDENCE = CandidateEvidence(0.0, 0.0)
 def measure_evidence(
     field: ObservationTable, selections: Sequence[int], candidates: Sequence[int]
 ) -> tuple[CandidateEvidence, ...]:
-    """The evidence on some readings, given as groups of the field.
+    """Return the evidence on some readings, given as groups of the field.
 
     selections: the hulls that were shown on each of the field's first meshes, as bit sets; the batch is the rest.
     """
@@ -156,14 +157,13 @@ def _unpack(candidates: Sequence[int], width: int) -> npt.NDArray[np.bool_]:
 
 
 def _sum_by_mesh(values: Floats, ends: npt.NDArray[np.int64]) -> Floats:
-    """The sums of the columns of each mesh; ends: where the meshes begin, and the end of the last."""
     total = np.concatenate([np.zeros((len(values), 1)), np.cumsum(values, axis=1)], axis=1)
     summed: Floats = total[:, ends[1:]] - total[:, ends[:-1]]
     return summed
 
 
 def count_untested(term: Term, shown: int) -> int:
-    """How many set operators in a term could lose an operand without a difference on the demonstrated meshes.
+    """Return how many set operators in a term could lose an operand without a difference on the demonstrated meshes.
 
     shown: the groups of demonstrated hulls.
     """
@@ -176,7 +176,7 @@ def count_untested(term: Term, shown: int) -> int:
 
 
 def count_idle(term: Term, shown: int, field: ObservationTable) -> int:
-    """How many leaves in a term leave nothing out of their base on the demonstrated meshes.
+    """Return how many leaves in a term leave nothing out of their base on the demonstrated meshes.
 
     shown: the groups of demonstrated hulls.
     """

@@ -43,7 +43,8 @@ class _EffortSpent(Exception):  # noqa: N818 (not an error: the way out of an en
 
 
 def enumerate_consistent(search: Search, answer: Extractor, above: int) -> ConsistentTerms:
-    """All consistent terms over the field of a search, from those as small as its `answer` to `above` nodes more.
+    """Return all consistent terms over the field of a search, from those as small as its `answer` to `above` nodes
+    more.
 
     None is larger than `options.max_size`: it could not be learned once a person says that it is meant. Sizes that
     take more than `options.effort` operands are left out, and those above them; so are all that the time does not
@@ -77,7 +78,6 @@ class _Collector:
         self._known: dict[tuple[Goal, int], tuple[Term, ...]] = {}
 
     def terms_of_size(self, size: int, known: Container[int]) -> dict[int, Term]:
-        """The consistent terms of that size which select something that no known one does, each the first to do so."""
         drafts = (d for d in self._drafts(self._goal, size) if d[0] & self._shown == self._need and d[0] not in known)
         return {term.bits: term for term in _keep_firsts(drafts)}
 
@@ -92,7 +92,6 @@ class _Collector:
                     yield half.bits(other.bits), half.key(other.key), half, other
 
     def _operands(self, goal: Goal, size: int) -> Iterable[Term]:
-        """The terms of that size that meet a goal, one for each way of selecting."""
         found: Iterable[Term]
         if size > self._stored:
             if (goal, size) not in self._known:
@@ -110,7 +109,6 @@ class _Collector:
 
 
 def _keep_firsts(drafts: Iterable[TermDraft]) -> tuple[Term, ...]:
-    """One term for each way of selecting, the first in the order."""
     best: dict[int, tuple[Key, HalfTerm | None, Term]] = {}
     for bits, key, half, term in drafts:
         if bits not in best or key < best[bits][0]:
@@ -179,7 +177,7 @@ class RankedCandidates:
 
     @staticmethod
     def of_single(search: Search, extractor: Extractor) -> RankedCandidates:
-        """One extractor, whatever else is consistent."""
+        """Return one extractor, whatever else is consistent."""
         term = search.field.term(extractor)
         return RankedCandidates(search, ConsistentTerms((term,), term.size, False))
 
@@ -208,12 +206,12 @@ class RankedCandidates:
         return self.consistent.complete and len(self.believable) == 1
 
     def differences(self, candidate: int) -> tuple[int, ...]:
-        """Places of the meshes on which a reading selects something else than the one that is taken."""
+        """Return places of the meshes on which a reading selects something else than the one that is taken."""
         other = self.terms[candidate].bits ^ self.terms[0].bits
         return tuple(k for k, present in enumerate(self.field.present) if other & present)
 
     def best_question(self, trust: Mapping[int, float]) -> QuestionSplit | None:
-        """The best question about an asset of the batch.
+        """Return the best question about an asset of the batch.
 
         trust: places of the meshes that it may be about, with how much an answer about each is worth.
         """
@@ -260,7 +258,7 @@ class QuestionValue:
         return 0.0 if self.differs is None else float(self._beliefs @ self.differs[0])
 
     def best_question(self, trust: Mapping[int, float]) -> QuestionSplit | None:
-        """The question that spares most; of equals, the first.
+        """Return the question that spares most; of equals, the first.
 
         trust: the assets that can be asked about, with how much an answer there is worth: where labels are wrong, what
         is right to say is what no reading does.
@@ -269,7 +267,7 @@ class QuestionValue:
         return min(splits, key=lambda one: (-round(one.spared * trust[one.asset], 12), one.asset), default=None)
 
     def gains(self, first: int) -> dict[int, float]:
-        """How much harm an answer about each asset from `first` on would spare, where there is any."""
+        """Return how much harm an answer about each asset from `first` on would spare, where there is any."""
         assets = range(first, self._kinds.shape[1])
         found = {asset: self.harm - split.left for asset in assets if (split := self._split(asset))}
         return {asset: gain for asset, gain in found.items() if gain > _NOTHING}

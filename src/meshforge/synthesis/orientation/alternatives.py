@@ -44,7 +44,8 @@ def find_more_believable(
     extractors: Sequence[language.Extractor],
     batch: Sequence[SymbolicMesh],
 ) -> language.Orient | None:
-    """The directive of one pair in whose frame the rules are most believable, if they are clearly more so than now.
+    """Return the directive of one pair in whose frame the rules are most believable, if they are clearly more so than
+    now.
 
     frame: the program without its rules, and without an orientation; extractors: of the rules, as they were learned.
     Raises OutOfTime.
@@ -107,7 +108,8 @@ class FrameCosts:
         return self.count((), askew=True)
 
     def count(self, supported: Collection[str], askew: bool) -> float:
-        """The cost where landmarks lie along some axes; askew: whether actions went by axes that mean nothing."""
+        """Return the cost where landmarks lie along some axes; askew: whether actions went by axes that mean
+        nothing."""
         return sum(cost_extractor(one, supported) for one in self._extractors) + (self.askew if askew else 0.0)
 
 
@@ -136,7 +138,7 @@ def _rank(directives: Directives, landmarks: Landmarks) -> list[language.Orient]
 
 
 def cost_extractor(extractor: language.Extractor, supported: Collection[str]) -> float:
-    """What it costs to believe in one [nats]."""
+    """Return what it costs to believe in one [nats]."""
     return NODE * language.size_of(extractor) + _reason(extractor, supported)
 
 

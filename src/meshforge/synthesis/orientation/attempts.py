@@ -57,7 +57,8 @@ class OrientationSearch:
         self._none_up_to: dict[frozenset[Signature], int] = {}
 
     def attempt(self, orient: language.Orient) -> FrameAttempt | None:
-        """Learning in the frame of a directive, as far as it came; None where it fails on a demonstrated mesh."""
+        """Return learning in the frame of a directive, as far as it came; None where it fails on a demonstrated
+        mesh."""
         if orient not in self._by_orient:
             self._budget.check()
             self._by_orient[orient] = self._begin(orient)
@@ -80,7 +81,7 @@ class OrientationSearch:
         return self._by_turns[turns]
 
     def analyze(self, rule: RuleSpec, replays: Sequence[Replay]) -> RuleInFrame:
-        """The next rule of some replays. Raises MeshForgeError where what was shown cannot be done."""
+        """Return the next rule of some replays. Raises MeshForgeError where what was shown cannot be done."""
         examples = [shown for replay in replays if (shown := example_of(replay, self._demos[replay.name], rule))]
         found = analyze_rule(examples, self._frame.labels, self._options)
         if not found.base and self._closed:  # bases select the same in every frame, unless open steps differ
@@ -88,7 +89,7 @@ class OrientationSearch:
         return found
 
     def find_smallest(self, rule: RuleInFrame, most: int) -> language.Extractor | None:
-        """The extractor that learning finds, if it has at most that many nodes. Raises OutOfTime."""
+        """Return the extractor that learning finds, if it has at most that many nodes. Raises OutOfTime."""
         if rule.base or rule.strays or most < rule.least:
             return rule.base
         if rule.signatures not in self._extractors and self._none_up_to.get(rule.signatures, 0) < most:
@@ -97,7 +98,7 @@ class OrientationSearch:
         return found if found and language.size_of(found) <= most else None
 
     def selects_shown(self, extractor: language.Extractor, examples: Sequence[Example]) -> bool:
-        """Whether an extractor selects what was shown on some examples."""
+        """Return whether an extractor selects what was shown on some examples."""
         delta = self._options.geo_extremity
         return all(language.select_mask(extractor, one.mesh, delta) == one.selection for one in examples)
 
@@ -110,7 +111,7 @@ class OrientationSearch:
             self._none_up_to[rule.signatures] = most
 
     def advance(self, replays: Sequence[Replay], rule: RuleSpec, extractor: language.Extractor) -> list[Replay]:
-        """The replays after one more rule. Raises MeshForgeError where its action cannot be done."""
+        """Return the replays after one more rule. Raises MeshForgeError where its action cannot be done."""
         done = language.Rule(extractor, rule.action, rule.label)
         return [replay.advance(done, self._templates, self._frame.extremity) for replay in replays]
 
@@ -190,7 +191,7 @@ class RuleInFrame:
 
 
 def analyze_rule(examples: Sequence[Example], vocabulary: Sequence[str], options: Options) -> RuleInFrame:
-    """A rule as it is met on some examples."""
+    """Return a rule as it is met on some examples."""
     chosen = (*enumerate_leaves(tuple(vocabulary), options.layers), *options.leaves)
     hulls = HullTable([example.mesh for example in examples], extremity=options.geo_extremity)
     shown = [bool(e.selection >> index & 1) for e in examples for index in range(len(e.mesh.hulls))]
@@ -218,7 +219,7 @@ class MeshTurner:
         self._wide = replace(mesh, epsilon=epsilon * _MAX_STRETCH, scale=None)
 
     def turn(self, orient: language.Orient | None) -> tuple[SymbolicMesh, Pose]:
-        """The mesh in the frame of a directive, and the pose oriented_T_incoming.
+        """Return the mesh in the frame of a directive, and the pose oriented_T_incoming.
 
         Raises ProgramError where the orientation fails.
         """

@@ -37,20 +37,22 @@ class Landmarks:
         self._least = APART * np.array([mesh.diagonal for mesh in meshes])
 
     def place(self, base: BaseExtractor) -> int:
-        """The position of a base in their order."""
+        """Return the position of a base in their order."""
         return self.bases.index(base)
 
     def directions(self, start: BaseExtractor, end: BaseExtractor) -> Floats:
-        """From the centre of one landmark to that of another on each mesh (n, 3) [m]; NaN where one is missing."""
+        """Return from the centre of one landmark to that of another on each mesh (n, 3) [m]; NaN where one is
+        missing."""
         return self._centres[:, self.place(end)] - self._centres[:, self.place(start)]
 
     def apart(self, start: BaseExtractor, end: BaseExtractor) -> Bools:
-        """On which meshes both landmarks are present, and apart (n,)."""
+        """Return on which meshes both landmarks are present, and apart (n,)."""
         far: Bools = np.linalg.norm(self.directions(start, end), axis=1) >= self._least
         return far
 
     def holds(self, orient: Orient) -> Bools:
-        """On which meshes the landmarks of a directive are apart, those of a second pair across the first (n,)."""
+        """Return on which meshes the landmarks of a directive are apart, those of a second pair across the first
+        (n,)."""
         first = orient.pairs[0]
         satisfied = self.apart(first.start, first.end)
         for second in orient.pairs[1:]:
@@ -58,7 +60,7 @@ class Landmarks:
         return satisfied
 
     def supports(self, letter: str) -> bool:
-        """Whether two landmarks lie along a coordinate axis on nearly all meshes, the same way round."""
+        """Return whether two landmarks lie along a coordinate axis on nearly all meshes, the same way round."""
         present = [(a, b) for a, b in combinations(self.bases, 2) if self.apart(a, b).mean() >= _USUAL]
         return any(self._lie_along(a, b, "XYZ".index(letter)) for a, b in present)
 
@@ -67,7 +69,8 @@ class Landmarks:
         return max(float((sign * cosines >= ALONG).mean()) for sign in (1, -1)) >= NEARLY_ALL
 
     def deviation(self, pair: LandmarkPair) -> float:
-        """The angle [rad] between a pair and its axis on the better part of the meshes; no more than counts as near.
+        """Return the angle [rad] between a pair and its axis on the better part of the meshes; no more than counts as
+        near.
 
         A frame in which most meshes stand well shows which landmarks lie along its axes.
         """
@@ -77,8 +80,8 @@ class Landmarks:
         return min(angle, _NEAR)
 
     def likeness(self, pair: LandmarkPair) -> float:
-        """The share of the distances of all landmarks from the middle that a height along the pair explains, which
-        each landmark has on all meshes alike."""
+        """Return the share of the distances of all landmarks from the middle that a height along the pair explains,
+        which each landmark has on all meshes alike."""
         there = self.apart(pair.start, pair.end)
         units = np.zeros((len(there), 3))
         units[there] = self._units(pair.start, pair.end)

@@ -33,12 +33,12 @@ class Directives:
         self._ends = [(a, b) for a, b in ends if self._landmarks.apart(a, b)[: self._shown].all()]
 
     def with_one_pair(self) -> list[language.Orient]:
-        """All with one pair, the preferred first."""
+        """Return all with one pair, the preferred first."""
         pairs = [self._pair(a, b, _LETTERS) for a, b in self._ends]
         return self._sort(language.Orient((pair,), snap) for pair in pairs for snap in (False, True))
 
     def with_two_pairs(self, firsts: Iterable[language.LandmarkPair]) -> list[language.Orient]:
-        """All with one of the given pairs and a second one, the preferred first."""
+        """Return all with one of the given pairs and a second one, the preferred first."""
         both = [(first, second) for first in firsts for second in self._second_pairs(first)]
         return self._sort(language.Orient(pairs, snap) for pairs in both for snap in (False, True))
 
@@ -114,7 +114,8 @@ def suggest_orientation(
     known: Sequence[language.Extractor] = (),
     batch: Sequence[SymbolicMesh] = (),
 ) -> OrientationSuggestion | None:
-    """The directive under which the extractors of all rules have the fewest nodes, if it is clearly better than now.
+    """Return the directive under which the extractors of all rules have the fewest nodes, if it is clearly better than
+    now.
 
     frame: the program without its rules; known: what learning found in the present frame, empty where some rule
     has no extractor. A pair that is given is kept where a second one, or `snap`, is enough. Raises OutOfTime.
@@ -155,7 +156,7 @@ def _search_all(search_attempts: Attempts, directives: Directives, limit: int) -
 
 
 def explain_orientation(orient: language.Orient, found: Sequence[int], before: Sequence[int], assets: int = 0) -> str:
-    """`in the frame where +Z points from the leg hulls to the panel hulls, every rule has an extractor, of ...`.
+    """Return `in the frame where +Z points from the leg hulls to the panel hulls, every rule has an extractor, of ...`.
 
     found, before: nodes of each rule in that frame and now; assets: on which the rules select something else there.
     """
@@ -176,7 +177,6 @@ def _describe_base(base: language.BaseExtractor) -> str:
 
 
 def _describe_sizes(sizes: Sequence[int]) -> str:
-    """`1 node`, `1, 2 and 4 nodes`."""
     *others, last = sizes
     return f"{', '.join(map(str, others))} and {last} nodes" if others else pluralize(last, "node")
 
@@ -189,11 +189,11 @@ class Attempts:
         self._steps = sorted({min(step, most) for step in (*_STEPS, most)})
 
     def best(self, orients: Sequence[language.Orient], limit: int) -> OrientationFit | None:
-        """The directive with the fewest nodes in all, at most `limit`; of equals the first. Raises OutOfTime."""
+        """Return the directive with the fewest nodes in all, at most `limit`; of equals the first. Raises OutOfTime."""
         return self._best(orients, limit, self._steps)
 
     def best_of_small(self, orients: Sequence[language.Orient], limit: int) -> OrientationFit | None:
-        """The directive with the fewest nodes, where every extractor is small. Raises OutOfTime."""
+        """Return the directive with the fewest nodes, where every extractor is small. Raises OutOfTime."""
         return self._best(orients, limit, self._steps[:1])
 
     def _best(self, orients: Sequence[language.Orient], limit: int, steps: Sequence[int]) -> OrientationFit | None:
@@ -209,11 +209,11 @@ class Attempts:
         return found[min(found)] if found else None
 
     def is_optimal(self, fit: OrientationFit) -> bool:
-        """Whether no directive can need fewer nodes."""
+        """Return whether no directive can need fewer nodes."""
         return sum(fit[1]) <= sum(self._search.floors)
 
     def farthest_pairs(self, orients: Sequence[language.Orient], count: int) -> list[language.LandmarkPair]:
-        """The pairs of the directives that came farthest, of equals the first."""
+        """Return the pairs of the directives that came farthest, of equals the first."""
         tried = [(orient, attempt) for orient in orients if (attempt := self._search.attempt(orient))]
         tried.sort(key=lambda row: (-len(row[1].sizes), row[1].strays))
         return list(dict.fromkeys(orient.pairs[0] for orient, _ in tried))[:count]

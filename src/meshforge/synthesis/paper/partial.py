@@ -72,7 +72,7 @@ class HoleGrammar:
         self.extractors: tuple[Partial, ...] = (*self.bases, *contact, *position, *operators)
 
     def fill(self, partial: Open) -> Iterator[Partial]:
-        """The partial program with its first hole filled, in all ways."""
+        """Yield the partial program with its first hole filled, in all ways."""
         match partial:
             case Hole():
                 yield from self.extractors
@@ -94,21 +94,21 @@ class HoleGrammar:
 def make_attach(
     selected: language.BaseExtractor | BaseHole, anchor: language.BaseExtractor | BaseHole
 ) -> language.Attach | OpenAttach:
-    """`Attach` of two bases, either of which may be a hole."""
+    """Return `Attach` of two bases, either of which may be a hole."""
     if isinstance(selected, BaseHole) or isinstance(anchor, BaseHole):
         return OpenAttach(selected, anchor)
     return language.Attach(selected, anchor)
 
 
 def make_operator(operator: SetOperator, left: Partial, right: Partial) -> Partial:
-    """A set operator over two partial programs."""
+    """Return a set operator over two partial programs."""
     if isinstance(left, Open) or isinstance(right, Open):
         return OpenOperator(operator, left, right)
     return operator(left, right)
 
 
 def count_nodes(partial: Partial) -> int:
-    """The syntactic complexity: syntax nodes, of which a hole is one."""
+    """Return the syntactic complexity: syntax nodes, of which a hole is one."""
     match partial:
         case Hole():
             return 1
@@ -138,7 +138,7 @@ class Worklist:
             self._queues[size].append(partial)
 
     def pop(self) -> tuple[int, Partial] | None:
-        """The simplest with its size, None when there is none left."""
+        """Return the simplest with its size, None when there is none left."""
         for size, queue in enumerate(self._queues):
             if queue:
                 return size, queue.popleft()
@@ -170,7 +170,7 @@ class ExampleMasks:
         self.refine = refine
 
     def select(self, extractor: language.Extractor, labels: LabelMasks | None = None) -> int:
-        """What an extractor selects, as a bit set; labels: those to go by, without them the mesh's own."""
+        """Return what an extractor selects, as a bit set; labels: those to go by, without them the mesh's own."""
         labels = self.labels if labels is None else labels
         match extractor:
             case language.Is(label):
@@ -187,11 +187,12 @@ class ExampleMasks:
                 assert_never(extractor)
 
     def differences(self, extractor: language.Extractor) -> int:
-        """The hulls that an extractor selects though they were not shown, or the other way round, as a bit set."""
+        """Return the hulls that an extractor selects though they were not shown, or the other way round, as a bit
+        set."""
         return self.select(extractor) ^ self.target
 
     def relabel(self, changes: Iterable[LabelChange]) -> LabelMasks:
-        """The labels after some changes."""
+        """Return the labels after some changes."""
         labels = dict(self.labels)
         for index, to in changes:
             was = self.example.mesh.hulls[index].label
@@ -215,13 +216,13 @@ def _masks_by_label(labels: Iterable[str | None]) -> dict[str, int]:
 
 
 def is_feasible(partial: Partial, demo: ExampleMasks) -> bool:
-    """Whether a completion may select what was shown, as far as bounds tell."""
+    """Return whether a completion may select what was shown, as far as bounds tell."""
     low, high = bounds(partial, demo)
     return not low & ~demo.target and not demo.target & ~high
 
 
 def bounds(partial: Partial, demo: ExampleMasks) -> Bounds:
-    """The bounds of a partial program on a demonstration; both are its selection where it has no holes.
+    """Return the bounds of a partial program on a demonstration; both are its selection where it has no holes.
 
     `Attach` grows with both its operands, so the bounds of these give its own; `Geo` does not grow with its base.
     """
@@ -259,14 +260,14 @@ class NearestTracker:
         self._best: tuple[int, language.Extractor] | None = None
 
     def offer(self, extractor: language.Extractor) -> int:
-        """In how many hulls an extractor differs from what was shown: 0 is a match."""
+        """Return in how many hulls an extractor differs from what was shown: 0 is a match."""
         count = sum(demo.differences(extractor).bit_count() for demo in self._demos)
         if self._best is None or count < self._best[0]:
             self._best = (count, extractor)
         return count
 
     def miss(self) -> NearestExtractor | None:
-        """How the nearest differs on the mesh where it differs most, None when nothing was offered."""
+        """Return how the nearest differs on the mesh where it differs most, None when nothing was offered."""
         if self._best is None:
             return None
         extractor = self._best[1]

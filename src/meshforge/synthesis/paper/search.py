@@ -55,7 +55,7 @@ class PaperSearch:
         self._nearest = NearestTracker(self._demos)
 
     def run(self) -> SearchResult | HitWithFixes:
-        """The answer, within the limits of the options and the budget."""
+        """Return the answer, within the limits of the options and the budget."""
         try:
             return self._find_hit()
         except OutOfTime:
@@ -118,7 +118,7 @@ class Abduction:
         self._by_frequency = sorted(vocabulary, key=lambda label: -counts[label])
 
     def infer(self, extractor: Extractor) -> tuple[LabelFix, ...] | None:
-        """The fewest corrections after which an extractor matches; None where no repair is within the allowance.
+        """Return the fewest corrections after which an extractor matches; None where no repair is within the allowance.
 
         A correction touches one mesh only and a match is a match on each, so the fewest corrections of all are the
         fewest of each mesh, and one mesh beyond repair decides. Of repairs as small the first is taken: hulls in
@@ -166,7 +166,7 @@ class Confirmations:
         self._answers: dict[LabelFix, bool] = {}
 
     def are_confirmed(self, fixes: Sequence[LabelFix]) -> bool:
-        """Whether all are right; nothing is asked about a repair of which one is known to be wrong."""
+        """Return whether all are right; nothing is asked about a repair of which one is known to be wrong."""
         return not any(map(self._is_refused, fixes)) and all(map(self._is_confirmed, fixes))
 
     def _is_refused(self, fix: LabelFix) -> bool:

@@ -33,7 +33,7 @@ noisy labels (`script/bench tuning`): of 120 sessions 99 end right within three 
 
 
 def make_confirmer(rule: int, confirm: Callable[[Repair], bool]) -> Callable[[LabelFix], bool]:
-    """Asks about corrections of which nothing is known but that an extractor of the rule matches with them."""
+    """Ask about fixes of which nothing is known but that an extractor of the rule matches with them."""
     return lambda fix: confirm(Repair(fix, rule, 1.0, "an extractor selects what was shown with it"))
 
 
@@ -63,7 +63,7 @@ class RepairCollector:
         return {name: exp(-DISTRUST_PER_ERROR * errors.get(name, 0.0)) for name in self._meshes}
 
     def find_fixes(self, rule: int, examples: Sequence[Example], found: Hit | Miss) -> tuple[LabelFix, ...]:
-        """Corrections that explain what was shown better than what was found does. Raises OutOfTime."""
+        """Return fixes that explain what was shown better than what was found does. Raises OutOfTime."""
         options, labels, rejected = self._task.options, self._task.frame.labels, self._task.rejected
         exact = found.extractor if isinstance(found, Hit) else None
         explanation = (
@@ -83,7 +83,8 @@ class RepairCollector:
         return explained.fixes
 
     def find_landmark_fixes(self, learned: Sequence[Extractor], failed: bool) -> bool:
-        """Whether landmarks' labels explain better what was shown; if so, their corrections take the place of all.
+        """Return whether landmarks' labels explain better what was shown; if so, their corrections take the place of
+        all.
 
         learned: the extractors of the rules; failed: whether the rule after them has none. Raises OutOfTime.
         """
@@ -158,7 +159,7 @@ class FixSearch:
         self._exact, self._spent, self._rejected = exact, spent, rejected
 
     def run(self) -> Explanation | None:
-        """The most believable extractor with corrections of labels, None where what is exact is as believable.
+        """Return the most believable extractor with corrections of labels, None where what is exact is as believable.
 
         Raises OutOfTime.
         """
@@ -180,11 +181,9 @@ class FixSearch:
 
     @property
     def _limit(self) -> int:
-        """Nodes that an explanation may have."""
         return min(self._options.max_size, size_of(self._exact) - 1 if self._exact else self._options.max_size)
 
     def _build_variants(self) -> Variants | None:
-        """None where no label can be corrected."""
         within = self._exact_cost - candidate_search.NODE_COST
         room = MAX_RELABELINGS // max(1, len(self._examples))
         ways = [
@@ -240,17 +239,17 @@ class FixSearch:
 
 
 def rank_candidates(hypotheses: Iterable[Candidate]) -> list[Candidate]:
-    """The candidates with corrections, the most believable first; of equally believable ones in their order."""
+    """Return the candidates with corrections, the most believable first; of equally believable ones in their order."""
     return sorted((one for one in hypotheses if not one.exact), key=lambda one: (round(one.score, 9), one.key))
 
 
 def changes_of(candidate: Candidate) -> tuple[ChangeAt, ...]:
-    """The changes of a candidate's cheapest relabelings."""
+    """Return the changes of a candidate's cheapest relabelings."""
     return tuple((place, change) for place, some in enumerate(candidate.ways) for change in some[0].changes)
 
 
 def compute_change_beliefs(hypotheses: Sequence[Candidate], instead: float) -> Mapping[ChangeAt, float]:
-    """The probability of each change, among all candidates and what stands against them.
+    """Return the probability of each change, among all candidates and what stands against them.
 
     instead: the cost [nats] of what else may be the case. An extractor's share is spread over its relabelings.
     """

@@ -89,18 +89,18 @@ class Candidate:
 
 
 def total_chance(ways: Iterable[Relabeling]) -> float:
-    """How probable relabelings are together, compared with the mesh as it is."""
+    """Return how probable relabelings are together, compared with the mesh as it is."""
     return fsum(way.chance for way in ways)
 
 
 def key_cost(key: Key) -> float:
-    """What it costs to believe an extractor, by its place in the search's order."""
+    """Return what it costs to believe an extractor, by its place in the search's order."""
     size, uncertainty = float(key[0]), float(key[1])
     return NODE_COST * size + UNCERTAINTY_COST * uncertainty
 
 
 def search_small(variants: Variants, largest: int, within: float, budget: TimeBudget) -> Iterator[Candidate]:
-    """The candidates of up to `largest` nodes that cost no more than `within`, smaller ones first.
+    """Yield the candidates of up to `largest` nodes that cost no more than `within`, smaller ones first.
 
     Those that are much less believable than one before are passed over.
     """
@@ -132,7 +132,6 @@ def _candidates_on_level(
 
 
 def _add_cheapest(costs: dict[int, float], hits: RelabelingRows, rows: int) -> None:
-    """Add to the cost of each row that of the first relabeling it matches on."""
     for relabeling, hit in hits:
         for row in positions(hit & rows):
             costs[row] += relabeling.cost
@@ -153,7 +152,7 @@ def search_larger(
     within: float,
     budget: TimeBudget,
 ) -> Iterator[Candidate]:
-    """Candidates of more than `above` nodes that cost no more than `within`, of cheap relabelings first."""
+    """Yield candidates of more than `above` nodes that cost no more than `within`, of cheap relabelings first."""
     places = {label: place for place, label in enumerate(vocabulary)}
     known: set[Key] = set()
     for searched, ways in enumerate(combine_relabelings(variants, budget)):
@@ -171,7 +170,7 @@ def search_larger(
 
 
 def combine_relabelings(variants: Variants, budget: TimeBudget) -> Iterator[tuple[Relabeling, ...]]:
-    """Relabelings of all examples with a correction at least, cheapest first, that some extractor may match."""
+    """Yield relabelings of all examples with a correction at least, cheapest first, that some extractor may match."""
     lists = variants.by_example
     if not all(lists):
         return

@@ -10,7 +10,7 @@ _LOW_CONFIDENCE = 0.8  # a confidence below is worth mentioning
 
 
 def explain_fix(odds: LabelOdds, to: str, extractor: Extractor, alone: bool) -> str:
-    """One sentence on the label itself, and what its correction makes possible.
+    """Return one sentence on the label itself, and what its correction makes possible.
 
     alone: whether it is the only correction.
     """
@@ -19,7 +19,7 @@ def explain_fix(odds: LabelOdds, to: str, extractor: Extractor, alone: bool) -> 
 
 
 def list_evidence(odds: LabelOdds, to: str) -> list[str]:
-    """What speaks against a label and for another one."""
+    """Return what speaks against a label and for another one."""
     similar, hull = odds.similar, odds.hull
     agreeing, of = similar.count(to), len(similar)
     reasons = []
@@ -39,5 +39,5 @@ def _label_reasons(hull: Hull) -> list[str]:
 
 
 def describe_effect(extractor: Extractor, alone: bool) -> str:
-    """What corrections make possible. alone: whether there is only one."""
+    """Return what corrections make possible. alone: whether there is only one."""
     return f"with {'it' if alone else 'all corrections'}, {show(extractor)} selects what was shown"

@@ -38,7 +38,7 @@ def enumerate_relabelings(
     within: float,
     limit: int,
 ) -> list[Relabeling]:
-    """The mesh as it is, and every single correction and the cheapest of more within a cost, by cost.
+    """Return the mesh as it is, and every single correction and the cheapest of more within a cost, by cost.
 
     allowed: corrections at most; rejected: a label that a person did not want corrected stands, whatever else it might
     be; limit: relabelings of more than one correction stop there.
@@ -55,7 +55,7 @@ def enumerate_relabelings(
 
 
 def relabel(example: Example, changes: Sequence[LabelChange]) -> Example:
-    """The example with labels changed."""
+    """Return the example with labels changed."""
     if not changes:
         return example
     hulls = example.mesh.hulls
@@ -109,7 +109,7 @@ class Variant:
 
 
 def build_hull_table(examples: Sequence[Example], ways: Sequence[Sequence[Relabeling]], extremity: float) -> HullTable:
-    """The hulls of each example under each of its relabelings, in one row."""
+    """Return the hulls of each example under each of its relabelings, in one row."""
     rows = [(example, one) for example, some in zip(examples, ways, strict=True) for one in some]
     labels = [label for example, one in rows for label in _labels_under(example, one)]
     return HullTable([example.mesh for example, _ in rows], labels, extremity)
@@ -141,7 +141,8 @@ class Variants:
             self.by_example.append([variant for variant in variants if not variant.need & variant.avoid])
 
     def relabelings_for(self, extractor: Extractor | None) -> list[list[Relabeling]]:
-        """Of each example the relabelings on which an extractor selects what was shown; on all of them for None."""
+        """Return of each example the relabelings on which an extractor selects what was shown; on all of them for
+        None."""
         found = None if extractor is None else self._groups.term(extractor).bits
         return [
             [

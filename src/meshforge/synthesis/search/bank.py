@@ -32,7 +32,7 @@ class Level:
         self.columns = Columns([term.bits for term in self.terms], width)
 
     def select_rows(self, rows: int) -> Iterator[Term]:
-        """The terms of a set of rows, in order."""
+        """Return the terms of a set of rows, in order."""
         return (self.terms[k] for k in positions(rows))
 
 
@@ -57,11 +57,11 @@ class Bank:
         return tuple(self._levels)
 
     def leaves(self, size: int) -> list[Term]:
-        """The terms of that size without set operators."""
+        """Return the terms of that size without set operators."""
         return [leaf for leaf in self._leaves if leaf.key[0] == size]
 
     def level(self, size: int) -> Level:
-        """The terms of that size, without those that select what a smaller one does."""
+        """Return the terms of that size, without those that select what a smaller one does."""
         while len(self._levels) < size:
             self._levels.append(self._grow(len(self._levels) + 1))
         return self._levels[size - 1]
@@ -121,7 +121,7 @@ class Columns:
         self._clear: dict[int, int] = {}
 
     def rows_with(self, need: int, among: int) -> int:
-        """The rows of `among` that have every bit of `need`."""
+        """Return the rows of `among` that have every bit of `need`."""
         columns = self._columns
         while need and among:
             low = need & -need
@@ -130,7 +130,7 @@ class Columns:
         return among
 
     def rows_without(self, avoid: int, among: int) -> int:
-        """The rows of `among` that have no bit of `avoid`."""
+        """Return the rows of `among` that have no bit of `avoid`."""
         columns = self._columns
         while avoid and among:
             low = avoid & -avoid
@@ -139,12 +139,12 @@ class Columns:
         return among
 
     def all_with(self, need: int) -> int:
-        """All rows that have every bit of `need`."""
+        """Return all rows that have every bit of `need`."""
         found = self._holding.get(need)
         return self._remember(self._holding, need, self.rows_with(need, self.every)) if found is None else found
 
     def all_without(self, avoid: int) -> int:
-        """All rows that have no bit of `avoid`."""
+        """Return all rows that have no bit of `avoid`."""
         found = self._clear.get(avoid)
         return self._remember(self._clear, avoid, self.rows_without(avoid, self.every)) if found is None else found
 
@@ -157,7 +157,7 @@ class Columns:
 
 
 def positions(mask: int) -> Iterator[int]:
-    """The set bits, lowest first."""
+    """Yield the set bits, lowest first."""
     while mask:
         low = mask & -mask
         yield low.bit_length() - 1
@@ -189,7 +189,7 @@ class HalfTerm(NamedTuple):
     as_right: bool = False
 
     def bits(self, other: int) -> int:
-        """What the whole selects with an operand that selects `other` in its place."""
+        """Return what the whole selects with an operand that selects `other` in its place."""
         if self.operator is Union:
             return self.known.bits | other
         if self.operator is Intersect:
@@ -197,12 +197,12 @@ class HalfTerm(NamedTuple):
         return other & ~self.known.bits if self.as_right else self.known.bits & ~other
 
     def key(self, other: Key) -> Key:
-        """The place of the whole in the order."""
+        """Return the place of the whole in the order."""
         left, right = (other, self.known.key) if self.as_right else (self.known.key, other)
         return operator_key(self.operator, left, right)
 
     def complete(self, other: Term) -> Term:
-        """The whole, with the other operand in its place."""
+        """Return the whole, with the other operand in its place."""
         return combine(self.operator, other, self.known) if self.as_right else combine(self.operator, self.known, other)
 
 
@@ -220,7 +220,7 @@ class Completion:
         self.goals = 0
 
     def find_first(self, goal: Goal, size: int) -> Term | None:
-        """The first term of that size that meets the goal. Raises OutOfTime."""
+        """Return the first term of that size that meets the goal. Raises OutOfTime."""
         if not self._shortcuts.complete:
             return _first_term_for(self._bank.level(size), goal)
         leaves = [leaf for leaf in self._bank.leaves(size) if satisfies(leaf.bits, goal)]
@@ -245,12 +245,12 @@ class Completion:
 
 
 def satisfies(bits: int, goal: Goal) -> bool:
-    """Whether a selection meets a goal."""
+    """Return whether a selection meets a goal."""
     return bits & goal.need == goal.need and not bits & goal.avoid
 
 
 def rows_for(level: Level, goal: Goal) -> int:
-    """The rows of the terms of a level that meet a goal."""
+    """Return the rows of the terms of a level that meet a goal."""
     holding = level.columns.all_with(goal.need)
     return holding & level.columns.all_without(goal.avoid) if holding else 0
 

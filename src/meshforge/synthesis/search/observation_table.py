@@ -45,7 +45,7 @@ class ObservationTable:
         self.width, self.terms = self._groups.width, self._groups.terms
 
     def width_of(self, count: int) -> int:
-        """How many groups the first `count` meshes have."""
+        """Return how many groups the first `count` meshes have."""
         return 1 + max((group for groups in self.groups[:count] for group in groups), default=-1)
 
     @cached_property
@@ -54,24 +54,24 @@ class ObservationTable:
         return tuple(mask_of(groups) for groups in self.groups)
 
     def on(self, bits: int, mesh: int) -> int:
-        """The hulls of one mesh that are in a set of groups, as a bit set."""
+        """Return the hulls of one mesh that are in a set of groups, as a bit set."""
         return mask_of(hull for hull, group in enumerate(self.groups[mesh]) if bits >> group & 1)
 
     def groups_in(self, selections: Sequence[int]) -> int:
-        """The groups that selections of hulls, one for each of the first meshes, touch."""
+        """Return the groups that selections of hulls, one for each of the first meshes, touch."""
         rows = zip(selections, self.groups, strict=False)
         return mask_of(group for mask, groups in rows for hull, group in enumerate(groups) if mask >> hull & 1)
 
     def term(self, extractor: language.Extractor) -> Term:
-        """An extractor over the leaves as a term, operands in the order that terms have."""
+        """Return an extractor over the leaves as a term, operands in the order that terms have."""
         return self._groups.term(extractor)
 
     def bits(self, extractor: language.Extractor) -> int:
-        """The groups that an extractor over the leaves selects."""
+        """Return the groups that an extractor over the leaves selects."""
         return self.term(extractor).bits
 
     def find_conflict(self, selections: Sequence[int]) -> tuple[tuple[int, int], tuple[int, int]] | None:
-        """Two hulls, each as (mesh, hull), that no extractor tells apart though only the first is selected.
+        """Return two hulls, each as (mesh, hull), that no extractor tells apart though only the first is selected.
 
         selections: of the first meshes, one bit set of hulls each. None where there are no such hulls.
         """
@@ -112,7 +112,7 @@ class HullGroups:
         ]
 
     def term(self, extractor: language.Extractor) -> Term:
-        """An extractor over the leaves as a term, operands in the order that terms have."""
+        """Return an extractor over the leaves as a term, operands in the order that terms have."""
         match extractor:
             case language.Union(left, right) | language.Intersect(left, right) | language.Diff(left, right):
                 return combine(type(extractor), self.term(left), self.term(right))
@@ -127,7 +127,7 @@ class HullGroups:
 
 
 def select_all(leaves: Sequence[Leaf], hulls: HullTable) -> Bools:
-    """Whether each leaf selects each hull: (leaves, hulls)."""
+    """Return whether each leaf selects each hull: (leaves, hulls)."""
     table = np.zeros((len(leaves), len(hulls)), dtype=np.bool_)
     for row, leaf in enumerate(leaves):
         table[row] = select_hulls(leaf, hulls)

@@ -88,7 +88,7 @@ class Search:
         self._exhausted = self._kept = self._goals = 0
 
     def run(self) -> SearchResult:
-        """The answer, within the limits of the options and the budget."""
+        """Return the answer, within the limits of the options and the budget."""
         try:
             return self.find_hit() or self._report_miss()
         except OutOfTime:
@@ -110,7 +110,8 @@ class Search:
         return tuple(sorted([*shown, *[g for g in every if not self.need >> g & 1][: few - len(shown)]]))
 
     def find_hit(self) -> Hit | None:
-        """The smallest extractor, None where there is none within the limits: what comes nearest is not looked for.
+        """Return the smallest extractor, None where there is none within the limits: what comes nearest is not looked
+        for.
 
         Raises OutOfTime.
         """
@@ -161,7 +162,6 @@ class Search:
 
 
 def _pack(bits: int, groups: Sequence[int], whole: bool) -> int:
-    """The bits of some groups, moved together."""
     if whole:
         return bits & ((1 << len(groups)) - 1)
     return mask_of(place for place, group in enumerate(groups) if bits >> group & 1)
@@ -194,13 +194,13 @@ class ErrorCounter:
         self._missed, self._extra = _to_planes(shown), _to_planes(others)
 
     def count(self, chosen: int) -> int:
-        """How many hulls a selection of groups has too many or too few."""
+        """Return how many hulls a selection of groups has too many or too few."""
         extra = sum((chosen & plane).bit_count() << k for k, plane in enumerate(self._extra))
         return extra + sum((~chosen & plane).bit_count() << k for k, plane in enumerate(self._missed))
 
 
 def compare_nearest(extractor: Extractor, field: ObservationTable, examples: Sequence[Example]) -> NearestExtractor:
-    """Where and how an extractor's selection differs from what was shown, on the mesh where it differs most."""
+    """Return where and how an extractor's selection differs from what was shown, on the mesh where it differs most."""
     found = field.bits(extractor)
     wrong = [(field.on(found, k) ^ one.selection).bit_count() for k, one in enumerate(examples)]
     return compare_selection(extractor, field, examples, wrong.index(max(wrong)))
@@ -209,7 +209,7 @@ def compare_nearest(extractor: Extractor, field: ObservationTable, examples: Seq
 def compare_selection(
     extractor: Extractor, field: ObservationTable, examples: Sequence[Example], place: int
 ) -> NearestExtractor:
-    """How an extractor's selection differs from what was shown on one mesh."""
+    """Return how an extractor's selection differs from what was shown on one mesh."""
     example, found = examples[place], field.on(field.bits(extractor), place)
     extra, missing = found & ~example.selection, example.selection & ~found
     names_of = example.mesh.names_of
@@ -217,7 +217,7 @@ def compare_selection(
 
 
 def describe_conflict(field: ObservationTable, selections: Sequence[int], examples: Sequence[Example]) -> str | None:
-    """A sentence on two hulls that no extractor tells apart though only one of them was selected."""
+    """Return a sentence on two hulls that no extractor tells apart though only one of them was selected."""
     found = field.find_conflict(selections)
     if not found:
         return None

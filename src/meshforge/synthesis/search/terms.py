@@ -38,14 +38,14 @@ takes away."""
 
 @lru_cache(maxsize=64)
 def enumerate_leaves(vocabulary: tuple[str, ...], layers: Layers = "S+T+G") -> tuple[Leaf, ...]:
-    """Every built-in leaf over the labels of a vocabulary, bases first, labels before `All`."""
+    """Return every built-in leaf over the labels of a vocabulary, bases first, labels before `All`."""
     return _enumerate(language.EXTRACTORS.built_in.values(), vocabulary, layers)
 
 
 def enumerate_more_leaves(
     names: Sequence[str], vocabulary: Sequence[str], layers: Layers, meshes: Iterable[SymbolicMesh]
 ) -> tuple[Leaf, ...]:
-    """The leaves that plug-ins of these names add to the built-in ones; meshes: of the family, as they come in.
+    """Return the leaves that plug-ins of these names add to the built-in ones; meshes: of the family, as they come in.
 
     Raises PluginError where one cannot be loaded or fails, UsageError where there is none of the name.
     """
@@ -79,7 +79,7 @@ def _list(
 
 
 def leaf_key(leaf: Leaf, labels: Mapping[str, int]) -> Key:
-    """The key of an extractor without set operators; labels: the place of each label in the vocabulary.
+    """Return the key of an extractor without set operators; labels: the place of each label in the vocabulary.
 
     Doubts count what fits by accident more easily than labels, and contact between two labels, do: `All`; a
     direction, since there are six to try; an `Attach` that is not between two labels, since it says how parts
@@ -102,14 +102,14 @@ def _argument_keys(leaf: Leaf, labels: Mapping[str, int]) -> Iterator[Any]:
 
 
 def operator_key(operator: SetOperator, left: Key, right: Key) -> Key:
-    """The key of a set operator over two extractors; the operands of `Union` and `Intersect` count in order."""
+    """Return the key of a set operator over two extractors; the operands of `Union` and `Intersect` count in order."""
     if operator is not Diff and right < left:
         left, right = right, left
     return (1 + left[0] + right[0], left[1] + right[1], OPERATOR_RANK[operator], left, right)
 
 
 def order_key(extractor: language.Extractor, labels: Mapping[str, int]) -> Key:
-    """The key of any extractor: what sorts first is smaller, or as small and more believable."""
+    """Return the key of any extractor: what sorts first is smaller, or as small and more believable."""
     match extractor:
         case Union(left, right) | language.Intersect(left, right) | Diff(left, right):
             return operator_key(type(extractor), order_key(left, labels), order_key(right, labels))
@@ -153,7 +153,7 @@ class Term:
 
 
 def combine(operator: SetOperator, left: Term, right: Term) -> Term:
-    """A set operator over two terms; the operands of `Union` and `Intersect` are put in order."""
+    """Return a set operator over two terms; the operands of `Union` and `Intersect` are put in order."""
     if operator is not Diff and right.key < left.key:
         left, right = right, left
     if operator is Union:
@@ -164,5 +164,5 @@ def combine(operator: SetOperator, left: Term, right: Term) -> Term:
 
 
 def first_term(terms: list[Term]) -> Term | None:
-    """The first of the terms in the order."""
+    """Return the first of the terms in the order."""
     return min(terms, key=lambda term: term.key, default=None)
