@@ -20,7 +20,8 @@ from script.stubs import read_offers
 
 SOURCE = Path(__file__).resolve().parents[1] / "src"
 ROOT = "meshforge"
-FILES, LINES, IMPORT_SHARE, PARAMETERS = 510, 76_600, 0.076, 8
+FILES, LINES, IMPORT_SHARE, PARAMETERS = 472, 74_300, 0.075, 8
+TEST_LINES, PAGE_LINES = 65_500, 22_100
 DEPTH = {"formats": 3, "studio": 3}
 """Levels of packages below `meshforge`; two where none is given."""
 MANY_PARAMETERS = frozenset(  # what people ask of a picture and of a preparation, all with defaults
@@ -252,6 +253,17 @@ def find_silent_lazy_imports(modules: dict[str, Module]) -> list[str]:
     return found
 
 
+def count_test_lines(base: Path) -> int:
+    """Return the lines of the tests' Python."""
+    return sum(len(path.read_text(encoding="utf-8").splitlines()) for path in (base / "tests").rglob("*.py"))
+
+
+def count_page_lines(base: Path) -> int:
+    """Return the lines of the page's TypeScript, without its tests and the types that are generated."""
+    paths = [path for path in (base / "web/src").rglob("*.ts*") if ".test" not in path.name and path.name != "wire.ts"]
+    return sum(len(path.read_text(encoding="utf-8").splitlines()) for path in paths)
+
+
 def main(words: list[str]) -> int:
     """Print the figures where they are asked for, and every limit that does not hold; 1 where one does not."""
     modules = read_modules()
@@ -272,13 +284,18 @@ def main(words: list[str]) -> int:
         "names that only tests and benchmarks call": find_uncalled(modules, scripts, SOURCE.parent),
     }
     broken = [line for own in found.values() for line in own]
-    limits = ((len(modules), FILES, "files"), (lines, LINES, "lines"), (imports / lines, IMPORT_SHARE, "import share"))
+    test_lines, page_lines = count_test_lines(SOURCE.parent), count_page_lines(SOURCE.parent)
+    limits = (
+        *((len(modules), FILES, "files"), (lines, LINES, "lines"), (imports / lines, IMPORT_SHARE, "import share")),
+        *((test_lines, TEST_LINES, "lines of tests"), (page_lines, PAGE_LINES, "lines of the page")),
+    )
     broken += [f"{value:,.3g} {what}, {limit:,} at most" for value, limit, what in limits if value > limit]
     if "--figures" in words:
         functions = [node for module in modules.values() for _, node in module.functions()]
         lengths = sorted((node.end_lineno or 0) - node.lineno + 1 for node in functions)
         print(f"files {len(modules)}, lines {lines:,}, median file {statistics.median(sizes.values()):.0f} lines")
         small, big = sum(size < 40 for size in sizes.values()), sum(size > 300 for size in sizes.values())
+        print(f"lines of tests {test_lines:,}, of the page without tests and generated files {page_lines:,}")
         print(f"files under 40 lines {small}, over 300 {big}")
         print(f"lines of imports {imports:,}, {imports / lines:.1%} of all")
         tail = lengths[len(lengths) * 95 // 100]
