@@ -82,9 +82,8 @@ def list_hulls(hulls: Sequence[Hull]) -> str:
 def _pair(
     first: SymbolicMesh, second: SymbolicMesh, frame: Program, titles: tuple[str, str] = ("before", "after")
 ) -> Image:
-    from meshforge.rendering.compare import joint_bounds
-
     from meshforge.rendering import make_contact_sheet, render
+    from meshforge.rendering.comparison import joint_bounds
 
     box = joint_bounds(first, second)
     images = [

@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from meshforge.rendering.compare import joint_bounds
-
 from benchmark.assets.pictures import upright
 from benchmark.report import Table
 from benchmark.study import CONDITIONS, Session, open_bench
 from benchmark.tasks import EditResult, task
 from meshforge.language import Program, Rule, show, size_of
 from meshforge.rendering import make_contact_sheet, render
+from meshforge.rendering.comparison import joint_bounds
 from meshforge.symbolic import SymbolicMesh
 
 if TYPE_CHECKING:

@@ -7,8 +7,6 @@ from dataclasses import replace
 from html import escape
 from pathlib import Path
 
-from meshforge.rendering.compare import joint_bounds
-
 from benchmark.assets import Sample
 from benchmark.assets.pictures import upright
 from benchmark.evaluation.sessions import QUICK
@@ -17,6 +15,7 @@ from benchmark.report import Result, Table, Tell
 from benchmark.tasks import EditResult, Task, task, tasks
 from meshforge.common import write_atomically
 from meshforge.rendering import encode_webp, render
+from meshforge.rendering.comparison import joint_bounds
 from meshforge.symbolic import SymbolicMesh
 
 GALLERY = ROOT / "benchmark" / "gallery"

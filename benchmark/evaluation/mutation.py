@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from meshforge.rendering.compare import joint_bounds
-
 from benchmark.assets.pictures import upright
 from benchmark.evaluation.sessions import QUICK
 from benchmark.journal import run_units
@@ -14,6 +12,7 @@ from benchmark.report import Cell, Goal, Result, Table, Tell
 from benchmark.tasks import task, tasks
 from benchmark.tasks.mutants import judge_mutants, mutants
 from meshforge.rendering import make_contact_sheet, render
+from meshforge.rendering.comparison import joint_bounds
 
 if TYPE_CHECKING:
     from PIL.Image import Image

@@ -20,7 +20,7 @@ from meshforge.cli.command import Command, read_plainly
 from meshforge.cli.terminal import escape_output
 
 COMMANDS = {
-    "demo": "The whole loop on the bundled tables",
+    "demo": "Run the whole loop on the bundled tables",
     "samples": "Write a family of assets to try things on, with labels beside them",
     "new": "Make a project folder",
     "prepare": "Decompose non-convex pieces, and what bodies without collision geometry show, into convex hulls",

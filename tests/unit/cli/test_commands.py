@@ -204,10 +204,10 @@ def test_a_mesh_of_several_parts_has_a_note_and_one_without_too_where_they_are_a
 def test_advice_compares_settings_and_draws_them(run: Run) -> None:
     told = run("decompose", "row.obj", "--advise", "--json", "-o", "advice.png", *QUICK_VOXELS)
     assert told.code == 0 and Path("advice.png").read_bytes().startswith(b"\x89PNG")
-    assert [(one["by"], one["setting"]) for one in told.json["trials"]][2:4] == [
+    assert [(one["by"], one["setting"]) for one in told.json["results"]][2:4] == [
         ("whole", "max_convex_hulls 8"), ("parts", "max_convex_hulls 64"),
     ]  # fmt: skip
-    assert {one["spanning"] for one in told.json["trials"] if one["by"] == "parts"} == {0}
+    assert {one["spanning"] for one in told.json["results"] if one["by"] == "parts"} == {0}
     again = run("decompose", "row.obj", "--advise", "-o", "advice.png", *QUICK_VOXELS)
     assert again.code == 2 and "there already" in again.err
 

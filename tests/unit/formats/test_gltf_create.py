@@ -30,7 +30,7 @@ def brick(name: str, body: str = "body") -> Geom:
 def test_hulls_of_one_body_become_plain_nodes_of_their_names(tmp_path: Path, suffix: str) -> None:
     hulls = [Geom(f"part {k}", "body", convex_hull(box((2 * k, 0, 0))[0])) for k in range(3)]
     corner = NonConvexPiece("corner", "body", "not convex", Surface(*angle()))
-    saved = save(made(*hulls, opaque=(corner,)), tmp_path / f"a{suffix}")
+    saved = save(made(*hulls, non_convex=(corner,)), tmp_path / f"a{suffix}")
     after = read(saved.path)
     assert [geom.name for geom in after.geoms] == ["part 0", "part 1", "part 2"]
     assert [piece.name for piece in after.non_convex] == ["corner"]
@@ -129,7 +129,7 @@ def test_a_mass_comes_back_though_its_inertia_is_not_told(tmp_path: Path) -> Non
 
 def test_endless_planes_come_back(tmp_path: Path) -> None:
     floor = NonConvexPiece("a/floor", "a", "a plane has no end", plane=TURN)
-    path = save(made(brick("a/x", "a"), bodies=(Body("a", TURN @ TURN),), opaque=(floor,)), tmp_path / "a.glb").path
+    path = save(made(brick("a/x", "a"), bodies=(Body("a", TURN @ TURN),), non_convex=(floor,)), tmp_path / "a.glb").path
     (piece,) = read(path).non_convex
     assert piece.name == "a/floor" and piece.plane is not None
     np.testing.assert_allclose(piece.plane.rotation[:, 2], TURN.rotation[:, 2], atol=1e-12)

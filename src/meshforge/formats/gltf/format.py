@@ -12,11 +12,9 @@ from meshforge.engines import ENGINES
 from meshforge.formats.base import BODY_FEATURES, Mass, Output, ReadOptions, SceneFormat, feature_of_others
 from meshforge.formats.collision_pieces import is_edited
 from meshforge.formats.engine_names.conventions import CollisionNames, GodotNames, UnityNames, UnrealNames, fallbacks_of
-from meshforge.formats.gltf import create, edit, read
 from meshforge.formats.gltf.document import Convention, GltfDocument
 from meshforge.formats.gltf.physics import KHR, explain_missing_mass, read_motion
 from meshforge.formats.meshfile.gltf_document import Json, entries, entry, extension, report_damage
-from meshforge.formats.meshfile.gltf_scene import GltfScene
 from meshforge.symbolic import Asset, Feature, FeatureKind, Surface
 
 _LISTS = ("materials", "textures", "animations", "skins", "cameras")
@@ -38,6 +36,8 @@ class GltfFormat(SceneFormat):
     instead: ClassVar[Mapping[FeatureKind, str]] = {FeatureKind.ELLIPSOIDS: "written as triangles"}
 
     def read(self, path: Path, options: ReadOptions) -> Asset:
+        from meshforge.formats.gltf import read  # lazy: only glTF needs it
+
         return read.read_gltf(path)
 
     def can_write_back(self, asset: Asset) -> bool:
@@ -48,9 +48,13 @@ class GltfFormat(SceneFormat):
     def write(self, asset: Asset, name: str, mass: Mass = "keep") -> Output:
         if not isinstance(asset.document, GltfDocument):
             raise AssetError("this asset was not read from a glTF file", where=str(asset.path))
+        from meshforge.formats.gltf import edit  # lazy: only glTF needs it
+
         return edit.write_gltf(asset, asset.document, name)
 
     def create(self, asset: Asset, name: str) -> Output:
+        from meshforge.formats.gltf import create  # lazy: only glTF needs it
+
         return create.create_gltf(asset, name)
 
     def engines_of(self, asset: Asset) -> tuple[str, ...]:
@@ -61,6 +65,8 @@ class GltfFormat(SceneFormat):
         if not isinstance(asset.document, GltfDocument):
             return ()
         with report_damage(str(asset.path)):
+            from meshforge.formats.meshfile.gltf_scene import GltfScene  # lazy: only glTF needs it
+
             tree = GltfScene.of(asset.document.source, asset.path).tree
             return [*_list_features(tree), *_list_missing_masses(tree, asset.document, asset)]
 
@@ -73,10 +79,14 @@ class GltfFormat(SceneFormat):
 
     def surfaces_of(self, asset: Asset) -> Sequence[Surface]:
         assert isinstance(asset.document, GltfDocument)
+        from meshforge.formats.gltf import read  # lazy: only glTF needs it
+
         return read.read_scene_surfaces(asset, asset.document)
 
     def add_colliders(self, asset: Asset, name: str) -> Output:
         assert isinstance(asset.document, GltfDocument)
+        from meshforge.formats.gltf import edit  # lazy: only glTF needs it
+
         return edit.add_gltf_colliders(asset, asset.document, name, self.engine)
 
 
@@ -87,6 +97,8 @@ class PhysicsGltf(GltfFormat):
     convention = "khr"
 
     def create(self, asset: Asset, name: str) -> Output:
+        from meshforge.formats.gltf import create  # lazy: only glTF needs it
+
         return create.create_gltf(asset, name, "khr")
 
 
@@ -101,6 +113,8 @@ class EngineGltf(GltfFormat):
         cls.title, cls.marks, cls.instead = f"glTF for {name}", f"under names for {name}", fallbacks_of(cls.engine)
 
     def create(self, asset: Asset, name: str) -> Output:
+        from meshforge.formats.gltf import create  # lazy: only glTF needs it
+
         return create.create_for_engine(asset, name, self.engine)
 
 
@@ -116,6 +130,8 @@ class GltfForGodot(EngineGltf):
     engine = GodotNames()
 
     def create(self, asset: Asset, name: str) -> Output:
+        from meshforge.formats.gltf import create  # lazy: only glTF needs it
+
         return create.create_for_godot(asset, name, self.engine)
 
 
@@ -143,6 +159,7 @@ def _list_features(tree: Json) -> Iterator[Feature]:
 
 def _list_missing_masses(tree: Json, document: GltfDocument, asset: Asset) -> Iterator[Feature]:
     known = {inertial.body for inertial in asset.mechanism.inertials}
+
     motions = {name: read_motion(entry(tree, "nodes", node)) for node, name in document.bodies if name not in known}
     reasons = {name: explain_missing_mass(motion) for name, motion in motions.items() if "mass" in motion}
     for reason in dict.fromkeys(reasons.values()):

@@ -236,12 +236,14 @@ def keyword(statement: bytes) -> bytes:
 
 def _plain_vertices(rows: Sequence[bytes]) -> Floats | None:
     """The vertices (n, 3) of `v` statements; None where these are not plain, or not of the same length."""
+    if not rows:
+        return np.zeros((0, 3))
     text = b"".join(rows)
     if any(mark in text for mark in _UNUSUAL):
         return None
     words = text.split()
-    width = len(words) // max(len(rows), 1)
-    if len(words) != width * len(rows) or (rows and (width < 4 or not _is_only_at_starts(words, b"v", width))):
+    width = len(words) // len(rows)
+    if len(words) != width * len(rows) or (width < 4 or not _is_only_at_starts(words, b"v", width)):
         return None
     try:
         return np.column_stack([np.array(list(map(float, words[k::width]))) for k in (1, 2, 3)])
