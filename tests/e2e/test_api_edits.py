@@ -67,7 +67,7 @@ REPAIR = {
 }  # fmt: skip
 
 EDITS: dict[str, Fields] = {
-    "label": lambda _: {"asset": FIRST, "hulls": ["convex_00", "convex_01"], "label": "drawer"},
+    "label": lambda _: {"hulls": {FIRST: ["convex_00", "convex_01"]}, "label": "drawer"},
     "label-names": lambda _: {},
     "label-files": lambda _: {},
     "vocabulary": lambda _: {"labels": ["panel", "leg", "handle", "drawer", "misc", "knob"]},
@@ -97,9 +97,9 @@ def test_an_edit_is_on_disk_and_undone_and_redone_to_the_byte(studio: Studio, ki
     assert not done["nothing"]
     after = kept(studio)
     assert after != before
-    assert ok(studio.post("/api/undo"))["said"] == done["said"]
+    assert ok(studio.post("/api/undo"))["message"] == done["message"]
     assert kept(studio) == before
-    assert ok(studio.post("/api/redo"))["said"] == done["said"]
+    assert ok(studio.post("/api/redo"))["message"] == done["message"]
     assert kept(studio) == after
     ok(studio.post("/api/undo"))
     assert kept(studio) == before
@@ -127,15 +127,15 @@ def test_an_edit_that_takes_another_back_is_undone_as_well(studio: Studio, kind:
 
 
 def test_nothing_to_undo_is_no_error(studio: Studio) -> None:
-    assert ok(studio.post("/api/undo")) == {"said": "there is nothing to undo", "nothing": True}
+    assert ok(studio.post("/api/undo")) == {"message": "there is nothing to undo", "nothing": True}
 
 
 @pytest.mark.parametrize(
     ("kind", "fields", "about"),
     [
-        ("label", {"asset": FIRST, "hulls": ["convex_00"], "label": "knob"}, "not in the vocabulary"),
-        ("label", {"asset": FIRST, "hulls": ["nothing"], "label": "leg"}, "there is no hull"),
-        ("label", {"asset": "no.obj", "hulls": ["a"], "label": "leg"}, "there is no asset"),
+        ("label", {"hulls": {FIRST: ["convex_00"]}, "label": "knob"}, "not in the vocabulary"),
+        ("label", {"hulls": {FIRST: ["nothing"]}, "label": "leg"}, "there is no hull"),
+        ("label", {"hulls": {"no.obj": ["a"]}, "label": "leg"}, "there is no asset"),
         ("orient", {"text": "+Z: Is("}, "does not parse"),
         ("program", {"text": "Is(", "version": ""}, "changed elsewhere"),
         ("cut", {"asset": FIRST, "hull": "convex_00", "at": [99, 0, 0], "across": [1, 0, 0]}, "convex_00"),

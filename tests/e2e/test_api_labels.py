@@ -81,7 +81,7 @@ def test_labels_are_carried_over_with_one_step_and_what_changed_is_told(studio: 
         assert hello["project"]["carried"] == {"unused": 0, "next": hello["project"]["carried"]["next"]}
         assert hello["project"]["carried"]["next"] in (SECOND, THIRD, "t3.obj")
         after = labels(studio)
-        assert ok(studio.post("/api/undo"))["said"] == "labels propagated"
+        assert ok(studio.post("/api/undo"))["message"] == "labels propagated"
         assert page.until(lambda e: e["kind"] == "relabelled")["relabelled"] is None
         assert labels(studio) == before
         ok(studio.post("/api/redo"))
@@ -117,7 +117,7 @@ def test_what_a_person_says_meanwhile_stays_and_is_not_blocked(studio: Studio) -
     assert dict(project.labels(SECOND).labels) == said
     assert _given(studio, SECOND) == len(HULLS)
     after = 0  # labels that came when all was carried over already
-    while ok(studio.post("/api/undo"))["said"] != "labels propagated":
+    while ok(studio.post("/api/undo"))["message"] != "labels propagated":
         after += 1
     assert dict(project.labels(SECOND).labels) == dict(list(said.items())[: len(said) - after])
     assert not project.labels(THIRD).labels
@@ -156,7 +156,7 @@ def test_hulls_that_were_cut_meanwhile_are_told_and_nothing_is_written(studio: S
         assert over["state"] == "failed"
         assert "changed meanwhile" in over["message"]
         assert set(labels(studio)) == {f"{FIRST}.json"}
-        assert ok(studio.post("/api/undo"))["said"] == f"top of {THIRD} cut in two"
+        assert ok(studio.post("/api/undo"))["message"] == f"top of {THIRD} cut in two"
 
 
 def test_it_says_what_is_missing(tmp_path: Path) -> None:

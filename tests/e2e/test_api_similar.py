@@ -53,7 +53,7 @@ def test_hulls_of_several_assets_are_labelled_and_unlabelled_by_one_edit_each(st
     hulls = {asset: list(LEGS) for asset in (FIRST, SECOND)}
     studio.edit("label", hulls=hulls, label="leg")
     assert [project.labels(asset).labels["leg_c"].name for asset in (FIRST, SECOND)] == ["leg", "leg"]
-    assert studio.edit("label", hulls=hulls, label=None)["said"] == "label of 8 hulls of 2 assets taken away"
+    assert studio.edit("label", hulls=hulls, label=None)["message"] == "label of 8 hulls of 2 assets taken away"
     assert not any(project.labels(asset).labels for asset in (FIRST, SECOND))
     ok(studio.post("/api/undo"))
     assert project.labels(SECOND).labels["leg_d"].name == "leg"

@@ -70,7 +70,7 @@ def test_the_cost_comes_first_then_the_labels_as_one_step(tmp_path: Path, monkey
         found = relabelled(page)
         assert (found["way"], len(found["assets"])) == ("label-vlm", COUNT)
         after = tree(tmp_path / "p/labels")
-        assert ok(studio.post("/api/undo"))["said"] == f"labels from {server.model}"
+        assert ok(studio.post("/api/undo"))["message"] == f"labels from {server.model}"
         assert tree(tmp_path / "p/labels") == before
         ok(studio.post("/api/redo"))
         assert tree(tmp_path / "p/labels") == after

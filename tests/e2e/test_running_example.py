@@ -148,7 +148,7 @@ def _assessed(studio: Studio) -> dict[str, Any]:
 
 
 def _has_said(answers: int, hello: dict[str, Any]) -> bool:
-    return len([said for said in hello["project"]["said"] if said["kind"] == "answer"]) == answers
+    return len([said for said in hello["project"]["answers"] if said["kind"] == "answer"]) == answers
 
 
 def _second_table(person: Hand) -> None:
