@@ -81,7 +81,7 @@ class Expert:
     def _answer(self, question: dict[str, Any]) -> None:
         kind, asset, rule = question["kind"], question["asset"], (question["rule"] or 1) - 1
         choices = question["choices"]
-        if kind in ("reading", "label", "selection"):
+        if kind in ("candidate", "label", "selection"):
             wanted = self.selections[asset][rule]
             right = [k for k, choice in enumerate(choices) if frozenset(choice["select"] or ()) == wanted]
             self.person.press(str(right[0] + 1) if right else "n")

@@ -133,7 +133,7 @@ def _answer(person: Hand, studio: Studio) -> int:
     """Take the choice that is meant, of everything that is asked; gives how many questions there were."""
     person.press("Alt+3")
     answered = 0
-    while (question := _assessed(studio)["question"]) and question["kind"] in ("reading", "label"):
+    while (question := _assessed(studio)["question"]) and question["kind"] in ("candidate", "label"):
         place = [choice["text"] for choice in question["choices"]].index(MEANT[question["rule"] - 1])
         card = person.page.get_by_role("region", name=re.compile(f"which hulls should rule {question['rule']} take"))
         person.click(card.get_by_role("button").nth(place))

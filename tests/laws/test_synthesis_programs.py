@@ -110,7 +110,7 @@ for outcome in (learned(), ambiguous(False), ambiguous(True)):
     del out["seconds"]
     print(json.dumps(out))
 said = explained(examples_of("Is(leg)", {"leg0_low": "drawer", "leg3_high": "panel"}, {"leg1_low": None}))
-out = [show(said.extractor), [asdict(row) for row in said.corrections], said.beliefs, said.whys, said.cost]
+out = [show(said.extractor), [asdict(row) for row in said.fixes], said.beliefs, said.whys, said.cost]
 print(json.dumps({"status": f"{len(out[1])} corrections", "out": out}))
 """
 

@@ -65,7 +65,7 @@ def reply_to(question: dict[str, Any], project: Project) -> dict[str, Any]:
         wrong = {h.name: label_of(asset, h.name) for h in hulls if h.label != label_of(asset, h.name)}
         assert wrong, f"the program is wrong on {asset}, not its labels"
         return {"choice": "wrong", "labels": wrong}
-    assert kind in ("reading", "label", "selection")
+    assert kind in ("candidate", "label", "selection")
     trace = MEANT.run(load(TABLES / question["asset"]), project.templates(MEANT.templates)).trace
     wanted = set(trace[question["rule"] - 1].selected)
     ids = [choice["id"] for choice in choices if set(choice["select"] or ()) == wanted]

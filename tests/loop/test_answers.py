@@ -48,7 +48,7 @@ def _meant(folder: Path, asset: str) -> list[tuple[list[str], Rule]]:
 def test_questions_are_answered_from_a_file_until_the_program_is_what_is_meant(tables: Path) -> None:
     assert meshforge("synthesize", "tables", "--json", cwd=tables).json["status"] == "ambiguous"
     found, given = meshforge("review", "tables", "--json", cwd=tables, code=1).json, 0
-    while (question := found["question"]) and question["kind"] == "reading":
+    while (question := found["question"]) and question["kind"] == "candidate":
         right = set(_meant(tables, question["asset"])[question["rule"] - 1][0])
         choices = [set(choice["select"]) for choice in question["choices"]]
         assert right in choices

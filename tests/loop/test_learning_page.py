@@ -26,7 +26,7 @@ def commands() -> list[list[str]]:
 def test_five_rules_are_taught_with_one_demonstration_and_three_clicks(tmp_path: Path) -> None:
     for words in commands():
         meshforge(*words, cwd=tmp_path, code=int(words[0] == "review"))
-    for kind, asset in (("selection", "table_12.obj"), ("reading", "table_09.obj"), ("reading", "table_02.obj")):
+    for kind, asset in (("selection", "table_12.obj"), ("candidate", "table_09.obj"), ("candidate", "table_02.obj")):
         question = meshforge("review", "desks", "--json", cwd=tmp_path, code=1).json["question"]
         assert (question["kind"], question["asset"]) == (kind, asset)
         (tmp_path / "said.json").write_text(json.dumps([{"id": question["id"], "choice": 0}]), "utf-8")

@@ -118,7 +118,7 @@ def test_the_projects_own_assets_are_taken_as_they_are_there(run: Run) -> None:
 def test_what_is_less_sure_than_asked_is_held_and_reported(run: Run) -> None:
     told = run("apply", "p", "new", "--out", "out", "--workers", "1", "--min-confidence", "0.999")
     assert told.code == 1 and not Path("out/c.urdf").exists()
-    assert "held       c.urdf: " in told.out and "% sure; " in told.out
+    assert "needs review c.urdf: " in told.out and "% sure; " in told.out
     told = run(
         "apply", "p", "new", "--out", "out", "--workers", "1", "--min-confidence", "0.5", "--json", "--report", "r.html"
     )

@@ -93,8 +93,8 @@ def test_status_and_info_lead_to_what_can_be_prepared(run: Run, project: str) ->
     for asset in ("stand.urdf", "in/stand.urdf"):
         told = run("info", asset, "--project", project, "--json").json
         assert {hull["name"].partition("#")[0] for hull in told["hulls"]} == {"frame/body", "frame/foot"}
-        assert told["opaque"] == []
-    assert len(run("info", "in/stand.urdf", "--json").json["opaque"]) == 1
+        assert told["non_convex"] == []
+    assert len(run("info", "in/stand.urdf", "--json").json["non_convex"]) == 1
 
 
 def test_select_and_render_show_the_project_s_asset_with_its_labels(run: Run, project: str) -> None:

@@ -254,7 +254,7 @@ def test_collision_geometry_that_is_no_hull_is_drawn_faintly_and_is_in_the_plain
     beside = NonConvexPiece("beside", "body", "it is open", surface_of(box((1.5, 0, 0), (1, 1, 1))))
     (alone, *_), (shot, *_) = (
         draw_labeling_pictures(mesh_of(shape)),
-        draw_labeling_pictures(with_asset(mesh_of(shape), opaque=(beside,))),
+        draw_labeling_pictures(with_asset(mesh_of(shape), non_convex=(beside,))),
     )
     assert shot.numbered == {"h0"}
     assert 0 < shot.visible_pixels["h0"] < alone.visible_pixels["h0"], "it is framed as well"

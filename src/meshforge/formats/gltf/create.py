@@ -47,10 +47,9 @@ def create_gltf(asset: Asset, name: str, convention: Literal["plain", "khr"] | N
     bodies = [body for body in asset.bodies if is_khr and body.name != BODY]  # which all formats without bodies have
     motions = [{"extensions": {KHR: {"motion": motion_of(asset, body)}}} for body in bodies]
     places = [{"name": body.name, **pose_keys(body.pose)} for body in bodies]
-    draft = _new_draft(asset, path, [place | motion for place, motion in zip(places, motions, strict=True)])
+    drafts = [place | motion for place, motion in zip(places, motions, strict=True)]
+    draft = _new_draft(asset, path, drafts, [KHR] if is_khr else [])
     seen, lost = read_visual_surfaces(asset) if is_khr else ([], [])
-    if is_khr:
-        draft.declare_extension(KHR)
     style = PhysicsStyle(draft, marks, drawn=not seen) if is_khr else style_of(marks, draft, path.stem)
     nodes = {body.name: node for node, body in enumerate(bodies)}
     non_convex = [piece for piece in asset.non_convex if has_triangles(piece) or (piece.plane and is_khr)]
@@ -213,9 +212,10 @@ def _weigh(asset: Asset, family: EngineBody, notes: list[str]) -> Json:
     return motion
 
 
-def _new_draft(asset: Asset, path: PurePosixPath, nodes: list[Json]) -> SceneDraft:
+def _new_draft(asset: Asset, path: PurePosixPath, nodes: list[Json], extensions: Sequence[str] = ()) -> SceneDraft:
     scene = {"nodes": list(range(len(nodes)))} if nodes else {}
     tree = {"asset": {"version": "2.0", "generator": "MeshForge"}, "scene": 0, "scenes": [scene]}
+    tree |= {"extensionsUsed": list(extensions)} if extensions else {}
     tree |= {"nodes": nodes} if nodes else {}
     return SceneDraft(GltfScene(copy.deepcopy(tree), None, asset.path), tree, b"" if _is_binary(path) else None)
 

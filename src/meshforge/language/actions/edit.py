@@ -63,7 +63,7 @@ class HullGroup:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class NewShape:
-    """A shape that an edit makes; heir: the hull whose label, body and attributes it takes over.
+    """A shape that an edit makes; main_source: the hull whose label, body and attributes it takes over.
 
     sources: the hulls it was made from.
     """
