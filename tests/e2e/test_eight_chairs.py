@@ -85,5 +85,5 @@ def labels_of(folder: Path, asset: str) -> dict[str, str]:
 
 def _is_honest(person: Hand, hello: dict[str, Any]) -> None:
     """Nothing is green while something is held."""
-    if hello["assessment"] and hello["assessment"]["needs review"]:
+    if hello["assessment"] and hello["assessment"]["need_review"]:
         assert not person.page.locator("[data-mood=good]").count()

@@ -36,7 +36,7 @@ def sign_off(run: Run, folder: str, reply: Callable[[dict[str, Any]], dict[str, 
         said = reply(question)
         Path("said.json").write_text(json.dumps([{"id": question["id"], **said}] if said else []))
         done = run("review", folder, "--json", "--answers", "said.json")
-    assert done.code == 0 and done.json["needs review"] == [], done.json
+    assert done.code == 0 and done.json["needs_review"] == [], done.json
     assert run("status", folder, "--signed-off").code == 1  # sure, but not written yet
     assert run("apply", folder, "--min-confidence", str(THRESHOLD), "--workers", "1").code == 0
     status = run("status", folder, "--json", "--signed-off")

@@ -59,7 +59,7 @@ def format_reply_help(question: ReviewQuestion, folder: str) -> str:
     return (
         f"Reply in a terminal: meshforge review {folder}\n"
         f"  or in a script: meshforge review {folder} --answers FILE, where FILE holds {entry}\n"
-        f'  (choices: {ids}; null for none of them; "later": true puts it off)'
+        f'  (choices: {ids}; null for none of them; "later": true snoozes it)'
     )
 
 

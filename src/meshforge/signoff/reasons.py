@@ -105,7 +105,7 @@ def _list_candidate_reasons(family: FamilyRun, place: int) -> Iterator[Reason]:
         yield Reason("candidate", text, run.names(known.rule, ours ^ theirs), known.rule, share)
     for mistake in (one for one in family.mistakes if one.differs[place]):
         likely = mistake.mistake
-        text = f"rule {mistake.rule} may mean {show(likely.extractor)}, if {likely.asset} was shown by mistake"
+        text = f"rule {mistake.rule} may mean {show(likely.extractor)}, if hulls of {likely.asset} were shown by mistake"
         yield Reason("candidate", text, (), mistake.rule, likely.share)
 
 
