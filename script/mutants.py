@@ -1,4 +1,4 @@
-"""Whether the tests notice changes of the source: places chosen at random, each judged by the tests that reach its line.
+"""Tells whether tests notice changes of the source: places chosen at random, each judged by the tests that reach it.
 
 `python -m script.mutants reach FOLDER` runs all tests once in a copy of the checkout that records which of them reach
 the places of `tests/mutants/places.json`, and `python -m script.mutants judge FOLDER` makes each change in a copy of

@@ -105,8 +105,8 @@ def _list_candidate_reasons(family: FamilyRun, place: int) -> Iterator[Reason]:
         yield Reason("candidate", text, run.names(known.rule, ours ^ theirs), known.rule, share)
     for mistake in (one for one in family.mistakes if one.differs[place]):
         likely = mistake.mistake
-        other = show(likely.extractor)
-        text = f"rule {mistake.rule} may mean {other}, if hulls of {likely.asset} were shown by mistake"
+        meant = show(likely.extractor)
+        text = f"rule {mistake.rule} may mean {meant}, if hulls of {likely.asset} were shown by mistake"
         yield Reason("candidate", text, (), mistake.rule, likely.share)
 
 
