@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import codecs
-import itertools
 import re
 from dataclasses import dataclass
 
@@ -17,13 +16,20 @@ HEADER = 84  # bytes before the first triangle of a binary file: 80 of text, 4 o
 RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 _AGAIN = "Export it again."
 _TEXT = 200  # bytes at the start of a file, beyond the title of a binary one, that tell text from numbers
-_FACET = re.compile(rb"facet\b.*?\bendfacet\b[^\S\n]*\n?", re.S)
+_FACET = re.compile(rb"facet\b.*?\bendfacet\b[^\S\n]*\n?", re.S | re.I)
 _SOLID = re.compile(rb"^[^\S\n]*solid\b[^\S\n]*([^\r\n]*)", re.M | re.I)
-_OPENED = re.compile(rb"\bfacet\s+normal\b")
+_OPENED = re.compile(rb"\bfacet\s+normal\b", re.I)
 _NAME = re.compile(
     rb"^[^\S\n]*(?:end)?solid\b(?:(?!\bvertex\b)[^\r\n])*(?=[\r\n]|\Z)(?!\s*(?:outer|vertex)\b)", re.M | re.I
 )
-_VERTEX = re.compile(rb"\bvertex\s+(\S+)\s+(\S+)\s+(\S+)")
+_VERTEX = re.compile(rb"\bvertex\s+(\S+)\s+(\S+)\s+(\S+)", re.I)
+_WORDS = (
+    *(b"facet", b"normal", b"", b"", b"", b"outer", b"loop"),
+    *(b"vertex", b"", b"", b"") * 3,
+    *(b"endloop", b"endfacet"),
+)
+"""The words of a facet, empty where it has numbers."""
+_COORDINATES = (8, 9, 10, 12, 13, 14, 16, 17, 18)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -40,17 +46,20 @@ class StlText:
     binary: bool
 
     def surfaces(self, where: str) -> list[RawSurface]:
-        """Return a surface for each solid, named where there are several. Raises AssetError."""
-        several = len(self.solids) > 1 and len(np.unique(self.solid)) > 1
-        found = []
-        for k, name in enumerate(self.solids):
-            own = self.corners[self.solid == k].reshape(-1, 3)
-            found.append(RawSurface((name or None) if several else None, own, np.arange(len(own)).reshape(-1, 3)))
-        return check_surfaces(found, where)
+        """A surface for each solid, named where there are several. Raises AssetError."""
+        if len(self.solids) == 1:
+            return check_surfaces([_surface_of(None, self.corners)], where)
+        several = len(np.unique(self.solid)) > 1
+        names = [(name or None) if several else None for name in self.solids]
+        return check_surfaces([_surface_of(name, self.corners[self.solid == k]) for k, name in enumerate(names)], where)
+
+
+def _surface_of(name: str | None, corners: Floats) -> RawSurface:
+    return RawSurface(name, corners.reshape(-1, 3), np.arange(3 * len(corners), dtype=np.int64).reshape(-1, 3))
 
 
 def parse_stl(data: bytes, where: str) -> StlText:
-    """Return an STL file taken apart. Raises AssetError: cut short, or not an STL file."""
+    """An STL file taken apart. Raises AssetError: cut short, or not an STL file."""
     count = int.from_bytes(data[80:HEADER], "little") if len(data) >= HEADER else -1
     room = (len(data) - HEADER) // RECORD.itemsize
     # the title of a binary file may say `solid` too, the numbers behind it are no text
@@ -61,56 +70,67 @@ def parse_stl(data: bytes, where: str) -> StlText:
         corners = to_doubles(np.frombuffer(data, RECORD, count, HEADER)["corners"])
         return StlText(corners, np.zeros(count, dtype=np.int64), ("",), True)
     if text:
-        return _parse_ascii(data, where)
+        return _plain_ascii(data) or _any_ascii(data, where)
     if count < 0 or all(byte in b"\t\n\r" or 32 <= byte < 127 for byte in data[:HEADER]):
         raise AssetError("this is no STL file", where=where, remedy=_AGAIN)
     raise AssetError(f"the file is cut short: it says {count} triangles and holds {room}", where=where, remedy=_AGAIN)
 
 
 def facet_spans(data: bytes) -> Ints:
-    """Return the bytes (m, 2) of each triangle in an ASCII file."""
-    return _spans_in(_blank_names(data))
-
-
-def _spans_in(plain: bytes) -> Ints:
-    return np.array([facet.span() for facet in _FACET.finditer(plain)], dtype=np.int64).reshape(-1, 2)
+    """The bytes (m, 2) of each triangle in an ASCII file."""
+    return np.array([f.span() for f in _FACET.finditer(_blank_names(data))], dtype=np.int64).reshape(-1, 2)
 
 
 def _blank_names(data: bytes) -> bytes:
-    """The text in small letters, with blanks for titles of solids, which may hold any word, but for those that go on
-    with a facet."""
-    return _NAME.sub(lambda title: b" " * len(title[0]), data).lower()
+    """The text with blanks for titles of solids, which may hold any word, but for those that go on with a facet."""
+    return _NAME.sub(lambda title: b" " * len(title[0]), data)
 
 
-def _parse_ascii(data: bytes, where: str) -> StlText:
+def _plain_ascii(data: bytes) -> StlText | None:
+    """A text of one solid that has just the words it should, read all at once; None where it is otherwise."""
+    title, _, text = data.removeprefix(codecs.BOM_UTF8).lstrip().partition(b"\n")
+    body, ended, rest = text.lower().partition(b"endsolid")
+    words = body.split()
+    count = len(words) // len(_WORDS)
+    if title[5:6].strip() or not ended or b"\n" in rest.strip() or len(words) != count * len(_WORDS) or b"_" in body:
+        return None
+    if b"vertex" in title.lower():
+        return None
+    if any(words[k :: len(_WORDS)].count(word) != count for k, word in enumerate(_WORDS) if word):
+        return None
+    try:
+        axes = [np.array(list(map(float, words[k :: len(_WORDS)]))) for k in _COORDINATES]
+    except ValueError:
+        return None
+    corners = np.column_stack(axes).reshape(-1, 3, 3)
+    return StlText(corners, np.zeros(count, dtype=np.int64), (text_of(title[len(b"solid") :].strip()),), False)
+
+
+def _any_ascii(data: bytes, where: str) -> StlText:
     solids = [(m.start(), text_of(m[1].strip())) for m in _SOLID.finditer(data)]
     plain = _blank_names(data)
-    spans = _spans_in(plain)
-    found = list(_VERTEX.finditer(plain))
-    at = np.array([vertex.start() for vertex in found], dtype=np.int64)
-    owner = np.searchsorted(spans[:, 0], at, side="right") - 1
-    inside = (owner >= 0) & (at < spans[owner, 1]) if len(spans) else np.zeros(len(at), dtype=bool)
-    odd = np.flatnonzero(np.bincount(owner[inside], minlength=len(spans)) != 3)
-    if len(odd):
-        start, stop = spans[odd[0]].tolist()
-        whole = len(re.findall(rb"\bvertex\b", plain[start:stop])) == 3
-        problem = "a vertex needs three numbers" if whole else "a facet needs three vertices"
-        raise AssetError(problem, where=f"{where}:{_line_of(data, start)}")
-    if len(_OPENED.findall(plain)) > len(spans):
+    facets = list(_FACET.finditer(plain))
+    numbers: list[tuple[bytes, ...]] = []
+    for facet in facets:
+        found = _VERTEX.findall(facet[0])
+        if len(found) != 3:
+            whole = len(re.findall(rb"\bvertex\b", facet[0], re.I)) == 3
+            problem = "a vertex needs three numbers" if whole else "a facet needs three vertices"
+            raise AssetError(problem, where=f"{where}:{_line_of(data, facet.start())}")
+        numbers += found
+    if len(_OPENED.findall(plain)) > len(facets):
         raise AssetError("the file is cut short: a facet does not end", where=where, remedy=_AGAIN)
-    found = list(itertools.compress(found, inside.tolist()))
-    words = [word for vertex in found for word in vertex.groups()]
     try:
-        if b"_" in plain and any(b"_" in word for word in words):  # digit separators of Python, which no one else reads
+        corners = np.array([[float(x) for x in row] for row in numbers], dtype=np.float64).reshape(-1, 3, 3)
+        if any(b"_" in x for row in numbers for x in row):  # Python's own digit separators, which no one else reads
             raise ValueError
-        corners = np.array(list(map(float, words)), dtype=np.float64).reshape(-1, 3, 3)
     except ValueError:
-        k = next(k for k, vertex in enumerate(found) if not all(map(is_number, vertex.groups())))
-        line = _line_of(data, int(spans[k // 3, 0]))
-        authored = data[slice(*found[k].span())].split()[1:]
-        problem = f"a vertex needs three numbers, here is {text_of(b' '.join(authored))!r}"
-        raise AssetError(problem, where=f"{where}:{line}", remedy=remedy_for(authored)) from None
-    solid = np.searchsorted([start for start, _ in solids], spans[:, 0], side="right") - 1
+        k = next(k for k, row in enumerate(numbers) if not all(map(is_number, row)))
+        line = _line_of(data, facets[k // 3].start())
+        problem = f"a vertex needs three numbers, here is {text_of(b' '.join(numbers[k]))!r}"
+        raise AssetError(problem, where=f"{where}:{line}", remedy=remedy_for(numbers[k])) from None
+    starts = [facet.start() for facet in facets]
+    solid = np.searchsorted([start for start, _ in solids], starts, side="right") - 1
     return StlText(corners, np.maximum(solid, 0), tuple(name for _, name in solids) or ("",), False)
 
 
