@@ -136,11 +136,15 @@ def describe_surroundings(whole: WholeShape) -> Floats:
 
 
 def _describe_rows(whole: WholeShape, pieces: Sequence[Floats]) -> Floats:
-    points = np.concatenate([points_inside(piece, whole.axis, SEEN_FROM) for piece in pieces])
-    offsets = (whole.seen[None] - points[:, None]) / whole.size
-    squares = (offsets**2).sum(axis=2)
-    near = [_describe_spread(np.exp(-squares / (2 * radius**2)) * whole.weights, offsets) for radius in _RADII]
-    rows = np.concatenate([_describe_place(whole, points), *near, _describe_rings(whole, offsets)], axis=1)
+    inside = np.concatenate([points_inside(piece, whole.axis, SEEN_FROM) for piece in pieces])
+    middle = whole.weights @ whole.seen
+    points, seen = (inside - middle) / whole.size, (whole.seen - middle) / whole.size
+    x, y, z = (seen[:, k] - points[:, k, None] for k in range(3))
+    aside = x * x + y * y
+    squares = aside + z * z
+    near = [_describe_spread(np.exp(squares * (-0.5 / radius**2)) * whole.weights, points, seen) for radius in _RADII]
+    rings = _describe_rings(whole.weights, z, aside)
+    rows = np.concatenate([_describe_place(whole, inside), *near, rings], axis=1)
     means: Floats = rows.reshape(len(pieces), SEEN_FROM, -1).mean(axis=1)
     return means
 
@@ -156,19 +160,21 @@ def _describe_place(whole: WholeShape, points: Floats) -> Floats:
     )
 
 
-def _describe_spread(weights: Floats, offsets: Floats) -> Floats:
-    """How weighted points are spread about each of n points (n, 8).
+def _describe_spread(weights: Floats, points: Floats, seen: Floats) -> Floats:
+    """How weighted points are spread about each of n points (n, 8). weights: (n, m); points: (n, 3); seen: (m, 3).
 
     As a line, a sheet or a ball, how upright these are, how much there is, and how far off its middle is.
     """
     weights = weights + 1e-12
     mass = weights.sum(axis=1)
-    middle = np.einsum("pq,pqk->pk", weights, offsets) / mass[:, None]
-    scatter = np.einsum("pq,pqk,pql->pkl", weights, offsets, offsets, optimize=True) / mass[:, None, None]
-    values, axes = np.linalg.eigh(scatter - middle[:, :, None] * middle[:, None, :])
+    products = (seen[:, :, None] * seen[:, None]).reshape(-1, 9)
+    sums = weights @ np.concatenate([seen, products], axis=1) / mass[:, None]
+    means, scatter = sums[:, :3], sums[:, 3:].reshape(-1, 3, 3)
+    values, axes = np.linalg.eigh(scatter - means[:, :, None] * means[:, None, :])
     lengths = np.sqrt(np.maximum(values, 1e-12))
     thin, wide, long = lengths.T
     upward = axes_along(np.broadcast_to([0.0, 0.0, 1.0], lengths.shape), lengths, axes)
+    middle = means - points
     return np.stack(
         [
             (long - wide) / long,
@@ -184,11 +190,13 @@ def _describe_spread(weights: Floats, offsets: Floats) -> Floats:
     )
 
 
-def _describe_rings(whole: WholeShape, offsets: Floats) -> Floats:
-    """The share of the whole in each ring about the upright axis through each of n points (n, cells), as a root."""
-    level = np.digitize(offsets[:, :, 2], _LEVEL_BOUNDS)
-    aside = np.digitize(np.hypot(offsets[:, :, 0], offsets[:, :, 1]), _RING_BOUNDS)
-    cell = level * (len(_RING_BOUNDS) + 1) + aside
-    count = len(offsets)
+def _describe_rings(weights: Floats, heights: Floats, squares: Floats) -> Floats:
+    """The share of the whole in each ring about the upright axis through each of n points (n, cells), as a root.
+
+    heights, squares: (n, m), of the points on the whole over each point, and of their distances aside.
+    """
+    level = np.searchsorted(_LEVEL_BOUNDS, heights, side="right")
+    cell = level * (len(_RING_BOUNDS) + 1) + np.searchsorted(np.square(_RING_BOUNDS), squares, side="right")
+    count = len(heights)
     flat = (np.arange(count)[:, None] * _CELLS + cell).ravel()
-    return np.sqrt(np.bincount(flat, np.tile(whole.weights, count), count * _CELLS)).reshape(count, _CELLS)
+    return np.sqrt(np.bincount(flat, np.tile(weights, count), count * _CELLS)).reshape(count, _CELLS)
