@@ -24,7 +24,7 @@ WHOLE = {
     "obj": ("obj/cube.obj", "obj/groups_of_one_name.obj", "obj/corner_with_slashes.obj", "obj/index_negative.obj"),
     "stl": ("stl/ascii_cube.stl", "stl/binary_cube.stl", "stl/ascii_two_solids.stl"),
     "ply": ("ply/ascii_cube.ply", "ply/little_endian_cube.ply", "ply/big_endian_cube.ply", "ply/elements_unknown.ply"),
-    "wrl": ("wrl/cube.wrl", "wrl/transform_mirrored.wrl", "wrl/names_twice.wrl"),
+    "wrl": ("wrl/cube.wrl", "wrl/clockwise.wrl", "wrl/route.wrl"),
     "gltf": ("gltf/cube.gltf", "gltf/physics_box.gltf", "gltf/sparse_of_zeros.gltf", "gltf/unreal_names.gltf"),
     "glb": ("glb/cube.glb",),
     "urdf": ("urdf/mesh_beside.urdf", "urdf/two_roots.urdf", "urdf/joint_without_limits.urdf", "urdf/box.urdf"),

@@ -17,7 +17,7 @@ from meshforge.geometry import DecomposeSettings
 
 _PICTURE = "advice.png"
 _PICTURES = (".png", ".jpg", ".jpeg")
-_OF_POINTS = ("classes", "align", "points_up")
+_OF_POINTS = ("classes", "align")
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,7 +55,6 @@ class DecomposeArguments:
         ),
     ] = ""
     align: options.Align = None
-    points_up: options.PointsUp = None
     advise: Annotated[
         bool,
         typer.Option(
@@ -134,8 +133,8 @@ def _segmentation_of(given: DecomposeArguments) -> formats.SegmentationFile | No
     mesh, which is an error then."""
     beside = formats.points_beside(formats.labels_beside(given.mesh)) if given.by == "labels" else None
     path = given.labels or beside
-    placing = formats.PointAlignment(given.align or "check", given.points_up)
-    return formats.SegmentationFile(path, tuple(options.split_words(given.classes)), placing) if path else None
+    classes = tuple(options.split_words(given.classes))
+    return formats.SegmentationFile(path, classes, given.align or "check") if path else None
 
 
 def _picture_path(out: Path | None, overwrite: bool) -> Path | None:

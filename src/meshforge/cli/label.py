@@ -24,7 +24,6 @@ from meshforge.labels import (
     Labeler,
     LabelFileOptions,
     NameLabeler,
-    PointAlignment,
     VlmLabeler,
     approve_host,
     make_labeler,
@@ -37,7 +36,6 @@ _ONLY_FOR = {
     "labels": ("file",),
     "classes": ("file",),
     "align": ("file",),
-    "points_up": ("file",),
     "pattern": ("names", "file"),
     "model": ("vlm",),
     "base_url": ("vlm",),
@@ -121,7 +119,6 @@ class LabelArguments:
         ),
     ] = ""
     align: options.Align = None
-    points_up: options.PointsUp = None
     dry_run: Annotated[
         bool,
         typer.Option("--dry-run", help="Take nothing: show what would be taken, or what vlm would send and cost."),
@@ -143,8 +140,7 @@ class LabelArguments:
             return NameLabeler(meanings)
         if isinstance(labeler, FileLabeler):
             classes = tuple(word.strip() for word in self.classes.split(",")) if self.classes else ()
-            alignment = PointAlignment(self.align or "check", self.points_up)
-            return FileLabeler(self.labels, LabelFileOptions(meanings, classes, alignment))
+            return FileLabeler(self.labels, LabelFileOptions(meanings, classes, self.align or "check"))
         if isinstance(labeler, VlmLabeler):
             return VlmLabeler(self._read_vlm_settings(project), (self.base_url,) if self.base_url else ())
         return labeler

@@ -185,14 +185,10 @@ Align = Annotated[
     Literal["check", "box", "off"] | None,
     typer.Option(
         "--align",
-        help="Segmented points lie where the asset does (check, the default), or are scaled and moved so that the "
-        "boxes fit (box), or are taken as they are (off).",
+        help="Segmented points lie where the asset does (check, the default), or are turned upright, scaled and moved "
+        "so that the boxes fit (box), or are taken as they are (off).",
         show_default=False,
     ),
-]
-PointsUp = Annotated[
-    Literal["y", "z"] | None,
-    typer.Option("--points-up", help="The axis that points up among segmented points.", show_default=False),
 ]
 
 

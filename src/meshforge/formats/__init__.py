@@ -22,7 +22,7 @@ __getattr__, __all__ = export_lazily(
             "format_for format_of format_with_names is_asset is_description notes_after path_of "
             "plugin_of_suffix read resolve_asset_path"
         ),
-        "segmentation.parts": "PointAlignment SegmentationFile align_points read_parts",
+        "segmentation.parts": "AlignMode SegmentationFile align_points read_parts",
         "segmentation.reader": "POINTS_SUFFIXES points_beside read_segmentation",
         "surface_parts": "plain_part_name",
         "trimesh_meshes": "from_trimesh",

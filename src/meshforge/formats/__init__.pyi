@@ -45,7 +45,7 @@ from meshforge.formats.registry import path_of as path_of
 from meshforge.formats.registry import plugin_of_suffix as plugin_of_suffix
 from meshforge.formats.registry import read as read
 from meshforge.formats.registry import resolve_asset_path as resolve_asset_path
-from meshforge.formats.segmentation.parts import PointAlignment as PointAlignment
+from meshforge.formats.segmentation.parts import AlignMode as AlignMode
 from meshforge.formats.segmentation.parts import SegmentationFile as SegmentationFile
 from meshforge.formats.segmentation.parts import align_points as align_points
 from meshforge.formats.segmentation.parts import read_parts as read_parts

@@ -8,7 +8,6 @@ from meshforge.common.exports import export_lazily
 __getattr__, __all__ = export_lazily(
     __name__,
     {
-        "meshforge.formats": "PointAlignment",
         "by_hand": "label_command",
         "family_comparison": "ignore_stage",
         "from_files.label_by_files": "FileLabeler LabelFileOptions label_file_beside",

@@ -1,5 +1,4 @@
 # Written by `python -m script.stubs`.
-from meshforge.formats import PointAlignment as PointAlignment
 from meshforge.labels.by_hand import label_command as label_command
 from meshforge.labels.family_comparison import ignore_stage as ignore_stage
 from meshforge.labels.from_files.label_by_files import FileLabeler as FileLabeler

@@ -133,7 +133,7 @@ def test_segmented_points_are_read_with_the_names_that_are_given(run: Run, tmp_p
     [
         (("--with", "names", "--classes", "a"), "--classes is for --with file"),
         (("--with", "propagate", "--align", "box"), "--align is for --with file"),
-        (("--with", "names", "--points-up", "y"), "--points-up is for --with file"),
+        (("--with", "names", "--align", "box"), "--align is for --with file"),
         (("--with", "propagate", "--pattern", "a=b"), "--pattern is for --with names and --with file"),
         (("--with", "names", "--pattern", "knob"), "--pattern knob: it needs a pattern and a label"),
         (("--with", "names", "--pattern", "=knob"), "--pattern =knob: it needs a pattern and a label"),

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from meshforge.common import AssetError
-from meshforge.formats import load, read
+from meshforge.formats import load, read, read_triangles, save
 from meshforge.geometry import Capsule, Pose, Shape, Sphere
 from meshforge.symbolic import Asset
-from tests.gltf_files import KHR, SceneFile, glb_of
+from tests.gltf_files import KHR, SceneFile, glb_of, tree_of
 from tests.soups import Soup, angle, box, together, turned
 
 HALF = float(np.sqrt(0.5))
@@ -118,21 +118,20 @@ def test_sparse_accessors_are_filled_in(tmp_path: Path) -> None:
     assert bounds(asset_of(scene, tmp_path).geoms[0].shape) == [[0, 0, 0], [2, 1, 1]]
 
 
-def test_a_skinned_mesh_is_taken_in_the_pose_of_its_joints(tmp_path: Path) -> None:
-    scene = SceneFile()
-    joint = scene.node("bone", translation=[10, 0, 0])
-    part = scene.primitive(box())
-    part["attributes"] |= {
-        "JOINTS_0": scene.accessor(np.zeros((8, 4), "<u1")),
-        "WEIGHTS_0": scene.accessor(np.tile(np.array([1, 0, 0, 0], "<f4"), (8, 1))),
-    }
-    bind = np.eye(4, dtype="<f4")
-    bind[3, :3] = [0, 0, 5]  # column by column
-    scene.tree["skins"] = [{"joints": [joint], "inverseBindMatrices": scene.accessor(bind.reshape(1, 16))}]
-    scene.node("body", mesh=scene.mesh(part), skin=0, translation=[99, 0, 0])
+def test_a_mesh_that_a_skin_moves_is_not_read_and_that_is_said(tmp_path: Path) -> None:
+    scene = SceneFile.of(("table", box()))
+    scene.tree["skins"] = [{"joints": [scene.node("bone")]}]
+    scene.node("arm", box(), skin=0)
     asset = asset_of(scene, tmp_path)
-    assert bounds(asset.geoms[0].shape) == [[10, 0, 5], [11, 1, 6]]
-    assert any("1 skinned mesh" in note for note in asset.notes)
+    assert [(geom.name, piece.name) for geom, piece in zip(asset.geoms, asset.non_convex, strict=True)] == [
+        ("table", "arm")
+    ]
+    assert asset.non_convex[0].reason == "a mesh that a skin moves, which is not read"
+    assert "what skins move is not read, and left as it is: 1 mesh" in asset.notes
+    saved = save(asset, tmp_path / "out.glb")
+    assert tree_of(saved.path.read_bytes())["nodes"][2]["skin"] == 0
+    with pytest.raises(AssetError, match="node 'arm' has a mesh that a skin moves, which is not read"):
+        read_triangles(asset.path)
 
 
 def test_nodes_that_show_a_mesh_many_times_are_refused_with_the_remedy(tmp_path: Path) -> None:

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from meshforge.common import AssetError, UsageError
-from meshforge.formats import PointAlignment, SegmentationFile, decompose, read_parts
+from meshforge.formats import SegmentationFile, decompose, read_parts
 from meshforge.geometry import Aabb, Floats, Ints, SurfaceParts, VhacdSettings, sample_surface, separate_parts
 
 QUICK = VhacdSettings(resolution=3000, max_convex_hulls=4)
@@ -50,7 +50,7 @@ def put(folder: Path, **arrays: object) -> Path:
 
 def parts_of(path: Path, *notes: str, align: str = "check") -> SurfaceParts:
     told = list[str]()
-    file = SegmentationFile(path, placing=PointAlignment(align))  # type: ignore[arg-type]
+    file = SegmentationFile(path, align=align)  # type: ignore[arg-type]
     (found,) = read_parts([(VERTICES, FACES)], file, note=told.append)
     assert [note for note in notes if not any(note in one for one in told)] == []
     assert len(told) == len(notes), told

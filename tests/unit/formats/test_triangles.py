@@ -88,15 +88,10 @@ def test_a_gltf_buffer_may_lie_beside_it_and_is_missed_by_name(tmp_path: Path) -
     assert len(surfaces(tmp_path / "a.gltf", scene.gltf("the%20box.bin"))[0].faces) == 12
 
 
-def test_transforms_and_names_of_vrml_are_applied(tmp_path: Path) -> None:
+@pytest.mark.parametrize("place", [b"translation 5 0 0", b"rotation 0 0 1 3.14", b"scale 2, 1 1", b"scale 1 1"])
+def test_shapes_of_vrml_that_are_placed_are_refused(tmp_path: Path, place: bytes) -> None:
+    start, end = b"#VRML V2.0 utf8\nDEF leg Transform { translation 0 0 0.0 rotation 0 0 1 0, scale 1 1 1 ", b" }"
     inner = wrl(box()).partition(b"Group {")[2].rpartition(b"}")[0]
-    turn = b"translation 5 0 0 center 1 0 0 rotation 0 0 1 3.14159265358979 scale 2 1 1"
-    found = surfaces(tmp_path / "a.wrl", b"#VRML V2.0 utf8\nDEF leg Transform { " + turn + inner + b"}")
-    assert bounds(found) == [[6, -1, 0], [8, 0, 1]]
-    assert [s.name for s in found] == ["leg"]
-
-
-def test_a_vrml_node_may_be_used_again(tmp_path: Path) -> None:
-    again = b"Transform { translation 3 0 0 children Shape { geometry IndexedFaceSet { coord USE co coordIndex ["
-    again += b" ".join(b"%d %d %d -1" % tuple(face) for face in box()[1].tolist()) + b"] } } }"
-    assert bounds(surfaces(tmp_path / "a.wrl", wrl(box()) + again)) == [[0, 0, 0], [4, 1, 1]]
+    assert [s.name for s in surfaces(tmp_path / "a.wrl", start + inner + end)] == ["leg"]
+    with pytest.raises(AssetError, match=f"a shape has a {place.split()[0].decode()}, which is not read"):
+        surfaces(tmp_path / "a.wrl", start + place + inner + end)

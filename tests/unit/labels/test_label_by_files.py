@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from meshforge.common import AssetError, MeshForgeError, ProjectError, UsageError
-from meshforge.formats import PointAlignment, read
+from meshforge.formats import read
 from meshforge.geometry import Floats
 from meshforge.labels import FileLabeler, LabelFileOptions, LabelOutcome, OfferCache
 from meshforge.project import Project
@@ -207,8 +207,8 @@ def test_points_elsewhere_are_refused_and_taken_when_the_way_is_said(tmp_path: P
     (report,) = project.label(FileLabeler(tmp_path / "given.npz", named("vocabulary"))).outcomes
     assert report.taken == 0 and len(report.problems) == 1
     assert "its points do not lie where the asset does" in report.problems[0]
-    assert report.problems[0].endswith("They would fit with --points-up y --align box.")
-    how = LabelFileOptions(classes=("vocabulary",), placing=PointAlignment("box", "y"))
+    assert report.problems[0].endswith("They would fit with --align box.")
+    how = LabelFileOptions(classes=("vocabulary",), align="box")
     (report,) = project.label(FileLabeler(tmp_path / "given.npz", how)).outcomes
     assert report.taken == 6 and all(hull.startswith(label) for hull, (label, _, _) in labels(project).items())
 
@@ -221,9 +221,7 @@ def test_points_that_most_hulls_do_not_hold_are_refused_unless_they_are_to_be_ta
     np.savez(tmp_path / "given.npz", points=points, labels=np.zeros(500, int), names=["top"])
     (report,) = project.label(FileLabeler(tmp_path / "given.npz")).outcomes
     assert "of its points are in hulls: it may be turned, or of another asset" in report.problems[0]
-    (report,) = project.label(
-        FileLabeler(tmp_path / "given.npz", LabelFileOptions(placing=PointAlignment("off")))
-    ).outcomes
+    (report,) = project.label(FileLabeler(tmp_path / "given.npz", LabelFileOptions(align="off"))).outcomes
     assert report.taken > 0 and not report.problems
 
 

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from meshforge.common import AssetError
-from meshforge.formats import PointAlignment, align_points
+from meshforge.formats import align_points
 from meshforge.geometry import Aabb, Box, Floats, Ints, Pose, Sphere
 from meshforge.labels.from_files.points import vote_by_points
 
@@ -108,41 +108,35 @@ CORNERS = np.array(BOX.corners)
 
 
 def test_points_that_fit_stay_as_they_are() -> None:
-    assert align_points(CORNERS * 1.01, [BOX], PointAlignment(), "p.npz") is not None
-    assert np.array_equal(align_points(CORNERS, [BOX], PointAlignment(), "p.npz"), CORNERS)
-    assert np.array_equal(
-        align_points(CORNERS * 9, [BOX, Aabb([0, 0, 0], [9, 18, 27])], PointAlignment(), "p.npz"), CORNERS * 9
-    )
+    assert align_points(CORNERS * 1.01, [BOX], "check", "p.npz") is not None
+    assert np.array_equal(align_points(CORNERS, [BOX], "check", "p.npz"), CORNERS)
+    assert np.array_equal(align_points(CORNERS * 9, [BOX, Aabb([0, 0, 0], [9, 18, 27])], "check", "p.npz"), CORNERS * 9)
 
 
 @pytest.mark.parametrize(
-    ("points", "option"),
+    "points",
     [
-        (CORNERS * 3 + 7, "--align box"),
-        (CORNERS[:, [0, 2, 1]] * [1, 1, -1], "--points-up y"),
-        (CORNERS[:, [0, 2, 1]] * [5, 5, -5] + 2, "--points-up y --align box"),
+        CORNERS * 3 + 7,
+        CORNERS[:, [0, 2, 1]] * [1, 1, -1],
+        CORNERS[:, [0, 2, 1]] * [5, 5, -5] + 2,
     ],
 )
-def test_points_elsewhere_are_refused_with_what_would_make_them_fit(points: Floats, option: str) -> None:
+def test_points_elsewhere_are_refused_with_what_makes_them_fit(points: Floats) -> None:
     with pytest.raises(AssetError) as told:
-        align_points(points, [BOX], PointAlignment(), "p.npz")
-    assert told.value.remedy == f"They would fit with {option}."
-    words = option.split()
-    placing = PointAlignment("box" if "box" in words else "check", "y" if "y" in words else None)
-    assert align_points(points, [BOX], placing, "p.npz") == pytest.approx(CORNERS)
+        align_points(points, [BOX], "check", "p.npz")
+    assert told.value.remedy == "They would fit with --align box."
+    assert align_points(points, [BOX], "box", "p.npz") == pytest.approx(CORNERS)
+
+
+def test_points_of_an_asset_whose_y_points_up_are_turned_the_other_way() -> None:
+    upright = CORNERS[:, [0, 2, 1]] * [1, 1, -1]
+    assert align_points(CORNERS, [Aabb.of_points(upright)], "box", "p.npz", up="y") == pytest.approx(upright)
 
 
 def test_points_of_another_thing_are_refused_however_they_are_moved() -> None:
     flat = np.array([[0, 0, 0], [5, 5, 0.1], [0, 5, 0], [5, 0, 0]])
-    for placing in (PointAlignment(), PointAlignment("box"), PointAlignment("box", "y")):
+    for align in ("check", "box"):
         with pytest.raises(AssetError, match="do not lie where the asset does") as told:
-            align_points(flat, [BOX], placing, "p.npz")
+            align_points(flat, [BOX], align, "p.npz")
         assert told.value.remedy == "Export them in the frame of the asset, in metres."
-    assert np.array_equal(align_points(flat, [BOX], PointAlignment("off"), "p.npz"), flat)
-
-
-def test_up_means_the_other_way_where_the_asset_says_it() -> None:
-    upright = CORNERS[:, [0, 2, 1]] * [1, 1, -1]
-    box = Aabb.of_points(upright)
-    assert np.array_equal(align_points(upright, [box], PointAlignment(up="y"), "p.npz", up="y"), upright)
-    assert align_points(CORNERS, [box], PointAlignment(up="z"), "p.npz", up="y") == pytest.approx(upright)
+    assert np.array_equal(align_points(flat, [BOX], "off", "p.npz"), flat)

@@ -15,7 +15,7 @@ from meshforge.formats.gltf.document import Convention
 from meshforge.formats.gltf.physics import EXTENSIONS, collider_of, has_collider, physics_extension_of, rigid_pose_of
 from meshforge.formats.meshfile.gltf_document import Json, entry
 from meshforge.formats.meshfile.gltf_meshes import GltfMesh
-from meshforge.formats.meshfile.gltf_scene import GltfScene, Placement
+from meshforge.formats.meshfile.gltf_scene import SKINNED, GltfScene, Placement
 from meshforge.geometry import Ellipsoid, Floats, Ints, Piece, Polytope, Pose, Sphere, hull_mesh, split_pieces
 
 PlacedMesh = tuple[GltfMesh, Floats, Floats]
@@ -66,6 +66,8 @@ class CollisionReader:
             return self._read_physics(placement, name)
         if self.convention in ("unreal", "godot") and name is None:
             return [], None
+        if "skin" in placement.node:
+            return [CollisionPiece(None, SKINNED)], None
         placed = self.scene.place_mesh(placement)
         if not len(placed[0].faces):
             return [], None
@@ -110,13 +112,9 @@ class CollisionReader:
             return [], None
         if not leaves_volume(linear):
             return [_non_convex_part(mesh, linear, offset, "it is scaled to nothing")], None
-        if mesh is not self.scene.mesh(index):  # a skinned one: its pieces are found each time
-            found = _split_mesh(mesh, name or f"node {placement.index}")
-        elif (known := self._pieces.get(index)) is not None:
-            found = known
-        else:
-            found = self._pieces[index] = _split_mesh(mesh, name or f"node {placement.index}")
-        owner = np.zeros(len(mesh.faces), dtype=np.int64)
+        if index not in self._pieces:
+            self._pieces[index] = _split_mesh(mesh, name or f"node {placement.index}")
+        found, owner = self._pieces[index], np.zeros(len(mesh.faces), dtype=np.int64)
         for k, piece in enumerate(found):
             owner[piece.face_indices] = k
         return place_pieces(found, linear, offset), owner

@@ -14,7 +14,7 @@ from meshforge.common import AssetError
 from meshforge.formats.collision_pieces import leaves_volume
 from meshforge.formats.gltf import output, physics
 from meshforge.formats.meshfile.gltf_document import Json, entries, entry, extension
-from meshforge.formats.meshfile.gltf_meshes import DRACO, TYPES, DracoMesh
+from meshforge.formats.meshfile.gltf_meshes import DRACO
 from meshforge.formats.meshfile.gltf_scene import GltfScene
 from meshforge.geometry import Floats, Ints, Shape
 from meshforge.symbolic import Geom, NonConvexPiece, Texture
@@ -141,23 +141,17 @@ class SceneDraft:
             patch, start = whole[k]
             own = stays[start : start + len(patch.faces)]
             if own.any():
-                parts.append(part if own.all() else self._keep_faces(part, patch.faces[own], patch.decoded))
+                parts.append(part if own.all() else self._keep_faces(part, patch.faces[own]))
         return {**mesh, "primitives": parts}
 
-    def _keep_faces(self, part: Json, faces: Ints, decoded: DracoMesh | None) -> Json:
-        """A primitive with some of its triangles; one that Draco compressed is written plainly."""
+    def _keep_faces(self, part: Json, faces: Ints) -> Json:
+        """A primitive with some of its triangles. Raises AssetError: Draco compressed it."""
+        if extension(part, DRACO) is not None:
+            problem = f"a hull would be taken out of a mesh that {DRACO} compresses"
+            raise AssetError(problem, where=str(self.scene.path), remedy="Export it without mesh compression.")
         part = {**part, "indices": self.geometry.add_triangles(faces)}
         part.pop("mode", None)
-        if decoded is None:
-            return part
-        part["attributes"] = dict(part["attributes"])
-        for name, values in decoded.attributes.items():  # of the types that their accessors have
-            accessor = entry(self.tree, "accessors", part["attributes"][name])
-            rows, normalized = values.astype(TYPES[accessor["componentType"]]), bool(accessor.get("normalized"))
-            new = self.geometry.add_vertex_data(rows, bounds=name == "POSITION", normalized=normalized)
-            part["attributes"][name] = new
-        extensions = {key: value for key, value in part.pop("extensions").items() if key != DRACO}
-        return {**part, "extensions": extensions} if extensions else part
+        return part
 
     def holder_of(self, body: int | None, source: int | None) -> int | None:
         """Return the node below which a new hull goes, None for the root of the scene.

@@ -136,14 +136,12 @@ class GeometryBuffer:
         kind = "<u2" if faces.max(initial=0) < 65535 else "<u4"
         return self._add_accessor(faces.ravel().astype(kind)[:, None], _INDICES)
 
-    def add_vertex_data(self, rows: npt.NDArray[Any], *, bounds: bool = False, normalized: bool = False) -> int:
+    def add_vertex_data(self, rows: npt.NDArray[Any], *, bounds: bool = False) -> int:
         """Return the accessor of a vertex attribute (n, k); bounds: with the least and the largest of each column."""
         index = self._add_accessor(rows, _VERTICES)
         accessor = self.tree["accessors"][index]
         if bounds:
             accessor |= {"min": rows.min(axis=0).tolist(), "max": rows.max(axis=0).tolist()}
-        if normalized:
-            accessor["normalized"] = True
         return index
 
     def add_bytes(self, data: bytes) -> int:

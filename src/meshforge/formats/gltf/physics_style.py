@@ -11,7 +11,7 @@ from meshforge.formats.gltf import physics
 from meshforge.formats.gltf.document import Convention, NodeRecord
 from meshforge.formats.gltf.draft import SceneDraft
 from meshforge.formats.gltf.styles import NewPiece, Style
-from meshforge.formats.meshfile.gltf_document import Json, extension
+from meshforge.formats.meshfile.gltf_document import Json, entries, entry, extension
 from meshforge.formats.meshfile.gltf_meshes import DRACO
 from meshforge.geometry import Box, Capsule, Cylinder, Pose, Sphere
 from meshforge.symbolic import Geom, NonConvexPiece
@@ -88,13 +88,14 @@ class PhysicsStyle(Style):
         self._add_collider(node, holder, geometry, what.name, like)
 
     def _add_as_authored(self, piece: NewPiece) -> bool:
-        """Collide with the vertices of the scene themselves, where no skin moves them and no map shears them."""
+        """Collide with the vertices of the scene themselves, where no map shears them and Draco compresses none."""
         draft, element = self.draft, piece.source
         if element is None or element.owner is None or piece.part is None:
             return False
         source = draft.scene.placements[element.node]
         place = _even_place(draft, element.node, piece.holder)
-        if place is None or "skin" in source.node:
+        parts = entries(entry(draft.scene.tree, "meshes", source.node["mesh"]), "primitives")
+        if place is None or any(extension(part, DRACO) for part in parts):
             return False
         whole = draft.extract_pieces(source.node["mesh"], element.owner, [piece.part])
         mesh = draft.add_mesh({"name": piece.own, "primitives": [_strip_look(part) for part in whole["primitives"]]})
@@ -176,11 +177,8 @@ def _even_place(draft: SceneDraft, node: int, holder: int | None) -> Json | None
 
 
 def _strip_look(part: Json) -> Json:
-    """A primitive without what only matters to the eye; one that Draco compressed keeps its attributes."""
-    kept: Json = {key: part[key] for key in ("attributes", "indices", "mode") if key in part}
-    packed = part.get("extensions", {}).get(DRACO)
-    if packed is not None:
-        return {**kept, "extensions": {DRACO: packed}}
+    """A primitive without what only matters to the eye."""
+    kept: Json = {key: part[key] for key in ("indices", "mode") if key in part}
     return {**kept, "attributes": {"POSITION": part["attributes"]["POSITION"]}}
 
 

@@ -148,6 +148,8 @@ class SceneSurfaces(LazySurfaces):
                 scene = GltfScene.of(self._source, self._path)
                 shown = [k for k, placement in scene.placements.items() if "mesh" in placement.node]
                 for index in shown if self._unmarked else visible_nodes(scene, convention_of(scene)):
+                    if "skin" in scene.placements[index].node:
+                        continue
                     mesh, linear, offset = scene.place_mesh(scene.placements[index])
                     for vertices, faces, rgba in _split_by_color(scene, scene.placements[index].node["mesh"], mesh):
                         surface = place_surface(vertices, faces, linear, offset, self._bodies.get(index))
@@ -229,7 +231,7 @@ def _collect_notes(scene: GltfScene, convention: Convention) -> Iterator[str]:
         yield FileNote(f"{pluralize(triggers, 'trigger')} detect bodies without colliding: they are left as they are")
     shown = [placement.node for placement in placements.values() if "mesh" in placement.node]
     if skinned := sum("skin" in node for node in shown):
-        yield f"{pluralize(skinned, 'skinned mesh', 'skinned meshes')} are taken in the pose that the file has"
+        yield f"what skins move is not read, and left as it is: {pluralize(skinned, 'mesh', 'meshes')}"
     meshes = [entries(entry(tree, "meshes", node["mesh"]), "primitives") for node in shown]
     if morphed := sum(any(part.get("targets") for part in parts) for parts in meshes):
         yield f"{pluralize(morphed, 'mesh', 'meshes')} with morph targets are taken without them"

@@ -205,9 +205,8 @@ class GodotStyle(EngineStyle):
             return
         draft, node = self.draft, self.draft.node(element.node)
         mesh, name = node["mesh"], f"{self._strip_suffix(element)}-colonly"
-        skinned = {"skin": node["skin"]} if "skin" in node else {}
         part = draft.add_mesh({**draft.extract_pieces(mesh, element.owner, kept), "name": name})
-        child = draft.add_node({"name": name, "mesh": part, **skinned}, element.node)
+        child = draft.add_node({"name": name, "mesh": part}, element.node)
         draft.expected[child] = tuple(element.names[k] for k in kept)
 
     def _is_visible(self, element: NodeRecord) -> bool:
@@ -250,10 +249,10 @@ class UnrealStyle(EngineStyle):
         return [f"{what}: rename those that have none, or share one ({join_names(many, 3)})"] if many else []
 
     def space_of(self, piece: NewPiece) -> int | None:
-        """Return the space of the mesh that it stands for, but of a skinned one."""
+        """Return the space of the mesh that it stands for."""
         if piece.source is None or not self.draft.keeps_volume(piece.source.node):
             return piece.holder
-        return piece.holder if "skin" in self.draft.scene.placements[piece.source.node].node else piece.source.node
+        return piece.source.node
 
     def name_piece(self, piece: NewPiece) -> str:
         assert isinstance(piece.what, Geom)  # Unreal takes no others

@@ -167,12 +167,11 @@ def decode_data_uri(uri: str) -> bytes:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class GltfPrimitive:
-    """The triangles (m, 3) of one primitive; index: its number in the mesh; decoded: where Draco compressed it."""
+    """The triangles (m, 3) of one primitive; index: its number in the mesh."""
 
     index: int
     faces: Ints
     points: Floats
-    decoded: DracoMesh | None = None
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -197,9 +196,8 @@ def _read_primitive(index: int, part: Json, buffers: Buffers) -> GltfPrimitive |
         return None
     packed = extension(part, DRACO)
     if packed is not None and "POSITION" in packed["attributes"]:
-        unpacked = decode_draco(buffers.view(packed["bufferView"]), packed["attributes"])
-        points = unpacked.attributes["POSITION"].astype(np.float64)
-        return _check_primitive(GltfPrimitive(index, unpacked.faces, points, unpacked))
+        data = buffers.view(packed["bufferView"])
+        return _check_primitive(GltfPrimitive(index, *_decode_draco(data, packed["attributes"]["POSITION"])))
     points = buffers.geometry(attributes["POSITION"]).astype(np.float64)
     order: Any = buffers.geometry(part["indices"]).ravel() if "indices" in part else np.arange(len(points))
     if order.dtype.kind not in "iu":
@@ -230,19 +228,8 @@ def _to_triangles(order: Ints, mode: int) -> Ints:
     return strip
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class DracoMesh:
-    """The triangles (m, 3) of a primitive, and the attributes that were compressed, each (n, k), by their names."""
-
-    faces: Ints
-    attributes: dict[str, npt.NDArray[Any]]
-
-
-def decode_draco(data: bytes, names: Json) -> DracoMesh:
-    """Return what the bytes of a compressed primitive hold; names: the number of each attribute by its name.
-
-    Raises ValueError: they are damaged, hold no triangles, or not all of the attributes.
-    """
+def _decode_draco(data: bytes, number: Any) -> tuple[Ints, Floats]:
+    """The triangles (m, 3) and points (n, 3) of a compressed primitive; number: of the attribute of positions."""
     import DracoPy  # lazy: few files are compressed
 
     try:
@@ -251,12 +238,7 @@ def decode_draco(data: bytes, names: Json) -> DracoMesh:
         raise ValueError(f"its Draco data is damaged: {error}") from error
     if not hasattr(mesh, "faces"):
         raise ValueError("its Draco data holds points without triangles")
-    by_number = {attribute["unique_id"]: attribute["data"] for attribute in mesh.attributes}
-    missing = [name for name, number in names.items() if number not in by_number]
-    if missing:
-        raise ValueError(f"its Draco data has no {missing[0]}")
-    found = {name: np.asarray(by_number[number]) for name, number in names.items()}
-    rows = {len(values) for values in found.values()}
-    if len(rows) > 1:
-        raise ValueError("its Draco data holds attributes of several lengths")
-    return DracoMesh(np.asarray(mesh.faces, dtype=np.int64).reshape(-1, 3), found)
+    found = [attribute["data"] for attribute in mesh.attributes if attribute["unique_id"] == number]
+    if not found:
+        raise ValueError("its Draco data has no POSITION")
+    return np.asarray(mesh.faces, dtype=np.int64).reshape(-1, 3), np.asarray(found[0], dtype=np.float64)

@@ -1,10 +1,9 @@
-"""The scene of a glTF file: which nodes are in it, where each of them is, skins in their pose, and all of it as
-surfaces."""
+"""The scene of a glTF file: which nodes are in it, where each of them is, and all of it as surfaces."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -27,6 +26,7 @@ from meshforge.formats.meshfile.surface import RawSurface, check_surfaces
 from meshforge.geometry import Floats, Ints, rotation_of_quaternion
 
 _INSTANCING = "EXT_mesh_gpu_instancing"
+SKINNED = "a mesh that a skin moves, which is not read"
 _PLACED = frozenset(("matrix", "translation", "rotation", "scale"))
 
 
@@ -43,6 +43,9 @@ def parse_gltf(data: bytes, path: Path) -> list[RawSurface]:
 
 
 def _read_surface(scene: GltfScene, placement: Placement) -> Iterator[RawSurface]:
+    if "skin" in placement.node:
+        problem = f"node {placement.node.get('name') or placement.index!r} has {SKINNED}"
+        raise AssetError(problem, where=str(scene.path), remedy="Apply its pose, and export it without a skin.")
     if "mesh" in placement.node:
         mesh, linear, offset = scene.place_mesh(placement)
         name = placement.node.get("name") or entry(scene.tree, "meshes", placement.node["mesh"]).get("name")
@@ -135,15 +138,8 @@ class GltfScene:
         return self._meshes[index]
 
     def place_mesh(self, placement: Placement) -> tuple[gltf_meshes.GltfMesh, Floats, Floats]:
-        """Return the triangles of the mesh of a node, and the map x -> linear @ x + offset that puts them in the root
-        frame.
-
-        A skinned mesh is put in place by its joints, as the file has them.
-        """
-        mesh = self.mesh(placement.node["mesh"])
-        if "skin" in placement.node:
-            return pose_skin(self, placement.node, mesh), np.eye(3), np.zeros(3)
-        return mesh, placement.linear, placement.offset
+        """Return the triangles of the mesh of a node, and the map x -> linear @ x + offset to the root frame."""
+        return self.mesh(placement.node["mesh"]), placement.linear, placement.offset
 
 
 def matrix_of(node: Json) -> Floats:
@@ -172,45 +168,3 @@ def _ancestors_of(found: dict[int, Placement], index: int | None) -> set[int]:
         above.add(index)
         index = found[index].parent
     return above
-
-
-def pose_skin(scene: GltfScene, node: Json, mesh: gltf_meshes.GltfMesh) -> gltf_meshes.GltfMesh:
-    """Return the triangles of a node's skinned mesh in the root frame. Raises ValueError: its skin is damaged."""
-    bones = _bone_transforms(scene, entry(scene.tree, "skins", node["skin"]))
-    parts = entries(entry(scene.tree, "meshes", node["mesh"]), "primitives")
-    moved = [_move_points(scene, patch, parts[patch.index]["attributes"], bones) for patch in mesh.patches]
-    return replace(mesh, vertices=np.concatenate([np.empty((0, 3)), *moved]))
-
-
-def _bone_transforms(scene: GltfScene, skin: Json) -> Floats:
-    """What each joint does to the mesh (j, 4, 4): the place of the joint after the inverse of its bind matrix."""
-    joints = entries(skin, "joints")
-    for joint in joints:
-        if joint not in scene.placements:
-            raise ValueError(f"joint {joint!r} of a skin is not in the scene")
-    worlds = np.array([scene.placements[joint].world for joint in joints])
-    if "inverseBindMatrices" not in skin:
-        return worlds
-    inverse = scene.buffers.accessor(skin["inverseBindMatrices"]).reshape(-1, 4, 4).transpose(0, 2, 1)
-    return np.asarray(worlds @ inverse[: len(joints)])
-
-
-def _move_points(scene: GltfScene, patch: gltf_meshes.GltfPrimitive, attributes: Json, bones: Floats) -> Floats:
-    total = np.zeros((len(patch.points), 4, 4))
-    for number in range(8):
-        if f"JOINTS_{number}" not in attributes:
-            break
-        joints = _attribute_values(scene, patch, attributes, f"JOINTS_{number}").astype(np.int64)
-        weights = _attribute_values(scene, patch, attributes, f"WEIGHTS_{number}")
-        total += np.einsum("nk,nkij->nij", weights, bones[joints])
-    weight = total[:, 3, 3]
-    if not (weight > 0).all():
-        raise ValueError("a vertex of a skinned mesh hangs on no joint")
-    moved = np.einsum("nij,nj->ni", total, np.column_stack([patch.points, np.ones(len(patch.points))]))
-    return np.asarray(moved[:, :3] / weight[:, None])
-
-
-def _attribute_values(scene: GltfScene, patch: gltf_meshes.GltfPrimitive, attributes: Json, name: str) -> Floats:
-    if patch.decoded is not None and name in patch.decoded.attributes:
-        return patch.decoded.attributes[name].astype(np.float64)
-    return scene.buffers.accessor(attributes[name]).astype(np.float64)

@@ -1,4 +1,4 @@
-"""Read PLY, ASCII and binary, each row where it stands in the file, so that edits keep all its properties."""
+"""Read PLY, ASCII and binary, with all properties of its rows."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import codecs
 import itertools
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -36,42 +36,25 @@ class PlyProperty:
     count: str | None = None
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(eq=False, slots=True)
 class PlyElement:
-    """An element: its name, how many rows it has, its properties."""
+    """An element: its name, how many rows it has, its properties, and the values of each by its name."""
 
     name: str
     rows: int
-    properties: tuple[PlyProperty, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class PlyHeader:
-    """size: bytes of the header with its last line end; order: of the bytes in numpy's letters, empty for ASCII."""
-
-    size: int
-    order: str
-    elements: tuple[PlyElement, ...]
+    properties: list[PlyProperty] = field(default_factory=list)
+    values: dict[str, Any] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class PlyRows:
-    """The rows of an element: spans (n, 2), the bytes of each in the file; values of each property by its name."""
-
-    element: PlyElement
-    spans: Ints
-    values: dict[str, Any]
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class PlyText:
-    """A PLY file taken apart.
+class PlyFile:
+    """The content of a PLY file.
 
     vertices: (n, 3); faces: (m, 3) triangles, polygons cut into fans; face_at: (m,) the face row of each triangle.
     """
 
-    header: PlyHeader
-    rows: tuple[PlyRows, ...]
+    is_text: bool
+    elements: list[PlyElement]
     vertices: Floats
     faces: Ints
     face_at: Ints
@@ -81,29 +64,23 @@ class PlyText:
         return surface.check_surfaces([surface.RawSurface(None, self.vertices, self.faces)], where)
 
 
-def parse_ply(data: bytes, where: str) -> PlyText:
-    """Return a PLY file taken apart. Raises AssetError: cut short, damaged, or not a PLY file."""
-    header = parse_header(data, where)
-    rows: list[PlyRows] = []
-    at = header.size
-    for element in header.elements:
+def parse_ply(data: bytes, where: str) -> PlyFile:
+    """Return the content of a PLY file. Raises AssetError: cut short, damaged, or not a PLY file."""
+    at, order, elements = _parse_header(data, where)
+    for element in elements:
         if element.rows > len(data) - at:  # before any memory is taken for them
             raise _truncation_error(element, where)
         try:
-            is_text = not header.order
-            read = _read_ascii(data, at, element, where) if is_text else _read_binary(data, at, element, header.order)
+            read = _read_binary(data, at, element, order) if order else _read_text(data, at, element, where)
         except (ValueError, IndexError):
             raise _truncation_error(element, where) from None
-        rows.append(read)
-        at = int(rows[-1].spans[-1, 1]) if element.rows else at
-    vertices = _find_vertices(rows, where)
-    faces, face_at = _find_faces(rows, len(vertices), where)
-    return PlyText(header, tuple(rows), vertices, faces, face_at)
+        element.values, at = read
+    vertices = _find_vertices(elements, where)
+    return PlyFile(not order, elements, vertices, *_find_faces(elements, len(vertices), where))
 
 
-def parse_header(data: bytes, where: str) -> PlyHeader:
-    """Return the header at the start of a PLY file. Raises AssetError with the line: this is none, or it makes no
-    sense."""
+def _parse_header(data: bytes, where: str) -> tuple[int, str, list[PlyElement]]:
+    """The size of the header, the byte order in numpy's letters, empty for text, and the elements without values."""
     if data.removeprefix(codecs.BOM_UTF8)[:3] != b"ply":
         raise AssetError("this is no PLY file", where=where, remedy="Export it again.")
     end = re.search(rb"^end_header[ \t]*(\r\n|\n|\r)", data, re.M)
@@ -120,20 +97,20 @@ def parse_header(data: bytes, where: str) -> PlyHeader:
                 case ["format", kind, _]:
                     order = _ORDERS[kind]
                 case ["element", name, rows] if rows.isdecimal():
-                    elements.append(PlyElement(name, int(rows), ()))
+                    elements.append(PlyElement(name, int(rows)))
                 case ["element", _, rows]:
                     raise ValueError(rows)
                 case ["property", *rest]:
-                    last, made = elements.pop(), _parse_property(rest)
-                    if any(p.name == made.name for p in last.properties):
+                    made = _parse_property(rest)
+                    if any(p.name == made.name for p in elements[-1].properties):
                         raise ValueError(made.name)
-                    elements.append(PlyElement(last.name, last.rows, (*last.properties, made)))
+                    elements[-1].properties.append(made)
         except (KeyError, IndexError, ValueError):
             shown = " ".join(words)[:_SHOWN]
             raise AssetError(f"this line of the header makes no sense: {shown!r}", where=f"{where}:{number}") from None
     if order is None:
         raise AssetError("the header names no format", where=where)
-    return PlyHeader(end.end(), order, tuple(elements))
+    return end.end(), order, elements
 
 
 def _parse_property(words: list[str]) -> PlyProperty:
@@ -150,27 +127,16 @@ def _truncation_error(element: PlyElement, where: str) -> AssetError:
     return AssetError(problem, where=where, remedy="Export it again.")
 
 
-def _row_error(element: PlyElement, row: int, data: bytes, span: tuple[int, int], where: str) -> AssetError:
-    text = data[slice(*span)]
-    if not text.strip():
-        return _truncation_error(element, where)
-    problem = f"row {row} of {element.name} is cut short or damaged: {surface.text_of(text.strip())[:_SHOWN]!r}"
-    line = data.count(b"\n", 0, span[0]) + 1
-    return AssetError(problem, where=f"{where}:{line}", remedy=surface.remedy_for(text.split()))
-
-
-def _read_ascii(data: bytes, at: int, element: PlyElement, where: str) -> PlyRows:
-    spans: list[tuple[int, int]] = []
+def _read_text(data: bytes, at: int, element: PlyElement, where: str) -> tuple[dict[str, Any], int]:
+    """The values of an element and where they end; a row is a line. Raises AssetError at a line that is no row."""
     values: dict[str, Any] = {p.name: [] for p in element.properties}
-    for _ in range(element.rows):
+    for k in range(element.rows):
         stop = _line_end_of(data, at)
         while element.properties and stop < len(data) and not data[at:stop].strip():  # blank lines between rows
             at, stop = stop, _line_end_of(data, stop)
-        spans.append((at, stop))
-        at = stop
-    for k, span in enumerate(spans):
+        words = data[at:stop].split()
         try:
-            row, place = [float(word) for word in data[slice(*span)].split()], 0
+            row, place = list(map(float, words)), 0
             for p in element.properties:
                 length = _to_whole(row[place : place + 1]) if p.count else 1
                 place += 1 if p.count else 0
@@ -179,8 +145,14 @@ def _read_ascii(data: bytes, at: int, element: PlyElement, where: str) -> PlyRow
                 values[p.name].append(row[place : place + length] if p.count else row[place])
                 place += length
         except ValueError:
-            raise _row_error(element, k, data, span, where) from None
-    return PlyRows(element, np.array(spans, dtype=np.int64).reshape(-1, 2), values)
+            if not words:
+                raise
+            shown = surface.text_of(data[at:stop].strip())[:_SHOWN]
+            problem = f"row {k} of {element.name} is cut short or damaged: {shown!r}"
+            line = data.count(b"\n", 0, at) + 1
+            raise AssetError(problem, where=f"{where}:{line}", remedy=surface.remedy_for(words)) from None
+        at = stop
+    return values, at
 
 
 def _line_end_of(data: bytes, at: int) -> int:
@@ -192,30 +164,19 @@ def _to_whole(values: Sequence[float]) -> int:
     return int(values[0]) if len(values) and float(values[0]).is_integer() else -1
 
 
-def _read_binary(data: bytes, at: int, element: PlyElement, order: str) -> PlyRows:
-    """The rows: all at once where all their lists are three long, as those of triangles are, else one by one."""
+def _read_binary(data: bytes, at: int, element: PlyElement, order: str) -> tuple[dict[str, Any], int]:
+    """The values of an element and where they end: all at once where its lists are three long, as of triangles."""
     fields: list[tuple[Any, ...]] = []
-    lists = [f"{p.name}:count" for p in element.properties if p.count]
     for p in element.properties:
-        if p.count:
-            fields += [(f"{p.name}:count", order + p.count), (p.name, order + p.type, (3,))]
-        else:
-            fields.append((p.name, order + p.type))
-    row = np.dtype(fields)
+        fields += [(f"{p.name}:count", order + p.count)] if p.count else []
+        fields.append((p.name, order + p.type, (3,)) if p.count else (p.name, order + p.type))
+    row, lists = np.dtype(fields), [f"{p.name}:count" for p in element.properties if p.count]
     if not lists or at + row.itemsize * element.rows <= len(data):
         table: npt.NDArray[Any] = np.frombuffer(data, row, element.rows, at)
         if all((table[name] == 3).all() for name in lists):
-            starts = at + row.itemsize * np.arange(element.rows, dtype=np.int64)
-            spans = np.column_stack([starts, starts + row.itemsize])
-            return PlyRows(element, spans, {p.name: table[p.name] for p in element.properties})
-    return _read_one_by_one(data, at, element, order)
-
-
-def _read_one_by_one(data: bytes, at: int, element: PlyElement, order: str) -> PlyRows:
-    spans = np.empty((element.rows, 2), dtype=np.int64)
+            return {p.name: table[p.name] for p in element.properties}, at + row.itemsize * element.rows
     values: dict[str, Any] = {p.name: [] for p in element.properties}
-    for k in range(element.rows):
-        start = at
+    for _ in range(element.rows):
         for p in element.properties:
             length = 1
             if p.count:
@@ -226,26 +187,25 @@ def _read_one_by_one(data: bytes, at: int, element: PlyElement, order: str) -> P
             read = np.frombuffer(data, order + p.type, length, at) if length else np.zeros(0)
             at += length * np.dtype(p.type).itemsize
             values[p.name].append(read if p.count else read[0])
-        spans[k] = start, at
-    return PlyRows(element, spans, values)
+    return values, at
 
 
-def _find_vertices(rows: list[PlyRows], where: str) -> Floats:
-    found = next((r for r in rows if r.element.name == "vertex"), None)
+def _find_vertices(elements: list[PlyElement], where: str) -> Floats:
+    found = next((e for e in elements if e.name == "vertex"), None)
     if found is None or not all(axis in found.values for axis in "xyz"):
         raise AssetError("there are no vertices with x, y and z in this file", where=where)
-    if any(p.count for p in found.element.properties if p.name in ("x", "y", "z")):
+    if any(p.count for p in found.properties if p.name in ("x", "y", "z")):
         raise AssetError("its coordinates are lists, not numbers", where=where)
     return np.column_stack([surface.to_doubles(found.values[axis]) for axis in "xyz"]).reshape(-1, 3)
 
 
-def _find_corners(rows: list[PlyRows], where: str) -> Any:
-    found = next((r for r in rows if r.element.name == "face"), None)
-    if found is None and any(r.element.name == "tristrips" for r in rows):
+def _find_corners(elements: list[PlyElement], where: str) -> Any:
+    found = next((e for e in elements if e.name == "face"), None)
+    if found is None and any(e.name == "tristrips" for e in elements):
         raise AssetError("its faces are triangle strips, which are not read", where=where, remedy="Export triangles.")
     if found is None:
         return []
-    numbers = [p.name for p in found.element.properties if p.name in INDEX_NAMES and not p.count]
+    numbers = [p.name for p in found.properties if p.name in INDEX_NAMES and not p.count]
     if numbers:
         problem = f"the {numbers[0]} of its faces is a number, not a list"
         raise AssetError(problem, where=where, remedy="Export it again.")
@@ -255,8 +215,8 @@ def _find_corners(rows: list[PlyRows], where: str) -> Any:
     return found.values[key]
 
 
-def _find_faces(rows: list[PlyRows], count: int, where: str) -> tuple[Ints, Ints]:
-    read = _find_corners(rows, where)
+def _find_faces(elements: list[PlyElement], count: int, where: str) -> tuple[Ints, Ints]:
+    read = _find_corners(elements, where)
     if isinstance(read, np.ndarray) and read.dtype.kind in "iu":
         table = read.astype(np.int64)  # first, since -1 is out of bounds for a type without sign
         if table.min(initial=0) >= 0 and table.max(initial=-1) < count:

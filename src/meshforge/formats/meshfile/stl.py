@@ -1,4 +1,4 @@
-"""Read STL, binary and ASCII: triangles without shared vertices, each where it stands in the file."""
+"""Read STL, binary and ASCII: triangles without shared vertices."""
 
 from __future__ import annotations
 
@@ -76,16 +76,6 @@ def parse_stl(data: bytes, where: str) -> StlText:
     raise AssetError(f"the file is cut short: it says {count} triangles and holds {room}", where=where, remedy=_AGAIN)
 
 
-def facet_spans(data: bytes) -> Ints:
-    """The bytes (m, 2) of each triangle in an ASCII file."""
-    return np.array([f.span() for f in _FACET.finditer(_blank_names(data))], dtype=np.int64).reshape(-1, 2)
-
-
-def _blank_names(data: bytes) -> bytes:
-    """The text with blanks for titles of solids, which may hold any word, but for those that go on with a facet."""
-    return _NAME.sub(lambda title: b" " * len(title[0]), data)
-
-
 def _plain_ascii(data: bytes) -> StlText | None:
     """A text of one solid that has just the words it should, read all at once; None where it is otherwise."""
     title, _, text = data.removeprefix(codecs.BOM_UTF8).lstrip().partition(b"\n")
@@ -108,7 +98,7 @@ def _plain_ascii(data: bytes) -> StlText | None:
 
 def _any_ascii(data: bytes, where: str) -> StlText:
     solids = [(m.start(), text_of(m[1].strip())) for m in _SOLID.finditer(data)]
-    plain = _blank_names(data)
+    plain = _NAME.sub(lambda title: b" " * len(title[0]), data)  # titles may hold any word
     facets = list(_FACET.finditer(plain))
     numbers: list[tuple[bytes, ...]] = []
     for facet in facets:

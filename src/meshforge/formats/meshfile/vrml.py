@@ -1,202 +1,81 @@
-"""Read VRML 2.0, which CoACD and MeshLab write: a surface for each shape, its transforms applied; and its grammar."""
+"""Read VRML 2.0 as CoACD, V-HACD and MeshLab write it: face sets, each with its own points, none of them moved."""
 
 from __future__ import annotations
 
-import itertools
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 
 from meshforge.common import AssetError
 from meshforge.formats.meshfile.surface import RawSurface, check_surfaces, cut_fans
-from meshforge.geometry import Floats
+from meshforge.geometry import Floats, Ints
 
-_SOLIDS = {"Box", "Sphere", "Cylinder", "Cone", "Extrusion", "ElevationGrid"}
-_PARENTS = {"Group", "Transform", "Anchor", "Collision", "Billboard", "Switch", "LOD"}
-_MOST = 100_000  # nodes; USE in USE multiplies them without end
-_DEPTH = 200  # nodes in nodes; beyond, a file is damaged
-
-_TOKEN = re.compile(r'"(?:\\.|[^"\\])*"|[{}\[\]]|[^\s,{}\[\]"#]+|#[^\n\r]*')
-_NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|0[xX][0-9a-fA-F]+")
+_ASIDE = re.compile(r'"(?:\\.|[^"\\])*"|#[^\n\r]*')  # texts and comments
+_REFUSED = re.compile(
+    r"\b(USE|PROTO|EXTERNPROTO|Inline|Box|Sphere|Cylinder|Cone|Extrusion|ElevationGrid)\b"
+    r"|\b(translation|rotation|scale)\s+([^\s,A-Za-z{}\[\]][^A-Za-z{}\[\]]*)"
+)
+_NAME = re.compile(r"\bDEF\s+(\S+)\s+(?:Shape|Group|Transform)\b")
+_POINTS = re.compile(r"\bCoordinate\s*\{\s*point\s*\[([^\]]*)\]")
+_CORNERS = re.compile(r"\bcoordIndex\s*\[([^\]]*)\]")
+_MIRRORED = re.compile(r"\bccw\s+FALSE\b")
 _OTHER = "Export it as OBJ."
 
 
-class _VrmlError(Exception):
-    """What is wrong with a file, and the remedy or None."""
-
-
 def parse_vrml(data: bytes, where: str) -> list[RawSurface]:
-    """Return the surfaces of a VRML 2.0 file. Raises AssetError: not such a file, or shapes that are no face sets."""
+    """Return the surfaces of a VRML 2.0 file. Raises AssetError: not such a file, or one with more than face sets."""
+    text = data.decode("utf-8-sig", "replace")
+    if not text.startswith("#VRML V2.0"):
+        raise AssetError("this is no VRML 2.0 file", where=where, remedy=_OTHER)
+    text = _ASIDE.sub(" ", text)
+    if any(text.count(opened) > text.count(closed) for opened, closed in ("{}", "[]")):
+        raise AssetError("the file is cut short", where=where, remedy="Export it again.")
+    for word, field, numbers in _REFUSED.findall(text):
+        if not word and not _moves(field, numbers):
+            continue
+        problem = f"{word} is not read, only face sets are" if word else f"a shape has a {field}, which is not read"
+        raise AssetError(problem, where=where, remedy=_OTHER)
     try:
-        nodes = _parse_nodes(data.decode("utf-8-sig", "replace"))
-        steps = itertools.count()
-        found = [surface for node in nodes for surface in _list_surfaces(node, np.eye(4), None, steps)]
-    except _VrmlError as error:
-        problem, remedy = error.args
-        raise AssetError(problem, where=where, remedy=remedy) from error
+        found = list(_list_surfaces(text))
+    except (ValueError, OverflowError) as error:
+        raise AssetError(str(error), where=where, remedy="Fix or export it again.") from error
     return check_surfaces(found, where)
 
 
-def _list_surfaces(node: VrmlNode, world: Floats, name: str | None, steps: Iterator[int]) -> Iterator[RawSurface]:
-    if next(steps) > _MOST:
-        raise _VrmlError(f"it has more than {_MOST:,} nodes, most by USE", _OTHER)
-    name = node.name or name
-    if node.type == "Shape":
-        for geometry in node.nodes("geometry"):
-            yield from _read_surface(geometry, world, name)
-    if node.type in _PARENTS:
-        world = world @ _transform_of(node) if node.type == "Transform" else world
-        for key in ("children", "choice", "level"):
-            for child in node.nodes(key):
-                yield from _list_surfaces(child, world, name, steps)
+def _moves(field: str, numbers: str) -> bool:
+    """Whether the numbers of a field move, turn or scale what is below."""
+    try:
+        values = [float(word) for word in re.split(r"[\s,]+", numbers.strip(" \t\r\n,"))]
+    except ValueError:
+        return True
+    still = {"translation": [0.0] * 3, "scale": [1.0] * 3, "rotation": [*values[:3], 0.0]}
+    return values != still[field]
 
 
-def _read_surface(node: VrmlNode, world: Floats, name: str | None) -> Iterator[RawSurface]:
-    if node.type in _SOLIDS:
-        raise _VrmlError(f"shapes of kind {node.type} are not read", _OTHER)
-    coordinates = node.nodes("coord")
-    if node.type != "IndexedFaceSet" or not coordinates:
-        return
-    numbers, indices = np.array(coordinates[0].numbers("point")), np.array(node.numbers("coordIndex"))
-    if len(numbers) % 3:
-        raise _VrmlError("its points are not all of three numbers", None)
-    if not np.isfinite(numbers).all():
-        raise _VrmlError("a coordinate is not a finite number", "Fix or export it again.")
-    points = numbers.reshape(-1, 3) @ world[:3, :3].T + world[:3, 3]
-    if (indices != np.floor(indices)).any():
-        raise _VrmlError("a face names a vertex by a number that is not whole", None)
-    if ((indices < -1) | (indices >= len(points))).any():
-        raise _VrmlError(f"a face names a vertex that is not there, there are {len(points)}", None)
+def _list_surfaces(text: str) -> Iterator[RawSurface]:
+    before, *sets = re.split(r"\bIndexedFaceSet\b", text)
+    for each in sets:
+        names, points, corners = _NAME.findall(before), _POINTS.search(each), _CORNERS.search(each)
+        before = each
+        if points and corners:
+            vertices = _to_numbers(points[1])
+            if len(vertices) % 3:
+                raise ValueError("its points are not all of three numbers")
+            faces = _cut_faces(_to_numbers(corners[1]), len(vertices) // 3)
+            ordered = faces[:, ::-1] if _MIRRORED.search(each) else faces
+            yield RawSurface(names[-1] if names else None, vertices.reshape(-1, 3), ordered)
+
+
+def _to_numbers(text: str) -> Floats:
+    words = text.replace(",", " ").split()
+    if odd := next((word for word in words if not re.fullmatch(r"[-+.\deE]+", word)), None):
+        raise ValueError(f"a number was expected where {odd!r} stands")
+    return np.array(list(map(float, words)))
+
+
+def _cut_faces(indices: Floats, count: int) -> Ints:
+    if (indices != np.floor(indices)).any() or ((indices < -1) | (indices >= count)).any():
+        raise ValueError(f"a face names a vertex that is not there, there are {count}")
     ends = np.concatenate([[-1], np.flatnonzero(indices == -1), [len(indices)]])
-    _, faces = cut_fans(indices[indices >= 0].astype(np.int64), np.diff(ends) - 1)
-    yield RawSurface(name, points, faces[:, ::-1] if node.fields.get("ccw") == ["FALSE"] else faces)
-
-
-def _transform_of(node: VrmlNode) -> Floats:
-    center = _move_by(node.vector("center", 3))
-    turn, lean = (_turn_by(node.vector(key, 4)) for key in ("rotation", "scaleOrientation"))
-    scale = np.diag([*(node.vector("scale", 3) or [1.0, 1.0, 1.0]), 1.0])
-    with np.errstate(over="ignore", invalid="ignore"):  # vertices that are not finite are refused
-        back = 2 * np.eye(4) - center
-        return _move_by(node.vector("translation", 3)) @ center @ turn @ lean @ scale @ lean.T @ back
-
-
-def _move_by(offset: list[float]) -> Floats:
-    matrix = np.eye(4)
-    matrix[:3, 3] = offset or 0.0
-    return matrix
-
-
-def _turn_by(rotation: list[float]) -> Floats:
-    """The turn (4, 4) by an angle [rad] about an axis, which come as four numbers; none where there are none."""
-    matrix = np.eye(4)
-    if rotation:
-        x, y, z = np.array(rotation[:3]) / max(float(np.linalg.norm(rotation[:3])), 1e-300)
-        cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-        matrix[:3, :3] += np.sin(rotation[3]) * cross + (1 - np.cos(rotation[3])) * cross @ cross
-    return matrix
-
-
-@dataclass(slots=True)
-class VrmlNode:
-    """A node: its type, its DEF name, and what its fields hold (numbers, words, nodes; lists stay lists)."""
-
-    type: str
-    name: str | None = None
-    fields: dict[str, list[Any]] = field(default_factory=dict)
-
-    def numbers(self, key: str) -> list[float]:
-        """Return the numbers of a field, none where it is not there."""
-        return [x for x in self.fields.get(key, []) if isinstance(x, float)]
-
-    def nodes(self, key: str) -> list[VrmlNode]:
-        return [x for x in self.fields.get(key, []) if isinstance(x, VrmlNode)]
-
-    def vector(self, key: str, size: int) -> list[float]:
-        """Return the numbers of a field that has so many, none where it is not there. Raises _VrmlError: others."""
-        found = self.numbers(key)
-        if key in self.fields and len(found) != size:
-            raise _VrmlError(f"the field {key} of a {self.type} needs {size} numbers", _OTHER)
-        return found
-
-
-def _parse_nodes(text: str) -> Iterator[VrmlNode]:
-    """The nodes of a VRML 2.0 file. Raises _VrmlError: not such a file, cut short, or beyond what is read."""
-    if not text.startswith("#VRML V2.0"):
-        raise _VrmlError("this is no VRML 2.0 file", _OTHER)
-    parser = _Parser([token for token in _TOKEN.findall(text) if token[0] != "#"])
-    while parser.tokens:
-        if parser.peek() == "ROUTE":
-            del parser.tokens[-4:]
-        else:
-            yield parser.parse_node()
-
-
-class _Parser:
-    """Takes tokens off the end of a list, where the next one stands."""
-
-    def __init__(self, tokens: list[str]) -> None:
-        self.tokens = tokens[::-1]
-        self.depth = 0
-        self.known: dict[str, VrmlNode] = {}
-
-    def peek(self) -> str:
-        if not self.tokens:
-            raise _VrmlError("the file is cut short", "Export it again.")
-        return self.tokens[-1]
-
-    def take(self) -> str:
-        token = self.peek()
-        self.tokens.pop()
-        return token
-
-    def parse_node(self) -> VrmlNode:
-        word, name = self.take(), None
-        if word in ("PROTO", "EXTERNPROTO"):
-            raise _VrmlError("prototypes are not read", _OTHER)
-        if word == "USE":
-            name = self.take()
-            if name not in self.known:
-                raise _VrmlError(f"USE {name}: no node of this name comes ahead of it", _OTHER)
-            return self.known[name]
-        if word == "DEF":
-            name, word = self.take(), self.take()
-        if self.depth > _DEPTH:
-            raise _VrmlError(f"its nodes are nested more than {_DEPTH} deep", None)
-        if word == "Inline":
-            raise _VrmlError("it includes other files (Inline), which are not read", _OTHER)
-        if self.take() != "{":
-            raise _VrmlError(f"a node was expected where {word!r} stands", _OTHER)
-        made = VrmlNode(word, name)
-        self.depth += 1
-        while (key := self.take()) != "}":
-            made.fields[key] = self.parse_value()
-        self.depth -= 1
-        if name:
-            self.known[name] = made
-        return made
-
-    def parse_value(self) -> list[Any]:
-        out = []
-        if self.peek() == "[":
-            self.take()
-            while self.peek() != "]":
-                out.append(self.parse_item())
-            self.take()
-            return out
-        out.append(self.parse_item())
-        while isinstance(out[-1], float) and _NUMBER.fullmatch(self.peek()):
-            out.append(self.parse_item())
-        return out
-
-    def parse_item(self) -> Any:
-        token = self.peek()
-        if _NUMBER.fullmatch(token):
-            self.take()
-            return float(int(token, 16)) if token[:2] in ("0x", "0X") else float(token)
-        if token in ("TRUE", "FALSE", "NULL", "IS") or token[0] == '"':
-            return self.take()
-        return self.parse_node()
+    return cut_fans(indices[indices >= 0].astype(np.int64), np.diff(ends) - 1)[1]

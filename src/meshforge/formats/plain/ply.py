@@ -1,43 +1,33 @@
-"""PLY: the pieces of the one surface are the hulls, counted in file order; other properties are kept."""
+"""PLY: the pieces of the one surface are the hulls, counted in file order; an edited file is written anew."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from meshforge.common import AssetError
 from meshforge.formats.base import feature_of_others
-from meshforge.formats.meshfile.ply import INDEX_NAMES, PlyProperty, PlyRows, PlyText, parse_ply
+from meshforge.formats.meshfile.ply import INDEX_NAMES, TYPES, PlyElement, parse_ply
 from meshforge.formats.meshfile.surface import Soup, join_surfaces, stack_triangles
 from meshforge.formats.plain.base import MeshFileEdit, PlainFormat
 from meshforge.formats.plain.parts import MeshPart, PlainDocument
 from meshforge.geometry import Floats, Ints
 from meshforge.symbolic import Asset, Feature
 
-_HEADER = """ply
-format binary_little_endian 1.0
-comment made by MeshForge
-element vertex {}
-property double x
-property double y
-property double z
-element face {}
-property list uchar int vertex_indices
-end_header
-"""
-
 _HEAD = 10_000  # bytes, more than headers have
 _COLOR = re.compile(rb"^property\s+\w+\s+red\s*$", re.M)
-
 _COLOR_NAME = re.compile(r"(diffuse_|ambient_|specular_)?(red|green|blue|alpha)|[rgba]")
+_TYPES = {kind: name for name, kind in reversed(TYPES.items())}
+_POINT = [(axis, "<f8") for axis in "xyz"]
+_FACE = [(" count", "<u1"), *((f" {corner}", "<i4") for corner in range(3))]
 
 
 class PlyFormat(PlainFormat):
-    """PLY files; new ones are binary, in double precision."""
+    """PLY files, in double precision; new ones are binary."""
 
     name = "ply"
     title = "PLY"
@@ -47,7 +37,25 @@ class PlyFormat(PlainFormat):
         return join_surfaces(parse_ply(data, str(path)).surfaces(str(path)))
 
     def apply_edit(self, edit: MeshFileEdit) -> bytes:
-        return _PlyEditor(parse_ply(edit.document.data, str(edit.path)), edit).to_bytes()
+        """Return the file of the triangles that stay, with all numbers of their rows, and of the parts.
+
+        Raises AssetError: it has other elements or lists, which would be lost.
+        """
+        file = parse_ply(edit.document.data, str(edit.path))
+        vertex, face = (next(e for e in file.elements if e.name == name) for name in ("vertex", "face"))
+        others = [f"rows of {e.name}" for e in file.elements if e not in (vertex, face) and e.rows]
+        others += [p.name for e in (vertex, face) for p in e.properties if p.count and p.name not in INDEX_NAMES]
+        if others:
+            problem = f"it has {others[0]}, which an edit would lose"
+            raise AssetError(problem, where=str(edit.path), remedy="Convert it to OBJ first.")
+        kept = np.ones(len(file.vertices), dtype=bool)
+        kept[file.faces[~edit.stays]] = False
+        kept[file.faces[edit.stays]] = True
+        points, made = _stack_parts(edit.parts, int(kept.sum()))
+        faces = np.concatenate([(np.cumsum(kept) - 1)[file.faces[edit.stays]], made])
+        points = np.concatenate([file.vertices[kept], points])
+        tables = _fill_rows(points, vertex, np.flatnonzero(kept)), _fill_rows(faces, face, file.face_at[edit.stays])
+        return _format_ply(*tables, is_text=file.is_text)
 
     def features(self, asset: Asset) -> Iterator[Feature]:
         if isinstance(asset.document, PlainDocument):
@@ -56,10 +64,7 @@ class PlyFormat(PlainFormat):
 
     def format_parts(self, parts: Sequence[MeshPart]) -> bytes:
         vertices, faces = _stack_parts(parts, 0)
-        rows = np.zeros(len(faces), dtype=[("count", "u1"), ("corners", "<i4", (3,))])
-        rows["count"], rows["corners"] = 3, faces
-        head = _HEADER.format(len(vertices), len(faces)).encode()
-        return head + vertices.astype("<f8").tobytes() + rows.tobytes()
+        return _format_ply(_fill_rows(vertices), _fill_rows(faces))
 
 
 def _stack_parts(parts: Sequence[MeshPart], start: int) -> tuple[Floats, Ints]:
@@ -67,85 +72,37 @@ def _stack_parts(parts: Sequence[MeshPart], start: int) -> tuple[Floats, Ints]:
     return stack_triangles(((part.surface.vertices + 0.0, part.surface.faces) for part in parts), start)
 
 
-class _PlyEditor:
-    """Writes the rows of a file that stay, with new vertex numbers, and rows for the parts."""
+def _fill_rows(
+    values: Floats | Ints, element: PlyElement | None = None, kept: Ints | None = None
+) -> npt.NDArray[np.void]:
+    """A table of vertices or faces (n, 3), the first of which were the rows `kept` (k,) of an element.
 
-    def __init__(self, text: PlyText, edit: MeshFileEdit) -> None:
-        self.text = text
-        self.edit = edit
-        first = {r.element.name: r for r in reversed(text.rows)}
-        read = (first["vertex"], first["face"])
-        others = [r.element.name for r in text.rows if r not in read and r.element.rows]
-        if others:
-            problem = f"it has rows of {others[0]}, which may count on vertices that the edit moves"
-            raise AssetError(problem, where=str(edit.path), remedy="Convert it to OBJ first.")
-        self.kept = np.ones(len(text.vertices), dtype=bool)
-        self.kept[np.unique(text.faces[~edit.stays])] = False
-        self.kept[np.unique(text.faces[edit.stays])] = True
-        bare = set(range(first["face"].element.rows)).difference(text.face_at.tolist())  # of fewer corners than three
-        lists = [first["face"].values[key] for key in INDEX_NAMES if key in first["face"].values]
-        self.kept[[int(corner) for read in lists for k in bare for corner in read[k]]] = True
-        self.number = np.cumsum(self.kept) - 1
-        self.gone = set(text.face_at[~edit.stays].tolist())
-        self.vertices, self.faces = _stack_parts(edit.parts, int(self.kept.sum()))
-        self._refuse_misfits()
-
-    def to_bytes(self) -> bytes:
-        head = self.edit.document.data[: self.text.header.size]
-        body = b""
-        for rows in self.text.rows:
-            written = list(self._edit_rows(rows))
-            count = b"element %s %d" % (rows.element.name.encode(), len(written))
-            head = re.sub(rb"(?m)^element\s+%s\s+\d+" % rows.element.name.encode(), count, head, count=1)
-            body += b"".join(written)
-        return head + body
-
-    def _refuse_misfits(self) -> None:
-        """Raise AssetError where the type of a property cannot hold a made hull; coordinates may lose digits."""
-        made = {
-            "vertex": dict(zip("xyz", self.vertices.T, strict=True)),
-            "face": dict.fromkeys(INDEX_NAMES, self.faces),
-        }
-        for element in (rows.element for rows in self.text.rows):
-            columns = made.get(element.name, {})
-            for kind in (p for p in element.properties if p.name in columns and (p.count or p.type[0] != "f")):
-                values = columns[kind.name]
-                with np.errstate(invalid="ignore"):
-                    wrong = values[values.astype(kind.type) != values]
-                if wrong.size:
-                    problem = f"a made hull needs {wrong[0]:.6g} in the property {kind.name}, whose type cannot hold it"
-                    raise AssetError(problem, where=str(self.edit.path), remedy="Convert it to OBJ first.")
-
-    def _edit_rows(self, rows: PlyRows) -> Iterator[bytes]:
-        data, order, properties = self.edit.document.data, self.text.header.order, rows.element.properties
-        if rows.element.name == "vertex":
-            for start, stop in rows.spans[self.kept].tolist():
-                row = data[start:stop]
-                yield row if order or row.endswith(b"\n") else row + b"\n"  # the last may lack it
-            yield from (_make_row({"x": x, "y": y, "z": z}, properties, order) for x, y, z in self.vertices.tolist())
-        elif rows.element.name == "face":
-            for k in range(rows.element.rows):
-                if k not in self.gone:
-                    own = {p.name: rows.values[p.name][k] for p in properties}
-                    own |= {key: self.number[np.asarray(own[key], np.int64)] for key in INDEX_NAMES if key in own}
-                    yield _make_row(own, properties, order)
-            yield from (_make_row(dict.fromkeys(INDEX_NAMES, face), properties, order) for face in self.faces.tolist())
+    These keep their other numbers; of the rest, colours are full, all others zero.
+    """
+    own, columns = (_POINT, values) if values.dtype.kind == "f" else (_FACE, np.insert(values, 0, 3, axis=1))
+    others = [p for p in (element.properties if element else ()) if not p.count and p.name not in ("x", "y", "z")]
+    types = [(p.name, f"<{p.type}" if p.type[0] in "iu" else "<f8") for p in others]
+    table = np.zeros(len(values), [*own, *types])
+    for (name, _), column in zip(own, columns.T, strict=True):
+        table[name] = column
+    for name, kind in types:
+        if _COLOR_NAME.fullmatch(name):
+            table[name] = 1.0 if kind == "<f8" else np.iinfo(kind).max
+        if element is not None and kept is not None:
+            table[name][: len(kept)] = np.asarray(element.values[name])[kept]
+    return table
 
 
-def _make_row(values: Mapping[str, Any], properties: Sequence[PlyProperty], order: str) -> bytes:
-    """A row; of values that are not given, colours are full, the rest is zero."""
-    cells = []
-    for kind in properties:
-        default: Any = [] if kind.count else 0
-        if not kind.count and _COLOR_NAME.fullmatch(kind.name):
-            default = int(np.iinfo(kind.type).max) if kind.type[0] in "iu" else 1.0
-        cells.append(_format_cell(kind, values.get(kind.name, default), order))
-    return b"".join(cells) if order else b" ".join(cells) + b"\n"
+def _format_ply(vertices: npt.NDArray[np.void], faces: npt.NDArray[np.void], *, is_text: bool = False) -> bytes:
+    head = ["ply", f"format {'ascii' if is_text else 'binary_little_endian'} 1.0", "comment made by MeshForge"]
+    for element, table in (("vertex", vertices), ("face", faces)):
+        head.append(f"element {element} {len(table)}")
+        head += [f"property list uchar int {INDEX_NAMES[0]}"] if table is faces else []
+        columns = [column for column in table.dtype.names or () if column not in dict(_FACE)]
+        head += [f"property {_TYPES[table.dtype[column].str[1:]]} {column}" for column in columns]
+    body = b"".join(_format_text(table) if is_text else table.tobytes() for table in (vertices, faces))
+    return "\n".join([*head, "end_header\n"]).encode() + body
 
 
-def _format_cell(kind: PlyProperty, value: Any, order: str) -> bytes:
-    if order:
-        head = np.array([len(value)], order + kind.count).tobytes() if kind.count else b""
-        return head + np.asarray(value).astype(order + kind.type).tobytes()
-    numbers = [str(int(x)) if kind.type[0] in "iu" else repr(float(x)) for x in (value if kind.count else [value])]
-    return " ".join([str(len(numbers)), *numbers] if kind.count else numbers).encode()
+def _format_text(table: npt.NDArray[np.void]) -> bytes:
+    return "".join(" ".join(map(repr, row)) + "\n" for row in table.tolist()).encode()

@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from meshforge.common import AssetError
 from meshforge.formats.base import Output
-from meshforge.formats.meshfile.stl import HEADER, RECORD, StlText, facet_spans, parse_stl
+from meshforge.formats.meshfile.stl import HEADER, RECORD, StlText, parse_stl
 from meshforge.formats.meshfile.surface import Soup, join_surfaces
 from meshforge.formats.meshfile.vrml import parse_vrml
 from meshforge.formats.plain.base import MeshFileEdit, PlainFormat
@@ -39,7 +39,7 @@ class StlFormat(PlainFormat):
         if text.binary:
             kept = np.frombuffer(data, RECORD, len(text.corners), HEADER)[edit.stays]
             return _format_binary(data[:80], [kept, _make_records(edit.parts)])
-        return _edit_ascii(data, text, edit)
+        return _format_ascii(text, edit)
 
     def format_parts(self, parts: Sequence[MeshPart]) -> bytes:
         return _format_binary(_TITLE, [_make_records(parts)])
@@ -64,35 +64,21 @@ def _make_records(parts: Sequence[MeshPart]) -> npt.NDArray[np.void]:
     return records
 
 
-def _edit_ascii(data: bytes, text: StlText, edit: MeshFileEdit) -> bytes:
-    """The text without the facets that go, and with those of the parts: in the one solid, or in solids of their own."""
-    spans, kept, at = facet_spans(data), [], 0
-    for start, stop in spans[~edit.stays].tolist():
-        kept.append(data[at:start].rstrip(b" \t"))
-        at = stop
-    if len(text.solids) > 1:
-        end = len(data)
-        names = [" ".join(part.name.split()).encode("utf-8", "surrogateescape") for part in edit.parts]
-        named = zip(names, map(_format_facets, edit.parts), names, strict=True)
-        made = b"".join(b"solid %s\n%sendsolid %s\n" % solid for solid in named)
-    else:
-        last = int(spans[-1, 1])
-        found = data[last:].lower().find(b"endsolid")
-        end = len(data) if found < 0 else last + found
-        made = b"".join(map(_format_facets, edit.parts))
-    body = b"".join([*kept, data[at:end]])
-    gap = b"\n" if made and not body.rstrip(b" \t").endswith((b"\n", b"\r")) else b""
-    return body + gap + made + data[end:]
-
-
-def _format_facets(part: MeshPart) -> bytes:
-    corners = corners_of([part])
-    lines = []
-    for normal, triangle in zip(_normals_of(corners).tolist(), corners.tolist(), strict=True):
-        lines.append("facet normal {!r} {!r} {!r}\n  outer loop".format(*normal))
-        lines += ["    vertex {!r} {!r} {!r}".format(*corner) for corner in triangle]
-        lines.append("  endloop\nendfacet")
-    return "".join(line + "\n" for line in lines).encode()
+def _format_ascii(text: StlText, edit: MeshFileEdit) -> bytes:
+    """The facets that stay and those of the parts, in the one solid of a file, or in solids of their own."""
+    kept = [(name, text.corners[edit.stays & (text.solid == k)]) for k, name in enumerate(text.solids)]
+    made = [(" ".join(part.name.split()), corners_of([part])) for part in edit.parts]
+    if len(kept) == 1:
+        made, kept = [], [(kept[0][0], np.concatenate([kept[0][1], *(corners for _, corners in made)]))]
+    lines: list[str] = []
+    for name, corners in (solid for solid in (*kept, *made) if len(solid[1])):
+        lines.append(f"solid {name}")
+        for normal, triangle in zip(_normals_of(corners).tolist(), corners.tolist(), strict=True):
+            lines.append("facet normal {!r} {!r} {!r}\n  outer loop".format(*normal))
+            lines += ["    vertex {!r} {!r} {!r}".format(*corner) for corner in triangle]
+            lines.append("  endloop\nendfacet")
+        lines.append(f"endsolid {name}")
+    return "".join(line + "\n" for line in lines).encode("utf-8", "surrogateescape")
 
 
 class WrlFormat(PlainFormat):

@@ -4,7 +4,7 @@ triangle, and each connected patch of a class."""
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
@@ -14,17 +14,11 @@ from meshforge.common import AssetError
 from meshforge.formats.segmentation.reader import read_segmentation
 from meshforge.geometry import Aabb, Floats, Ints, SurfaceParts, sample_surface, separate_parts
 
-AlignMode = Literal["check", "box", "off"]
 Up = Literal["y", "z"]
+AlignMode = Literal["check", "box", "off"]
+"""How points come into the frame of an asset: as they are if they fit, turned upright, scaled evenly and moved so that
+the boxes fit, or as they are in any case."""
 _TO_Z = np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]])  # points as rows, Y up, to those with Z up
-_WAYS: dict[tuple[AlignMode, Up | None], str] = {
-    ("check", None): "neither --align nor --points-up",
-    ("check", "y"): "--points-up y",
-    ("check", "z"): "--points-up z",
-    ("box", None): "--align box",
-    ("box", "y"): "--points-up y --align box",
-    ("box", "z"): "--points-up z --align box",
-}
 _SLACK = 0.05  # of the diagonal of an asset: how far its box and that of its points may be apart at any side
 
 
@@ -41,22 +35,12 @@ _REPORTED = 0.02  # of the surface: what is as good as told to be of another par
 
 
 @dataclass(frozen=True, slots=True)
-class PointAlignment:
-    """How points come into the frame of an asset. align: as they are if they fit (`check`), scaled evenly and moved so
-    that the boxes fit (`box`), or as they are in any case (`off`); up: the axis that points up among the points, None
-    where that is the asset's."""
-
-    align: AlignMode = "check"
-    up: Up | None = None
-
-
-@dataclass(frozen=True, slots=True)
 class SegmentationFile:
     """A file of segmented points. classes: the names of classes 0, 1, ..., none where the file says them."""
 
     path: Path
     classes: tuple[str, ...] = ()
-    placing: PointAlignment = field(default_factory=PointAlignment)
+    align: AlignMode = "check"
 
 
 def read_parts(
@@ -77,10 +61,10 @@ def read_parts(
     vertices = np.concatenate([vertices for vertices, _ in surfaces])
     faces = np.concatenate([own + start for (_, own), start in zip(surfaces, starts, strict=False)])
     box, found, where = Aabb.of_points(vertices[faces].reshape(-1, 3)), read_segmentation(file.path), str(file.path)
-    points = align_points(found.points, [box, *beside], file.placing, where, up)
+    points = align_points(found.points, [box, *beside], file.align, where, up)
     order = np.lexsort((found.classes, *points.T))  # the order in the file says nothing
     labelled = points[order], found.classes[order]
-    kinds, notes = _find_classes(labelled, vertices, faces, file.placing, where, is_part=bool(beside))
+    kinds, notes = _find_classes(labelled, vertices, faces, file.align, where, is_part=bool(beside))
     for text in notes:
         note(text)
     known, numbers = np.unique(kinds, return_inverse=True)
@@ -92,7 +76,7 @@ def read_parts(
 
 
 def _find_classes(
-    labelled: tuple[Floats, Ints], vertices: Floats, faces: Ints, placing: PointAlignment, where: str, *, is_part: bool
+    labelled: tuple[Floats, Ints], vertices: Floats, faces: Ints, align: AlignMode, where: str, *, is_part: bool
 ) -> tuple[Ints, list[str]]:
     """The class of each of faces (m, 3), -1 for none, and sentences on what is not as clear as it could be.
 
@@ -115,10 +99,10 @@ def _find_classes(
     support = (votes[:, :, None] == votes[:, None, :]).sum(axis=2)
     kinds = np.where(gaps > near, -1, np.maximum(votes[np.arange(len(votes)), support.argmax(axis=1)], -1))
     bare = float((gaps[: len(even)] > near).mean())
-    if placing.align != "off" and 1 - bare < _LEAST:
+    if align != "off" and 1 - bare < _LEAST:
         raise AssetError(f"only {1 - bare:.0%} of the surface has labelled points near it", where=where, remedy=_APART)
     on = float(np.mean(np.asarray(cKDTree(even).query(points)[0]) <= _NEAR[0] * diagonal))
-    if placing.align != "off" and not is_part and on < _LEAST:
+    if align != "off" and not is_part and on < _LEAST:
         raise AssetError(f"only {on:.0%} of its points are near the surface", where=where, remedy=_APART)
     pairs, at = np.unique(np.column_stack([face, kinds]), axis=0, return_inverse=True)
     sizes = np.bincount(at.reshape(-1), weights)
@@ -130,36 +114,33 @@ def _find_classes(
     return pairs[firsts, 1], [text for text, share in zip(notes, (other, bare), strict=True) if share >= _REPORTED]
 
 
-def align_points(
-    points: Floats, boxes: Sequence[Aabb], placing: PointAlignment, where: str, up: Up | None = None
-) -> Floats:
-    """Return points (n, 3) in the frame of an asset; boxes: of its hulls, and of what it shows; where: the file of the
-    points; up: the axis that its format says points up, None where it says none: then it is the other one than theirs.
+def align_points(points: Floats, boxes: Sequence[Aabb], align: AlignMode, where: str, up: Up | None = None) -> Floats:
+    """Return points (n, 3) in the frame of an asset; boxes: of its hulls, and of what it shows; where: their file; up:
+    the axis of the asset that points up: where that is Y, points that do not fit have Z up, else Y.
 
     Raises AssetError where the box of the points fits none of them, with what would make it fit.
     """
-    own = _move(points, boxes, placing, up)
-    if placing.align == "off" or _box_distance(own, boxes) <= _SLACK:
-        return own
-    apart = {way: _box_distance(_move(points, boxes, PointAlignment(*way), up), boxes) for way in _WAYS}
-    best = min(_WAYS, key=lambda way: apart[way])
+    if align == "off" or _box_distance(points, boxes) <= _SLACK:
+        return points
+    fitted = [found for turn in (np.eye(3), _TO_Z.T if up == "y" else _TO_Z) for found in _fit(points @ turn, boxes)]
+    best = min(fitted, key=lambda found: _box_distance(found, boxes), default=points)
+    fits = _box_distance(best, boxes) <= _SLACK
+    if fits and align == "box":
+        return best
     raise AssetError(
-        f"its points do not lie where the asset does: they are in a box {_describe_box(Aabb.of_points(own))}, "
+        f"its points do not lie where the asset does: they are in a box {_describe_box(Aabb.of_points(points))}, "
         f"the hulls in a box {_describe_box(boxes[0])}",
         where=where,
-        remedy=f"They would fit with {_WAYS[best]}."
-        if apart[best] <= _SLACK
-        else "Export them in the frame of the asset, in metres.",
+        remedy="They would fit with --align box." if fits else "Export them in the frame of the asset, in metres.",
     )
 
 
-def _move(points: Floats, boxes: Sequence[Aabb], placing: PointAlignment, up: Up | None) -> Floats:
-    turned = points if placing.up in (None, up) else points @ (_TO_Z if placing.up == "y" else _TO_Z.T)
-    own = Aabb.of_points(turned)
-    if placing.align != "box" or not own.diagonal > 0:
-        return turned
-    fitted = [(turned - own.center) * (box.diagonal / own.diagonal) + box.center for box in boxes]
-    return min(fitted, key=lambda found: _box_distance(found, boxes))
+def _fit(points: Floats, boxes: Sequence[Aabb]) -> list[Floats]:
+    """Points scaled and moved to the diagonal and the middle of each box."""
+    own = Aabb.of_points(points)
+    if not own.diagonal > 0:
+        return []
+    return [(points - own.center) * (box.diagonal / own.diagonal) + box.center for box in boxes]
 
 
 def _box_distance(points: Floats, boxes: Sequence[Aabb]) -> float:

@@ -70,8 +70,8 @@ def read_segmentation(path: Path) -> Segmentation:
         case ".ply":
             text = parse_ply(read_content(path), where)
             arrays = {"points": text.vertices} | ({"faces": text.faces} if len(text.faces) else {})
-            rows = next(rows for rows in text.rows if rows.element.name == "vertex")
-            arrays |= {p.name.lower(): np.asarray(rows.values[p.name]) for p in rows.element.properties if not p.count}
+            vertex = next(e for e in text.elements if e.name == "vertex")
+            arrays |= {p.name.lower(): np.asarray(vertex.values[p.name]) for p in vertex.properties if not p.count}
         case ".npz":
             arrays = _read_archive(path)
         case suffix:

@@ -11,7 +11,7 @@ from typing import Literal
 
 from meshforge.batch import AssetSet, ExecutionOptions, WorkerFailure, execute, read_prepared
 from meshforge.common import MeshForgeError, ProjectError, UsageError, describe_error
-from meshforge.formats import POINTS_SUFFIXES, PointAlignment, labels_beside, points_beside
+from meshforge.formats import POINTS_SUFFIXES, AlignMode, labels_beside, points_beside
 from meshforge.labels.from_files.base import FileLabels
 from meshforge.labels.from_files.links import SEMANTICS_FILE, label_by_links, read_semantics, semantics_beside
 from meshforge.labels.from_files.points import label_by_points, read_class_names
@@ -80,11 +80,11 @@ def find_file_in_mirror(place: Path, asset: Path) -> Path | None:
 class LabelFileOptions:
     """How files are read. meanings: what names of classes mean, besides the patterns of the project, which they
     precede; of segmented points, classes: the names of classes 0, 1, ..., or `vocabulary` alone where they are those of
-    the vocabulary, none where files say them; placing: how points come into the frame of an asset."""
+    the vocabulary, none where files say them; align: how points come into the frame of an asset."""
 
     meanings: PatternPairs = ()
     classes: tuple[str, ...] = ()
-    placing: PointAlignment = field(default_factory=PointAlignment)
+    align: AlignMode = "check"
 
 
 @dataclass(frozen=True, slots=True)
@@ -171,7 +171,7 @@ def read_label_file(
         case "labels file":
             return _take_labels_file(file, hull_digests(mesh))
         case "points":
-            return label_by_points(mesh, file, how.classes, how.placing, vocabulary, patterns)
+            return label_by_points(mesh, file, how.classes, how.align, vocabulary, patterns)
     return label_by_links(mesh, file, vocabulary, patterns)
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from meshforge.common import AssetError, join_names
-from meshforge.formats import PointAlignment, align_points, read_segmentation
+from meshforge.formats import AlignMode, align_points, read_segmentation
 from meshforge.geometry import Aabb, Floats, Ints, Shape
 from meshforge.labels.from_files.base import FileLabels, Meaning, meaning_of, to_file_labels
 from meshforge.labels.names.label_by_names import NamePattern
@@ -50,7 +50,7 @@ def label_by_points(
     mesh: SymbolicMesh,
     path: Path,
     classes: Sequence[str],
-    placing: PointAlignment,
+    align: AlignMode,
     vocabulary: Sequence[str],
     patterns: Sequence[NamePattern],
 ) -> FileLabels:
@@ -69,10 +69,10 @@ def label_by_points(
     if boxes and any(map(len, shown)):  # points may be of all that the asset shows, and hulls of a part of it
         boxes += [box for box in [Aabb.of_points(np.concatenate(shown))] if box.diagonal > 0]
     up = mesh.asset.up if mesh.asset else None
-    points = align_points(found.points, boxes, placing, str(path), up) if boxes else found.points
+    points = align_points(found.points, boxes, align, str(path), up) if boxes else found.points
     own = np.array([codes.get(k, -1) for k in found.classes.tolist()])
     votes, covered = vote_by_points([hull.shape for hull in mesh.hulls], points, own)
-    if placing.align != "off" and votes and covered < _LEAST:
+    if align != "off" and votes and covered < _LEAST:
         problem = f"only {covered:.0%} of its points are in hulls: it may be turned, or of another asset"
         remedy = "If it is right, and only part of the asset has hulls, say --align off."
         raise AssetError(problem, where=str(path), remedy=remedy)
