@@ -6,20 +6,24 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
+import numpy as np
+
 from meshforge.common import AssetError, join_names
 from meshforge.formats import collision_pieces, element_edits
 from meshforge.formats.base import Mass, Output
-from meshforge.formats.mjcf import collision_only, compiler, edit_check, elements, references
+from meshforge.formats.mjcf import collision_only, compiler, elements, references
 from meshforge.formats.mjcf.document import MjcfDocument, MjcfNode, MjcfTree, read_tree
 from meshforge.formats.mjcf.geom_edits import GeomEdits
 from meshforge.formats.mjcf.model import MjcfModel, compile_tree
 from meshforge.formats.mjcf.new_geoms import NewGeoms
 from meshforge.formats.references import note_absolute
 from meshforge.formats.xml import Splice, apply_splices, line_gap, newline_of, parse_xml, remove_element, set_attribute
+from meshforge.geometry import Shape
 from meshforge.symbolic import Asset
 
 _ROUNDS = 4  # the mass that one body says may change what another has to say
 _FROM_GEOMS = "inertiafromgeom"
+_SLIGHT = 1e-6  # relative: MuJoCo keeps vertices in single precision
 
 
 def write_mjcf(asset: Asset, document: MjcfDocument, name: str, mass: Mass) -> Output:
@@ -95,10 +99,10 @@ class MjcfEdit:
                     continue
                 remedy = "Keep the masses (--mass keep)." if mass == "recompute" else error.remedy
                 raise AssetError(f"of the edited file: {error.problem}", where=where, remedy=remedy) from None
-            if mass == "recompute" or not self.masses.add(edit_check.find_changed_masses(self.before, after)):
+            changed = [] if mass == "recompute" else _find_changed_masses(self.before, after)
+            if not self.masses.add(changed):
                 break
-        wrong = next(edit_check.find_differences(self.before, after, self.geoms, mass == "keep"), None)
-        if wrong is not None:
+        if wrong := "masses" if changed else self._find_difference(after):
             raise AssetError(
                 f"the edited file would differ from the authored one in more than the edit says: {wrong}",
                 where=where,
@@ -138,22 +142,13 @@ class MjcfEdit:
         if not self.maker.elements:
             return
         data, root = self.tree.main.text.data, self.tree.root.element
-        if own := list(root.each("asset")):
-            yield (
-                0,
-                element_edits.append_elements(
-                    data, own[-1], [element_edits.OutputElement("", (), text=text) for text in self.maker.elements]
-                ),
-            )
-        else:
+        parent, texts = next(iter([*root.each("asset")][-1:]), root), self.maker.elements
+        if parent is root:
             lead = element_edits.child_indent_of(data, root)
-            lines = [b"<asset>", *(2 * lead + text for text in self.maker.elements), lead + b"</asset>"]
-            yield (
-                0,
-                element_edits.append_elements(
-                    data, root, [element_edits.OutputElement("", (), text=newline_of(data).join(lines))]
-                ),
-            )
+            lines = [b"<asset>", *(2 * lead + text for text in texts), lead + b"</asset>"]
+            texts = [newline_of(data).join(lines)]
+        outputs = [element_edits.OutputElement("", (), text=text) for text in texts]
+        yield 0, element_edits.append_elements(data, parent, outputs)
 
     def _compile(self, texts: list[bytes]) -> MjcfModel:
         """What MuJoCo makes of the texts, of as much as was read before. Raises AssetError where it refuses them."""
@@ -164,9 +159,40 @@ class MjcfEdit:
             raise AssetError(amiss[0], where=str(main))
         return compile_tree(tree, compiler.drop_scaling) if self.before.is_whole else _strip(tree)
 
+    def _find_difference(self, after: MjcfModel) -> str:
+        """What MuJoCo finds otherwise than the edit says, empty where all is right.
+
+        Elements refer to geoms by names, and the text of other elements is as it was: where names are right, so are
+        these.
+        """
+        if after.model.ngeom != len(self.geoms.geoms):
+            return f"{after.model.ngeom} geoms where {len(self.geoms.geoms)} were expected"
+        for k, (geom, read) in enumerate(zip(self.geoms.geoms, self.geoms.read_names(), strict=True)):
+            if (after.spec_geoms[k].name, after.names[k], after.body_of[k]) != (geom.attribute, read, geom.body):
+                return f"the name of geom {geom.name!r}"
+            if geom.hull is not None and not _is_same_shape(after.read_piece(k).shape, geom.hull.shape):
+                return f"the geometry of hull {geom.name!r}"
+        return ""
+
     def _find_changed_bodies(self) -> list[int]:
         found = map(self.before.body_names.index, self.geoms.changed_bodies)
         return [body for body in found if self.before.model.body_mass[body] > 0]
+
+
+def _is_same_shape(found: Shape | None, wanted: Shape) -> bool:
+    if found is None or found.kind != wanted.kind:
+        return False
+    ends, others = (np.array([shape.aabb.min, shape.aabb.max]) for shape in (found, wanted))
+    return bool(np.abs(ends - others).max() <= _SLIGHT * (np.abs(others).max() + wanted.aabb.diagonal))
+
+
+def _find_changed_masses(before: MjcfModel, after: MjcfModel) -> list[int]:
+    """The bodies of another mass, centre or inertia, by number."""
+    differ = np.zeros(before.model.nbody, dtype=bool)
+    for name in ("body_mass", "body_inertia", "body_ipos", "body_iquat"):
+        one, other = (getattr(read.model, name).reshape(len(differ), -1) for read in (before, after))
+        differ |= (one != other).any(axis=1)
+    return np.flatnonzero(differ).tolist()
 
 
 class BodyMasses:

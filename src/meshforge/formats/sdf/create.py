@@ -98,8 +98,8 @@ class _Creator(link_output.LinkCreator):
         inertial, base = self.inertial_of(link)
         inside = [elements.pose_leaf(Pose(frame.rotation, kinematic_tree.drop_rounding(frame.translation)))]
         inside += elements.inertial_lines(inertial, base) if inertial else []
-        for k, (visual, reference) in enumerate(self.shown[link]):
-            inside += elements.visual_lines(f"visual{k}", visual, reference)
+        for k, visual in enumerate(self.shown[link]):
+            inside += elements.visual_lines(f"visual{k}", visual)
         collisions = [output.to_bytes(b"").split(b"\n") for output in self.outputs[link]]
         inside += [line.removeprefix(self.lead) for lines in collisions for line in lines]
         return elements.nest_with_name("link", self.links[link], *inside)

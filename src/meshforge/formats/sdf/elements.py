@@ -97,15 +97,14 @@ def inertial_lines(inertial: Inertial, root_t_link: Pose) -> list[bytes]:
     return nest("inertial", pose_leaf(Pose.of_translation(centre)), _number_leaf("mass", inertial.mass), *moments)
 
 
-def visual_lines(name: str, visual: LinkVisual, reference: str | None) -> list[bytes]:
-    """Return the lines of a `<visual>`; reference: the mesh file of a shape that SDF lacks."""
+def visual_lines(name: str, visual: LinkVisual) -> list[bytes]:
+    """Return the lines of a `<visual>`."""
     if isinstance(visual.what, SdfShape):
         pose, kind = visual.what.pose, native_lines(visual.what)
     else:
-        file = visual.what if isinstance(visual.what, str) else reference
-        assert file is not None  # made for every shape that is not native
+        assert isinstance(visual.what, str)  # a file is made for every shape that is not native
         scale = None if np.array_equal(visual.scale, np.ones(3)) else visual.scale
-        pose, kind = visual.pose, mesh_lines(file, scale)
+        pose, kind = visual.pose, mesh_lines(visual.what, scale)
     inside = [pose_leaf(pose), *nest("geometry", *kind)]
     if visual.rgba:
         color = format_numbers(visual.rgba)

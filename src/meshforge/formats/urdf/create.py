@@ -56,7 +56,7 @@ class _Creator(link_output.LinkCreator):
     def _link_lines(self, link: str) -> list[bytes]:
         inertial, frame = self.inertial_of(link)
         inside = edit.inertial_lines(inertial, frame) if inertial else []
-        inside += [line for visual in self.shown[link] for line in edit.visual_lines(*visual)]
+        inside += [line for visual in self.shown[link] for line in edit.visual_lines(visual)]
         inside += [self.lead + output.to_bytes(b"") for output in self.outputs[link]]
         if not inside:
             return [b'  <link name="%s"/>' % escape(link)]

@@ -97,14 +97,13 @@ def inertial_lines(inertial: Inertial, root_t_link: Pose) -> list[bytes]:
     ]
 
 
-def visual_lines(visual: mesh_output.LinkVisual, reference: str | None = None) -> list[bytes]:
-    """Return the lines of a `<visual>`; reference: the mesh file of a shape that URDF lacks."""
+def visual_lines(visual: mesh_output.LinkVisual) -> list[bytes]:
+    """Return the lines of a `<visual>`."""
     if isinstance(visual.what, Box | Cylinder | Sphere):
         pose, tag = visual.what.pose, native_tag(visual.what)
     else:
-        file = visual.what if isinstance(visual.what, str) else reference
-        assert file is not None  # made for every shape that is not native
-        pose, tag = visual.pose, mesh_tag(file)
+        assert isinstance(visual.what, str)  # a file is made for every shape that is not native
+        pose, tag = visual.pose, mesh_tag(visual.what)
         if not np.array_equal(visual.scale, np.ones(3)):
             tag = tag[:-2] + b' scale="%s"/>' % _text_of(*visual.scale)
     inside = _place_lines(pose, tag)
