@@ -116,10 +116,9 @@ class VisualFiles:
             return LinkVisual(reference, Pose.identity(), np.ones(3), visual.rgba)
         moved = visual.move(link_t_root)
         if isinstance(moved.what, Shape):
-            what = moved.what
-            if not isinstance(what, self.native):
-                what = self.files.add(f"{body}-visual", "", what.vertices, what.faces)
-            return LinkVisual(what, Pose.identity(), np.ones(3), moved.rgba)
+            what, is_native = moved.what, isinstance(moved.what, self.native)
+            own = what if is_native else self.files.add(f"{body}-visual", "", what.vertices, what.faces)
+            return LinkVisual(own, Pose.identity(), np.ones(3), moved.rgba)
         split = _split_scale(moved.linear)
         if split is None:
             return self._bake(body, moved)

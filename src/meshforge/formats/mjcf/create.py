@@ -13,8 +13,7 @@ from meshforge.common import join_names, pluralize
 from meshforge.formats import collision_pieces, conversion, kinematic_tree, mesh_output, visuals
 from meshforge.formats.base import Loss, Output
 from meshforge.formats.mjcf import document, elements, references
-from meshforge.formats.mjcf.elements import tag
-from meshforge.formats.xml import format_numbers
+from meshforge.formats.xml import format_numbers, tag
 from meshforge.geometry import Aabb, Floats, Ints, Pose, convex_hull
 from meshforge.symbolic import Asset, FeatureKind, Geom, Joint, NonConvexPiece, Surface
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from meshforge.common import AssetError, join_names
-from meshforge.formats import collision_pieces, element_edits
+from meshforge.formats import collision_pieces, element_edits, xml
 from meshforge.formats.base import Mass, Output
 from meshforge.formats.mjcf import collision_only, compiler, elements, references
 from meshforge.formats.mjcf.document import MjcfDocument, MjcfNode, MjcfTree, read_tree
@@ -17,7 +17,6 @@ from meshforge.formats.mjcf.geom_edits import GeomEdits
 from meshforge.formats.mjcf.model import MjcfModel, compile_tree
 from meshforge.formats.mjcf.new_geoms import NewGeoms
 from meshforge.formats.references import note_absolute
-from meshforge.formats.xml import Splice, apply_splices, line_gap, newline_of, parse_xml, remove_element, set_attribute
 from meshforge.geometry import Shape
 from meshforge.symbolic import Asset
 
@@ -118,7 +117,7 @@ class MjcfEdit:
             for k in range(len(self.tree.sources))
         ]
 
-    def _edit_file(self, number: int, splices: list[Splice]) -> bytes:
+    def _edit_file(self, number: int, splices: list[xml.Splice]) -> bytes:
         """The bytes of an edited file; in an included one that nothing is left in, an element that says nothing.
 
         MuJoCo refuses to include an empty file. What it held were geoms or masses, so a frame may stand there.
@@ -132,12 +131,12 @@ class MjcfEdit:
                 where=str(source.path),
                 remedy="Include it by a path relative to the main file.",
             )
-        data = apply_splices(source.text.data, splices)
-        if number and not (root := parse_xml(data, "an edited file")).children:
-            data = apply_splices(data, [Splice(root.inside, root.inside, b"<frame/>")])
+        data = xml.apply_splices(source.text.data, splices)
+        if number and not (root := xml.parse_xml(data, "an edited file")).children:
+            data = xml.apply_splices(data, [xml.Splice(root.inside, root.inside, b"<frame/>")])
         return source.text.encode(data)
 
-    def _asset_splices(self) -> Iterator[tuple[int, Splice]]:
+    def _asset_splices(self) -> Iterator[tuple[int, xml.Splice]]:
         """The edits, with their files, that add the new meshes."""
         if not self.maker.elements:
             return
@@ -146,7 +145,7 @@ class MjcfEdit:
         if parent is root:
             lead = element_edits.child_indent_of(data, root)
             lines = [b"<asset>", *(2 * lead + text for text in texts), lead + b"</asset>"]
-            texts = [newline_of(data).join(lines)]
+            texts = [xml.newline_of(data).join(lines)]
         outputs = [element_edits.OutputElement("", (), text=text) for text in texts]
         yield 0, element_edits.append_elements(data, parent, outputs)
 
@@ -223,14 +222,14 @@ class BodyMasses:
                 )
             model = self.before.model
             numbers = model.body_ipos[body], model.body_iquat[body], model.body_inertia[body]
-            text = elements.tag("inertial", elements.inertial_attributes(float(model.body_mass[body]), *numbers))
+            text = xml.tag("inertial", elements.inertial_attributes(float(model.body_mass[body]), *numbers))
             if id(node) not in self._texts and not node.element.children:
                 self.geoms.ends[self.before.body_names[body]].insert(0, element_edits.OutputElement("", (), text=text))
             self._texts.setdefault(id(node), (node, text))
         self.bodies += new
         return bool(new)
 
-    def build_splices(self) -> Iterator[tuple[int, Splice]]:
+    def build_splices(self) -> Iterator[tuple[int, xml.Splice]]:
         """Yield the edits, with their files, that put an `<inertial>` before the children of a body's element.
 
         Where every `<inertial>` was ignored so far, they count now, and those of the bodies give way.
@@ -238,12 +237,13 @@ class BodyMasses:
         texts = [source.text.data for source in self.tree.sources]
         for node in self.tree.root.each("compiler") if self.bodies and self.are_ignored else ():
             if node.attributes.get(_FROM_GEOMS) == "true":
-                yield node.source, set_attribute(texts[node.source], node.element, _FROM_GEOMS, "auto")
+                yield node.source, xml.set_attribute(texts[node.source], node.element, _FROM_GEOMS, "auto")
         for node, text in self._texts.values():
             if node.element.children:
-                yield from ((old.source, remove_element(texts[old.source], old.element)) for old in _inertials_of(node))
-                at, gap = node.element.inside, line_gap(texts[node.source], node.element.children[0].start)
-                yield node.source, Splice(at, at, gap + text)
+                for old in _inertials_of(node):
+                    yield old.source, xml.remove_element(texts[old.source], old.element)
+                at, gap = node.element.inside, xml.line_gap(texts[node.source], node.element.children[0].start)
+                yield node.source, xml.Splice(at, at, gap + text)
 
     def _has_inertial(self, node: MjcfNode | None) -> bool:
         return node is not None and not self.are_ignored and any(True for _ in _inertials_of(node))

@@ -14,7 +14,7 @@ from meshforge.common import AssetError, relative_name
 from meshforge.formats import element_edits, mesh_output, xml
 from meshforge.formats.mjcf import references
 from meshforge.formats.mjcf.document import MjcfNode, MjcfTree
-from meshforge.formats.mjcf.elements import MjcfShape, geom_attributes, mesh_geom_attributes, tag
+from meshforge.formats.mjcf.elements import MjcfShape, geom_attributes, mesh_geom_attributes
 from meshforge.geometry import Pose, Shape
 from meshforge.symbolic import Asset, Geom
 
@@ -80,7 +80,7 @@ class NewGeoms:
             attributes = {"class": _MAIN_CLASS, **attributes, **rest}
         elif by_class.get("contype") == "0" == by_class.get("conaffinity"):  # a class of visual geoms
             attributes |= {"contype": "1", "conaffinity": "1"}
-        return element_edits.OutputElement(geom.body, (geom.name,), text=tag("geom", attributes))
+        return element_edits.OutputElement(geom.body, (geom.name,), text=xml.tag("geom", attributes))
 
     def _place_shape(self, geom: Geom, root_t_body: Pose, inherited: Mapping[str, str]) -> dict[str, str]:
         """Type, size and pose in a body; a mesh is written in the frame of its body, unless it lies far off."""
@@ -111,7 +111,7 @@ class NewGeoms:
         attributes |= {key: value for key, value in _NEUTRAL.items() if key in by_default}
         if shell or shape.volume < _LEAST_VOLUME:
             attributes["inertia"] = "shell"
-        self.elements.append(tag("mesh", attributes))
+        self.elements.append(xml.tag("mesh", attributes))
         return attributes["name"]
 
     def _find_usual_folder(self) -> str:

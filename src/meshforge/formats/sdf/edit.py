@@ -105,7 +105,7 @@ class SdfElementMaker(element_edits.ElementMaker):
         return elements.mesh_lines(reference)
 
     def build_collision(self, pose: Pose, kind: Sequence[bytes], lead: bytes) -> bytes:
-        lines = elements.nest("collision", elements.pose_leaf(pose), *elements.nest("geometry", *kind))
+        lines = xml.nest("collision", elements.pose_leaf(pose), *xml.nest("geometry", *kind))
         return (xml.newline_of(self.data) + lead).join(lines)
 
     def make_element(
