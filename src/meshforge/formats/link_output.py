@@ -7,15 +7,14 @@ from types import UnionType
 
 from meshforge.formats import base, conversion, element_edits, kinematic_tree, mesh_output
 from meshforge.formats.visuals import unreadable_visuals, visuals_of
-from meshforge.geometry import Pose, Shape
+from meshforge.geometry import Pose
 from meshforge.symbolic import Asset, FeatureKind, Inertial, JointKind, NonConvexPiece, Surface
 
 
 class LinkCreator(ABC):
     """Collects what the links of a new file hold; native: the shapes that the format has of its own, kinds: its joints.
 
-    links: what each link of the chain is called in the file; outputs: its collisions; shown: its visuals, each with the
-    mesh file of a shape that the format lacks.
+    links: what each link of the chain is called in the file; outputs: its collisions; shown: its visuals.
     """
 
     native: UnionType
@@ -27,7 +26,9 @@ class LinkCreator(ABC):
 
     def __init__(self, asset: Asset, maker: element_edits.ElementMaker) -> None:
         self.asset, self.maker = asset, maker
-        self.visuals = mesh_output.VisualFiles(maker.files, lambda mesh: mesh.suffix.lower() in self.visual_suffixes)
+        self.visuals = mesh_output.VisualFiles(
+            maker.files, lambda mesh: mesh.suffix.lower() in self.visual_suffixes, self.native
+        )
         self.inertials = {inertial.body: inertial for inertial in asset.mechanism.inertials}
         self.lost: list[base.Loss] = []
         visuals = visuals_of(asset)
@@ -83,16 +84,7 @@ class LinkCreator(ABC):
                 outputs[link].append(self.maker.make_surface(piece, self.chain.frames[link], surface, self.lead))
         return outputs
 
-    def _build_visuals(self, link: str) -> list[tuple[mesh_output.LinkVisual, str | None]]:
-        shown = []
-        for body, visual in visuals_of(self.asset):
-            if self.chain.of_body[body] == link:
-                placed = self.visuals.add_visual(body, visual, self.chain.frames[link])
-                if placed is not None:
-                    shown.append((placed, self._add_mesh(body, placed.what)))
-        return shown
-
-    def _add_mesh(self, body: str, shape: Shape | str) -> str | None:
-        if not isinstance(shape, Shape) or isinstance(shape, self.native):
-            return None
-        return self.maker.files.add(f"{body}-visual", "", shape.vertices, shape.faces)
+    def _build_visuals(self, link: str) -> list[mesh_output.LinkVisual]:
+        own = [(body, visual) for body, visual in visuals_of(self.asset) if self.chain.of_body[body] == link]
+        placed = (self.visuals.add_visual(body, visual, self.chain.frames[link]) for body, visual in own)
+        return [visual for visual in placed if visual is not None]

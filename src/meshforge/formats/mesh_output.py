@@ -8,6 +8,7 @@ import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
+from types import UnionType
 
 import numpy as np
 
@@ -87,13 +88,14 @@ class LinkVisual:
 
 @dataclass(slots=True)
 class VisualFiles:
-    """Collects the files; takes: whether the format shows a mesh file as it is.
+    """Collects the files; takes: whether the format shows a mesh file as it is; native: the shapes that it has.
 
     copies: by their place beside the main file; refused: bodies whose visual cannot be read.
     """
 
     files: HullFiles
     takes: Callable[[Path], bool]
+    native: UnionType
     copies: dict[str, Path] = field(default_factory=dict)
     refused: list[str] = field(default_factory=list)
     _base: Path | None = None
@@ -114,7 +116,9 @@ class VisualFiles:
             return LinkVisual(reference, Pose.identity(), np.ones(3), visual.rgba)
         moved = visual.move(link_t_root)
         if isinstance(moved.what, Shape):
-            return LinkVisual(moved.what, Pose.identity(), np.ones(3), moved.rgba)
+            what, is_native = moved.what, isinstance(moved.what, self.native)
+            own = what if is_native else self.files.add(f"{body}-visual", "", what.vertices, what.faces)
+            return LinkVisual(own, Pose.identity(), np.ones(3), moved.rgba)
         split = _split_scale(moved.linear)
         if split is None:
             return self._bake(body, moved)

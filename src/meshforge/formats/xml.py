@@ -6,7 +6,7 @@ from __future__ import annotations
 import codecs
 import math
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import NoReturn
@@ -225,6 +225,17 @@ def set_attribute(data: bytes, element: Element, name: str, value: str | None, *
 def escape(value: str) -> bytes:
     """Return a text as it stands between the quotes of an attribute."""
     return "".join(_ESCAPES.get(letter, letter) for letter in value).encode()
+
+
+def tag(name: str, attributes: Mapping[str, str] | None = None, closed: bool = True) -> bytes:
+    """Return an element without children; closed: else only its start tag."""
+    text = "".join(f' {key}="{escape(value).decode()}"' for key, value in (attributes or {}).items())
+    return f"<{name}{text}{'/' if closed else ''}>".encode()
+
+
+def nest(element: str, /, *inside: bytes, **attributes: str) -> list[bytes]:
+    """Return the lines of an element that holds others, each line of which is indented."""
+    return [tag(element, attributes, closed=False), *(b"  " + line for line in inside), b"</%s>" % element.encode()]
 
 
 def strip_comments(text: bytes) -> bytes:

@@ -185,21 +185,6 @@ def test_a_submesh_is_a_part_of_its_file_centred_where_that_is_asked(tmp_path: P
     assert away[0] > 4
 
 
-def test_a_computed_mass_is_that_of_the_collisions(tmp_path: Path) -> None:
-    text = model(
-        '<link name="a"><inertial auto="true"><density>2</density></inertial>'
-        f'<collision name="c0"><geometry>{box(1, 1, 2)}</geometry></collision>'
-        '<collision name="c1"><pose>3 0 0 0 0 0</pose><density>4</density>'
-        "<geometry><box/></geometry></collision></link>",
-        version="1.11",
-    )
-    (inertial,) = read(put_text(tmp_path, text)).mechanism.inertials
-    assert inertial.mass == pytest.approx(8)
-    np.testing.assert_allclose(inertial.centre, [1.5, 0, 0])
-    assert inertial.inertia[0, 0] == pytest.approx(4 * (1 + 4) / 12 + 4 * (1 + 1) / 12)
-    assert inertial.inertia[2, 2] == pytest.approx(4 * 2 / 12 + 4 * 2 / 12 + 8 * 1.5**2)
-
-
 def test_the_folder_of_a_model_stands_for_its_newest_file() -> None:
     folder = ROOT / "sdf" / "part"
     assert [geom.name for geom in read_any(folder).geoms] == ["p/new"]

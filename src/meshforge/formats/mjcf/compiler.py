@@ -16,7 +16,7 @@ from pathlib import Path
 from meshforge.common import AssetError
 from meshforge.formats.libraries import mujoco
 from meshforge.formats.meshfile.surface import FARTHEST
-from meshforge.formats.mjcf.document import MjcfNode, MjcfTree, read_tree
+from meshforge.formats.mjcf.document import MjcfNode, MjcfTree
 from meshforge.formats.mjcf.references import AssetFolders, read_submodels
 from meshforge.formats.xml import escape
 
@@ -74,15 +74,6 @@ class Compilation:
     bodies: tuple[mujoco.MjsBody, ...]
     geoms: tuple[mujoco.MjsGeom, ...]
     warnings: tuple[str, ...]
-
-
-def compile_model(main: Path, files: Mapping[Path, bytes] | None = None) -> mujoco.MjModel:
-    """Return the model that MuJoCo makes of an MJCF; files: contents that count instead of those on disk, meshes too.
-
-    Static bodies are not fused and visual geoms not discarded, whatever the compiler settings say.
-    Raises AssetError with MuJoCo's message, at `file:line` where that is known.
-    """
-    return compile_text(flatten(read_tree(main, files))).model
 
 
 def compile_text(flat: FlatText) -> Compilation:

@@ -13,8 +13,7 @@ from meshforge.common import join_names, pluralize
 from meshforge.formats import collision_pieces, conversion, kinematic_tree, mesh_output, visuals
 from meshforge.formats.base import Loss, Output
 from meshforge.formats.mjcf import document, elements, references
-from meshforge.formats.mjcf.elements import tag
-from meshforge.formats.xml import format_numbers
+from meshforge.formats.xml import format_numbers, tag
 from meshforge.geometry import Aabb, Floats, Ints, Pose, convex_hull
 from meshforge.symbolic import Asset, FeatureKind, Geom, Joint, NonConvexPiece, Surface
 
@@ -189,7 +188,7 @@ class _GeomTexts:
         self.poses, self.names = asset.body_poses, names
         self.shown = visuals.visuals_of(asset)
         self.files = mesh_output.HullFiles(stem)
-        self.visuals = mesh_output.VisualFiles(self.files, references.is_shown_whole)
+        self.visuals = mesh_output.VisualFiles(self.files, references.is_shown_whole, elements.MjcfShape)
         self.visuals.gather(self.shown)
         self.meshes: list[bytes] = []
         self.hulled: list[tuple[NonConvexPiece, float]] = []
@@ -223,13 +222,11 @@ class _GeomTexts:
             if isinstance(seen.what, elements.MjcfShape):
                 attributes = elements.geom_attributes(seen.what)
             else:
-                file = seen.what
-                if not isinstance(file, str):
-                    file = self.files.add(f"{body}-visual", "", file.vertices, file.faces)
-                key = file, tuple(seen.scale.tolist())
+                assert isinstance(seen.what, str)  # a file is made for every shape that is not native
+                key = seen.what, tuple(seen.scale.tolist())
                 if key not in self._mesh_of_visual:
                     scaled = {} if np.array_equal(seen.scale, np.ones(3)) else {"scale": format_numbers(seen.scale)}
-                    self._mesh_of_visual[key] = self._add_mesh(file, {**scaled, "inertia": "shell"})
+                    self._mesh_of_visual[key] = self._add_mesh(seen.what, {**scaled, "inertia": "shell"})
                 attributes = elements.mesh_geom_attributes(self._mesh_of_visual[key], seen.pose)
             color = {"rgba": format_numbers(seen.rgba)} if seen.rgba else {}
             yield tag("geom", {"class": "visual", **attributes, **color})

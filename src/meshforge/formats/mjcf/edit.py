@@ -6,20 +6,23 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
+import numpy as np
+
 from meshforge.common import AssetError, join_names
-from meshforge.formats import collision_pieces, element_edits
+from meshforge.formats import collision_pieces, element_edits, xml
 from meshforge.formats.base import Mass, Output
-from meshforge.formats.mjcf import collision_only, compiler, edit_check, elements, references
+from meshforge.formats.mjcf import collision_only, compiler, elements, references
 from meshforge.formats.mjcf.document import MjcfDocument, MjcfNode, MjcfTree, read_tree
 from meshforge.formats.mjcf.geom_edits import GeomEdits
 from meshforge.formats.mjcf.model import MjcfModel, compile_tree
 from meshforge.formats.mjcf.new_geoms import NewGeoms
 from meshforge.formats.references import note_absolute
-from meshforge.formats.xml import Splice, apply_splices, line_gap, newline_of, parse_xml, remove_element, set_attribute
+from meshforge.geometry import Shape
 from meshforge.symbolic import Asset
 
 _ROUNDS = 4  # the mass that one body says may change what another has to say
 _FROM_GEOMS = "inertiafromgeom"
+_SLIGHT = 1e-6  # relative: MuJoCo keeps vertices in single precision
 
 
 def write_mjcf(asset: Asset, document: MjcfDocument, name: str, mass: Mass) -> Output:
@@ -95,10 +98,10 @@ class MjcfEdit:
                     continue
                 remedy = "Keep the masses (--mass keep)." if mass == "recompute" else error.remedy
                 raise AssetError(f"of the edited file: {error.problem}", where=where, remedy=remedy) from None
-            if mass == "recompute" or not self.masses.add(edit_check.find_changed_masses(self.before, after)):
+            changed = [] if mass == "recompute" else _find_changed_masses(self.before, after)
+            if not self.masses.add(changed):
                 break
-        wrong = next(edit_check.find_differences(self.before, after, self.geoms, mass == "keep"), None)
-        if wrong is not None:
+        if wrong := "masses" if changed else self._find_difference(after):
             raise AssetError(
                 f"the edited file would differ from the authored one in more than the edit says: {wrong}",
                 where=where,
@@ -114,7 +117,7 @@ class MjcfEdit:
             for k in range(len(self.tree.sources))
         ]
 
-    def _edit_file(self, number: int, splices: list[Splice]) -> bytes:
+    def _edit_file(self, number: int, splices: list[xml.Splice]) -> bytes:
         """The bytes of an edited file; in an included one that nothing is left in, an element that says nothing.
 
         MuJoCo refuses to include an empty file. What it held were geoms or masses, so a frame may stand there.
@@ -128,32 +131,23 @@ class MjcfEdit:
                 where=str(source.path),
                 remedy="Include it by a path relative to the main file.",
             )
-        data = apply_splices(source.text.data, splices)
-        if number and not (root := parse_xml(data, "an edited file")).children:
-            data = apply_splices(data, [Splice(root.inside, root.inside, b"<frame/>")])
+        data = xml.apply_splices(source.text.data, splices)
+        if number and not (root := xml.parse_xml(data, "an edited file")).children:
+            data = xml.apply_splices(data, [xml.Splice(root.inside, root.inside, b"<frame/>")])
         return source.text.encode(data)
 
-    def _asset_splices(self) -> Iterator[tuple[int, Splice]]:
+    def _asset_splices(self) -> Iterator[tuple[int, xml.Splice]]:
         """The edits, with their files, that add the new meshes."""
         if not self.maker.elements:
             return
         data, root = self.tree.main.text.data, self.tree.root.element
-        if own := list(root.each("asset")):
-            yield (
-                0,
-                element_edits.append_elements(
-                    data, own[-1], [element_edits.OutputElement("", (), text=text) for text in self.maker.elements]
-                ),
-            )
-        else:
+        parent, texts = next(iter([*root.each("asset")][-1:]), root), self.maker.elements
+        if parent is root:
             lead = element_edits.child_indent_of(data, root)
-            lines = [b"<asset>", *(2 * lead + text for text in self.maker.elements), lead + b"</asset>"]
-            yield (
-                0,
-                element_edits.append_elements(
-                    data, root, [element_edits.OutputElement("", (), text=newline_of(data).join(lines))]
-                ),
-            )
+            lines = [b"<asset>", *(2 * lead + text for text in texts), lead + b"</asset>"]
+            texts = [xml.newline_of(data).join(lines)]
+        outputs = [element_edits.OutputElement("", (), text=text) for text in texts]
+        yield 0, element_edits.append_elements(data, parent, outputs)
 
     def _compile(self, texts: list[bytes]) -> MjcfModel:
         """What MuJoCo makes of the texts, of as much as was read before. Raises AssetError where it refuses them."""
@@ -164,9 +158,40 @@ class MjcfEdit:
             raise AssetError(amiss[0], where=str(main))
         return compile_tree(tree, compiler.drop_scaling) if self.before.is_whole else _strip(tree)
 
+    def _find_difference(self, after: MjcfModel) -> str:
+        """What MuJoCo finds otherwise than the edit says, empty where all is right.
+
+        Elements refer to geoms by names, and the text of other elements is as it was: where names are right, so are
+        these.
+        """
+        if after.model.ngeom != len(self.geoms.geoms):
+            return f"{after.model.ngeom} geoms where {len(self.geoms.geoms)} were expected"
+        for k, (geom, read) in enumerate(zip(self.geoms.geoms, self.geoms.read_names(), strict=True)):
+            if (after.spec_geoms[k].name, after.names[k], after.body_of[k]) != (geom.attribute, read, geom.body):
+                return f"the name of geom {geom.name!r}"
+            if geom.hull is not None and not _is_same_shape(after.read_piece(k).shape, geom.hull.shape):
+                return f"the geometry of hull {geom.name!r}"
+        return ""
+
     def _find_changed_bodies(self) -> list[int]:
         found = map(self.before.body_names.index, self.geoms.changed_bodies)
         return [body for body in found if self.before.model.body_mass[body] > 0]
+
+
+def _is_same_shape(found: Shape | None, wanted: Shape) -> bool:
+    if found is None or found.kind != wanted.kind:
+        return False
+    ends, others = (np.array([shape.aabb.min, shape.aabb.max]) for shape in (found, wanted))
+    return bool(np.abs(ends - others).max() <= _SLIGHT * (np.abs(others).max() + wanted.aabb.diagonal))
+
+
+def _find_changed_masses(before: MjcfModel, after: MjcfModel) -> list[int]:
+    """The bodies of another mass, centre or inertia, by number."""
+    differ = np.zeros(before.model.nbody, dtype=bool)
+    for name in ("body_mass", "body_inertia", "body_ipos", "body_iquat"):
+        one, other = (getattr(read.model, name).reshape(len(differ), -1) for read in (before, after))
+        differ |= (one != other).any(axis=1)
+    return np.flatnonzero(differ).tolist()
 
 
 class BodyMasses:
@@ -197,14 +222,14 @@ class BodyMasses:
                 )
             model = self.before.model
             numbers = model.body_ipos[body], model.body_iquat[body], model.body_inertia[body]
-            text = elements.tag("inertial", elements.inertial_attributes(float(model.body_mass[body]), *numbers))
+            text = xml.tag("inertial", elements.inertial_attributes(float(model.body_mass[body]), *numbers))
             if id(node) not in self._texts and not node.element.children:
                 self.geoms.ends[self.before.body_names[body]].insert(0, element_edits.OutputElement("", (), text=text))
             self._texts.setdefault(id(node), (node, text))
         self.bodies += new
         return bool(new)
 
-    def build_splices(self) -> Iterator[tuple[int, Splice]]:
+    def build_splices(self) -> Iterator[tuple[int, xml.Splice]]:
         """Yield the edits, with their files, that put an `<inertial>` before the children of a body's element.
 
         Where every `<inertial>` was ignored so far, they count now, and those of the bodies give way.
@@ -212,12 +237,13 @@ class BodyMasses:
         texts = [source.text.data for source in self.tree.sources]
         for node in self.tree.root.each("compiler") if self.bodies and self.are_ignored else ():
             if node.attributes.get(_FROM_GEOMS) == "true":
-                yield node.source, set_attribute(texts[node.source], node.element, _FROM_GEOMS, "auto")
+                yield node.source, xml.set_attribute(texts[node.source], node.element, _FROM_GEOMS, "auto")
         for node, text in self._texts.values():
             if node.element.children:
-                yield from ((old.source, remove_element(texts[old.source], old.element)) for old in _inertials_of(node))
-                at, gap = node.element.inside, line_gap(texts[node.source], node.element.children[0].start)
-                yield node.source, Splice(at, at, gap + text)
+                for old in _inertials_of(node):
+                    yield old.source, xml.remove_element(texts[old.source], old.element)
+                at, gap = node.element.inside, xml.line_gap(texts[node.source], node.element.children[0].start)
+                yield node.source, xml.Splice(at, at, gap + text)
 
     def _has_inertial(self, node: MjcfNode | None) -> bool:
         return node is not None and not self.are_ignored and any(True for _ in _inertials_of(node))

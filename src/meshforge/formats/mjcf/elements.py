@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from typing import assert_never
 
 import numpy as np
 
 from meshforge.formats.kinematic_tree import claim_name, drop_rounding, place_inertial, split_planar
-from meshforge.formats.xml import escape, format_numbers
+from meshforge.formats.xml import format_numbers, tag
 from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Floats, Pose, Sphere, principal_axes
 from meshforge.symbolic import Inertial, Joint
 
@@ -25,12 +25,6 @@ LEAST_MASS = 1e-9
 _LEAST_MOMENT = 1e-14  # [kg m^2]; MuJoCo refuses less than 1e-15
 _LIGHT_MOMENT = 1e-9  # [kg m^2], that of LIGHT about 3 cm away
 _SLIGHT = 1e-6  # of the largest moment, by which two may fall short of the third through rounding
-
-
-def tag(name: str, attributes: Mapping[str, str], closed: bool = True) -> bytes:
-    """Return an element without children; closed: else only its start tag."""
-    text = "".join(f' {key}="{escape(value).decode()}"' for key, value in attributes.items())
-    return f"<{name}{text}{'/' if closed else ''}>".encode()
 
 
 def geom_attributes(shape: MjcfShape) -> dict[str, str]:

@@ -40,14 +40,13 @@ class GeomPlan:
     """A geom that MuJoCo shall make of the output.
 
     name: that of the asset; attribute: its name in the file, empty without one; element: what may get such a name, None
-    where it has one, or can have none; number: in the model as it was read, and hull: what it shall be; one is None.
+    where it has one, or can have none; hull: what a new one shall be.
     """
 
     name: str
     body: str
     attribute: str
     element: element_edits.OutputElement | None
-    number: int | None = None
     hull: Geom | None = None
 
 
@@ -111,9 +110,8 @@ class GeomEdits:
             node = self.before.elements[numbers[0]]
             names = tuple(self.before.names[k] for k in numbers)
             attribute = node.attributes.get("name") if node else None
-            own = element_edits.OutputElement(
-                self.before.body_of[numbers[0]], names, attribute, node.element if node else None
-            )
+            body, source = self.before.body_of[numbers[0]], node.element if node else None
+            own = element_edits.OutputElement(body, names, attribute, source)
             why = fixed.get(id(node), "")
             yield GeomElement(node, numbers, f"it is inside {why}" if why else "" if node else _ATTACHED, own)
 
@@ -141,7 +139,11 @@ class GeomEdits:
             raise AssetError(
                 f"hull {geom.name!r} takes after {geom.parent!r}, of which {parent.fixed}", where=str(self.asset.path)
             )
-        is_adjacent = parent is not None and not parent.fixed and self.before.body_of[parent.geoms[0]] == geom.body
+        is_adjacent = (
+            (parent is not None and node is not None and not parent.fixed)
+            and self.before.body_of[parent.geoms[0]] == geom.body
+            and next(self.maker.context.ancestors_of(node)).tag != "frame"
+        )
         output = self.maker.make_geom(geom, self._poses[geom.body], body, node, self._parent_volume(geom), is_adjacent)
         (parent.after if parent and is_adjacent else self.ends.setdefault(geom.body, [])).append(output)
         self._hulls[id(output)] = geom
@@ -180,13 +182,14 @@ class GeomEdits:
                 element, attribute = self._owner[self.before.names[k]], self.before.spec_geoms[k].name
                 if element.own is not None:
                     can_name = not element.fixed and not attribute
-                    yield GeomPlan(self.before.names[k], body, attribute, element.own if can_name else None, k)
-                yield from map(self._plan_hull, element.after)
-            yield from map(self._plan_hull, self.ends.get(body, []))
+                    yield GeomPlan(self.before.names[k], body, attribute, element.own if can_name else None)
+                yield from self._plan_hulls(element.after)
+            yield from self._plan_hulls(self.ends.get(body, []))
 
-    def _plan_hull(self, output: element_edits.OutputElement) -> GeomPlan:
-        hull = self._hulls[id(output)]
-        return GeomPlan(hull.name, hull.body, "", output, hull=hull)
+    def _plan_hulls(self, outputs: list[element_edits.OutputElement]) -> Iterator[GeomPlan]:
+        for output in outputs:
+            hull = self._hulls[id(output)]
+            yield GeomPlan(hull.name, hull.body, "", output, hull)
 
     def _assign_names(self) -> dict[str, str]:
         """Name the new geoms, and those that would else read back under other names; the names that cannot be had."""

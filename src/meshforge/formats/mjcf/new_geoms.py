@@ -1,5 +1,4 @@
-"""The `<geom>` and `<mesh>` elements of new hulls, written so that default classes and frames around them change
-nothing."""
+"""The `<geom>` and `<mesh>` elements of new hulls, written so that default classes around them change nothing."""
 
 from __future__ import annotations
 
@@ -13,10 +12,10 @@ import numpy as np
 
 from meshforge.common import AssetError, relative_name
 from meshforge.formats import element_edits, mesh_output, xml
-from meshforge.formats.mjcf import compiler, references
+from meshforge.formats.mjcf import references
 from meshforge.formats.mjcf.document import MjcfNode, MjcfTree
-from meshforge.formats.mjcf.elements import MjcfShape, geom_attributes, mesh_geom_attributes, tag
-from meshforge.geometry import Pose, Shape, rotation_of_quaternion
+from meshforge.formats.mjcf.elements import MjcfShape, geom_attributes, mesh_geom_attributes
+from meshforge.geometry import Pose, Shape
 from meshforge.symbolic import Asset, Geom
 
 _TURNS = ("quat", "axisangle", "xyaxes", "zaxis", "euler")
@@ -57,12 +56,10 @@ class NewGeoms:
         at the end of its body. Raises AssetError where a default class of all geoms cannot be undone.
         """
         own = {k: v for k, v in parent.attributes.items() if k not in ("name", "class")} if parent else {}
-        by_class = self.context.defaults_of(
-            self.context.class_of(parent) if parent else self.context.class_inside(body)
-        )
+        class_ = self.context.class_of(parent) if parent else self.context.class_inside(body)
+        by_class = self.context.defaults_of(class_)
         inherited = {**by_class, **own}
-        frame = self.context.body_t_frame(parent) if parent and is_adjacent else Pose.identity()
-        attributes = self._place_shape(geom, root_t_body, frame, inherited if parent else {})
+        attributes = self._place_shape(geom, root_t_body, inherited if parent else {})
         if parent and is_adjacent and "fromto" not in by_class:
             attributes = _complete(geom, attributes, inherited, by_class, volume)
             data = self.tree.sources[parent.source].text.data
@@ -83,22 +80,19 @@ class NewGeoms:
             attributes = {"class": _MAIN_CLASS, **attributes, **rest}
         elif by_class.get("contype") == "0" == by_class.get("conaffinity"):  # a class of visual geoms
             attributes |= {"contype": "1", "conaffinity": "1"}
-        return element_edits.OutputElement(geom.body, (geom.name,), text=tag("geom", attributes))
+        return element_edits.OutputElement(geom.body, (geom.name,), text=xml.tag("geom", attributes))
 
-    def _place_shape(
-        self, geom: Geom, root_t_body: Pose, body_t_frame: Pose, inherited: Mapping[str, str]
-    ) -> dict[str, str]:
-        """Type, size and pose in a frame; a mesh is written in the frame of its body, unless it lies far off."""
-        frame_t_body, body_t_root = body_t_frame.inverse(), root_t_body.inverse()
+    def _place_shape(self, geom: Geom, root_t_body: Pose, inherited: Mapping[str, str]) -> dict[str, str]:
+        """Type, size and pose in a body; a mesh is written in the frame of its body, unless it lies far off."""
         if isinstance(geom.shape, MjcfShape):
-            return geom_attributes(replace(geom.shape, pose=frame_t_body @ body_t_root @ geom.shape.pose))
-        shape = geom.shape.move(body_t_root)
+            return geom_attributes(replace(geom.shape, pose=root_t_body.inverse() @ geom.shape.pose))
+        shape = geom.shape.move(root_t_body.inverse())
         box = shape.aabb
         is_near = np.abs(box.center).max() <= _FAR * float(box.size.min())
         centre = Pose.identity() if is_near else Pose.of_translation(box.center)
         is_shell = inherited.get("shellinertia") == "true"
         mesh = self._add_mesh(geom.name, shape.move(centre.inverse()), inherited.get("mesh"), is_shell)
-        return mesh_geom_attributes(mesh, frame_t_body @ centre)
+        return mesh_geom_attributes(mesh, centre)
 
     def _add_mesh(self, name: str, shape: Shape, parent_mesh: str | None, shell: bool) -> str:
         """Make the mesh of a hull beside the file of its parent's mesh; its name."""
@@ -117,7 +111,7 @@ class NewGeoms:
         attributes |= {key: value for key, value in _NEUTRAL.items() if key in by_default}
         if shell or shape.volume < _LEAST_VOLUME:
             attributes["inertia"] = "shell"
-        self.elements.append(tag("mesh", attributes))
+        self.elements.append(xml.tag("mesh", attributes))
         return attributes["name"]
 
     def _find_usual_folder(self) -> str:
@@ -179,7 +173,7 @@ def _meshes_by_name(root: MjcfNode) -> Iterator[tuple[str, MjcfNode]]:
 
 
 class ElementContext:
-    """The default classes and frames around the elements of a tree."""
+    """The default classes around the elements of a tree."""
 
     def __init__(self, tree: MjcfTree) -> None:
         self.tree = tree
@@ -216,27 +210,3 @@ class ElementContext:
             for element in default.each(kind):
                 found |= element.attributes
         return found
-
-    def body_t_frame(self, node: MjcfNode) -> Pose:
-        """Return the pose of the frames around a geom, one in another, in their body.
-
-        It is MuJoCo's own answer, from a model of nothing else.
-        """
-        frames: list[dict[str, str]] = []
-        for outer in self.ancestors_of(node):
-            if outer.tag in ("body", "worldbody"):
-                break
-            if outer.tag == "frame":
-                own = {k: v for k, v in outer.attributes.items() if k not in ("name", "childclass")}
-                frames.insert(0, own)
-        if not any(frames):
-            return Pose.identity()
-        units: dict[str, str] = {}
-        for setting in self.tree.root.each("compiler"):
-            units |= {k: v for k, v in setting.attributes.items() if k in ("angle", "eulerseq")}
-        opened = b"".join(tag("frame", one, closed=False) for one in frames)
-        inside = tag("compiler", units), opened, b"</frame>" * len(frames)
-        main = Path("frames.xml")
-        text = b"<mujoco>%s<worldbody>%s<geom size='1'/>%s</worldbody></mujoco>" % inside
-        model = compiler.compile_model(main, {main: text})
-        return Pose(rotation_of_quaternion(model.geom_quat[0]), model.geom_pos[0])

@@ -10,7 +10,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
-from meshforge.common import AssetError, MeshForgeError, is_beyond_reach, is_file, relative_name
+from meshforge.common import AssetError, MeshForgeError, is_beyond_reach, relative_name
 from meshforge.formats.mesh_reader import read_content
 from meshforge.formats.mjcf.document import MjcfDocument, MjcfNode, MjcfTree, read_tree
 from meshforge.formats.references import add_copy, find_companions, note_absolute
@@ -134,18 +134,9 @@ def find_files(tree: MjcfTree) -> tuple[tuple[Path, ...], tuple[str, ...]]:
         if reference.model is not None:
             trees.append(reference.model)
     included = [source.path for own in trees for source in own.sources]
-    files = dict.fromkeys([*included, *found, *(path for own in trees for path in _plugin_files(own))])
+    files = dict.fromkeys([*included, *found])
     files.pop(tree.main.path, None)
     return tuple(files), tuple(missing)
-
-
-def _plugin_files(tree: MjcfTree) -> Iterator[Path]:
-    for node in tree.root.walk():
-        value = node.attributes.get("value", "") if node.tag == "config" else ""
-        if value and "\0" not in value:
-            path = Path(os.path.normpath(tree.main.path.parent / value))
-            if is_file(path):
-                yield path
 
 
 def read_submodels(tree: MjcfTree, lines: int) -> dict[Path, bytes]:
@@ -185,7 +176,7 @@ def list_copies(asset: Asset, tree: MjcfTree) -> tuple[dict[str, Path], list[str
         else:
             add_copy(found, reference.place, reference.path)
     known = {*found.values(), *far, *(source.path for source in tree.sources)}
-    for path in asset.files:  # those of sub-models and plugins
+    for path in asset.files:  # those of sub-models
         if path not in known:
             found.setdefault(relative_name(path, tree.main.path.parent), path)
     absolute = dict.fromkeys(text for text in far.values() if text)

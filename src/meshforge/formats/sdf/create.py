@@ -34,7 +34,7 @@ class _Creator(link_output.LinkCreator):
     kinds = ("fixed", "revolute", "prismatic", "ball", "floating")
     has_world = True
     visual_suffixes = VISUAL_SUFFIXES
-    lead = 3 * elements.STEP
+    lead = b"      "
 
     def __init__(self, asset: Asset, name: str) -> None:
         self.name, stem = name, Path(name).stem
@@ -56,17 +56,13 @@ class _Creator(link_output.LinkCreator):
             inside += elements.joint_lines(fixed, WORLD, self.links[WORLD])
         for joint in self.chain.joints:
             inside += self._joint_lines(joint)
-        model = elements.nest_with_name("model", self.model, *inside)
-        version = (
-            b'<sdf version="%s">'
-            % (_WITH_COUPLINGS if self.couplings.by_joint else ".".join(map(str, _VERSION))).encode()
-        )
-        head = [b'<?xml version="1.0"?>', version]
-        main = b"\n".join([*head, *(elements.STEP + line for line in model), b"</sdf>", b""])
+        version = _WITH_COUPLINGS if self.couplings.by_joint else ".".join(map(str, _VERSION))
+        model = xml.nest("sdf", *xml.nest("model", *inside, name=self.model), version=version)
+        main = b"\n".join([b'<?xml version="1.0"?>', *model, b""])
         made = dict(self.maker.files.made)
         if self.name == _MAIN:
-            listed = b"%s%s</sdf>" % (version, xml.escape(self.name))
-            config = elements.nest("model", elements.leaf("name", self.model), listed)
+            listed = xml.tag("sdf", {"version": version}, closed=False) + xml.escape(self.name) + b"</sdf>"
+            config = xml.nest("model", elements.leaf("name", self.model), listed)
             made[CONFIG] = b"\n".join([b'<?xml version="1.0"?>', *config, b""])  # it makes the folder a Gazebo model
         return Output(main, made, self.visuals.copies, self._collect_notes(), names, self.collect_losses())
 
@@ -89,7 +85,7 @@ class _Creator(link_output.LinkCreator):
         return "" if len(surface.faces) else "it has no triangle"
 
     def build_plane(self, piece: NonConvexPiece, link_t_plane: Pose) -> list[element_edits.OutputElement]:
-        kind = elements.nest("plane", elements.leaf("normal", "0 0 1"), elements.leaf("size", "100 100"))
+        kind = xml.nest("plane", elements.leaf("normal", "0 0 1"), elements.leaf("size", "100 100"))
         text = self.maker.build_collision(link_t_plane, kind, self.lead)
         return [element_edits.OutputElement(piece.body, (piece.name,), text=text)]
 
@@ -98,11 +94,11 @@ class _Creator(link_output.LinkCreator):
         inertial, base = self.inertial_of(link)
         inside = [elements.pose_leaf(Pose(frame.rotation, kinematic_tree.drop_rounding(frame.translation)))]
         inside += elements.inertial_lines(inertial, base) if inertial else []
-        for k, (visual, reference) in enumerate(self.shown[link]):
-            inside += elements.visual_lines(f"visual{k}", visual, reference)
+        for k, visual in enumerate(self.shown[link]):
+            inside += elements.visual_lines(f"visual{k}", visual)
         collisions = [output.to_bytes(b"").split(b"\n") for output in self.outputs[link]]
         inside += [line.removeprefix(self.lead) for lines in collisions for line in lines]
-        return elements.nest_with_name("link", self.links[link], *inside)
+        return xml.nest("link", *inside, name=self.links[link])
 
     def _joint_lines(self, made: kinematic_tree.LinkJoint) -> list[bytes]:
         """The lines of a joint; none for one that leaves its link free."""

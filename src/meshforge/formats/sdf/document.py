@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from meshforge.common import AssetError, is_beyond_reach, is_file
+from meshforge.common import AssetError, is_file
 from meshforge.formats.collision_pieces import CollisionElement
 from meshforge.formats.references import Resolver, placement
 from meshforge.formats.xml import Element, SourceFile, XmlText, parse_numbers, parse_xml
@@ -52,12 +52,8 @@ def parse_version(text: str) -> Version | None:
     return (int(found[1]), int(found[2])) if found else None
 
 
-@dataclass(frozen=True, slots=True)
-class ElementPlace:
-    """Where an element is: the number of its file, and the byte offset in that file's text."""
-
-    source: int
-    start: int
+ElementPlace = tuple[int, int]
+"""Where an element is: the number of its file, and the byte offset in that file's text."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -65,8 +61,8 @@ class SdfDocument(Document):
     """The source of an asset read from an SDF.
 
     sources: the files, main first; authored: one entry a `<collision>`, and `at`, where that is; links: the element of
-    each link by the name of its body; worlds: the names of worlds in the file, which is read only then; computed: the
-    bodies whose masses Gazebo computes of their collisions; digests: of mesh files that hold several pieces.
+    each link by the name of its body; worlds: the names of worlds in the file, which is read only then; digests: of
+    mesh files that hold several pieces.
     """
 
     sources: tuple[SdfSource, ...]
@@ -74,7 +70,6 @@ class SdfDocument(Document):
     at: tuple[ElementPlace, ...]
     links: dict[str, ElementPlace]
     worlds: tuple[str, ...] = ()
-    computed: tuple[str, ...] = ()
     digests: tuple[tuple[Path, str], ...] = ()
 
 
@@ -125,10 +120,10 @@ class ModelResolver(Resolver):
         Raises AssetError: the folder's `model.config` is no XML.
         """
         reference = reference.strip().rstrip("/")
-        if (path := next((p for p in Resolver.candidates(self, reference) if _exists(p, "file")), None)) is not None:
+        if (path := next((p for p in Resolver.candidates(self, reference) if is_file(p)), None)) is not None:
             return path
         for beside in self.candidates(f"{reference}/{CONFIG}"):
-            if _exists(beside.parent, "dir") and (path := find_main_file(beside.parent)) is not None:
+            if (path := find_main_file(beside.parent)) is not None:
                 return path
         return None
 
@@ -136,13 +131,6 @@ class ModelResolver(Resolver):
         """Return where the model of an `<include>` was looked for, and what to do about it."""
         is_folder = reference.strip().startswith("model:") and not _MODEL.fullmatch(reference.strip())
         return self.advice(f"{reference.strip()}/model.sdf" if is_folder else reference)
-
-
-def _exists(path: Path, kind: str) -> bool:
-    try:
-        return not is_beyond_reach(path) and (path.is_file() if kind == "file" else path.is_dir())
-    except (OSError, ValueError):  # a name longer than those of files, or with a zero byte
-        return False
 
 
 def find_main_file(folder: Path) -> Path | None:
@@ -223,16 +211,15 @@ def _iterate_references(root: Element) -> Iterator[str]:
             yield element.text
 
 
-def find_scripts(source: SdfSource) -> Iterator[tuple[str, Path]]:
-    """Yield the files of material scripts: how a file refers to each, or to the folder of it, and where it is."""
-    root, _ = parse_root(source.text.data, str(source.path))
-    scripts = (element for element in root.walk() if element.tag == "script")
-    found = dict.fromkeys(uri.text for script in scripts for uri in script.each("uri"))
-    for reference in (text for text in found if text and not text.startswith(_BUILT_IN)):
+def list_references(source: SdfSource, data: bytes) -> list[tuple[str, Path | None]]:
+    """Return what a text of a file refers to, and where that is; of material scripts only the files that are there."""
+    root, _ = parse_root(data, str(source.path))
+    found = [(reference, source.resolver.find(reference)) for reference in references(root)]
+    scripts = dict.fromkeys(uri.text for script in root.walk() if script.tag == "script" for uri in script.each("uri"))
+    for reference in (text for text in scripts if text and not text.startswith(_BUILT_IN)):
         if (path := source.resolver.find(reference)) is not None:
-            yield reference, path
-            continue
-        folder = next((path for path in source.resolver.candidates(reference) if path.is_dir()), None)
-        if folder is not None:
+            found.append((reference, path))
+        elif folder := next((path for path in source.resolver.candidates(reference) if path.is_dir()), None):
             inside = sorted(path for path in folder.iterdir() if path.is_file())
-            yield from ((f"{reference.rstrip('/')}/{path.name}", path) for path in inside[:_MOST_SCRIPTS])
+            found += [(f"{reference.rstrip('/')}/{path.name}", path) for path in inside[:_MOST_SCRIPTS]]
+    return found

@@ -1,5 +1,4 @@
-"""Writing an edited SDF: its files with other collisions, all else byte for byte as it was, and masses kept where
-Gazebo would compute others."""
+"""Writing an edited SDF: its files with other collisions, all else byte for byte as it was."""
 
 from __future__ import annotations
 
@@ -13,6 +12,7 @@ from meshforge.formats import element_edits, link_reader, mesh_output, xml
 from meshforge.formats.base import Mass, Output
 from meshforge.formats.references import add_copy, note_absolute
 from meshforge.formats.sdf import document, elements, shapes
+from meshforge.formats.sdf.frames import is_computed
 from meshforge.geometry import Capsule, Ellipsoid, Pose, Shape
 from meshforge.symbolic import Asset, Geom
 
@@ -23,7 +23,7 @@ def write_sdf(asset: Asset, origin: document.SdfDocument, name: str, mass: Mass)
     """Return the files of an asset that was read from an SDF; without an edit, their own bytes.
 
     Raises AssetError: an edit of a world or of a model that is included several times, a hull on a link that is not
-    there, a mesh file that changed since the asset was read, or a mass of which a part is not known.
+    there, a mesh file that changed since the asset was read, or a mass that Gazebo computes and that is to stay.
     """
     for geom in asset.geoms:
         element_edits.refuse_unknown_link(geom, origin.links, str(asset.path))
@@ -55,13 +55,13 @@ def _plan_source(
     data = source.text.data
     root, version = document.parse_root(data, str(source.path))
     at = {element.start: element for element in root.walk()}
-    own = [k for k, place in enumerate(origin.at) if place.source == number]
-    links = {body: at[place.start] for body, place in origin.links.items() if place.source == number}
+    own = [k for k, place in enumerate(origin.at) if place[0] == number]
+    links = {body: at[start] for body, (source_of, start) in origin.links.items() if source_of == number}
     files.avoid(document.references(root))
     maker = SdfElementMaker(f"SDF {version[0]}.{version[1]}", data, files, meshes=meshes, version=version)
     maker.folder = maker.find_folder(element for element in root.walk() if element.tag == "collision")
     here = replace(asset, geoms=tuple(geom for geom in asset.geoms if geom.body in links))
-    authored, found = [origin.authored[k] for k in own], [at[origin.at[k].start] for k in own]
+    authored, found = [origin.authored[k] for k in own], [at[origin.at[k][1]] for k in own]
     return element_edits.ElementEdits(here, authored, found, links, maker)
 
 
@@ -81,7 +81,7 @@ def _build_text(
         problem = f"{source.reference!r} {why}: it is not edited here"
         raise AssetError(problem, where=where, remedy=f"Edit {source.path} itself.")
     if mass == "keep":
-        edits += keep_masses(asset, origin, plan)
+        _refuse_computed_masses(plan, where)
     data = xml.apply_splices(plan.maker.data, edits)
     return source.raw if data == plan.maker.data else source.text.encode(data)
 
@@ -105,7 +105,7 @@ class SdfElementMaker(element_edits.ElementMaker):
         return elements.mesh_lines(reference)
 
     def build_collision(self, pose: Pose, kind: Sequence[bytes], lead: bytes) -> bytes:
-        lines = elements.nest("collision", elements.pose_leaf(pose), *elements.nest("geometry", *kind))
+        lines = xml.nest("collision", elements.pose_leaf(pose), *xml.nest("geometry", *kind))
         return (xml.newline_of(self.data) + lead).join(lines)
 
     def make_element(
@@ -138,29 +138,18 @@ class SdfElementMaker(element_edits.ElementMaker):
         return (new, xml.remove_element(self.data, submesh)) if submesh else (new,)
 
 
-def keep_masses(asset: Asset, origin: document.SdfDocument, plan: element_edits.ElementEdits) -> list[xml.Splice]:
-    """Return the edits that make computed masses of the links that are edited explicit.
-
-    Raises AssetError for a link of which a collision is no hull, so that its mass is not known.
-    """
-    edited = {output.body for _, outputs in plan.places for output in outputs if not output.is_untouched}
-    edited |= {one.link for one, (_, outputs) in zip(plan.authored, plan.places, strict=True) if not outputs}
-    edited |= plan.ends.keys()
-    known = {inertial.body: inertial for inertial in asset.mechanism.inertials}
-    edits = []
-    for body in sorted(edited & set(origin.computed)):
-        element = plan.links[body].first("inertial")
-        assert element is not None  # it says that the mass is computed
-        if body not in known:
+def _refuse_computed_masses(plan: element_edits.ElementEdits, where: str) -> None:
+    """Raise AssetError where an edit would change a mass that Gazebo computes of collisions."""
+    edited = {one.link for one, (_, outputs) in zip(plan.authored, plan.places, strict=True) if not outputs}
+    edited |= {output.body for _, outputs in plan.places for output in outputs if not output.is_untouched}
+    for body in sorted(edited | plan.ends.keys()):
+        inertial = plan.links[body].first("inertial")
+        if inertial is not None and is_computed(inertial):
             raise AssetError(
-                f"Gazebo computes the mass of link {body!r} of collisions that are not all hulls: it is not known here",
-                where=str(asset.path),
+                f"Gazebo computes the mass of link {body!r} of its collisions, which change: it is not known here",
+                where=where,
                 remedy="Leave it to the new collisions (--mass recompute), or say it in the file.",
             )
-        lead = xml.indent_of(plan.maker.data, element.start) or b""
-        lines = elements.inertial_lines(known[body], asset.body_poses[body])
-        edits.append(xml.Splice(element.start, element.end, (xml.newline_of(plan.maker.data) + lead).join(lines)))
-    return edits
 
 
 def list_copies(
@@ -181,16 +170,12 @@ def list_copies(
         config = source.path.parent / document.CONFIG
         if config.is_file() and (number or source.path.name == name) and not folder.startswith(".."):
             add_copy(copies, posixpath.join(folder, document.CONFIG), config, _REMEDY)
-        for reference, path in _find_references(source, text):
+        for reference, path in document.list_references(source, xml.XmlText.of(text).data):
             place = source.resolver.place(reference)
+            if path is None:
+                continue
             if place is None:
                 notes.append(note_absolute(reference))
             else:
                 add_copy(copies, posixpath.normpath(posixpath.join(folder, place)), path, _REMEDY)
     return copies, notes
-
-
-def _find_references(source: document.SdfSource, text: bytes) -> list[tuple[str, Path]]:
-    root, _ = document.parse_root(xml.XmlText.of(text).data, str(source.path))
-    found = [(reference, source.resolver.find(reference)) for reference in document.references(root)]
-    return [(reference, path) for reference, path in found if path is not None] + list(document.find_scripts(source))

@@ -8,14 +8,12 @@ import numpy as np
 
 from meshforge.formats.kinematic_tree import LinkJoint, drop_rounding, name_moments, place_inertial
 from meshforge.formats.mesh_output import LinkVisual
-from meshforge.formats.xml import escape, format_numbers
+from meshforge.formats.xml import escape, format_numbers, nest
 from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Floats, Pose, Sphere
 from meshforge.symbolic import Coupling, Inertial
 
 SdfShape = Box | Capsule | Cylinder | Ellipsoid | Sphere
 """The shapes that SDF has of its own and MeshForge knows, the round ones from 1.8 on."""
-STEP = b"  "
-
 _ENDLESS = (-1e16, 1e16)
 """Limits that stand for none, which PyBullet asks for."""
 
@@ -27,11 +25,6 @@ def leaf(tag: str, text: str) -> bytes:
 
 def _number_leaf(tag: str, number: float) -> bytes:
     return leaf(tag, format_numbers([number]))
-
-
-def nest(tag: str, *inside: bytes) -> list[bytes]:
-    """Return the lines of an element that holds others, each line of which is indented."""
-    return [b"<%s>" % tag.encode(), *(STEP + line for line in inside), b"</%s>" % tag.encode()]
 
 
 def pose_leaf(pose: Pose) -> bytes:
@@ -61,12 +54,6 @@ def mesh_lines(reference: str, scale: Floats | None = None) -> list[bytes]:
     return nest("mesh", leaf("uri", reference), *scaled)
 
 
-def nest_with_name(tag: str, name: str, *inside: bytes, more: bytes = b"") -> list[bytes]:
-    """Return the lines of an element with a name; more: further attributes."""
-    first, *rest = nest(tag, *inside)
-    return [first[:-1] + b' name="%s"%s>' % (escape(name), more), *rest]
-
-
 def joint_lines(made: LinkJoint, parent: str, child: str, coupling: Coupling | None = None) -> list[bytes]:
     """Return the lines of a `<joint>`, whose frame is that of its child; coupling: to another joint, from 1.11 on."""
     joint = made.joint
@@ -84,10 +71,10 @@ def joint_lines(made: LinkJoint, parent: str, child: str, coupling: Coupling | N
         if coupling:
             offset, factor = coupling.coefficients
             numbers = (("multiplier", factor), ("offset", offset), ("reference", 0.0))
-            mimic = nest("mimic", *(_number_leaf(tag, number) for tag, number in numbers))
-            mimic[0] = b'<mimic joint="%s" axis="axis">' % escape(coupling.joint)
+            inside_mimic = (_number_leaf(tag, number) for tag, number in numbers)
+            mimic = nest("mimic", *inside_mimic, joint=coupling.joint, axis="axis")
         inside += nest("axis", *axis, *(nest("dynamics", *dynamics) if dynamics else []), *mimic)
-    return nest_with_name("joint", made.name, *inside, more=b' type="%s"' % kind.encode())
+    return nest("joint", *inside, name=made.name, type=kind)
 
 
 def inertial_lines(inertial: Inertial, root_t_link: Pose) -> list[bytes]:
@@ -97,18 +84,17 @@ def inertial_lines(inertial: Inertial, root_t_link: Pose) -> list[bytes]:
     return nest("inertial", pose_leaf(Pose.of_translation(centre)), _number_leaf("mass", inertial.mass), *moments)
 
 
-def visual_lines(name: str, visual: LinkVisual, reference: str | None) -> list[bytes]:
-    """Return the lines of a `<visual>`; reference: the mesh file of a shape that SDF lacks."""
+def visual_lines(name: str, visual: LinkVisual) -> list[bytes]:
+    """Return the lines of a `<visual>`."""
     if isinstance(visual.what, SdfShape):
         pose, kind = visual.what.pose, native_lines(visual.what)
     else:
-        file = visual.what if isinstance(visual.what, str) else reference
-        assert file is not None  # made for every shape that is not native
+        assert isinstance(visual.what, str)  # a file is made for every shape that is not native
         scale = None if np.array_equal(visual.scale, np.ones(3)) else visual.scale
-        pose, kind = visual.pose, mesh_lines(file, scale)
+        pose, kind = visual.pose, mesh_lines(visual.what, scale)
     inside = [pose_leaf(pose), *nest("geometry", *kind)]
     if visual.rgba:
         color = format_numbers(visual.rgba)
         inside += nest("material", leaf("ambient", color), leaf("diffuse", color))
         inside += [_number_leaf("transparency", 1 - visual.rgba[3])] if visual.rgba[3] < 1 else []
-    return nest_with_name("visual", name, *inside)
+    return nest("visual", *inside, name=name)

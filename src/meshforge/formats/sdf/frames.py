@@ -105,6 +105,11 @@ def is_true(text: str) -> bool:
     return text.strip().lower() in ("true", "1")
 
 
+def is_computed(inertial: Element) -> bool:
+    """Return whether Gazebo computes the mass of a link of its collisions (`<inertial auto="true">`)."""
+    return is_true(inertial.attributes.get("auto", ""))
+
+
 def read_floats(parent: Element, tag: str, where: str, default: tuple[float, ...]) -> Floats:
     """Return the numbers of a child element, `default` where it is left out, as long as that.
 

@@ -1,19 +1,19 @@
-"""Joints and masses of an SDF in the root frame, masses as the file says or as Gazebo computes them of collisions."""
+"""Joints and masses of an SDF in the root frame."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
 from meshforge.common import AssetError, join_names, pluralize
 from meshforge.formats.kinematic_tree import TENSOR_NAMES, tensor_of_moments
 from meshforge.formats.sdf.document import AXIS_IN_JOINT
-from meshforge.formats.sdf.frames import MODEL, WORLD, is_true, pose_of, read_values, text_of
+from meshforge.formats.sdf.frames import MODEL, WORLD, is_computed, is_true, pose_of, read_values, text_of
 from meshforge.formats.sdf.models import ModelScope, ModelTree
 from meshforge.formats.xml import Element, parse_numbers
-from meshforge.geometry import Floats, Pose, combine_inertias, inertia
-from meshforge.symbolic import Coupling, Geom, Inertial, Joint, JointKind, NonConvexPiece, unit_vector
+from meshforge.geometry import Floats, Pose
+from meshforge.symbolic import Coupling, Inertial, Joint, JointKind, unit_vector
 
 _KINDS: dict[str, tuple[JointKind, ...]] = {
     "fixed": ("fixed",),
@@ -26,8 +26,6 @@ _KINDS: dict[str, tuple[JointKind, ...]] = {
     "revolute2": ("revolute", "revolute"),
 }
 _ENDLESS = 1e15  # limits beyond mean none
-
-_DENSITY = 1000.0  # [kg/m^3], libsdformat's default
 _UNIT_TENSOR = (1.0, 0.0, 0.0, 1.0, 0.0, 1.0)
 
 
@@ -146,50 +144,17 @@ def _read_number(parent: Element | None, tag: str) -> float | None:
     return found[0] if found and len(found) == 1 else None
 
 
-def has_computed_mass(link: Element) -> bool:
-    """Return whether the mass of a link is computed of its collisions (`<inertial auto="true">`)."""
-    inertial = link.first("inertial")
-    return inertial is not None and is_true(inertial.attributes.get("auto", ""))
-
-
 def read_masses(tree: ModelTree) -> Iterator[Inertial]:
-    """Yield the masses that the file says. Raises AssetError with `where:line`: the pose of one is not understood."""
+    """Yield the masses that the file says; not those that Gazebo computes of collisions. Raises AssetError."""
     for body, link in tree.links.items():
         element = link.element.first("inertial")
-        if element is None or has_computed_mass(link.element):
-            continue
         mass = _number_or(element, "mass", 1.0)
-        if mass <= 0:
+        if element is None or is_computed(element) or mass <= 0:
             continue
         pose = tree.pose_in_link(link, element)
         tensor = element.first("inertia")
         moments = [_number_or(tensor, name, one) for name, one in zip(TENSOR_NAMES, _UNIT_TENSOR, strict=True)]
         yield Inertial(body, mass, pose.translation, pose.rotation @ tensor_of_moments(moments) @ pose.rotation.T)
-
-
-def compute_masses(
-    tree: ModelTree, elements: Mapping[str, Element], geoms: Sequence[Geom], non_convex: Sequence[NonConvexPiece]
-) -> Iterator[Inertial]:
-    """Yield the masses that Gazebo computes of collisions; none for a link with one that is no hull, of unknown volume.
-
-    elements: the `<collision>` of each hull by its name.
-    """
-    unknown = {piece.body for piece in non_convex}
-    for body, link in tree.links.items():
-        own = [geom for geom in geoms if geom.body == body]
-        if not has_computed_mass(link.element) or not own or body in unknown:
-            continue
-        inertial = link.element.first("inertial")
-        common = _number_or(inertial, "density", _DENSITY)
-        densities = [_number_or(elements[geom.name], "density", common) for geom in own]
-        heavy = [(geom.shape, density) for geom, density in zip(own, densities, strict=True) if density > 0]
-        if not heavy:
-            continue
-        masses = [(shape, density * shape.volume) for shape, density in heavy]
-        mass, centre, tensor = combine_inertias([(own_mass, *inertia([shape], own_mass)) for shape, own_mass in masses])
-        whole = _number_or(inertial, "mass", 0.0)  # from 1.12 on, what the link is to weigh in all
-        share = whole / mass if whole > 0 and link.scope.source.version >= (1, 12) else 1.0
-        yield Inertial(body, mass * share, centre, tensor * share)
 
 
 def _number_or(parent: Element | None, tag: str, default: float) -> float:

@@ -9,7 +9,7 @@ from pathlib import Path
 from meshforge.common import join_names, plain_path, pluralize
 from meshforge.formats import base, collision_pieces, link_reader, references
 from meshforge.formats.sdf import document, frames, models, shapes
-from meshforge.formats.sdf.mechanism import compute_masses, has_computed_mass, read_joints, read_masses
+from meshforge.formats.sdf.mechanism import read_joints, read_masses
 from meshforge.formats.xml import Element, parse_numbers
 from meshforge.geometry import Floats, Pose
 from meshforge.symbolic import Asset, Body, FileNote, Mechanism, Rgba
@@ -26,11 +26,9 @@ def read_sdf(path: Path, options: base.ReadOptions) -> Asset:
     collisions = reader.read_collisions(links.values())
     elements = [element for _, element in collisions.found]
     numbers = {body: link.scope.source.number for body, link in links.items()}
-    own = {n: e for e, one in zip(elements, collisions.authored, strict=True) for n in one.names}
     joints, notes = read_joints(tree)
     world = [Body(frames.WORLD, Pose.identity())] if any(joint.parent == frames.WORLD for joint in joints) else []
-    masses = (*read_masses(tree), *compute_masses(tree, own, collisions.geoms, collisions.non_convex))
-    files, missing = find_files(tree.sources)
+    files, missing = _find_files(tree.sources)
     return Asset(
         path=path,
         format="sdf",
@@ -39,10 +37,9 @@ def read_sdf(path: Path, options: base.ReadOptions) -> Asset:
         document=document.SdfDocument(
             tuple(tree.sources),
             collisions.authored,
-            tuple(document.ElementPlace(numbers[link.body], element.start) for link, element in collisions.found),
-            {body: document.ElementPlace(numbers[body], link.element.start) for body, link in links.items()},
+            tuple((numbers[link.body], element.start) for link, element in collisions.found),
+            {body: (numbers[body], link.element.start) for body, link in links.items()},
             tuple(tree.worlds),
-            tuple(body for body, link in links.items() if has_computed_mass(link.element)),
             collisions.digests,
         ),
         non_convex=collisions.non_convex,
@@ -50,7 +47,7 @@ def read_sdf(path: Path, options: base.ReadOptions) -> Asset:
         files=files,
         missing=missing,
         notes=(*tree.notes, *notes, *_collect_notes(tree, elements)),
-        mechanism=Mechanism(tuple(joints), masses),
+        mechanism=Mechanism(tuple(joints), tuple(read_masses(tree))),
     )
 
 
@@ -129,19 +126,16 @@ def _collect_notes(tree: models.ModelTree, collisions: Sequence[Element]) -> Ite
         yield FileNote(f"{meshes} to be decomposed by Gazebo when loaded, shown as authored")
 
 
-def find_files(sources: Sequence[document.SdfSource]) -> tuple[tuple[Path, ...], tuple[str, ...]]:
-    """Return the included and referenced files that are there, with their companions, and the references that lead
-    nowhere."""
+def _find_files(sources: Sequence[document.SdfSource]) -> tuple[tuple[Path, ...], tuple[str, ...]]:
+    """The included and referenced files that are there, with their companions, and the references that lead nowhere."""
     files: dict[Path, None] = {}
     missing: dict[str, None] = {}
     for number, source in enumerate(sources):
-        if number:
-            files[source.path] = None
-        if (config := source.path.parent / document.CONFIG).is_file():
-            files[config] = None
-        root, _ = document.parse_root(source.text.data, str(source.path))
-        found, absent = references.find_all(document.references(root), source.resolver)
-        files |= dict.fromkeys(found)
-        missing |= dict.fromkeys(absent)
-        files |= dict.fromkeys(path for _, path in document.find_scripts(source))
+        config = source.path.parent / document.CONFIG
+        files |= dict.fromkeys([*[source.path] * bool(number), *[config] * config.is_file()])
+        for reference, path in document.list_references(source, source.text.data):
+            if path is None:
+                missing[reference] = None
+            else:
+                files |= dict.fromkeys((path, *references.find_companions(path).values()))
     return tuple(files), tuple(missing)

@@ -10,7 +10,7 @@ from meshforge.formats import collision_pieces, conversion, element_edits, kinem
 from meshforge.formats.base import Loss, Output
 from meshforge.formats.urdf import edit
 from meshforge.formats.urdf.document import VISUAL_SUFFIXES
-from meshforge.formats.xml import escape
+from meshforge.formats.xml import nest, tag
 from meshforge.geometry import Capsule
 from meshforge.symbolic import Asset, FeatureKind, Surface
 
@@ -38,14 +38,10 @@ class _Creator(link_output.LinkCreator):
     def build_output(self) -> Output:
         names = element_edits.assign_names([output for own in self.outputs.values() for output in own], unique=True)
         files = self.maker.files
-        head = [b'<?xml version="1.0"?>', b'<robot name="%s">' % escape(files.stem)]
-        links = [line for link in self.chain.frames for line in self._link_lines(link)]
-        joints = [
-            line
-            for joint in self.chain.joints
-            for line in edit.joint_lines(joint, self.couplings.by_joint.get(joint.name))
-        ]
-        main = b"\n".join([*head, *links, *joints, b"</robot>", b""])
+        inside = [line for link in self.chain.frames for line in self._link_lines(link)]
+        for joint in self.chain.joints:
+            inside += edit.joint_lines(joint, self.couplings.by_joint.get(joint.name))
+        main = b"\n".join([b'<?xml version="1.0"?>', *nest("robot", *inside, name=files.stem), b""])
         lost = self.collect_losses()
         return Output(main, dict(files.made), self.visuals.copies, self._collect_notes(), names, lost)
 
@@ -56,11 +52,9 @@ class _Creator(link_output.LinkCreator):
     def _link_lines(self, link: str) -> list[bytes]:
         inertial, frame = self.inertial_of(link)
         inside = edit.inertial_lines(inertial, frame) if inertial else []
-        inside += [line for visual in self.shown[link] for line in edit.visual_lines(*visual)]
-        inside += [self.lead + output.to_bytes(b"") for output in self.outputs[link]]
-        if not inside:
-            return [b'  <link name="%s"/>' % escape(link)]
-        return [b'  <link name="%s">' % escape(link), *inside, b"  </link>"]
+        inside += [line for visual in self.shown[link] for line in edit.visual_lines(visual)]
+        inside += [output.to_bytes(b"") for output in self.outputs[link]]
+        return nest("link", *inside, name=link) if inside else [tag("link", {"name": link})]
 
     def _collect_notes(self) -> tuple[str, ...]:
         notes = [*self.chain.notes, *self.couplings.notes]

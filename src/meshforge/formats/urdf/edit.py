@@ -26,32 +26,22 @@ _UNKNOWN_MAXIMUM = 1000.0  # [N, Nm, m/s, rad/s], for joints of which no largest
 
 
 def native_tag(shape: UrdfShape | Capsule) -> bytes:
-    """Return the element of a native shape, without its pose."""
+    """Return the element of a native shape, without its pose; the length of a capsule is that of the cylinder in it."""
     match shape:
         case Box():
-            return b'<box size="%s"/>' % _text_of(*2 * shape.half)
-        case Cylinder():
-            return b'<cylinder radius="%s" length="%s"/>' % (_text_of(shape.radius), _text_of(2 * shape.half_length))
-        case Capsule():  # of which the length is that of the cylinder in it
-            return b'<capsule radius="%s" length="%s"/>' % (_text_of(shape.radius), _text_of(2 * shape.half_length))
+            sizes = {"size": xml.format_numbers(2 * shape.half)}
+        case Cylinder() | Capsule():
+            sizes = {"radius": _text_of(shape.radius), "length": _text_of(2 * shape.half_length)}
         case Sphere():
-            return b'<sphere radius="%s"/>' % _text_of(shape.radius)
+            sizes = {"radius": _text_of(shape.radius)}
         case _:
             assert_never(shape)
-
-
-def mesh_tag(reference: str) -> bytes:
-    """Return the element of a mesh file in metres."""
-    return b'<mesh filename="%s"/>' % xml.escape(reference)
+    return xml.tag(shape.kind, sizes)
 
 
 def origin_tag(pose: Pose) -> bytes:
     """Return the element of a pose, its numbers in full precision."""
-    return b'<origin xyz="%s" rpy="%s"/>' % (_text_of(*pose.translation), _text_of(*pose.to_rpy()))
-
-
-def _place_lines(pose: Pose, tag: bytes) -> list[bytes]:
-    return [origin_tag(pose), b"<geometry>", b"  " + tag, b"</geometry>"]
+    return xml.tag("origin", {"xyz": xml.format_numbers(pose.translation), "rpy": xml.format_numbers(pose.to_rpy())})
 
 
 def joint_lines(made: kinematic_tree.LinkJoint, coupling: Coupling | None) -> list[bytes]:
@@ -59,63 +49,48 @@ def joint_lines(made: kinematic_tree.LinkJoint, coupling: Coupling | None) -> li
     joint = made.joint
     kind = joint.kind if joint else "fixed"
     type_ = "continuous" if joint and kind == "revolute" and joint.limits is None else kind
-    lines = [
-        b'  <joint name="%s" type="%s">' % (xml.escape(made.name), type_.encode()),
-        b"    " + origin_tag(made.pose),
-        b'    <parent link="%s"/>' % xml.escape(made.parent),
-        b'    <child link="%s"/>' % xml.escape(made.child),
-    ]
+    inside = [origin_tag(made.pose), xml.tag("parent", {"link": made.parent}), xml.tag("child", {"link": made.child})]
     if kind in ("revolute", "prismatic", "planar"):
-        lines.append(b'    <axis xyz="%s"/>' % _text_of(*kinematic_tree.drop_rounding(made.axis)))
+        inside.append(xml.tag("axis", {"xyz": xml.format_numbers(kinematic_tree.drop_rounding(made.axis))}))
     if joint and kind in ("revolute", "prismatic"):
         lower, upper = joint.limits or (-UNLIMITED_TRAVEL, UNLIMITED_TRAVEL)
-        range_ = b"" if type_ == "continuous" else b'lower="%s" upper="%s" ' % (_text_of(lower), _text_of(upper))
-        most = _text_of(joint.effort or _UNKNOWN_MAXIMUM), _text_of(joint.velocity or _UNKNOWN_MAXIMUM)
+        range_ = {} if type_ == "continuous" else {"lower": _text_of(lower), "upper": _text_of(upper)}
+        most = {"effort": joint.effort or _UNKNOWN_MAXIMUM, "velocity": joint.velocity or _UNKNOWN_MAXIMUM}
         if range_ or joint.effort or joint.velocity:
-            lines.append(b'    <limit %seffort="%s" velocity="%s"/>' % (range_, *most))
+            inside.append(xml.tag("limit", range_ | {name: _text_of(number) for name, number in most.items()}))
     if joint and (joint.damping or joint.friction):
-        losses = _text_of(joint.damping), _text_of(joint.friction)
-        lines.append(b'    <dynamics damping="%s" friction="%s"/>' % losses)
+        inside.append(xml.tag("dynamics", {"damping": _text_of(joint.damping), "friction": _text_of(joint.friction)}))
     if coupling:
-        numbers = tuple(_text_of(number) for number in reversed(coupling.coefficients))
-        lines.append(b'    <mimic joint="%s" multiplier="%s" offset="%s"/>' % (xml.escape(coupling.joint), *numbers))
-    return [*lines, b"  </joint>"]
+        offset, factor = map(_text_of, coupling.coefficients)
+        inside.append(xml.tag("mimic", {"joint": coupling.joint, "multiplier": factor, "offset": offset}))
+    return xml.nest("joint", *inside, name=made.name, type=type_)
 
 
 def inertial_lines(inertial: Inertial, root_t_link: Pose) -> list[bytes]:
     """Return the lines of an `<inertial>`, its axes those of the link."""
     centre, tensor = kinematic_tree.place_inertial(inertial, root_t_link)
-    moments = b" ".join(
-        b'%s="%s"' % (name.encode(), _text_of(value)) for name, value in kinematic_tree.name_moments(tensor)
-    )
-    return [
-        b"    <inertial>",
-        b"      " + origin_tag(Pose.of_translation(centre)),
-        b'      <mass value="%s"/>' % _text_of(inertial.mass),
-        b"      <inertia %s/>" % moments,
-        b"    </inertial>",
-    ]
+    moments = {name: _text_of(value) for name, value in kinematic_tree.name_moments(tensor)}
+    mass = xml.tag("mass", {"value": _text_of(inertial.mass)})
+    return xml.nest("inertial", origin_tag(Pose.of_translation(centre)), mass, xml.tag("inertia", moments))
 
 
-def visual_lines(visual: mesh_output.LinkVisual, reference: str | None = None) -> list[bytes]:
-    """Return the lines of a `<visual>`; reference: the mesh file of a shape that URDF lacks."""
+def visual_lines(visual: mesh_output.LinkVisual) -> list[bytes]:
+    """Return the lines of a `<visual>`."""
     if isinstance(visual.what, Box | Cylinder | Sphere):
-        pose, tag = visual.what.pose, native_tag(visual.what)
+        pose, kind = visual.what.pose, native_tag(visual.what)
     else:
-        file = visual.what if isinstance(visual.what, str) else reference
-        assert file is not None  # made for every shape that is not native
-        pose, tag = visual.pose, mesh_tag(file)
-        if not np.array_equal(visual.scale, np.ones(3)):
-            tag = tag[:-2] + b' scale="%s"/>' % _text_of(*visual.scale)
-    inside = _place_lines(pose, tag)
+        assert isinstance(visual.what, str)  # a file is made for every shape that is not native
+        scale = {} if np.array_equal(visual.scale, np.ones(3)) else {"scale": xml.format_numbers(visual.scale)}
+        pose, kind = visual.pose, xml.tag("mesh", {"filename": visual.what, **scale})
+    inside = [origin_tag(pose), *xml.nest("geometry", kind)]
     if visual.rgba:  # a material named by its numbers: equal names must be equal colours
-        color = _text_of(*visual.rgba)
-        inside.append(b'<material name="rgba %s"><color rgba="%s"/></material>' % (color, color))
-    return [b"    <visual>", *(b"      " + line for line in inside), b"    </visual>"]
+        color = xml.format_numbers(visual.rgba)
+        inside.append(b'<material name="rgba %s">%s</material>' % (color.encode(), xml.tag("color", {"rgba": color})))
+    return xml.nest("visual", *inside)
 
 
-def _text_of(*values: float) -> bytes:
-    return xml.format_numbers(values).encode()
+def _text_of(value: float) -> str:
+    return xml.format_numbers([value])
 
 
 def write_urdf(asset: Asset, document: UrdfDocument, name: str, *, capsules: bool = False) -> base.Output:
@@ -176,10 +151,10 @@ class UrdfElementMaker(element_edits.ElementMaker):
         return None
 
     def mesh_lines(self, reference: str) -> list[bytes]:
-        return [mesh_tag(reference)]
+        return [xml.tag("mesh", {"filename": reference})]
 
     def build_collision(self, pose: Pose, kind: Sequence[bytes], lead: bytes) -> bytes:
-        lines = [b"<collision>", *(b"  " + line for line in _place_lines(pose, *kind)), b"</collision>"]
+        lines = xml.nest("collision", origin_tag(pose), *xml.nest("geometry", *kind))
         return (xml.newline_of(self.data) + lead).join(lines)
 
     def replace_geometry(
