@@ -12,7 +12,7 @@ import numpy.typing as npt
 from meshforge.geometry import Floats, Ints
 from meshforge.rendering.annotation import text_scale
 from meshforge.rendering.camera import Camera, Floats32
-from meshforge.rendering.light import compute_ground_shadow, compute_openness, shade
+from meshforge.rendering.light import compute_openness, shade
 from meshforge.rendering.raycast import DrawLayer, RayHits, ViewFrame, cast_layer, neighbour_slices
 from meshforge.rendering.scene import RayScene
 
@@ -114,9 +114,14 @@ def paint(layers: Sequence[DrawLayer], frame: ViewFrame, camera: Camera, fine: i
     """
     close = camera.supersample(fine)
     solid = cast_layer(layers[0], frame, close)
-    buffer = Framebuffer(compute_ground_shadow(solid.scene, frame, close) * np.float32(_SHADOW))
+    openness = compute_openness(solid, frame, close)
+    buffer = Framebuffer((1 - openness) * np.float32(_SHADOW))
+    rows, columns = pixels_where(solid.item >= 0)
+    color = _shade_surface(layers[0], solid, frame, close, rows, columns)
+    color *= (1 - _CORNER * (1 - openness[rows, columns]))[:, None]
+    color += (1 - color) * (0.55 * _is_between_stripes(layers[0], solid)[rows, columns])[:, None]
+    buffer.blend(rows, columns, color)
     width = max(2, round(1.1 * fine * min(text_scale(camera.size), 2.0)))
-    _draw_solid(buffer, layers[0], solid, frame, close)
     drawn = trace_lines(solid, width)
     rows, columns = pixels_where(drawn)
     buffer.blend(rows, columns, _INK, _STRENGTH[drawn[rows, columns]])  # dark lines over the picture
@@ -128,14 +133,6 @@ def paint(layers: Sequence[DrawLayer], frame: ViewFrame, camera: Camera, fine: i
             buffer, layer, hits, np.where(_is_lines_only(layer, solid), 0.7, 1.6 * share).clip(0, 1), width
         )
     return Raster(buffer.downsample(fine), solid.item[fine // 2 :: fine, fine // 2 :: fine])
-
-
-def _draw_solid(buffer: Framebuffer, layer: DrawLayer, hits: RayHits, frame: ViewFrame, camera: Camera) -> None:
-    rows, columns = pixels_where(hits.item >= 0)
-    color = _shade_surface(layer, hits, frame, camera, rows, columns)
-    color *= (1 - _CORNER * (1 - compute_openness(hits, camera, rows, columns)))[:, None]
-    color += (1 - color) * (0.55 * _is_between_stripes(layer, hits)[rows, columns])[:, None]
-    buffer.blend(rows, columns, color)
 
 
 def _shade_surface(
