@@ -1,4 +1,4 @@
-"""What a series of labelling pictures shows: the hulls of a mesh in their places, or some of them among faint others."""
+"""What a series of labelling pictures shows: the hulls of a mesh in their places, or some among faint others."""
 
 from __future__ import annotations
 
