@@ -19,10 +19,10 @@ LABEL_COLORS = (
 """Colours of labels, in the order of the vocabulary: Okabe and Ito's, without their black; after these, each the
 farthest from those before it, as seen by normal, deuteranopic and protanopic eyes, grey kept free."""
 HULL_COLORS = (
-    "#799BC3", "#D8D776", "#B0D5FE", "#7CA857", "#F7958E", "#46CDB7", "#B1A8FC", "#D47795", "#FBBFC5", "#79EAC2", "#D8AD52", "#16B09B",
-    "#D2A4C5", "#40C7E5", "#83C883", "#D77C63", "#BD7EC2", "#F8B6FE", "#EECA9F", "#958BDE", "#5DE8F5", "#D0AE83", "#7EA47D", "#9EB4E2",
-    "#F393B1", "#A0E69F", "#B588A9", "#DA99DF", "#90C2A2", "#48A1DB", "#F29C6F", "#61A5AC", "#7DC2C9", "#9AE0DD", "#C08883", "#EFC0E3",
-    "#AAC064", "#07AAC7", "#66BEF9", "#B6DEB4",
+    "#799BC3", "#D8D776", "#B0D5FE", "#7CA857", "#F7958E", "#46CDB7", "#B1A8FC", "#D47795", "#FBBFC5", "#79EAC2",
+    "#D8AD52", "#16B09B", "#D2A4C5", "#40C7E5", "#83C883", "#D77C63", "#BD7EC2", "#F8B6FE", "#EECA9F", "#958BDE",
+    "#5DE8F5", "#D0AE83", "#7EA47D", "#9EB4E2", "#F393B1", "#A0E69F", "#B588A9", "#DA99DF", "#90C2A2", "#48A1DB",
+    "#F29C6F", "#61A5AC", "#7DC2C9", "#9AE0DD", "#C08883", "#EFC0E3", "#AAC064", "#07AAC7", "#66BEF9", "#B6DEB4",
 )  # fmt: skip
 """Colours of hulls, of even strength, without grey and muddy ones: each the farthest from those before it, as above."""
 UNLABELLED = "#B4B9C0"

@@ -75,8 +75,8 @@ def compute_openness(hits: RayHits, frame: ViewFrame, camera: Camera) -> Floats3
     grid = np.ones(coarse.size, np.float32)
     grid[near] = _measure_free_share(hits.scene, points[near], normals[near], _DITHER[r % 4, c % 4][near])
     grid = _smooth(grid.reshape(coarse.shape), np.append(hits.scene.facet, -1)[coarse])
-    cells = (np.minimum(np.arange(n) // _SKY_STEP, k - 1) for n, k in zip(found.shape, grid.shape, strict=True))
-    fine = np.nonzero((grid < 1)[np.ix_(*cells)])
+    high, wide = (np.minimum(np.arange(found.shape[k]) // _SKY_STEP, grid.shape[k] - 1) for k in (0, 1))
+    fine = np.nonzero((grid < 1)[np.ix_(high, wide)])
     found[fine] = _upsample(grid, coarse, hits, *fine)
     return found
 
