@@ -96,11 +96,11 @@ def draw_on_canvas(
     frame = ViewFrame(bounds or Aabb.of_points(what.points), up_vector(what.up))
     points = frame.to_unit(what.points if bounds is None else bounds.corners)
     fine = 2 if size[0] * size[1] > 250_000 else 3
-    painted = paint(what.layers, frame, aim_camera(view, what.up, size, points), fine)
-    canvas.paste_drawing(painted.pixels, (left, top))
+    pixels, items = paint(what.layers, frame, aim_camera(view, what.up, size, points), fine)
+    canvas.paste_drawing(pixels, (left, top))
     if not any(layer.render_meshes for layer in what.layers):
         canvas.write_message("no hulls", (left, top, right, bottom))
-    return painted.items
+    return items
 
 
 def _check_arguments(views: Sequence[str], color_by: str, size: tuple[int, int]) -> None:

@@ -57,7 +57,7 @@ def draw_turn(
         row = []
         for subject in subjects:
             canvas = Canvas(size, _BACKGROUND, None, None, HullColors(subject.layers[0].colors))
-            canvas.paste_drawing(paint(subject.layers, frame, camera, _FINE).pixels, (0, 0))
+            canvas.paste_drawing(paint(subject.layers, frame, camera, _FINE)[0], (0, 0))
             if not subject.layers[0].render_meshes:
                 canvas.write_message("no hulls", canvas.room)
             row.append(canvas.image)
