@@ -14,7 +14,7 @@ from meshforge.geometry import Floats
 from meshforge.rendering import RenderMesh, View, label_colors, write_png
 from meshforge.rendering.annotation import font, shorten
 from meshforge.rendering.canvas import Canvas
-from meshforge.rendering.colors import HullColors, candidate_colors, rgb
+from meshforge.rendering.colors import HULL_COLORS, HullColors, rgb
 from meshforge.rendering.hull_names import place_texts
 from meshforge.rendering.picture import Subject, draw_on_canvas
 from meshforge.rendering.placement import draw_texts
@@ -74,8 +74,7 @@ def describe_piece(surface: AssetSurface, piece: Patch) -> str:
 
 def _distinct_colors(count: int) -> Floats:
     """Colours (count, 3), neighbours in the list far apart."""
-    pool, _ = candidate_colors()
-    return np.asarray(pool[(np.arange(count) * 37) % len(pool)])
+    return np.array([rgb(HULL_COLORS[k % len(HULL_COLORS)]) for k in range(count)]).reshape(-1, 3)
 
 
 def _write(

@@ -38,7 +38,7 @@ class RenderArguments:
     labels: LabelsPath = None
     project: InProject = None
     color_by: Annotated[
-        Literal["hull", "label", "body", "confidence"] | None,
+        Literal["hull", "label", "body"] | None,
         typer.Option("--color-by", help="Default: label where there are labels, else hull."),
     ] = None
     views: Annotated[

@@ -7,8 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from meshforge.formats import Source, to_mesh
-from meshforge.geometry import is_same_shape
-from meshforge.symbolic import SymbolicMesh
+from meshforge.symbolic import SymbolicMesh, find_unchanged
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -67,15 +66,13 @@ def diff(before: SymbolicMesh | Source, after: SymbolicMesh | Source, out: str |
 
     check_picture_path(Path(out))
     found = compare_meshes(to_mesh(before), to_mesh(after))
-    write_picture(Path(out), draw_changes(found.before, found.after, found.changed))
+    write_picture(Path(out), draw_changes(found.before, found.after))
     return found
 
 
 def compare_meshes(before: SymbolicMesh, after: SymbolicMesh) -> Difference:
     """Return the difference of two meshes; shapes count as one within a millionth of the larger diagonal."""
-    near = 1e-6 * max(before.diagonal, after.diagonal)
-    both = [name for name in before.index if name in after.index]
-    kept = {n for n in both if is_same_shape(before.hull_of(n).shape, after.hull_of(n).shape, near)}
+    both, kept = [name for name in before.index if name in after.index], find_unchanged(before, after)
     return Difference(
         before,
         after,

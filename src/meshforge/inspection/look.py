@@ -31,8 +31,8 @@ def render(
     """Draw an asset, one colour a hull or a label; the same input gives the same picture. It needs no display.
 
     asset: a mesh, or what `load` reads. out: a PNG or JPEG to write. views: one, or several that share the picture:
-    `iso`, `front`, `left`, `top`, `front-right-above` and so on. color_by: `hull`, `label`, `body` or `confidence`, by
-    default the label where there are labels, else the hull. size: width and height [px]. highlight: names of hulls to
+    `iso`, `front`, `left`, `top`, `front-right-above` and so on. color_by: `hull`, `label` or `body`, by default
+    the label where there are labels, else the hull. size: width and height [px]. highlight: names of hulls to
     show in a strong colour. ghost: show the visual mesh, too. names: write the names of hulls on them, or numbers with
     a list of names below.
     Raises AssetError for a file that cannot be read, UsageError for an unknown view or colouring, an impossible size,

@@ -23,7 +23,6 @@ from meshforge.rendering.comparison import draw_changes as draw_changes
 from meshforge.rendering.comparison import draw_difference as draw_difference
 from meshforge.rendering.comparison import draw_heat_map as draw_heat_map
 from meshforge.rendering.comparison import draw_volumes as draw_volumes
-from meshforge.rendering.comparison import find_replaced as find_replaced
 from meshforge.rendering.id_buffer import ThumbnailPixels as ThumbnailPixels
 from meshforge.rendering.id_buffer import render_revealing as render_revealing
 from meshforge.rendering.id_buffer import render_thumbnail as render_thumbnail

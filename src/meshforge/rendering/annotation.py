@@ -10,13 +10,12 @@ from typing import Any
 import numpy as np
 
 from meshforge.geometry import Ints
-from meshforge.rendering.colors import HullColors, LegendEntry, confidence_color, hexadecimal, rgb
+from meshforge.rendering.colors import HullColors, LegendEntry, hexadecimal, rgb
 
 INK = "#1F2530"
 FAINT = "#6B7482"
 
 _ROWS = 3  # of a legend at most; what does not fit is counted
-_SCALE_WIDTH = 300  # of the scale of confidence in a legend, with the room about it [px]
 Chip = tuple[LegendEntry, float, int]
 """An entry, where it begins in its row [px], and its row."""
 
@@ -80,7 +79,7 @@ def legend_height(coloring: HullColors, size: tuple[int, int]) -> int:
     """Return the height that the legend takes at the bottom of a picture."""
     rows = 1 + max((row for _, _, row in _lay_out_entries(coloring, size)), default=-1)
     u = text_scale(size)
-    return round(rows * 24 * u + 12 * u) if rows or coloring.gradient else 0
+    return round(rows * 24 * u + 12 * u) if rows else 0
 
 
 def draw_legend(draw: Any, size: tuple[int, int], coloring: HullColors) -> None:
@@ -88,8 +87,6 @@ def draw_legend(draw: Any, size: tuple[int, int], coloring: HullColors) -> None:
     u = text_scale(size)
     small, box = round(13 * u), round(12 * u)
     top = size[1] - legend_height(coloring, size) + round(6 * u)
-    if coloring.gradient:
-        _draw_scale(draw, size, top)
     for entry, x, row in _lay_out_entries(coloring, size):
         y = top + row * 24 * u
         if entry.color:
@@ -107,11 +104,12 @@ def draw_legend(draw: Any, size: tuple[int, int], coloring: HullColors) -> None:
 def _lay_out_entries(coloring: HullColors, size: tuple[int, int]) -> list[Chip]:
     """The entries laid out in rows, as many as fit; where some do not, the last place has the number of the rest."""
     u = text_scale(size)
-    edge, right = 16 * u, size[0] - 16 * u
-    x, row = edge + (_SCALE_WIDTH * u if coloring.gradient else 0), 0
+    edge, right, small = 16 * u, size[0] - 16 * u, round(13 * u)
+    x, row = edge, 0
     placed: list[Chip] = []
     for k, entry in enumerate(coloring.legend):
-        wide = _chip_width(entry, size)
+        count = "" if entry.count is None else f" {entry.count}"
+        wide = 18 * u + text_width(shorten(entry.name, small, size[0] / 3) + count, small)
         if x + wide > right and x > edge:
             x, row = edge, row + 1
         if row == _ROWS:
@@ -120,24 +118,6 @@ def _lay_out_entries(coloring: HullColors, size: tuple[int, int]) -> list[Chip]:
         placed.append((entry, x, row))
         x += wide + 18 * u
     return placed
-
-
-def _chip_width(entry: LegendEntry, size: tuple[int, int]) -> float:
-    u = text_scale(size)
-    small = round(13 * u)
-    count = "" if entry.count is None else f" {entry.count}"
-    return 18 * u + text_width(shorten(entry.name, small, size[0] / 3) + count, small)
-
-
-def _draw_scale(draw: Any, size: tuple[int, int], top: int) -> None:
-    u = text_scale(size)
-    small, length, high = round(13 * u), round(150 * u), round(12 * u)
-    x = round(16 * u)
-    draw.text((x, top + high / 2), "unsure", fill=FAINT, font=font(small), anchor="lm")
-    x += round(52 * u)
-    for k in range(length):
-        draw.line((x + k, top, x + k, top + high), fill=hexadecimal(confidence_color(k / max(length - 1, 1))))
-    draw.text((x + length + 8 * u, top + high / 2), "certain", fill=FAINT, font=font(small), anchor="lm")
 
 
 @dataclass(frozen=True, slots=True)

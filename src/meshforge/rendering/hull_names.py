@@ -67,13 +67,9 @@ def _is_readable(places: Sequence[NumberPlace], items: Ints) -> bool:
     seen = int((count_pixels(items) >= LEAST_PIXELS).sum())
     if len(places) < seen or len(places) > _MOST_NAMES:
         return False
-    covered = [_share_covered(place, items) for place in places if place.spot]
+    boxes = [[round(side) for side in place.box] for place in places if place.spot]
+    covered = [float((items[top:bottom, left:right] >= 0).mean()) for left, top, right, bottom in boxes]
     return not covered or float(np.mean(covered)) <= _MOST_COVERED
-
-
-def _share_covered(place: NumberPlace, items: Ints) -> float:
-    left, top, right, bottom = (round(side) for side in place.box)
-    return float((items[top:bottom, left:right] >= 0).mean())
 
 
 def _add_legend(image: Image, note: str, entries: Mapping[int, str], colors: Floats, hidden: Collection[int]) -> Image:

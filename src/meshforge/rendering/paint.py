@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from meshforge.geometry import Floats, Ints
+from meshforge.geometry import Ints
 from meshforge.rendering.annotation import text_scale
 from meshforge.rendering.camera import Camera, Floats32
-from meshforge.rendering.light import compute_ground_shadow, compute_openness, shade
+from meshforge.rendering.light import compute_openness, shade
 from meshforge.rendering.raycast import DrawLayer, RayHits, ViewFrame, cast_layer, neighbour_slices
 from meshforge.rendering.scene import RayScene
 
@@ -27,44 +26,13 @@ _SAME_DEPTH = 5e-4  # shells this little behind a solid thing count as before it
 _SHADOW = 0.36  # how dark the ground is where it sees no sky
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class Raster:
-    """A drawing: pixels (h, w, 4), premultiplied, in 0..1; items (h, w), the solid things seen, -1 for none."""
-
-    pixels: Floats32
-    items: Ints
+def _blend(pixels: Floats32, rows: Ints, columns: Ints, color: Floats32, share: Floats32) -> None:
+    """Lay colours (n, 3) over premultiplied pixels (h, w, 4), as much of them as `share` (n,) in 0..1 says."""
+    over = np.column_stack([color * share[:, None], share])
+    pixels[rows, columns] = pixels[rows, columns] * (1 - share)[:, None] + over
 
 
-class Framebuffer:
-    """Premultiplied pixels; black with the alpha (h, w) given, at first."""
-
-    def __init__(self, alpha: Floats32) -> None:
-        self._shape = alpha.shape
-        self._rgb = np.zeros((alpha.size, 3), np.float32)
-        self._alpha = np.ascontiguousarray(alpha, np.float32).ravel()
-
-    def blend(self, rows: Ints, columns: Ints, color: Floats32, share: Floats32 | None = None) -> None:
-        """Lay colours (n, 3) over pixels (n,), as much of them as `share` (n,) in 0..1 says, wholly by default."""
-        at = rows * self._shape[1] + columns
-        if share is None:
-            self._rgb[at], self._alpha[at] = color, 1.0
-            return
-        keep = 1 - share
-        self._rgb[at] = self._rgb[at] * keep[:, None] + color * share[:, None]
-        self._alpha[at] = self._alpha[at] * keep + share
-
-    def downsample(self, fine: int) -> Floats32:
-        """Return the mean (h, w, 4) of each block of `fine` times `fine` pixels."""
-        height, width = self._shape
-        out = np.empty((height // fine, width // fine, 4), np.float32)
-        for part, values in ((slice(0, 3), self._rgb.reshape(height, width, 3)), (slice(3, 4), self._alpha)):
-            blocks = values.reshape(height, width, -1)
-            total = sum(blocks[r::fine, c::fine] for r in range(fine) for c in range(fine))
-            out[..., part] = total / np.float32(fine * fine)
-        return out
-
-
-def pixels_where(mask: Any) -> tuple[Ints, Ints]:
+def _pixels_where(mask: Any) -> tuple[Ints, Ints]:
     """Return rows and columns of the pixels (h, w) that are set; quicker than `nonzero`."""
     rows, columns = np.divmod(np.flatnonzero(mask), mask.shape[1])
     return rows, columns
@@ -107,35 +75,53 @@ def _widen(found: LineStrengths, by: int) -> LineStrengths:
     return found
 
 
-def paint(layers: Sequence[DrawLayer], frame: ViewFrame, camera: Camera, fine: int) -> Raster:
-    """Return the drawing, of the camera's size, from `fine` times as many rays along each side.
+def paint(layers: Sequence[DrawLayer], frame: ViewFrame, camera: Camera, fine: int) -> tuple[Floats32, Ints]:
+    """Return a drawing of the camera's size: pixels (h, w, 4), premultiplied, in 0..1, and items (h, w), the solid
+    things seen, -1 for none.
 
-    layers: a solid one, then shells.
+    layers: a solid one, then shells; fine: how many times as many rays there are along each side.
     """
     close = camera.supersample(fine)
     solid = cast_layer(layers[0], frame, close)
-    buffer = Framebuffer(compute_ground_shadow(solid.scene, frame, close) * np.float32(_SHADOW))
+    openness = compute_openness(solid, frame, close)
+    pixels = np.zeros((*openness.shape, 4), np.float32)
+    pixels[..., 3] = (1 - openness) * np.float32(_SHADOW)
+    rows, columns = _pixels_where(solid.item >= 0)
+    color = _shade_surface(layers[0], solid, frame, close, rows, columns)
+    color *= (1 - _CORNER * (1 - openness[rows, columns]))[:, None]
+    color += (1 - color) * (0.55 * _is_between_stripes(layers[0], solid)[rows, columns])[:, None]
+    pixels[rows, columns, :3], pixels[rows, columns, 3] = color, 1.0
     width = max(2, round(1.1 * fine * min(text_scale(camera.size), 2.0)))
-    _draw_solid(buffer, layers[0], solid, frame, close)
     drawn = trace_lines(solid, width)
-    rows, columns = pixels_where(drawn)
-    buffer.blend(rows, columns, _INK, _STRENGTH[drawn[rows, columns]])  # dark lines over the picture
+    rows, columns = _pixels_where(drawn)
+    _blend(pixels, rows, columns, _INK, _STRENGTH[drawn[rows, columns]])  # dark lines over the picture
     for layer in layers[1:]:
-        hits = cast_layer(layer, frame, close)
-        share = _shell_shares(layer, hits, solid, close)
-        _draw_shell(buffer, layer, hits, share, frame, close)
-        _draw_shell_lines(
-            buffer, layer, hits, np.where(_is_lines_only(layer, solid), 0.7, 1.6 * share).clip(0, 1), width
-        )
-    return Raster(buffer.downsample(fine), solid.item[fine // 2 :: fine, fine // 2 :: fine])
+        _paint_shell(pixels, layer, solid, frame, close, width)
+    height, across = (side // fine for side in openness.shape)
+    mean: Floats32 = pixels.reshape(height, fine, across, fine, 4).mean(axis=(1, 3))
+    return mean, solid.item[fine // 2 :: fine, fine // 2 :: fine]
 
 
-def _draw_solid(buffer: Framebuffer, layer: DrawLayer, hits: RayHits, frame: ViewFrame, camera: Camera) -> None:
-    rows, columns = pixels_where(hits.item >= 0)
-    color = _shade_surface(layer, hits, frame, camera, rows, columns)
-    color *= (1 - _CORNER * (1 - compute_openness(hits, camera, rows, columns)))[:, None]
-    color += (1 - color) * (0.55 * _is_between_stripes(layer, hits)[rows, columns])[:, None]
-    buffer.blend(rows, columns, color)
+def _paint_shell(
+    pixels: Floats32, layer: DrawLayer, solid: RayHits, frame: ViewFrame, camera: Camera, width: int
+) -> None:
+    """Lay a shell over the picture, and its lines in its own darkened colours."""
+    hits = cast_layer(layer, frame, camera)
+    share = np.zeros(hits.item.shape, np.float32)
+    share[hits.item >= 0] = layer.before
+    rows, columns = _pixels_where((hits.item >= 0) & (solid.item >= 0))
+    farther = hits.depth(camera, rows, columns) > solid.depth(camera, rows, columns) + _SAME_DEPTH
+    share[rows[farther], columns[farther]] = layer.behind
+    share[_is_between_stripes(layer, hits)] *= 0.45
+    only_lines = np.isin(solid.item, sorted(layer.drawn_over))
+    share[only_lines] = 0.0
+    rows, columns = _pixels_where(share > 0)
+    _blend(pixels, rows, columns, _shade_surface(layer, hits, frame, camera, rows, columns), share[rows, columns])
+    drawn = trace_lines(hits, width)
+    rows, columns = _pixels_where((drawn > 0) & (hits.item >= 0))
+    color = 0.7 * layer.colors.astype(np.float32)[hits.item[rows, columns]]
+    strong = np.where(only_lines, np.float32(0.7), 1.6 * share).clip(0, 1)[rows, columns]
+    _blend(pixels, rows, columns, color, _STRENGTH[drawn[rows, columns]] * strong)
 
 
 def _shade_surface(
@@ -143,41 +129,17 @@ def _shade_surface(
 ) -> Floats32:
     """The lit colours (n, 3) of what some pixels show; flat triangles are lit once, round ones at every pixel."""
     scene = hits.scene
-    if layer.tint is not None:
-        return _shade_tint(layer.tint, hits, frame, camera, rows, columns)
-    base = np.asarray(layer.colors, dtype=np.float64)[scene.item]
     triangle = hits.triangle[rows, columns]
+    if layer.tint is not None:
+        colors = layer.tint(frame.from_unit(hits.points(camera, rows, columns)), scene.item[triangle])
+        return shade(colors, scene.normals[triangle], camera, frame.upright)
+    base = np.asarray(layer.colors, dtype=np.float64)[scene.item]
     color = shade(base, scene.normals, camera, frame.upright)[triangle]
     bent = np.nonzero(scene.is_round[triangle])[0]
     if len(bent):
         normals = scene.smooth_normals(triangle[bent], hits.points(camera, rows[bent], columns[bent]))
         color[bent] = shade(base[triangle[bent]], normals, camera, frame.upright)
     return color
-
-
-def _shade_tint(
-    tint: Callable[[Floats, Ints], Floats], hits: RayHits, frame: ViewFrame, camera: Camera, rows: Ints, columns: Ints
-) -> Floats32:
-    """The lit colours (n, 3) of pixels whose colours depend on the place that they show."""
-    triangle = hits.triangle[rows, columns]
-    points = frame.from_unit(hits.points(camera, rows, columns))
-    return shade(tint(points, hits.scene.item[triangle]), hits.scene.normals[triangle], camera, frame.upright)
-
-
-def _shell_shares(layer: DrawLayer, hits: RayHits, solid: RayHits, camera: Camera) -> Floats32:
-    share = np.zeros(hits.item.shape, np.float32)
-    share[hits.item >= 0] = layer.before
-    rows, columns = pixels_where((hits.item >= 0) & (solid.item >= 0))
-    farther = hits.depth(camera, rows, columns) > solid.depth(camera, rows, columns) + _SAME_DEPTH
-    share[rows[farther], columns[farther]] = layer.behind
-    share[_is_between_stripes(layer, hits)] *= 0.45
-    share[_is_lines_only(layer, solid)] = 0.0
-    return share
-
-
-def _is_lines_only(layer: DrawLayer, solid: RayHits) -> Any:
-    """Which pixels (h, w) show a solid thing over which a layer is only drawn in lines."""
-    return np.isin(solid.item, sorted(layer.drawn_over)) if layer.drawn_over else np.zeros(solid.item.shape, bool)
 
 
 def _is_between_stripes(layer: DrawLayer, hits: RayHits) -> Any:
@@ -188,18 +150,3 @@ def _is_between_stripes(layer: DrawLayer, hits: RayHits) -> Any:
     period = max(4, (width + height) // 120)
     gap = (np.arange(height)[:, None] + np.arange(width)) % period >= period // 2
     return gap & np.isin(hits.item, sorted(layer.hatched))
-
-
-def _draw_shell(
-    buffer: Framebuffer, layer: DrawLayer, hits: RayHits, share: Floats32, frame: ViewFrame, camera: Camera
-) -> None:
-    rows, columns = pixels_where(share > 0)
-    buffer.blend(rows, columns, _shade_surface(layer, hits, frame, camera, rows, columns), share[rows, columns])
-
-
-def _draw_shell_lines(buffer: Framebuffer, layer: DrawLayer, hits: RayHits, share: Floats32, width: int) -> None:
-    """Lays the lines of a shell over the picture, in its own darkened colours, as strong as `share` (h, w)."""
-    drawn = trace_lines(hits, width)
-    rows, columns = pixels_where((drawn > 0) & (hits.item >= 0))
-    color = 0.7 * layer.colors.astype(np.float32)[hits.item[rows, columns]]
-    buffer.blend(rows, columns, color, _STRENGTH[drawn[rows, columns]] * share[rows, columns])

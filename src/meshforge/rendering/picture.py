@@ -15,7 +15,7 @@ from meshforge.rendering.camera import VIEWS, Up, View, aim_camera
 from meshforge.rendering.canvas import Canvas
 from meshforge.rendering.colors import COLOR_BY, UNLABELLED, ColorBy, HullColors, color_hulls, highlight_hulls, rgb
 from meshforge.rendering.hull_names import write_hull_names
-from meshforge.rendering.paint import Raster, paint
+from meshforge.rendering.paint import paint
 from meshforge.rendering.raycast import DrawLayer, ViewFrame, up_vector
 from meshforge.rendering.scene import RenderMesh, to_render_mesh
 from meshforge.symbolic import Hull, Surface, SymbolicMesh
@@ -68,22 +68,12 @@ def render(
     canvas = Canvas(size, background, title, caption, coloring if legend else HullColors(coloring.colors))
     drawn = []
     for view, box in zip(views, _split_room(canvas.room, len(views)), strict=True):
-        drawn.append((_draw_view(canvas, what, bounds, view, box, named=len(views) > 1), box[:2]))
+        drawn.append((draw_on_canvas(canvas, what, bounds, view, box), box[:2]))
+        if len(views) > 1:
+            canvas.write_view_name(view, box[:2])
     if names and mesh.hulls:
         return write_hull_names(canvas.image, drawn, tuple(mesh.index), coloring.colors)
     return canvas.image
-
-
-def _draw_view(
-    canvas: Canvas, what: Subject, bounds: Aabb | None, view: View, box: tuple[int, int, int, int], named: bool
-) -> Ints:
-    """Draws one view into a box; what each of its pixels (h, w) shows. named: whether its name stands there."""
-    items = draw_on_canvas(canvas, what, bounds, view, box)
-    if not what.layers[0].render_meshes:
-        canvas.write_message("no hulls", box)
-    if named:
-        canvas.write_view_name(view, box[:2])
-    return items
 
 
 def draw_on_canvas(
@@ -99,9 +89,18 @@ def draw_on_canvas(
     of the drawing, None for all the room that there is.
     """
     left, top, right, bottom = box or canvas.room
-    painted = draw_subject(what, bounds, view, (right - left, bottom - top))
-    canvas.paste_drawing(painted.pixels, (left, top))
-    return painted.items
+    size = right - left, bottom - top
+    if bounds is None and not len(what.points):
+        canvas.write_message("no hulls", (left, top, right, bottom))
+        return np.full(size[::-1], -1)
+    frame = ViewFrame(bounds or Aabb.of_points(what.points), up_vector(what.up))
+    points = frame.to_unit(what.points if bounds is None else bounds.corners)
+    fine = 2 if size[0] * size[1] > 250_000 else 3
+    pixels, items = paint(what.layers, frame, aim_camera(view, what.up, size, points), fine)
+    canvas.paste_drawing(pixels, (left, top))
+    if not any(layer.render_meshes for layer in what.layers):
+        canvas.write_message("no hulls", (left, top, right, bottom))
+    return items
 
 
 def _check_arguments(views: Sequence[str], color_by: str, size: tuple[int, int]) -> None:
@@ -148,10 +147,6 @@ class Subject:
     points: Floats
     up: Up
 
-    @property
-    def bounds(self) -> Aabb | None:
-        return Aabb.of_points(self.points) if len(self.points) else None
-
 
 def build_subject(
     mesh: SymbolicMesh,
@@ -193,15 +188,3 @@ def points_to_frame(render_meshes: Sequence[RenderMesh], shells: Sequence[Render
     size = Aabb.of_points(np.concatenate(points)).diagonal if points else np.inf
     points += [s.vertices for s in shells if Aabb.of_points(s.vertices).diagonal <= _FAR_OUT * size]
     return np.concatenate(points) if points else np.zeros((0, 3))
-
-
-def draw_subject(what: Subject, bounds: Aabb | None, view: View, size: tuple[int, int]) -> Raster:
-    """Return the subject, framed on `bounds`, or on all of its points."""
-    extent = bounds or what.bounds
-    if extent is None:
-        width, height = size
-        return Raster(np.zeros((height, width, 4), np.float32), np.full((height, width), -1))
-    frame = ViewFrame(extent, up_vector(what.up))
-    points = frame.to_unit(what.points if bounds is None else bounds.corners)
-    fine = 2 if size[0] * size[1] > 250_000 else 3
-    return paint(what.layers, frame, aim_camera(view, what.up, size, points), fine)

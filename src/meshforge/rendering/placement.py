@@ -14,7 +14,6 @@ from meshforge.rendering.colors import hexadecimal
 
 LEAST_PIXELS = 24
 """Pixels of a hull that must be seen for it to be numbered."""
-_NOTHING = -1  # what stands on a box that is taken
 _OWN, _OTHERS = 0.4, 0.12  # the least of a number's box that its own hull fills, and the most that others do
 _GAP = 3  # pixels between numbers
 _CELL = 4  # pixels along the cells in which free paper is looked for
@@ -47,16 +46,14 @@ def place_numbers(
     items: Ints,
     sizes: Mapping[int, Mapping[int, TextSize]],
     known: Mapping[int, LabelAnchor] | None = None,
-    taken: Sequence[PixelBox] = (),
 ) -> list[NumberPlace]:
-    """Return places for the numbers of hulls as far as they are seen and fit; none covers another, or a box that is
-    taken.
+    """Return places for the numbers of hulls as far as they are seen and fit; none covers another.
 
     items: (h, w), what each pixel shows; sizes: of each number to be placed, the room it takes for each height of
     type [px] that it may be written in, the one liked best first; known: where hulls are that hardly any pixel shows.
     """
     found = {**find_label_anchors(items, sizes, LEAST_PIXELS), **(known or {})}
-    places = [NumberPlace(_NOTHING, box, 0) for box in taken]
+    places: list[NumberPlace] = []
     for item, middle in found.items():
         place = _place_inside(items, item, middle, sizes[item], places)
         if place:
@@ -68,7 +65,7 @@ def place_numbers(
         for item in led:
             page.place_beside(item, found[item], *smallest[item])
         places = page.places
-    return places[len(taken) :]
+    return places
 
 
 def _place_inside(

@@ -44,7 +44,10 @@ def to_render_mesh(shape: Shape | Surface, sides: int = 96) -> RenderMesh:
             scales = np.array([shape.radius, shape.radius, shape.half_length])
             return _revolve(_CYLINDER_PROFILE, sides, shape.pose, scales)
         case Capsule():
-            return _revolve(_capsule_profile(shape, sides), sides, shape.pose, np.full(3, shape.radius))
+            dome = _dome_profile(sides)
+            middle, straight = len(dome) // 2 + 1, np.array([0.0, shape.half_length / shape.radius, 0.0, 0.0])
+            profile = np.concatenate([dome[:middle] - straight, dome[middle - 1 :] + straight])
+            return _revolve(profile, sides, shape.pose, np.full(3, shape.radius))
         case Box() | Polytope() | Surface():
             return RenderMesh(shape.vertices, shape.faces)
         case Shape():
@@ -58,13 +61,6 @@ def _dome_profile(sides: int) -> Floats:
     r, z = np.cos(turn), np.sin(turn)
     r[[0, -1]] = 0.0
     return np.column_stack([r, z, r, z])
-
-
-def _capsule_profile(shape: Capsule, sides: int) -> Floats:
-    dome = _dome_profile(sides)
-    middle = len(dome) // 2 + 1
-    straight = np.array([0.0, shape.half_length / shape.radius, 0.0, 0.0])
-    return np.concatenate([dome[:middle] - straight, dome[middle - 1 :] + straight])
 
 
 def _revolve(profile: Floats, sides: int, pose: Pose, scales: Floats) -> RenderMesh:
@@ -149,13 +145,16 @@ def build_scene(render_meshes: Sequence[RenderMesh], center: Floats, unit: float
 
     No rays can meet them before `prepare_for_rays`.
     """
-    parts = [_corners_of(s, center, unit) for s in render_meshes]
-    item = np.repeat(np.arange(len(parts)), [len(p[0]) for p in parts])
-    corners = np.concatenate([p[0] for p in parts]) if parts else np.zeros((0, 3, 3))
-    bent = np.concatenate([p[1] for p in parts]) if parts else np.zeros((0, 3, 3))
-    solid, normals = _compute_normals(corners)
-    corners, bent, item, normals = corners[solid], bent[solid], item[solid], normals[solid]
-    return RayScene(corners, item, _number_facets(item, normals, bent), normals, bent, None)
+    item = np.repeat(np.arange(len(render_meshes)), [len(one.faces) for one in render_meshes])
+    none = np.zeros((0, 3, 3))
+    corners = np.concatenate([none, *(((one.vertices - center) / unit)[one.faces] for one in render_meshes)])
+    bent = [np.full((len(m.faces), 3, 3), np.nan) if m.normals is None else m.normals[m.faces] for m in render_meshes]
+    cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    length = np.linalg.norm(cross, axis=1)
+    solid = length > 1e-14
+    corners, smooth, item = corners[solid], np.concatenate([none, *bent])[solid], item[solid]
+    normals = cross[solid] / length[solid, None]
+    return RayScene(corners, item, _number_facets(item, normals, smooth), normals, smooth, None)
 
 
 def prepare_for_rays(scene: RayScene, towards: Floats | None) -> RayScene:
@@ -171,32 +170,17 @@ def prepare_for_rays(scene: RayScene, towards: Floats | None) -> RayScene:
         remedy = "There is no wheel of embreex for Linux on ARM: build it, or draw elsewhere. All but pictures works."
         raise MeshForgeError("pictures need embreex, which is not installed", remedy=remedy) from error
 
+    away: Any = towards
+    if towards is None:
+        count = np.maximum(np.bincount(scene.item), 1)
+        sums = [np.bincount(scene.item, part) for part in scene.corners.mean(axis=1).T]
+        away = scene.corners - (np.stack(sums, axis=1) / count[:, None])[scene.item][:, None]
     order = (scene.item % _BIAS_STEPS)[:, None, None]
-    away = _SWELL * (scene.corners - _item_centers(scene)[:, None]) if towards is None else _BIAS * towards
-    corners = scene.corners + order * away
+    corners = scene.corners + order * (away * (_SWELL if towards is None else _BIAS))
     embree = EmbreeScene()
     if len(corners):
         TriangleMesh(embree, corners.astype(np.float32))
     return replace(scene, corners=corners, embree=embree)
-
-
-def _item_centers(scene: RayScene) -> Floats:
-    count = np.maximum(np.bincount(scene.item), 1)
-    sums = [np.bincount(scene.item, part) for part in scene.corners.mean(axis=1).T]
-    return (np.stack(sums, axis=1) / count[:, None])[scene.item]
-
-
-def _corners_of(render_mesh: RenderMesh, center: Floats, unit: float) -> tuple[Floats, Floats]:
-    corners = ((render_mesh.vertices - center) / unit)[render_mesh.faces]
-    bent = np.full(corners.shape, np.nan) if render_mesh.normals is None else render_mesh.normals[render_mesh.faces]
-    return corners, bent
-
-
-def _compute_normals(corners: Floats) -> tuple[Any, Floats]:
-    cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    length = np.linalg.norm(cross, axis=1)
-    solid = length > 1e-14
-    return solid, cross / np.where(solid, length, 1.0)[:, None]
 
 
 def _number_facets(item: Ints, normals: Floats, bent: Floats) -> Ints:

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from meshforge.common import UsageError
-from meshforge.geometry import Floats
+from meshforge.geometry import Aabb, Floats
 from meshforge.rendering.camera import aim_orbit
 from meshforge.rendering.canvas import Canvas, write_file
 from meshforge.rendering.colors import ColorBy, HullColors, color_hulls
@@ -49,8 +49,7 @@ def draw_turn(
         coloring = color_hulls(mesh, color_by, vocabulary, known)
         known |= {hull.name: color for hull, color in zip(mesh.hulls, coloring.colors, strict=True)}
         subjects.append(build_subject(mesh, coloring))
-    if bounds is None:
-        return [tuple(_draw_empty(size) for _ in meshes) for _ in turns]
+    bounds = bounds or Aabb([-1, -1, -1], [1, 1, 1])
     frame = ViewFrame(bounds, up_vector(subjects[0].up))
     cameras = aim_orbit(turns, subjects[0].up, size, frame.to_unit(bounds.corners))
     pictures = []
@@ -58,18 +57,12 @@ def draw_turn(
         row = []
         for subject in subjects:
             canvas = Canvas(size, _BACKGROUND, None, None, HullColors(subject.layers[0].colors))
-            canvas.paste_drawing(paint(subject.layers, frame, camera, _FINE).pixels, (0, 0))
+            canvas.paste_drawing(paint(subject.layers, frame, camera, _FINE)[0], (0, 0))
             if not subject.layers[0].render_meshes:
                 canvas.write_message("no hulls", canvas.room)
             row.append(canvas.image)
         pictures.append(tuple(row))
     return pictures
-
-
-def _draw_empty(size: tuple[int, int]) -> Image:
-    canvas = Canvas(size, _BACKGROUND, None, None, color_hulls(SymbolicMesh(()), "hull"))
-    canvas.write_message("no hulls", canvas.room)
-    return canvas.image
 
 
 def list_turns(frames: int = FRAMES) -> list[float]:

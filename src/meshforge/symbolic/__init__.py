@@ -18,6 +18,6 @@ __getattr__, __all__ = export_lazily(
             "LabelFile LabelTransfer format_labels match_labels parse_labels_text read_labels transfer_labels "
             "write_labels"
         ),
-        "mesh": "EPSILON NEAR_MISS SymbolicMesh bits_of mask_of split_by_body split_by_contact",
+        "mesh": "EPSILON NEAR_MISS SymbolicMesh bits_of find_unchanged mask_of split_by_body split_by_contact",
     },
 )

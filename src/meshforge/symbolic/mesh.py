@@ -14,7 +14,7 @@ import numpy as np
 
 from meshforge import geometry
 from meshforge.common import HullNotFoundError, MeshForgeError, pluralize, suggest_name
-from meshforge.geometry import Aabb, Floats, Shape, bounds
+from meshforge.geometry import Aabb, Floats, Shape, bounds, is_same_shape
 from meshforge.symbolic.asset import Asset, Geom
 from meshforge.symbolic.hull import Hull, Label
 from meshforge.symbolic.trimesh_export import make_scene
@@ -273,6 +273,14 @@ def contact_graph(
     if len(kept) < len(shapes):
         found.update(geometry.close_pairs(shapes, reach, unchanged=frozenset(kept)))
     return dict(sorted(found.items()))
+
+
+def find_unchanged(before: SymbolicMesh, after: SymbolicMesh) -> frozenset[str]:
+    """Return the names of the hulls that two meshes have alike, each coordinate within a millionth of the larger
+    diagonal."""
+    near = 1e-6 * max(before.diagonal, after.diagonal)
+    both = (name for name in before.index if name in after.index)
+    return frozenset(n for n in both if is_same_shape(before.hull_of(n).shape, after.hull_of(n).shape, near))
 
 
 def split_by_body(mesh: SymbolicMesh, mask: int) -> list[int]:

@@ -6,15 +6,13 @@ import numpy as np
 from numpy.random import default_rng
 
 from meshforge.rendering.colors import (
+    HULL_COLORS,
     LABEL_COLORS,
     UNLABELLED,
-    candidate_colors,
-    color_distance,
     color_hulls,
     hexadecimal,
     highlight_hulls,
     label_colors,
-    perceive_colors,
     pick_distinct_colors,
     rgb,
 )
@@ -48,19 +46,9 @@ def test_unsure_labels_are_hatched() -> None:
     assert coloring.legend[-1].name.startswith("hatched")
 
 
-def test_two_dozen_label_colours_are_all_different() -> None:
-    seen = perceive_colors(np.array([rgb(c) for c in (*LABEL_COLORS, UNLABELLED)]))
-    for k in range(seen.shape[1]):
-        gaps = np.delete(np.linalg.norm(seen - seen[:, k : k + 1], axis=2), k, axis=1)
-        assert gaps[0].min() > 0.045, "for most eyes"
-        assert gaps[:, :8].min() > 0.03, "the first eight for colour-blind ones as well"
-
-
 def test_touching_hulls_differ_clearly_even_in_a_long_row() -> None:
     colors = color_hulls(row(90), "hull").colors
-    seen = perceive_colors(colors)
-    gaps = [float(color_distance(seen[:, k : k + 1], seen[:, k + 1 : k + 2])[0]) for k in range(89)]
-    assert min(gaps) > 0.08
+    assert np.linalg.norm(np.diff(colors, axis=0), axis=1).min() > 0.25
 
 
 def test_forty_hulls_have_forty_colours() -> None:
@@ -82,16 +70,9 @@ def test_picked_hulls_have_colours_as_if_there_were_no_others() -> None:
 
 def test_known_hulls_keep_their_colour() -> None:
     mesh = row(6)
-    known = {"h2": candidate_colors()[0][7]}
+    known = {"h2": rgb(HULL_COLORS[7])}
     colors = color_hulls(mesh, "hull", known=known).colors
     assert np.array_equal(colors[2], known["h2"])
-
-
-def test_confidence_runs_from_red_to_blue() -> None:
-    mesh = SymbolicMesh(tuple(hull(str(c), box((c, 0, 0), (1, 1, 1)), "a", c) for c in (0.0, 0.5, 1.0)))
-    low, _, high = color_hulls(mesh, "confidence").colors
-    assert low[0] > low[2]
-    assert high[2] > high[0]
 
 
 def test_highlighting_counts_the_selected() -> None:

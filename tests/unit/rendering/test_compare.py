@@ -61,7 +61,7 @@ def test_what_is_unchanged_keeps_the_colour_of_render_and_each_change_is_marked(
     wider = hull("b", box((0, 0, 0), (1.4, 1, 1)))
     after = SymbolicMesh((hull("new", box((-2, 0, 0), (1, 1, 1))), wider, before.hulls[2]))
     size = (300, 120)
-    sheet = draw_changes(before, after, ["b"], view="front", size=size)
+    sheet = draw_changes(before, after, view="front", size=size)
     gap = (sheet.width - 2 * size[0]) // 3
     first, second = (pixels(sheet.crop((x, gap, x + size[0], gap + size[1]))) for x in (gap, 2 * gap + size[0]))
     drawn = pixels(render(before, views=("front",), size=size, legend=False, bounds=joint_bounds(before, after)))
@@ -79,9 +79,9 @@ def test_what_is_unchanged_keeps_the_colour_of_render_and_each_change_is_marked(
 
 def test_an_outline_surrounds_what_changed() -> None:
     before, after = row(), SymbolicMesh(row().hulls[1:])
-    plain = draw_changes(before, before, [], size=SIZE, view="front")
-    assert encode_png(plain) == encode_png(draw_changes(before, before, [], size=SIZE, view="front"))
-    marked = pixels(draw_changes(before, after, [], size=SIZE, view="front"))
+    plain = draw_changes(before, before, size=SIZE, view="front")
+    assert encode_png(plain) == encode_png(draw_changes(before, before, size=SIZE, view="front"))
+    marked = pixels(draw_changes(before, after, size=SIZE, view="front"))
     outside = render_id_buffer(before, view="front", size=SIZE) < 0
     gap = (plain.width - 2 * SIZE[0]) // 3
     panel = marked[gap : gap + SIZE[1], gap : gap + SIZE[0]]
@@ -91,7 +91,7 @@ def test_an_outline_surrounds_what_changed() -> None:
 
 def test_the_legend_of_changes_has_only_what_there_is() -> None:
     with patch("meshforge.rendering.comparison.make_contact_sheet") as made:
-        draw_changes(table(), edited(), [], size=SIZE)
+        draw_changes(table(), edited(), size=SIZE)
     legend = made.call_args.kwargs["colors"]
     colors = label_colors(["leg", "panel"])
     assert legend == {
@@ -105,7 +105,7 @@ def test_the_legend_of_changes_has_only_what_there_is() -> None:
 def test_made_hulls_are_green_kept_ones_grey_and_removed_ones_red() -> None:
     before = SymbolicMesh((hull("gone", box((-2, 0, 0), (1, 1, 1))), hull("kept", box((0, 0, 0), (1, 1, 1)))))
     after = SymbolicMesh((before.hulls[1], hull("gone~1", box((2, 0, 0), (1, 1, 1)))))
-    picture = pixels(draw_difference(before, after, view="front", size=(300, 120), legend=False))
+    picture = pixels(draw_difference(before, after, view="front", size=(300, 120)))
     row = picture[60]
     assert near(row[260], rgb(MADE))
     assert near(row[150], rgb(KEPT))

@@ -16,9 +16,7 @@ from meshforge.formats import load
 from meshforge.geometry import Box, Floats, Ints, Pose, Sphere, convex_hull
 from meshforge.rendering import LabelingPicture, draw_labeling_pictures, encode_png
 from meshforge.rendering.camera import Camera
-from meshforge.rendering.labeling.page import head_height
 from meshforge.rendering.labeling.picture import LabelingCanvas
-from meshforge.rendering.labeling.series import propose_arrangements
 from meshforge.rendering.labeling.subject import Arrangement, LabelingSubject
 from meshforge.rendering.labeling.viewpoints import VIEW_PREFERENCES, VIEW_WORDS
 from meshforge.rendering.placement import LEAST_PIXELS
@@ -177,10 +175,9 @@ def test_what_can_be_seen_in_place_is_neither_moved_nor_taken_out() -> None:
 
 
 @pytest.mark.slow
-def test_hidden_hulls_are_drawn_alone_and_a_deep_block_is_drawn_apart() -> None:
+def test_hidden_hulls_are_drawn_alone() -> None:
     names = [shot.name for shot in draw_labeling_pictures(nested(3))]
     assert [name.split(" alone")[0] for name in names if "alone" in name] == ["hulls 1, 2", "hull 2"]
-    assert any("drawn apart" in shot.name for shot in draw_labeling_pictures(block(5), most=1))
 
 
 def test_a_hull_far_smaller_than_the_mesh_is_shown_from_close_up() -> None:
@@ -188,20 +185,6 @@ def test_a_hull_far_smaller_than_the_mesh_is_shown_from_close_up() -> None:
     taken = draw_labeling_pictures(mesh)
     (close,) = (shot for shot in taken if "close up of hull 1" in shot.name)
     assert close.visible_pixels["h1"] > 10 * max(shot.visible_pixels["h1"] for shot in taken if shot is not close)
-
-
-def test_a_picture_from_close_up_has_the_whole_in_a_corner_which_hides_what_is_behind_it() -> None:
-    mesh = mesh_of(box((0, 0, 0), (1, 1, 1)), box((0, 0, 0.504), (0.008, 0.008, 0.008)))
-    canvas = LabelingCanvas(LabelingSubject(mesh, (0, 1), "Z"), 512)
-    (near, _), *_ = propose_arrangements(canvas.subject, [1])
-    shot = canvas.draw(near, "top")
-    width, height = canvas.drawing_size
-    side = round(0.24 * 512)
-    assert sum(shot.visible_pixels.values()) == width * height - side**2, "the large cube is everywhere behind"
-    assert shot.numbered == {"h0", "h1"}
-    corner = pixels(shot.marked)[head_height(512) : head_height(512) + side, -side:]
-    assert corner.min() < 0.2, "a frame marks the place"
-    assert np.ptp(corner[:, side // 4], axis=1).max() < 0.1, "the large cube is pale there"
 
 
 def test_the_first_picture_is_from_above_a_corner() -> None:
@@ -300,8 +283,8 @@ def test_impossible_wishes_are_named(options: dict[str, Any], words: str) -> Non
     ("path", "hidden"),
     [
         ("doors_cabinets/IsaacGymEnvs/sektion_cabinet_model/urdf/sektion_cabinet.urdf", "alone"),
-        ("kettles_teapots/CoACD/python/out.obj", "alone"),
-        ("tables_desks/clvrai-furniture/objects/toy_table.xml", "alone"),
+        ("kettles_teapots/CoACD/python/out.obj", "alone, from the front right, above, close up"),
+        ("tables_desks/clvrai-furniture/objects/toy_table.xml", "below"),
     ],
 )
 def test_every_hull_of_real_assets_is_found(path: str, hidden: str) -> None:

@@ -90,20 +90,6 @@ def test_hulls_hardly_seen_have_no_number_unless_it_is_known_where_they_are() ->
     assert [place.item for place in place_numbers(items, {0: SIZES, 1: SIZES}, {1: LabelAnchor(30, 40, 0.0)})] == [1]
 
 
-@examples(30)
-@given(st.lists(RECTANGLES, min_size=1, max_size=12), st.tuples(st.integers(0, 200), st.integers(0, 160)))
-def test_nothing_is_written_on_a_box_that_is_taken(
-    rectangles: list[tuple[int, int, int, int]], corner: tuple[int, int]
-) -> None:
-    items = picture(rectangles)
-    taken = (*corner, corner[0] + 100, corner[1] + 90)
-    items[taken[1] : taken[3], taken[0] : taken[2]] = -1
-    places = place_numbers(items, dict.fromkeys(range(len(rectangles)), SIZES), taken=[taken])
-    boxes = np.array([place.box for place in places]).reshape(-1, 4)
-    assert not find_box_overlaps(boxes, np.array([taken], float), 0).any()
-    assert all(place.item >= 0 for place in places)
-
-
 BOX = st.tuples(*[st.integers(0, 30)] * 4).map(lambda b: (b[0], b[1], b[0] + 1 + b[2] // 3, b[1] + 1 + b[3] // 3))
 LINE = st.tuples(*[st.integers(0, 40)] * 4).filter(lambda v: v[:2] != v[2:])
 

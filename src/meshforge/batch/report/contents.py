@@ -287,7 +287,7 @@ def draw_asset(asset: ReportAsset, options: PictureOptions) -> AssetPictures | N
     pair = compare(before, after, color_by=color_by, size=PICTURE_SIZE, vocabulary=options.vocabulary, background=None)
     changes = None
     if options.changes:
-        changes = _to_data_url(draw_difference(before, after, size=PICTURE_SIZE, background=None, legend=False))
+        changes = _to_data_url(draw_difference(before, after, size=PICTURE_SIZE, background=None))
     return AssetPictures(_to_data_url(pair[0]), _to_data_url(pair[1]), changes, checks=checks)
 
 

@@ -17,7 +17,8 @@ from meshforge.batch.workers import IN_PROCESS, ExecutionOptions, WorkerFailure
 from meshforge.checks import Finding
 from meshforge.common import join_names, pluralize, write_atomically
 from meshforge.language import ACTIONS, Program, Rule, explain, list_operators, show, show_label
-from meshforge.rendering import DIFFERENCE_COLORS, SELECTED, UNLABELLED, UNSURE, find_replaced, label_colors
+from meshforge.rendering import DIFFERENCE_COLORS, SELECTED, UNLABELLED, UNSURE, label_colors
+from meshforge.symbolic import find_unchanged
 
 MOST_PICTURED = 120
 """Assets with pictures by default: about 60 kB each in the page."""
@@ -223,9 +224,9 @@ def _label_legend(assets: Sequence[contents.ReportAsset], colors: Mapping[str, s
 def _change_legend(assets: Sequence[contents.ReportAsset]) -> list[_LegendRow]:
     """What the colours of the pictures of changes mean, and how many hulls are of each kind."""
     pairs = [(asset.before, asset.after) for asset in assets if asset.before and asset.after]
-    found = [find_replaced(before, after) for before, after in pairs]
-    removed, made = sum(len(gone) for gone, _ in found), sum(len(fresh) for _, fresh in found)
-    counts = (("removed", removed), ("made", made), ("kept", sum(len(after.hulls) for _, after in pairs) - made))
+    kept = sum(len(find_unchanged(before, after)) for before, after in pairs)
+    before, after = (sum(len(pair[k].hulls) for pair in pairs) for k in (0, 1))
+    counts = (("removed", before - kept), ("made", after - kept), ("kept", kept))
     return [_LegendRow.of(word, DIFFERENCE_COLORS[word], n, n) for word, n in counts]
 
 

@@ -31,7 +31,7 @@ The labels are:
 {labels}
 - {unknown}: none of these, or it cannot be told from the pictures. Say this rather than guess.
 
-{up} is up{about}. Each picture tells from where it is seen, and shows where up is.
+{up} is up{about}. Each picture tells from where it is seen.
 
 Answer with JSON only, with one entry for each number asked about, no other number, and labels spelled as above:
 {{"hulls": [{{"number": 3, "label": "{example}"}}, ...]}}"""

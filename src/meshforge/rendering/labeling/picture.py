@@ -1,34 +1,34 @@
-"""One labelling picture, drawn: the numbered one, the plain one under the same camera, and the inset of one from
-close up."""
+"""One labelling picture, drawn: the numbered one, and the plain one under the same camera; lit surfaces and dark lines,
+without shadows, so that it is quick."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import numpy.typing as npt
 
-from meshforge.geometry import Aabb, Floats, Ints
-from meshforge.rendering.annotation import INK, LabelAnchor, PixelBox, count_pixels
+from meshforge.geometry import Floats, Ints
+from meshforge.rendering.annotation import INK, LabelAnchor, count_pixels, font, shorten, text_width
 from meshforge.rendering.camera import Camera, View
-from meshforge.rendering.colors import PALE, rgb
-from meshforge.rendering.labeling import page
-from meshforge.rendering.labeling.page import PagePixels, draw_surfaces, lay_ink, to_square_image, trace_ink
 from meshforge.rendering.labeling.subject import NEUTRAL, Arrangement, LabelingSubject
-from meshforge.rendering.paint import LineStrengths
+from meshforge.rendering.light import shade
+from meshforge.rendering.paint import BORDER, LineStrengths, trace_lines
 from meshforge.rendering.placement import LEAST_PIXELS, TextSize, draw_texts, place_numbers
-from meshforge.rendering.raycast import RayHits
+from meshforge.rendering.raycast import RayHits, ViewFrame, find_steps, neighbour_slices
 
 if TYPE_CHECKING:
     from PIL.Image import Image
 
 
+PagePixels = npt.NDArray[np.uint8]
+"""Pixels (h, w, 4): red, green, blue, and one to spare."""
+_INK = np.array([26, 31, 41], np.float32)
+_STRENGTH = np.array([0, 70, 215, 235], np.uint16)  # of no line, a crease, a border, a silhouette; of 255
 _FAINT_INK = 0.28  # of full ink, for hulls that are only hinted at
-
-_INSET_SHARE = 0.24  # of a picture's side
-_LEAST_FRAME = 9  # pixels along the frame that marks the place
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -61,150 +61,102 @@ class LabelingCanvas:
     @property
     def drawing_size(self) -> tuple[int, int]:
         """Width and height that words leave to the drawing [px]."""
-        return self.size, self.size - page.head_height(self.size) - self._legend.height
+        return self.size, self.size - head_height(self.size)
 
     def draw(self, arrangement: Arrangement, view: View) -> LabelingPicture:
         """Return the picture of an arrangement from one side."""
         from PIL import ImageDraw  # lazy: 0.01 s, only pictures need it
 
-        subject, top = self.subject, page.head_height(self.size)
+        name, frame = arrangement.describe(view), arrangement.view_frame
         camera = arrangement.camera(view, self.drawing_size)
         hits = arrangement.cast_solid(camera)
-        items = arrangement.hull_pixels(hits)
-        drawing, faint = trace_ink(hits, self._line_width), self._trace_faint(arrangement, hits, camera)
-        colors = subject.colors[list(arrangement.solid)]
-        marked = to_square_image(self._draw_page(arrangement, hits, colors, camera, drawing, faint), self.size, top)
-        taken: list[tuple[int, int, int, int]] = []
-        if arrangement.close:
-            taken = [self._paste_inset(marked, arrangement, view, items, top)]
-            items = _mask_box(items, taken[0])
+        items, drawing = arrangement.hull_pixels(hits), self._trace_ink(hits)
+        faint = arrangement.cast_faint(camera)
+        if faint is not None:  # it shows where nothing else does
+            hint = np.where(hits.item < 0, self._trace_ink(faint) * _FAINT_INK, 0)
+            drawing = np.maximum(drawing, np.rint(hint).astype(np.uint8))
+        colors = self.subject.colors[list(arrangement.solid)]
+        marked = self._to_image(_draw_surfaces(hits, colors, frame, camera), drawing)
         draw = ImageDraw.Draw(marked)
-        numbered = self._write_numbers(draw, arrangement, items, camera, taken, top)
-        page.draw_head(draw, self.size, arrangement.describe(view), camera, arrangement.view_frame.upright)
-        self._legend.draw(draw, numbered, subject.colors)
-        plain = self._draw_visual(arrangement, camera)
-        if plain is None:
-            plain = self._draw_page(arrangement, hits, np.tile(NEUTRAL, (len(colors), 1)), camera, drawing, faint)
-        hulls = subject.mesh.hulls
-        return LabelingPicture(
-            arrangement.describe(view),
-            marked,
-            to_square_image(plain, self.size, top),
-            {hull.name: n for hull, n in zip(hulls, count_pixels(items, len(hulls)).tolist(), strict=True)},
-            frozenset(hulls[k].name for k in numbered),
-        )
-
-    @cached_property
-    def _legend(self) -> page.NumberLegend:
-        return page.NumberLegend(self.subject.number_texts, self.size)
+        numbered = self._write_numbers(draw, arrangement, items, camera)
+        high = max(11, round(0.021 * self.size))
+        at = round(0.016 * self.size), head_height(self.size) / 2
+        draw.text(at, shorten(name, high, 0.96 * self.size), INK, font(high), "lm")
+        visual = arrangement.cast_visual(camera)
+        if visual is None:
+            plain = self._to_image(_draw_surfaces(hits, np.tile(NEUTRAL, (len(colors), 1)), frame, camera), drawing)
+        else:
+            pixels = _draw_surfaces(visual, self.subject.visuals[1], frame, camera)
+            plain = self._to_image(pixels, self._trace_ink(visual, find_steps(visual, camera)))
+        hulls = self.subject.mesh.hulls
+        seen = count_pixels(items, len(hulls)).tolist()
+        visible = {hull.name: count for hull, count in zip(hulls, seen, strict=True)}
+        return LabelingPicture(name, marked, plain, visible, frozenset(hulls[k].name for k in numbered))
 
     @cached_property
     def _number_sizes(self) -> dict[int, dict[int, TextSize]]:
-        return page.number_sizes(self.subject.number_texts, self.size)
+        """The room that each number takes, for the two heights [px] it may be written in."""
+        count = len(self.subject.wanted)
+        share = 0.0265 if count <= 45 else 0.0225 if count <= 90 else 0.019
+        heights = [max(11, round(part * share * self.size)) for part in (1.0, 0.8)]
+        return {
+            k: {high: (text_width(str(k), high) + 0.5 * high, 1.1 * high) for high in heights}
+            for k in self.subject.wanted
+        }
 
-    @property
-    def _line_width(self) -> int:
-        return max(2, round(self.size / 512))
+    def _trace_ink(self, hits: RayHits, steps: Any = None) -> LineStrengths:
+        """How much of each pixel (h, w) the lines of a drawing cover, of 255; steps: pixels that are on a line besides.
 
-    def _draw_page(
-        self,
-        arrangement: Arrangement,
-        hits: RayHits,
-        colors: Floats,
-        camera: Camera,
-        drawing: LineStrengths,
-        faint: LineStrengths | None,
-    ) -> PagePixels:
-        """The solid hulls in their colours, and their lines and those of the faint ones."""
-        pixels = draw_surfaces(hits, colors, arrangement.view_frame, camera)
-        lay_ink(pixels, drawing)
-        if faint is not None:
-            lay_ink(pixels, faint, _FAINT_INK)
-        return pixels
+        Lines are soft.
+        """
+        drawn = trace_lines(hits, max(2, round(self.size / 512)))
+        if steps is not None:
+            drawn[steps & (drawn < BORDER)] = BORDER
+        share: Any = _STRENGTH[drawn]
+        for axis in (0, 1):
+            mixed = 2 * share
+            here, there = neighbour_slices(axis)
+            mixed[here] += share[there]
+            mixed[there] += share[here]
+            share = mixed >> 2
+        return np.asarray(share, np.uint8)
 
-    def _trace_faint(self, arrangement: Arrangement, hits: RayHits, camera: Camera) -> LineStrengths | None:
-        """The lines (h, w) of hulls that are only hinted at, where nothing else is; None without such hulls."""
-        behind = arrangement.cast_faint(camera)
-        return np.where(hits.item < 0, trace_ink(behind, self._line_width), np.uint8(0)) if behind else None
+    def _to_image(self, pixels: PagePixels, ink: LineStrengths) -> Image:
+        """The picture of a page, dark lines over it, as much of them as `ink` (h, w) of 255 says."""
+        from PIL import Image  # lazy: 0.01 s, only pictures need it
 
-    def _draw_visual(self, arrangement: Arrangement, camera: Camera) -> PagePixels | None:
-        visual = arrangement.cast_visual(camera)
-        if visual is None:
-            return None
-        hits, steps = visual
-        pixels = draw_surfaces(hits, self.subject.visuals[1], arrangement.view_frame, camera)
-        lay_ink(pixels, trace_ink(hits, self._line_width, steps, self.subject.smooth))
-        return pixels
+        at = np.flatnonzero(ink)
+        flat: Any = pixels.reshape(-1, 4)
+        below = flat[at, :3]
+        flat[at, :3] = np.rint(below + (_INK - below) * (ink.ravel()[at, None] * np.float32(1 / 255)))
+        whole = np.full((self.size, self.size, 4), 255, np.uint8)
+        whole[head_height(self.size) :] = pixels
+        return Image.frombuffer("RGBX", (self.size, self.size), whole, "raw", "RGBX", 0, 1).convert("RGB")
 
-    def _paste_inset(
-        self, marked: Image, arrangement: Arrangement, view: View, items: Ints, top: int
-    ) -> tuple[int, int, int, int]:
-        """Shows in a corner where a picture from close up is, and returns the box that this covers."""
-        small = draw_inset(arrangement, view, self.size)
-        column, row = find_free_corner(items, small.width)
-        marked.paste(small, (column, row + top))
-        return column, row, column + small.width, row + small.width
-
-    def _write_numbers(
-        self, draw: Any, arrangement: Arrangement, items: Ints, camera: Camera, taken: Sequence[PixelBox], top: int
-    ) -> list[int]:
-        """Writes the numbers of hulls, and returns which have one; nothing is written on boxes that are taken."""
+    def _write_numbers(self, draw: Any, arrangement: Arrangement, items: Ints, camera: Camera) -> list[int]:
+        """Writes the numbers of hulls, and returns which have one: of one alone, be it too thin for rays, too."""
         known: dict[int, LabelAnchor] = {}
         if len(arrangement.solid) == 1 and (items >= 0).sum() < LEAST_PIXELS:
             (alone,) = arrangement.solid
-            first, last = _end_points(arrangement, camera)
-            draw.line([(column, row + top) for column, row in (first.tolist(), last.tolist())], INK, self._line_width)
-            column, row = ((first + last) / 2).round().astype(int).tolist()
+            points = camera.to_pixels(arrangement.view_frame.to_unit(self.subject.render_meshes[alone].vertices))
+            column, row = points.mean(axis=0).round().astype(int).tolist()
             known[alone] = LabelAnchor(column, row, 0.0)
-        places = place_numbers(items, self._number_sizes, known, taken)
-        draw_texts(draw, places, self.subject.number_texts, self.subject.colors, (0, top))
+        places = place_numbers(items, self._number_sizes, known)
+        texts = {k: str(k) for k in self.subject.wanted}
+        draw_texts(draw, places, texts, self.subject.colors, (0, head_height(self.size)))
         return sorted(place.item for place in places)
 
 
-def _mask_box(items: Ints, box: tuple[int, int, int, int]) -> Ints:
-    """What pixels (h, w) show when nothing in a box is seen."""
-    left, top, right, bottom = box
-    rest = items.copy()
-    rest[top:bottom, left:right] = -1
-    return rest
+def head_height(size: int) -> int:
+    """Return the height of the line along the top, which says what is seen [px]."""
+    return round(0.045 * size)
 
 
-def _end_points(arrangement: Arrangement, camera: Camera) -> tuple[Floats, Floats]:
-    """Column and row (2,) of the two ends of a hull that is drawn alone and too thin for rays to meet it."""
-    points = camera.to_pixels(arrangement.view_frame.to_unit(arrangement.render_meshes[arrangement.solid[0]].vertices))
-    first: Floats = points[np.argmax(np.linalg.norm(points - points[0], axis=1))]
-    last: Floats = points[np.argmax(np.linalg.norm(points - first, axis=1))]
-    return first, last
-
-
-def draw_inset(arrangement: Arrangement, view: View, size: int) -> Image:
-    """Return the whole mesh, pale, the hulls that an arrangement is about shining through, and a frame about what it
-    shows.
-
-    size: pixels along the sides of the picture that it is put on.
-    """
-    from PIL import ImageDraw  # lazy: 0.01 s, only pictures need it
-
-    subject, side = arrangement.subject, round(_INSET_SHARE * size)
-    whole, about = Arrangement.in_place(subject), Arrangement(subject, arrangement.close, subject.points)
-    camera = whole.camera(view, (side, side))
-    hits, shining = whole.cast_solid(camera), about.cast_solid(camera)
-    pixels = draw_surfaces(hits, np.tile(rgb(PALE), (len(whole.solid), 1)), whole.view_frame, camera)
-    lay_ink(pixels, trace_ink(hits, 2), 0.6)
-    lit = draw_surfaces(shining, subject.colors[list(arrangement.close)], whole.view_frame, camera)
-    pixels[shining.item >= 0] = lit[shining.item >= 0]
-    image = to_square_image(pixels, side, 0)
-    draw = ImageDraw.Draw(image)
-    seen = camera.to_pixels(whole.view_frame.to_unit(Aabb.of_points(arrangement.frame).corners))
-    low, high = seen.min(axis=0), seen.max(axis=0)
-    grown = np.maximum(_LEAST_FRAME - (high - low), 0) / 2
-    draw.rectangle([*(low - grown).tolist(), *(high + grown).tolist()], None, INK, 2)
-    draw.rectangle((0, 0, side - 1, side - 1), None, INK, 1)
-    return image
-
-
-def find_free_corner(items: Ints, side: int) -> tuple[int, int]:
-    """Return column and row where a square of `side` pixels in a corner of a picture (h, w) covers fewest hulls."""
-    height, width = items.shape
-    corners = [(column, row) for row in (0, height - side) for column in (width - side, 0)]
-    return min(corners, key=lambda at: int((items[at[1] : at[1] + side, at[0] : at[0] + side] >= 0).sum()))
+def _draw_surfaces(hits: RayHits, colors: Floats, view_frame: ViewFrame, camera: Camera) -> PagePixels:
+    """What the pixels show; colors: (k, 3), sRGB in 0..1, of the scene's things."""
+    scene = hits.scene
+    table = np.full((len(scene.item) + 1, 4), 255, np.uint8)
+    if len(scene.item):
+        bright = shade(np.asarray(colors, np.float64)[scene.item], scene.normals, camera, view_frame.upright)
+        table[:-1, :3] = np.rint(bright * 255)
+    return table[hits.triangle]

@@ -1,20 +1,18 @@
-"""The mesh that a series of labelling pictures shows, and how its hulls are laid out: in place, pushed apart, or
-some alone among faint others."""
+"""What a series of labelling pictures shows: the hulls of a mesh in their places, or some among faint others."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
 from meshforge.geometry import Aabb, Floats, Ints
-from meshforge.rendering import raycast
+from meshforge.rendering.annotation import count_pixels
 from meshforge.rendering.camera import Camera, Up, View, aim_camera
 from meshforge.rendering.colors import PALE, pick_distinct_colors, rgb
-from meshforge.rendering.labeling.viewpoints import VIEW_WORDS, ViewPreview, outermost_points
+from meshforge.rendering.labeling.viewpoints import VIEW_WORDS, outermost_points
 from meshforge.rendering.picture import points_to_frame
 from meshforge.rendering.raycast import RayHits, ViewFrame, cast_rays, up_vector
 from meshforge.rendering.scene import RayScene, RenderMesh, build_scene, prepare_for_rays, to_render_mesh
@@ -23,12 +21,10 @@ from meshforge.symbolic import SymbolicMesh
 NEUTRAL = rgb("#C9C4BB")
 """The material of hulls that are drawn plain, and of a visual mesh that has no colour."""
 _LIGHTEST = 0.86  # lighter colours would be lit to plain white
-_MANY = 1500  # triangles
 _CLEAR = 0.05  # visuals this little opaque are not drawn
 
 PREVIEW_SIZE = 128
 """Pixels along the small pictures that tell what a view shows."""
-_MARGIN = 0.06
 _FAR = 30.0  # hulls this many times the frame away from it are not drawn: rays are too short for them
 _HULLS_NAMED = 6  # hulls that a name lists one by one
 
@@ -48,22 +44,11 @@ class LabelingSubject:
         return [to_render_mesh(hull.shape, min(max(1200 // max(count, 1), 24), 64)) for hull in self.mesh.hulls]
 
     @cached_property
-    def box_centers(self) -> Floats:
-        """The middle (n, 3) [m] of each hull's box."""
-        low, high = self.mesh.corners
-        return (low + high) / 2
-
-    @cached_property
     def colors(self) -> Floats:
         """The colour (n, 3) of each hull: its own where it is wanted, pale where not."""
         colors = np.tile(rgb(PALE), (len(self.mesh.hulls), 1))
         colors[list(self.wanted)] = pick_distinct_colors(self.mesh, self.wanted)
         return colors
-
-    @cached_property
-    def number_texts(self) -> dict[int, str]:
-        """What is written on each wanted hull."""
-        return {k: str(k) for k in self.wanted}
 
     @cached_property
     def visuals(self) -> tuple[list[RenderMesh], Floats]:
@@ -86,30 +71,9 @@ class LabelingSubject:
         return [to_render_mesh(piece.surface) for piece in pieces if piece.surface and len(piece.surface.faces)]
 
     @cached_property
-    def smooth(self) -> Any:
-        """Which of these surfaces (k,) have so many triangles that their edges tell nothing."""
-        return np.array([len(s.faces) > _MANY for s in self.visuals[0]], bool)
-
-    @cached_property
     def points(self) -> Floats:
         """The outermost points (n, 3) [m] that a picture of the whole mesh holds, from any view."""
         return outermost_points(points_to_frame(self.render_meshes, [*self.visuals[0], *self.non_convex]), self.up)
-
-    @cached_property
-    def view_frame(self) -> ViewFrame:
-        """The frame that the whole mesh is drawn in."""
-        return ViewFrame(Aabb.of_points(self.points), up_vector(self.up))
-
-    def visual_scene(self, view_frame: ViewFrame) -> RayScene:
-        """Return the visual mesh, ready to be drawn in a frame."""
-        return self._whole_visual_scene if view_frame is self.view_frame else self._build_visual_scene(view_frame)
-
-    @cached_property
-    def _whole_visual_scene(self) -> RayScene:
-        return self._build_visual_scene(self.view_frame)
-
-    def _build_visual_scene(self, view_frame: ViewFrame) -> RayScene:
-        return prepare_for_rays(build_scene(self.visuals[0], view_frame.bounds.center, view_frame.unit), None)
 
     def points_of(self, hulls: Sequence[int]) -> Floats:
         """Return the corners (n, 3) [m] of some hulls."""
@@ -125,14 +89,12 @@ class Arrangement:
     """A subject's hulls as a picture shows them.
 
     solid: the hulls that are drawn in full, all others faintly; frame: the points (k, 3) [m] that the picture holds;
-    push: how far hulls stand away from the middle of all, beyond where they belong, as a share of that distance;
     close: the hulls that the picture is about, where it holds only a part of the mesh.
     """
 
     subject: LabelingSubject
     solid: tuple[int, ...]
     frame: Floats
-    push: float = 0.0
     close: tuple[int, ...] = ()
 
     @staticmethod
@@ -140,45 +102,26 @@ class Arrangement:
         """Return all hulls in their places."""
         return Arrangement(subject, tuple(range(len(subject.render_meshes))), subject.points)
 
-    @staticmethod
-    def explode(subject: LabelingSubject, push: float) -> Arrangement:
-        """Return all hulls, pushed away from the middle of all."""
-        moved = Arrangement(subject, tuple(range(len(subject.render_meshes))), subject.points, push)
-        return replace(moved, frame=np.concatenate([s.vertices for s in moved.render_meshes]))
-
     def describe(self, view: View) -> str:
         """Return what a picture from there shows, in words."""
         words = VIEW_WORDS[view]
-        if self.push:
-            return f"{words}, drawn apart"
         if len(self.solid) < len(self.subject.render_meshes):
             return f"{_list_hulls(self.solid)} alone, {words}" + (", close up" if self.close else "")
         return f"{words}, close up of {_list_hulls(self.close)}" if self.close else words
 
     @cached_property
-    def render_meshes(self) -> list[RenderMesh]:
-        """All hulls where they are drawn."""
-        if not self.push:
-            return self.subject.render_meshes
-        middles = self.subject.box_centers
-        moves = self.push * (middles - (middles.min(axis=0) + middles.max(axis=0)) / 2)
-        return [replace(s, vertices=s.vertices + m) for s, m in zip(self.subject.render_meshes, moves, strict=True)]
-
-    @cached_property
     def view_frame(self) -> ViewFrame:
-        subject = self.subject
-        if self.frame is subject.points:
-            return subject.view_frame
-        return ViewFrame(Aabb.of_points(self.frame), up_vector(subject.up))
+        return ViewFrame(Aabb.of_points(self.frame), up_vector(self.subject.up))
 
     def camera(self, view: View, size: tuple[int, int]) -> Camera:
-        return aim_camera(view, self.subject.up, size, self.view_frame.to_unit(self.frame), _MARGIN)
+        return aim_camera(view, self.subject.up, size, self.view_frame.to_unit(self.frame))
 
-    def preview(self, view: View, shape: float = 1.0) -> ViewPreview:
-        """Return what a small picture, `shape` times as high as wide, shows of each hull (n,)."""
+    def preview(self, view: View, shape: float = 1.0) -> Floats:
+        """Return the share (n,) of a small picture, `shape` times as high as wide, that shows each hull."""
         size = PREVIEW_SIZE, max(1, round(PREVIEW_SIZE * shape))
         hits = cast_rays(self._preview_scene, self.camera(view, size), (slice(0, size[0]), slice(0, size[1])))
-        return ViewPreview.of(self.hull_pixels(hits), len(self.render_meshes))
+        items = self.hull_pixels(hits)
+        return count_pixels(items, len(self.subject.render_meshes)) / items.size
 
     def cast_solid(self, camera: Camera) -> RayHits:
         """Return what the pixels show of the hulls that are drawn in full."""
@@ -187,29 +130,26 @@ class Arrangement:
     def cast_faint(self, camera: Camera) -> RayHits | None:
         """Return what the pixels show of the faint hulls and of what is no hull, None where there is neither."""
         scene = self._faint_scene
-        return raycast.cast_rays_adaptively(scene, camera) if len(scene.corners) else None
+        return cast_rays(scene, camera) if len(scene.corners) else None
 
-    def cast_visual(self, camera: Camera) -> tuple[RayHits, Any] | None:
-        """Return what the pixels show of the visual mesh, and where a part of it steps back behind another (h, w).
-
-        None where there is no visual mesh, where the hulls are not in their places, and from close up where some are
-        drawn alone: what is around them would hide all.
-        """
-        hidden = bool(self.close) and len(self.solid) < len(self.render_meshes)
-        if self.push or hidden or not self.subject.visuals[0]:
+    def cast_visual(self, camera: Camera) -> RayHits | None:
+        """Return what the pixels show of the visual mesh; None where there is none, and where some hulls are drawn
+        alone: what is around them would hide all."""
+        if len(self.solid) < len(self.subject.render_meshes) or not self.subject.visuals[0]:
             return None
-        return raycast.cast_rays_with_steps(self.subject.visual_scene(self.view_frame), camera)
+        return cast_rays(self._visual_scene, camera)
 
     def hull_pixels(self, hits: RayHits) -> Ints:
         """Return the index of the hull that each pixel (h, w) shows in full, -1 for none."""
-        whole = len(self.solid) == len(self.render_meshes)
+        whole = len(self.solid) == len(self.subject.render_meshes)
         return hits.item if whole else np.append(np.array(self.solid, np.int64), -1)[hits.item]
+
+    def _build_scene(self, render_meshes: Sequence[RenderMesh]) -> RayScene:
+        return build_scene(render_meshes, self.view_frame.bounds.center, self.view_frame.unit)
 
     @cached_property
     def _solid_scene(self) -> RayScene:
-        return build_scene(
-            [self.render_meshes[k] for k in self.solid], self.view_frame.bounds.center, self.view_frame.unit
-        )
+        return self._build_scene([self.subject.render_meshes[k] for k in self.solid])
 
     @cached_property
     def _preview_scene(self) -> RayScene:
@@ -217,14 +157,18 @@ class Arrangement:
         return prepare_for_rays(self._solid_scene, None)
 
     @cached_property
+    def _visual_scene(self) -> RayScene:
+        return prepare_for_rays(self._build_scene(self.subject.visuals[0]), None)
+
+    @cached_property
     def _faint_scene(self) -> RayScene:
-        near = self.view_frame.bounds
+        near, subject = self.view_frame.bounds, self.subject
         reach = _FAR * self.view_frame.unit
-        others = sorted(set(range(len(self.render_meshes))) - set(self.solid))
-        low, high = self.subject.mesh.corners
+        others = sorted(set(range(len(subject.render_meshes))) - set(self.solid))
+        low, high = subject.mesh.corners
         near_by = [k for k in others if (low[k] > near.min - reach).all() and (high[k] < near.max + reach).all()]
-        render_meshes = [self.render_meshes[k] for k in near_by] + ([] if self.push else self.subject.non_convex)
-        return prepare_for_rays(build_scene(render_meshes, near.center, self.view_frame.unit), None)
+        faint = [subject.render_meshes[k] for k in near_by] + subject.non_convex
+        return prepare_for_rays(self._build_scene(faint), None)
 
 
 def _list_hulls(hulls: tuple[int, ...]) -> str:

@@ -1,15 +1,13 @@
-"""The views that pictures for labelling choose from, how much of each hull one shows, and which to draw."""
+"""The views that pictures for labelling choose from, how well each shows a hull, and which to draw."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
-from meshforge.geometry import Floats, Ints
+from meshforge.geometry import Floats
 from meshforge.rendering.camera import Up, View, axes_of
-from meshforge.rendering.raycast import neighbour_slices
 
 VIEW_WORDS: Mapping[View, str] = {
     "front-right-above": "from the front right, above",
@@ -45,26 +43,9 @@ def outermost_points(points: Floats, up: Up) -> Floats:
     return kept
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class ViewPreview:
-    """How much of a small picture shows each hull (n,): in all, and away from the borders of what is seen of it."""
-
-    shares: Floats
-    inner: Floats
-
-    @staticmethod
-    def of(items: Ints, count: int) -> ViewPreview:
-        """Return what pixels (h, w) show of `count` hulls."""
-        inner = items >= 0
-        for axis in (0, 1):
-            for here, there in (neighbour_slices(axis), neighbour_slices(axis)[::-1]):
-                inner[here] &= items[here] == items[there]
-        return ViewPreview(*(np.bincount(items[mask], minlength=count) / items.size for mask in (items >= 0, inner)))
-
-    def quality(self, least: float) -> Floats:
-        """Return how well each hull is seen (n,), from 0 to 1; not at all below a share of `least`."""
-        wide, deep = (np.sqrt(np.minimum(part / _WELL, 1)) for part in (self.shares, self.inner))
-        return np.where(self.shares >= least, 0.2 + 0.3 * wide + 0.5 * deep, 0.0)
+def measure_quality(shares: Floats, least: float) -> Floats:
+    """Return how well each hull is seen (n,), from 0 to 1, by its share of a picture; not at all below `least`."""
+    return np.where(shares >= least, 0.2 + 0.8 * np.sqrt(np.minimum(shares / _WELL, 1)), 0.0)
 
 
 def choose_views(quality: Mapping[View, Floats], most: int) -> list[View]:
