@@ -822,15 +822,12 @@ export interface DecomposeJob {
   by?: "whole" | "parts" | "labels";
 }
 /**
- * Make a file that the browser fetches then. what: a zip of outputs, the report, or a GIF in which assets turn,
- * before and after; signed_only: of the zip; asset: the one that turns, null for the first `count` with outputs.
+ * Make a file that the browser fetches then. what: a zip of outputs, or the report; signed_only: of the zip.
  */
 export interface DownloadJob {
   kind: "download";
-  what: "results" | "report" | "turntable";
+  what: "results" | "report";
   signed_only?: boolean;
-  asset?: string | null;
-  count?: number;
 }
 /**
  * The header of a packet of an edited asset: all of its hulls, with the shapes of those that the asset has not.
