@@ -20,7 +20,7 @@ from meshforge.studio.edits.base import Edit, make_edit
 from meshforge.studio.edits.program import TakeLearned
 from meshforge.studio.errors import NotHereError
 from meshforge.studio.label_changes import EarlyLabels, LabelChanges
-from meshforge.studio.learning.scheduler import Learner, LearningScheduler
+from meshforge.studio.learning.scheduler import LearningScheduler
 from meshforge.studio.output_checks import OutputChecks
 from meshforge.studio.pages import PageHub, PageState
 from meshforge.studio.queries.programs import read_program_view
@@ -81,11 +81,7 @@ class Session:
         self.refresh_queue = refresher.queue
         self._early_labels = EarlyLabels(self.pages, lambda: refresher.names)
         self.learning = LearningScheduler(
-            Learner(project.folder),
-            self.pages,
-            self._has_demonstrations,
-            self._end_learning,
-            self.refresh_queue.add,
+            project.folder, self.pages, self._has_demonstrations, self._end_learning, self.refresh_queue.add
         )
         self._watcher = FileWatcher(self._poll_files)
         self._file_sync = FileSync(project, self.pages, self.learning, self.refresh_queue)
