@@ -33,14 +33,14 @@ RENEW_AFTER = 64
 tables of 40 hulls). The run after that takes some tenths of a second longer."""
 
 
-@dataclass(slots=True)
-class _FamilyMemory:
+@dataclass(frozen=True, eq=False, slots=True)
+class _LastRun:
     """What the last learning run of a project came to. meshes: what it learned from, by asset; digest: of all else."""
 
-    number: int = 0
-    outcome: LearningOutcome | None = None
-    meshes: Mapping[str, SymbolicMesh] = field(default_factory=dict)
-    digest: str = ""
+    number: int
+    outcome: LearningOutcome
+    meshes: Mapping[str, SymbolicMesh]
+    digest: str
 
     def holds(self, meshes: Mapping[str, SymbolicMesh], digest: str) -> bool:
         same = meshes.keys() == self.meshes.keys() and all(meshes[name] is mesh for name, mesh in self.meshes.items())
@@ -49,25 +49,18 @@ class _FamilyMemory:
 
 def learn(folder: Path, token: CancelToken, number: int) -> OutcomeView:
     """Learn a program from a project as it is now; it replaces the accepted one unless a person wrote that."""
-    stop = token.stop
+    stop, memory = token.stop, _memory_of(folder)
     try:
         project = Project.open(folder)
-        family = _memory_of(folder).family
-        family.count_run()
+        memory.family.count_run()
         digest = digest_inputs(project)
-        meshes = dict(family.read_meshes(project, select_assets(project), stop))
+        meshes = dict(memory.family.read_meshes(project, select_assets(project), stop))
         outcome = project.synthesize(accept=not project.program_state().by_hand, meshes=meshes, stop=stop)
     except ReadInterrupted:
         return OutcomeView(number=number, status="timeout")
     except MeshForgeError as error:
         return OutcomeView(number=number, status="error", error=error.message)
-    inputs_digest = _memory_of(folder).inputs_digest
-    inputs_digest.number, inputs_digest.outcome, inputs_digest.meshes, inputs_digest.digest = (
-        number,
-        outcome,
-        meshes,
-        digest,
-    )
+    memory.last = _LastRun(number, outcome, meshes, digest)
     return build_outcome_view(number, outcome, len(meshes))
 
 
@@ -77,20 +70,19 @@ def assess(folder: Path, token: CancelToken, number: int) -> AssessmentView | No
 
     It is kept, as a review is, where nothing changed since that run. None too where nothing is demonstrated yet.
     """
-    inputs_digest, project = _memory_of(folder).inputs_digest, Project.open(folder)
-    if not project.demonstration_ids():
-        return None
-    if inputs_digest.number != number or inputs_digest.outcome is None:
+    memory, project = _memory_of(folder), Project.open(folder)
+    last = memory.last
+    if last is None or last.number != number or not project.demonstration_ids():
         return None
     basis = AssessmentBasis.take(project)
     try:
-        meshes = dict(_memory_of(folder).family.read_meshes(project, select_assets(project), token.stop))
+        meshes = dict(memory.family.read_meshes(project, select_assets(project), token.stop))
     except ReadInterrupted:
         return None
-    made = assess_project(project, meshes, inputs_digest.outcome, basis, token.stop)
+    made = assess_project(project, meshes, last.outcome, basis, token.stop)
     if made is None:
         return None
-    if inputs_digest.holds(meshes, basis.inputs_digest):
+    if last.holds(meshes, basis.inputs_digest):
         with suppress(MeshForgeError, OSError):  # pages show it all the same
             keep_assessment(project, made)
     unseen = len(project.assets()) - len(meshes)
@@ -164,13 +156,13 @@ class FamilyCache:
             self._meshes.renew()
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class _Memory:
     """What stays in memory of a project."""
 
     family: FamilyCache = field(default_factory=FamilyCache)
     selector: RuleSelector = field(default_factory=RuleSelector)
-    inputs_digest: _FamilyMemory = field(default_factory=_FamilyMemory)
+    last: _LastRun | None = None
 
 
 @cache
