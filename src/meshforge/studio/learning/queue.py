@@ -14,7 +14,7 @@ from pathlib import Path
 from threading import Lock
 from typing import Any, Literal, get_args
 
-from meshforge.common import MeshForgeError, describe_error
+from meshforge.common import MeshForgeError, StoppedError, describe_error
 from meshforge.studio.workers import Workers, wait_for
 
 CallKind = Literal["learn", "reach", "generalise", "assess"]
@@ -43,7 +43,7 @@ class LearningProcess:
     """A process for the functions of `process`, which starts with the first call; folder: of the project.
 
     It makes one call at a time, in the order of `CALL_KINDS`. A new call ends the one before of its kind. One that had
-    not started then, or returns None as it was cancelled, raises Superseded. Where the process dies, the call raises
+    not started then, or was stopped, raises Superseded. Where the process dies, the call raises
     MeshForgeError, and the next call starts a new process.
     """
 
@@ -102,12 +102,12 @@ class LearningProcess:
         with self._lock:
             self._busy = False
         match outcome:
+            case None | StoppedError():
+                call.future.set_exception(Superseded("it was interrupted"))
             case MeshForgeError():
                 call.future.set_exception(outcome)
             case Exception():
                 call.future.set_exception(MeshForgeError(describe_error(outcome)))
-            case None:
-                call.future.set_exception(Superseded("it was interrupted"))
             case _:
                 call.future.set_result(outcome)
         self._start_next()
