@@ -26,10 +26,10 @@ export type Event =
   | Start
   | Hello
   | CardsChanged
+  | AssetsChanged
   | ProjectChanged
   | HistoryChanged
   | LabelUpdateChanged
-  | AssetsChanged
   | OutcomeChanged
   | ReachChanged
   | AssessmentChanged

@@ -12,6 +12,7 @@ from meshforge.common import MeshForgeError, describe_error
 from meshforge.studio.learning import process
 from meshforge.studio.learning.queue import LearningProcess, Superseded
 from meshforge.studio.pages import PageState
+from meshforge.studio.wire.events import AssessmentChanged, OutcomeChanged, ReachChanged
 from meshforge.studio.wire.family import AssessmentView
 from meshforge.studio.wire.program import CoverageView, OutcomeView, Reach
 
@@ -49,11 +50,11 @@ class LearningScheduler:
         learns = self._can_learn()
         number = self._stop(assessing=learns)
         if not learns:
-            self._pages.set_outcome(None, learning=False)
+            self._pages.show(OutcomeChanged(outcome=None, learning=False))
             self.measure_reach()
             self.assess()
             return
-        self._pages.set_outcome(self._pages.shown.outcome, learning=True)
+        self._pages.show(OutcomeChanged(outcome=self._pages.shown.outcome, learning=True))
         with self._lock:
             if number == self._number:
                 self._timer = Timer(RESTART_DELAY, self._begin, [number])
@@ -63,7 +64,7 @@ class LearningScheduler:
     def stop(self) -> None:
         """Stop the learning run that is under way; the outcome of the one before stays shown."""
         self._stop()
-        self._pages.set_outcome(self._pages.shown.outcome, learning=False)
+        self._pages.show(OutcomeChanged(outcome=self._pages.shown.outcome, learning=False))
         self._refresh()
 
     def pause(self) -> None:
@@ -91,7 +92,7 @@ class LearningScheduler:
         """Measure what the accepted program does on all assets."""
         text = self._pages.shown.program.text
         if not text or self._pages.shown.program.error:
-            self._pages.set_reach(())
+            self._pages.show(ReachChanged(reach=()))
             return
         reach = self._process.call("reach", process.compute_reach, text)
         reach.add_done_callback(partial(self._show_reach, self._number))
@@ -105,7 +106,7 @@ class LearningScheduler:
             return
         with self._lock:
             if number == self._number:
-                self._pages.set_assessment(self._pages.shown.assessment, assessing=True)
+                self._pages.show(AssessmentChanged(assessment=self._pages.shown.assessment, assessing=True))
         assessment = self._process.call("assess", process.assess, number)
         assessment.add_done_callback(partial(self._take_assessment, number))
 
@@ -127,7 +128,7 @@ class LearningScheduler:
                 self._timer.cancel()
             number = self._number
         self._process.cancel("learn", "reach", "assess")
-        self._pages.set_assessment(None, assessing)
+        self._pages.show(AssessmentChanged(assessment=None, assessing=assessing))
         return number
 
     def _begin(self, number: int) -> None:
@@ -154,7 +155,7 @@ class LearningScheduler:
         finally:
             with self._lock:  # so that no other run starts meanwhile
                 if number == self._number:
-                    self._pages.set_outcome(outcome, learning=False)
+                    self._pages.show(OutcomeChanged(outcome=outcome, learning=False))
         self.measure_reach()
         self.assess()
 
@@ -171,7 +172,7 @@ class LearningScheduler:
         with self._lock:  # so that no change makes it old meanwhile
             if number != self._number:
                 return
-            self._pages.set_assessment(found, assessing=False)
+            self._pages.show(AssessmentChanged(assessment=found, assessing=False))
         self._refresh()
 
     def _show_reach(self, number: int, future: Future[tuple[Reach, ...]]) -> None:
@@ -180,4 +181,4 @@ class LearningScheduler:
         except (MeshForgeError, CancelledError):  # superseded, or its process died: the next one is measured again
             return
         if number == self._number:
-            self._pages.set_reach(reach)
+            self._pages.show(ReachChanged(reach=reach))

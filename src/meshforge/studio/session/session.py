@@ -30,7 +30,7 @@ from meshforge.studio.session.refresh import Refresher, initial_view
 from meshforge.studio.similar_hulls import SimilarHulls
 from meshforge.studio.thumbnails import Thumbnails
 from meshforge.studio.transfers import Downloads, Uploads
-from meshforge.studio.wire.events import HistoryChanged
+from meshforge.studio.wire.events import HistoryChanged, LabelUpdateChanged, ProgramChanged
 from meshforge.studio.wire.program import OutcomeView
 from meshforge.studio.wire.requests import EditReceipt
 from meshforge.studio.workers import Workers
@@ -95,7 +95,7 @@ class Session:
     def start(self) -> None:
         """Start reading, learning and watching files."""
         self.pages.set_assets(self.project.assets())
-        self.pages.set_program(read_program_view(self.project))
+        self.pages.show(ProgramChanged(program=read_program_view(self.project)))
         self.refresh_queue.add(self.project.assets(), later=True)
         self.refresh_queue.start()
         self._watcher.start()
@@ -170,9 +170,9 @@ class Session:
     def announce(self, entries: Iterable[HistoryEntry], by: str | None = None) -> None:
         """Send all pages what entries changed, then that they were made, undone or redone; the cards follow."""
         with self._mutex:
-            self.pages.set_relabelled(None)
+            self.pages.show(LabelUpdateChanged(relabelled=None))
             self.update({name for entry in entries for name in entry.names})
-            self.pages.set_history(HistoryChanged(history=self.history.state, by=by))
+            self.pages.show(HistoryChanged(history=self.history.state, by=by))
 
     @contextmanager
     def record(self, title: str, edit: dict[str, Any], paths: Iterable[Path], group: str) -> Iterator[None]:
@@ -202,7 +202,7 @@ class Session:
         with self._mutex:
             self._file_sync.poll()
             if self.history.refresh():
-                self.pages.set_history(HistoryChanged(history=self.history.state))
+                self.pages.show(HistoryChanged(history=self.history.state))
 
     # Learning
 
