@@ -605,8 +605,9 @@ export interface AssetView {
   prepared: string[];
 }
 /**
- * A hull. vertices, faces: how many; primitive: its kind if it is one; source: who gave the label; parent: the hull
- * of the file that a new hull inherits from.
+ * A hull, made of one of a mesh. vertices, faces: how many, of a round primitive those of its tessellation;
+ * primitive: its kind if it is one; source: who gave the label; parent: the hull of the file that a new hull inherits
+ * from.
  */
 export interface HullView {
   name: string;
