@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 import sys
 import tempfile
 from dataclasses import replace
@@ -12,7 +11,15 @@ from meshforge.batch import load_templates
 from meshforge.formats import load
 from meshforge.language import Program, to_canonical_frame
 from meshforge.project import Project
-from meshforge.rendering import compare, draw_labeling_pictures, make_contact_sheet, render, write_png
+from meshforge.rendering import (
+    UNLABELLED,
+    compare,
+    draw_labeling_pictures,
+    label_colors,
+    make_contact_sheet,
+    render,
+    write_png,
+)
 from meshforge.samples import TABLES
 from meshforge.symbolic import SymbolicMesh, read_labels
 from script.sign_off_picture import draw_sign_off
@@ -82,8 +89,13 @@ def _labels(path: Path) -> None:
             true = read_labels(TABLES / f"{name}.labels.json").labels
             project.set_labels(f"{name}.obj", {hull: label.name for hull, label in true.items()})
         project.label("propagate")
-        (drawn,) = project.draw_labels(Path(scratch), project.assets())
-        shutil.copyfile(drawn, path)
+        words, assets = project.vocabulary, project.assets()
+        drawn = [
+            render(project.mesh(asset), color_by="label", size=(320, 240), legend=False, vocabulary=words)
+            for asset in assets
+        ]
+        colors = label_colors(words) | {"no label": UNLABELLED}
+        write_png(path, make_contact_sheet(drawn, 6, assets, colors))
 
 
 if __name__ == "__main__":

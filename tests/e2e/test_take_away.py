@@ -1,4 +1,4 @@
-"""What the browser saves from the Export panel, opened again: a zip of the results, the report, a turntable."""
+"""What the browser saves from the Export panel, opened again: a zip of the results, the report."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ from zipfile import ZipFile
 
 import pytest
 import trimesh
-from PIL import Image
 from playwright.sync_api import Browser
 
 from meshforge.formats import load
@@ -16,9 +15,7 @@ from tests.e2e.walk import visiting
 from tests.unit.project.tables import FIRST, SECOND, THIRD, applied
 
 
-def test_results_report_and_turntable_are_saved_by_the_browser_and_can_be_opened(
-    tmp_path: Path, browser: Browser
-) -> None:
+def test_results_and_report_are_saved_by_the_browser_and_can_be_opened(tmp_path: Path, browser: Browser) -> None:
     project = applied(tmp_path)
     project.set_verdict([FIRST, SECOND], "accepted")
     project.set_verdict([THIRD], "wrong")
@@ -48,13 +45,4 @@ def test_results_report_and_turntable_are_saved_by_the_browser_and_can_be_opened
         page.close()
 
         assert person.page.evaluate("document.activeElement.ariaLabel") == "Download the report", "the focus stays"
-        person.click(person.page.get_by_role("radio", name="Several"))
-        with Image.open(save(person, "Download the turntable", tmp_path)) as gif:
-            assert gif.n_frames > 12  # type: ignore[attr-defined]
-            gif.seek(0)
-            first = gif.convert("RGB").tobytes()
-            gif.seek(gif.n_frames // 3)  # type: ignore[attr-defined]
-            assert gif.convert("RGB").tobytes() != first
-        person.sees("3 assets, before and after.")
-        again = save(person, "Save again", tmp_path)
-        assert again.name == "tables-turntable.gif"
+        assert save(person, "Save again", tmp_path).name == "tables-report.html"

@@ -26,10 +26,10 @@ export type Event =
   | Start
   | Hello
   | CardsChanged
+  | AssetsChanged
   | ProjectChanged
   | HistoryChanged
   | LabelUpdateChanged
-  | AssetsChanged
   | OutcomeChanged
   | ReachChanged
   | AssessmentChanged
@@ -605,8 +605,9 @@ export interface AssetView {
   prepared: string[];
 }
 /**
- * A hull. vertices, faces: how many; primitive: its kind if it is one; source: who gave the label; parent: the hull
- * of the file that a new hull inherits from.
+ * A hull, made of one of a mesh. vertices, faces: how many, of a round primitive those of its tessellation;
+ * primitive: its kind if it is one; source: who gave the label; parent: the hull of the file that a new hull inherits
+ * from.
  */
 export interface HullView {
   name: string;
@@ -822,15 +823,12 @@ export interface DecomposeJob {
   by?: "whole" | "parts" | "labels";
 }
 /**
- * Make a file that the browser fetches then. what: a zip of outputs, the report, or a GIF in which assets turn,
- * before and after; signed_only: of the zip; asset: the one that turns, null for the first `count` with outputs.
+ * Make a file that the browser fetches then. what: a zip of outputs, or the report; signed_only: of the zip.
  */
 export interface DownloadJob {
   kind: "download";
-  what: "results" | "report" | "turntable";
+  what: "results" | "report";
   signed_only?: boolean;
-  asset?: string | null;
-  count?: number;
 }
 /**
  * The header of a packet of an edited asset: all of its hulls, with the shapes of those that the asset has not.

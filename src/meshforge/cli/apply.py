@@ -15,7 +15,7 @@ from meshforge import batch
 from meshforge.batch import apply as run_program
 from meshforge.checks import CheckOptions
 from meshforge.cli import options
-from meshforge.cli.apply_work import Alarms, ApplyArguments, ApplyWork
+from meshforge.cli.apply_work import Alarms, ApplyArguments, ApplyWork, work_of_program, work_of_project
 from meshforge.cli.console import NoteLog, progress
 from meshforge.cli.report import NOTHING_WRITTEN, describe_failure, write_report_page
 from meshforge.cli.terminal import print_json, remark
@@ -40,7 +40,7 @@ def apply(given: ApplyArguments) -> None:
     if given.report and given.dry_run:
         raise UsageError(options.NOTHING_TO_SHOW, remedy="Leave out --report.")
     with ExitStack() as stack:
-        work = ApplyWork.of(given, stack)
+        work = work_of_project(given, stack) if given.program.is_dir() else work_of_program(given)
         raise typer.Exit(_run(given, work, measures))
 
 
@@ -59,7 +59,7 @@ def _run(given: ApplyArguments, work: ApplyWork, measures: CheckOptions | None) 
         urdf_capsules=given.urdf_capsules or (work.project is not None and work.project.settings.urdf_capsules),
     )
     log = NoteLog(len(work.jobs) > 2)
-    for failed in work.failed:
+    for failed in work.new.failed:
         summary.add(failed)
         done.append(failed) if given.json else typer.echo(describe_failure(failed))
     try:
@@ -81,10 +81,10 @@ def _run(given: ApplyArguments, work: ApplyWork, measures: CheckOptions | None) 
         for asset, why in work.renew_sign_offs(alarms).items():
             remark(f"{escape_name(asset)} is no longer signed off: {why}")
     _print_lines(done, alarms, work.describe_result_statuses() if done else {})
-    if work.new:
+    if work.new.prepared:
         from meshforge.project import describe_new  # lazy: 170 modules that a program file does not need
 
-        if text := describe_new(list(work.new.values())):
+        if text := describe_new(list(work.new.prepared.values())):
             remark(text)
     summary.need_review = work.need_review
     for need_review in work.need_review:

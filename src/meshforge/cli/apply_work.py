@@ -14,14 +14,13 @@ import typer
 
 from meshforge import batch
 from meshforge.cli import options
-from meshforge.cli.apply_new import prepare_given, prepare_later, to_needs_review
 from meshforge.cli.console import progress
 from meshforge.cli.terminal import remark
-from meshforge.common import UsageError, join_names, suggest_name
+from meshforge.common import UsageError, format_share, join_names, suggest_name
 from meshforge.language import Program, Template
 
 if TYPE_CHECKING:
-    from meshforge.project import NewAssetOptions, NewAssetResult, Project, ProjectReview
+    from meshforge.project import NewAsset, NewAssetOptions, NewAssetResult, Project, ProjectReview
     from meshforge.signoff import AssetConfidence
 
 
@@ -78,15 +77,47 @@ class ApplyArguments:
     json: options.Json = False
 
 
+_PREPARED = 600.0  # seconds for an asset at least, as `meshforge prepare` gives it
 Alarms = Mapping[str, Sequence[str]]
 """Sentences about results that stand out, by asset."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class NewAssets:
+    """What became of new assets before the program, by id. changes: of their jobs, where what was done is kept beside
+    the project."""
+
+    results: Mapping[str, NewAssetResult] = field(default_factory=dict)
+    changes: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+
+    @staticmethod
+    def aside(made: Iterable[tuple[NewAsset, NewAssetResult]]) -> NewAssets:
+        """Return those whose preparation and labels are kept beside the project."""
+        rows = {work.id: (work, result) for work, result in made}
+        changes = {id: {"labels": work.labels, "preparation": work.preparation} for id, (work, _) in rows.items()}
+        return NewAssets({id: result for id, (_, result) in rows.items()}, changes)
+
+    @property
+    def failed(self) -> list[batch.Failed]:
+        """Those that could not be prepared, so that no program runs on them."""
+        return [one.failure for one in self.results.values() if one.failure]
+
+    @property
+    def prepared(self) -> dict[str, NewAssetResult]:
+        """All others."""
+        return {asset: one for asset, one in self.results.items() if not one.problem}
+
+    def update(self, jobs: Iterable[batch.AssetJob]) -> list[batch.AssetJob]:
+        """Return the jobs as they are to be done now."""
+        failed = {one.asset for one in self.failed}
+        own = {id: {**self.changes.get(id, {}), "notes": one.describe()} for id, one in self.results.items()}
+        return [replace(job, **own.get(job.id, {})) for job in jobs if job.id not in failed]
 
 
 @dataclass(frozen=True, slots=True)
 class ApplyWork:
     """What is to be run on what. need_review: assets that are not written; project: None where its own assets are not
-    meant; new: what was done to new assets before, by id; failed: those of them that could not be prepared;
-    confidences: how sure the edits of assets are that are not the project's, as far as asked."""
+    meant; confidences: how sure the edits of assets are that are not the project's, as far as asked."""
 
     program: Program
     jobs: Sequence[batch.AssetJob]
@@ -94,14 +125,8 @@ class ApplyWork:
     templates: Mapping[str, Template]
     need_review: Sequence[batch.NeedsReview] = ()
     project: Project | None = None
-    new: Mapping[str, NewAssetResult] = field(default_factory=dict)
-    failed: Sequence[batch.Failed] = ()
+    new: NewAssets = field(default_factory=NewAssets)
     confidences: Mapping[str, AssetConfidence] = field(default_factory=dict)
-
-    @staticmethod
-    def of(given: ApplyArguments, stack: ExitStack) -> ApplyWork:
-        """Return what was asked for; stack: keeps a folder for as long as the run takes."""
-        return _work_of_project(given, stack) if given.program.is_dir() else _work_of_program(given)
 
     def readers(self, assets: Iterable[str]) -> Sequence[batch.MeshReader]:
         """Return functions that read assets as they were before the run."""
@@ -124,7 +149,7 @@ class ApplyWork:
             for asset, one in self.confidences.items()
         }
         return result_statuses | {
-            asset: {**result_statuses.get(asset, {}), **self.describe_new(asset)} for asset in self.new
+            asset: {**result_statuses.get(asset, {}), **self.describe_new(asset)} for asset in self.new.prepared
         }
 
     def find_outliers(self, alarms: Alarms) -> list[str]:
@@ -135,11 +160,12 @@ class ApplyWork:
 
     def describe_new(self, asset: str) -> dict[str, Any]:
         """Return what was done to a new asset before, nothing of another."""
-        return self.new[asset].to_json() if asset in self.new else {}
+        result = self.new.prepared.get(asset)
+        return result.to_json() if result else {}
 
 
-def _work_of_project(given: ApplyArguments, stack: ExitStack) -> ApplyWork:
-    """What is run on assets of a project or others given beside it; stack: keeps a folder for as long as that takes."""
+def work_of_project(given: ApplyArguments, stack: ExitStack) -> ApplyWork:
+    """Return what is run on assets of a project, or on others given beside it; stack: keeps a folder meanwhile."""
     from meshforge.project import NewAssetOptions, Project  # lazy: 170 modules that a program file does not need
 
     if given.labels and not given.assets:
@@ -152,14 +178,14 @@ def _work_of_project(given: ApplyArguments, stack: ExitStack) -> ApplyWork:
         return _work_of_others(given, project, new_options, stack)
     out = given.out or project.layout.edited
     folder = Path(stack.enter_context(TemporaryDirectory())) if given.dry_run else None
-    new = prepare_later(project, folder, new_options)
+    new = _prepare_later(project, folder, new_options)
     need_review = _list_unsure(project, out, given.min_confidence) if given.min_confidence is not None else ()
     program, jobs, templates = project.work()
     if away := [f"{asset} ({why})" for asset, why in project.exclusions().items() if asset in project.every.ids]:
         remark(f"excluded, and not edited: {join_names(away)}")
     names = {one.asset for one in need_review}
     rest = [job for job in new.update(jobs) if job.id not in names]
-    return ApplyWork(program, rest, out, templates, need_review, project, new.results, new.failed)
+    return ApplyWork(program, rest, out, templates, need_review, project, new)
 
 
 def _work_of_others(
@@ -176,16 +202,16 @@ def _work_of_others(
     program, _, templates = project.work(())
     folder = Path(stack.enter_context(TemporaryDirectory())) if given.dry_run else out / batch.STATE
     new_options = replace(new_options, guess=bool(program.labels_asked))
-    jobs, new = prepare_given(project, given.assets or (), given.labels, folder, new_options)
+    jobs, new = _prepare_given(project, given.assets or (), given.labels, folder, new_options)
     found: dict[str, AssetConfidence] = {}
     need_review: tuple[batch.NeedsReview, ...] = ()
     if review and given.min_confidence is not None:
-        found = assess_new_assets(project, review, jobs, new.results, new_options.execution)
+        found = assess_new_assets(project, review, jobs, new.prepared, new_options.execution)
         unsure = (one for one in found.values() if one.probability < given.min_confidence)
-        need_review = tuple(to_needs_review(one, out) for one in sorted(unsure, key=lambda one: one.probability))
+        need_review = tuple(_to_needs_review(one, out) for one in sorted(unsure, key=lambda one: one.probability))
     names = {one.asset for one in need_review}
     rest = [job for job in jobs if job.id not in names]
-    return ApplyWork(program, rest, out, templates, need_review, new=new.results, failed=new.failed, confidences=found)
+    return ApplyWork(program, rest, out, templates, need_review, new=new, confidences=found)
 
 
 def _review(project: Project, threshold: float) -> ProjectReview:
@@ -198,11 +224,12 @@ def _review(project: Project, threshold: float) -> ProjectReview:
 
 
 def _list_unsure(project: Project, out: Path, threshold: float) -> tuple[batch.NeedsReview, ...]:
-    assessment = _review(project, threshold).assessment
-    return tuple(to_needs_review(assessment.assets[name], out) for name in assessment.need_review)
+    found = _review(project, threshold).assessment
+    return tuple(_to_needs_review(found.assets[name], out) for name in found.need_review)
 
 
-def _work_of_program(given: ApplyArguments) -> ApplyWork:
+def work_of_program(given: ApplyArguments) -> ApplyWork:
+    """Return what is run on assets without a project."""
     if given.min_confidence is not None:
         raise UsageError("--min-confidence needs a project: a program alone does not say how sure its results are")
     if given.no_rebuild:
@@ -218,3 +245,56 @@ def _work_of_program(given: ApplyArguments) -> ApplyWork:
     templates = batch.load_templates(program, batch.template_folders(given.program))
     jobs = batch.make_jobs(batch.expand(given.assets), given.labels)
     return ApplyWork(program, jobs, given.out, templates)
+
+
+def _prepare_given(
+    project: Project, assets: Sequence[str], labels: Path | None, folder: Path, options: NewAssetOptions
+) -> tuple[list[batch.AssetJob], NewAssets]:
+    """Prepare assets that are given beside a project, with what is done kept in a folder; the job of each. One that is
+    the project's own is taken as the project has it."""
+    from meshforge.project import NewAsset, prepare_new_assets, read_preparation_plan  # lazy: 170 modules
+
+    plan = read_preparation_plan(project)
+    if plan.unclear:
+        remark(plan.unclear)
+    known = {path: asset for asset, path in project.every.ids.items()}
+    given = batch.make_jobs(batch.expand(assets), labels)
+    ours = {job.path: job for job in project.jobs({known[job.path] for job in given if job.path in known})}
+    jobs = [replace(ours[job.path], id=job.id, base=job.base) if job.path in ours else job for job in given]
+    new = [NewAsset(job.id, job.path, plan, job.labels) for job in given if job.path not in ours]
+    found = NewAssets.aside(prepare_new_assets(project, new, folder, _with_stage(options)))
+    return found.update(jobs), found
+
+
+def _prepare_later(project: Project, folder: Path | None, options: NewAssetOptions) -> NewAssets:
+    """Prepare the assets that came to a project after the others were prepared. folder: where what is done is kept;
+    None for in the project."""
+    from meshforge.project import list_new, prepare_new_assets  # lazy: 170 modules that a program file does not need
+
+    new, unclear = list_new(project)
+    if unclear:
+        remark(unclear)
+    program = project.program()
+    options = replace(_with_stage(options), guess=program is None or bool(program.labels_asked))
+    if folder is None:
+        return NewAssets({result.asset: result for result in project.prepare_new(options)})
+    return NewAssets.aside(prepare_new_assets(project, new, folder, options))
+
+
+def _with_stage(options: NewAssetOptions) -> NewAssetOptions:
+    execution = options.execution
+    if execution.timeout is not None:
+        execution = replace(execution, timeout=max(execution.timeout, _PREPARED))
+    return replace(options, execution=execution, stage=progress)
+
+
+def _to_needs_review(found: AssetConfidence, out: Path) -> batch.NeedsReview:
+    """Hold an asset back, since its edit is not sure enough."""
+    written = batch.read_stamp(out, found.asset)
+    kept = str(out / written.out) if written and written.out else None
+    reason = found.reasons[0].text if found.reasons else "no single doubt stands out"
+    why = f"{format_share(found.probability)} sure; {reason}"
+    why += "; the output of an earlier run stays as it is" if kept else ""
+    return batch.NeedsReview(
+        found.asset, found.probability, tuple(reason.to_json() for reason in found.reasons), why, kept
+    )

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 from pathlib import Path
-from time import perf_counter
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import Annotated, Any, Literal
 
 import typer
 
@@ -18,9 +16,6 @@ from meshforge.cli.terminal import print_json, remark
 from meshforge.common import UsageError, escape_name, pluralize
 from meshforge.formats import FORMATS_BY_SUFFIX, Loss, SaveResult
 from meshforge.symbolic import Feature, SymbolicMesh
-
-if TYPE_CHECKING:
-    from meshforge import batch
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +47,6 @@ class ConvertArguments:
     link: Annotated[bool, typer.Option("--link", help="Hard-link files that are only copied.")] = False
     overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace files that are there already.")] = False
     dry_run: options.DryRun = False
-    report: options.ReportPath = None
     execution: options.ExecutionArguments = options.EXECUTION
     json: options.Json = False
 
@@ -71,13 +65,11 @@ def convert(given: ConvertArguments) -> None:
         raise UsageError("there is nothing to write to", remedy="meshforge convert ASSET OUT")
     *sources, out = given.paths
     if given.to is None:
-        options.refuse_options(given.context, ("dry_run", "report"), "--to SUFFIX")
+        options.refuse_options(given.context, ("dry_run",), "--to SUFFIX")
         if len(sources) > 1:
             raise UsageError("several assets and no format", remedy="meshforge convert ASSETS... OUT --to SUFFIX")
         _convert_one(Path(sources[0]), Path(out), given)
         return
-    if given.report and given.dry_run:
-        raise UsageError(options.NOTHING_TO_SHOW, remedy="Leave out --report.")
     if given.overwrite:
         raise UsageError("--overwrite is for one asset", remedy="Outputs of an earlier run are replaced as it is.")
     suffix = _parse_suffix(given.to)
@@ -90,18 +82,16 @@ def _convert_many(sources: Sequence[str], out: Path, given: ConvertArguments, su
     from meshforge.cli.report import NOTHING_WRITTEN, describe_failure  # lazy: as batch
     from meshforge.language import Program  # lazy: as batch
 
-    jobs, summary, started = batch.make_jobs(batch.expand(sources), given.labels), batch.RunSummary(), perf_counter()
-    log, run_options = (
-        NoteLog(len(jobs) > 2),
-        batch.ApplyOptions(
-            link=given.link,
-            dry_run=given.dry_run,
-            to=suffix,
-            names=given.names,
-            collision=given.collision,
-            concave=given.concave,
-            urdf_capsules=given.urdf_capsules,
-        ),
+    jobs, summary = batch.make_jobs(batch.expand(sources), given.labels), batch.RunSummary()
+    log = NoteLog(len(jobs) > 2)
+    run_options = batch.ApplyOptions(
+        link=given.link,
+        dry_run=given.dry_run,
+        to=suffix,
+        names=given.names,
+        collision=given.collision,
+        concave=given.concave,
+        urdf_capsules=given.urdf_capsules,
     )
     if len(jobs) > 1:
         remark(str(batch.plan_run(jobs, out)))
@@ -120,26 +110,7 @@ def _convert_many(sources: Sequence[str], out: Path, given: ConvertArguments, su
     if not given.json:
         log.print_repeated()
         typer.echo(str(summary).replace("unchanged", "written", 1) + NOTHING_WRITTEN * given.dry_run)
-    if given.report:
-        _write_report(given.report, f"{out.resolve().name} as {suffix}", jobs, summary, perf_counter() - started)
     raise typer.Exit(int(summary.counts["failed"] > 0))
-
-
-def _write_report(
-    path: Path, title: str, jobs: Sequence[batch.AssetJob], summary: batch.RunSummary, seconds: float
-) -> None:
-    from meshforge import batch  # lazy: as above
-    from meshforge.cli.report import write_report_page  # lazy: as above
-    from meshforge.language import Program  # lazy: as above
-
-    by_id = {job.id: job for job in jobs}
-    readers = [partial(batch.read_job, by_id[outcome.asset]) for outcome in summary.outcomes_to_show]
-    shown = batch.compare_outcomes(summary.outcomes_to_show, Program(), readers)
-    about = "Each asset as it was read, and as what was written of it reads."
-    figures = batch.RunFigures.of_run(summary, {"unchanged": "written"})
-    assets = [replace(asset, status="written") if asset.status == "unchanged" else asset for asset in shown]
-    options = batch.ReportOptions(changes=False)  # the target may have other names
-    write_report_page(path, batch.ReportHeader(title, about, seconds, figures), assets, options=options)
 
 
 def _parse_suffix(to: str) -> str:

@@ -1,5 +1,4 @@
-"""`meshforge render`: a picture of an asset's hulls, or numbered pictures in which a person or a model names its
-parts."""
+"""`meshforge render`: a picture of an asset's hulls, or a GIF in which it turns."""
 
 from __future__ import annotations
 
@@ -13,12 +12,7 @@ from meshforge import inspection, rendering
 from meshforge.cli.console import progress
 from meshforge.cli.options import AssetFile, InProject, LabelsPath, open_asset, refuse_with, takes
 from meshforge.cli.terminal import remark
-from meshforge.common import UsageError, escape_name, pluralize
-from meshforge.symbolic import SymbolicMesh
-
-_LABELLING = "labelling"
-
-_SHEET_COLUMNS = 4  # a numbered picture and its plain one, twice
+from meshforge.common import UsageError, escape_name
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,7 +23,7 @@ class RenderArguments:
     asset: AssetFile
     out: Annotated[
         Path | None,
-        typer.Option("-o", "--out", help="The PNG or JPEG to write; for `--views labelling` it may be a folder."),
+        typer.Option("-o", "--out", help="The PNG or JPEG to write."),
     ] = None
     turntable: Annotated[
         Path | None,
@@ -46,15 +40,14 @@ class RenderArguments:
         typer.Option(
             "--views",
             help="Comma-separated: iso, iso-back, front, back, left, right, top, bottom, and from a corner "
-            "front-right-above, back-left-below and so on; or `labelling`: views chosen so that each hull is seen and "
-            "numbered in one, each beside the asset as it looks.",
+            "front-right-above, back-left-below and so on.",
         ),
     ] = "iso"
     size: Annotated[
         str | None,
         typer.Option(
             "--size",
-            help="Pixels of the picture, by default 900x700; for labelling of each, 1024x1024; of a turntable 480x400.",
+            help="Pixels of the picture, by default 900x700; of a turntable 480x400.",
         ),
     ] = None
     ghost: Annotated[bool, typer.Option("--ghost", help="Show the visual mesh as a ghost.")] = False
@@ -72,17 +65,6 @@ def render(given: RenderArguments) -> None:
         return
     if given.out is None:
         raise UsageError("nothing says what to write", remedy="Give --out FILE.png, or --turntable FILE.gif.")
-    if given.views.strip() == _LABELLING:
-        other = f"--views {_LABELLING}, which has its own colours and numbers"
-        refuse_with(given.context, ("color_by", "ghost", "names"), other)
-        if _is_sheet(given.out):
-            rendering.check_picture_path(given.out)
-        side = _parse_side(given.size or "1024x1024")
-        mesh = open_asset(given.asset, given.labels, given.project)
-        with progress(None, "drawing"):
-            wrote = write_part_pictures(mesh, given.out, side)
-        remark(f"wrote {wrote}")
-        return
     rendering.check_picture_path(given.out)  # before the asset is read, which may take its time
     mesh = open_asset(given.asset, given.labels, given.project)
     views, size = _parse_views(given.views), _parse_pixels(given.size or "900x700")
@@ -109,21 +91,12 @@ def _write_turntable(given: RenderArguments, path: Path) -> None:
     remark(f"wrote {escape_name(str(path))}")
 
 
-def _parse_side(text: str) -> int:
-    width, height = _parse_pixels(text)
-    if width != height:
-        raise UsageError(f"pictures for labelling are square, {text} is not", remedy=f"Give --size {width}x{width}.")
-    return width
-
-
 def _parse_views(text: str) -> list[rendering.View]:
     known: dict[str, rendering.View] = {view: view for view in rendering.VIEWS}
     names = [name.strip() for name in text.split(",")]
     for name in names:
         if name not in known:
-            raise UsageError(
-                f"there is no view {name!r}", remedy=f"Views: {', '.join(rendering.VIEWS)}; or {_LABELLING}."
-            )
+            raise UsageError(f"there is no view {name!r}", remedy=f"Views: {', '.join(rendering.VIEWS)}.")
     return [known[name] for name in names]
 
 
@@ -132,34 +105,3 @@ def _parse_pixels(text: str) -> tuple[int, int]:
     if not (cross and width.isdigit() and height.isdigit() and 16 <= int(width) <= 8192 and 16 <= int(height) <= 8192):
         raise UsageError(f"--size {text} is not a size", remedy="Give it as WIDTHxHEIGHT, for example 900x700.")
     return int(width), int(height)
-
-
-def _is_sheet(out: Path) -> bool:
-    """Whether all pictures for labelling go on one sheet, not each into a file of a folder."""
-    return bool(out.suffix) and not out.is_dir()
-
-
-def write_part_pictures(mesh: SymbolicMesh, out: Path, size: int) -> str:
-    """Write what `shots` shows, on one sheet, or one by one where `out` is a folder or has no suffix.
-
-    size: pixels along each picture's sides. Returns what is written, in words. Raises UsageError for a mesh without
-    hulls, and where it cannot be written.
-    """
-    taken = rendering.draw_labeling_pictures(mesh, size=size)
-    if not taken:
-        raise UsageError(
-            "there are no hulls to be named", remedy="`meshforge decompose` makes hulls, and `new --decompose` too."
-        )
-    if _is_sheet(out):
-        rendering.write_picture(
-            out,
-            rendering.make_contact_sheet(
-                [image for shot in taken for image in (shot.marked, shot.plain)], columns=_SHEET_COLUMNS
-            ),
-        )
-        return f"{out}: {pluralize(len(taken), 'picture')}, each with its plain one"
-    for k, shot in enumerate(taken, 1):
-        stem = "-".join([f"{k:02}", *shot.name.replace(",", " ").split()])
-        rendering.write_png(out / f"{stem}.png", shot.marked)
-        rendering.write_png(out / f"{stem}-plain.png", shot.plain)
-    return f"{pluralize(len(taken), 'picture')} to {out}, each with its plain one"

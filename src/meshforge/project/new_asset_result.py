@@ -50,6 +50,11 @@ class NewAssetResult:
     taken: Mapping[str, Label] = field(default_factory=dict)
 
     @property
+    def failure(self) -> batch.Failed | None:
+        """Why no program runs on it; None where it could be prepared."""
+        return batch.Failed(self.asset, f"it could not be prepared: {self.problem}", 0.0) if self.problem else None
+
+    @property
     def new_labels(self) -> dict[str, Label]:
         """The label of each hull of a body that was rebuilt, by its name."""
         return {name: label for one in self.rebuilt for name, label in one.labels.items()}

@@ -12,9 +12,9 @@ from meshforge.engines import ENGINES
 from meshforge.store.history import HistoryState
 from meshforge.studio.queries.programs import build_language_view
 from meshforge.studio.wire import Wire, events
-from meshforge.studio.wire.family import AssessmentView, Card, ProjectView, VocabularyLabel
-from meshforge.studio.wire.jobs import Job, LabelUpdate
-from meshforge.studio.wire.program import OutcomeView, ProgramView, Reach
+from meshforge.studio.wire.family import Card, ProjectView
+from meshforge.studio.wire.jobs import Job
+from meshforge.studio.wire.program import ProgramView
 
 MOST_FINISHED_JOBS = 20
 """Jobs that are over and still sent to pages that connect."""
@@ -103,49 +103,18 @@ class PageState:
                 self._hub.broadcast(events.CardsChanged(cards=tuple(fresh.values()), gone=gone))
         return new
 
-    def set_project(self, project: ProjectView) -> None:
-        """Show the project as it is now."""
-        self._change(events.ProjectChanged(project=project), project=project)
-
-    def set_vocabulary(self, labels: tuple[VocabularyLabel, ...]) -> None:
-        """Show other labels."""
+    def show(self, event: events.StateChanged) -> None:
+        """Show a change of the state, and send it where something is another now."""
+        fields = {name: value for name, value in event if name in events.Hello.model_fields and name != "kind"}
         with self._lock:
-            self.set_project(self._rest.project.model_copy(update={"vocabulary": labels}))
+            if any(getattr(self._rest, name) != value for name, value in fields.items()):
+                self._rest = self._rest.model_copy(update=fields)
+                self._hub.broadcast(event)
 
-    def set_problem(self, problem: str) -> None:
-        """Show what is wrong with the project."""
+    def change_project(self, **fields: Any) -> None:
+        """Show the project with some of its fields changed."""
         with self._lock:
-            self.set_project(self._rest.project.model_copy(update={"problem": problem}))
-
-    def set_history(self, event: events.HistoryChanged) -> None:
-        """Show what was done, and what can be undone now."""
-        with self._lock:
-            self._rest = self._rest.model_copy(update={"history": event.history})
-            self._hub.broadcast(event)
-
-    def set_relabelled(self, relabelled: LabelUpdate | None) -> None:
-        """Show what the last edit did to all labels."""
-        self._change(events.LabelUpdateChanged(relabelled=relabelled), relabelled=relabelled)
-
-    def set_outcome(self, outcome: OutcomeView | None, learning: bool) -> None:
-        """Show the outcome of a learning run, or that one has started."""
-        self._change(events.OutcomeChanged(outcome=outcome, learning=learning), outcome=outcome, learning=learning)
-
-    def set_program(self, program: ProgramView) -> bool:
-        """Show the accepted program; whether its text is another than before."""
-        with self._lock:
-            before = self._rest.program
-            self._change(events.ProgramChanged(program=program), program=program)
-            return program.text != before.text
-
-    def set_reach(self, reach: tuple[Reach, ...]) -> None:
-        """Show what the program does on all assets."""
-        self._change(events.ReachChanged(reach=reach), reach=reach)
-
-    def set_assessment(self, assessment: AssessmentView | None, assessing: bool) -> None:
-        """Show how sure the edits are, or that this is not known now."""
-        event = events.AssessmentChanged(assessment=assessment, assessing=assessing)
-        self._change(event, assessment=assessment, assessing=assessing)
+            self.show(events.ProjectChanged(project=self._rest.project.model_copy(update=fields)))
 
     def set_job(self, job: Job) -> None:
         """Show a job as it stands."""
@@ -160,13 +129,6 @@ class PageState:
         """Send that something of these assets changed; shapes: their hulls, too."""
         if assets:
             self._hub.broadcast(events.AssetsChanged(assets=tuple(assets), shapes=shapes))
-
-    def _change(self, event: Wire, **fields: Any) -> None:
-        """Set fields of the state, and send the event where one of them is another now."""
-        with self._lock:
-            if any(getattr(self._rest, name) != value for name, value in fields.items()):
-                self._rest = self._rest.model_copy(update=fields)
-                self._hub.broadcast(event)
 
 
 class PageConnection:

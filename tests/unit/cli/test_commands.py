@@ -157,7 +157,6 @@ def test_render_writes_a_picture_of_the_size_asked_for(run: Run) -> None:
     "words",
     [
         ("render", "row.obj", "-o"),
-        ("render", "row.obj", "--views", "labelling", "--size", "256x256", "-o"),
         ("select", "Is(leg)", "row.obj", "-o"),
         ("diff", "row.obj", "row.obj", "-o"),
     ],

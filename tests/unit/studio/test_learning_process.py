@@ -2,27 +2,25 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator
 from concurrent.futures import Future
 from pathlib import Path
 
 import pytest
 
-from meshforge.common import MeshForgeError, ProgramError
+from meshforge.common import MeshForgeError, ProgramError, StoppedError
 from meshforge.language import Program, parse_extractor, select
 from meshforge.project import Project, select_assets
 from meshforge.samples import TABLES
 from meshforge.studio.edits.program import TakeLearned
 from meshforge.studio.learning import process
-from meshforge.studio.learning.process import RENEW_AFTER, FamilyCache, ReadInterrupted
-from meshforge.studio.learning.queue import CancelFlag, LatestOnlyQueue, Superseded
-from meshforge.studio.learning.scheduler import Learner
+from meshforge.studio.learning.process import RENEW_AFTER, FamilyCache
+from meshforge.studio.learning.queue import CancelFlag, LearningProcess, Superseded
 from meshforge.studio.wire.program import OutcomeView
-from meshforge.studio.workers import Workers
 from meshforge.synthesis import Step
 from tests.program_parts import parse_action
 from tests.studio_project import demo_project
+from tests.unit.studio.learning_calls import die, echo
 
 BUNDLED = (TABLES / "tables.mf").read_text()
 OTHER = "table_02.obj"
@@ -34,8 +32,8 @@ def project(tmp_path_factory: pytest.TempPathFactory) -> Project:
 
 
 @pytest.fixture(scope="module")
-def learner(project: Project) -> Iterator[Learner]:
-    made = Learner(project.folder)
+def learner(project: Project) -> Iterator[LearningProcess]:
+    made = LearningProcess(project.folder)
     yield made
     made.close()
 
@@ -68,8 +66,8 @@ def go_on() -> bool:
 
 
 @pytest.mark.slow
-def test_the_bundled_program_is_learned_and_kept(project: Project, learner: Learner) -> None:
-    outcome = learner.learn(7).result()
+def test_the_bundled_program_is_learned_and_kept(project: Project, learner: LearningProcess) -> None:
+    outcome = learner.call("learn", process.learn, 7).result()
     assert (outcome.number, outcome.status, outcome.error) == (7, "found", None)
     assert rules_of(outcome.program) == rules_of(BUNDLED)
     assert outcome.rules[0].sentence == "The misc hulls are deleted."
@@ -80,8 +78,8 @@ def test_the_bundled_program_is_learned_and_kept(project: Project, learner: Lear
 
 
 @pytest.mark.slow
-def test_reach_is_what_the_program_selects_on_every_asset(project: Project, learner: Learner) -> None:
-    rows = learner.reach(BUNDLED).result()
+def test_reach_is_what_the_program_selects_on_every_asset(project: Project, learner: LearningProcess) -> None:
+    rows = learner.call("reach", process.compute_reach, BUNDLED).result()
     assert [row.asset for row in rows] == list(project.assets())
     program = Program.parse(BUNDLED)
     templates = project.templates(program.templates)
@@ -93,22 +91,22 @@ def test_reach_is_what_the_program_selects_on_every_asset(project: Project, lear
             assert [mesh.hulls[k].name for k in own] == list(line.selected)
 
 
-def test_reach_leads_made_hulls_back_to_what_they_were_made_of(project: Project, learner: Learner) -> None:
+def test_reach_leads_made_hulls_back_to_what_they_were_made_of(project: Project, learner: LearningProcess) -> None:
     text = "Is(leg) => Each(Merge) as post\nIs(post) => Scale(all, 2) as post\nIs(post) => Delete\n"
-    (row,) = (row for row in learner.reach(text).result() if row.asset == OTHER)
+    (row,) = (row for row in learner.call("reach", process.compute_reach, text).result() if row.asset == OTHER)
     legs = tuple(k for k, hull in enumerate(project.mesh(OTHER).hulls) if hull.label == "leg")
     assert row.rules == (legs, legs, legs)
 
 
 def test_an_asset_on_which_the_program_fails_says_why(own: Project, flag: CancelFlag) -> None:
     own.set_labels(OTHER, {hull.name: None for hull in own.mesh(OTHER).hulls if hull.label == "leg"})
-    rows = process.compute_reach(own.folder, flag.make_token("reach"), BUNDLED) or ()
+    rows = process.compute_reach(own.folder, flag.make_token("reach"), BUNDLED)
     (error,) = (row.error for row in rows if row.asset == OTHER)
     assert error and "the landmark Is(leg) selects nothing" in error
 
 
-def test_an_extractor_is_generalised_as_the_rule_meets_the_assets(project: Project, learner: Learner) -> None:
-    found = learner.generalise("Geo(All, +Z)", 3, BUNDLED).result().assets
+def test_an_extractor_is_generalised_as_the_rule_meets_the_assets(project: Project, learner: LearningProcess) -> None:
+    found = learner.call("generalise", process.generalise, "Geo(All, +Z)", 3, BUNDLED).result().assets
     assert list(found) == list(project.assets())
     program, extractor = Program.parse(BUNDLED), parse_extractor("Geo(All, +Z)")
     before = Program(program.labels, program.orient, program.rules[:2])
@@ -119,8 +117,10 @@ def test_an_extractor_is_generalised_as_the_rule_meets_the_assets(project: Proje
         assert own == tuple(sorted(mesh.index[name] for name in names))
 
 
-def test_without_a_program_an_extractor_is_generalised_on_the_turned_assets(project: Project, learner: Learner) -> None:
-    found = learner.generalise("Is(leg)", 1, None).result().assets
+def test_without_a_program_an_extractor_is_generalised_on_turned_assets(
+    project: Project, learner: LearningProcess
+) -> None:
+    found = learner.call("generalise", process.generalise, "Is(leg)", 1, None).result().assets
     for asset, own in found.items():
         assert own == tuple(k for k, hull in enumerate(project.mesh(asset).hulls) if hull.label == "leg")
 
@@ -131,14 +131,13 @@ def test_of_a_very_large_family_only_what_is_looked_at_while_learning_is_held_in
     monkeypatch.setattr("meshforge.project.learn.MOST_ASSETS", 4)
     rows = process.compute_reach(project.folder, flag.make_token("reach"), BUNDLED)
     found = process.generalise(project.folder, flag.make_token("generalise"), "Is(leg)", 1, None)
-    assert rows and found
     assert len(project.assets()) > len(rows) >= 4
     assert [row.asset for row in rows] == list(found.assets) == list(select_assets(project))
 
 
-def test_a_wrong_extractor_is_one_clear_error(learner: Learner) -> None:
+def test_a_wrong_extractor_is_one_clear_error(learner: LearningProcess) -> None:
     with pytest.raises(ProgramError, match="expected a label"):
-        learner.generalise("Is(", 1, None).result()
+        learner.call("generalise", process.generalise, "Is(", 1, None).result()
 
 
 @pytest.mark.slow
@@ -174,13 +173,13 @@ def test_a_run_that_cannot_be_has_its_message(tmp_path: Path, flag: CancelFlag) 
 
 @pytest.mark.slow
 def test_an_interrupted_run_comes_to_its_end_and_of_many_calls_only_the_last_is_done(own: Project) -> None:
-    learner = Learner(own.folder)
+    learner = LearningProcess(own.folder)
     try:
-        interrupted = learner.learn(1)
-        learner.interrupt()
+        interrupted = learner.call("learn", process.learn, 1)
+        learner.cancel("learn")
         assert interrupted.result().status == "timeout"
-        outcomes = [learner.learn(number) for number in range(20)]
-        reaches = [learner.reach(BUNDLED) for _ in range(20)]
+        outcomes = [learner.call("learn", process.learn, number) for number in range(20)]
+        reaches = [learner.call("reach", process.compute_reach, BUNDLED) for _ in range(20)]
         assert outcomes[-1].result().status == "found"
         assert reaches[-1].result()
         for outcome in outcomes[1:-1]:  # one that began as an earlier one ended is cancelled while it runs
@@ -192,28 +191,26 @@ def test_an_interrupted_run_comes_to_its_end_and_of_many_calls_only_the_last_is_
 
 
 @pytest.fixture
-def line() -> Iterator[LatestOnlyQueue]:
-    workers = Workers(1)
-    made = LatestOnlyQueue(workers)
+def line(tmp_path: Path) -> Iterator[LearningProcess]:
+    made = LearningProcess(tmp_path)
     yield made
     made.close()
-    workers.close()
 
 
-def test_the_death_of_the_process_is_one_message_and_the_next_call_has_a_new_one(line: LatestOnlyQueue) -> None:
-    died: Future[int] = line.put("learn", os._exit, 3)
-    waiting: Future[int] = line.put("reach", abs, -4)
+def test_the_death_of_the_process_is_one_message_and_the_next_call_has_a_new_one(line: LearningProcess) -> None:
+    died: Future[int] = line.call("learn", die)
+    waiting: Future[int] = line.call("reach", echo, 4)
     error = died.exception()
     assert isinstance(error, MeshForgeError) and "died" in str(error)
     assert waiting.result() == 4
-    assert line.put("learn", abs, -5).result() == 5
+    assert line.call("learn", echo, 5).result() == 5
 
 
-def test_a_call_that_nobody_waits_for_any_more_is_passed_over(line: LatestOnlyQueue) -> None:
-    first: Future[int] = line.put("learn", abs, -1)
-    second: Future[int] = line.put("reach", abs, -2)
+def test_a_call_that_nobody_waits_for_any_more_is_passed_over(line: LearningProcess) -> None:
+    first: Future[int] = line.call("learn", echo, 1)
+    second: Future[int] = line.call("reach", echo, 2)
     second.cancel()
-    third: Future[int] = line.put("generalise", abs, -3)
+    third: Future[int] = line.call("generalise", echo, 3)
     assert (first.result(), third.result()) == (1, 3)
 
 
@@ -236,7 +233,7 @@ def test_the_shelf_reads_again_only_what_changed(tmp_path: Path) -> None:
     assert after[OTHER].hulls[1].shape is before[OTHER].hulls[1].shape
     assert len(after["table_03.obj"].hulls) == len(before["table_03.obj"].hulls) + 1
     assert set(before) - set(after) == {"table_04.obj"}
-    with pytest.raises(ReadInterrupted):
+    with pytest.raises(StoppedError):
         list(shelf.read_meshes(project, project.assets(), lambda: True))
 
 

@@ -12,7 +12,7 @@ from meshforge.geometry import Cylinder, Pose, Shape, Sphere, convex_hull
 from meshforge.language import to_canonical_frame
 from meshforge.project import Project
 from meshforge.studio.queries.assets import build_asset_view, compute_upright
-from meshforge.studio.queries.packets import hull_view, pack_asset, pack_visual
+from meshforge.studio.queries.packets import hull_views, pack_asset, pack_visual
 from meshforge.symbolic import Asset, Body, Document, Geom, NonConvexPiece, Surface, SymbolicMesh
 from meshforge.synthesis import Step
 from tests.program_parts import parse_action
@@ -73,7 +73,7 @@ def test_visuals_are_packed_and_none_is_an_empty_packet() -> None:
 
 def test_a_hull_is_told_with_its_kind_and_measure() -> None:
     box = convex_hull(np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 2)], float))
-    ball, part = (hull_view(hull) for hull in of_shapes(Sphere(Pose.identity(), 1.0), box).hulls)
+    ball, part = hull_views(of_shapes(Sphere(Pose.identity(), 1.0), box))
     assert (ball.primitive, part.primitive) == ("sphere", None)
     assert part.volume == pytest.approx(2.0)
     assert (part.vertices, part.faces) == (8, 12)

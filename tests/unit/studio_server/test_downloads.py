@@ -11,7 +11,6 @@ from typing import Any
 from zipfile import ZipFile
 
 import pytest
-from PIL import Image
 from starlette.testclient import TestClient
 
 from meshforge.batch import IN_PROCESS, ExecutionOptions, write_archive
@@ -183,34 +182,22 @@ def test_a_zip_has_what_apply_writes_and_says_what_is_not_in_it(person: Person, 
 
 
 @pytest.mark.slow
-def test_the_report_and_a_turntable_are_the_same_each_time_and_show_the_assets(person: Person) -> None:
+def test_the_report_shows_the_assets(person: Person) -> None:
     report = person.make(what="report")
     assert (report["state"], report["out"]) == ("done", "tables-report.html"), report
     assert "Not in it: 1 without output." in report["message"]
     text = person.fetch(report).text
     assert FIRST in text and SECOND in text and "data:image/webp" in text
     assert not re.search(r"""(src|href)=["']?(https?:)?//""", text)
-    turning = person.make(what="turntable", count=2)
-    assert turning["state"] == "done", turning["message"]
-    assert (turning["state"], turning["out"], turning["total"]) == ("done", "tables-turntable.gif", 48), turning
-    data = person.fetch(turning).content
-    with Image.open(BytesIO(data)) as gif:
-        assert gif.n_frames > 12  # type: ignore[attr-defined]
-    assert person.fetch(person.make(what="turntable", count=2)).content == data
-    alone = person.make(what="turntable", asset=SECOND)
-    assert (alone["out"], alone["total"]) == ("tables-table1-model.obj-turntable.gif", 24)
 
 
 @pytest.mark.slow
 def test_what_cannot_be_made_says_why_and_what_is_cancelled_leaves_nothing(person: Person, tmp_path: Path) -> None:
-    refused = person.post("/api/jobs", kind="download", what="turntable", asset=THIRD)
-    assert (refused.status_code, refused.json()["message"]) == (400, "it has no output to be shown")
-    assert person.post("/api/jobs", kind="download", what="turntable", asset="gone").status_code == 404
-    assert person.post("/api/jobs", kind="download", what="turntable", count=99).status_code == 400
+    assert person.post("/api/jobs", kind="download", what="gone").status_code == 400
     assert person.post("/api/download", job="download-7").status_code == 404
     assert person.client.post("/api/download", json={"job": "download-1"}).status_code == 401
     assert person.client.get("/download/nothing").status_code == 404
-    job = person.post("/api/jobs", kind="download", what="turntable", count=2).json()["id"]
+    job = person.post("/api/jobs", kind="download", what="report").json()["id"]
     assert person.post("/api/jobs", kind="download", what="report").status_code == 400, "one at a time"
     person.post("/api/jobs/cancel", id=job)
     assert person.wait(job)["message"] == "Cancelled: nothing was made."

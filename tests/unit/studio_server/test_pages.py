@@ -12,6 +12,7 @@ from meshforge.studio.label_changes import LabelChanges
 from meshforge.studio.output_checks import OutputChecks
 from meshforge.studio.pages import PageConnection, PageHub, PageState
 from meshforge.studio.session.refresh import Refresher
+from meshforge.studio.wire.events import OutcomeChanged, ProgramChanged, ProjectChanged
 from meshforge.studio.wire.family import Card, OrientView, ProjectView
 from meshforge.studio.wire.program import OutcomeView, ProgramView
 from meshforge.studio.workers import Workers
@@ -28,7 +29,7 @@ def test_a_page_is_told_everything_first_and_then_only_what_changes() -> None:
         page = PageConnection(asyncio.get_running_loop())
         shown.join(page)
         shown.set_cards([Card(asset="a"), Card(asset="b", hulls=1)])
-        shown.set_project(PROJECT)
+        shown.show(ProjectChanged(project=PROJECT))
         shown.set_assets(["b", "c"])
         await asyncio.sleep(0)
         return [await page.events.get() or "" for _ in range(page.events.qsize())]
@@ -74,9 +75,10 @@ def test_the_next_step_is_never_to_learn_what_is_being_learned(tmp_path: Path) -
     shown.set_assets(project.assets())
     refresher.refresh(project.assets())
     assert next_text() == "Learn the program from what is demonstrated."
-    shown.set_outcome(None, learning=True)
+    shown.show(OutcomeChanged(outcome=None, learning=True))
     assert next_text() == "The program is being learned."
-    shown.set_program(ProgramView(text="All => Delete\n", version="1"))  # before pages see that the run is over
+    program = ProgramView(text="All => Delete\n", version="1")
+    shown.show(ProgramChanged(program=program))  # before pages see that the run is over
     assert "Apply" in next_text()
-    shown.set_outcome(OutcomeView(number=1, status="found", program="All => Delete\n"), learning=False)
+    shown.show(OutcomeChanged(outcome=OutcomeView(number=1, status="found", program="All => Delete\n"), learning=False))
     assert "Apply" in next_text()

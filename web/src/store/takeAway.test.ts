@@ -6,7 +6,7 @@ import { saveFrom } from "../server/save";
 import type { ConfidenceView, Job } from "../wire";
 import { emptyProject, useProject } from "./project";
 import { sampleCard } from "./sample.test-help";
-import { describeResults, listWritten, saveFile, takeAway } from "./takeAway";
+import { describeResults, saveFile, takeAway } from "./takeAway";
 import { useToasts } from "./toasts";
 
 vi.mock("../server/save", () => ({ saveFrom: vi.fn() }));
@@ -86,9 +86,5 @@ describe("what a zip will hold", () => {
     expect(describeResults(cards, confidence, true)).toBe("1 signed-off result, in a zip; 1 held is not in it");
     expect(describeResults(cards, confidence, false)).toBe("3 results, in a zip; 1 of them held");
     expect(describeResults(cards, {}, false)).toBe("3 results, in a zip");
-  });
-
-  it("is what has an output", () => {
-    expect(listWritten(cards)).toEqual(["a", "b", "c"]);
   });
 });

@@ -1,4 +1,4 @@
-// Files that the server makes and the browser saves: a zip of the results, the report, a turntable.
+// Files that the server makes and the browser saves: a zip of the results, or the report.
 import { api } from "../server/api";
 import { saveFrom } from "../server/save";
 import type { Card, ConfidenceView, DownloadJob, Job } from "../wire";
@@ -38,9 +38,6 @@ function endOfJob(id: string): Promise<Job | null> {
     const leave = useProject.subscribe(() => look() && leave());
   });
 }
-
-/** Assets with outputs, in the family's order. */
-export const listWritten = (cards: readonly Card[]): readonly string[] => cards.filter(isWritten).map((card) => card.asset);
 
 /** What a zip will hold, and how many held results are in it or not. */
 export function describeResults(

@@ -1,11 +1,10 @@
-"""Jobs that make a file for the browser: a zip of the outputs, the report, or a turntable of before and after."""
+"""Jobs that make a file for the browser: a zip of the outputs, or the report."""
 
 from __future__ import annotations
 
 import shutil
 from collections import Counter
 from collections.abc import Callable, Collection, Iterator, Sequence
-from itertools import count
 from pathlib import Path
 from uuid import uuid4
 
@@ -13,10 +12,7 @@ from meshforge import batch
 from meshforge.common import UsageError, pluralize
 from meshforge.language import Program
 from meshforge.project import build_run_report, summarize_outputs
-from meshforge.rendering import encode_gif, list_turns
-from meshforge.studio.errors import NotHereError
 from meshforge.studio.jobs.outputs import list_signed_off
-from meshforge.studio.jobs.turntable import FRAMES_A_TASK, TurntableAsset, draw_turntable
 from meshforge.studio.session.job_runner import JobProgress
 from meshforge.studio.session.session import Session
 from meshforge.studio.transfers import to_file_name
@@ -41,14 +37,7 @@ Write = Callable[[JobProgress, Path], str]
 
 def start_download(session: Session, request: DownloadJob) -> Job:
     """Start to make a file. Raises UsageError where there is no output that it could show or hold."""
-    written = [card for card in session.pages.cards if card.output in ("edited", "unchanged")]
-    match request.what:
-        case "results":
-            return _start_results(session, written, request.signed_only)
-        case "report":
-            return _start_report(session)
-        case "turntable":
-            return _start_turntable(session, written, request)
+    return _start_results(session, request.signed_only) if request.what == "results" else _start_report(session)
 
 
 def _start(session: Session, name: str, title: str, total: int, write: Write) -> Job:
@@ -75,7 +64,8 @@ def _nothing_written() -> UsageError:
 # The results
 
 
-def _start_results(session: Session, written: Sequence[Card], signed_only: bool) -> Job:
+def _start_results(session: Session, signed_only: bool) -> Job:
+    written = [card for card in session.pages.cards if card.output in ("edited", "unchanged")]
     if not written:
         raise _nothing_written()
     chosen = [card.asset for card in (list_signed_off(session) if signed_only else written)]
@@ -166,43 +156,3 @@ def _start_report(session: Session) -> Job:
 
     title = f"Drawing the report of {pluralize(ran, 'result')}"
     return _start(session, f"{to_file_name(session.project.name, 'report')}.html", title, min(ran, 120), write)
-
-
-# The turntable
-
-
-def _start_turntable(session: Session, written: Sequence[Card], request: DownloadJob) -> Job:
-    if not written:
-        raise _nothing_written()
-    project, out = session.project, session.project.layout.edited
-    ids = [card.asset for card in written]
-    if request.asset is not None:
-        session.check_assets(request.asset)
-        if request.asset not in ids:
-            raise UsageError("it has no output to be shown", where=request.asset, remedy="Apply the program to it.")
-        ids = [request.asset]
-    ids = ids[: request.count]
-    assets = []
-    for asset, read in zip(ids, project.readers(ids), strict=True):
-        stamp = batch.read_stamp(out, asset)
-        if stamp is None or not stamp.is_whole(out):
-            raise NotHereError(
-                "files of its output are gone or changed", where=asset, remedy="Apply the program again."
-            )
-        assets.append(TurntableAsset(asset, read, out / stamp.out))
-
-    def write(progress: JobProgress, path: Path) -> str:
-        parts = count(1)
-        options = batch.ExecutionOptions(
-            stop=progress.is_stopped, progress=lambda: progress.advance(next(parts) * FRAMES_A_TASK)
-        )
-        program, words = project.program() or Program(), tuple(project.vocabulary)
-        pictures = draw_turntable(assets, program, words, options)
-        progress.raise_if_stopped()
-        path.write_bytes(encode_gif(pictures))
-        what = ids[0] if len(ids) == 1 else pluralize(len(ids), "asset")
-        return f"{what}, before and after."
-
-    words = [session.project.name, *([ids[0]] if request.asset else []), "turntable"]
-    title = f"Drawing a turntable of {ids[0] if len(ids) == 1 else pluralize(len(ids), 'asset')}"
-    return _start(session, f"{to_file_name(*words)}.gif", title, len(ids) * len(list_turns()), write)

@@ -5,8 +5,8 @@ from __future__ import annotations
 
 import os
 import shutil
-from collections.abc import Collection, Iterable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from collections.abc import Collection, Iterable, Mapping
+from dataclasses import replace
 from pathlib import Path
 from uuid import uuid4
 
@@ -44,80 +44,55 @@ def start_apply(session: Session, request: ApplyJob) -> Job:
 
     def work(progress: JobProgress) -> str:
         summary = batch.RunSummary(shown=project.reference_measures())
-        new = prepare_new(session, progress, assets, rebuild=request.rebuild)
-        for failed in new.failed:
-            summary.add(failed)
-            progress.add_line(_apply_line(failed, new))
-        lost = {failed.asset for failed in new.failed}
+        new, unclear = prepare_new(session, progress, assets, rebuild=request.rebuild)
+        notes = {asset: one.describe() for asset, one in new.items()}
+        failed = [one.failure for one in new.values() if one.failure]
+        for outcome in failed:
+            summary.add(outcome)
+            progress.add_line(_apply_line(outcome, notes))
+        lost = {outcome.asset for outcome in failed}
         program, jobs, templates = project.work([asset for asset in assets if asset not in lost])
+        jobs = [replace(job, notes=notes.get(job.id, ())) for job in jobs]
         with progress.stage(len(jobs), "applying the program") as advance:
             execution = batch.ExecutionOptions(stop=progress.is_stopped, progress=advance)
-            for outcome in batch.apply(
-                program, new.add_notes(jobs), project.layout.edited, templates=templates, execution=execution
-            ):
+            for outcome in batch.apply(program, jobs, project.layout.edited, templates=templates, execution=execution):
                 summary.add(outcome)
-                progress.add_line(_apply_line(outcome, new))
+                progress.add_line(_apply_line(outcome, notes))
                 session.note_output(outcome.asset)
         if sees_whole_family(project):  # else the studio knows too little: `review` signs off
             project.renew_sign_offs(summary.find_alarms(), keep_persons=True)
         session.learning.assess()  # what was accepted counts again where it came out the same
         text = ", ".join(f"{number} {word}" for word, number in summary.counts.items())
-        return f"{pluralize(len(assets), 'asset')}: {text or 'none'}. {new}".rstrip()
+        remarks = (remark for remark in (unclear, describe_new(list(new.values()))) if remark)
+        sentences = (f"{remark[0].upper()}{remark[1:]}." for remark in remarks)
+        return " ".join([f"{pluralize(len(assets), 'asset')}: {text or 'none'}.", *sentences])
 
     title = f"Applying the program to {pluralize(len(assets), 'asset')}"
     return session.jobs.start("apply", title, len(assets), work, str(project.layout.edited))
 
 
-def _apply_line(outcome: batch.AssetOutcome, new: NewAssetPreparation) -> JobLine:
-    before = new.describe(outcome.asset)
+def _apply_line(outcome: batch.AssetOutcome, notes: Mapping[str, tuple[str, ...]]) -> JobLine:
+    before = notes.get(outcome.asset, ())
     if isinstance(outcome, batch.Failed):
         return JobLine(asset=outcome.asset, status="failed", text=outcome.error, before=before)
-    notes = (note for note in outcome.notes if note not in before)
-    parts = [f"{outcome.before} → {pluralize(outcome.after, 'hull')}", *notes, *outcome.flags]
+    more = (note for note in outcome.notes if note not in before)
+    parts = [f"{outcome.before} → {pluralize(outcome.after, 'hull')}", *more, *outcome.flags]
     return JobLine(asset=outcome.asset, status=batch.status_of(outcome), text="; ".join(parts), before=before)
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class NewAssetPreparation:
-    """What became of new assets before the program, by id. unclear: why they were not decomposed, where it is not clear
-    how."""
-
-    results: Mapping[str, NewAssetResult] = field(default_factory=dict)
-    unclear: str | None = None
-
-    @property
-    def failed(self) -> Iterator[batch.Failed]:
-        """Those that could not be prepared, so that no program runs on them."""
-        for one in self.results.values():
-            if one.problem:
-                yield batch.Failed(one.asset, f"it could not be prepared: {one.problem}", 0.0)
-
-    def describe(self, asset: str) -> tuple[str, ...]:
-        """Return what was done to an asset, in sentences."""
-        return self.results[asset].describe() if asset in self.results else ()
-
-    def add_notes(self, jobs: Iterable[batch.AssetJob]) -> list[batch.AssetJob]:
-        """Return the jobs, of which those of new assets say what was done to these before."""
-        return [replace(job, notes=self.describe(job.id)) for job in jobs]
-
-    def __str__(self) -> str:
-        """What was done to all, in sentences; empty where nothing was."""
-        remarks = [self.unclear, describe_new(list(self.results.values()))]
-        return " ".join(f"{text[0].upper()}{text[1:]}." for text in remarks if text)
 
 
 def prepare_new(
     session: Session, progress: JobProgress, assets: Collection[str], *, rebuild: bool
-) -> NewAssetPreparation:
-    """Prepare those of some assets that are new; each is one edit, and all are undone at once.
+) -> tuple[Mapping[str, NewAssetResult], str | None]:
+    """Prepare those of some assets that are new; each is one edit, and all are undone at once. Return what became of
+    them, and why they were not decomposed, where it is not clear how.
 
-    rebuild: whether bodies are rebuilt of which a hull spans parts, or these only named. Raises
-    ProjectError where what the project keeps of how its assets were prepared is damaged.
+    rebuild: whether bodies are rebuilt of which a hull spans parts, or these only named. Raises ProjectError where what
+    the project keeps of how its assets were prepared is damaged.
     """
     project, group = session.project, uuid4().hex
     new, unclear = list_new(project)
     if not any(one.id in assets for one in new):
-        return NewAssetPreparation(unclear=unclear)
+        return {}, unclear
     program = project.program()
     options = NewAssetOptions(
         rebuild=rebuild,
@@ -128,7 +103,7 @@ def prepare_new(
     )
     results = {one.asset: one for one in project.prepare_new(options, assets)}
     session.update([relative_name(project.layout.preparation_plan, project.folder)])
-    return NewAssetPreparation(results, unclear)
+    return results, unclear
 
 
 def start_check(session: Session) -> Job:

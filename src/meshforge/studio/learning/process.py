@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 
-from meshforge.common import MeshForgeError
+from meshforge.common import MeshForgeError, StoppedError
 from meshforge.language import Program, parse_extractor
 from meshforge.project import AssessmentBasis, Project, digest_inputs, select_assets
 from meshforge.store import MeshCache
@@ -33,14 +33,14 @@ RENEW_AFTER = 64
 tables of 40 hulls). The run after that takes some tenths of a second longer."""
 
 
-@dataclass(slots=True)
-class _FamilyMemory:
+@dataclass(frozen=True, eq=False, slots=True)
+class _LastRun:
     """What the last learning run of a project came to. meshes: what it learned from, by asset; digest: of all else."""
 
-    number: int = 0
-    outcome: LearningOutcome | None = None
-    meshes: Mapping[str, SymbolicMesh] = field(default_factory=dict)
-    digest: str = ""
+    number: int
+    outcome: LearningOutcome
+    meshes: Mapping[str, SymbolicMesh]
+    digest: str
 
     def holds(self, meshes: Mapping[str, SymbolicMesh], digest: str) -> bool:
         same = meshes.keys() == self.meshes.keys() and all(meshes[name] is mesh for name, mesh in self.meshes.items())
@@ -49,25 +49,18 @@ class _FamilyMemory:
 
 def learn(folder: Path, token: CancelToken, number: int) -> OutcomeView:
     """Learn a program from a project as it is now; it replaces the accepted one unless a person wrote that."""
-    stop = token.stop
+    stop, memory = token.stop, _memory_of(folder)
     try:
         project = Project.open(folder)
-        family = _memory_of(folder).family
-        family.count_run()
+        memory.family.count_run()
         digest = digest_inputs(project)
-        meshes = dict(family.read_meshes(project, select_assets(project), stop))
+        meshes = dict(memory.family.read_meshes(project, select_assets(project), stop))
         outcome = project.synthesize(accept=not project.program_state().by_hand, meshes=meshes, stop=stop)
-    except ReadInterrupted:
+    except StoppedError:
         return OutcomeView(number=number, status="timeout")
     except MeshForgeError as error:
         return OutcomeView(number=number, status="error", error=error.message)
-    inputs_digest = _memory_of(folder).inputs_digest
-    inputs_digest.number, inputs_digest.outcome, inputs_digest.meshes, inputs_digest.digest = (
-        number,
-        outcome,
-        meshes,
-        digest,
-    )
+    memory.last = _LastRun(number, outcome, meshes, digest)
     return build_outcome_view(number, outcome, len(meshes))
 
 
@@ -77,43 +70,36 @@ def assess(folder: Path, token: CancelToken, number: int) -> AssessmentView | No
 
     It is kept, as a review is, where nothing changed since that run. None too where nothing is demonstrated yet.
     """
-    inputs_digest, project = _memory_of(folder).inputs_digest, Project.open(folder)
-    if not project.demonstration_ids():
-        return None
-    if inputs_digest.number != number or inputs_digest.outcome is None:
+    memory, project = _memory_of(folder), Project.open(folder)
+    last = memory.last
+    if last is None or last.number != number or not project.demonstration_ids():
         return None
     basis = AssessmentBasis.take(project)
-    try:
-        meshes = dict(_memory_of(folder).family.read_meshes(project, select_assets(project), token.stop))
-    except ReadInterrupted:
-        return None
-    made = assess_project(project, meshes, inputs_digest.outcome, basis, token.stop)
+    meshes = dict(memory.family.read_meshes(project, select_assets(project), token.stop))
+    made = assess_project(project, meshes, last.outcome, basis, token.stop)
     if made is None:
         return None
-    if inputs_digest.holds(meshes, basis.inputs_digest):
+    if last.holds(meshes, basis.inputs_digest):
         with suppress(MeshForgeError, OSError):  # pages show it all the same
             keep_assessment(project, made)
     unseen = len(project.assets()) - len(meshes)
     return view_assessment(made.found, made.state, made.program is not None, unseen)
 
 
-def compute_reach(folder: Path, token: CancelToken, program: str) -> tuple[Reach, ...] | None:
-    """Return what a program does on every asset that can be read, None where it was interrupted.
+def compute_reach(folder: Path, token: CancelToken, program: str) -> tuple[Reach, ...]:
+    """Return what a program does on every asset that can be read. Raises StoppedError where it was interrupted.
 
     In a family of more than 400 only on those that learning looks at (`select_assets`): memory has no room for all
     assets of a very large family, and reading them anew after each change would take minutes.
     """
     project = Project.open(folder)
     plan = _load_program(project, Program.parse(program))
-    try:
-        rows = _memory_of(folder).family.read_meshes(project, select_assets(project), token.stop)
-        return tuple(measure_reach(plan, asset, mesh) for asset, mesh in rows)
-    except ReadInterrupted:
-        return None
+    rows = _memory_of(folder).family.read_meshes(project, select_assets(project), token.stop)
+    return tuple(measure_reach(plan, asset, mesh) for asset, mesh in rows)
 
 
-def generalise(folder: Path, token: CancelToken, extractor: str, rule: int, program: str | None) -> CoverageView | None:
-    """Return what an extractor selects on the assets that `compute_reach` looks at, None where it was interrupted.
+def generalise(folder: Path, token: CancelToken, extractor: str, rule: int, program: str | None) -> CoverageView:
+    """Return what an extractor selects on the assets that `compute_reach` looks at. Raises StoppedError.
 
     rule: the number of the rule that it belongs to; program: whose rules before that one are applied first.
     """
@@ -122,21 +108,14 @@ def generalise(folder: Path, token: CancelToken, extractor: str, rule: int, prog
     bare = Program(orient=project.orientation, contact=thresholds.contact, extremity=thresholds.extremity)
     plan = _load_program(project, (Program.parse(program) if program else bare), rule)
     memory = _memory_of(folder)
-    try:
-        rows = memory.family.read_meshes(project, select_assets(project), token.stop)
-        return CoverageView(assets={asset: memory.selector.select(plan, mesh, wanted) for asset, mesh in rows})
-    except ReadInterrupted:
-        return None
+    rows = memory.family.read_meshes(project, select_assets(project), token.stop)
+    return CoverageView(assets={asset: memory.selector.select(plan, mesh, wanted) for asset, mesh in rows})
 
 
 def _load_program(project: Project, program: Program, before: int | None = None) -> ProgramWithTemplates:
     rules = program.rules if before is None else program.rules[: max(0, before - 1)]
     shortened = Program(program.labels, program.orient, rules, program.contact, program.extremity)
     return ProgramWithTemplates(shortened, project.templates(shortened.templates))
-
-
-class ReadInterrupted(Exception):  # noqa: N818 (not an error)
-    """Reading meshes was interrupted: nobody waits for the result."""
 
 
 class FamilyCache:
@@ -149,11 +128,11 @@ class FamilyCache:
     def read_meshes(
         self, project: Project, assets: Iterable[str], stop: Callable[[], bool]
     ) -> Iterator[tuple[str, SymbolicMesh]]:
-        """Yield the ids and meshes of those assets that can be read. Raises ReadInterrupted when `stop` says so."""
+        """Yield the ids and meshes of those assets that can be read. Raises StoppedError when `stop` says so."""
         cached = project.with_cache(self._meshes)
         for asset in assets:
             if stop():
-                raise ReadInterrupted
+                raise StoppedError("nobody waits for it any more")
             with suppress(MeshForgeError):
                 yield asset, cached.mesh(asset)
 
@@ -164,13 +143,13 @@ class FamilyCache:
             self._meshes.renew()
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class _Memory:
     """What stays in memory of a project."""
 
     family: FamilyCache = field(default_factory=FamilyCache)
     selector: RuleSelector = field(default_factory=RuleSelector)
-    inputs_digest: _FamilyMemory = field(default_factory=_FamilyMemory)
+    last: _LastRun | None = None
 
 
 @cache

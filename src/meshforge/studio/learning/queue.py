@@ -1,4 +1,4 @@
-"""Calls to the learning process: a queue that keeps only the latest of each kind, and flags that cancel what runs."""
+"""Calls to the learning process: of each kind only the latest counts, and flags cancel what runs."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from pathlib import Path
 from threading import Lock
 from typing import Any, Literal, get_args
 
-from meshforge.common import MeshForgeError, describe_error
+from meshforge.common import MeshForgeError, StoppedError, describe_error
 from meshforge.studio.workers import Workers, wait_for
 
 CallKind = Literal["learn", "reach", "generalise", "assess"]
@@ -39,18 +39,24 @@ class _Call:
             self.future.set_exception(Superseded(why))
 
 
-class LatestOnlyQueue:
-    """Calls that wait for one worker process; they start in the order of `CALL_KINDS`."""
+class LearningProcess:
+    """A process for the functions of `process`, which starts with the first call; folder: of the project.
 
-    def __init__(self, workers: Workers) -> None:
-        self._workers = workers
+    It makes one call at a time, in the order of `CALL_KINDS`. A new call ends the one before of its kind. One that had
+    not started then, or was stopped, raises Superseded. Where the process dies, the call raises
+    MeshForgeError, and the next call starts a new process.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self._folder, self._workers, self._flag = folder, Workers(1), CancelFlag()
         self._lock = Lock()
         self._waiting: dict[CallKind, _Call] = {}
         self._busy = False
 
-    def put(self, kind: CallKind, function: Callable[..., Any], *args: Any) -> Future[Any]:
-        """Add a call, in place of the one of its kind that waits. One that returns None was interrupted: Superseded."""
-        call = _Call(function, args)
+    def call(self, kind: CallKind, function: Callable[..., Any], *args: Any) -> Future[Any]:
+        """Call a function with the folder, a token that says when to stop, and some arguments."""
+        self._flag.cancel(kind)
+        call = _Call(function, (self._folder, self._flag.make_token(kind), *args))
         with self._lock:
             before, self._waiting[kind] = self._waiting.get(kind), call
         if before:
@@ -58,12 +64,18 @@ class LatestOnlyQueue:
         self._start_next()
         return call.future
 
+    def cancel(self, *kinds: CallKind) -> None:
+        """End the calls of some kinds that are running, soon."""
+        self._flag.cancel(*kinds)
+
     def close(self) -> None:
-        """Give up the calls that wait."""
+        """Give up the calls that wait, and stop the process."""
         with self._lock:
             waiting, self._waiting = tuple(self._waiting.values()), {}
         for call in waiting:
             call.give_up("the studio is being closed")
+        self._workers.close()
+        self._flag.close()
 
     def _start_next(self) -> None:
         call = self._take_next()
@@ -90,12 +102,12 @@ class LatestOnlyQueue:
         with self._lock:
             self._busy = False
         match outcome:
+            case None | StoppedError():
+                call.future.set_exception(Superseded("it was interrupted"))
             case MeshForgeError():
                 call.future.set_exception(outcome)
             case Exception():
                 call.future.set_exception(MeshForgeError(describe_error(outcome)))
-            case None:
-                call.future.set_exception(Superseded("it was interrupted"))
             case _:
                 call.future.set_result(outcome)
         self._start_next()

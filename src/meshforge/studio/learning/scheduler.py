@@ -7,15 +7,14 @@ from concurrent.futures import CancelledError, Future
 from functools import partial
 from pathlib import Path
 from threading import RLock, Timer
-from typing import Any
 
 from meshforge.common import MeshForgeError, describe_error
 from meshforge.studio.learning import process
-from meshforge.studio.learning.queue import CallKind, CancelFlag, LatestOnlyQueue, Superseded
+from meshforge.studio.learning.queue import LearningProcess, Superseded
 from meshforge.studio.pages import PageState
+from meshforge.studio.wire.events import AssessmentChanged, OutcomeChanged, ReachChanged
 from meshforge.studio.wire.family import AssessmentView
 from meshforge.studio.wire.program import CoverageView, OutcomeView, Reach
-from meshforge.studio.workers import Workers
 
 RESTART_DELAY = 0.03
 """Seconds that a change waits for the next one before a learning run starts."""
@@ -33,13 +32,13 @@ class LearningScheduler:
 
     def __init__(
         self,
-        learner: Learner,
+        folder: Path,
         pages: PageState,
         can_learn: Callable[[], bool],
         on_outcome: Callable[[OutcomeView], None],
         refresh: Callable[[], None],
     ) -> None:
-        self._learner, self._pages = learner, pages
+        self._process, self._pages = LearningProcess(folder), pages
         self._can_learn, self._on_outcome, self._refresh = can_learn, on_outcome, refresh
         self._lock = RLock()
         self._number, self._paused = 0, False
@@ -51,11 +50,11 @@ class LearningScheduler:
         learns = self._can_learn()
         number = self._stop(assessing=learns)
         if not learns:
-            self._pages.set_outcome(None, learning=False)
+            self._pages.show(OutcomeChanged(outcome=None, learning=False))
             self.measure_reach()
             self.assess()
             return
-        self._pages.set_outcome(self._pages.shown.outcome, learning=True)
+        self._pages.show(OutcomeChanged(outcome=self._pages.shown.outcome, learning=True))
         with self._lock:
             if number == self._number:
                 self._timer = Timer(RESTART_DELAY, self._begin, [number])
@@ -65,7 +64,7 @@ class LearningScheduler:
     def stop(self) -> None:
         """Stop the learning run that is under way; the outcome of the one before stays shown."""
         self._stop()
-        self._pages.set_outcome(self._pages.shown.outcome, learning=False)
+        self._pages.show(OutcomeChanged(outcome=self._pages.shown.outcome, learning=False))
         self._refresh()
 
     def pause(self) -> None:
@@ -93,9 +92,10 @@ class LearningScheduler:
         """Measure what the accepted program does on all assets."""
         text = self._pages.shown.program.text
         if not text or self._pages.shown.program.error:
-            self._pages.set_reach(())
+            self._pages.show(ReachChanged(reach=()))
             return
-        self._learner.reach(text).add_done_callback(partial(self._show_reach, self._number))
+        reach = self._process.call("reach", process.compute_reach, text)
+        reach.add_done_callback(partial(self._show_reach, self._number))
 
     def assess(self) -> None:
         """Judge anew how sure the edits are under the program as it is after the last learning run, and what to ask."""
@@ -106,17 +106,19 @@ class LearningScheduler:
             return
         with self._lock:
             if number == self._number:
-                self._pages.set_assessment(self._pages.shown.assessment, assessing=True)
-        self._learner.assess(number).add_done_callback(partial(self._take_assessment, number))
+                self._pages.show(AssessmentChanged(assessment=self._pages.shown.assessment, assessing=True))
+        assessment = self._process.call("assess", process.assess, number)
+        assessment.add_done_callback(partial(self._take_assessment, number))
 
     def generalise(self, extractor: str, rule: int) -> Future[CoverageView]:
         """Return what an extractor selects on all assets."""
-        return self._learner.generalise(extractor, rule, self._pages.shown.program.text or None)
+        text = self._pages.shown.program.text or None
+        return self._process.call("generalise", process.generalise, extractor, rule, text)
 
     def close(self) -> None:
         """Stop for good."""
         self._stop()
-        self._learner.close()
+        self._process.close()
 
     def _stop(self, assessing: bool = False) -> int:
         """Stop what is under way. assessing: edits will be judged anew, so that no page sees an end in between."""
@@ -125,8 +127,8 @@ class LearningScheduler:
             if self._timer:
                 self._timer.cancel()
             number = self._number
-        self._learner.interrupt()
-        self._pages.set_assessment(None, assessing)
+        self._process.cancel("learn", "reach", "assess")
+        self._pages.show(AssessmentChanged(assessment=None, assessing=assessing))
         return number
 
     def _begin(self, number: int) -> None:
@@ -134,7 +136,7 @@ class LearningScheduler:
             if number != self._number:
                 return
             try:
-                self._running = self._learner.learn(number)
+                self._running = self._process.call("learn", process.learn, number)
             except MeshForgeError:  # the studio is being closed
                 return
         self._running.add_done_callback(partial(self._finish, number))
@@ -153,7 +155,7 @@ class LearningScheduler:
         finally:
             with self._lock:  # so that no other run starts meanwhile
                 if number == self._number:
-                    self._pages.set_outcome(outcome, learning=False)
+                    self._pages.show(OutcomeChanged(outcome=outcome, learning=False))
         self.measure_reach()
         self.assess()
 
@@ -170,7 +172,7 @@ class LearningScheduler:
         with self._lock:  # so that no change makes it old meanwhile
             if number != self._number:
                 return
-            self._pages.set_assessment(found, assessing=False)
+            self._pages.show(AssessmentChanged(assessment=found, assessing=False))
         self._refresh()
 
     def _show_reach(self, number: int, future: Future[tuple[Reach, ...]]) -> None:
@@ -179,57 +181,4 @@ class LearningScheduler:
         except (MeshForgeError, CancelledError):  # superseded, or its process died: the next one is measured again
             return
         if number == self._number:
-            self._pages.set_reach(reach)
-
-
-class Learner:
-    """Learns a project's program in a process of its own, which starts with the first call.
-
-    It makes one call at a time, learning runs first. A new call ends the one before of its kind, and a learning run the
-    reach of the run before, too. A call that had not started then, and a reach that was ended, raises Superseded. Where
-    the process dies, the call raises MeshForgeError, and the next call starts a new process.
-    """
-
-    def __init__(self, folder: Path) -> None:
-        self._folder = folder
-        self._workers = Workers(1)
-        self._queue = LatestOnlyQueue(self._workers)
-        self._cancel_flag = CancelFlag()
-
-    def learn(self, number: int) -> Future[OutcomeView]:
-        """Learn now. A run that is interrupted has the status `timeout`; one that fails has an error."""
-        self.interrupt()
-        return self._put("learn", process.learn, number)
-
-    def reach(self, program: str) -> Future[tuple[Reach, ...]]:
-        """Return what a program does on every asset that `process.compute_reach` looks at.
-
-        Raises ProgramError for a text that is no program, or a template that is not there.
-        """
-        self._cancel_flag.cancel("reach")
-        return self._put("reach", process.compute_reach, program)
-
-    def generalise(self, extractor: str, rule: int, program: str | None) -> Future[CoverageView]:
-        """Return what an extractor selects on these assets before the rule of that number, after the rules before it.
-
-        Raises ProgramError for a text that is no extractor.
-        """
-        self._cancel_flag.cancel("generalise")
-        return self._put("generalise", process.generalise, extractor, rule, program)
-
-    def assess(self, number: int) -> Future[AssessmentView]:
-        """Return how sure the edits are after the learning run of that number."""
-        return self._put("assess", process.assess, number)
-
-    def interrupt(self) -> None:
-        """End the learning run, and what is worked out about the one before, soon."""
-        self._cancel_flag.cancel("learn", "reach", "assess")
-
-    def close(self) -> None:
-        """Stop the process."""
-        self._queue.close()
-        self._workers.close()
-        self._cancel_flag.close()
-
-    def _put(self, kind: CallKind, function: Callable[..., Any], *args: Any) -> Future[Any]:
-        return self._queue.put(kind, function, self._folder, self._cancel_flag.make_token(kind), *args)
+            self._pages.show(ReachChanged(reach=reach))

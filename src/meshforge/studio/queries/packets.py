@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
-from typing import Literal, cast
+from typing import Literal
 
 import numpy as np
 
@@ -133,25 +133,9 @@ def _names_not_in(mesh: SymbolicMesh, other: SymbolicMesh) -> tuple[str, ...]:
     return tuple(hull.name for hull in mesh.hulls if hull.name not in other.index)
 
 
-def hull_view(hull: Hull) -> wire.HullView:
-    """Return a hull; vertices and faces of a round primitive are those of its tessellation."""
-    return wire.HullView(
-        name=hull.name,
-        body=hull.body,
-        label=hull.label,
-        confidence=hull.confidence,
-        source=hull.source,
-        volume=hull.volume,
-        vertices=len(hull.vertices),
-        faces=len(hull.faces),
-        primitive=cast(wire.PrimitiveKind, hull.shape.kind) if hull.shape.is_primitive else None,
-        parent=hull.parent,
-    )
-
-
 def hull_views(mesh: SymbolicMesh) -> tuple[wire.HullView, ...]:
     """Return all hulls of a mesh, in their order."""
-    return tuple(map(hull_view, mesh.hulls))
+    return tuple(map(wire.HullView.model_validate, mesh.hulls))
 
 
 def contact_names(mesh: SymbolicMesh) -> tuple[tuple[str, str], ...]:

@@ -162,6 +162,13 @@ def _list_feedback(project: Project) -> Iterator[AnswerView]:
         yield AnswerView(id=line.id, kind="confirmed" if line.accepted else "rejected", asset=line.asset, text=text)
 
 
+_SHARED = (
+    *("hulls", "unsure", "given", "demonstrated", "output", "after", "stale", "error", "flags", "review", "excluded"),
+    *("manual_edits", "sources", "prepared"),
+)
+"""What a card has as the status of an asset has it."""
+
+
 def build_card(
     status: AssetStatus,
     vocabulary: Sequence[str],
@@ -172,32 +179,18 @@ def build_card(
     """Return the card of an asset; orient: the orientation's text, in whose frame it is drawn; check, faults: see
     `Card`."""
     places = {label: k for k, label in enumerate(vocabulary)}
-    labels = tuple(places.get(label.name, -1) if label else -1 for label in status.labels)
     picture = None if status.hulls is None else picture_digest(status.geometry, status.labels, orient)
     output = status.output_digest
     return Card(
         asset=status.id,
-        hulls=status.hulls,
-        labels=labels,
-        unsure=status.unsure,
-        given=status.given,
-        demonstrated=status.demonstrated,
-        output=status.output,
-        after=status.after,
+        labels=tuple(places.get(label.name, -1) if label else -1 for label in status.labels),
         after_labels=tuple(places.get(label, -1) if label else -1 for label in status.after_labels),
-        stale=status.stale,
-        error=status.error,
-        flags=status.flags,
-        review=status.review,
         note=status.review_note,
-        excluded=status.excluded,
-        manual_edits=status.manual_edits,
-        sources=status.sources,
-        prepared=status.prepared,
         picture=picture,
         edited_picture=output_picture_digest(picture, output) if output and picture else None,
         check=check,
         faults=faults,
+        **{name: getattr(status, name) for name in _SHARED},
     )
 
 

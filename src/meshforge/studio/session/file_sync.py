@@ -19,6 +19,7 @@ from meshforge.studio.pages import PageState
 from meshforge.studio.queries.programs import read_program_view
 from meshforge.studio.queries.project import vocabulary_view
 from meshforge.studio.session.refresh import RefreshQueue
+from meshforge.studio.wire.events import ProgramChanged
 from meshforge.studio.wire.program import ProgramView
 
 _LOG = logging.getLogger(__name__)
@@ -66,7 +67,10 @@ class FileSync:
     def show_program(self) -> bool:
         """Show the accepted program; whether it is another one, so that outputs may be stale."""
         self._note_stamps(file.name for file in (Layout.program, Layout.learned))
-        is_other = self._pages.set_program(_view_program(self.project, self._pages.shown.program))
+        before = self._pages.shown.program
+        program = _view_program(self.project, before)
+        self._pages.show(ProgramChanged(program=program))
+        is_other = program.text != before.text
         if is_other:
             self._queue.add([card.asset for card in self._pages.cards if card.output != "none"], later=True)
             self._pages.announce_assets(self.project.layout.demonstration.ids, shapes=False)
@@ -75,7 +79,7 @@ class FileSync:
     def reopen(self) -> None:
         """Look for assets that came or went; the vocabulary is shown at once, as keys have a meaning by it."""
         self.project = replace(self.project, every=Project.open(self.project.folder).every)
-        self._pages.set_vocabulary(vocabulary_view(self.project.settings.vocabulary))
+        self._pages.change_project(vocabulary=vocabulary_view(self.project.settings.vocabulary))
         self._family = self.project.assets()
         self._queue.add(self._pages.set_assets(self._family), later=True)
 
@@ -90,7 +94,7 @@ class FileSync:
             if changed:
                 self.update(changed)
         except MeshForgeError as error:
-            self._pages.set_problem(error.message)
+            self._pages.change_project(problem=error.message)
         except Exception:  # the next poll may succeed; polling itself must go on
             _LOG.debug("looking at what others changed failed", exc_info=True)
 

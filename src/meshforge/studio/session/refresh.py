@@ -19,6 +19,7 @@ from meshforge.studio.output_checks import OutputChecks
 from meshforge.studio.output_measures import check_key
 from meshforge.studio.pages import PageState
 from meshforge.studio.queries.project import add_session, build_card, build_project_view
+from meshforge.studio.wire.events import LabelUpdateChanged, ProjectChanged
 from meshforge.studio.wire.family import Card, NewAssetsView, ProjectView
 from meshforge.studio.wire.jobs import Job
 
@@ -71,10 +72,10 @@ class Refresher:
         except StoppedError:  # the studio is being closed
             return
         except MeshForgeError as error:
-            self._pages.set_problem(error.message)
+            self._pages.change_project(problem=error.message)
         except Exception as error:
             _LOG.debug("refreshing cards failed", exc_info=True)
-            self._pages.set_problem(describe_error(error))
+            self._pages.change_project(problem=describe_error(error))
 
     def _refresh(self, assets: tuple[str, ...]) -> None:
         project = self._project()
@@ -90,8 +91,8 @@ class Refresher:
         )
         self._report_progress()
         if self.queue.remaining == 0 or len(assets) < self.portion_size():
-            self._pages.set_relabelled(self._label_changes.last_change(self.names))
-            self._pages.set_project(self._build_view(status))
+            self._pages.show(LabelUpdateChanged(relabelled=self._label_changes.last_change(self.names)))
+            self._pages.show(ProjectChanged(project=self._build_view(status)))
 
     def _build_view(self, status: Status) -> ProjectView:
         project, cards = self._project(), self._pages.cards

@@ -20,7 +20,7 @@ from meshforge.studio.edits.base import Edit, make_edit
 from meshforge.studio.edits.program import TakeLearned
 from meshforge.studio.errors import NotHereError
 from meshforge.studio.label_changes import EarlyLabels, LabelChanges
-from meshforge.studio.learning.scheduler import Learner, LearningScheduler
+from meshforge.studio.learning.scheduler import LearningScheduler
 from meshforge.studio.output_checks import OutputChecks
 from meshforge.studio.pages import PageHub, PageState
 from meshforge.studio.queries.programs import read_program_view
@@ -30,7 +30,7 @@ from meshforge.studio.session.refresh import Refresher, initial_view
 from meshforge.studio.similar_hulls import SimilarHulls
 from meshforge.studio.thumbnails import Thumbnails
 from meshforge.studio.transfers import Downloads, Uploads
-from meshforge.studio.wire.events import HistoryChanged
+from meshforge.studio.wire.events import HistoryChanged, LabelUpdateChanged, ProgramChanged
 from meshforge.studio.wire.program import OutcomeView
 from meshforge.studio.wire.requests import EditReceipt
 from meshforge.studio.workers import Workers
@@ -81,11 +81,7 @@ class Session:
         self.refresh_queue = refresher.queue
         self._early_labels = EarlyLabels(self.pages, lambda: refresher.names)
         self.learning = LearningScheduler(
-            Learner(project.folder),
-            self.pages,
-            self._has_demonstrations,
-            self._end_learning,
-            self.refresh_queue.add,
+            project.folder, self.pages, self._has_demonstrations, self._end_learning, self.refresh_queue.add
         )
         self._watcher = FileWatcher(self._poll_files)
         self._file_sync = FileSync(project, self.pages, self.learning, self.refresh_queue)
@@ -99,7 +95,7 @@ class Session:
     def start(self) -> None:
         """Start reading, learning and watching files."""
         self.pages.set_assets(self.project.assets())
-        self.pages.set_program(read_program_view(self.project))
+        self.pages.show(ProgramChanged(program=read_program_view(self.project)))
         self.refresh_queue.add(self.project.assets(), later=True)
         self.refresh_queue.start()
         self._watcher.start()
@@ -174,9 +170,9 @@ class Session:
     def announce(self, entries: Iterable[HistoryEntry], by: str | None = None) -> None:
         """Send all pages what entries changed, then that they were made, undone or redone; the cards follow."""
         with self._mutex:
-            self.pages.set_relabelled(None)
+            self.pages.show(LabelUpdateChanged(relabelled=None))
             self.update({name for entry in entries for name in entry.names})
-            self.pages.set_history(HistoryChanged(history=self.history.state, by=by))
+            self.pages.show(HistoryChanged(history=self.history.state, by=by))
 
     @contextmanager
     def record(self, title: str, edit: dict[str, Any], paths: Iterable[Path], group: str) -> Iterator[None]:
@@ -206,7 +202,7 @@ class Session:
         with self._mutex:
             self._file_sync.poll()
             if self.history.refresh():
-                self.pages.set_history(HistoryChanged(history=self.history.state))
+                self.pages.show(HistoryChanged(history=self.history.state))
 
     # Learning
 

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Annotated, Literal
 
+from pydantic import BeforeValidator, Field
+
+from meshforge.geometry import Shape
 from meshforge.studio.wire import Wire
 from meshforge.studio.wire.program import ActionView
 
@@ -14,9 +17,14 @@ CheckPart = Literal["engines", "physics", "clearance", "fit"]
 FigureUnit = Literal["m", "m/s", "kg", "l", "%", "°", ""]
 
 
+def _kind_of_primitive(shape: Shape) -> str | None:
+    return shape.kind if shape.is_primitive else None
+
+
 class HullView(Wire):
-    """A hull. vertices, faces: how many; primitive: its kind if it is one; source: who gave the label; parent: the hull
-    of the file that a new hull inherits from."""
+    """A hull, made of one of a mesh. vertices, faces: how many, of a round primitive those of its tessellation;
+    primitive: its kind if it is one; source: who gave the label; parent: the hull of the file that a new hull inherits
+    from."""
 
     name: str
     body: str
@@ -24,9 +32,9 @@ class HullView(Wire):
     confidence: float | None = None
     source: str | None = None
     volume: float = 0.0
-    vertices: int = 0
-    faces: int = 0
-    primitive: PrimitiveKind | None = None
+    vertices: Annotated[int, BeforeValidator(len)]
+    faces: Annotated[int, BeforeValidator(len)]
+    primitive: Annotated[PrimitiveKind | None, Field(validation_alias="shape"), BeforeValidator(_kind_of_primitive)]
     parent: str | None = None
 
 

@@ -124,6 +124,18 @@ class ProgramChanged(Wire):
     program: ProgramView
 
 
+StateChanged = (
+    ProjectChanged
+    | HistoryChanged
+    | LabelUpdateChanged
+    | OutcomeChanged
+    | ReachChanged
+    | AssessmentChanged
+    | ProgramChanged
+)
+"""Other values of the fields of `Hello` that have their names."""
+
+
 class JobChanged(Wire):
     """A job as it stands."""
 
@@ -132,17 +144,6 @@ class JobChanged(Wire):
 
 
 Event = Annotated[
-    Start
-    | Hello
-    | CardsChanged
-    | ProjectChanged
-    | HistoryChanged
-    | LabelUpdateChanged
-    | AssetsChanged
-    | OutcomeChanged
-    | ReachChanged
-    | AssessmentChanged
-    | ProgramChanged
-    | JobChanged,
+    Start | Hello | CardsChanged | AssetsChanged | StateChanged | JobChanged,
     Field(discriminator="kind"),
 ]

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
-
-from pydantic import Field
+from typing import Literal
 
 from meshforge.formats import DecomposeBy
 from meshforge.studio.wire import Wire
@@ -110,14 +108,11 @@ class CheckJob(Wire):
 
 
 class DownloadJob(Wire):
-    """Make a file that the browser fetches then. what: a zip of outputs, the report, or a GIF in which assets turn,
-    before and after; signed_only: of the zip; asset: the one that turns, null for the first `count` with outputs."""
+    """Make a file that the browser fetches then. what: a zip of outputs, or the report; signed_only: of the zip."""
 
     kind: Literal["download"] = "download"
-    what: Literal["results", "report", "turntable"]
+    what: Literal["results", "report"]
     signed_only: bool = True
-    asset: str | None = None
-    count: Annotated[int, Field(ge=1, le=12)] = 4
 
 
 JobRequest = (

@@ -1,20 +1,15 @@
-// What the browser saves: a zip of the results, the report, and a turntable of before and after.
+// What the browser saves: a zip of the results, and the report.
 import { Download } from "lucide-react";
-import { type ReactNode, useMemo, useState } from "react";
+import { type ReactNode, useMemo } from "react";
 import { useJob } from "../../store/jobs";
 import { useProject } from "../../store/project";
-import { isSignedOff } from "../../store/reviews";
-import { describeResults, listWritten, saveFile, takeAway } from "../../store/takeAway";
-import { countText, shortName } from "../../store/words";
-import { useWorkspace } from "../../store/workspace";
+import { isSignedOff, isWritten } from "../../store/reviews";
+import { describeResults, saveFile, takeAway } from "../../store/takeAway";
 import { Button } from "../../ui/Button";
-import { Choice } from "../../ui/fields";
 import { Note, Section } from "../../ui/Section";
 import type { Job } from "../../wire";
 import css from "./download.module.css";
 import { JobLines, JobProgress } from "./JobProgress";
-
-const MOST_TURNING = 12;
 
 export function DownloadSection({ signedOnly }: { signedOnly: boolean }) {
   const job = useJob("download");
@@ -42,9 +37,8 @@ function Files({ signedOnly, busy }: { signedOnly: boolean; busy: boolean }) {
   const order = useProject((state) => state.order);
   const confidence = useProject((state) => state.confidence);
   const family = useMemo(() => order.flatMap((asset) => cards[asset] ?? []), [order, cards]);
-  const written = useMemo(() => listWritten(family), [family]);
   const failed = family.some((card) => card.output === "failed");
-  const nothing = written.length === 0;
+  const nothing = !family.some(isWritten);
   const noneSigned = signedOnly && !family.some((card) => isSignedOff(card, confidence[card.asset]));
   if (nothing && !failed) return <p className={css.dim}>Nothing is written yet: apply the program.</p>;
   return (
@@ -61,52 +55,7 @@ function Files({ signedOnly, busy }: { signedOnly: boolean; busy: boolean }) {
       <File name="Report" what="the report" busy={busy} disabled={false} make={() => takeAway({ what: "report" })}>
         One HTML page: pictures, figures, and how sure each is
       </File>
-      <Turntable written={written} busy={busy} />
     </ul>
-  );
-}
-
-/** Either the asset that is open, or the first ones of the family. */
-function Turntable({ written, busy }: { written: readonly string[]; busy: boolean }) {
-  const open = useWorkspace((state) => state.asset);
-  const here = open !== null && written.includes(open) ? open : null;
-  const [wanted, setWanted] = useState<"this" | "first">("this");
-  const [count, setCount] = useState(4);
-  const of = here === null ? "first" : wanted;
-  const most = Math.min(MOST_TURNING, written.length);
-  const shown = Math.min(count, most);
-  const options = [
-    ...(here === null ? [] : [{ value: "this", label: "This asset" } as const]),
-    { value: "first", label: "Several" } as const,
-  ];
-  return (
-    <File
-      name="Turntable"
-      what="the turntable"
-      busy={busy}
-      disabled={most === 0}
-      make={() => takeAway({ what: "turntable", ...(of === "this" ? { asset: here } : { count: shown }) })}
-      more={
-        <div className={css.turning}>
-          <Choice name="Assets of the turntable" value={of} options={options} onChange={setWanted} />
-          {of === "first" && (
-            <label>
-              first{" "}
-              <input
-                type="number"
-                min={1}
-                max={most}
-                value={shown}
-                onChange={(event) => setCount(Math.max(1, Math.min(most, Math.round(event.target.valueAsNumber) || 1)))}
-              />{" "}
-              of {written.length.toLocaleString("en-GB")}
-            </label>
-          )}
-        </div>
-      }
-    >
-      {of === "this" && here !== null ? `${shortName(here)}, before and after` : `${countText(shown, "asset")}, before and after`}, as a GIF
-    </File>
   );
 }
 
@@ -118,11 +67,10 @@ interface FileProps {
   busy: boolean;
   disabled: boolean;
   make: () => Promise<void>;
-  more?: ReactNode;
   children: ReactNode;
 }
 
-function File({ name, what, busy, disabled, make, more, children }: FileProps) {
+function File({ name, what, busy, disabled, make, children }: FileProps) {
   return (
     <li className={css.file}>
       <div className={css.text}>
@@ -140,7 +88,6 @@ function File({ name, what, busy, disabled, make, more, children }: FileProps) {
       >
         Download
       </Button>
-      {more}
     </li>
   );
 }
