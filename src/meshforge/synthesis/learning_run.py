@@ -14,7 +14,7 @@ from meshforge.synthesis import outcome
 from meshforge.synthesis.asset_selection import find_open_rule, select_sample, suggest_demonstration
 from meshforge.synthesis.candidates.rank import RankedCandidates, enumerate_consistent
 from meshforge.synthesis.demonstration import Example, RuleSpec
-from meshforge.synthesis.diagnosis import find_obstacles, follow_rule, give_advice
+from meshforge.synthesis.diagnosis import give_advice
 from meshforge.synthesis.options import OutOfTime, TimeBudget
 from meshforge.synthesis.orientation.alternatives import find_more_believable
 from meshforge.synthesis.orientation.suggest import (
@@ -40,7 +40,6 @@ class _OutcomeFields(TypedDict):
     tried: tuple[SearchEffort, ...]
     seconds: Mapping[str, float]
     stale: tuple[Answer, ...]
-    followed: tuple[str, ...]
 
 
 class LearningRun:
@@ -53,7 +52,6 @@ class LearningRun:
         self._tried: list[SearchEffort] = []
         self._open_rule: OpenRule | None = None
         self._searching = 0.0
-        self._followed = list(find_obstacles(task, task.options.follow)) if task.options.follow else []
         meshes = {replay.name: replay.mesh for replay in [*self._replays.shown, *self._replays.others]}
         self._repairs = RepairCollector(task, meshes, budget)
 
@@ -82,7 +80,7 @@ class LearningRun:
 
     def _learn_with_repairs(self) -> Program | None:
         fixes, task = [repair.fix for repair in self._repairs.repairs], self._task
-        options = replace(task.options, repair=False, suggest_orientation=False, follow=None)
+        options = replace(task.options, repair=False, suggest_orientation=False)
         corrected = replace(task, demos=correct_demonstrations(task.demos, fixes), options=options)
         return LearningRun(corrected, self._budget).run().program
 
@@ -94,8 +92,6 @@ class LearningRun:
             start = self._budget.elapsed
             found = self._find_candidates(spec, examples, [replay.mesh for replay in rest])
             self._searching += self._budget.elapsed - start
-            if not isinstance(found, tuple):
-                self._follow(spec, found if isinstance(found, RankedCandidates) else None, names, examples)
             match found:
                 case RankedCandidates():
                     self._accept(spec, found, names)
@@ -148,14 +144,6 @@ class LearningRun:
             return found
         search = Search(examples, task.frame.labels, self._budget, task.options, rest)
         return RankedCandidates.of_single(search, found.extractor)
-
-    def _follow(
-        self, spec: RuleSpec, ranked: RankedCandidates | None, names: Sequence[str], examples: Sequence[Example]
-    ) -> None:
-        wanted = self._task.options.follow
-        if wanted and spec.number <= len(wanted.rules):
-            extractor = wanted.rules[spec.number - 1].extractor
-            self._followed.append(follow_rule(spec, extractor, ranked, names, examples, self._task))
 
     def _accept(self, spec: RuleSpec, ranked: RankedCandidates, names: tuple[str, ...]) -> None:
         rule = Rule(ranked.extractor, spec.action, spec.label)
@@ -227,7 +215,7 @@ class LearningRun:
 
     def _compare(self, orient: Orient) -> OrientationSuggestion | None:
         """What becomes of the rules in another frame; None where that makes no difference, or some are not found."""
-        options = replace(self._task.options, suggest_orientation=False, repair=False, follow=None)
+        options = replace(self._task.options, suggest_orientation=False, repair=False)
         frame = replace(self._task.frame, orient=orient)
         other = LearningRun(replace(self._task, frame=frame, options=options), self._budget)
         if not isinstance(other.run(), outcome.Found | outcome.Ambiguous):
@@ -259,5 +247,4 @@ class LearningRun:
             "tried": tuple(self._tried),
             "seconds": {"search": self._searching, "replay": self._budget.elapsed - self._searching},
             "stale": self._replays.stale,
-            "followed": tuple(self._followed),
         }
