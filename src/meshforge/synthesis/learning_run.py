@@ -47,7 +47,7 @@ class LearningRun:
 
     def __init__(self, task: LearningTask, budget: TimeBudget, confirm: Callable[[Repair], bool] | None = None) -> None:
         self._task, self._budget, self._confirm = task, budget, confirm
-        self._replays = ReplaySet(task.demos, task.batch, task.frame, task.templates, task.answers)
+        self._replays = ReplaySet(task)
         self._learned: list[RuleOutcome] = []
         self._tried: list[SearchEffort] = []
         self._open_rule: OpenRule | None = None
@@ -181,34 +181,22 @@ class LearningRun:
         )
 
     def _suggest_orientation(self) -> OrientationSuggestion | None:
-        task = self._task
+        options = self._task.options
+        plain = replace(options, max_size=min(options.max_size, PLAIN_SIZE))
         try:
-            options, batch = (
-                replace(task.options, max_size=min(task.options.max_size, PLAIN_SIZE)),
-                [*task.batch.values()],
-            )
-            return suggest_orientation(
-                task.demos, task.rules, task.frame, task.templates, options, self._budget, (), batch
-            )
+            return suggest_orientation(replace(self._task, options=plain), self._budget)
         except (OutOfTime, MeshForgeError):
             return None
 
     def _suggest_alternative(self) -> OrientationSuggestion | None:
         """An orientation in which rules that were learned are more believable, and select something else somewhere."""
-        task = self._task
-        options = task.options
-        if (
-            not options.suggest_orientation
-            or options.strategy == "paper"
-            or "G" not in options.layers
-            or task.frame.orient
-        ):
+        task, options = self._task, self._task.options
+        is_plain = options.suggest_orientation and options.strategy != "paper" and "G" in options.layers
+        if not is_plain or task.frame.orient:
             return None
         try:
-            orient = find_more_believable(
-                task.demos, task.rules, task.frame, task.templates, options, self._budget,
-                [learned.rule.extractor for learned in self._learned], [*task.batch.values()],
-            )  # fmt: skip
+            extractors = [learned.rule.extractor for learned in self._learned]
+            orient = find_more_believable(task, self._budget, extractors)
             return self._compare(orient) if orient else None
         except (OutOfTime, MeshForgeError):
             return None
