@@ -34,7 +34,6 @@ key_env = "{VARIABLE}"
 mode = "cheap"
 size = 256
 names = true
-wait = 0.001
 input_price = 1.0
 output_price = 4.0
 """

@@ -124,9 +124,7 @@ def test_a_model_that_often_fails_labels_all(folder: Path, monkeypatch: pytest.M
     project = begin(folder)
     with serving(answer, fault=sometimes(0.2)) as server:
         with project.layout.settings.open("a") as file:
-            file.write(
-                '\n[vlm]\nkey_env = "LOOPBACK_API_KEY"\nnames = true\nmode = "cheap"\nsize = 256\nwait = 0.001\n'
-            )
+            file.write('\n[vlm]\nkey_env = "LOOPBACK_API_KEY"\nnames = true\nmode = "cheap"\nsize = 256\n')
         where = ("--base-url", server.base_url, "--model", server.model)
         planned = meshforge("label", KEPT, "--with", "vlm", *where, "--dry-run", cwd=folder)
         assert server.asked == []

@@ -1,7 +1,7 @@
 """A server on loopback that speaks `chat/completions`: right, or slow, broken, rate-limited, truncated or lying.
 
     with serving(lambda asked: labels_as_json({0: "leg"})) as server:
-        endpoint = Endpoint(VlmSettings(base_url=server.base_url, model=server.model, wait=0.01))
+        endpoint = Endpoint(VlmSettings(base_url=server.base_url, model=server.model))
 
 An answer is the text that the function makes of what was asked. `server.asked` lists every request with what became of
 it, `server.usage` what was charged.

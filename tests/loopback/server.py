@@ -10,6 +10,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from typing import Any, Literal
+from unittest.mock import patch
 
 from tests.loopback.asked import Asked
 from tests.loopback.faults import Fault, status
@@ -128,7 +129,8 @@ class Server:
 
 @contextmanager
 def serving(answer: Answering, **how: Any) -> Iterator[Server]:
-    """A server on a free port for the time of a `with` block; how: fields of `Server`."""
+    """A server on a free port for the time of a `with` block, in which the SDK hardly waits before it tries again; how:
+    fields of `Server`."""
     server = Server(answer, **how)
 
     class Handler(BaseHTTPRequestHandler):
@@ -159,7 +161,7 @@ def serving(answer: Answering, **how: Any) -> Iterator[Server]:
         def handle_error(self, request: object, client_address: object) -> None:
             """A client that has gone is no error."""
 
-    with Quiet(("127.0.0.1", 0), Handler) as http:
+    with Quiet(("127.0.0.1", 0), Handler) as http, patch("openai._base_client.INITIAL_RETRY_DELAY", 0.001):
         server.base_url = f"http://127.0.0.1:{http.server_address[1]}/v1"
         thread = threading.Thread(target=lambda: http.serve_forever(poll_interval=0.02), daemon=True)
         thread.start()

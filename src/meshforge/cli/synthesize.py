@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 
 import typer
 
-from meshforge import language, synthesis
+from meshforge import synthesis
 from meshforge.cli import synthesize_text
 from meshforge.cli.console import progress
 from meshforge.cli.options import Json, takes
@@ -33,10 +33,6 @@ class SynthesizeArguments:
     extractors: Annotated[
         list[str] | None,
         typer.Option("--with", help="A plug-in's extractor that rules may use from now on.", metavar="NAME"),
-    ] = None
-    follow: Annotated[
-        Path | None,
-        typer.Option("--follow", help="A program you had in mind: say of each rule why it was learned or not."),
     ] = None
     no_repair: Annotated[bool, typer.Option("--no-repair", help="Take all labels for right.")] = False
     budget: Annotated[float, typer.Option("--budget", min=0.1, help="Seconds to search.")] = 120.0
@@ -63,7 +59,6 @@ def synthesize(given: SynthesizeArguments) -> None:
         layers=given.layers,
         repair=not given.no_repair,
         budget=given.budget,
-        follow=language.Program.read(given.follow) if given.follow else None,
     )
     meshes = dict(project.meshes_by_id(select_assets(project)))
     with progress(None, "learning"), catch_interrupt() as stop:
@@ -91,8 +86,6 @@ def synthesize(given: SynthesizeArguments) -> None:
 
 def _print_outcome(outcome: synthesis.LearningOutcome, about: synthesize_text.LearningContext) -> None:
     typer.echo(synthesize_text.format_result(outcome, about))
-    if outcome.followed:
-        typer.echo("\n" + "\n".join(outcome.followed))
     more = synthesize_text.format_remarks(outcome, about)
     if more:
         remark(f"\n{more}")

@@ -33,8 +33,7 @@ class VlmSettings(BaseModel):
     max_cost: the most that one run may cost [$].
     room: tokens for an answer besides those it needs, of which a model that thinks first needs more; size: of pictures
     [px], None for that of the mode. concurrency: questions under way at once; timeout [s] for one attempt; retries:
-    further attempts after a fault that passes; wait [s]: before the first of them, doubled each time. extra: further
-    fields of every request, for what a server wants besides.
+    further attempts after a fault that passes. extra: further fields of every request, for what a server wants besides.
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True)
@@ -56,7 +55,6 @@ class VlmSettings(BaseModel):
     concurrency: Annotated[int, Field(ge=1, le=256)] = 4
     timeout: Seconds = 120.0
     retries: Annotated[int, Field(ge=0, le=20)] = 5
-    wait: Seconds = 1.0
     extra: Mapping[str, Any] = {}
 
 

@@ -14,7 +14,7 @@ from meshforge.synthesis import outcome
 from meshforge.synthesis.asset_selection import find_open_rule, select_sample, suggest_demonstration
 from meshforge.synthesis.candidates.rank import RankedCandidates, enumerate_consistent
 from meshforge.synthesis.demonstration import Example, RuleSpec
-from meshforge.synthesis.diagnosis import find_obstacles, follow_rule, give_advice
+from meshforge.synthesis.diagnosis import give_advice
 from meshforge.synthesis.options import OutOfTime, TimeBudget
 from meshforge.synthesis.orientation.alternatives import find_more_believable
 from meshforge.synthesis.orientation.suggest import (
@@ -40,7 +40,6 @@ class _OutcomeFields(TypedDict):
     tried: tuple[SearchEffort, ...]
     seconds: Mapping[str, float]
     stale: tuple[Answer, ...]
-    followed: tuple[str, ...]
 
 
 class LearningRun:
@@ -48,12 +47,11 @@ class LearningRun:
 
     def __init__(self, task: LearningTask, budget: TimeBudget, confirm: Callable[[Repair], bool] | None = None) -> None:
         self._task, self._budget, self._confirm = task, budget, confirm
-        self._replays = ReplaySet(task.demos, task.batch, task.frame, task.templates, task.answers)
+        self._replays = ReplaySet(task)
         self._learned: list[RuleOutcome] = []
         self._tried: list[SearchEffort] = []
         self._open_rule: OpenRule | None = None
         self._searching = 0.0
-        self._followed = list(find_obstacles(task, task.options.follow)) if task.options.follow else []
         meshes = {replay.name: replay.mesh for replay in [*self._replays.shown, *self._replays.others]}
         self._repairs = RepairCollector(task, meshes, budget)
 
@@ -82,7 +80,7 @@ class LearningRun:
 
     def _learn_with_repairs(self) -> Program | None:
         fixes, task = [repair.fix for repair in self._repairs.repairs], self._task
-        options = replace(task.options, repair=False, suggest_orientation=False, follow=None)
+        options = replace(task.options, repair=False, suggest_orientation=False)
         corrected = replace(task, demos=correct_demonstrations(task.demos, fixes), options=options)
         return LearningRun(corrected, self._budget).run().program
 
@@ -94,8 +92,6 @@ class LearningRun:
             start = self._budget.elapsed
             found = self._find_candidates(spec, examples, [replay.mesh for replay in rest])
             self._searching += self._budget.elapsed - start
-            if not isinstance(found, tuple):
-                self._follow(spec, found if isinstance(found, RankedCandidates) else None, names, examples)
             match found:
                 case RankedCandidates():
                     self._accept(spec, found, names)
@@ -149,14 +145,6 @@ class LearningRun:
         search = Search(examples, task.frame.labels, self._budget, task.options, rest)
         return RankedCandidates.of_single(search, found.extractor)
 
-    def _follow(
-        self, spec: RuleSpec, ranked: RankedCandidates | None, names: Sequence[str], examples: Sequence[Example]
-    ) -> None:
-        wanted = self._task.options.follow
-        if wanted and spec.number <= len(wanted.rules):
-            extractor = wanted.rules[spec.number - 1].extractor
-            self._followed.append(follow_rule(spec, extractor, ranked, names, examples, self._task))
-
     def _accept(self, spec: RuleSpec, ranked: RankedCandidates, names: tuple[str, ...]) -> None:
         rule = Rule(ranked.extractor, spec.action, spec.label)
         self._learned.append(RuleOutcome(rule, ranked, names))
@@ -193,41 +181,29 @@ class LearningRun:
         )
 
     def _suggest_orientation(self) -> OrientationSuggestion | None:
-        task = self._task
+        options = self._task.options
+        plain = replace(options, max_size=min(options.max_size, PLAIN_SIZE))
         try:
-            options, batch = (
-                replace(task.options, max_size=min(task.options.max_size, PLAIN_SIZE)),
-                [*task.batch.values()],
-            )
-            return suggest_orientation(
-                task.demos, task.rules, task.frame, task.templates, options, self._budget, (), batch
-            )
+            return suggest_orientation(replace(self._task, options=plain), self._budget)
         except (OutOfTime, MeshForgeError):
             return None
 
     def _suggest_alternative(self) -> OrientationSuggestion | None:
         """An orientation in which rules that were learned are more believable, and select something else somewhere."""
-        task = self._task
-        options = task.options
-        if (
-            not options.suggest_orientation
-            or options.strategy == "paper"
-            or "G" not in options.layers
-            or task.frame.orient
-        ):
+        task, options = self._task, self._task.options
+        is_plain = options.suggest_orientation and options.strategy != "paper" and "G" in options.layers
+        if not is_plain or task.frame.orient:
             return None
         try:
-            orient = find_more_believable(
-                task.demos, task.rules, task.frame, task.templates, options, self._budget,
-                [learned.rule.extractor for learned in self._learned], [*task.batch.values()],
-            )  # fmt: skip
+            extractors = [learned.rule.extractor for learned in self._learned]
+            orient = find_more_believable(task, self._budget, extractors)
             return self._compare(orient) if orient else None
         except (OutOfTime, MeshForgeError):
             return None
 
     def _compare(self, orient: Orient) -> OrientationSuggestion | None:
         """What becomes of the rules in another frame; None where that makes no difference, or some are not found."""
-        options = replace(self._task.options, suggest_orientation=False, repair=False, follow=None)
+        options = replace(self._task.options, suggest_orientation=False, repair=False)
         frame = replace(self._task.frame, orient=orient)
         other = LearningRun(replace(self._task, frame=frame, options=options), self._budget)
         if not isinstance(other.run(), outcome.Found | outcome.Ambiguous):
@@ -259,5 +235,4 @@ class LearningRun:
             "tried": tuple(self._tried),
             "seconds": {"search": self._searching, "replay": self._budget.elapsed - self._searching},
             "stale": self._replays.stale,
-            "followed": tuple(self._followed),
         }

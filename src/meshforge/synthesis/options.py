@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Literal, get_args
 
-from meshforge.language import EXTREMITY, Leaf, Program
+from meshforge.language import EXTREMITY, Leaf
 from meshforge.synthesis.questions import LabelFix
 
 Layers = Literal["S", "S+T", "S+G", "S+T+G"]
@@ -62,7 +62,6 @@ class Options:
     contact, extremity: thresholds that the program is to set.
     suggest_orientation: whether landmarks that would help are looked for where no program fits.
     rejected: corrections that a person refused, so the labels stand.
-    follow: a program somebody had in mind; the outcome says what became of each of its rules.
     extractors: names of leaf extractors of plug-ins that rules may use, too; leaves: what `synthesize` enumerates of
     these for the family.
     stop: asked now and then; when it says so, what was found so far is returned, as when the time runs out.
@@ -81,7 +80,6 @@ class Options:
     extremity: float | None = None
     suggest_orientation: bool = True
     rejected: Collection[LabelFix] = ()
-    follow: Program | None = None
     extractors: tuple[str, ...] = ()
     leaves: tuple[Leaf, ...] = ()
     clock: Clock = time.monotonic

@@ -55,8 +55,8 @@ class _OutcomeBase:
     settled: whether all believable readings do the same on the whole batch; stale: answers that no longer fit, as
     their asset or hulls are gone; hint: what to demonstrate next; sample: the assets whose results show best whether
     the program is what is meant, most revealing first; overruled: assets whose result was accepted, which no program
-    keeps. followed: what became of a program that was to be followed, a sentence each. suggested: an orientation that
-    makes the rules simpler, or in which every rule has an extractor where now some rule has none.
+    keeps. suggested: an orientation that makes the rules simpler, or in which every rule has an extractor where now
+    some rule has none.
     """
 
     rules: tuple[Rule, ...]
@@ -68,7 +68,6 @@ class _OutcomeBase:
     hint: Hint | None = None
     sample: tuple[str, ...] = ()
     overruled: tuple[str, ...] = ()
-    followed: tuple[str, ...] = ()
     repairs: tuple[Repair, ...] = ()
     open_rule: OpenRule | None = None
     nearest: Nearest | None = None
@@ -138,7 +137,6 @@ def outcome_to_json(outcome: LearningOutcome) -> dict[str, Any]:
         "look_at": list(outcome.sample),
         "overruled": list(outcome.overruled),
         "stale_answers": [{"rule": answer.rule, "asset": answer.asset} for answer in outcome.stale],
-        "followed": list(outcome.followed),
         **_failure_json(outcome),
         **_suggestion_json(outcome.suggested),
         "seconds": dict(outcome.seconds),

@@ -75,23 +75,17 @@ class ReplaySet:
     program would fail there.
     """
 
-    def __init__(
-        self,
-        demos: Sequence[Demonstration],
-        batch: Family,
-        frame: language.Program,
-        templates: Mapping[str, language.Template],
-        answers: Sequence[Answer],
-    ) -> None:
-        self._frame, self._templates = frame, templates
-        self._answers = [answer for answer in answers if answer.price is None]
-        self._unsure = [answer for answer in answers if answer.price is not None]
-        self._demos = dict(name_demonstrations(demos))
+    def __init__(self, task: LearningTask) -> None:
+        batch, frame = task.batch, task.frame
+        self._frame, self._templates = frame, task.templates
+        self._answers = [answer for answer in task.answers if answer.price is None]
+        self._unsure = [answer for answer in task.answers if answer.price is not None]
+        self._demos = dict(name_demonstrations(task.demos))
         self.shown = [begin_replay(name, demo, frame.orient, frame.contact) for name, demo in self._demos.items()]
         bare = {name for name, mesh in batch.items() if frame.labels and not any(hull.label for hull in mesh.hulls)}
         rows = ((name, mesh) for name, mesh in batch.items() if name not in bare)
         self.others = [replay for name, mesh in rows if (replay := self._begin(name, mesh))]
-        rules = range(1, 1 + max((len(demo.steps) for demo in demos), default=0))
+        rules = range(1, 1 + max((len(demo.steps) for demo in task.demos), default=0))
         self._stale = self._answers_without_asset(self._answers)
         self._stale += [answer for answer in self._answers if answer.rule not in rules]
 

@@ -31,7 +31,7 @@ def asking(
 ) -> Iterator[tuple[Server, Client]]:
     """A server and a client of it."""
     with serving(answer, **how) as server:
-        where = VlmSettings(base_url=server.base_url, model=MODEL, key_env=VARIABLE, wait=0.01, retries=1)
+        where = VlmSettings(base_url=server.base_url, model=MODEL, key_env=VARIABLE, retries=1)
         where = where.model_copy(update={"input_price": PRICES[0], "output_price": PRICES[1]})
         one = Client(Endpoint(where), folder)
         try:
@@ -43,7 +43,7 @@ def asking(
 def settings_file(server: Server, path: Path, more: str = "") -> Path:
     """A file with the table [vlm] for a server."""
     path.write_text(
-        f'[vlm]\nbase_url = "{server.base_url}"\nmodel = "{MODEL}"\nkey_env = "{VARIABLE}"\nwait = 0.01\nretries = 1\n'
+        f'[vlm]\nbase_url = "{server.base_url}"\nmodel = "{MODEL}"\nkey_env = "{VARIABLE}"\nretries = 1\n'
         f"input_price = {PRICES[0]}\noutput_price = {PRICES[1]}\n{more}",
         "utf-8",
     )

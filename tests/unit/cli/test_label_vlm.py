@@ -41,7 +41,7 @@ def server(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Server]:
         with project.layout.settings.open("a") as file:
             file.write(
                 f'\n[vlm]\nbase_url = "{made.base_url}"\nmodel = "{made.model}"\nkey_env = "{VARIABLE}"\nnames = true\n'
-                'mode = "cheap"\nsize = 256\nwait = 0.001\ninput_price = 1\noutput_price = 4\n'
+                'mode = "cheap"\nsize = 256\ninput_price = 1\noutput_price = 4\n'
             )
         yield made
 

@@ -55,7 +55,6 @@ def settings(server: Server, **how: Any) -> VlmSettings:
         "mode": "cheap",
         "size": 256,
         "names": True,
-        "wait": 0.001,
         "timeout": 5.0,
         "input_price": 1.0,
         "output_price": 4.0,

@@ -24,7 +24,7 @@ from meshforge.synthesis import (
 )
 from meshforge.synthesis.demonstration import collect_rule_specs
 from meshforge.synthesis.questions import LabelFix
-from meshforge.synthesis.task import ReplaySet, apply_fixes, name_family
+from meshforge.synthesis.task import LearningTask, ReplaySet, apply_fixes, name_family
 from tests.synthesis_boxes import boxes
 from tests.synthesis_cupboards import cupboard, cupboards, shown, with_rare_doors
 
@@ -170,16 +170,18 @@ def test_the_strategy_of_the_paper_takes_a_batch_and_settles_nothing() -> None:
 
 
 def test_a_course_runs_the_last_rule_on_demonstrated_meshes_only() -> None:
-    program = Program.parse(HANDLES)
-    course = ReplaySet(DEMOS, name_family(MESHES, DEMOS), program, dict[str, Template](), ())
-    (rule,) = collect_rule_specs(DEMOS)
+    program, rules = Program.parse(HANDLES), collect_rule_specs(DEMOS)
+    task = LearningTask(
+        rules, tuple(DEMOS), name_family(MESHES, DEMOS), program, dict[str, Template](), (), frozenset(), Options()
+    )
+    course, (rule,) = ReplaySet(task), rules
     examples, rest = course.examples(rule)
     assert [example.name for example in examples] == ["c0"]
     assert [replay.name for replay in rest] == [f"c{k}" for k in range(1, 8)]
     course.advance(program.rules[0], last=True)
     assert "pull" not in course.shown[0].mesh.index
     assert all("pull" in replay.mesh.index for replay in course.others)
-    before_another = ReplaySet(DEMOS, name_family(MESHES, DEMOS), program, dict[str, Template](), ())
+    before_another = ReplaySet(task)
     before_another.advance(program.rules[0], last=False)
     assert len(before_another.others) == 7
     assert not any("pull" in replay.mesh.index for replay in before_another.others)

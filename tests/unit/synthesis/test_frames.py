@@ -25,6 +25,7 @@ from meshforge.synthesis.demonstration import collect_rule_specs
 from meshforge.synthesis.options import OutOfTime, TimeBudget
 from meshforge.synthesis.orientation.attempts import MeshTurner
 from meshforge.synthesis.orientation.suggest import Directives, OrientationSuggestion, suggest_orientation
+from meshforge.synthesis.task import LearningTask
 from tests.program_parts import parse_orient
 from tests.synthesis_boxes import Piece, posed, rack, table, turned
 
@@ -57,6 +58,18 @@ def sizes_now(
     return tuple(map(size_of, learned_now(demos, orient, labels, options))) or None
 
 
+def task(
+    demos: Sequence[Demonstration],
+    orient: Orient | None = None,
+    labels: Sequence[str] = LABELS,
+    batch: Sequence[SymbolicMesh] = (),
+    options: Options | None = None,
+) -> LearningTask:
+    family = {str(number): mesh for number, mesh in enumerate(batch)}
+    rules, frame = collect_rule_specs(demos), Program(tuple(labels), orient)
+    return LearningTask(rules, tuple(demos), family, frame, {}, (), frozenset(), options or Options())
+
+
 def suggested(
     *demos: Demonstration,
     now: str | None = None,
@@ -67,8 +80,7 @@ def suggested(
     """The suggestion, whose sizes are those that learning finds in its frame."""
     orient, options = parse_orient(now) if now else None, options or Options()
     known = learned_now(demos, orient, labels, options)
-    rules, frame, budget = collect_rule_specs(demos), Program(tuple(labels), orient), TimeBudget(60.0)
-    found = suggest_orientation(demos, rules, frame, {}, options, budget, known, batch)
+    found = suggest_orientation(task(demos, orient, labels, batch, options), TimeBudget(60.0), known)
     if found:
         assert found.sizes == sizes_now(demos, found.orient, labels, options)
         assert not known or sum(found.sizes) <= sum(map(size_of, known)) - 3
@@ -234,9 +246,8 @@ def test_without_directions_no_frame_is_better_than_another() -> None:
 
 
 def test_the_budget_ends_the_search() -> None:
-    demos, frame = tops(TOPS), Program(LABELS)
     with pytest.raises(OutOfTime):
-        suggest_orientation(demos, collect_rule_specs(demos), frame, {}, Options(), TimeBudget(0.0))
+        suggest_orientation(task(tops(TOPS)), TimeBudget(0.0))
 
 
 @pytest.mark.parametrize("text", [UP, UP.replace("orient", "orient snap"), "orient +X: All -> Is(drawer)"])

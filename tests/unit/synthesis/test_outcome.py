@@ -20,7 +20,6 @@ KEYS = [
     "look_at",
     "overruled",
     "stale_answers",
-    "followed",
     "suggested_orientation",
     "seconds",
 ]
@@ -50,7 +49,6 @@ def test_a_found_program_as_json() -> None:
         "look_at": [],
         "overruled": [],
         "stale_answers": [],
-        "followed": [],
         "suggested_orientation": None,
     }
 

@@ -1,99 +1,38 @@
-"""The client: a question in, an answer out, from the disk where it is there, and else from the server, with retries."""
+"""The client: a question in, an answer out, from the disk where it is there, and else from the server; the OpenAI SDK
+tries again after faults that pass."""
 
 from __future__ import annotations
 
-import base64
 import threading
-import time
 from collections import defaultdict
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
-from functools import cache
+from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+from meshforge.common import UsageError, pluralize
 from meshforge.labels.vlm.cost import CostLimiter, Usage
-from meshforge.labels.vlm.endpoint import EndError, Endpoint, QuestionError, RefusalError
-from meshforge.labels.vlm.question import AnswerCache, Message, Reply, VlmQuestion
-from meshforge.labels.vlm.server import Server, TransientError
-from meshforge.rendering import encode_png
+from meshforge.labels.vlm.endpoint import EndError, Endpoint, QuestionError, RefusalError, TokenCount
+from meshforge.labels.vlm.question import AnswerCache, Reply, ServerFeatures, VlmQuestion, probe_question
 
-LONGEST = 60.0
-"""The longest wait [s] between attempts that the server does not ask for."""
-_LONGEST_DEMAND = 300.0  # seconds that a server may want to be left alone; where it wants more, the run ends
-_POLL = 0.05  # seconds between looks at whether to stop
+if TYPE_CHECKING:
+    from openai import APIStatusError, OpenAI
+
 _DOWN = 2  # questions in a row, beyond those under way at once, that get no answer: then nobody is there
-_LESS: Mapping[str, Mapping[str, Any]] = {
-    "schema": {"schema": False},
-    "response_format": {"schema": False},
-    "temperature": {"temperature": False},
-    "max_tokens": {"limit": "max_completion_tokens"},
-    "image": {"pictures": False},
-}
-"""What is asked for no more, by the word with which servers complain about it; the first that can be spared first."""
-_SIDE = 512  # pixels: one tile for those models that cut pictures up, so that it tells how they count them
+_PROBE_RETRIES = 2  # of the first question at most: a server that is not there is reported soon
+_NO_MONEY = ("insufficient_quota", "billing_hard_limit", "billing_not_active", "credit balance", "insufficient balance")
+_LONG = 400  # characters of a server's complaint that are shown
+_NO_KEY = "none"  # the SDK wants one even where the server does not
 
 
-@dataclass(frozen=True, slots=True)
-class ServerFeatures:
-    """What of a request is not refused. schema: the form of answers; temperature: can be set.
+class _Attempts(threading.local):
+    """The attempts at the question that a thread asks. count: so far; bound: what one costs at most [$]; is_open:
+    whether the last is under way, and is_lost: whether it may have been charged for though no answer came."""
 
-    limit: the name of the field for the room of an answer; pictures: are taken.
-    """
-
-    schema: bool = True
-    temperature: bool = True
-    limit: str = "max_tokens"
-    pictures: bool = True
-
-    def body(self, question: VlmQuestion, endpoint: Endpoint) -> dict[str, Any]:
-        """Return the request that puts a question to the model."""
-        body: dict[str, Any] = {
-            "model": endpoint.settings.model,
-            "messages": [{"role": m.role, "content": _format_content(m)} for m in question.messages],
-            self.limit: question.limit,
-        }
-        if self.temperature:
-            body["temperature"] = question.temperature
-        if self.schema and question.schema is not None:
-            form = {"name": "answer", "strict": True, "schema": question.schema}
-            body["response_format"] = {"type": "json_schema", "json_schema": form}
-        return body | dict(endpoint.settings.extra)
-
-    def without(self, complaint: str) -> ServerFeatures | None:
-        """Return these without the one that the server complains about, or else the next; None: none is left."""
-        left = {word: less for word, change in _LESS.items() if (less := replace(self, **change)) != self}
-        return next((less for word, less in left.items() if word in complaint.lower()), next(iter(left.values()), None))
-
-
-def _format_content(message: Message) -> Any:
-    """Plain text where there is nothing else, which every server takes."""
-    if all(isinstance(part, str) for part in message.parts):
-        return "\n".join(str(part) for part in message.parts)
-    return [
-        {"type": "text", "text": part}
-        if isinstance(part, str)
-        else {"type": "image_url", "image_url": {"url": f"data:image/png;base64,{base64.b64encode(part).decode()}"}}
-        for part in message.parts
-    ]
-
-
-@cache
-def probe_question(with_picture: bool) -> VlmQuestion:
-    """Return a small question that is asked first: which colour is this?"""
-    text = f"Which of these colours is {'this picture' if with_picture else 'a ripe tomato'}: red, green, blue?"
-    schema = {
-        "type": "object",
-        "properties": {"colour": {"type": "string", "enum": ["red", "green", "blue"]}},
-        "required": ["colour"],
-        "additionalProperties": False,
-    }
-    if not with_picture:
-        return VlmQuestion((Message.user(text),), schema)
-    from PIL import Image  # lazy: only a probe of a server draws this picture
-
-    picture = encode_png(Image.new("RGB", (_SIDE, _SIDE), (220, 30, 30)))
-    return VlmQuestion((Message.user(text, picture),), schema)
+    count = 0
+    bound = 0.0
+    is_open = False
+    is_lost = False
 
 
 class Client:
@@ -115,16 +54,17 @@ class Client:
         self.endpoint = endpoint
         self.end: EndError | None = None
         self.is_blind = False
+        self._key = ""
         self._cache = AnswerCache(folder) if folder else None
         self._limiter = CostLimiter(endpoint, max_cost)
         self._stop = stop
-        self._server = Server(endpoint)
+        self._sdk: OpenAI | None = None
         self._slots = threading.BoundedSemaphore(endpoint.settings.concurrency)
         self._probing = threading.Lock()
         self._features: ServerFeatures | None = None
         self._lock = threading.Lock()
         self._turns = defaultdict[str, threading.Lock](threading.Lock)
-        self._closed_until = 0.0
+        self._attempts = _Attempts()
         self._unanswered, self._answered = 0, False
 
     @property
@@ -133,14 +73,20 @@ class Client:
         return self._limiter.usage
 
     def features(self) -> ServerFeatures:
-        """Return what the server takes, asked for when it is first needed. Raises EndError."""
+        """Return what the server takes: a first question is asked with everything, and with less as long as it is
+        refused; it also tells how pictures are charged. Raises EndError."""
         with self._probing:
-            if self._features is None:
+            features = self._features or ServerFeatures()
+            while self._features is None:
                 try:
-                    self._features = self._probe()
+                    reply = self._send(probe_question(), features, _PROBE_RETRIES)
+                    self._features, self.is_blind = features, "red" not in reply.text.lower()
                 except QuestionError as error:
-                    raise self._end_with(EndError(error.problem, where=error.where, remedy=error.remedy)) from error
-            return self._features
+                    less = features.without(error.problem) if isinstance(error, RefusalError) else None
+                    if less is None:
+                        raise self._end_with(EndError(error.problem, where=error.where, remedy=error.remedy)) from error
+                    features = less
+            return features
 
     def find_answer(self, question: VlmQuestion) -> Reply | None:
         """Return the answer that was given earlier, None where there is none; never ask."""
@@ -164,102 +110,186 @@ class Client:
             return reply
 
     def close(self) -> None:
-        """Close the connections."""
-        self._server.close()
-
-    def _probe(self) -> ServerFeatures:
-        """Ask with everything, and with less as long as the server refuses; it also tells how pictures are charged."""
-        features = ServerFeatures()
-        while True:
-            try:
-                reply = self._ask_with_retries(probe_question(features.pictures), features, is_probe=True)
-            except RefusalError as error:
-                less = features.without(error.problem)
-                if less is None:
-                    raise
-                features = less
-                continue
-            self.is_blind = features.pictures and "red" not in reply.text.lower()
-            return features
+        """Close the connections; the server can be asked on."""
+        with self._lock:
+            if self._sdk:
+                self._sdk.close()
+            self._sdk = None
 
     def _ask_server(self, question: VlmQuestion) -> Reply:
         features = self.features()
-        if not features.pictures and any(question.pictures):
-            raise self._end_with(EndError("this model takes no pictures", where=self.endpoint.settings.model))
         try:
-            return self._ask_with_retries(question, features)
+            return self._send(question, features)
         except RefusalError:  # of all that a server may dislike, a schema can be done without
             if question.schema is None or not features.schema:
                 raise
-            return self._ask_with_retries(question, replace(features, schema=False))
+            return self._send(question, replace(features, schema=False))
 
-    def _ask_with_retries(self, question: VlmQuestion, features: ServerFeatures, *, is_probe: bool = False) -> Reply:
-        body, attempt = features.body(question, self.endpoint), 0
+    def _send(self, question: VlmQuestion, features: ServerFeatures, most: int = 1000) -> Reply:
+        """Ask, and count what it costs. most: retries, where the settings do not allow fewer."""
+        body, mine = features.body(question, self.endpoint), self._attempts
         with self._slots:
+            mine.count, mine.bound = 0, self._limiter.upper_bound(question)
             try:
-                while True:
-                    self._wait(min(self.endpoint.settings.wait * 2 ** (attempt - 1), LONGEST) if attempt else 0.0)
-                    try:
-                        return self._ask_once(question, body, is_probe)
-                    except TransientError as fault:
-                        attempt += 1
-                        self._give_up(fault, attempt)
-                        self._limiter.count(Usage(retries=1))
+                found = self._post(body, min(self.endpoint.settings.retries, most))
+                mine.is_lost = False
+                usage, cost = self._limiter.charge(question, _read_usage(found))
+                reply = replace(self._read_reply(found), usage=usage, cost=cost)
             except EndError as error:
-                raise self._end_with(error) from None
-
-    def _ask_once(self, question: VlmQuestion, body: Mapping[str, Any], is_probe: bool) -> Reply:
-        """Ask once, and count what it costs. Raises TransientError, RefusalError or EndError."""
-        bound = self._limiter.upper_bound(question)
-        with self._limiter.reserve(bound, self._stop):
-            self._wait(0.0)
-            try:
-                reply = self._server.send(body)
-            except TransientError as fault:
-                if fault.usage:
-                    self._limiter.charge(question, fault.usage, is_probe=is_probe)
-                elif fault.charged:
-                    self._limiter.count(Usage(perhaps=bound, lost=1))
-                raise
-            usage, cost = self._limiter.charge(question, reply.usage, is_probe=is_probe)
+                raise self._end_with(error) from error.__cause__
+            finally:
+                self._close_attempt()
         with self._lock:
             self._unanswered, self._answered = 0, True
-        return replace(reply, usage=usage, cost=cost)
+        return reply
 
-    def _give_up(self, fault: TransientError, attempts: int) -> None:
-        """Raise QuestionError after the last attempt, EndError where nobody seems to be there."""
-        where = self.endpoint.place
-        if fault.after is not None and fault.after > _LONGEST_DEMAND:
-            remedy = "Go on then; what was answered is not asked again."
-            raise EndError(f"the server wants to be left alone for {fault.after / 60:.0f} minutes", remedy=remedy)
-        if fault.unreachable and not self._answered and attempts > 1:
+    def _post(self, body: Mapping[str, Any], retries: int) -> Any:
+        """What the SDK makes of the response, which it does not verify."""
+        sdk = self._connect()
+        import openai  # lazy: 0.5 s, and an extra: only asking a model needs it
+        from openai.types.chat import ChatCompletion  # lazy: as openai
+
+        # nobody approved the host that a redirect names
+        options: Any = {"follow_redirects": False, "max_retries": retries}
+        try:
+            return sdk.post("/chat/completions", cast_to=ChatCompletion, body=dict(body), options=options)
+        except openai.APITimeoutError as error:
+            problem = f"no answer within {self.endpoint.settings.timeout:g} seconds"
+            raise self._give_up(problem) from error
+        except openai.APIConnectionError as error:
+            cause = error.__cause__
+            why = self._redact(str(cause)) if cause and str(cause) else "the connection broke"
+            if type(cause).__name__ not in ("ConnectError", "UnsupportedProtocol"):
+                raise self._give_up(why) from error
+            self._attempts.is_lost = False
+            if self._answered:
+                raise self._give_up(why) from error
             remedy = "Is the server running, and base_url right?"
-            raise EndError(f"the server cannot be reached: {fault}", where=where, remedy=remedy)
+            raise EndError(f"the server cannot be reached: {why}", where=self.endpoint.place, remedy=remedy) from error
+        except openai.APIStatusError as error:
+            self._attempts.is_lost = False
+            raise self._explain_status(error) from error
+        except ValueError as error:
+            raise self._give_up("the server sent something that is no JSON") from error
+
+    def _connect(self) -> OpenAI:
+        try:
+            from openai import OpenAI  # lazy: 0.5 s, and an extra: only asking a model needs it
+        except ImportError as error:
+            remedy = "Install it: pip install 'meshforge[vlm]'."
+            raise EndError("asking a model needs the package openai, which is not installed", remedy=remedy) from error
+        begin, attempts = self._begin_attempt, self._attempts
+
+        class CountedOpenAI(OpenAI):
+            """Each attempt is allowed and counted before it is made."""
+
+            def _prepare_request(self, request: Any) -> None:
+                begin()
+
+            def _should_retry(self, response: Any) -> bool:
+                attempts.is_lost = False  # the server answered that it will not
+                return super()._should_retry(response)
+
+        settings = self.endpoint.settings
         with self._lock:
-            self._closed_until = max(self._closed_until, time.monotonic() + (fault.after or 0.0))
-            if attempts <= self.endpoint.settings.retries:
-                return
+            if self._sdk is None:
+                try:
+                    self._key = self.endpoint.key()
+                except UsageError as error:
+                    raise EndError(error.problem, where=error.where, remedy=error.remedy) from error
+                key = self._key or _NO_KEY
+                self._sdk = CountedOpenAI(base_url=settings.base_url, api_key=key, timeout=settings.timeout)
+            return self._sdk
+
+    def _begin_attempt(self) -> None:
+        """Allow one more attempt. Raises EndError where no further one is to be made."""
+        mine = self._attempts
+        self._close_attempt()
+        if mine.count:
+            self._limiter.count(Usage(retries=1))
+        if self.end:
+            raise self.end
+        if self._stop():
+            raise EndError("stopped", remedy="What was answered is kept, and is not asked again.")
+        self._limiter.reserve(mine.bound, self._stop)
+        mine.count, mine.is_open, mine.is_lost = mine.count + 1, True, True
+
+    def _close_attempt(self) -> None:
+        mine = self._attempts
+        if mine.is_open:
+            self._limiter.release(mine.bound, is_lost=mine.is_lost)
+        mine.is_open = False
+
+    def _give_up(self, problem: str) -> QuestionError:
+        """A question that got no answer; EndError where nobody seems to be there."""
+        with self._lock:
             self._unanswered += 1
-        problem = f"no answer after {attempts} attempts, the last: {fault}"
+        where = self.endpoint.place
+        problem = f"no answer after {pluralize(self._attempts.count, 'attempt')}, the last: {problem}"
         if self._unanswered > self.endpoint.settings.concurrency + _DOWN:
             remedy = "Try again later; what was answered is not asked again."
-            raise EndError(f"several questions in a row got {problem}", where=where, remedy=remedy)
-        raise QuestionError(problem, where=where)
+            return EndError(f"several questions in a row got {problem}", where=where, remedy=remedy)
+        return QuestionError(problem, where=where)
 
-    def _wait(self, seconds: float) -> None:
-        """Wait so long [s], and as long as the server wants no question at all. Raises EndError: asking has ended."""
-        until = time.monotonic() + seconds
-        while True:
-            if self.end:
-                raise self.end
-            if self._stop():
-                raise EndError("stopped", remedy="What was answered is kept, and is not asked again.")
-            left = max(until, self._closed_until) - time.monotonic()
-            if left <= 0:
-                return
-            time.sleep(min(left, _POLL))
+    def _explain_status(self, error: APIStatusError) -> QuestionError:
+        status, text = error.status_code, self._redact(_error_text(error))
+        where, complaint = self.endpoint.place, text.lower()
+        if status == 402 or (status in (400, 403, 429) and any(word in complaint for word in _NO_MONEY)):
+            return EndError(f"the account has no money left: {text}", where=where)
+        if status in (408, 409, 425, 429) or status >= 500:
+            return self._give_up(f"{status}: {text}")
+        if status in (401, 403) or (status == 400 and "api key" in complaint):
+            name = self.endpoint.key_name
+            reserved = f"The key is what the environment variable {name} holds."
+            remedy = reserved if name else "Name its key: key_env in [vlm]."
+            return EndError(f"the server does not accept the key: {text}", where=where, remedy=remedy)
+        if status == 400 and "image" in complaint:
+            return EndError(f"this model takes no pictures: {text}", where=self.endpoint.settings.model)
+        if status == 404:
+            remedy = "Look at base_url and model; a base_url mostly ends with /v1."
+            return EndError(
+                f"there is no model {self.endpoint.settings.model!r} here: {text}", where=where, remedy=remedy
+            )
+        return RefusalError(f"the server refused the question ({status}): {text}", where=where)
+
+    def _read_reply(self, found: Any) -> Reply:
+        try:
+            choice = found.choices[0]
+            text = choice.message.content or choice.message.refusal or ""
+            text = text if isinstance(text, str) else "".join(part["text"] for part in text if "text" in part)
+        except (AttributeError, IndexError, KeyError, TypeError) as error:
+            what = "no JSON" if isinstance(found, str) else "no answer"
+            raise self._give_up(f"the server sent something that is {what}") from error
+        finish = choice.finish_reason if isinstance(choice.finish_reason, str) else "stop"
+        return Reply(text.encode(errors="replace").decode(), finish)
+
+    def _redact(self, text: str) -> str:
+        return text.replace(self._key, "...") if self._key else text
 
     def _end_with(self, error: EndError) -> EndError:
         """The first error after which there is nothing to ask; later questions get the same."""
         self.end = self.end or error
         return self.end
+
+
+def _read_usage(found: Any) -> TokenCount | None:
+    try:
+        usage = found.usage
+        given, made = usage.prompt_tokens, usage.completion_tokens
+        made = usage.total_tokens - given if made is None else made
+        return TokenCount(given, made) if min(given, made) >= 0 else None
+    except (AttributeError, TypeError):
+        return None
+
+
+def _error_text(error: APIStatusError) -> str:
+    """What the server complains about, in one line: `message`, `detail` or `error`, however deep, with its code."""
+    body: Any = error.body
+    while isinstance(body, (list, dict)) and body:
+        text = body[0] if isinstance(body, list) else body.get("message") or body.get("detail") or body.get("error")
+        kind = body.get("code") or body.get("type") if isinstance(body, dict) else None
+        if isinstance(kind, str) and isinstance(text, str) and kind not in text:
+            text = f"{text} ({kind})"
+        body = text
+    words = " ".join(str(body or error.message).split())
+    return words if len(words) <= _LONG else f"{words[:_LONG]} ..."

@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 import threading
 from collections import deque
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from meshforge.common import UsageError
@@ -55,21 +54,19 @@ class CostLimiter:
         self._endpoint, self._most = endpoint, math.inf if most is None else most
         self._changed = threading.Condition()
         self._reserved = 0.0
-        self._ratios: deque[float] = deque(maxlen=_REMEMBERED)
-        self._first_ratio = 1.0
+        self._ratios: deque[float] = deque([1.0], maxlen=_REMEMBERED)
 
     def upper_bound(self, question: VlmQuestion) -> float:
         """Return what a question may cost at most [$], as far as can be known."""
         with self._changed:
-            ratio = max(self._ratios, default=self._first_ratio)
-        expected = estimate_tokens(question)
-        return self._endpoint.price(TokenCount(int(expected * max(1.0, ratio) * _MARGIN), question.limit))
+            ratio = max(1.0, *self._ratios)
+        most = estimate_tokens(question) * ratio * _MARGIN
+        return self._endpoint.price(TokenCount(int(most), question.limit))
 
-    @contextmanager
-    def reserve(self, bound: float, stop: Callable[[], bool]) -> Iterator[None]:
-        """Keep so much [$] back while a question is under way. Raises EndError where it could pass the limit.
+    def reserve(self, bound: float, stop: Callable[[], bool]) -> None:
+        """Keep so much [$] back while an attempt is under way. Raises EndError where it could pass the limit.
 
-        Where only other questions under way are in its way, it waits for these; stop: whether to wait no longer.
+        Where only other attempts under way are in its way, it waits for these; stop: whether to wait no longer.
         """
         with self._changed:
             while self._spent + bound <= self._most < self._spent + bound + self._reserved and not stop():
@@ -79,28 +76,21 @@ class CostLimiter:
                 remedy = "Raise --max-cost to go on; what was answered is not paid for again."
                 raise EndError(f"the next question could cost up to ${bound:.4f}, and {spent}", remedy=remedy)
             self._reserved += bound
-        try:
-            yield
-        finally:
-            with self._changed:
-                self._reserved -= bound
-                self._changed.notify_all()
 
-    def charge(
-        self, question: VlmQuestion, usage: TokenCount | None, *, is_probe: bool = False
-    ) -> tuple[TokenCount, float]:
-        """Count an answer, also one of no use. Return its tokens, estimated where the server names none, and cost [$].
+    def release(self, bound: float, *, is_lost: bool) -> None:
+        """Give back what was reserved; is_lost: no answer came, and yet the server may charge for one."""
+        with self._changed:
+            self._reserved -= bound
+            self.usage += Usage(perhaps=bound, lost=1) if is_lost else Usage()
+            self._changed.notify_all()
 
-        is_probe: a small question, which tells how the server counts until others do.
-        """
+    def charge(self, question: VlmQuestion, usage: TokenCount | None) -> tuple[TokenCount, float]:
+        """Count an answer, also one of no use. Return its tokens, estimated if need be, and cost [$]."""
         expected = estimate_tokens(question)
         counted = usage or TokenCount(expected, 0, estimated=True)
         price = self._endpoint.price(counted)
         with self._changed:
-            if usage and is_probe:
-                self._first_ratio = usage.input / expected
-            elif usage:
-                self._ratios.append(usage.input / expected)
+            self._ratios.append(counted.input / expected)
         self.count(Usage(answered=1, usage=counted, cost=price))
         return counted, price
 

@@ -1,17 +1,22 @@
-"""A question to a model, the answer to it, and the folder that keeps both, so that none is paid for twice."""
+"""A question to a model, the request that puts it, the answer to it, and the folder that keeps question and answer, so
+that none is paid for twice."""
 
 from __future__ import annotations
 
+import base64
 import hashlib
 import json
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
-from functools import cached_property
+from dataclasses import dataclass, replace
+from functools import cache, cached_property
 from pathlib import Path
 from typing import Any, Literal
 
 from meshforge.common import write_atomically
 from meshforge.labels.vlm.endpoint import Endpoint, TokenCount
+from meshforge.rendering import encode_png
+
+_SIDE = 512  # pixels: one tile for those models that cut pictures up, so that it tells how they count them
 
 Part = str | bytes
 """A text, or a picture as a PNG file."""
@@ -93,6 +98,69 @@ class VlmQuestion:
     def digest(self, endpoint: Endpoint) -> str:
         """Return thirty-two hexadecimal digits, the same for the same question to the same model."""
         return _digest(json.dumps(self.document(endpoint), ensure_ascii=True, sort_keys=True).encode())
+
+
+_LESS: Mapping[str, Mapping[str, Any]] = {
+    "schema": {"schema": False},
+    "response_format": {"schema": False},
+    "temperature": {"temperature": False},
+    "max_tokens": {"limit": "max_completion_tokens"},
+}
+"""What is asked for no more, by the word with which servers complain about it; the first that can be spared first."""
+
+
+@dataclass(frozen=True, slots=True)
+class ServerFeatures:
+    """What of a request is not refused. schema: the form of answers; temperature: can be set.
+
+    limit: the name of the field for the room of an answer.
+    """
+
+    schema: bool = True
+    temperature: bool = True
+    limit: str = "max_tokens"
+
+    def body(self, question: VlmQuestion, endpoint: Endpoint) -> dict[str, Any]:
+        """Return the request that puts a question to the model."""
+        body: dict[str, Any] = {
+            "model": endpoint.settings.model,
+            "messages": [{"role": m.role, "content": _format_content(m)} for m in question.messages],
+            self.limit: question.limit,
+        }
+        if self.temperature:
+            body["temperature"] = question.temperature
+        if self.schema and question.schema is not None:
+            form = {"name": "answer", "strict": True, "schema": question.schema}
+            body["response_format"] = {"type": "json_schema", "json_schema": form}
+        return body | dict(endpoint.settings.extra)
+
+    def without(self, complaint: str) -> ServerFeatures | None:
+        """Return these without the one that the server complains about, or else the next; None: none is left."""
+        left = {word: less for word, change in _LESS.items() if (less := replace(self, **change)) != self}
+        return next((less for word, less in left.items() if word in complaint.lower()), next(iter(left.values()), None))
+
+
+def _format_content(message: Message) -> Any:
+    """Plain text where there is nothing else, which every server takes."""
+    if all(isinstance(part, str) for part in message.parts):
+        return "\n".join(str(part) for part in message.parts)
+    return [
+        {"type": "text", "text": part}
+        if isinstance(part, str)
+        else {"type": "image_url", "image_url": {"url": f"data:image/png;base64,{base64.b64encode(part).decode()}"}}
+        for part in message.parts
+    ]
+
+
+@cache
+def probe_question() -> VlmQuestion:
+    """Return a small question that is asked first: which colour is this?"""
+    from PIL import Image  # lazy: only a probe of a server draws this picture
+
+    colour = {"type": "string", "enum": ["red", "green", "blue"]}
+    schema = {"type": "object", "properties": {"colour": colour}, "required": ["colour"], "additionalProperties": False}
+    picture = encode_png(Image.new("RGB", (_SIDE, _SIDE), (220, 30, 30)))
+    return VlmQuestion((Message.user("Which of these colours is this picture: red, green, blue?", picture),), schema)
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,12 +1,12 @@
 """Looks for an orientation in which rules that have extractors have more believable ones.
 
-An extractor is doubted for its nodes and for what fits by accident, as in `readings/belief.py`; a direction most where
-no landmarks lie along its axis on nearly all meshes, since the meshes then lie in different frames.
+An extractor is doubted for its nodes and for what fits by accident, as in `candidates/belief.py`; a direction most
+where no landmarks lie along its axis on nearly all meshes, since the meshes then lie in different frames.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Sequence
 
 import numpy as np
 
@@ -14,11 +14,12 @@ from meshforge import language
 from meshforge.common import MeshForgeError
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis.candidates.belief import NODE
-from meshforge.synthesis.demonstration import Demonstration, RuleSpec
-from meshforge.synthesis.options import Options, TimeBudget
+from meshforge.synthesis.demonstration import RuleSpec
+from meshforge.synthesis.options import TimeBudget
 from meshforge.synthesis.orientation.attempts import OrientationSearch
 from meshforge.synthesis.orientation.landmarks import ALONG, NEARLY_ALL, Landmarks
 from meshforge.synthesis.orientation.suggest import Directives
+from meshforge.synthesis.task import LearningTask
 
 UNSUPPORTED = 2.6
 """For a direction along whose axis no landmarks lie on nearly all meshes [nats]."""
@@ -35,47 +36,28 @@ MAX_MESHES, MAX_TURNED = 100, 24
 
 
 def find_more_believable(
-    demos: Sequence[Demonstration],
-    rules: Sequence[RuleSpec],
-    frame: language.Program,
-    templates: Mapping[str, language.Template],
-    options: Options,
-    budget: TimeBudget,
-    extractors: Sequence[language.Extractor],
-    batch: Sequence[SymbolicMesh],
+    task: LearningTask, budget: TimeBudget, extractors: Sequence[language.Extractor]
 ) -> language.Orient | None:
     """Return the directive of one pair in whose frame the rules are most believable, if they are clearly more so than
-    now.
+    now, without an orientation.
 
-    frame: the program without its rules, and without an orientation; extractors: of the rules, as they were learned.
-    Raises OutOfTime.
+    extractors: of the rules, as they were learned. Raises OutOfTime.
     """
-    costs = FrameCosts(rules, extractors)
-    if costs.most - DIRECTIVE <= costs.least:
+    costs = FrameCosts(task.rules, extractors)
+    if costs.count((), askew=True) - DIRECTIVE <= costs.least:
         return None
-    shown, others = [demo.mesh for demo in demos], batch[:MAX_MESHES]
-    landmarks = Landmarks([*shown, *others], frame.labels)
+    shown, others = [demo.mesh for demo in task.demos], [*task.batch.values()][:MAX_MESHES]
+    landmarks = Landmarks([*shown, *others], task.frame.labels)
     supported = [letter for letter in "XYZ" if landmarks.supports(letter)]
     if costs.count(supported, askew=True) - DIRECTIVE <= costs.least:
         return None
-    orients = _rank(Directives(shown, others, frame.labels), landmarks)[:MAX_TRIED]
+    orients = _rank(Directives(shown, others, task.frame.labels), landmarks)[:MAX_TRIED]
     askew = bool(orients and costs.askew and _turns_many([*shown, *others][:MAX_TURNED], orients[0]))
     most = costs.count(supported, askew) - DIRECTIVE
     if most <= costs.least:
         return None
-    search = OrientationSearch(demos, rules, frame, templates, options, budget, extractors)
-    return _find_first(search, orients, most, costs.least)
-
-
-def _find_first(
-    search: OrientationSearch, orients: Sequence[language.Orient], most: float, least: float
-) -> language.Orient | None:
-    """The first directive whose extractors cost no more than `most`, unless those of a later one cost clearly less.
-
-    least: what extractors cost in any frame [nats].
-    """
     best: language.Orient | None = None
-    sizes = [language.size_of(one) for one in search.known]
+    search, sizes = OrientationSearch(task, budget, extractors), [language.size_of(one) for one in extractors]
     for orient in orients:
         attempt = search.attempt(orient)
         if attempt and attempt.learn(sum(sizes) + SLACK, max(sizes) + SLACK):
@@ -83,7 +65,7 @@ def _find_first(
             cost = sum(min(cost_extractor(one, axes) for one in some) for some in attempt.extractors)
             if cost <= most:
                 best, most = orient, cost - CLEARLY
-        if most < least:
+        if most < costs.least:
             break
     return best
 
@@ -98,14 +80,9 @@ class FrameCosts:
     def __init__(self, rules: Sequence[RuleSpec], extractors: Sequence[language.Extractor]) -> None:
         self._extractors = tuple(extractors)
         self.least = sum(min(cost_extractor(one, "XYZ"), NODE * 2 + language.UPRIGHT) for one in extractors)
-        reach = [place for place, one in enumerate(extractors) if _asks_for_places(one)]
+        reach = [k for k, one in enumerate(extractors) if any(leaf.bases for leaf in language.leaves_of(one))]
         acted = [place for place, rule in enumerate(rules) if rule.action.depends_on_frame]
         self.askew = UNSUPPORTED - language.UPRIGHT if acted and reach and acted[0] < reach[-1] else 0.0
-
-    @property
-    def most(self) -> float:
-        """Where no landmarks lie along any axis."""
-        return self.count((), askew=True)
 
     def count(self, supported: Collection[str], askew: bool) -> float:
         """Return the cost where landmarks lie along some axes; askew: whether actions went by axes that mean
@@ -138,25 +115,16 @@ def _rank(directives: Directives, landmarks: Landmarks) -> list[language.Orient]
 
 
 def cost_extractor(extractor: language.Extractor, supported: Collection[str]) -> float:
-    """Return what it costs to believe in one [nats]."""
-    return NODE * language.size_of(extractor) + _reason(extractor, supported)
-
-
-def _reason(extractor: language.Extractor, supported: Collection[str]) -> float:
-    return sum(_weigh_leaf(leaf, supported) for leaf in language.leaves_of(extractor))
+    """Return what it costs to believe in one [nats]; supported: the axes along which directions mean something."""
+    leaves = (_weigh_leaf(leaf, supported) for leaf in language.leaves_of(extractor))
+    return NODE * language.size_of(extractor) + sum(leaves)
 
 
 def _weigh_leaf(leaf: language.Leaf, supported: Collection[str]) -> float:
     """What is believed less of a leaf for its bases, and for directions that mean something or not."""
     if isinstance(leaf, language.BaseExtractor):
         return leaf.cost
-    given = (
-        getattr(leaf, name) for name, kind in leaf.arguments().items() if isinstance(kind, language.DirectionArgument)
-    )
+    kinds = leaf.arguments().items()
+    given = (getattr(leaf, name) for name, kind in kinds if isinstance(kind, language.DirectionArgument))
     costs = sum(language.UPRIGHT if direction[1] in supported else UNSUPPORTED for direction in given)
     return sum(base.cost for base in leaf.bases) + costs
-
-
-def _asks_for_places(extractor: language.Extractor) -> bool:
-    """Whether it asks for more than labels, so that what earlier rules made counts."""
-    return any(leaf.bases for leaf in language.leaves_of(extractor))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -13,12 +13,12 @@ from meshforge.common import MeshForgeError
 from meshforge.geometry import Pose
 from meshforge.language import HullTable, Replay
 from meshforge.symbolic import NEAR_MISS, SymbolicMesh
-from meshforge.synthesis.demonstration import Demonstration, Example, RuleSpec, name_demonstrations
+from meshforge.synthesis.demonstration import Example, RuleSpec, name_demonstrations
 from meshforge.synthesis.options import Options, TimeBudget
 from meshforge.synthesis.search.observation_table import select_all
 from meshforge.synthesis.search.smallest import Search
 from meshforge.synthesis.search.terms import enumerate_leaves
-from meshforge.synthesis.task import example_of, memoize
+from meshforge.synthesis.task import LearningTask, example_of, memoize
 
 Signature = tuple[bytes, bool]
 """Which leaf extractors select a hull, and whether it was selected."""
@@ -28,29 +28,20 @@ _MAX_STRETCH = 2.0
 
 
 class OrientationSearch:
-    """The rules to be learned, and the attempts to learn them in the frames tried so far.
+    """The rules of a task to be learned, and the attempts to learn them in the frames tried so far.
 
     known: extractors of all rules in the present frame; empty where some rule has none; floors: nodes that each rule
     needs in whatever frame.
     """
 
-    def __init__(
-        self,
-        demos: Sequence[Demonstration],
-        rules: Sequence[RuleSpec],
-        frame: language.Program,
-        templates: Mapping[str, language.Template],
-        options: Options,
-        budget: TimeBudget,
-        known: Sequence[language.Extractor] = (),
-    ) -> None:
-        self.rules, self.known = tuple(rules), tuple(known)
+    def __init__(self, task: LearningTask, budget: TimeBudget, known: Sequence[language.Extractor] = ()) -> None:
+        self.task, self.rules, self.known = task, task.rules, tuple(known)
         sizes = [language.size_of(one) for one in known]
-        self._closed = all(demo.step(rule.number) for demo in demos for rule in rules)
-        self.floors = [min(nodes, 2) if self._closed else 1 for nodes in sizes or [1] * len(rules)]
-        self._frame, self._templates, self._options, self._budget = frame, templates, options, budget
-        self._demos = dict(name_demonstrations(demos))
-        self._turners = [MeshTurner(demo.mesh, frame.contact) for demo in demos]
+        self._closed = all(demo.step(rule.number) for demo in task.demos for rule in task.rules)
+        self.floors = [min(nodes, 2) if self._closed else 1 for nodes in sizes or [1] * len(self.rules)]
+        self._budget = budget
+        self._demos = dict(name_demonstrations(task.demos))
+        self._turners = [MeshTurner(demo.mesh, task.frame.contact) for demo in task.demos]
         self._by_orient: dict[language.Orient, FrameAttempt | None] = {}
         self._by_turns: dict[tuple[bytes, ...], FrameAttempt] = {}
         self._extractors: dict[frozenset[Signature], language.Extractor] = {}
@@ -83,7 +74,7 @@ class OrientationSearch:
     def analyze(self, rule: RuleSpec, replays: Sequence[Replay]) -> RuleInFrame:
         """Return the next rule of some replays. Raises MeshForgeError where what was shown cannot be done."""
         examples = [shown for replay in replays if (shown := example_of(replay, self._demos[replay.name], rule))]
-        found = analyze_rule(examples, self._frame.labels, self._options)
+        found = analyze_rule(examples, self.task.frame.labels, self.task.options)
         if not found.base and self._closed:  # bases select the same in every frame, unless open steps differ
             self.floors[rule.number - 1] = 2
         return found
@@ -93,27 +84,13 @@ class OrientationSearch:
         if rule.base or rule.strays or most < rule.least:
             return rule.base
         if rule.signatures not in self._extractors and self._none_up_to.get(rule.signatures, 0) < most:
-            self._search(rule, most)
+            options = replace(self.task.options, max_size=most)
+            if hit := Search(rule.examples, self.task.frame.labels, self._budget, options).find_hit():
+                self._extractors[rule.signatures] = hit.extractor
+            else:
+                self._none_up_to[rule.signatures] = most
         found = self._extractors.get(rule.signatures)
         return found if found and language.size_of(found) <= most else None
-
-    def selects_shown(self, extractor: language.Extractor, examples: Sequence[Example]) -> bool:
-        """Return whether an extractor selects what was shown on some examples."""
-        delta = self._options.geo_extremity
-        return all(language.select_mask(extractor, one.mesh, delta) == one.selection for one in examples)
-
-    def _search(self, rule: RuleInFrame, most: int) -> None:
-        options = replace(self._options, max_size=most)
-        hit = Search(rule.examples, self._frame.labels, self._budget, options).find_hit()
-        if hit:
-            self._extractors[rule.signatures] = hit.extractor
-        else:
-            self._none_up_to[rule.signatures] = most
-
-    def advance(self, replays: Sequence[Replay], rule: RuleSpec, extractor: language.Extractor) -> list[Replay]:
-        """Return the replays after one more rule. Raises MeshForgeError where its action cannot be done."""
-        done = language.Rule(extractor, rule.action, rule.label)
-        return [replay.advance(done, self._templates, self._frame.extremity) for replay in replays]
 
 
 class FrameAttempt:
@@ -131,18 +108,14 @@ class FrameAttempt:
         self.strays = 0
         self._over = False
 
-    @property
-    def is_done(self) -> bool:
-        """Whether every rule has an extractor."""
-        return len(self.sizes) == len(self._search.rules)
-
     def learn(self, limit: int, most: int) -> bool:
         """Learn on; whether every rule has an extractor, of at most `limit` nodes in all and `most` each."""
-        while not self._over and not self.is_done:
+        count = len(self._search.rules)
+        while not self._over and len(self.sizes) < count:
             room = min(most, limit - sum(self.sizes) - sum(self._search.floors[len(self.sizes) + 1 :]))
             if room < self._search.floors[len(self.sizes)] or not self._learn_next(room):
                 break
-        return self.is_done and sum(self.sizes) <= limit
+        return len(self.sizes) == count and sum(self.sizes) <= limit
 
     def _learn_next(self, most: int) -> bool:
         """Whether the next rule has an extractor of at most so many nodes; if so, it is applied."""
@@ -161,11 +134,16 @@ class FrameAttempt:
         return extractor is not None
 
     def _apply(self, extractor: language.Extractor, found: RuleInFrame) -> None:
-        place, self._next = len(self.sizes), None
-        rule, known = self._search.rules[place], self._search.known[place : place + 1]
-        fits = [one for one in known if self._search.selects_shown(one, found.examples)]
+        place, task, self._next = len(self.sizes), self._search.task, None
+        rule, known, delta = task.rules[place], self._search.known[place : place + 1], task.options.geo_extremity
+        fits = [
+            one
+            for one in known
+            if all(language.select_mask(one, shown.mesh, delta) == shown.selection for shown in found.examples)
+        ]
         self.extractors.append((extractor, *found.leaves, *fits))
-        self._replays = self._search.advance(self._replays, rule, extractor)
+        done = language.Rule(extractor, rule.action, rule.label)
+        self._replays = [replay.advance(done, task.templates, task.frame.extremity) for replay in self._replays]
         self.sizes.append(language.size_of(extractor))
 
     def _stop(self) -> None:

@@ -13,10 +13,10 @@ import numpy as np
 from meshforge import language
 from meshforge.common import pluralize
 from meshforge.symbolic import SymbolicMesh
-from meshforge.synthesis.demonstration import Demonstration, RuleSpec
-from meshforge.synthesis.options import Options, TimeBudget
+from meshforge.synthesis.options import TimeBudget
 from meshforge.synthesis.orientation.attempts import OrientationSearch
 from meshforge.synthesis.orientation.landmarks import Landmarks
+from meshforge.synthesis.task import LearningTask
 
 _LETTERS = "ZXY"  # up and down first
 _UPWARD: Mapping[str, language.Direction] = {"X": "+X", "Y": "+Y", "Z": "+Z"}
@@ -105,54 +105,57 @@ class OrientationSuggestion:
 
 
 def suggest_orientation(
-    demos: Sequence[Demonstration],
-    rules: Sequence[RuleSpec],
-    frame: language.Program,
-    templates: Mapping[str, language.Template],
-    options: Options,
-    budget: TimeBudget,
-    known: Sequence[language.Extractor] = (),
-    batch: Sequence[SymbolicMesh] = (),
+    task: LearningTask, budget: TimeBudget, known: Sequence[language.Extractor] = ()
 ) -> OrientationSuggestion | None:
     """Return the directive under which the extractors of all rules have the fewest nodes, if it is clearly better than
     now.
 
-    frame: the program without its rules; known: what learning found in the present frame, empty where some rule
-    has no extractor. A pair that is given is kept where a second one, or `snap`, is enough. Raises OutOfTime.
+    known: what learning found in the present frame, empty where some rule has no extractor. A pair that is given is
+    kept where a second one, or `snap`, is enough. Raises OutOfTime.
     """
-    sizes = tuple(map(language.size_of, known))
-    limit = sum(sizes) - MIN_SAVING if sizes else len(rules) * options.max_size
-    if "G" not in options.layers:
+    sizes, most = tuple(map(language.size_of, known)), task.options.max_size
+    limit = sum(sizes) - MIN_SAVING if sizes else len(task.rules) * most
+    if "G" not in task.options.layers:
         return None
-    search = OrientationSearch(demos, rules, frame, templates, options, budget, known)
+    search = OrientationSearch(task, budget, known)
     if limit < sum(search.floors):
         return None
-    search_attempts = Attempts(search, options.max_size)
-    directives = Directives([demo.mesh for demo in demos], batch, frame.labels)
-    best = _vary(search_attempts, directives, frame.orient, limit) if frame.orient else None
-    if not best and not (frame.orient and len(frame.orient.pairs) == 2):
-        best = _search_all(search_attempts, directives, limit)
+    steps = sorted({min(step, most) for step in (*_STEPS, most)})
+    directives = Directives([demo.mesh for demo in task.demos], [*task.batch.values()], task.frame.labels)
+    best, given = None, task.frame.orient
+    if given:
+        second = directives.with_two_pairs(given.pairs) if len(given.pairs) == 1 else []
+        best = _find_best(search, [replace(given, snap=not given.snap), *second], limit, steps)
+    if not best and not (given and len(given.pairs) == 2):
+        ones = directives.with_one_pair()
+        best = _find_best(search, ones, limit, steps[:1])
+        if not best or sum(best[1]) > sum(search.floors):  # two pairs may save further
+            best = _find_best(search, [*ones, *directives.with_two_pairs(_farthest_pairs(search, ones))], limit, steps)
     return OrientationSuggestion(*best, explain_orientation(*best, sizes), sizes) if best else None
 
 
-def _vary(
-    search_attempts: Attempts, directives: Directives, given: language.Orient, limit: int
+def _find_best(
+    search: OrientationSearch, orients: Sequence[language.Orient], limit: int, steps: Sequence[int]
 ) -> OrientationFit | None:
-    toggled = replace(given, snap=not given.snap)
-    return search_attempts.best(
-        [toggled, *(directives.with_two_pairs(given.pairs) if len(given.pairs) == 1 else [])], limit
-    )
+    """The directive with the fewest nodes in all, at most `limit`; of equals the first. steps: nodes that an extractor
+    may have, in one round after the other."""
+    found: dict[tuple[int, int], OrientationFit] = {}
+    for most in steps:
+        for place, orient in enumerate(orients):
+            if found:
+                total, first = min(found)
+                limit = total - (place > first)
+            attempt = search.attempt(orient) if limit >= sum(search.floors) else None
+            if attempt and attempt.learn(limit, most):
+                found[sum(attempt.sizes), place] = orient, tuple(attempt.sizes)
+    return found[min(found)] if found else None
 
 
-def _search_all(search_attempts: Attempts, directives: Directives, limit: int) -> OrientationFit | None:
-    """The best directive of all: of one pair, or of two where that saves further."""
-    ones = directives.with_one_pair()
-    one = search_attempts.best_of_small(ones, limit)
-    if one and search_attempts.is_optimal(one):
-        return one
-    return search_attempts.best(
-        [*ones, *directives.with_two_pairs(search_attempts.farthest_pairs(ones, MAX_EXTENDED))], limit
-    )
+def _farthest_pairs(search: OrientationSearch, orients: Sequence[language.Orient]) -> list[language.LandmarkPair]:
+    """The pairs of the directives that came farthest, of equals the first."""
+    tried = [(orient, attempt) for orient in orients if (attempt := search.attempt(orient))]
+    tried.sort(key=lambda row: (-len(row[1].sizes), row[1].strays))
+    return list(dict.fromkeys(orient.pairs[0] for orient, _ in tried))[:MAX_EXTENDED]
 
 
 def explain_orientation(orient: language.Orient, found: Sequence[int], before: Sequence[int], assets: int = 0) -> str:
@@ -161,15 +164,12 @@ def explain_orientation(orient: language.Orient, found: Sequence[int], before: S
     found, before: nodes of each rule in that frame and now; assets: on which the rules select something else there.
     """
     nearly = "of quarter turns where, as nearly as can be," if orient.snap else "where"
-    frame = " and ".join(map(_describe_pair, orient.pairs))
+    ends = [(pair.axis, *map(_describe_base, (pair.start, pair.end))) for pair in orient.pairs]
+    frame = " and ".join(f"{axis} points from {start} to {end}" for axis, start, end in ends)
     now = f", instead of {_describe_sizes(before)} now" if before and tuple(before) != tuple(found) else ""
     rules = "the rule" if len(found) == 1 else "every rule"
     differs = f", and selects something else than now on {pluralize(assets, 'asset')}" if assets else ""
     return f"in the frame {nearly} {frame}, {rules} has an extractor, of {_describe_sizes(found)}{now}{differs}"
-
-
-def _describe_pair(pair: language.LandmarkPair) -> str:
-    return f"{pair.axis} points from {_describe_base(pair.start)} to {_describe_base(pair.end)}"
 
 
 def _describe_base(base: language.BaseExtractor) -> str:
@@ -179,41 +179,3 @@ def _describe_base(base: language.BaseExtractor) -> str:
 def _describe_sizes(sizes: Sequence[int]) -> str:
     *others, last = sizes
     return f"{', '.join(map(str, others))} and {last} nodes" if others else pluralize(last, "node")
-
-
-class Attempts:
-    """What became of the directives that were tried; most: nodes that an extractor may have."""
-
-    def __init__(self, search: OrientationSearch, most: int) -> None:
-        self._search = search
-        self._steps = sorted({min(step, most) for step in (*_STEPS, most)})
-
-    def best(self, orients: Sequence[language.Orient], limit: int) -> OrientationFit | None:
-        """Return the directive with the fewest nodes in all, at most `limit`; of equals the first. Raises OutOfTime."""
-        return self._best(orients, limit, self._steps)
-
-    def best_of_small(self, orients: Sequence[language.Orient], limit: int) -> OrientationFit | None:
-        """Return the directive with the fewest nodes, where every extractor is small. Raises OutOfTime."""
-        return self._best(orients, limit, self._steps[:1])
-
-    def _best(self, orients: Sequence[language.Orient], limit: int, steps: Sequence[int]) -> OrientationFit | None:
-        found: dict[tuple[int, int], OrientationFit] = {}
-        for most in steps:
-            for place, orient in enumerate(orients):
-                if found:
-                    total, first = min(found)
-                    limit = total - (place > first)
-                attempt = self._search.attempt(orient) if limit >= sum(self._search.floors) else None
-                if attempt and attempt.learn(limit, most):
-                    found[sum(attempt.sizes), place] = orient, tuple(attempt.sizes)
-        return found[min(found)] if found else None
-
-    def is_optimal(self, fit: OrientationFit) -> bool:
-        """Return whether no directive can need fewer nodes."""
-        return sum(fit[1]) <= sum(self._search.floors)
-
-    def farthest_pairs(self, orients: Sequence[language.Orient], count: int) -> list[language.LandmarkPair]:
-        """Return the pairs of the directives that came farthest, of equals the first."""
-        tried = [(orient, attempt) for orient in orients if (attempt := self._search.attempt(orient))]
-        tried.sort(key=lambda row: (-len(row[1].sizes), row[1].strays))
-        return list(dict.fromkeys(orient.pairs[0] for orient, _ in tried))[:count]

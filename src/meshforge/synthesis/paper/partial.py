@@ -4,9 +4,9 @@ what they select at least on one demonstrated mesh, under its labels or others."
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, partial
 from typing import TypeAlias, assert_never
 
 import numpy as np
@@ -14,47 +14,26 @@ import numpy as np
 from meshforge import language
 from meshforge.synthesis.demonstration import Example, LabelChange
 from meshforge.synthesis.options import Layers
-from meshforge.synthesis.search.smallest import NearestExtractor
-from meshforge.synthesis.search.terms import SetOperator
 
 _ATTACH = language.Attach(language.All(), language.All())  # whose bases are given as what they select
 
 
 @dataclass(frozen=True, slots=True)
 class Hole:
-    """Stands for any extractor."""
+    """Stands for any extractor; of bases, for `All` or `Is(a)`, which is all that `Attach` and `Geo` take."""
 
-
-@dataclass(frozen=True, slots=True)
-class BaseHole:
-    """Stands for `All` or `Is(a)`, which is all that `Attach` and `Geo` take."""
-
-
-@dataclass(frozen=True, slots=True)
-class OpenAttach:
-    """An `Attach` with a hole in one place or both."""
-
-    selected: language.BaseExtractor | BaseHole
-    anchor: language.BaseExtractor | BaseHole
-
-
-@dataclass(frozen=True, slots=True)
-class OpenGeo:
-    """A `Geo` whose base is a hole."""
-
-    direction: language.Direction
+    of_bases: bool = False
 
 
 @dataclass(frozen=True, slots=True)
 class OpenOperator:
-    """A set operator with at least one hole below it."""
+    """An operator that has a hole somewhere. make: gives an extractor of its operands."""
 
-    operator: SetOperator
-    left: Partial
-    right: Partial
+    make: Callable[..., language.Extractor]
+    operands: tuple[Partial, ...]
 
 
-Open = Hole | OpenAttach | OpenGeo | OpenOperator
+Open = Hole | OpenOperator
 Partial: TypeAlias = Open | language.Extractor
 
 
@@ -65,61 +44,31 @@ class HoleGrammar:
     """
 
     def __init__(self, vocabulary: Sequence[str], layers: Layers) -> None:
+        base = Hole(of_bases=True)
         self.bases: tuple[language.BaseExtractor, ...] = (*map(language.Is, vocabulary), language.All())
-        contact = [OpenAttach(BaseHole(), BaseHole())] if "T" in layers else []
-        position = map(OpenGeo, language.DIRECTIONS) if "G" in layers else []
-        operators = [OpenOperator(operator, Hole(), Hole()) for operator in language.SET_OPERATORS]
+        contact = [OpenOperator(language.Attach, (base, base))] if "T" in layers else []
+        ways = [partial(language.Geo, direction=one) for one in language.DIRECTIONS] if "G" in layers else []
+        operators = [OpenOperator(operator, (Hole(), Hole())) for operator in language.SET_OPERATORS]
+        position = [OpenOperator(make, (base,)) for make in ways]
         self.extractors: tuple[Partial, ...] = (*self.bases, *contact, *position, *operators)
 
-    def fill(self, partial: Open) -> Iterator[Partial]:
+    def fill(self, open_: Open) -> Iterator[Partial]:
         """Yield the partial program with its first hole filled, in all ways."""
-        match partial:
-            case Hole():
-                yield from self.extractors
-            case OpenGeo(direction):
-                yield from (language.Geo(base, direction) for base in self.bases)
-            case OpenAttach(BaseHole(), anchor):
-                yield from (make_attach(base, anchor) for base in self.bases)
-            case OpenAttach(selected, _):
-                yield from (make_attach(selected, base) for base in self.bases)
-            case OpenOperator(operator, left, right):
-                if isinstance(left, Open):
-                    yield from (make_operator(operator, part, right) for part in self.fill(left))
-                elif isinstance(right, Open):
-                    yield from (make_operator(operator, left, part) for part in self.fill(right))
-            case _:
-                assert_never(partial)
+        if isinstance(open_, Hole):
+            yield from self.bases if open_.of_bases else self.extractors
+            return
+        place, first = next((k, one) for k, one in enumerate(open_.operands) if isinstance(one, Open))
+        for part in self.fill(first):
+            operands = (*open_.operands[:place], part, *open_.operands[place + 1 :])
+            is_open = any(isinstance(one, Open) for one in operands[place:])
+            yield OpenOperator(open_.make, operands) if is_open else open_.make(*operands)
 
 
-def make_attach(
-    selected: language.BaseExtractor | BaseHole, anchor: language.BaseExtractor | BaseHole
-) -> language.Attach | OpenAttach:
-    """Return `Attach` of two bases, either of which may be a hole."""
-    if isinstance(selected, BaseHole) or isinstance(anchor, BaseHole):
-        return OpenAttach(selected, anchor)
-    return language.Attach(selected, anchor)
-
-
-def make_operator(operator: SetOperator, left: Partial, right: Partial) -> Partial:
-    """Return a set operator over two partial programs."""
-    if isinstance(left, Open) or isinstance(right, Open):
-        return OpenOperator(operator, left, right)
-    return operator(left, right)
-
-
-def count_nodes(partial: Partial) -> int:
+def count_nodes(part: Partial) -> int:
     """Return the syntactic complexity: syntax nodes, of which a hole is one."""
-    match partial:
-        case Hole():
-            return 1
-        case OpenGeo():
-            return 2
-        case OpenAttach():
-            return 3
-        case OpenOperator(_, left, right):
-            return 1 + count_nodes(left) + count_nodes(right)
-        case _:
-            return language.size_of(partial)
+    if isinstance(part, OpenOperator):
+        return 1 + sum(map(count_nodes, part.operands))
+    return 1 if isinstance(part, Hole) else language.size_of(part)
 
 
 class Worklist:
@@ -132,10 +81,10 @@ class Worklist:
     def __init__(self, max_size: int) -> None:
         self._queues: list[deque[Partial]] = [deque() for _ in range(max_size + 1)]
 
-    def put(self, partial: Partial) -> None:
-        size = count_nodes(partial)
+    def put(self, part: Partial) -> None:
+        size = count_nodes(part)
         if size < len(self._queues):
-            self._queues[size].append(partial)
+            self._queues[size].append(part)
 
     def pop(self) -> tuple[int, Partial] | None:
         """Return the simplest with its size, None when there is none left."""
@@ -159,8 +108,10 @@ class ExampleMasks:
         self.example, mesh = example, example.mesh
         self.name, self.target = example.name, example.selection
         self.everything = (1 << len(mesh.hulls)) - 1
-        self.labels = _masks_by_label([hull.label for hull in mesh.hulls])
-
+        self.labels = dict[str, int]()
+        for index, hull in enumerate(mesh.hulls):
+            if hull.label is not None:
+                self.labels[hull.label] = self.labels.get(hull.label, 0) | 1 << index
         hulls = language.HullTable([mesh], extremity=extremity)
 
         @cache
@@ -207,71 +158,30 @@ def _to_bools(bits: int, count: int) -> language.Bools:
     return np.unpackbits(packed, count=count, bitorder="little").astype(np.bool_)
 
 
-def _masks_by_label(labels: Iterable[str | None]) -> dict[str, int]:
-    masks: dict[str, int] = {}
-    for index, label in enumerate(labels):
-        if label is not None:
-            masks[label] = masks.get(label, 0) | 1 << index
-    return masks
-
-
-def is_feasible(partial: Partial, demo: ExampleMasks) -> bool:
+def is_feasible(part: Partial, demo: ExampleMasks) -> bool:
     """Return whether a completion may select what was shown, as far as bounds tell."""
-    low, high = bounds(partial, demo)
+    low, high = bounds(part, demo)
     return not low & ~demo.target and not demo.target & ~high
 
 
-def bounds(partial: Partial, demo: ExampleMasks) -> Bounds:
+def bounds(part: Partial, demo: ExampleMasks) -> Bounds:
     """Return the bounds of a partial program on a demonstration; both are its selection where it has no holes.
 
     `Attach` grows with both its operands, so the bounds of these give its own; `Geo` does not grow with its base.
     """
-    match partial:
-        case Hole() | OpenGeo():
+    match part:
+        case OpenOperator(make, (one, other)):
+            (low, high), (other_low, other_high) = bounds(one, demo), bounds(other, demo)
+            if make is language.Attach:
+                return demo.refine(_ATTACH, low, other_low), demo.refine(_ATTACH, high, other_high)
+            if make is language.Union:
+                return low | other_low, high | other_high
+            if make is language.Intersect:
+                return low & other_low, high & other_high
+            assert make is language.Diff
+            return low & ~other_high, high & ~other_low
+        case Hole() | OpenOperator():
             return 0, demo.everything
-        case OpenAttach(selected, anchor):
-            (low, high), (anchor_low, anchor_high) = _base_bounds(selected, demo), _base_bounds(anchor, demo)
-            return demo.refine(_ATTACH, low, anchor_low), demo.refine(_ATTACH, high, anchor_high)
-        case OpenOperator(operator, left, right):
-            return _combine_bounds(operator, bounds(left, demo), bounds(right, demo))
         case _:
-            selection = demo.select(partial)
+            selection = demo.select(part)
             return selection, selection
-
-
-def _base_bounds(base: language.BaseExtractor | BaseHole, demo: ExampleMasks) -> Bounds:
-    return (0, demo.everything) if isinstance(base, BaseHole) else bounds(base, demo)
-
-
-def _combine_bounds(operator: SetOperator, left: Bounds, right: Bounds) -> Bounds:
-    if operator is language.Union:
-        return left[0] | right[0], left[1] | right[1]
-    if operator is language.Intersect:
-        return left[0] & right[0], left[1] & right[1]
-    assert operator is language.Diff
-    return left[0] & ~right[1], left[1] & ~right[0]
-
-
-class NearestTracker:
-    """The extractor with the fewest differing hulls so far; of several, the first met."""
-
-    def __init__(self, demos: Sequence[ExampleMasks]) -> None:
-        self._demos = demos
-        self._best: tuple[int, language.Extractor] | None = None
-
-    def offer(self, extractor: language.Extractor) -> int:
-        """Return in how many hulls an extractor differs from what was shown: 0 is a match."""
-        count = sum(demo.differences(extractor).bit_count() for demo in self._demos)
-        if self._best is None or count < self._best[0]:
-            self._best = (count, extractor)
-        return count
-
-    def miss(self) -> NearestExtractor | None:
-        """Return how the nearest differs on the mesh where it differs most, None when nothing was offered."""
-        if self._best is None:
-            return None
-        extractor = self._best[1]
-        worst = max(self._demos, key=lambda demo: demo.differences(extractor).bit_count())
-        wrong = worst.differences(extractor)
-        names_of = worst.example.mesh.names_of
-        return NearestExtractor(extractor, worst.name, names_of(wrong & ~worst.target), names_of(wrong & worst.target))

@@ -4,7 +4,7 @@ fewest labels to correct for an extractor to match (algorithm AbductiveInference
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Container, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations, product
 from types import MappingProxyType
@@ -14,9 +14,9 @@ from meshforge.symbolic import bits_of
 from meshforge.synthesis.demonstration import Example, LabelChange, to_fix
 from meshforge.synthesis.options import Options, OutOfTime, TimeBudget
 from meshforge.synthesis.paper import partial as partials
-from meshforge.synthesis.paper.partial import ExampleMasks, Hole, HoleGrammar, NearestTracker, Open, Worklist
+from meshforge.synthesis.paper.partial import ExampleMasks, Hole, HoleGrammar, Open, Worklist
 from meshforge.synthesis.questions import LabelFix
-from meshforge.synthesis.search.smallest import Hit, Miss, SearchEffort, SearchResult, Unfinished
+from meshforge.synthesis.search.smallest import Hit, Miss, NearestExtractor, SearchEffort, SearchResult, Unfinished
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,23 +43,23 @@ class PaperSearch:
         budget: TimeBudget,
         options: Options,
         confirm: Callable[[LabelFix], bool] | None = None,
-        rejected: Container[LabelFix] = (),
+        rejected: Collection[LabelFix] = (),
         spent: Mapping[str, int] = MappingProxyType({}),
     ) -> None:
         self._demos = [ExampleMasks(example, options.geo_extremity) for example in examples]
         self._grammar, self._max_size, self._budget = HoleGrammar(vocabulary, options.layers), options.max_size, budget
         left = {demo.name: max(0, options.eta - spent.get(demo.name, 0)) for demo in self._demos}
         self._abduction = Abduction(self._demos, vocabulary, left, budget) if options.repair else None
-        self._confirmations = Confirmations(confirm, rejected)
+        self._confirm, self._answers = confirm, dict.fromkeys(rejected, False)
         self._size = self._complete = self._filled = 0
-        self._nearest = NearestTracker(self._demos)
+        self._nearest: tuple[int, Extractor] | None = None
 
     def run(self) -> SearchResult | HitWithFixes:
         """Return the answer, within the limits of the options and the budget."""
         try:
             return self._find_hit()
         except OutOfTime:
-            return Unfinished(self._nearest.miss(), self._tried)
+            return Unfinished(self._find_nearest(), self._tried)
 
     @property
     def _tried(self) -> SearchEffort:
@@ -88,15 +88,40 @@ class PaperSearch:
 
     def _check_complete(self, extractor: Extractor) -> Hit | HitWithFixes | None:
         self._complete += 1
-        if self._nearest.offer(extractor) == 0:
+        count = sum(demo.differences(extractor).bit_count() for demo in self._demos)
+        if count == 0:
             return Hit(extractor, self._tried)
+        if self._nearest is None or count < self._nearest[0]:
+            self._nearest = count, extractor
         fixes = self._abduction.infer(extractor) if self._abduction else None
-        if fixes is None or not self._confirmations.are_confirmed(fixes):
+        if fixes is None or not self._are_confirmed(fixes):
             return None
         return HitWithFixes(extractor, fixes, self._tried)
 
+    def _are_confirmed(self, fixes: Sequence[LabelFix]) -> bool:
+        """Whether all are right; without a person those that were not rejected are. Nothing is asked about a repair of
+        which one is known to be wrong."""
+        if not all(self._answers.get(fix, True) for fix in fixes):
+            return False
+        for fix in fixes if self._confirm else ():
+            assert self._confirm
+            if fix not in self._answers:
+                self._answers[fix] = self._confirm(fix)
+            if not self._answers[fix]:
+                return False
+        return True
+
+    def _find_nearest(self) -> NearestExtractor | None:
+        """How the nearest differs on the mesh where it differs most, None when nothing was complete."""
+        if self._nearest is None:
+            return None
+        extractor = self._nearest[1]
+        worst = max(self._demos, key=lambda demo: demo.differences(extractor).bit_count())
+        wrong, names_of = worst.differences(extractor), worst.example.mesh.names_of
+        return NearestExtractor(extractor, worst.name, names_of(wrong & ~worst.target), names_of(wrong & worst.target))
+
     def _report_miss(self) -> Miss:
-        nearest = self._nearest.miss()
+        nearest = self._find_nearest()
         assert nearest, "All is complete and of one node"
         corrected = ", even after corrections of labels" if self._abduction else ""
         return Miss(f"no extractor of up to {self._max_size} nodes matches{corrected}", nearest, self._tried)
@@ -156,23 +181,3 @@ class Abduction:
         mentioned = labels_of(extractor)
         leaving = [other for other in self._by_frequency if other not in mentioned][:1] if label in mentioned else []
         return (*(other for other in mentioned if other != label), *leaving)
-
-
-class Confirmations:
-    """Remembers what was answered; without `confirm` every correction that was not rejected is agreed to."""
-
-    def __init__(self, confirm: Callable[[LabelFix], bool] | None = None, rejected: Container[LabelFix] = ()) -> None:
-        self._confirm, self._rejected = confirm, rejected
-        self._answers: dict[LabelFix, bool] = {}
-
-    def are_confirmed(self, fixes: Sequence[LabelFix]) -> bool:
-        """Return whether all are right; nothing is asked about a repair of which one is known to be wrong."""
-        return not any(map(self._is_refused, fixes)) and all(map(self._is_confirmed, fixes))
-
-    def _is_refused(self, fix: LabelFix) -> bool:
-        return fix in self._rejected or not self._answers.get(fix, True)
-
-    def _is_confirmed(self, fix: LabelFix) -> bool:
-        if self._confirm and fix not in self._answers:
-            self._answers[fix] = self._confirm(fix)
-        return self._answers.get(fix, True)

@@ -8,7 +8,7 @@ meshes; what is believed about a label and about a program is weighed as in `can
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations
 from math import exp, log
 
@@ -179,13 +179,11 @@ class LandmarkFixSearch:
 
     def _try(self, changes: Sequence[FrameChange]) -> _Hypothesis | None:
         """What the rules cost on meshes with corrected labels; None where they are not found for less than now."""
-        task = self._task
-        fixes = [one.fix for one in changes]
-        demos = correct_demonstrations(task.demos, fixes)
+        demos = correct_demonstrations(self._task.demos, [one.fix for one in changes])
+        task = replace(self._task, demos=demos, rules=self._rules)
         most = int((self._now - sum(one.cost for one in changes)) / hypotheses.NODE_COST)
-        search = OrientationSearch(demos, self._rules, task.frame, task.templates, task.options, self._budget)
         assert task.frame.orient
-        attempt = search.attempt(task.frame.orient)
+        attempt = OrientationSearch(task, self._budget).attempt(task.frame.orient)
         if not attempt or not attempt.learn(most, min(most, task.options.max_size)):
             return None
         base = sum(self._cost(some[0]) for some in attempt.extractors)

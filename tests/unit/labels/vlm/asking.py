@@ -32,7 +32,6 @@ def client(
     told: dict[str, Any] = {
         "model": server.model,
         "key_env": VARIABLE,
-        "wait": 0.001,
         "timeout": 5.0,
         "retries": 4,
     } | how
