@@ -64,7 +64,7 @@ class FamilyStateReader:
             }
         )
         shown = _Verdicts({asset: some for asset, some in every.items() if asset in demos})
-        actions = actions_of(demo.steps for demo in demos.values())
+        actions = actions_of([demo.steps for demo in demos.values()])
         program = self.program or store.program()
         return ReviewState(
             self.meshes,
@@ -111,7 +111,7 @@ class FamilyStateReader:
         if verdict.seen and not verdict.meant:
             if program is None or asset not in self.meshes:
                 return False
-            return run.run_for_selections(self.store, program, lambda: self.meshes[asset]) == verdict.seen
+            return run.run_for_selections(self.store, program, self.meshes[asset]) == verdict.seen
         now = self.inputs.get(asset)
         return now is not None and is_written(stamp, now)
 
@@ -162,7 +162,7 @@ def measure_results(
     program: Program,
     meshes: Mapping[str, SymbolicMesh],
     inputs: Mapping[str, OutputInputs],
-    stop: Callable[[], bool] = lambda: False,
+    stop: Callable[[], bool] | None = None,
 ) -> dict[str, EditMeasures]:
     """Return the measures of the results of a program, by asset; of some only once `stop` says so.
 
@@ -172,7 +172,7 @@ def measure_results(
     plan = _Plan.of(store, program)
     found = dict[str, EditMeasures]()
     for asset, mesh in meshes.items():
-        if stop():
+        if stop and stop():
             break
         try:
             found[asset] = plan.recall(asset, inputs.get(asset)) or plan.measure(asset, mesh)

@@ -87,7 +87,7 @@ def assess_family(
     *,
     by_hand: bool = False,
     lost: Mapping[str, str] = MappingProxyType({}),
-    stop: Callable[[], bool] = lambda: False,
+    stop: Callable[[], bool] | None = None,
 ) -> FamilyAssessment | None:
     """Return how sure the edits of a family are; None once `stop` says so.
 
@@ -99,7 +99,7 @@ def assess_family(
     state = FamilyStateReader(store, meshes, lost, program, by_hand, basis.inputs).read()
     measures = measure_results(store, program, meshes, basis.inputs, stop) if program else {}
     family = model_family(list(meshes.values()))
-    if stop():
+    if stop and stop():
         return None
     shown = [measures[asset] for asset in (*state.demos, *state.accepted) if asset in measures]
     found = review_family(state, outcome, family, threshold, describe_outliers(measures, shown))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -80,15 +79,6 @@ def test_what_nobody_made_is_not_noted_again_in_its_own_format(tmp_path: Path) -
     job = AssetJob("ball.sdf", tmp_path / "in/ball.sdf", first.path.parent)
     (other,) = apply(Program(), [job], tmp_path / "to", options=ApplyOptions(to=".usda"), execution=IN_PROCESS)
     assert not isinstance(other, Failed) and any("PhysX on the GPU" in note for note in other.notes)
-
-
-def test_a_file_marked_for_an_engine_notes_what_that_engine_refuses_of_made_hulls(tmp_path: Path) -> None:
-    path = save(table(), tmp_path / "table.glb", names="godot").path
-    mesh = load(path)
-    assert not save(mesh, tmp_path / "same.glb").notes
-    made = [replace(mesh.hulls[0], shape=ball(300).hulls[0].shape, parent=mesh.hulls[0].name), *mesh.hulls[1:]]
-    notes = save(mesh.with_hulls(made), tmp_path / "made.glb").notes
-    assert any(note.startswith("Godot with Jolt: ") and "more than 256 vertices" in note for note in notes)
 
 
 def test_a_conversion_notes_what_the_engine_of_its_format_refuses(

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from meshforge.batch import HullParts, Preparation, replace_hulls
-from meshforge.common import UsageError
 from meshforge.formats import read
 from meshforge.geometry import Polytope, convex_hull, cut
 from meshforge.project.rebuild import describe_limits
@@ -61,8 +60,3 @@ def test_by_default_it_is_the_engines_that_read_the_file(stool: Asset) -> None:
     tiny = convex_hull(np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]) * 1e-5 + [0, 0, 0.42])
     assert any("MuJoCo refuses the mesh" in one for one in limits(stool, (tiny, ball(20)), None))
     assert limits(stool, (ball(20), ball(24)), None) == []
-
-
-def test_an_unknown_engine_is_named(stool: Asset) -> None:
-    with pytest.raises(UsageError, match="there is no engine 'ode'"):
-        limits(stool, (ball(20), ball(24)), "ode")

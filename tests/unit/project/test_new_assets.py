@@ -91,25 +91,11 @@ def test_what_was_guessed_is_no_surer_than_the_guess(folder: Path) -> None:
     assert left.probability == pytest.approx(1 - left.spanning[0].chance), "what likely spans parts is likely wrong"
 
 
-def test_without_a_rebuild_it_is_said_which_hulls_likely_span_parts(folder: Path) -> None:
-    found = prepare(folder, rebuild=False)["c.urdf"]
-    assert found.rebuilt == () and [span.hull for span in found.spanning] == ["base/h0"]
-    assert found.describe()[0].endswith(": left as it is")
-    assert not (folder / "aside/prepared/c.urdf").exists()
-    assert found.to_json()["spanning"][0]["hull"] == "base/h0" and found.to_json()["rebuilt"] == []
-
-
 def test_what_is_less_sure_than_the_project_asks_is_left_and_named(folder: Path) -> None:
     path = folder / "p/preparation.json"
     path.write_text(json.dumps(json.loads(path.read_text()) | {"min_confidence": 0.999}))
     found = prepare(folder)["c.urdf"]
     assert found.rebuilt == () and [span.hull for span in found.spanning] == ["base/h0"]
-
-
-def test_nothing_is_looked_for_where_the_project_does_not_say_so(folder: Path) -> None:
-    (folder / "p/preparation.json").unlink()
-    found = prepare(folder)["c.urdf"]
-    assert (found.rebuilt, found.spanning) == ((), ()) and len(found.guesses) == 4
 
 
 @pytest.mark.slow
