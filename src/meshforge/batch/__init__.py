@@ -9,7 +9,7 @@ __getattr__, __all__ = export_lazily(
     __name__,
     {
         "archive": "write_archive",
-        "check": "CheckJournal CheckOutcome CheckTask check_asset check_assets open_journal",
+        "check": "CheckOutcome CheckTask check_asset check_assets",
         "manual_edits": (
             "ManualEdit RuleSelection action_text action_text_without_each replay_manual_edits selections_of"
         ),
@@ -39,7 +39,7 @@ __getattr__, __all__ = export_lazily(
             "software_version source_files stamp_path template_digests text_digest value_digest"
         ),
         "report.contents": (
-            "ResultStatus EarlierExamination LabelStatus MeshReader ReportAsset ReportStatus RunFigures "
+            "ResultStatus LabelStatus MeshReader ReportAsset ReportStatus RunFigures "
             "ResultStatusWord TopItems read_again read_job"
         ),
         "report.outcomes": "choose_outcomes compare_outcomes",

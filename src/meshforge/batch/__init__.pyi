@@ -1,11 +1,9 @@
 # Written by `python -m script.stubs`.
 from meshforge.batch.archive import write_archive as write_archive
-from meshforge.batch.check import CheckJournal as CheckJournal
 from meshforge.batch.check import CheckOutcome as CheckOutcome
 from meshforge.batch.check import CheckTask as CheckTask
 from meshforge.batch.check import check_asset as check_asset
 from meshforge.batch.check import check_assets as check_assets
-from meshforge.batch.check import open_journal as open_journal
 from meshforge.batch.manual_edits import ManualEdit as ManualEdit
 from meshforge.batch.manual_edits import RuleSelection as RuleSelection
 from meshforge.batch.manual_edits import action_text as action_text
@@ -80,7 +78,6 @@ from meshforge.batch.provenance import template_digests as template_digests
 from meshforge.batch.provenance import text_digest as text_digest
 from meshforge.batch.provenance import value_digest as value_digest
 from meshforge.batch.report.contents import ResultStatus as ResultStatus
-from meshforge.batch.report.contents import EarlierExamination as EarlierExamination
 from meshforge.batch.report.contents import LabelStatus as LabelStatus
 from meshforge.batch.report.contents import MeshReader as MeshReader
 from meshforge.batch.report.contents import ReportAsset as ReportAsset

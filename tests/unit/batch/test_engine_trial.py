@@ -127,15 +127,6 @@ def test_a_mesh_file_is_tried_as_it_would_be_converted(suffix: str, run: Run) ->
     assert f"legal (MuJoCo {mujoco.__version__} takes what `meshforge convert` makes of box.{suffix})" in told.out
 
 
-def test_a_refused_file_is_tried_again_though_a_journal_is_kept(tmp_path: Path, run: Run) -> None:
-    put(tmp_path, {"cup.xml": ONLY_MUJOCO_MINDS["a visual mesh that is not there"]}, "cup.xml")
-    check = ("check", "cup.xml", "--engine", "mujoco", "--journal", "j.jsonl")
-    assert run(*check).code == 1
-    Path("gone.obj").write_text(TETRAHEDRON)
-    assert run(*check).code == 0
-    assert run(*check).code == 0
-
-
 WITHOUT = """import sys
 sys.modules[sys.argv[1]] = None
 from pathlib import Path

@@ -14,7 +14,6 @@ import pytest
 from PIL import Image
 
 from meshforge.batch import (
-    EarlierExamination,
     Failed,
     ReportAsset,
     ReportHeader,
@@ -26,7 +25,7 @@ from meshforge.batch import (
     write_report,
 )
 from meshforge.batch.outcome import Unchanged
-from meshforge.checks import Finding
+from meshforge.checks import Examination, Finding
 from meshforge.language import Program, RuleTrace, explain, show
 from meshforge.symbolic import SymbolicMesh
 from tests.unit.batch.pages import opened, texts
@@ -178,7 +177,7 @@ def test_without_a_program_and_pairs_there_is_no_panel_and_no_slider(tmp_path: P
 def test_hulls_that_findings_name_stand_out(tmp_path: Path) -> None:
     mesh, shown = table(), []
     for hulls in ((), (mesh.hulls[0].name,), tuple(mesh.index)):
-        found = EarlierExamination((Finding("odd", "warning", hulls, "odd", "Mend it."),), ())
+        found = Examination((Finding("odd", "warning", hulls, "odd", "Mend it."),))
         asset = ReportAsset("a", mesh, mesh, (), "warnings", checked=found)
         write_report(tmp_path / "r.html", ReportHeader("Checks"), [asset])
         page = opened(tmp_path / "r.html")
@@ -190,7 +189,7 @@ def test_hulls_that_findings_name_stand_out(tmp_path: Path) -> None:
 
 def test_long_lists_of_notes_and_findings_are_cut_and_counted(tmp_path: Path) -> None:
     mesh = SymbolicMesh(table().hulls[:1])
-    found = EarlierExamination(tuple(Finding("odd", "warning", (), f"odd {k}", "Mend it.") for k in range(50)), ())
+    found = Examination(tuple(Finding("odd", "warning", (), f"odd {k}", "Mend it.") for k in range(50)))
     notes = tuple(f"note {k}" for k in range(9))
     asset = ReportAsset("a", mesh, mesh, (), "warnings", notes=notes, checked=found)
     write_report(tmp_path / "r.html", ReportHeader("Checks"), [asset], options=ReportOptions(pictured=0))

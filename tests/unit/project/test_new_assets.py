@@ -19,7 +19,6 @@ from meshforge.project import (
     NewAssetResult,
     Project,
     RebuildSettings,
-    new_assets,
     prepare_new_assets,
     read_preparation_plan,
 )
@@ -104,33 +103,8 @@ def test_the_same_alone_and_together_here_and_in_workers(folder: Path) -> None:
     prepare(folder, ["d.urdf"], "alone")
     prepare(folder, ["d.urdf", "c.urdf"], "workers", execution=ExecutionOptions(workers=2))
     together, workers = tree(folder / "aside"), tree(folder / "workers")
-    assert len(together) == 8 and workers == together
+    assert len(together) == 6 and workers == together
     assert tree(folder / "alone") == {name: one for name, one in together.items() if "d.urdf" in str(name)}
-
-
-def test_what_was_prepared_of_the_same_is_not_prepared_again(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    done = list[str]()
-
-    def count(task: object, work: NewAsset) -> object:
-        done.append(work.id)
-        return prepare_one(task, work)  # type: ignore[arg-type]
-
-    prepare_one = new_assets._prepare
-    monkeypatch.setattr(new_assets, "_prepare", count)
-    first = prepare(folder)
-    again = prepare(folder)
-    assert done == ["c.urdf", "d.urdf"]
-    assert [(one.describe(), one.to_json()) for one in again.values()] == [
-        (one.describe(), one.to_json()) for one in first.values()
-    ]
-    (folder / "aside/labels/c.urdf.json").unlink()
-    with (folder / "new/d_seen.obj").open("a") as file:
-        file.write("# changed\n")
-    prepare(folder)
-    assert done[2:] == ["c.urdf", "d.urdf"], "what was made of it, or it, is another now"
-    Project.open(folder / "p").set_labels("a.urdf", {"base/h4": None})
-    prepare(folder)
-    assert done[4:] == ["c.urdf", "d.urdf"], "the family says something else now"
 
 
 def test_labels_that_a_new_asset_has_stay(folder: Path) -> None:

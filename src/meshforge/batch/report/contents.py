@@ -59,14 +59,6 @@ class ResultStatus:
     reasons: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class EarlierExamination:
-    """What is kept of an earlier examination: findings, and sentences about what was measured."""
-
-    findings: tuple[Finding, ...]
-    descriptions: tuple[str, ...]
-
-
 @dataclass(frozen=True, eq=False, slots=True)
 class ReportAsset:
     """One asset of a batch.
@@ -86,7 +78,7 @@ class ReportAsset:
     error: str | None = None
     demonstrated: bool = False
     notes: tuple[str, ...] = ()
-    checked: Examination | EarlierExamination | None = None
+    checked: Examination | None = None
     alarms: tuple[str, ...] = ()
     result_status: ResultStatus | None = None
 
@@ -299,7 +291,7 @@ def _find_hulls_to_blame(asset: ReportAsset, mesh: SymbolicMesh) -> frozenset[st
 
 
 def _draw_checks(asset: ReportAsset, mesh: SymbolicMesh) -> tuple[tuple[str, str], ...]:
-    if not isinstance(asset.checked, Examination):
+    if asset.checked is None:
         return ()
     drawn = draw_examination(mesh, asset.checked, CHECK_PICTURE_SIZE)
     return tuple((words, _to_data_url(image)) for _, words, image in drawn)
