@@ -17,9 +17,8 @@ __getattr__, __all__ = export_lazily(
         "edit": "apply",
         "engine_load": "ENGINES_TO_ASK examine_file",
         "execution": "execute",
-        "inputs": "inputs_of",
         "jobs": (
-            "APPLY_DEFAULTS ApplyOptions ApplyTask AssetJob load_named_templates load_templates make_jobs "
+            "APPLY_DEFAULTS ApplyOptions ApplyTask AssetJob inputs_of load_templates make_jobs "
             "plan_run read_template template_folders"
         ),
         "lock": "hold_lock",
@@ -40,7 +39,7 @@ __getattr__, __all__ = export_lazily(
         ),
         "report.contents": (
             "ResultStatus LabelStatus MeshReader ReportAsset ReportStatus RunFigures "
-            "ResultStatusWord TopItems read_again read_job"
+            "ResultStatusWord read_again read_job"
         ),
         "report.outcomes": "choose_outcomes compare_outcomes",
         "report.page": "MOST_PICTURED REPORT_DEFAULTS ReportHeader ReportOptions write_report",

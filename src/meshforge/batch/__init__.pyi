@@ -22,12 +22,11 @@ from meshforge.batch.edit import apply as apply
 from meshforge.batch.engine_load import ENGINES_TO_ASK as ENGINES_TO_ASK
 from meshforge.batch.engine_load import examine_file as examine_file
 from meshforge.batch.execution import execute as execute
-from meshforge.batch.inputs import inputs_of as inputs_of
 from meshforge.batch.jobs import APPLY_DEFAULTS as APPLY_DEFAULTS
 from meshforge.batch.jobs import ApplyOptions as ApplyOptions
 from meshforge.batch.jobs import ApplyTask as ApplyTask
 from meshforge.batch.jobs import AssetJob as AssetJob
-from meshforge.batch.jobs import load_named_templates as load_named_templates
+from meshforge.batch.jobs import inputs_of as inputs_of
 from meshforge.batch.jobs import load_templates as load_templates
 from meshforge.batch.jobs import make_jobs as make_jobs
 from meshforge.batch.jobs import plan_run as plan_run
@@ -84,7 +83,6 @@ from meshforge.batch.report.contents import ReportAsset as ReportAsset
 from meshforge.batch.report.contents import ReportStatus as ReportStatus
 from meshforge.batch.report.contents import RunFigures as RunFigures
 from meshforge.batch.report.contents import ResultStatusWord as ResultStatusWord
-from meshforge.batch.report.contents import TopItems as TopItems
 from meshforge.batch.report.contents import read_again as read_again
 from meshforge.batch.report.contents import read_job as read_job
 from meshforge.batch.report.outcomes import choose_outcomes as choose_outcomes

@@ -55,19 +55,26 @@ class CheckReport:
 
     def __init__(self) -> None:
         self._counts: Counter[batch.ReportStatus] = Counter()
-        self._lines: batch.TopItems[_ReportLine] = batch.TopItems()
+        self._lines: list[_ReportLine] = []
 
     def add(self, job: batch.AssetJob, examined: batch.CheckOutcome) -> None:
         """Add one asset."""
         line = _to_line(job, examined)
         self._counts[line.status] += 1
-        self._lines.add(("failed", "errors", "warnings", "clean").index(line.status), line)
+        self._lines.append(line)
+        if len(self._lines) >= 2 * batch.MOST_SHOWN:
+            self._lines = self._list_first()
 
     def write(self, path: Path, title: str, measures: CheckOptions, seconds: float) -> None:
         """Write the page; of very many assets it shows some, those with errors first."""
         figures = batch.RunFigures(self._counts, {}, "those that failed or have errors")
         header = batch.ReportHeader(title, _describe_measures(measures), seconds, figures)
-        write_report_page(path, header, _to_report_assets(list(self._lines)))
+        write_report_page(path, header, _to_report_assets(self._list_first()))
+
+    def _list_first(self) -> list[_ReportLine]:
+        """Those that are to be shown, those that failed or have errors first, then in the order in which they came."""
+        order = ("failed", "errors", "warnings", "clean")
+        return sorted(self._lines, key=lambda line: order.index(line.status))[: batch.MOST_SHOWN]
 
 
 def _to_line(job: batch.AssetJob, examined: batch.CheckOutcome) -> _ReportLine:

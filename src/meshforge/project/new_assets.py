@@ -84,26 +84,6 @@ class NewAssetOptions:
 NEW_ASSET_DEFAULTS = NewAssetOptions()
 
 
-def prepare_in_project(
-    store: Store, assets: Sequence[NewAsset], options: NewAssetOptions = NEW_ASSET_DEFAULTS
-) -> Iterator[NewAssetResult]:
-    """Prepare assets of a project; what is done is kept in the project, and undone, as by `meshforge prepare`."""
-    if not assets:
-        return
-    found_all = _prepare_all(_make_task(store, assets, options), assets, options)
-    for work, found in zip(assets, found_all, strict=True):
-        if isinstance(found, str):
-            yield NewAssetResult(work.id, problem=found)
-            continue
-        try:
-            with options.write_block(work.id):
-                notes = _keep_in_project(store, work.id, found)
-        except MeshForgeError as error:
-            yield NewAssetResult(work.id, problem=error.message)
-        else:
-            yield replace(found.result, notes=(*notes, *found.result.notes))
-
-
 def list_new(store: Store) -> tuple[list[NewAsset], str | None]:
     """Return the assets that came to a project after the others were prepared; and why they are not decomposed, where
     it is unclear how."""
@@ -121,11 +101,20 @@ def prepare_new(
     it back, and it is not done again then. only: of these ids, all when None. Raises ProjectError where what the
     project keeps of that is damaged."""
     new, unclear = list_new(store)
-    chosen = [one for one in new if only is None or one.id in only]
-    for result in prepare_in_project(store, chosen, options):
-        if not result.problem:
-            extend_plan(store, [result.asset], decomposed=unclear is None, rebuilt=options.rebuild)
-        yield result
+    if not (chosen := [one for one in new if only is None or one.id in only]):
+        return
+    for work, found in zip(chosen, _prepare_all(_make_task(store, chosen, options), chosen, options), strict=True):
+        if isinstance(found, str):
+            yield NewAssetResult(work.id, problem=found)
+            continue
+        try:
+            with options.write_block(work.id):
+                notes = _keep_in_project(store, work.id, found)
+        except MeshForgeError as error:
+            yield NewAssetResult(work.id, problem=error.message)
+            continue
+        extend_plan(store, [work.id], decomposed=unclear is None, rebuilt=options.rebuild)
+        yield replace(found.result, notes=(*notes, *found.result.notes))
 
 
 def _keep_in_project(store: Store, asset: str, found: _WorkerOutcome) -> list[str]:

@@ -291,7 +291,7 @@ class Store:
 
     def templates(self, names: Iterable[str]) -> dict[str, language.Template]:
         """Hull templates by the names that programs write. Raises ProgramError where one is not there or not convex."""
-        return batch.load_named_templates(names, self.layout.templates)
+        return batch.load_templates(names, self.layout.templates)
 
     def template_names(self) -> tuple[str, ...]:
         """Return the names of all templates in the project's folder of them, as actions write them."""

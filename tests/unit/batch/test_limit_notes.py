@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.batch import IN_PROCESS, ApplyOptions, AssetJob, Failed, apply, load_named_templates
+from meshforge.batch import IN_PROCESS, ApplyOptions, AssetJob, Failed, apply, load_templates
 from meshforge.checks import check
 from meshforge.engines import ENGINES
 from meshforge.formats import FORMATS, load, save
@@ -54,7 +54,7 @@ def test_each_hull_that_an_engine_of_the_format_refuses_or_lacks_is_in_a_note(
         program,
         [AssetJob(saved.path.name, saved.path, saved.path.parent, labels)],
         tmp_path / "out",
-        templates=load_named_templates(program.templates, [tmp_path]),
+        templates=load_templates(program.templates, [tmp_path]),
         execution=IN_PROCESS,
     )
     assert not isinstance(outcome, Failed), outcome.error

@@ -75,7 +75,7 @@ def test_the_script_by_hand_makes_of_a_table_what_its_program_does(tmp_path: Pat
     tray = by_hand.read_tray(TABLES)
     by_hand.edit_table(by_hand.read_parts(table), labels, tray).export(tmp_path / table.name)
     program = Program.read(TABLES / "tables.mf")
-    edited = program.run(mf.load(table), load_templates(program, [TABLES / "templates"])).mesh
+    edited = program.run(mf.load(table), load_templates(program.templates, [TABLES / "templates"])).mesh
     made = mf.load(tmp_path / table.name)
     assert made.aabb and edited.aabb
     assert len(made.hulls) == len(edited.hulls)

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import base64
-from collections import Counter, defaultdict
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections import Counter
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from itertools import chain
-from typing import TYPE_CHECKING, Generic, Literal, TypeVar
+from typing import TYPE_CHECKING, Literal
 
 from meshforge.batch.execution import execute
 from meshforge.batch.jobs import AssetJob
-from meshforge.batch.outcome import MOST_SHOWN, RunSummary
+from meshforge.batch.outcome import RunSummary
 from meshforge.batch.preparation.storage import read_prepared
 from meshforge.batch.workers import EXECUTION_DEFAULTS, ExecutionOptions, WorkerFailure
 from meshforge.checks import Examination, Finding, draw_examination
@@ -35,8 +34,6 @@ ORDINARY: frozenset[ReportStatus] = frozenset({"edited", "written", "clean", "la
 """What is expected of an asset, so that its card does not say it."""
 BROKEN: frozenset[ReportStatus] = frozenset({"failed", "errors", "problems"})
 REMARKABLE = BROKEN | {"warnings", "doubtful"}
-
-Item = TypeVar("Item")
 
 MeshReader = Callable[[], SymbolicMesh]
 """Reads an asset, in this process or another."""
@@ -160,27 +157,6 @@ class RunFigures:
 
 def _hull_figures(before: int, after: int) -> dict[str, tuple[str, str | None]]:
     return {"hulls": (f"{before:,} → {after:,}", format_change(before, after))} if before or after else {}
-
-
-class TopItems(Generic[Item]):
-    """The first of the lowest ranks, never more than `most` at a time; in order of ranks, then as they came."""
-
-    def __init__(self, most: int = MOST_SHOWN) -> None:
-        self._most = most
-        self._kept = 0
-        self._ranks: defaultdict[int, list[Item]] = defaultdict(list)
-
-    def add(self, rank: int, item: Item) -> None:
-        """Keep one more, or not; rank: the lower, the sooner it is shown."""
-        self._ranks[rank].append(item)
-        self._kept += 1
-        if self._kept > self._most:
-            last = max(rank for rank, items in self._ranks.items() if items)
-            self._ranks[last].pop()
-            self._kept -= 1
-
-    def __iter__(self) -> Iterator[Item]:
-        return chain.from_iterable(self._ranks[rank] for rank in sorted(self._ranks))
 
 
 def read_again(
