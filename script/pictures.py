@@ -48,7 +48,7 @@ def main(folder: Path) -> None:
 
 def _tables(path: Path) -> None:
     program = Program.read(TABLES / "tables.mf")
-    templates = load_templates(program, (TABLES, TABLES / "templates"))
+    templates = load_templates(program.templates, (TABLES, TABLES / "templates"))
     pairs, titles = [], []
     for name in SHOWN:
         mesh = load(TABLES / f"{name}.obj")

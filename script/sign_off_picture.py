@@ -52,7 +52,7 @@ class _Family:
 
     def __init__(self, folder: Path) -> None:
         self.meant = Program.read(TABLES / "tables.mf")
-        self.templates: dict[str, Template] = dict(load_templates(self.meant, (TABLES, TABLES / "templates")))
+        self.templates: dict[str, Template] = dict(load_templates(self.meant.templates, (TABLES, TABLES / "templates")))
         words, orient = self.meant.labels, self.meant.orient
         self.project = Project.create(folder / "p", sorted(TABLES.glob("*.obj")), vocabulary=words, orient=orient)
         shutil.copytree(TABLES / "templates", self.project.folder / "templates")

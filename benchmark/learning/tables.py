@@ -37,7 +37,7 @@ RULES: tuple[Extractor, ...] = tuple(
 @cache
 def templates() -> dict[str, Template]:
     """Those of the tables' program."""
-    return load_templates(PROGRAM, template_folders(TABLES / "tables.mf"))
+    return load_templates(PROGRAM.templates, template_folders(TABLES / "tables.mf"))
 
 
 @cache

@@ -65,11 +65,3 @@ def test_a_demo_never_replaces_a_folder_of_yours(tmp_path: Path) -> None:
     refused = meshforge_here("demo", "--out", "mine", cwd=tmp_path, code=2)
     assert "holds something else" in refused.err
     assert (tmp_path / "mine" / "thesis.txt").read_text() == "do not lose me"
-
-
-@pytest.mark.long
-def test_a_second_demo_replaces_the_first(shown: tuple[Path, Done]) -> None:
-    stale = shown[0] / "meshforge-demo" / "project" / "stale.txt"
-    stale.touch()
-    meshforge_here("demo", cwd=shown[0])
-    assert not stale.exists()

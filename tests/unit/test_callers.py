@@ -28,11 +28,6 @@ def test_what_a_command_calls_in_its_module_or_by_an_import_is_used(tmp_path: Pa
     assert uncalled(tmp_path, {"a.py": a, "b.py": "def f(): ...\ndef g(): ...\n"}) == []
 
 
-def test_what_runs_at_import_and_constants_that_are_read_use_functions(tmp_path: Path) -> None:
-    a = "def f(): ...\ndef g(): ...\ndef h(): ...\nKNOWN = {1: g}\nIDLE = h\nprint(f())\ndef main(): KNOWN[1]()\n"
-    assert uncalled(tmp_path, {"a.py": a}) == ["a:h"]
-
-
 def test_functions_and_classes_that_nothing_reads_are_found_with_all_that_only_they_call(tmp_path: Path) -> None:
     a = "def f(): return _g()\ndef _g(): return C()\nclass C:\n    def m(self): ...\ndef main(): ...\n"
     assert uncalled(tmp_path, {"a.py": a}) == ["a:f", "a:_g", "a:C"]
@@ -41,16 +36,6 @@ def test_functions_and_classes_that_nothing_reads_are_found_with_all_that_only_t
 @pytest.mark.parametrize("caller", ["tests/test_a.py", "benchmark/speed.py", "script/draw.py"])
 def test_tests_benchmarks_and_other_scripts_are_no_callers(tmp_path: Path, caller: str) -> None:
     assert uncalled(tmp_path, {"a.py": "def f(): ...\n", caller: "from meshforge.a import f\nf()\n"}) == ["a:f"]
-
-
-def test_a_script_that_writes_files_of_the_wheel_is_a_caller(tmp_path: Path) -> None:
-    files = {"a.py": "def f(): ...\n", "script/wire.py": "from meshforge.a import f\nf()\n"}
-    assert uncalled(tmp_path, files) == []
-
-
-def test_functions_that_call_only_themselves_or_each_other_are_found(tmp_path: Path) -> None:
-    a = "def f(n): return f(n - 1)\ndef g(): h()\ndef h(): g()\nclass C:\n    def m(self): return C().m()\n"
-    assert uncalled(tmp_path, {"a.py": a}) == ["a:f", "a:g", "a:h", "a:C"]
 
 
 def test_a_package_that_offers_a_name_does_not_call_it(tmp_path: Path) -> None:
@@ -77,12 +62,6 @@ def test_a_method_or_property_is_used_where_any_attribute_of_its_name_is_read(tm
     assert found == ["a:C.print"]
 
 
-def test_a_module_s_function_of_a_method_s_name_is_not_that_method(tmp_path: Path) -> None:
-    a = "import json\nfrom meshforge import b\nclass C:\n    def dumps(self): ...\n    def f(self): ...\n"
-    a += "def main(): json.dumps(C()); b.f()\n"
-    assert uncalled(tmp_path, {"a.py": a, "b.py": "def f(): ...\n"}) == ["a:C.dumps", "a:C.f"]
-
-
 def test_overrides_are_used_as_their_base_s_methods_are(tmp_path: Path) -> None:
     a = (
         "import threading\nfrom typing import Protocol\n"
@@ -102,14 +81,3 @@ def test_what_a_library_s_decorator_takes_is_called_by_it(tmp_path: Path) -> Non
         "class C:\n    @field_validator('x')\n    def check(self): ...\ndef main(): C()\n"
     )
     assert uncalled(tmp_path, {"a.py": a, "b.py": "def own(f): return f\n"}) == ["a:plain", "a:wrapped", "b:own"]
-
-
-def test_commands_patterns_templates_and_names_as_words_are_uses(tmp_path: Path) -> None:
-    a = (
-        "class C:\n    def x(self): ...\n    def y(self): ...\n    def z(self): ...\n"
-        "def main(c):\n    getattr(C(), 'y', '')\n    match c:\n        case C(x=1): load('b', 'f')\n"
-        "def load(module, name): ...\n"
-    )
-    files = {"a.py": a, "b.py": "def f(): ...\n", "page.html.j2": "{{ c.z }}"}
-    files |= {"src/meshforge/cli/__init__.py": "", "src/meshforge/cli/info.py": "def info(): ...\ndef other(): ...\n"}
-    assert uncalled(tmp_path, files) == ["cli.info:other"]

@@ -10,7 +10,6 @@ import subprocess
 import sys
 from importlib import import_module
 from pathlib import Path
-from zipfile import ZipFile
 
 import pytest
 
@@ -95,12 +94,3 @@ def test_names_are_found_without_any_source(tmp_path: Path) -> None:
     first, second, *_ = done.stdout.splitlines() or [done.stderr]
     assert (first, done.returncode) == ("0 True", 0), done.stderr
     assert "table_03.obj: obj, 36 hulls" in second
-
-
-def test_names_are_found_in_a_zip_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    text = "from meshforge.common.exports import export_lazily\n\n__getattr__, __all__ = export_lazily(__name__, {})\n"
-    with ZipFile(tmp_path / "package.zip", "w") as file:
-        file.writestr("zipped_package/__init__.py", text.replace("{}", "{'home': 'answer'}"))
-        file.writestr("zipped_package/home.py", "answer = 42\n")
-    monkeypatch.syspath_prepend(str(tmp_path / "package.zip"))
-    assert import_module("zipped_package").answer == 42

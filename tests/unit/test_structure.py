@@ -34,19 +34,9 @@ def test_a_cycle_by_a_lazy_and_a_type_only_import_is_found(tmp_path: Path) -> No
     assert graph["meshforge.d"] == {"meshforge.a"}
 
 
-def test_modules_that_import_each_other_in_no_circle_are_no_cycle(tmp_path: Path) -> None:
-    found = modules(tmp_path, a="import meshforge.b, meshforge.c\n", b="import meshforge.c\n", c="import math\n")
-    assert structure.find_cycles(structure.import_graph(found)) == []
-
-
 @pytest.mark.parametrize("name", ["told", "_found_hulls", "merging", "Painted"])
 def test_participles_are_known(name: str) -> None:
     assert structure.is_participle(name)
-
-
-@pytest.mark.parametrize("name", ["tell", "find_hulls", "need", "string_of", "Reading", "embed_rows", "is_told"])
-def test_verbs_and_nouns_are_no_participles(name: str) -> None:
-    assert not structure.is_participle(name)
 
 
 def test_participles_are_found_in_functions_methods_classes_and_modules_but_not_in_properties(tmp_path: Path) -> None:
@@ -58,12 +48,6 @@ def test_participles_are_found_in_functions_methods_classes_and_modules_but_not_
         "meshforge.merging:told",
         "meshforge.merging:Painted.made",
     ]
-
-
-def test_public_classes_of_one_name_in_two_packages_are_found(tmp_path: Path) -> None:
-    text = "class Result: ...\nclass _Own: ...\n"
-    found = structure.find_homonyms(modules(tmp_path, a_x=text, a_y="class Result: ...\n", b_x=text))
-    assert found == ["Result: meshforge.a, meshforge.b"]
 
 
 def test_nine_parameters_are_too_many_but_for_a_command(tmp_path: Path) -> None:

@@ -9,7 +9,7 @@ __getattr__, __all__ = export_lazily(
     __name__,
     {
         "archive": "write_archive",
-        "check": "CheckJournal CheckOutcome CheckTask check_asset check_assets open_journal",
+        "check": "CheckOutcome CheckTask check_asset check_assets",
         "manual_edits": (
             "ManualEdit RuleSelection action_text action_text_without_each replay_manual_edits selections_of"
         ),
@@ -17,9 +17,8 @@ __getattr__, __all__ = export_lazily(
         "edit": "apply",
         "engine_load": "ENGINES_TO_ASK examine_file",
         "execution": "execute",
-        "inputs": "inputs_of",
         "jobs": (
-            "APPLY_DEFAULTS ApplyOptions ApplyTask AssetJob load_named_templates load_templates make_jobs "
+            "APPLY_DEFAULTS ApplyOptions ApplyTask AssetJob inputs_of load_templates make_jobs "
             "plan_run read_template template_folders"
         ),
         "lock": "hold_lock",
@@ -39,8 +38,8 @@ __getattr__, __all__ = export_lazily(
             "software_version source_files stamp_path template_digests text_digest value_digest"
         ),
         "report.contents": (
-            "ResultStatus EarlierExamination LabelStatus MeshReader ReportAsset ReportStatus RunFigures "
-            "ResultStatusWord TopItems read_again read_job"
+            "ResultStatus LabelStatus MeshReader ReportAsset ReportStatus RunFigures "
+            "ResultStatusWord read_again read_job"
         ),
         "report.outcomes": "choose_outcomes compare_outcomes",
         "report.page": "MOST_PICTURED REPORT_DEFAULTS ReportHeader ReportOptions write_report",

@@ -14,8 +14,7 @@ from tempfile import TemporaryDirectory
 from meshforge.batch import outputs, provenance
 from meshforge.batch.discovery import STATE
 from meshforge.batch.execution import execute
-from meshforge.batch.inputs import inputs_of
-from meshforge.batch.jobs import APPLY_DEFAULTS, ApplyOptions, ApplyTask, AssetJob
+from meshforge.batch.jobs import APPLY_DEFAULTS, ApplyOptions, ApplyTask, AssetJob, inputs_of
 from meshforge.batch.lock import hold_lock
 from meshforge.batch.manual_edits import replay_manual_edits, selections_of
 from meshforge.batch.outcome import AssetOutcome, Edited, Failed, RuleEffect, Unchanged

@@ -49,12 +49,6 @@ def _name_of(path: Path | None) -> str:
     return path.name if path else "this mesh"
 
 
-def engine_version(engine: str | None) -> str:
-    """Return the version of the program that is asked for an engine, empty where none is."""
-    program = _PROGRAMS.get(engine or "")
-    return f" {program} {version(program)}" if program and find_spec(program) else ""
-
-
 def try_mujoco(engine: str, path: Path | None, mesh: SymbolicMesh) -> EngineLoad:
     """Return what MuJoCo says: of an MJCF or a URDF as it is, of any other file as `meshforge convert` writes it as
     MJCF."""

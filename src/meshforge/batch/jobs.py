@@ -5,17 +5,25 @@ from __future__ import annotations
 
 import shutil
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from meshforge import formats, language
 from meshforge.batch.discovery import AssetSet, asset_id
-from meshforge.batch.manual_edits import ManualEdit, RuleSelection
-from meshforge.batch.provenance import stamp_path
+from meshforge.batch.manual_edits import ManualEdit, RuleSelection, manual_edits_digest, selections_digest
+from meshforge.batch.preparation.storage import record_digest
+from meshforge.batch.provenance import (
+    OutputInputs,
+    content_digest,
+    program_digest,
+    software_version,
+    stamp_path,
+    template_digests,
+)
 from meshforge.batch.workers import GIB, MIB
-from meshforge.common import ProgramError, UsageError, pluralize
+from meshforge.common import Plugin, ProgramError, UsageError, pluralize
 
 if TYPE_CHECKING:
     from meshforge.batch.preparation.decompose import Concave
@@ -77,6 +85,36 @@ class ApplyTask:
     options: ApplyOptions = APPLY_DEFAULTS
 
 
+def inputs_of(task: ApplyTask, job: AssetJob, files: dict[str, str]) -> OutputInputs:
+    """Return the digests of all that decides the output of a job; files: those of the asset."""
+    options, edits = task.options, (one.action for one in job.manual_edits)
+    names = {*task.program.templates, *(name for action in edits for name in action.templates)}
+    written = {"to": options.to, "names": options.names, "collision": options.collision}
+    written |= {} if options.concave == "keep" else {"concave": options.concave}
+    written |= {"urdf_capsules": "yes"} if options.urdf_capsules else {}
+    return OutputInputs(
+        asset=files,
+        preparation=record_digest(job.preparation) if job.preparation else None,
+        labels=content_digest(job.labels) if job.labels else None,
+        program=program_digest(task.program),
+        templates=template_digests({name: one for name, one in task.templates.items() if name in names}),
+        manual_edits=manual_edits_digest(job.manual_edits),
+        selections=selections_digest(job.selections),
+        settings=" ".join([f"mass={options.mass}", *(f"{key}={value}" for key, value in written.items() if value)]),
+        software=software_version(_plugins_of(task, job)),
+    )
+
+
+def _plugins_of(task: ApplyTask, job: AssetJob) -> Iterator[Plugin | None]:
+    """The plug-ins that read, edit and write the asset; None for what is built in."""
+    yield from map(formats.plugin_of_suffix, {job.path.suffix, task.options.to or job.path.suffix})
+    pairs = task.program.orient.pairs if task.program.orient else ()
+    yield from (base.plugin for pair in pairs for base in (pair.start, pair.end))
+    for rule in task.program.rules:
+        yield from (one.plugin for leaf in language.leaves_of(rule.extractor) for one in (leaf, *leaf.bases))
+        yield rule.action.plugin
+
+
 def make_jobs(found: AssetSet, labels: Path | None = None) -> tuple[AssetJob, ...]:
     """Return a job for each asset, with its labels.
 
@@ -112,16 +150,11 @@ def template_folders(program: Path) -> tuple[Path, ...]:
     return program.parent, program.parent / "templates"
 
 
-def load_templates(program: language.Program, folders: Sequence[Path]) -> dict[str, language.Template]:
-    """Return the templates that a program names, by the path it writes, from the first folder that has each.
+def load_templates(names: Iterable[str], folders: Sequence[Path]) -> dict[str, language.Template]:
+    """Return the templates of these names, by the path that a program writes, from the first folder that has each.
 
     Raises ProgramError: a template is in none of the folders, holds no hull, or is not convex.
     """
-    return load_named_templates(program.templates, folders)
-
-
-def load_named_templates(names: Iterable[str], folders: Sequence[Path]) -> dict[str, language.Template]:
-    """Return the templates of these names; from the first folder that has each."""
     return {name: read_template(_find_template(name, folders), name) for name in names}
 
 

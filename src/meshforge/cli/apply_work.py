@@ -242,7 +242,7 @@ def work_of_program(given: ApplyArguments) -> ApplyWork:
         lacking = "assets" if not given.assets else "--out DIR"
         raise UsageError(f"{lacking} is missing", remedy="meshforge apply PROGRAM ASSETS... --out DIR")
     program = Program.read(given.program)
-    templates = batch.load_templates(program, batch.template_folders(given.program))
+    templates = batch.load_templates(program.templates, batch.template_folders(given.program))
     jobs = batch.make_jobs(batch.expand(given.assets), given.labels)
     return ApplyWork(program, jobs, given.out, templates)
 

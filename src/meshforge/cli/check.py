@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from pathlib import Path
 from time import perf_counter
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 
@@ -76,14 +75,6 @@ class CheckArguments:
     ] = None
     max_vertices: options.MaxVertices = None
     overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace files in --out.")] = False
-    journal: Annotated[
-        Path | None,
-        typer.Option(
-            "--journal",
-            help="Keep what is found in this file as it comes: the same command again checks only what is not in it or "
-            "has changed.",
-        ),
-    ] = None
     report: options.ReportPath = None
     labels: options.LabelsPath = None
     execution: options.ExecutionArguments = options.EXECUTION
@@ -113,19 +104,17 @@ def check(given: CheckArguments) -> None:
     execution = (replace(given.execution, workers=0) if in_process else given.execution).to_options()
     failed, page, started = 0, CheckReport() if given.report else None, perf_counter()
     log = NoteLog(len(jobs) > 2)
-    journal_file = batch.open_journal(given.journal) if given.journal else nullcontext()
-    with journal_file as journal, progress(len(jobs), "checking") as advance:
-        known = journal.inputs if journal else {}
-        results = batch.check_assets(jobs, task, replace(execution, progress=advance), known=known)
-        for job, outcome in zip(jobs, results, strict=True):
-            row = _to_row(journal, job.id, outcome)
-            failed += row["failed"]
+    with progress(len(jobs), "checking") as advance:
+        for job, outcome in zip(
+            jobs, batch.check_assets(jobs, task, replace(execution, progress=advance)), strict=True
+        ):
+            failed += outcome.has_failed
             if page:
-                page.add(job, outcome, row)
+                page.add(job, outcome)
             if given.json:
-                print_json(row["found"], compact=True)
+                print_json(outcome.to_json(), compact=True)
             else:
-                typer.echo(_number_notes(log, job.id, row["text"]))
+                typer.echo(_number_notes(log, job.id, _describe_check(outcome)))
     log.print_repeated()
     if not given.json and len(jobs) > _FEW:
         typer.echo(f"{pluralize(len(jobs), 'asset')}, {failed:,} with errors")
@@ -145,22 +134,6 @@ def _refuse_stray_options(given: CheckArguments, measures: CheckOptions) -> None
         options.refuse_options(given.context, ("cell", "pictures"), "--fit or --clearance")
     if not any(check.compares for check in measures.checks):
         options.refuse_options(given.context, ("against",), "--clearance or --physics")
-
-
-def _to_row(journal: batch.CheckJournal | None, asset: str, outcome: batch.CheckOutcome | None) -> dict[str, Any]:
-    """What is to be printed about an asset: out of the journal where nothing changed, else kept there from now on."""
-    if outcome is None:
-        assert journal is not None
-        return journal.read_row(asset)
-    row = {
-        "failed": outcome.has_failed,
-        "found": outcome.to_json(),
-        "text": _describe_check(outcome),
-        "lines": list(_describe_work(outcome)),
-    }
-    if journal and outcome.inputs:
-        journal.add(asset, outcome.inputs, row)
-    return row
 
 
 def _number_notes(log: NoteLog, asset: str, text: str) -> str:

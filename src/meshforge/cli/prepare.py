@@ -74,10 +74,6 @@ class PrepareArguments:
     dry_run: Annotated[bool, typer.Option("--dry-run", help="Name bodies that would be rebuilt; write nothing.")] = (
         False
     )
-    limits: Annotated[
-        options.EngineName | None,
-        typer.Option("--limits", help="Say which limits of this engine new hulls exceed [those that read the file]."),
-    ] = None
     undo: Annotated[bool, typer.Option("--undo", help="Take back the last thing that was done to each.")] = False
     remove: Annotated[bool, typer.Option("--remove", help="Take back all that was done to each.")] = False
     workers: options.Workers = None
@@ -98,7 +94,7 @@ def prepare(given: PrepareArguments) -> None:
         what = "--decompose METHOD, --rebuild-spanning, --undo or --remove"
         raise UsageError(f"say what to do, one of these: {what}")
     if not spanning:
-        options.refuse_options(given.context, ("min_confidence", "dry_run", "limits"), "--rebuild-spanning")
+        options.refuse_options(given.context, ("min_confidence", "dry_run"), "--rebuild-spanning")
     if given.undo and not given.assets:
         raise UsageError("--undo of which asset?", remedy="Name it; --remove takes back everything, of all assets too.")
     project = Project.open(given.project)
@@ -142,7 +138,6 @@ def _rebuild_spanning(project: Project, given: PrepareArguments) -> int:
             tuple(given.only or ()),
         ),
         dry_run=given.dry_run,
-        engine=given.limits,
         execution=ExecutionOptions(workers=given.workers, timeout=given.timeout),
         stage=progress,
     )

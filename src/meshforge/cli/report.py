@@ -4,14 +4,13 @@ need not be kept for that."""
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 from meshforge import batch
-from meshforge.checks import CheckOptions, Examination, Finding, Severity
+from meshforge.checks import CheckOptions, Examination
 from meshforge.cli.console import progress
 from meshforge.cli.terminal import remark
 from meshforge.common import escape_name
@@ -39,9 +38,6 @@ def describe_failure(outcome: batch.Failed) -> str:
     return f"failed     {escape_name(outcome.asset)}\n    " + outcome.error.replace("\n", "\n    ")
 
 
-_FROM_JOURNAL = "kept in the journal from an earlier run"
-
-
 @dataclass(frozen=True, eq=False, slots=True)
 class _ReportLine:
     """What there is to show of one asset; fixed: its file where anything was fixed."""
@@ -50,7 +46,7 @@ class _ReportLine:
     status: batch.ReportStatus
     error: str | None
     notes: tuple[str, ...]
-    checked: Examination | batch.EarlierExamination | None
+    checked: Examination | None
     fixed: Path | None
 
 
@@ -59,43 +55,36 @@ class CheckReport:
 
     def __init__(self) -> None:
         self._counts: Counter[batch.ReportStatus] = Counter()
-        self._lines: batch.TopItems[_ReportLine] = batch.TopItems()
+        self._lines: list[_ReportLine] = []
 
-    def add(self, job: batch.AssetJob, examined: batch.CheckOutcome | None, row: Mapping[str, Any]) -> None:
-        """Add one asset; row: as the journal keeps it, which is all there is where nothing was examined anew."""
-        line = _line_of_examined(job, examined) if examined else _line_of_journal(job, row)
+    def add(self, job: batch.AssetJob, examined: batch.CheckOutcome) -> None:
+        """Add one asset."""
+        line = _to_line(job, examined)
         self._counts[line.status] += 1
-        self._lines.add(("failed", "errors", "warnings", "clean").index(line.status), line)
+        self._lines.append(line)
+        if len(self._lines) >= 2 * batch.MOST_SHOWN:
+            self._lines = self._list_first()
 
     def write(self, path: Path, title: str, measures: CheckOptions, seconds: float) -> None:
         """Write the page; of very many assets it shows some, those with errors first."""
         figures = batch.RunFigures(self._counts, {}, "those that failed or have errors")
         header = batch.ReportHeader(title, _describe_measures(measures), seconds, figures)
-        write_report_page(path, header, _to_report_assets(list(self._lines)))
+        write_report_page(path, header, _to_report_assets(self._list_first()))
+
+    def _list_first(self) -> list[_ReportLine]:
+        """Those that are to be shown, those that failed or have errors first, then in the order in which they came."""
+        order = ("failed", "errors", "warnings", "clean")
+        return sorted(self._lines, key=lambda line: order.index(line.status))[: batch.MOST_SHOWN]
 
 
-def _line_of_examined(job: batch.AssetJob, examined: batch.CheckOutcome) -> _ReportLine:
+def _to_line(job: batch.AssetJob, examined: batch.CheckOutcome) -> _ReportLine:
     notes = (*describe_changes(examined), *(f"wrote {picture}" for picture in examined.pictures))
     if examined.examination is None:
         return _ReportLine(job, "failed", examined.error, notes, None, None)
-    status = _status(finding.severity for finding in examined.examination.findings)
+    found = {finding.severity for finding in examined.examination.findings}
+    status: batch.ReportStatus = "errors" if "error" in found else "warnings" if found else "clean"
     fixed = examined.output if examined.fix_result and examined.fix_result.changes else None
     return _ReportLine(job, status, None, notes, examined.examination, fixed)
-
-
-def _line_of_journal(job: batch.AssetJob, row: Mapping[str, Any]) -> _ReportLine:
-    """What the journal has of an asset; its heat maps are not measured anew."""
-    found = row["found"]
-    findings = tuple(Finding(**{**finding, "hulls": tuple(finding["hulls"])}) for finding in found["findings"])
-    fix = found.get("fixed")
-    kept = batch.EarlierExamination(findings, tuple(row.get("lines", ())))
-    fixed = Path(fix["out"]) if fix and fix["changes"] else None
-    return _ReportLine(job, _status(finding.severity for finding in findings), None, (_FROM_JOURNAL,), kept, fixed)
-
-
-def _status(severities: Iterable[Severity]) -> batch.ReportStatus:
-    found = set(severities)
-    return "errors" if "error" in found else "warnings" if found else "clean"
 
 
 def describe_changes(examined: batch.CheckOutcome) -> tuple[str, ...]:

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from meshforge import batch
-from meshforge.common import file_digest, relative_name
+from meshforge.common import relative_name
 from meshforge.labels.from_files.label_by_files import (
     FileLabeler,
     LabelFileOptions,
@@ -96,12 +94,6 @@ class FamilyLabelSources:
                 rows = store.labels(asset).labels.values()
                 seen |= {one.source for label in rows for one in (label, label.given) if one}
         return FamilyLabelSources(store.folder, store.settings, tuple(lines[n] for n in lines if kinds[n] in seen))
-
-    def digest(self, asset: str, path: Path) -> str:
-        """Return equal where the sources say the same of an asset that is the same itself."""
-        file = self._find_file(self.lines[0], asset, path)
-        own = [self.settings.vocabulary, [*self.settings.names.items()], file and file_digest(file)]
-        return batch.text_digest(json.dumps([[one.model_dump_json() for one in self.lines], own]))
 
     def label(self, asset: str, path: Path, mesh: SymbolicMesh) -> tuple[dict[str, Label], list[str]]:
         """Return labels of the hulls that have none, by name; and a sentence on each that was left out. path: the

@@ -3,16 +3,14 @@ so that what is found of one does not depend on the others, nor on how many ther
 
 from __future__ import annotations
 
-import json
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
 from typing import TypeVar
 
 from meshforge import batch
 from meshforge.geometry import PieceEngine
 from meshforge.label_model import AssetPieces, SpanModel, evidence_beside_rebuilt, model_family
-from meshforge.label_model.describe import describe_mesh, digest_mesh
+from meshforge.label_model.describe import describe_mesh
 from meshforge.labels.family_comparison import Stage
 from meshforge.labels.spans import FinePieces, SpanReport, decompose_surfaces, find_pieces, is_given
 from meshforge.store import Store
@@ -33,16 +31,6 @@ class ReferenceFamily:
     words: tuple[str, ...]
     engine: PieceEngine = "coacd"
     lost: Mapping[str, str] = field(default_factory=dict)
-
-    @cached_property
-    def digest(self) -> str:
-        """Equal for families that say the same about a new asset."""
-        rows = [[digest_mesh(one).hex(), str(one.labels)] for one in self.meshes.values()]
-        fine = [
-            [digest_mesh(one.pieces).hex(), one.region_of.tolist(), one.solid_of.tolist()]
-            for one in self.pieces.values()
-        ]
-        return batch.text_digest(json.dumps([rows, fine, self.words, self.engine]))
 
     def find_spans(self, source: Asset, mesh: SymbolicMesh) -> SpanReport:
         """Return which hulls of an asset that is not among these span parts; where a person or a file labelled all, its

@@ -23,7 +23,7 @@ def sort_answers(
     feedback: Feedback, demos: Mapping[str, synthesis.Demonstration]
 ) -> tuple[list[synthesis.Answer], list[synthesis.Answer]]:
     """Return the answers to learn from, and those to a rule that does something else by now."""
-    actions = demonstrations.actions_of(demo.steps for demo in demos.values())
+    actions = demonstrations.actions_of([demo.steps for demo in demos.values()])
     fitting = [line.answer for line in feedback.answers.values() if line.fits(actions)]
     return fitting, [line.answer for line in feedback.answers.values() if not line.fits(actions)]
 
@@ -81,7 +81,7 @@ def soften(answers: Iterable[synthesis.Answer], price: float = UNSURE_PRICE) -> 
 def _number(
     demos: Mapping[str, synthesis.Demonstration], asset: str, selections: Sequence[batch.RuleSelection]
 ) -> Iterator[synthesis.Answer]:
-    actions = demonstrations.actions_of(demo.steps for demo in demos.values())
+    actions = demonstrations.actions_of([demo.steps for demo in demos.values()])
     yield from (
         synthesis.Answer(one.rule, asset, one.select) for one in selections if actions.get(one.rule) == one.action
     )

@@ -22,11 +22,11 @@ from meshforge.labels import ReferenceFamily, ignore_stage, read_reference_famil
 from meshforge.labels.family_comparison import Stage
 from meshforge.labels.label_sources import FamilyLabelSources
 from meshforge.labels.merge import LabelWriter, can_fill_gap
-from meshforge.project.new_asset_result import NewAssetFolder, NewAssetResult, digest_basis
+from meshforge.project.new_asset_result import NewAssetResult
 from meshforge.project.preparation_plan import PreparationPlan, RebuildSettings, extend_plan, find_new_assets
 from meshforge.project.prepare import exchange_preparation
 from meshforge.project.rebuild import Rebuild, plan_rebuild
-from meshforge.store import Store, hull_digests
+from meshforge.store import Layout, Store, hull_digests
 from meshforge.symbolic import Asset, Label, LabelFile, SymbolicMesh, read_labels, transfer_labels, write_labels
 
 _NO_LABELS = "no hull of the project has a label, so nothing says which hulls span parts"
@@ -46,10 +46,8 @@ class NewAsset:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _WorkerOutcome:
-    """What a worker made of an asset. files: the digest of each of its files; seen: that of the preparation that was
-    there."""
+    """What a worker made of an asset. seen: the digest of the preparation that was there."""
 
-    files: dict[str, str]
     preparation: batch.Preparation
     seen: str | None
     mesh: SymbolicMesh
@@ -86,26 +84,6 @@ class NewAssetOptions:
 NEW_ASSET_DEFAULTS = NewAssetOptions()
 
 
-def prepare_in_project(
-    store: Store, assets: Sequence[NewAsset], options: NewAssetOptions = NEW_ASSET_DEFAULTS
-) -> Iterator[NewAssetResult]:
-    """Prepare assets of a project; what is done is kept in the project, and undone, as by `meshforge prepare`."""
-    if not assets:
-        return
-    found_all = _prepare_all(_make_task(store, assets, options), assets, options)
-    for work, found in zip(assets, found_all, strict=True):
-        if isinstance(found, str):
-            yield NewAssetResult(work.id, problem=found)
-            continue
-        try:
-            with options.write_block(work.id):
-                notes = _keep_in_project(store, work.id, found)
-        except MeshForgeError as error:
-            yield NewAssetResult(work.id, problem=error.message)
-        else:
-            yield replace(found.result, notes=(*notes, *found.result.notes))
-
-
 def list_new(store: Store) -> tuple[list[NewAsset], str | None]:
     """Return the assets that came to a project after the others were prepared; and why they are not decomposed, where
     it is unclear how."""
@@ -123,11 +101,20 @@ def prepare_new(
     it back, and it is not done again then. only: of these ids, all when None. Raises ProjectError where what the
     project keeps of that is damaged."""
     new, unclear = list_new(store)
-    chosen = [one for one in new if only is None or one.id in only]
-    for result in prepare_in_project(store, chosen, options):
-        if not result.problem:
-            extend_plan(store, [result.asset], decomposed=unclear is None, rebuilt=options.rebuild)
-        yield result
+    if not (chosen := [one for one in new if only is None or one.id in only]):
+        return
+    for work, found in zip(chosen, _prepare_all(_make_task(store, chosen, options), chosen, options), strict=True):
+        if isinstance(found, str):
+            yield NewAssetResult(work.id, problem=found)
+            continue
+        try:
+            with options.write_block(work.id):
+                notes = _keep_in_project(store, work.id, found)
+        except MeshForgeError as error:
+            yield NewAssetResult(work.id, problem=error.message)
+            continue
+        extend_plan(store, [work.id], decomposed=unclear is None, rebuilt=options.rebuild)
+        yield replace(found.result, notes=(*notes, *found.result.notes))
 
 
 def _keep_in_project(store: Store, asset: str, found: _WorkerOutcome) -> list[str]:
@@ -149,41 +136,23 @@ def prepare_new_assets(
     store: Store, assets: Sequence[NewAsset], folder: Path, options: NewAssetOptions = NEW_ASSET_DEFAULTS
 ) -> Iterator[tuple[NewAsset, NewAssetResult]]:
     """Prepare assets with what is done kept in a folder, and neither in the project nor beside them: each as it is to
-    be read now, with its labels and its preparation there. What an earlier call made of the same is taken as it is."""
+    be read now, with its labels and its preparation there."""
     if not assets:
         return
-    task = _make_task(store, assets, options)
-    shared = [task.family.digest if task.family else None, task.rebuild, task.guess, task.contact]
-    homes = {one.id: NewAssetFolder(folder, one.id, one.path) for one in assets}
-    basis = {
-        one.id: digest_basis(one.plan, one.labels, one.preparation, [*shared, sources_digest])
-        for one in assets
-        for sources_digest in [task.sources.digest(one.id, one.path) if task.sources else None]
-    }
-    known = {one.id: result for one in assets if (result := homes[one.id].read(basis[one.id]))}
-    fresh = _prepare_all(task, [one for one in assets if one.id not in known], options)
-    for work in assets:
-        home, result = homes[work.id], known.get(work.id)
-        if result is None:
-            found = next(fresh)
-            if isinstance(found, str):
-                yield work, NewAssetResult(work.id, problem=found)
-                continue
-            result = _keep_result(home, basis[work.id], found)
-        labels = home.labels if home.labels.exists() else None
-        preparation = home.preparation if batch.record_digest(home.preparation) else None
-        yield replace(work, labels=labels, preparation=preparation), result
-
-
-def _keep_result(home: NewAssetFolder, basis: str, found: _WorkerOutcome) -> NewAssetResult:
-    home.forget()
-    batch.write_preparation(home.preparation, found.preparation)
-    if found.mesh.labels:
-        write_labels(home.labels, found.mesh, found.vocabulary)
-    else:
-        home.labels.unlink(missing_ok=True)
-    home.write(basis, found.files, found.result)
-    return found.result
+    layout = Layout(folder)
+    found_all = _prepare_all(_make_task(store, assets, options), assets, options)
+    for work, found in zip(assets, found_all, strict=True):
+        if isinstance(found, str):
+            yield work, NewAssetResult(work.id, problem=found)
+            continue
+        labels, preparation = layout.labels(work.id), layout.preparation(work.id)
+        batch.write_preparation(preparation, found.preparation)
+        if found.mesh.labels:
+            write_labels(labels, found.mesh, found.vocabulary)
+        else:
+            labels.unlink(missing_ok=True)
+        here = replace(work, labels=labels if found.mesh.labels else None)
+        yield replace(here, preparation=preparation if found.preparation.steps else None), found.result
 
 
 def _make_task(store: Store, assets: Sequence[NewAsset], options: NewAssetOptions) -> _Task:
@@ -225,8 +194,7 @@ def _prepare(task: _Task, work: NewAsset) -> _WorkerOutcome | str:
         notes = (*found.notes, *notes, *notes_of_labels)
         result = NewAssetResult(work.id, found.bodies, found.left, guesses, notes, taken=taken)
         words = labels.vocabulary or (task.family.words if task.family else ())
-        files = batch.asset_digests(work.path, source.files, work.path.parent)
-        return _WorkerOutcome(files, found.after, seen, mesh.with_labels(guesses), words, result)
+        return _WorkerOutcome(found.after, seen, mesh.with_labels(guesses), words, result)
     except Exception as error:  # one asset never stops the others
         return describe_error(error, str(work.path))
 

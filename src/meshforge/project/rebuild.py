@@ -12,8 +12,7 @@ from itertools import starmap
 from meshforge import batch
 from meshforge.batch.preparation.decompose import matches_only
 from meshforge.common import MeshForgeError, ProjectError, UsageError, describe_error, join_names
-from meshforge.engines import Finding, check_limits, find_engine
-from meshforge.formats import format_of, read
+from meshforge.formats import read
 from meshforge.label_model import RebuiltHull
 from meshforge.labels import HullSpan, ReferenceFamily, SpanReport, read_reference_family
 from meshforge.labels.family_comparison import Stage, ignore_stage
@@ -39,7 +38,6 @@ def rebuild_spanning(
     how: RebuildSettings = REBUILD_DEFAULTS,
     *,
     dry_run: bool = False,
-    engine: str | None = None,
     execution: batch.ExecutionOptions = batch.EXECUTION_DEFAULTS,
     stage: Stage = ignore_stage,
     write_block: Callable[[str], AbstractContextManager[object]] = nullcontext,
@@ -48,15 +46,12 @@ def rebuild_spanning(
     probability of at least `how.min_confidence`.
 
     Each asset gets one step, which `unprepare` takes back with labels and selections. assets: which may be rebuilt, all
-    when None. dry_run: nothing is written; `planned` is what would be done. `notes` name hulls that were left, and
-    limits of an engine, by default of those that read the file, that the new hulls exceed. write_block: the block in
-    which an asset's files are written.
-    Raises UsageError for a probability that is none and for an unknown engine, ProjectError where no hull has a label.
+    when None. dry_run: nothing is written; `planned` is what would be done. `notes` name hulls that were
+    left. write_block: the block in which an asset's files are written.
+    Raises UsageError for a probability that is none, ProjectError where no hull has a label.
     """
     if not 0 < how.min_confidence <= 1:
         raise UsageError(f"--min-confidence {how.min_confidence:g}: a probability is needed, above 0 and at most 1")
-    if engine is not None:
-        find_engine(engine)
     ids = store.assets() if assets is None else tuple(dict.fromkeys(assets))
     for asset in ids:
         store.path(asset)
@@ -67,7 +62,7 @@ def rebuild_spanning(
         raise ProjectError(problem, where=str(store.folder), remedy=remedy)
     work = list(starmap(_Work, zip(ids, store.asset_files(ids), strict=True)))
     with stage(len(work), "looking for hulls that span parts") as advance:
-        found = batch.execute(partial(_search, family, how, engine), work, replace(execution, progress=advance))
+        found = batch.execute(partial(_search, family, how), work, replace(execution, progress=advance))
         for asset, one in zip(ids, found, strict=True):
             if isinstance(one, batch.WorkerFailure | str):
                 problem = one if isinstance(one, str) else one.why
@@ -111,7 +106,7 @@ class _SearchResult:
     seen: str | None
 
 
-def _search(family: ReferenceFamily, how: RebuildSettings, engine: str | None, work: _Work) -> _SearchResult | str:
+def _search(family: ReferenceFamily, how: RebuildSettings, work: _Work) -> _SearchResult | str:
     try:
         folder = work.files.preparation
         seen, before = batch.record_digest(folder), batch.read_preparation(folder) or batch.Preparation()
@@ -119,8 +114,7 @@ def _search(family: ReferenceFamily, how: RebuildSettings, engine: str | None, w
         found = plan_rebuild(family.without(work.asset), source, before, mesh, how)
         matches = any(_matches(hull.name, hull.body, how) for hull in mesh.hulls)
         missed = [] if matches else [f"no hull or body matches {join_names(how.only)}"]
-        limits = describe_limits(source, before, found.after, engine) if found.bodies else []
-        return _SearchResult(found, (*found.notes, *missed, *found.describe_left(how.min_confidence), *limits), seen)
+        return _SearchResult(found, (*found.notes, *missed, *found.describe_left(how.min_confidence)), seen)
     except Exception as error:  # one asset never stops the others
         return describe_error(error, str(work.files.path))
 
@@ -232,42 +226,3 @@ def describe_labels(labels: Iterable[Label]) -> str:
 def _describe_label(name: str, confidences: Sequence[float]) -> str:
     ends = dict.fromkeys(f"{one:.0%}" for one in (min(confidences), max(confidences)))
     return f"{f'{len(confidences)} ' if len(confidences) > 1 else ''}{name} ({' to '.join(ends)})"
-
-
-_OF_BODIES = "-hulls"
-_OF_FILES = "-one-hull-a-file"
-"""How the rules end that are not about single hulls."""
-
-
-def describe_limits(
-    source: Asset, before: batch.Preparation, after: batch.Preparation, engine: str | None = None
-) -> list[str]:
-    """Return a sentence on each limit that the hulls exceed which a preparation makes more than another.
-
-    source: the asset as it was read; engine: its name, None for those that the asset's format is for. Raises UsageError
-    for an unknown engine.
-    """
-    names = format_of(source.path).engines_of(source) if engine is None else (engine,)
-    old, new = (SymbolicMesh.of(batch.apply_preparation(source, one)) for one in (before, after))
-    titles = dict[str, list[str]]()
-    for one in map(find_engine, names):
-        for finding in _find_new(one.name, old, new):
-            titles.setdefault(f"{finding.message}. {finding.remedy}", []).append(one.title)
-    return [f"then, {' and '.join(engines)}: {text}" for text, engines in titles.items()]
-
-
-def _find_new(engine: str, old: SymbolicMesh, new: SymbolicMesh) -> Iterator[Finding]:
-    """What new hulls exceed of an engine, alone, and what their bodies and their file do with them."""
-    shapes = {hull.name: hull.shape for hull in old.hulls}
-    made = [hull for hull in new.hulls if shapes.get(hull.name) != hull.shape]
-    alone = new.with_hulls(made)
-    yield from (one for one in check_limits(find_engine(engine), alone, frozenset()) if not _is_whole(one))
-    was = {one.rule for one in check_limits(find_engine(engine), old, frozenset())}
-    names = {hull.name for hull in made}
-    for one in check_limits(find_engine(engine), new, frozenset()):
-        if _is_whole(one) and names.intersection(one.hulls) and not (one.rule.endswith(_OF_FILES) and one.rule in was):
-            yield one
-
-
-def _is_whole(finding: Finding) -> bool:
-    return finding.rule.endswith((_OF_BODIES, _OF_FILES))

@@ -14,7 +14,7 @@ from meshforge.common import MeshForgeError, ProjectError
 from meshforge.label_model import model_family
 from meshforge.labels.descriptor_cache import recall_descriptors
 from meshforge.language import Program
-from meshforge.project.family_state import FamilyStateReader, measure_results
+from meshforge.project.family_state import measure_results, read_family_state
 from meshforge.project.learn import renew_program
 from meshforge.project.sign_offs import AssessmentBasis, Clock, keep_assessment, now_utc, renew_sign_offs
 from meshforge.signoff import THRESHOLD, Assessment, EditMeasures, ReviewState, describe_outliers, review_family
@@ -87,7 +87,7 @@ def assess_family(
     *,
     by_hand: bool = False,
     lost: Mapping[str, str] = MappingProxyType({}),
-    stop: Callable[[], bool] = lambda: False,
+    stop: Callable[[], bool] | None = None,
 ) -> FamilyAssessment | None:
     """Return how sure the edits of a family are; None once `stop` says so.
 
@@ -96,10 +96,10 @@ def assess_family(
     """
     program = outcome.program if outcome else None
     basis = before.under(store, program or store.program())
-    state = FamilyStateReader(store, meshes, lost, program, by_hand, basis.inputs).read()
+    state = read_family_state(store, meshes, lost, program, by_hand, basis.inputs)
     measures = measure_results(store, program, meshes, basis.inputs, stop) if program else {}
     family = model_family(list(meshes.values()))
-    if stop():
+    if stop and stop():
         return None
     shown = [measures[asset] for asset in (*state.demos, *state.accepted) if asset in measures]
     found = review_family(state, outcome, family, threshold, describe_outliers(measures, shown))

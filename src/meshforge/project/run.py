@@ -7,7 +7,7 @@ to it. Who accepts many at once says nothing of each.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
 from types import MappingProxyType
@@ -211,7 +211,7 @@ def _judge(
         raise ProjectError(f"{asset} has no output to be accepted", where=str(store.folder), remedy=remedy)
     program, seen = store.program(), _read_selections(store, stamp) if verdict and alone else ()
     if verdict == "wrong" and alone and program and not seen:  # what it selects is not written as it is
-        seen = run_for_selections(store, program, lambda: store.mesh(asset)) or ()
+        seen = run_for_selections(store, program, dict(store.meshes_by_id([asset])).get(asset)) or ()
     before = find_selections(store.feedback(), asset) if verdict == "accepted" else ()  # it is made with these
     meant = _replace_selections(store, asset, seen, selections) if selections else before
     return VerdictEvent(
@@ -220,11 +220,13 @@ def _judge(
 
 
 def run_for_selections(
-    store: Store, program: language.Program, read: Callable[[], symbolic.SymbolicMesh]
+    store: Store, program: language.Program, mesh: symbolic.SymbolicMesh | None
 ) -> tuple[batch.RuleSelection, ...] | None:
     """Return what the rules of a program select on an asset; None where it cannot be read, or the program not run."""
+    if mesh is None:
+        return None
     try:
-        trace = program.run(read(), store.templates(program.templates), memo=synthesis.memoize).trace
+        trace = program.run(mesh, store.templates(program.templates), memo=synthesis.memoize).trace
     except MeshForgeError:
         return None
     return number_selections(program, trace)

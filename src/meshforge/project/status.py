@@ -86,6 +86,14 @@ class AssetStatus:
         """Whether its output is there and up to date."""
         return self.output in ("edited", "unchanged") and not self.stale
 
+    def to_json(self) -> dict[str, Any]:
+        """Return it as `status` says it in JSON."""
+        names = (
+            *("hulls", "sources", "prepared", "labelled", "doubtful", "demonstrated", "output", "stale", "error"),
+            *("flags", "review", "sign_off", "signed_by", "void", "excluded", "found_since"),
+        )
+        return {"asset": self.id, **{name: getattr(self, name) for name in names}, **self.confidence_to_json()}
+
     def confidence_to_json(self) -> dict[str, Any]:
         """Return how sure its edit is, as `status`, `apply` and `info` say it in JSON."""
         share = None if self.probability is None else round(self.probability, 4)
@@ -207,31 +215,8 @@ class Status:
             "question": self.question,
             "problem": self.problem,
             "signed_off": self.count(lambda asset: asset.sign_off == "signed off"),
-            "assets": [_asset_json(asset) for asset in self.assets],
+            "assets": [asset.to_json() for asset in self.assets],
             "lost": list(self.lost),
             "not_of_family": list(self.not_of_family),
             "next": asdict(self.next),
         }
-
-
-def _asset_json(asset: AssetStatus) -> dict[str, Any]:
-    return {
-        "asset": asset.id,
-        "hulls": asset.hulls,
-        "sources": asset.sources,
-        "prepared": list(asset.prepared),
-        "labelled": asset.labelled,
-        "doubtful": list(asset.doubtful),
-        "demonstrated": asset.demonstrated,
-        "output": asset.output,
-        "stale": list(asset.stale),
-        "error": asset.error,
-        "flags": list(asset.flags),
-        "review": asset.review,
-        "sign_off": asset.sign_off,
-        "signed_by": asset.signed_by,
-        "void": list(asset.void),
-        "excluded": asset.excluded,
-        "found_since": list(asset.found_since),
-        **asset.confidence_to_json(),
-    }

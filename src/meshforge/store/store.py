@@ -291,7 +291,7 @@ class Store:
 
     def templates(self, names: Iterable[str]) -> dict[str, language.Template]:
         """Hull templates by the names that programs write. Raises ProgramError where one is not there or not convex."""
-        return batch.load_named_templates(names, self.layout.templates)
+        return batch.load_templates(names, self.layout.templates)
 
     def template_names(self) -> tuple[str, ...]:
         """Return the names of all templates in the project's folder of them, as actions write them."""
@@ -350,7 +350,7 @@ class Store:
     def write_sign_offs(self, signed: Mapping[str, SignOff]) -> None:
         """Write which assets are signed off, under the lock that the caller holds."""
         if signed != self.sign_offs():
-            write_atomically(self.layout.sign_offs, format_lines(one for _, one in sorted(signed.items())))
+            write_atomically(self.layout.sign_offs, format_lines([one for _, one in sorted(signed.items())]))
 
     def assessment(self) -> AssessmentFile | None:
         """Return how the family stood when it was looked at last; None where that is not kept, or damaged."""

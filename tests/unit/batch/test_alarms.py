@@ -8,8 +8,6 @@ from meshforge.batch.provenance import stamp_path
 from meshforge.language import Program
 from tests.unit.batch.families import PROGRAM, write_tables
 
-SOLID = "All => Replace(box)\n"
-
 
 def run(folder: Path, text: str = PROGRAM) -> list[AssetOutcome]:
     return list(
@@ -22,14 +20,6 @@ def summary_of(outcomes: list[AssetOutcome]) -> RunSummary:
     for outcome in outcomes:
         summary.add(outcome)
     return summary
-
-
-def test_skipped_assets_have_the_alarms_of_the_run_that_wrote_them(tmp_path: Path) -> None:
-    write_tables(tmp_path / "assets", 2)
-    first, second = summary_of(run(tmp_path, SOLID)), summary_of(run(tmp_path, SOLID))
-    assert second.counts == {"skipped": 2}
-    assert first.find_alarms().keys() == {"table0/model.obj", "table1/model.obj"}
-    assert first.find_alarms() == second.find_alarms()
 
 
 def test_a_stamp_keeps_the_measures_and_one_without_them_is_read(tmp_path: Path) -> None:

@@ -30,7 +30,6 @@ from meshforge.batch.outcome import Edited, Unchanged
 from meshforge.common import MeshForgeError, UsageError
 from meshforge.formats import load
 from meshforge.language import Program
-from meshforge.symbolic import write_labels
 from tests.unit.batch.families import PROGRAM, obj, tree, write_table, write_tables, write_urdf_table
 
 
@@ -69,16 +68,6 @@ def test_every_asset_is_edited_into_a_tree_that_mirrors_the_input(assets: Path, 
     assert first.rules[1].made == ("left_low~1", "right_low~1")
     assert first.out == str(out / "table0/model.obj")
     assert sorted(results(out)) == [f"table{k}/model{end}" for k in range(3) for end in (".labels.json", ".obj")]
-
-
-def test_the_labels_of_the_edited_asset_lie_beside_it_and_fit_it(assets: Path, out: Path) -> None:
-    run(assets, out)
-    mesh = load(out / "table1/model.obj")
-    assert {hull.name: (hull.label, hull.source) for hull in mesh.hulls} == {
-        "top": ("top", "file"),
-        "left_low~1": ("leg", "edit"),
-        "right_low~1": ("leg", "edit"),
-    }
 
 
 def test_outcomes_and_files_do_not_depend_on_the_number_of_workers(assets: Path, tmp_path: Path) -> None:
@@ -134,11 +123,6 @@ def test_a_changed_asset_label_program_or_output_is_made_again(assets: Path, out
     (out / "table2/model.labels.json").unlink()
     assert words(run(assets, out)) == ["skipped", "skipped", "edited"]
     assert words(run(assets, out, PROGRAM.replace("Each(Merge)", "Delete"))) == ["edited"] * 3
-
-
-def test_a_comment_in_the_program_makes_nothing_stale(assets: Path, out: Path) -> None:
-    run(assets, out)
-    assert words(run(assets, out, "# merge the legs\n" + PROGRAM)) == ["skipped"] * 3
 
 
 def test_a_file_that_an_asset_refers_to_is_part_of_it(tmp_path: Path, out: Path) -> None:
@@ -212,21 +196,9 @@ def test_files_that_an_edit_no_longer_makes_are_taken_away(tmp_path: Path, out: 
     assert words(run(tmp_path / "robots", out, "labels top, leg, misc\nIs(misc) => Delete\n")) == ["skipped"]
 
 
-def test_copied_files_may_be_hard_links(tmp_path: Path, out: Path) -> None:
-    write_urdf_table(tmp_path / "robots")
-    run(tmp_path / "robots", out, "labels top, leg, misc\nIs(leg) => Delete\n", options=ApplyOptions(link=True))
-    assert (out / "meshes/crumb.obj").samefile(tmp_path / "robots/meshes/crumb.obj")
-
-
 def test_only_one_run_may_write_into_a_folder(assets: Path, out: Path) -> None:
     with hold_lock(out / ".meshforge" / "lock", str(out)), pytest.raises(MeshForgeError, match="another meshforge"):
         run(assets, out)
-
-
-def test_progress_counts_every_asset(assets: Path, out: Path) -> None:
-    seen: list[None] = []
-    run(assets, out, execution=ExecutionOptions(1, progress=lambda: seen.append(None)))
-    assert len(seen) == 3
 
 
 def test_a_caller_that_stops_early_leaves_finished_work_and_no_drafts(assets: Path, out: Path) -> None:
@@ -271,16 +243,6 @@ def test_what_the_program_cannot_see_and_labels_that_do_not_fit_are_noted(tmp_pa
     opaque, gone = edited.notes[:2]
     assert opaque.startswith("no convex hulls, so left as they are: leaf (")
     assert gone == "labels of hulls that are gone were left out: left_low~1, right_low~1"
-
-
-def test_labels_follow_hulls_that_were_renamed(tmp_path: Path, out: Path) -> None:
-    path = write_table(tmp_path / "assets" / "t.obj")
-    labels = path.with_suffix(".labels.json")
-    write_labels(labels, load(path), ("top", "leg", "misc"))
-    path.write_text(path.read_text().replace("o crumb", "o litter"))
-    (edited,) = run(tmp_path / "assets", out)
-    assert isinstance(edited, Edited) and edited.rules[0].selected == ("litter",)
-    assert edited.notes == ("labels followed renamed hulls: crumb to litter",)
 
 
 @pytest.mark.slow

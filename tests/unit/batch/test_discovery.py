@@ -33,17 +33,6 @@ def test_files_count_from_their_common_folder_and_come_once_in_order(tmp_path: P
     assert ids(paths[1]) == ["model.obj"]
 
 
-def test_a_folder_stands_for_the_assets_in_it(tmp_path: Path) -> None:
-    write_tables(tmp_path, 2)
-    assert ids(tmp_path) == ["table0/model.obj", "table1/model.obj"]
-    assert ids("table1", root=tmp_path) == ["model.obj"]
-
-
-def test_mesh_files_are_parts_where_structured_files_are_about(tmp_path: Path) -> None:
-    write_urdf_table(tmp_path / "robots" / "urdf", mesh="../meshes/crumb.obj")
-    assert ids(tmp_path) == ["robots/urdf/table.urdf"]
-
-
 def test_parts_of_models_and_other_xml_are_no_assets_unless_named(tmp_path: Path) -> None:
     model = '<?xml version="1.0"?><!-- <a> -- b --><!DOCTYPE x>\n<mujoco><include file="part.xml"/></mujoco>'
     texts = {"model.xml": model, "part.xml": "<mujocoinclude/>", "package.xml": "<package/>", "odd.xml": "no element"}
@@ -52,11 +41,6 @@ def test_parts_of_models_and_other_xml_are_no_assets_unless_named(tmp_path: Path
     one_box(tmp_path / "mesh.obj")
     assert ids(tmp_path) == ids(tmp_path / "*.xml") == ["model.xml", "odd.xml"]
     assert ids(tmp_path / "part.xml") == ["part.xml"]
-
-
-def test_comments_without_a_root_are_looked_through_at_once(tmp_path: Path) -> None:
-    (tmp_path / "long.xml").write_text("<!---->" * 1000)
-    assert ids(tmp_path) == ["long.xml"]
 
 
 def test_scenes_are_assets_beside_mesh_files_and_parts_of_descriptions(tmp_path: Path) -> None:
@@ -80,11 +64,6 @@ def test_mesh_files_of_several_hulls_are_assets_of_their_own(tmp_path: Path) -> 
     assert ids(tmp_path) == ["a.obj", "b.obj"]
 
 
-def test_a_lone_mesh_file_is_an_asset_and_not_a_folder_of_pieces(tmp_path: Path) -> None:
-    one_box(tmp_path / "sub" / "a.obj")
-    assert ids(tmp_path) == ["sub/a.obj"]
-
-
 def test_what_was_written_before_is_passed_over_unless_named_outright(tmp_path: Path) -> None:
     write_table(tmp_path / "assets" / "t.obj")
     write_table(tmp_path / "assets" / "out" / "t.obj")
@@ -100,17 +79,6 @@ def test_the_folders_of_a_project_hold_no_assets(tmp_path: Path) -> None:
     for name in ("templates/knob.obj", "edited/t.obj", "assets/t.obj"):
         write_table(tmp_path / name)
     assert ids(tmp_path) == ids("**/*.obj", root=tmp_path) == ["assets/t.obj"]
-
-
-def test_a_glob_passes_over_files_that_are_no_assets(tmp_path: Path) -> None:
-    write_table(tmp_path / "t.obj")
-    (tmp_path / "notes.txt").touch()
-    assert ids("*", root=tmp_path) == ["t.obj"]
-
-
-def test_a_file_name_with_brackets_is_no_glob(tmp_path: Path) -> None:
-    path = write_table(tmp_path / "table[1].obj")
-    assert expand([path]).paths == (path,)
 
 
 @pytest.mark.parametrize("pattern", ["absent.obj", "*.urdf", "empty"])

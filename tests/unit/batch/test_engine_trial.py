@@ -13,7 +13,6 @@ import pytest
 
 from meshforge.batch import CheckTask, check_asset
 from meshforge.checks import CheckOptions
-from meshforge.formats import load
 from tests.corpus_case import ROOT
 from tests.mjcf_engines import model, put
 from tests.unit.batch.preparation.samples import write_boxes
@@ -126,28 +125,6 @@ def test_a_mesh_file_is_tried_as_it_would_be_converted(suffix: str, run: Run) ->
     told = run("check", f"box.{suffix}", "--engine", "mujoco")
     assert told.code == 0
     assert f"legal (MuJoCo {mujoco.__version__} takes what `meshforge convert` makes of box.{suffix})" in told.out
-
-
-def test_by_limits_alone_is_said(run: Run) -> None:
-    Path("box.obj").write_text(TETRAHEDRON)
-    told = run("check", "box.obj", "--engine", "unreal")
-    assert told.out.endswith("box.obj: legal (by the limits of Unreal, which was not asked itself)\n")
-
-
-def test_what_is_written_by_fix_is_what_is_tried(run: Run) -> None:
-    Path("in").mkdir()
-    Path("in/a.obj").write_text(TETRAHEDRON)
-    told = run("check", "in", "--engine", "mujoco", "--fix", "--out", "out")
-    assert told.code == 0 and load("out/a.obj").hulls and "takes what" in told.out
-
-
-def test_a_refused_file_is_tried_again_though_a_journal_is_kept(tmp_path: Path, run: Run) -> None:
-    put(tmp_path, {"cup.xml": ONLY_MUJOCO_MINDS["a visual mesh that is not there"]}, "cup.xml")
-    check = ("check", "cup.xml", "--engine", "mujoco", "--journal", "j.jsonl")
-    assert run(*check).code == 1
-    Path("gone.obj").write_text(TETRAHEDRON)
-    assert run(*check).code == 0
-    assert run(*check).code == 0
 
 
 WITHOUT = """import sys

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from meshforge.batch import IN_PROCESS, ApplyOptions, AssetJob, Failed, apply, load_named_templates
+from meshforge.batch import IN_PROCESS, ApplyOptions, AssetJob, Failed, apply, load_templates
 from meshforge.checks import check
 from meshforge.engines import ENGINES
 from meshforge.formats import FORMATS, load, save
@@ -55,7 +54,7 @@ def test_each_hull_that_an_engine_of_the_format_refuses_or_lacks_is_in_a_note(
         program,
         [AssetJob(saved.path.name, saved.path, saved.path.parent, labels)],
         tmp_path / "out",
-        templates=load_named_templates(program.templates, [tmp_path]),
+        templates=load_templates(program.templates, [tmp_path]),
         execution=IN_PROCESS,
     )
     assert not isinstance(outcome, Failed), outcome.error
@@ -80,15 +79,6 @@ def test_what_nobody_made_is_not_noted_again_in_its_own_format(tmp_path: Path) -
     job = AssetJob("ball.sdf", tmp_path / "in/ball.sdf", first.path.parent)
     (other,) = apply(Program(), [job], tmp_path / "to", options=ApplyOptions(to=".usda"), execution=IN_PROCESS)
     assert not isinstance(other, Failed) and any("PhysX on the GPU" in note for note in other.notes)
-
-
-def test_a_file_marked_for_an_engine_notes_what_that_engine_refuses_of_made_hulls(tmp_path: Path) -> None:
-    path = save(table(), tmp_path / "table.glb", names="godot").path
-    mesh = load(path)
-    assert not save(mesh, tmp_path / "same.glb").notes
-    made = [replace(mesh.hulls[0], shape=ball(300).hulls[0].shape, parent=mesh.hulls[0].name), *mesh.hulls[1:]]
-    notes = save(mesh.with_hulls(made), tmp_path / "made.glb").notes
-    assert any(note.startswith("Godot with Jolt: ") and "more than 256 vertices" in note for note in notes)
 
 
 def test_a_conversion_notes_what_the_engine_of_its_format_refuses(

@@ -37,12 +37,6 @@ def test_a_thread_takes_a_lock_again_and_holds_it_until_the_first_time_ends(tmp_
     assert is_free_elsewhere(path)
 
 
-def test_the_same_lock_by_another_path_is_the_same(tmp_path: Path) -> None:
-    (tmp_path / "folder").mkdir()
-    with hold_lock(tmp_path / "lock", "it", again=True):
-        assert is_free(tmp_path / "folder" / ".." / "lock")
-
-
 def test_a_lock_that_is_not_to_be_taken_again_is_not(tmp_path: Path) -> None:
     path = tmp_path / "lock"
     with hold_lock(path, "it"):

@@ -22,7 +22,6 @@ from meshforge.batch import (
 )
 from meshforge.batch.outcome import MOST_SHOWN, Unchanged
 from meshforge.batch.workers import MIB
-from meshforge.common.processes import memory_share
 from meshforge.language import Program
 from tests.unit.batch.families import PROGRAM, write_tables
 
@@ -44,20 +43,6 @@ def test_a_monster_has_no_room_and_the_others_have() -> None:
     assert list(run_isolated(filled, [900], ExecutionOptions(1, None))) == [900]
 
 
-_left: list[np.ndarray] = []
-
-
-def leaked(mebibytes: int) -> int:
-    """What a library does that keeps memory which it never looks at."""
-    _left.append(np.empty(mebibytes * MIB, np.uint8))
-    return len(_left)
-
-
-@only_linux
-def test_what_earlier_assets_left_behind_takes_no_room_from_the_next() -> None:
-    assert list(run_isolated(leaked, [300] * 4, ExecutionOptions(1, None, 500 * MIB))) == [1, 2, 3, 4]
-
-
 @only_linux
 def test_an_asset_without_room_fails_alone(tmp_path: Path) -> None:
     write_tables(tmp_path / "assets", 2)
@@ -74,14 +59,6 @@ def test_an_asset_without_room_fails_alone(tmp_path: Path) -> None:
     assert [status_of(outcome) for outcome in outcomes] == ["failed", "edited", "edited"]
     assert isinstance(outcomes[0], Failed)
     assert "big.obj: there is not enough memory for it\n  More for one asset: --memory" in outcomes[0].error
-
-
-def test_shares_of_the_memory_are_even() -> None:
-    whole = memory_share(1)
-    if whole is None:
-        pytest.skip("this system does not tell its memory")
-    assert memory_share(4) == pytest.approx(whole / 4, abs=1)
-    assert memory_share(0) == whole
 
 
 def test_a_plan_tells_what_is_there_and_what_was_done(tmp_path: Path) -> None:

@@ -52,22 +52,10 @@ def test_the_json_line_of_an_edited_asset() -> None:
     }
 
 
-def test_the_json_line_has_alarms_where_somebody_looked_for_them() -> None:
-    line = to_json_line(OUTCOMES[0][1], ("volume +480%, the family -12% to +3%",))
-    assert line == {**to_json_line(OUTCOMES[0][1]), "alarms": ["volume +480%, the family -12% to +3%"]}
-    assert to_json_line(OUTCOMES[3][1], ())["alarms"] == []
-
-
 def test_the_first_results_that_stand_out_are_named_with_their_first_alarm() -> None:
     assert describe_alarms({"a.obj": ("no hull is left", "more")}) == "1 result stands out: a.obj (no hull is left)"
     told = describe_alarms({f"a{k}": ("x",) for k in range(7)})
     assert told == "7 results stand out: a0 (x), a1 (x), a2 (x), a3 (x), a4 (x) and 2 more"
-
-
-def test_the_json_line_of_a_failed_asset_has_the_message_and_no_output() -> None:
-    line = to_json_line(OUTCOMES[3][1])
-    assert line["error"] == "x/t.urdf: no labels"
-    assert line["out"] is None and line["rules"] == [] and line["hulls"] == {"before": None, "after": None}
 
 
 PROGRAM = Program.parse("Is(legs) => Delete\nIs(top) => Merge as slab\nIs(slab) => Delete\n")
@@ -88,11 +76,6 @@ def test_a_label_that_no_asset_of_a_run_has_is_named_with_the_nearest() -> None:
     said = "the program asks for 'legs', a label that no asset has; did you mean 'leg'?"
     assert summary_of(ran("leg"), ran("top")).describe_absent_labels(PROGRAM) == [said]
     assert summary_of(ran("leg"), ran("top"), ran("legs")).describe_absent_labels(PROGRAM) == []
-
-
-def test_labels_of_assets_that_failed_are_not_claimed_to_be_absent() -> None:
-    (said,) = summary_of(ran("leg", "top"), Failed("f.obj", "no labels", 0.1)).describe_absent_labels(PROGRAM)
-    assert said.startswith("the program asks for 'legs', a label that no asset that was edited has")
 
 
 def test_nothing_is_said_of_labels_that_are_not_known() -> None:

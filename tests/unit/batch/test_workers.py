@@ -49,10 +49,6 @@ def raise_at_two(number: int) -> int:
     return number
 
 
-def repeat(data: bytes) -> bytes:
-    return data * 2
-
-
 def die_if_odd(number: int) -> int:
     if number % 2:
         os._exit(3)
@@ -100,11 +96,6 @@ def test_a_caller_gets_what_the_function_raised_with_where_that_was() -> None:
     assert "raise_at_two" in str(raised.value.__cause__)
 
 
-def test_large_items_and_large_results_do_not_wait_for_each_other() -> None:
-    items = [bytes([k]) * (1 << 20) for k in range(40)]
-    assert list(run_isolated(repeat, items, ExecutionOptions(2, None))) == [item * 2 for item in items]
-
-
 def test_every_item_that_kills_its_worker_is_named_and_no_other_one() -> None:
     results = list(run_isolated(die_if_odd, range(12), ExecutionOptions(2, None)))
     assert [k for k, result in enumerate(results) if isinstance(result, WorkerFailure)] == list(range(1, 12, 2))
@@ -134,16 +125,6 @@ def test_a_lock_is_not_held_by_the_workers_of_who_holds_it(tmp_path: Path) -> No
         assert next(results) == 0
     with hold_lock(tmp_path / "lock", "this", wait=0):
         results.close()
-
-
-def test_a_caller_may_stop_early() -> None:
-    results = run_isolated(square, range(1000), ExecutionOptions(1, None))
-    assert next(results) == 0
-    results.close()
-
-
-def test_nothing_to_do_starts_no_process() -> None:
-    assert list(run_isolated(square, [], ExecutionOptions(4, None))) == []
 
 
 @pytest.mark.slow

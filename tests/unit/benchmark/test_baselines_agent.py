@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from dataclasses import replace
 
 import pytest
 
@@ -11,11 +10,10 @@ from benchmark.baselines.agent import Agent
 from benchmark.baselines.refinement import ROUNDS, find_code, refine
 from benchmark.baselines.replay import Replay, replay_demonstrations
 from benchmark.baselines.verdicts import judge_program
-from benchmark.study import FLAT, TRUE, Bench, Session
+from benchmark.study import TRUE, Bench, Session
 from meshforge.language import ACTIONS, Program, show
-from tests.loopback import CUT, Asked
 from tests.unit.benchmark.conftest import few
-from tests.unit.benchmark.model_asking import asking, block, by_turn, cost, key, tokens_in, tokens_out, turn
+from tests.unit.benchmark.model_asking import asking, block, by_turn, cost, key, tokens_in, tokens_out
 
 __all__ = ["key"]
 pytestmark = pytest.mark.usefixtures("key", "few_meshes")
@@ -122,70 +120,6 @@ def test_a_model_that_never_gets_it_ends_as_failure_within_the_rounds(
     judged = Session.of_json(json.loads(json.dumps(judge_program(NAME, TRUE.name, 100, taught.shown, written.text))))
     assert (judged.right, judged.judged) == (False, len(bench.samples) - 2)
     assert judged.failures.keys() == bench.samples.keys() - set(taught.shown)
-
-
-@pytest.mark.usefixtures("small_pictures")
-def test_of_answers_that_are_all_wrong_the_one_that_did_best_counts_and_is_judged(
-    bench: Bench, taught: Session, agent: Agent, right: str
-) -> None:
-    worst = right.replace("Is(misc)", "All", 1)
-    better = right.replace("Attach(Is(handle), Is(wall))", "Geo(Is(handle), +Z)")
-    with asking(by_turn(block(worst), block(better), "nonsense")) as (_, client):
-        written = refine(client, agent.opening, agent.try_answer, ROOM)
-    assert not written.fits
-    assert written.text is not None
-    assert Program.parse(written.text).rules == Program.parse(better).rules
-    assert written.wrong[:2] == [2, agent.try_answer(better).wrong]
-    assert written.wrong[2:] == [None] * (ROUNDS - 2)
-    judged = Session.of_json(judge_program(NAME, TRUE.name, 100, taught.shown, written.text))
-    assert not judged.right
-    best = Session.of_json(judge_program(NAME, TRUE.name, 100, taught.shown, str(bench.task.program)))
-    assert best.right
-    assert len(best.failures) < len(judged.failures) <= judged.judged
-
-
-def test_programs_with_other_rules_that_do_the_same_are_right(bench: Bench, shown: list[Replay], agent: Agent) -> None:
-    one, two = bench.task.program.rules
-    other = replace(bench.task.program, rules=(one, one, two))
-    tried = agent.try_answer(str(other))
-    assert (tried.wrong, tried.said) == (0, ())
-    less = agent.try_answer(str(replace(bench.task.program, rules=(one,))))
-    assert less.wrong == len(shown)
-    assert 'The steps were: Delete, then Each(Replace("eye.obj")); each is a rule.' in str(less.said[0])
-    unknown = agent.try_answer("Is(hadle) => Delete")
-    assert unknown.text is None
-    assert "Did you mean 'handle'?" in str(unknown.said[0])
-    missing = agent.try_answer('All => Replace("gear.obj")')
-    assert missing.wrong == len(shown)
-    assert "it fails: there is no template" in str(missing.said[0])
-
-
-def test_labels_that_are_wrong_stay_so_but_for_landmarks_that_a_person_could_show_nothing_without(
-    bench: Bench,
-) -> None:
-    seeds = range(100, 104)
-    changed = 0
-    for seed in seeds:
-        desk = bench.desk("flat", seed)
-        names = [name for name, done in bench.truth.reference.items() if done][:8]
-        for one in replay_demonstrations(bench, Session(NAME, FLAT.name, seed, shown=names)):
-            noisy, true = desk.meshes[one.name], bench.truth.meshes[one.name]
-            for hull, was, right in zip(one.demo.mesh.hulls, noisy.hulls, true.hulls, strict=True):
-                assert hull.label in (was.label, right.label)
-                changed += was.label != right.label == hull.label
-    assert changed < 8 * len(seeds)
-
-
-@pytest.mark.usefixtures("small_pictures")
-def test_an_answer_that_is_cut_off_is_said_to_be(agent: Agent, right: str) -> None:
-    def fault(asked: Asked) -> object:
-        return CUT if not asked.is_probe and not turn(asked) else None
-
-    long = "".join(f"# thought {k}\n" for k in range(100)) + right
-    with asking(by_turn(block(long), block(right)), fault=fault) as (server, client):
-        written = refine(client, agent.opening, agent.try_answer, ROOM)
-    assert (written.fits, written.wrong) == (True, [None, 0])
-    assert "Your answer was cut off: answer more briefly." in server.answered[-1].text
 
 
 @pytest.mark.parametrize(

@@ -14,15 +14,12 @@ import pytest
 
 from benchmark.assets import samples
 from benchmark.baselines.blender.apart import find_python
-from benchmark.baselines.blender.edit import edit_task
 from benchmark.baselines.blender.process import Blender, Limits
 from benchmark.baselines.blender.scene import mesh_of, scene_of
 from benchmark.baselines.blender.shapes import Illegal
-from benchmark.tasks import task
 from meshforge.common import UsageError
 from meshforge.geometry import digest
 from meshforge.symbolic import SymbolicMesh
-from tests.unit.benchmark.blender_script import SHELLS
 
 PYTHON = find_python()
 needs_blender = pytest.mark.skipif(PYTHON is None, reason="no Python with bpy: set BENCH_BLENDER")
@@ -48,13 +45,6 @@ def complaint(blender: Blender, script: str) -> str:
     answer = blender.run(script, SCENE)
     assert "objects" not in answer
     return str(answer["error"])
-
-
-@needs_blender
-def test_a_mesh_that_is_left_alone_comes_back_bit_for_bit(blender: Blender) -> None:
-    back = made(blender, "pass")
-    assert [hull.name for hull in back.hulls] == [hull.name for hull in MESH.hulls]
-    assert all(a is b for a, b in zip(back.hulls, MESH.hulls, strict=True))
 
 
 @needs_blender
@@ -175,22 +165,6 @@ def test_no_key_and_nothing_else_of_ours_is_in_the_environment(
         assert not {name for name in os.environ if name.endswith("KEY") and name in told}
 
 
-@needs_blender
-def test_a_whole_task_is_done_by_a_right_script_as_by_its_program() -> None:
-    assert PYTHON
-    one = task("cup-easy")
-    with Blender(PYTHON) as blender:
-        for sample in one.samples()[:12:3]:
-            by_program, by_script = one.run(one.program, sample.mesh), edit_task(blender, SHELLS, one, sample.mesh)
-            assert by_script.mesh, by_script.error
-            assert by_program.mesh
-            assert len(by_script.mesh.hulls) == len(by_program.mesh.hulls)
-            volume = sum(hull.volume for hull in by_program.mesh.hulls)
-            assert sum(hull.volume for hull in by_script.mesh.hulls) == pytest.approx(volume, rel=1e-3)
-            verdicts = [one.failure(sample, done) for done in (by_program, by_script)]
-            assert (verdicts[0] is None) == (verdicts[1] is None)
-
-
 def test_a_python_without_blender_and_none_at_all_are_one_message(tmp_path: Path) -> None:
     with pytest.raises(UsageError, match=r"there is no program here(.|\n)*install --group blender"):
         Blender(tmp_path / "python").run("pass", SCENE)
@@ -199,10 +173,6 @@ def test_a_python_without_blender_and_none_at_all_are_one_message(tmp_path: Path
     empty.chmod(0o755)
     with pytest.raises(UsageError, match="Blender does not start: no Blender here"):
         Blender(empty).run("pass", SCENE)
-
-
-def test_blender_is_looked_for_where_it_is_said_to_be() -> None:
-    assert find_python({"BENCH_BLENDER": "/opt/python"}) == Path("/opt/python")
 
 
 @needs_blender

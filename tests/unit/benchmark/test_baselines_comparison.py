@@ -11,20 +11,17 @@ import pytest
 
 from benchmark import __main__ as bench
 from benchmark import journal
-from benchmark.baselines.blender.apart import find_python
 from benchmark.evaluation import comparison
 from benchmark.evaluation.figures import fpr
 from benchmark.study import FLAT, TRUE, Condition, Session
 from benchmark.tasks import Task, task
 from tests.loopback import Asked, Fault, serving, status
-from tests.unit.benchmark.blender_script import SHELLS
 from tests.unit.benchmark.conftest import few
 from tests.unit.benchmark.model_asking import block, cost, key, settings_file, tokens_in, tokens_out
 
 __all__ = ["key"]
 pytestmark = pytest.mark.usefixtures("key", "few_meshes", "small_pictures")
 CUPS = [task("cup-easy"), task("cup-medium")]
-PYTHON = find_python()
 FIELDS = Session("", "", 0).to_json().keys()
 
 
@@ -115,32 +112,6 @@ def test_an_agent_that_is_right_passes_as_the_references_do_and_its_cost_is_told
     assert sum(row["$ in all"] for row in cells) == pytest.approx(cost(tokens_in(server), made))
 
 
-@pytest.mark.skipif(PYTHON is None, reason="no Python with bpy: set BENCH_BLENDER")
-def test_scripts_have_their_row_and_what_kept_them_in_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    easy = CUPS[0]
-    monkeypatch.setattr(comparison, "sessions", lambda conditions, tell, quick: [session(easy, c) for c in conditions])
-    with serving(lambda asked: block(SHELLS if "Blender" in asked.text else str(easy.program))) as server:
-        found = run(
-            tmp_path / "out", "--vlm", settings_file(server, tmp_path / "vlm.toml"), "--blender", PYTHON or Path()
-        )
-    filled = functional(found)
-    assert filled["VLM Blender"][0] == filled["VLM Agent"][0] > "0.8"
-    assert filled["VLM Blender"][1] >= filled["VLM Agent"][1] > "0.5"  # a script runs where landmarks are missing, too
-    cells = [dict(zip(found["tables"][1]["columns"], row, strict=True)) for row in found["tables"][1]["rows"]]
-    assert [(row[""], row["SSR"]) for row in cells[2:]] == [("VLM Blender", "–")] * 2
-    (about,) = [note for note in found["notes"] if note.startswith("Scripts ran in Blender ")]
-    assert "fenced in: the network by " in about
-    assert {row["baseline"] for row in found["details"]} == {"VLM Agent", "VLM Blender"}
-
-
-def test_a_model_that_writes_nonsense_fails_everywhere(tmp_path: Path) -> None:
-    with serving(lambda asked: "My apologies!") as server:
-        found = run(tmp_path / "out", "--vlm", settings_file(server, tmp_path / "vlm.toml"))
-    assert functional(found)["VLM Agent"] == ["0.00 ± 0.00"] * 2
-    assert all(len(row.failures) == row.judged for row in judged(found))
-    assert "the model wrote nothing that can be read" in judged(found)[0].failures.values()
-
-
 def test_what_is_not_finished_is_said_to_be_and_goes_on_where_it_was(tmp_path: Path) -> None:
     def fault(asked: Asked) -> Fault | None:
         return None if asked.is_probe or asked_about(asked).name == "cup-easy" else status(500)
@@ -156,15 +127,6 @@ def test_what_is_not_finished_is_said_to_be_and_goes_on_where_it_was(tmp_path: P
         found = run(tmp_path / "out", "--vlm", settings)
         assert functional(found)["VLM Agent"][0] > "0.8"
         assert all(asked_about(asked).name != "cup-easy" for asked in server.answered[before:])
-
-
-def test_no_more_is_spent_than_may_be(tmp_path: Path) -> None:
-    with serving(right) as server:
-        settings = settings_file(server, tmp_path / "vlm.toml", "concurrency = 1\n")
-        found = run(tmp_path / "out", "--vlm", settings, "--max-cost", 0.1)
-        assert 0 < cost(server.usage["input"], server.usage["output"]) <= 0.1
-    assert functional(found)["VLM Agent"] == ["not finished"] * 2
-    assert any("--max-cost" in note and "$0.1" in note for note in found["notes"])
 
 
 @pytest.mark.parametrize(

@@ -4,24 +4,18 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
-from pathlib import Path
 
 import pytest
 
-from benchmark import journal
 from benchmark.baselines.blender.apart import find_python
 from benchmark.baselines.blender.process import Blender, Limits
-from benchmark.baselines.blender_model import BlenderModel, actions, differences
-from benchmark.baselines.refinement import ROUNDS, refine
+from benchmark.baselines.blender_model import BlenderModel, differences
+from benchmark.baselines.refinement import refine
 from benchmark.baselines.replay import Replay, replay_demonstrations
-from benchmark.baselines.run import run_baseline, vlm_blender
 from benchmark.baselines.verdicts import judge_script
 from benchmark.study import TRUE, Bench, Session, open_bench
-from meshforge.language import ACTIONS
-from meshforge.store.settings import VlmSettings
-from tests.loopback.server import MODEL
 from tests.unit.benchmark.blender_script import SHELLS
-from tests.unit.benchmark.model_asking import PRICES, VARIABLE, asking, block, by_turn, key
+from tests.unit.benchmark.model_asking import asking, block, by_turn, key
 
 __all__ = ["key"]
 pytestmark = pytest.mark.usefixtures("key")
@@ -52,12 +46,6 @@ def work(bench: Bench, shown: list[Replay]) -> Iterator[BlenderModel]:
     assert PYTHON
     with Blender(PYTHON, Limits(seconds=5.0)) as blender:
         yield BlenderModel(bench.task, shown, blender)
-
-
-def test_the_actions_are_told_as_the_project_documents_them() -> None:
-    assert all(f"| `{name}" in actions() for name in ACTIONS)
-    assert actions().startswith("## Editing them")
-    assert "## Orientation" not in actions()
 
 
 def test_meshes_that_are_the_same_do_not_differ_and_others_do_in_words(shown: list[Replay]) -> None:
@@ -104,14 +92,6 @@ def test_a_script_that_is_wrong_at_first_is_told_why_and_ends_right(
 
 
 @needs_blender
-def test_of_a_script_that_fails_the_reason_is_kept(bench: Bench, taught: Session) -> None:
-    script = "if len(bpy.data.objects) % 2:\n    raise ValueError('odd')"
-    judged = Session.of_json(judge_script(NAME, TRUE.name, 100, taught.shown, script, str(PYTHON)))
-    odd = {name for name, mesh in bench.truth.meshes.items() if len(mesh.hulls) % 2} - set(taught.shown)
-    assert {name for name, why in judged.failures.items() if why == "ValueError: odd"} == odd
-
-
-@needs_blender
 def test_a_script_that_never_ends_is_given_up_and_fails_everywhere(
     bench: Bench, taught: Session, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -121,35 +101,3 @@ def test_a_script_that_never_ends_is_given_up_and_fails_everywhere(
     assert len(reasons) == judged.judged
     assert reasons[:3] == ["it took longer than 1 seconds"] * 3
     assert set(reasons[3:]) == {"not tried: 3 meshes in a row took too long or broke Blender"}
-
-
-@needs_blender
-@pytest.mark.parametrize("answer", ["", "```python\n```"])
-def test_a_model_that_writes_nothing_ends_as_failure_within_the_rounds(
-    taught: Session, work: BlenderModel, answer: str
-) -> None:
-    with asking(lambda asked: answer) as (server, client):
-        written = refine(client, work.opening, work.try_answer, ROOM)
-    assert (written.fits, written.text, written.rounds, len(server.answered)) == (False, None, ROUNDS, ROUNDS)
-
-
-@needs_blender
-def test_all_sessions_are_played_and_what_was_asked_is_not_asked_again(
-    taught: Session, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(journal, "JOURNALS", tmp_path)
-    monkeypatch.setattr("benchmark.baselines.run.JOURNALS", tmp_path)
-    monkeypatch.setattr("os.cpu_count", lambda: 1)
-    assert PYTHON
-    with asking(by_turn(block("1 / 0"), block(SHELLS))) as (server, _):
-        settings = VlmSettings(
-            base_url=server.base_url, model=MODEL, key_env=VARIABLE, input_price=PRICES[0], output_price=PRICES[1]
-        )
-        one, other = (run_baseline(vlm_blender(PYTHON), [taught], settings, lambda line: None) for _ in range(2))
-        assert len(server.answered) == 2
-    assert one == other
-    assert not one.missing
-    (log,), (written,) = one.sessions, one.written
-    assert (written.fits, written.rounds) == (True, 2)
-    assert len(log.failures) < 0.1 * log.judged
-    assert written.cost > 0

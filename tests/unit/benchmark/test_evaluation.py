@@ -11,16 +11,12 @@ import pytest
 from benchmark import __main__ as bench
 from benchmark import journal, progress
 from benchmark.evaluation import contest, effectiveness
-from benchmark.evaluation.failures import list_failures, reason
 from benchmark.evaluation.figures import share_solved_at
-from benchmark.evaluation.page import write
 from benchmark.journal import run_units
 from benchmark.pages import Page
 from benchmark.report import Result
 from benchmark.study import FLAT, TRUE, Round, Session
 from benchmark.study.condition import KIND, PROPAGATED
-from benchmark.tasks import task
-from meshforge.common import AssetError
 
 PARTS = ["ceiling", "calibration", "effectiveness", "comparison", "contest"]
 
@@ -76,16 +72,6 @@ def test_a_quick_run_writes_the_page_and_its_pictures(
 
 @pytest.mark.long
 @pytest.mark.usefixtures("few_meshes")
-def test_the_page_names_what_was_measured_by_other_tasks_or_criteria(journals: Path, tmp_path: Path) -> None:
-    found = run(["ceiling"], tmp_path / "out")
-    told = "**Measured before the last change of meshes, tasks or criteria: `ceiling`.**"
-    assert told not in (tmp_path / "out" / "README.md").read_text("utf-8")
-    write(tmp_path / "again", [{**found["ceiling"], "protocol": "another"}], ["ceiling"])
-    assert told in (tmp_path / "again" / "README.md").read_text("utf-8")
-
-
-@pytest.mark.long
-@pytest.mark.usefixtures("few_meshes")
 def test_a_run_is_the_same_again_and_takes_what_is_in_the_journal(journals: Path, tmp_path: Path) -> None:
     first = run(["comparison"], tmp_path / "one")
     (kept,) = journals.glob("*-sessions.jsonl")
@@ -131,21 +117,6 @@ def test_an_interrupted_run_goes_on_after_the_parts_that_are_done(
     assert begun[4:] == ["load", "save", "geometry"]
 
 
-def test_a_part_that_cannot_be_run_here_does_not_end_the_run(
-    journals: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    def measure(page: Page, part: str, *given: object) -> Result:
-        if part == "load":
-            raise AssetError("no corpus is here", where="load", remedy="Set MESHFORGE_CORPUS.")
-        return Result(part, part.capitalize(), ())
-
-    monkeypatch.setattr(progress.Progress.__init__, "__defaults__", (journals,))
-    monkeypatch.setattr(bench, "run", measure)
-    assert bench.main(["load", "save", "--quick", "--out", str(tmp_path / "out")]) == 1
-    assert "no corpus is here" in capsys.readouterr().err
-    assert (tmp_path / "out" / "speed-save.json").is_file()
-
-
 def test_results_depend_on_the_code_that_their_work_imports_and_on_no_other() -> None:
     sources = journal.list_sources("benchmark.evaluation.sessions")
     assert "benchmark/study/person.py" in sources
@@ -170,17 +141,3 @@ def test_a_task_is_solved_once_all_demonstrators_have_had_it_right() -> None:
     assert [share_solved_at(lost, k) for k in (1, 2, 3)] == [0.0, 0.0, 0.5]
     groups["cup-hard"] = [session(0, [(1, 0, 1)])]
     assert share_solved_at(groups, 9) == 0.5
-
-
-def test_the_reason_of_a_failing_session_is_what_is_kept_of_it() -> None:
-    wanted = task("cup-easy").program
-    row = session(0, [(1, 0, 3)])
-    row.condition, row.program, row.accepted = "true labels", str(wanted).replace("\nIs(wall)", "\nAll"), True
-    assert reason(row).endswith("accepted, as no difference was among the twelve results looked at")
-    larger = str(wanted).replace("\nIs(wall)", "\nUnion(Is(wall), Is(lid))")
-    row.program, row.accepted, row.condition = larger, False, "noisy labels, flat confidence"
-    assert reason(row) == "a larger rule was learned, under wrong labels; given up after 0 demonstrations"
-    row.program = None
-    assert reason(row).startswith("no program fits what was shown, under wrong labels")
-    table = list_failures({"flat": {"cup-easy": [row]}})
-    assert [line[:3] for line in table.rows] == [("cup-easy", "noisy labels, flat confidence", 0)]

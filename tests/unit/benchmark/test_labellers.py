@@ -14,14 +14,11 @@ from benchmark.assets import CATEGORIES
 from benchmark.labels import labellers
 from benchmark.labels import model as model_module
 from benchmark.labels.families import LABELLED, Family, families
-from benchmark.labels.families import main as write_sample
 from benchmark.labels.methods import REPEATS, LabellerOutput, Method, offline
 from benchmark.labels.scores import score_labels
 from meshforge.common import UsageError
-from meshforge.formats import read
 from meshforge.labels.vlm.prompt import MODES
 from meshforge.rendering import draw_labeling_pictures, encode_png
-from meshforge.symbolic.label_file import write_labels
 from tests.loopback import Asked, labels_as_json, serving, status
 from tests.unit.benchmark.model_asking import PRICES, key, settings_file
 
@@ -94,32 +91,6 @@ def test_labellers_that_ask_nobody(cups: Family) -> None:
     assert {score.cost for score in scores.values()} == {0.0}
 
 
-def test_labels_that_something_else_made_are_read_from_a_folder(cups: Family, tmp_path: Path) -> None:
-    known = [cups.samples[place] for place in cups.drawn[:2]]
-    for sample in known:
-        write_labels(tmp_path / "made" / "deep" / f"{sample.name}.labels.json", sample.mesh, ["wall"])
-    method = offline([tmp_path / "made"])[-1]
-    score = score_labels(method, [cups], [[method.tell(cups, 0)]])
-    hulls = [len(cups.bare[place].hulls) for place in cups.drawn]
-    assert method.name == "labels of made"
-    assert score.accuracy == pytest.approx(sum(hulls[:2]) / sum(hulls))
-    assert score.unlabelled == pytest.approx(1 - score.accuracy)
-    assert (score.cost, score.agreement) == (None, None)
-    with pytest.raises(UsageError, match="no labels file"):
-        offline([tmp_path / "none"])[-1].tell(cups, 0)
-
-
-def test_the_sample_can_be_written_and_read_with_hulls_called_the_same(tmp_path: Path) -> None:
-    write_sample([str(tmp_path), "--sample", "1"])
-    (path,) = tmp_path.rglob("*.obj")
-    (family,) = families(1)
-    sample = family.samples[family.drawn[0]]
-    assert path == tmp_path / "cup" / f"{sample.name}.obj"
-    names = [geom.name.rpartition("/")[2] for geom in read(path).geoms]
-    assert names == [hull.name for hull in sample.mesh.hulls]
-    assert (tmp_path / "cup" / "vocabulary.txt").read_text("utf-8").split() == list(family.vocabulary)
-
-
 class Model:
     """A model that knows the meshes by their first picture, and what is wrong with its answers."""
 
@@ -185,23 +156,6 @@ def test_a_model_is_asked_five_times_and_its_price_is_that_of_once(tmp_path: Pat
 
 
 @pytest.mark.long
-def test_a_model_that_wavers_is_seen_to(tmp_path: Path, answers: Path) -> None:
-    (family,) = families(2, ("cup",), ("coarse",))
-    model = Model(family)
-    turns = iter(range(10_000))
-
-    def wavering(asked: Asked) -> str:
-        said = json.loads(model(asked))["hulls"]
-        label = ("base", "lid", "misc")[next(turns) % 3]
-        return labels_as_json({row["number"]: label if row["number"] < 3 else row["label"] for row in said})
-
-    with serving(wavering) as server:
-        settings = settings_file(server, tmp_path / "vlm.toml", f"{CHEAP}concurrency = 1\n")
-        found = run(tmp_path / "out", "--vlm", settings)
-    assert found["loopback-vl, cheap"]["all repeats agree, %"] < 100
-
-
-@pytest.mark.long
 def test_a_model_that_fails_on_the_way_is_not_scored(tmp_path: Path, answers: Path) -> None:
     (family,) = families(2, ("cup",), ("coarse",))
     model = Model(family)
@@ -213,12 +167,3 @@ def test_a_model_that_fails_on_the_way_is_not_scored(tmp_path: Path, answers: Pa
         server.fault = lambda asked: None
         found = run(tmp_path / "out", "--vlm", settings)
         assert found["loopback-vl, cheap"]["right"] > 0.9
-
-
-def test_no_more_is_spent_than_may_be_over_all_repeats(tmp_path: Path, answers: Path) -> None:
-    (family,) = families(2, ("cup",), ("coarse",))
-    with serving(Model(family)) as server:
-        found = run(tmp_path / "out", "--vlm", settings_file(server, tmp_path / "vlm.toml", CHEAP), "--max-cost", 0.06)
-        assert 0 < PRICES[0] * server.usage["input"] + PRICES[1] * server.usage["output"] <= 0.06e6
-    assert found["loopback-vl, cheap"]["right"] == "not finished"
-    assert any("--max-cost" in note for note in found["notes"])

@@ -6,20 +6,17 @@ import json
 from pathlib import Path
 from types import ModuleType
 
-import numpy as np
 import pytest
 
 from benchmark import __main__ as bench
 from benchmark.learning import asking, calibrate, growth, repairs
 from benchmark.learning.boxes import boxes
-from benchmark.learning.calibrate import WEIGHTS
 from benchmark.learning.cases import cases, learn
 from benchmark.learning.contest import HAS_CVC5
 from benchmark.learning.larger import SHOWN, LargerCases
 from benchmark.learning.program_courses import teach_program
-from benchmark.learning.programs import target_of_tables, target_programs
-from benchmark.learning.rule_courses import learn_rule
-from benchmark.learning.tables import DEMONSTRATED, read_tables, stretch_tables
+from benchmark.learning.programs import target_programs
+from benchmark.learning.tables import read_tables, stretch_tables
 from benchmark.report import Result, as_text
 from meshforge.language import size_of
 
@@ -69,35 +66,8 @@ def test_larger_problems_need_all_their_nodes_and_are_the_same_every_time() -> N
     assert [learn(problem.search()).consistent.terms[0].size for problem in first] == [5, 7]
 
 
-def test_a_rule_that_no_question_is_open_about_is_right() -> None:
-    row = learn_rule(next(cases([100], 3, ("cup",))), 3)
-    assert row.among
-    assert row.right == (row.wrong == 0.0)
-    assert row.neither <= row.answers
-
-
 def test_a_program_is_taught_by_answers() -> None:
     (row,) = teach_program(target_programs(100, ("lamp",))[0], 100, 2)
     assert row.status == "found"
     assert (row.rules, row.refused) == (3, 0)
     assert row.wrong == 0.0
-
-
-def test_the_bundled_demonstrations_are_what_their_program_does() -> None:
-    task, shown = target_of_tables(14)
-    assert shown == DEMONSTRATED
-    asset = next(iter(task.meshes.values())).asset
-    assert asset
-    place = Path(str(asset.path)).parent
-    for name in shown:
-        steps = json.loads((place / "demonstrations" / f"{name}.obj.json").read_text("utf-8"))["steps"]
-        assert [set(step["select"]) for step in steps] == [set(chosen) for chosen in task.right[name]]
-
-
-def test_features_are_what_the_weights_multiply() -> None:
-    """With the weights in use they give the beliefs that learning has."""
-    case = next(cases([0], 1, ("table",)))
-    rule = calibrate._rule(case)
-    assert rule is not None
-    used = np.array([float(getattr(module, name)) for name, module in WEIGHTS.items()])
-    assert sorted(rule.shares(used)) == pytest.approx(sorted(learn(case.search()).beliefs))

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-import pytest
 
 from benchmark.assets.asset import Asset, Site
 from benchmark.criteria import Case, judge
@@ -120,13 +119,6 @@ def test_what_is_made_is_new_whole_and_no_larger() -> None:
     assert "made of 2 hulls, 1 wanted" in str(failure([*rest, *two], MADE))
 
 
-def test_parts_that_touch_a_label_have_a_fate_of_their_own() -> None:
-    fate = {"of": "panel", "touching": "misc", "fate": "gone"}
-    assert failure(without("top"), fate) is None
-    assert "which stays" in str(failure(without("top", "shelf"), fate))
-    assert failure(without("shelf"), {"of": "panel", "far": "misc", "fate": "gone"}) is None
-
-
 def test_a_part_is_whole_when_it_is_one_hull() -> None:
     whole = {"of": "leg", "fate": "whole"}
     merged = [hull(f"leg{k}0~1", "leg", box(leg).tessellate()) for k, leg in enumerate(LEGS)]
@@ -136,26 +128,6 @@ def test_a_part_is_whole_when_it_is_one_hull() -> None:
     assert "larger" in str(failure([*without("leg"), everything], whole))
     assert failure(BEFORE, {**whole, "hulls": 2}) is None
     assert "a box wanted" in str(failure(BEFORE, {**whole, "hulls": 2, "lowest": "box"}))
-
-
-@pytest.mark.parametrize(("filled", "why"), [(False, None), (True, "is filled")])
-def test_what_is_hollow_is_not_filled(filled: bool, why: str | None) -> None:
-    legs = {"of": "leg", "fate": "made", "together": True, "hollow": 0.2}
-    boxes = [((-0.48, -0.28, 0.0), (0.48, 0.28, 0.29))] if filled else LEGS
-    made = [hull(f"leg{k}0~1", "leg", box(corners)) for k, corners in enumerate([*LEGS, *boxes][len(LEGS) :])]
-    if filled:
-        made += [hull(f"leg{k}1~1", "leg", box(corners)) for k, corners in enumerate(LEGS)]
-    said = failure([*without("leg"), *made], legs)
-    assert said is None if why is None else why in str(said)
-
-
-def test_what_is_scaled_has_its_share_between_two() -> None:
-    fate = {"of": "shelf", "fate": "made", "share": 0.3, "most": 0.8, "together": True}
-    shelf = [one for one in BEFORE if one.name.startswith("shelf")]
-    rest = without("shelf")
-    assert failure([*rest, *(scaled(one, 0.8) for one in shelf)], fate) is None
-    assert "30% to 80% wanted" in str(failure([*rest, *(scaled(one, 0.99) for one in shelf)], fate))
-    assert "30% to 80% wanted" in str(failure([*rest, *(scaled(one, 0.5) for one in shelf)], fate))
 
 
 def test_what_is_added_is_at_its_site_and_not_in_something() -> None:

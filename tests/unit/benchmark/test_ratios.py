@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import pytest
 
-from benchmark.learning import search_tables
 from benchmark.learning.contest import ALONE, CVC5, LIMIT, PAPER, PAPER_REPAIR, READINGS, REPAIR
 from benchmark.learning.ratios import Quantity, Row, geometric_mean, median_of, most_of
 from benchmark.learning.search_tables import PAIRS, contest_goals, contest_tables
@@ -60,11 +59,6 @@ def test_ratios_come_from_like_with_like() -> None:
     assert found[f"{PAPER_REPAIR} / {REPAIR}"] == pytest.approx(2.0 / 0.04)
 
 
-def test_a_ratio_to_us_is_made_only_where_we_finished() -> None:
-    with pytest.raises(AssertionError):
-        row(5, stopped=(REPAIR,)).ratio(PAPER_REPAIR, REPAIR)
-
-
 def test_goals_are_by_size_and_no_slow_problem_makes_up_for_others() -> None:
     small, large = [row(1, paper=0.001)] * 9, [row(5, paper=0.2), row(5, paper=0.2), row(9, paper=50.0)]
     found = goals([*small, *large])
@@ -73,16 +67,3 @@ def test_goals_are_by_size_and_no_slow_problem_makes_up_for_others() -> None:
     assert found[what] == pytest.approx(10.0)
     assert found["the same, at the size where this median is least"] == pytest.approx(10.0)
     assert not any("together" in name for name in found)
-
-
-def test_a_goal_on_a_time_out_says_that_it_is_a_lower_bound() -> None:
-    found = goals([row(9, paper=LIMIT, repair=LIMIT, stopped=(PAPER, PAPER_REPAIR)), row(1)])
-    what = "times as fast from 5 nodes on, median: everything with repair, against the paper's with repair"
-    assert found[f"{what} (a lower bound)"] == pytest.approx(LIMIT / 0.04)
-
-
-def test_cvc5_has_to_be_slower_on_every_problem(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(search_tables, "HAS_CVC5", True)
-    what = "problems on which search and readings is slower than cvc5"
-    assert goals([row(5), row(5)])[what] == 0.0
-    assert goals([row(5), row(5, ours=0.3)])[what] == 1.0

@@ -12,10 +12,10 @@ import numpy as np
 import pytest
 
 from benchmark.real.ceiling import judge_sample
-from benchmark.real.examination import find_faults, find_unlabelled, measure_shape
-from benchmark.real.family import FOLDER, families, family
+from benchmark.real.examination import find_faults, find_unlabelled
+from benchmark.real.family import families, family
 from benchmark.real.parts import cut_parts, make_solids
-from benchmark.real.regions import cut_triangles, label_surface, parse_region
+from benchmark.real.regions import label_surface, parse_region
 from benchmark.real.samples import RECORD, digest_of, is_pure, make_sample
 from benchmark.real.surface import AssetSurface, Patch, read_surface
 from benchmark.real.tasks import real_task, tasks_of
@@ -95,24 +95,6 @@ def test_a_region_that_cannot_be_is_an_error_that_names_it(row: dict[str, object
         parse_region(row, LABELS, "table, region 2")
 
 
-def test_triangles_are_cut_without_loss() -> None:
-    corners = np.random.default_rng(0).random((40, 3, 3))
-    inside, outside = cut_triangles(corners, 2, 1.0, 0.5, 1.0)
-    assert inside[:, :, 2].min() >= 0.5 - 1e-9
-    assert outside[:, :, 2].max() <= 0.5 + 1e-9
-    areas = [np.linalg.norm(np.cross(c[:, 1] - c[:, 0], c[:, 2] - c[:, 0]), axis=1).sum() for c in (corners, inside)]
-    assert areas[1] < areas[0]
-    rest = np.linalg.norm(np.cross(outside[:, 1] - outside[:, 0], outside[:, 2] - outside[:, 0]), axis=1).sum()
-    assert areas[1] + rest == pytest.approx(areas[0])
-
-
-def test_measures_of_a_shape_do_not_change_with_turn_and_scale() -> None:
-    one = _table()
-    turned = Pose.from_rpy((1, 2, 3), (0.3, 0.4, 0.5)).rotation
-    moved = tuple(Patch(p.name, 3 * p.vertices @ turned.T, p.faces) for p in one.pieces)
-    assert measure_shape(AssetSurface("other", moved, Pose.identity())) == pytest.approx(measure_shape(one))
-
-
 @pytest.mark.parametrize("name", families())
 def test_a_family_has_three_tasks_in_its_own_words(name: str) -> None:
     one = family(name)
@@ -124,13 +106,6 @@ def test_a_family_has_three_tasks_in_its_own_words(name: str) -> None:
     assert regions.keys() == set(one.names)
     known = json.loads((one.folder / RECORD).read_text("utf-8"))
     assert {key.rsplit("_", 1)[0] for key in known} == {source.name for source in one.sources if source.decompose}
-
-
-def test_no_mesh_lies_in_the_folder_of_a_family() -> None:
-    allowed = {".toml", ".json", ".md", ".py", ".obj"}
-    files = [path for path in FOLDER.rglob("*") if path.is_file() and path.suffix != ".pyc"]
-    assert {path.suffix for path in files} <= allowed
-    assert all(path.parent.name == "templates" for path in files if path.suffix == ".obj")
 
 
 @pytest.mark.parametrize("name", families())

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from benchmark.evaluation.real_sessions import find_goals, tell_families, tell_settings
+from benchmark.evaluation.real_sessions import find_goals, tell_families
 from benchmark.study import FLAT, TRUE, Round, Session
 
 
@@ -43,10 +43,3 @@ def test_one_bad_family_fails_its_goal_and_the_goal_of_all() -> None:
     wrong = session("cups", "easy", "as_is", right=False)
     wrong.accepted = wrong.settled = True
     assert find_goals([*ROWS, wrong])[2].measured == 1.0
-
-
-def test_decompositions_are_told_apart() -> None:
-    rows = {row[0]: row for row in tell_settings(ROWS).rows}
-    column = tell_settings(ROWS).columns.index("sessions right")
-    assert rows["as is"][column] == "2/2"
-    assert rows["fine"][column] == "1/2"

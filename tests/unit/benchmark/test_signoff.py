@@ -8,17 +8,13 @@ from dataclasses import asdict, replace
 import pytest
 
 from benchmark.assets import family
-from benchmark.signoff.before import Before, teach_before
 from benchmark.signoff.calibration import calibrate
 from benchmark.signoff.client import Client, FamilyStatus
 from benchmark.signoff.conditions import ERRS
 from benchmark.signoff.judge import Judge, run_on_desk
 from benchmark.signoff.opening import FirstLook, open_review
-from benchmark.signoff.outcomes import group
-from benchmark.signoff.point import right_at
-from benchmark.signoff.queue import BROKEN, DONE, Review, sign_off
+from benchmark.signoff.queue import DONE, Review, sign_off
 from benchmark.signoff.reviewer import Reviewer
-from benchmark.signoff.tables import CURVES, list_tables
 from benchmark.study import FLAT, TRUE, Bench
 from benchmark.study.condition import PROPAGATED
 from benchmark.study.keystrokes import APPROVAL, GLANCE, STROKE, price_group
@@ -101,19 +97,6 @@ def test_each_question_is_paid_for_once(bench: Bench) -> None:
     assert review.wrong == review.aside == []
 
 
-def test_a_session_is_broken_off_at_the_cap(bench: Bench) -> None:
-    review = sign_off(bench, TRUE, 1, FakeClient, cap=20.0)
-    assert review.ended == BROKEN
-    assert review.points[-1].held
-    assert sum(review.seconds.values()) < 60
-
-
-def test_who_never_slips_signs_off_nothing_wrong_where_every_result_is_looked_at(bench: Bench) -> None:
-    review = sign_off(bench, FLAT, 2, FakeClient, cap=10_000.0)
-    assert review.wrong == []
-    assert review.points[-1].held == 0
-
-
 def test_an_asset_that_the_reference_cannot_mend_is_never_right() -> None:
     one = task("cup-hard")
     judge = Judge(Bench(one, family(one.category, "coarse")[:5]))
@@ -121,15 +104,6 @@ def test_an_asset_that_the_reference_cannot_mend_is_never_right() -> None:
     assert judge.count_right(truth, reference) == len(judge.possible)
     assert not any(judge.is_right(name, run_on_desk(truth, reference, name)) for name in impossible)
     assert all(judge.looks_right(name, run_on_desk(truth, reference, name)) for name in judge.possible)
-
-
-def test_who_glances_at_all_and_mends_by_hand_has_all_right_but_for_slips(bench: Bench) -> None:
-    before = teach_before(bench, TRUE, 1)
-    assert Before.of_json(json.loads(json.dumps(asdict(before)))) == before
-    assert before.brute.right == before.possible == before.reference
-    assert before.brute.seconds >= round(before.points[-1].seconds + GLANCE * before.assets, 2)
-    assert right_at(before.points, 0.0) == 0
-    assert right_at(before.points, 1e9) == before.points[-1].right
 
 
 def test_each_exception_of_a_group_is_named_and_paid_for(bench: Bench) -> None:
@@ -167,13 +141,3 @@ def test_probabilities_that_are_met_are_calibrated_and_order_what_they_can() -> 
     assert found.precision == pytest.approx(0.45)
     assert calibrate([(0.5, True)] * 40).error == pytest.approx(0.5)
     assert calibrate([(0.1, False)] * 10 + [(0.99, True)] * 90).named == 10
-
-
-def test_one_page_tells_all_conditions_and_who_is_sooner(bench: Bench) -> None:
-    reviews = [sign_off(bench, TRUE, 1, FakeClient)]
-    groups = group([TRUE.name, FLAT.name], reviews, [open_review(bench, TRUE, 1, FakeClient)], [])
-    assert [one.condition for one in groups] == [TRUE.name]
-    tables = list_tables(groups)
-    assert all(len(row) == len(table.columns) for table in tables for row in table.rows)
-    curve = next(table for table in tables if table.title == CURVES)
-    assert curve.rows[0][-1] == 100.0

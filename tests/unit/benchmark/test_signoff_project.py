@@ -22,7 +22,6 @@ from benchmark.study.project import name_by_files, open_project
 from benchmark.tasks import task
 from meshforge.geometry import digest
 from meshforge.label_model import FamilyModel
-from meshforge.language import Merge
 from meshforge.signoff import ReviewReply
 
 
@@ -75,12 +74,6 @@ def test_commands_alone_come_to_the_same_as_methods(bench: Bench, condition: obj
     assert replace(other, first=one.first) == one
 
 
-def test_who_says_no_more_than_wrong_corrects_nothing(bench: Bench) -> None:
-    alone = sign_off(bench, PROPAGATED[0], 1, WrongClient)
-    assert alone.ended == DONE
-    assert "correction" not in alone.acts
-
-
 @pytest.mark.parametrize(("make", "says"), [(Client, True), (AnswersClient, True), (WrongClient, False)])
 def test_who_says_wrong_says_which_hulls_are_right(bench: Bench, make: type[Client], says: bool) -> None:
     reviewer = Reviewer(bench, 1, TRUE)
@@ -114,19 +107,6 @@ def test_an_edit_by_hand_is_right_where_its_hulls_are_those_that_are_wanted(benc
     assert judge.is_right(name, Output(right.edited, by_hand=True))
     assert not judge.is_right(name, nothing)
     assert not judge.is_right(name, Output(nothing.edited, by_hand=True))
-
-
-def test_what_the_project_writes_has_its_edits_by_hand(bench: Bench) -> None:
-    with open_project(bench.truth) as project:
-        name = next(iter(bench.samples))
-        project.accept(bench.task.program)
-        before = Client(project).read_output(name)
-        assert before and before.edited.mesh
-        project.correct(name, list(before.edited.mesh.index), Merge())
-        after = Client(project).read_output(name)
-        assert after and after.edited.mesh and after.by_hand
-        assert len(after.edited.mesh.hulls) == 1
-        assert after.selections == before.selections
 
 
 def test_frozen_sessions_read_back_and_have_a_page(bench: Bench, tmp_path: Path) -> None:

@@ -8,7 +8,6 @@ import pytest
 from benchmark.assets import samples
 from benchmark.spanning.course import HullChance
 from benchmark.spanning.detection import Detection
-from benchmark.spanning.family import choose_known
 from benchmark.spanning.sets import surface_of
 from meshforge.geometry import volume_inside
 
@@ -18,12 +17,6 @@ def test_precision_and_recall_count_hulls() -> None:
     found = Detection.of([HullChance("cup_01", number, *row) for number, row in enumerate(rows)])
     assert found.precision == pytest.approx(1 / 2)
     assert found.recall == pytest.approx(1 / 3)
-
-
-@pytest.mark.parametrize("count", [8, 9, 25])
-def test_one_asset_of_each_third_is_labelled(count: int) -> None:
-    known = sorted(choose_known(count))
-    assert [sum(place in third for place in known) for third in np.array_split(np.arange(count), 3)] == [1, 1, 1]
 
 
 @pytest.mark.parametrize(("setting", "most"), [("union", 1.01), ("welded", 1.5)])

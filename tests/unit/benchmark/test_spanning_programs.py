@@ -2,67 +2,27 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from typing import Any
 
-import numpy as np
 import pytest
 
-from benchmark.assets import Sample, samples
+from benchmark.assets import samples
 from benchmark.signoff.point import Point
 from benchmark.signoff.queue import Review
-from benchmark.spanning.family import choose_known, is_spanning
+from benchmark.spanning.family import choose_known
 from benchmark.spanning.programs import (
     AS_IT_IS,
     FINE,
     REBUILT,
     list_goals,
     open_bench,
-    rebuild_sample,
 )
 from benchmark.study.client import TaskClient
 from benchmark.study.project import SUFFIX, name_by_files, open_project
 from benchmark.study.propagation import begin_by_hand
 from benchmark.tasks import task
-from meshforge.geometry import Floats, Ints, cut
-from meshforge.label_model import RebuiltHull
 from meshforge.symbolic import Label
-
-
-@dataclass
-class Halves:
-    """What stands for a posterior: some hulls of an asset likely span, and all are cut in two along X."""
-
-    sample: Sample
-    chances: Floats
-
-    def chances_of(self, place: int) -> Floats:
-        return self.chances
-
-    def rebuild(self, place: int, hulls: Ints) -> tuple[RebuiltHull, ...]:
-        found = list[RebuiltHull]()
-        for hull in hulls.tolist():
-            whole = self.sample.decomposition.hulls[hull]
-            halves = cut(whole, whole.centroid, np.array([1.0, 0.0, 0.0]))
-            found += [RebuiltHull(half, "wall", 0.7, hull) for half in halves if half is not None]
-        return tuple(found)
-
-
-@pytest.fixture(scope="module")
-def sample() -> Sample:
-    return next(one for one in samples("cup", True, ("union",)) if any(map(is_spanning, one.shares)))
-
-
-def test_all_hulls_are_rebuilt_where_one_likely_spans_else_none(sample: Sample) -> None:
-    chances = np.full(len(sample.mesh.hulls), 0.4)
-    posterior: Any = Halves(sample, chances)
-    assert rebuild_sample(sample, posterior) == (sample, {})
-    chances[1] = 0.6
-    rebuilt, labels = rebuild_sample(sample, posterior)
-    assert list(labels) == [hull.name for hull in rebuilt.mesh.hulls]
-    assert len(rebuilt.mesh.hulls) == 2 * len(sample.mesh.hulls)
-    rows = zip(rebuilt.mesh.hulls, rebuilt.shares, strict=True)
-    assert all(hull.label == max(row, key=row.__getitem__) for hull, row in rows)
 
 
 def test_a_session_begins_with_labels_by_hand_of_the_known_assets_and_those_of_split_parts() -> None:

@@ -11,7 +11,7 @@ from benchmark.real.family import families, family
 from benchmark.real.samples import make_sample
 from benchmark.real.whole import REAL, list_hidden, list_whole, whole_sample
 from benchmark.spanning.family import label_truly, make_pieces
-from benchmark.spanning.real_assets import judge_separate, measure
+from benchmark.spanning.real_assets import measure
 from benchmark.spanning.sets import list_names, list_tasks, surface_of
 from meshforge.common import AssetError
 from tests.corpus_path import corpus
@@ -46,12 +46,3 @@ def test_a_real_chair_is_decomposed_as_a_whole_in_the_frame_of_its_file() -> Non
     assert sum(purity < 0.9 for purity in sample.purities) > sum(purity < 0.9 for purity in separate.purities)
     pieces = [piece.shape for piece in make_pieces(sample)]
     assert set(label_truly(pieces, sample.asset)) == {part.label for part in sample.asset.parts}
-
-
-def test_the_reference_is_tried_on_each_task_where_solids_are_decomposed_one_by_one() -> None:
-    corpus()
-    made = judge_separate("chairs", "kaykit-stool")
-    rows = dict(made["fine"])
-    assert list(rows) == [f"real-chairs-{level}" for level in ("easy", "medium", "hard")]
-    assert any(why is None for why in rows.values())
-    assert made["hulls"]["coarse"] <= made["hulls"]["medium"] < made["hulls"]["fine"]

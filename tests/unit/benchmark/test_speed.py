@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
-from functools import partial
 from pathlib import Path
 from types import ModuleType
 
@@ -14,15 +13,12 @@ import pytest
 
 import meshforge as mf
 from benchmark import __main__ as bench
-from benchmark.clock import in_turns
-from benchmark.pages import PAGES, parts_of
 from benchmark.report import Goal, Result, Table, as_text
-from benchmark.speed import by_hand, contact, geometry, load, robots, save
+from benchmark.speed import by_hand, geometry, load, robots, save
 from benchmark.speed.assets import multi_hull
 from benchmark.speed.contact import one_mesh
 from benchmark.speed.watch import look
 from meshforge.batch import load_templates
-from meshforge.geometry import Box, Pose
 from meshforge.language import Program
 from meshforge.samples import TABLES
 
@@ -42,28 +38,12 @@ def test_all_contestants_find_the_same_contacts_on_the_bundled_tables() -> None:
         assert all(seconds > 0 for seconds in row["seconds"].values())
 
 
-def test_a_difference_is_told_with_its_distance() -> None:
-    row = [Box(Pose.of_translation([2.2 * k, 0, 0]), np.ones(3)).tessellate() for k in range(3)]
-    mesh = contact._of(row)
-    (differ,) = contact._differences(row, mesh, frozenset({(0, 1)}))
-    assert differ["pair"] == [0, 1]
-    assert differ["theirs"] is True
-    assert differ["thresholds"] == pytest.approx(0.2 / mesh.contact_distance)
-
-
 @pytest.mark.parametrize("part", [load, robots, save, geometry])
 def test_a_part_runs_quickly_on_bundled_files(part: ModuleType) -> None:
     result = part.measure(silent, True)
     assert isinstance(result, Result)
     assert all(table.rows for table in result.tables)
     assert as_text(Result.of_json(json.loads(json.dumps(result.to_json())))) == as_text(result)
-
-
-def test_the_same_boxes_are_read_by_both() -> None:
-    row = load.one_file(sorted(TABLES.glob("*.obj"))[0], 1)
-    assert row is not None
-    assert row["same"]
-    assert row["triangles"] > 100
 
 
 def test_apply_is_run_and_watched(tmp_path: Path) -> None:
@@ -95,7 +75,7 @@ def test_the_script_by_hand_makes_of_a_table_what_its_program_does(tmp_path: Pat
     tray = by_hand.read_tray(TABLES)
     by_hand.edit_table(by_hand.read_parts(table), labels, tray).export(tmp_path / table.name)
     program = Program.read(TABLES / "tables.mf")
-    edited = program.run(mf.load(table), load_templates(program, [TABLES / "templates"])).mesh
+    edited = program.run(mf.load(table), load_templates(program.templates, [TABLES / "templates"])).mesh
     made = mf.load(tmp_path / table.name)
     assert made.aabb and edited.aabb
     assert len(made.hulls) == len(edited.hulls)
@@ -128,21 +108,6 @@ def test_a_part_that_is_not_there_is_refused(capsys: pytest.CaptureFixture[str])
         bench.main(["contacts"])
     assert stopped.value.code == 2
     assert "there is no part 'contacts'" in capsys.readouterr().err
-
-
-def test_a_page_names_all_its_parts_of_a_run() -> None:
-    assert parts_of(["learning"]) == ("search", "growth", "asking", "repairs")
-    assert parts_of(["calibrate", "labels", "labellers"]) == ("calibrate", "propagation", "labellers")
-    assert parts_of([]) == tuple(part for page in PAGES for part in page.parts)
-    with pytest.raises(KeyError):
-        parts_of(["labels", "apply", "labours"])
-
-
-def test_contestants_take_turns_and_the_first_round_does_not_count() -> None:
-    seen: list[str] = []
-    times = in_turns({who: partial(partial, seen.append, who) for who in "ab"}, 2)
-    assert "".join(seen) == "ababab"
-    assert {who: len(seconds) for who, seconds in times.items()} == {"a": 2, "b": 2}
 
 
 def test_a_page_says_what_was_reached_and_what_not() -> None:

@@ -13,8 +13,7 @@ from benchmark.assets import CATEGORIES, SEPARATE, family, samples
 from benchmark.study import CONDITIONS, FLAT, REPORTED, TRUE, Bench, Session, open_bench, teach_task
 from benchmark.study.client import TaskClient
 from benchmark.study.condition import KIND, PROPAGATED, SYSTEMATIC
-from benchmark.study.instances import instance, mend
-from benchmark.study.keystrokes import APPROVAL, GLANCE, count_acts, model_seconds
+from benchmark.study.keystrokes import GLANCE, count_acts, model_seconds
 from benchmark.study.labels import ACCURACY, AFFECTED, FEW, MOST, count_wrong, mislabel, noisy
 from benchmark.study.person import Person
 from benchmark.study.project import SUFFIX, name_by_files, open_project
@@ -77,24 +76,6 @@ def test_with_true_labels_nobody_confirms_anything_wrong_and_accepts_only_what_l
     assert session.right == (session.rounds[-1].differs == 0)
 
 
-def test_a_right_program_fails_only_where_the_reference_does(bench: Bench) -> None:
-    session = teach_task(bench, KIND, 1)
-    assert session.right
-    program = bench.task.program
-    rest = set(bench.samples) - set(session.shown)
-    failing = {name for name in rest if bench.failure(name, bench.truth.edit(program, name))}
-    assert set(session.failures) == failing
-
-
-def test_edits_that_select_the_same_are_judged_apart_where_they_differ(bench: Bench) -> None:
-    name, sample = next((name, row) for name, row in bench.samples.items() if any(bench.truth.reference[name] or ()))
-    edited = bench.truth.edit(bench.task.program, name)
-    idle = replace(edited, mesh=sample.mesh, named=frozenset())
-    fresh = [bench.task.failure(sample, edit) for edit in (edited, idle)]
-    assert fresh[0] != fresh[1]
-    assert [bench.failure(name, edit) for edit in (edited, idle, edited)] == [*fresh, fresh[0]]
-
-
 def test_no_failure_is_seen_in_what_is_right_by_the_eye_or_what_the_reference_gets_wrong_too(bench: Bench) -> None:
     assert any(_count_excused(bench, seed) for seed in range(5, 40)), (
         "some result is right though the reference selects something else, as a label is wrong"
@@ -133,20 +114,6 @@ def test_the_noisy_labeller_is_as_noisy_as_it_says() -> None:
     assert all(error <= MOST for error, count in zip(errors, hulls, strict=True) if count <= FEW)
 
 
-def test_wrong_labels_come_together() -> None:
-    """More often than drawn blindly, a wrong hull touches another wrong one."""
-    rows = [sample.mesh for sample in samples("table", calibration=True)]
-    rng = np.random.default_rng(0)
-    together = blindly = 0
-    for k, mesh in enumerate(rows):
-        labelled = noisy(mesh, (9, k), telling=False)
-        places = [i for i, (a, b) in enumerate(zip(mesh.hulls, labelled.hulls, strict=True)) if a.label != b.label]
-        drawn = rng.permutation(len(mesh.hulls))[: len(places)].tolist()
-        together += sum(bool(mesh.neighbours(i) & set(places)) for i in places)
-        blindly += sum(bool(mesh.neighbours(i) & set(drawn)) for i in drawn)
-    assert together > blindly
-
-
 def test_a_persons_time_is_modelled_from_what_was_done(bench: Bench) -> None:
     session = teach_task(bench, TRUE, 0)
     spent = model_seconds(session)
@@ -156,24 +123,6 @@ def test_a_persons_time_is_modelled_from_what_was_done(bench: Bench) -> None:
     assert spent["demonstrating"] > 0
     assert model_seconds(Session("cup-medium", "", 0)) == dict.fromkeys(spent, 0.0)
     assert count_acts(session) >= len(session.shown) + session.steps_shown + session.hulls_shown + session.glances
-
-
-def test_who_helps_the_tool_reports_what_is_right_and_pays_for_it(bench: Bench) -> None:
-    plain, kind = teach_task(bench, TRUE, 1), teach_task(bench, KIND, 1)
-    assert plain.approvals == 0
-    assert kind.approvals > 0
-    assert model_seconds(kind)["approving"] == pytest.approx(kind.approvals * APPROVAL)
-
-
-def test_a_person_who_names_no_rule_shows_the_whole_edit_and_excuses_nothing(bench: Bench) -> None:
-    """Under wrong labels the reference itself is found wrong, on exactly the meshes where the eye sees it."""
-    desk, one = bench.desk("flat", 5), bench.task.program
-    person = Person(desk, 5, FLAT)
-    for name in bench.samples:
-        true = bench.truth.reference[name]
-        seen = person.sees(desk, one, [name])
-        assert seen == (None if true is None or desk.reference[name] == true else (name, None))
-    assert any(person.sees(desk, one, [name]) for name in bench.samples)
 
 
 def test_decompositions_of_one_asset_never_share_a_family() -> None:
@@ -216,19 +165,3 @@ def test_systematic_errors_call_one_kind_of_part_by_one_wrong_name_in_a_third_of
         affected = [name for name in having if confused in pairs[name]]
         assert len(affected) == max(round(AFFECTED * len(having)), 1)
         assert all((confused[0], confused[0]) not in pairs[name] for name in affected)
-
-
-@pytest.mark.long
-def test_an_instance_of_the_repair_study_is_a_near_miss() -> None:
-    found = instance("cup-medium")
-    if found is None:
-        pytest.skip("no draw of this task is a near miss")
-    without, inspected, repaired = (
-        mend(found, way) for way in ("no correction", "all labels inspected (Standard PBE)", "ABI")
-    )
-    assert inspected.right
-    assert inspected.demonstrations == 2
-    assert inspected.inspected == sum(len(found.desk.meshes[name].hulls) for name in found.pool[:2])
-    assert without.confirmed == inspected.confirmed == 0
-    assert without.demonstrations > 2 or not without.right
-    assert repaired.inspected == 0

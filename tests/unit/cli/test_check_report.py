@@ -1,4 +1,4 @@
-"""`meshforge check --report`: every asset on the page, those that are wrong first, from the journal too."""
+"""`meshforge check --report`: every asset on the page, those that are wrong first."""
 
 from __future__ import annotations
 
@@ -42,22 +42,6 @@ def test_what_failed_comes_first_then_what_has_findings(run: Run) -> None:
     assert [len(card.xpath("./div//img")) for card in page.xpath("//article")] == [0, 1, 1]
     assert len(page.xpath("//figure")) == 3  # two heat maps and what is closed; an OBJ shows nothing
     assert any(line.startswith("fit: hulls stick out by") for line in texts(page, "//p[@class='note']"))
-
-
-@pytest.mark.slow
-def test_what_the_journal_kept_is_on_the_page_too(run: Run) -> None:
-    words = ("check", "mixed/*", "--engine", "unity", "--fit", "--physics", "--journal", "j")
-    assert run(*words, "--report", "one.html").code == 1
-    assert run(*words, "--report", "two.html").code == 1
-    one, two = opened("one.html"), opened("two.html")
-    assert names(one) == names(two) and kinds(one) == kinds(two) and figures(one) == figures(two)
-    assert texts(one, "//ul[@class='findings']") == texts(two, "//ul[@class='findings']") != []
-    assert one.xpath("//article/div//img/@src") == two.xpath("//article/div//img/@src")
-    told = [[line for line in texts(page, "//details//p") if "measured" not in line] for page in (one, two)]
-    assert told[0] == told[1] != []
-    kept = "kept in the journal from an earlier run"
-    assert [texts(page, "//article/p[@class='note']") for page in (one, two)] == [[], [kept, kept]]
-    assert len(two.xpath("//figure")) == 0 < len(one.xpath("//figure"))  # they are not measured anew
 
 
 def test_an_asset_that_is_gone_by_then_is_told_without_a_picture(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:

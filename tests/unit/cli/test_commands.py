@@ -385,36 +385,6 @@ def test_check_tells_legal_from_illegal(run: Run) -> None:
     assert {"far", "again"} <= {name for finding in told.json["findings"] for name in finding["hulls"]}
 
 
-@pytest.mark.slow
-def test_a_check_that_was_killed_goes_on_where_it_was(run: Run) -> None:
-    write_tables(Path("tables"), 3)
-    words = ("check", "tables", "--engine", "unreal", "--journal", "j.jsonl", "--workers", "1")
-    whole, kept = run(*words), Path("j.jsonl").read_bytes()
-    assert whole.code == 0 and whole.out == run(*words[:4]).out
-    assert run(*words) == whole and Path("j.jsonl").read_bytes() == kept  # nothing was looked at again
-    one = kept.splitlines(keepends=True)[0]
-    for torn in (kept[: len(one) + 40], kept[:3], b"", one):
-        Path("j.jsonl").write_bytes(torn)
-        assert run(*words) == whole and Path("j.jsonl").read_bytes() == kept
-    Path("j.jsonl").write_bytes(kept.replace(b": legal", b": kept!"))
-    table = Path("tables/table1/model.obj")
-    table.write_text(table.read_text().replace("o crumb", "o crumbs"))
-    assert run(*words).out == whole.out.replace("0/model.obj: legal", "0/model.obj: kept!").replace(
-        "2/model.obj: legal", "2/model.obj: kept!"
-    )
-    assert run(*words[:3], "unity", *words[4:]).out == whole.out.replace(
-        "Unreal", "Unity"
-    )  # another question: all are asked again
-
-
-@pytest.mark.parametrize("text", [b"solid x", b"v 0 0 0\n", b'{"hulls": {}}\n', b"[" * 100_000])
-def test_a_journal_that_is_none_is_left_alone(run: Run, text: bytes) -> None:
-    Path("mine").write_bytes(text)
-    told = run("check", "row.obj", "--journal", "mine")
-    assert told.code == 2 and "mine:1: this is no journal of a check" in told.err
-    assert Path("mine").read_bytes() == text
-
-
 def test_apply_runs_a_program_on_files_and_names_the_one_that_fails(run: Run) -> None:
     Path("p.mf").write_text("labels leg, panel\n\nIs(leg) => Delete\n")
     Path("bad.obj").write_text("v 0 0 nan\n")

@@ -49,7 +49,6 @@ def test_its_id_is_text_and_reading_it_names_it(project: Project) -> None:
         ("label project --with names --json", 1),
         ("check assets", 1),
         ("check assets --json", 1),
-        ("check assets --journal journal.jsonl", 1),
         ("apply project --again --report run.html", 1),
         ("apply project --json", 1),
         ("apply project assets --out out", 1),

@@ -70,7 +70,6 @@ def test_as_json(run: Run) -> None:
         (["--rebuild-spanning", "--undo"], "say what to do"),
         (["--decompose", "coacd", "--min-confidence", "0.5"], "--min-confidence"),
         (["--decompose", "coacd", "--dry-run"], "--dry-run"),
-        (["--decompose", "coacd", "--limits", "mujoco"], "--limits"),
         (["--rebuild-spanning", "--min-confidence", "0"], "--min-confidence 0: a probability is needed"),
         (["--rebuild-spanning", "--hollow"], "--hollow"),
         (["nope.urdf", "--rebuild-spanning"], "nope.urdf"),

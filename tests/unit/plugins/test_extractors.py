@@ -7,10 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.common import PluginError, ProgramError, UsageError
-from meshforge.language import EXTRACTORS, All, Attach, Is, Program, explain, parse_extractor, select
+from meshforge.common import ProgramError
+from meshforge.language import All, Attach, Is, Program, explain, parse_extractor, select
 from meshforge.studio.queries.programs import build_language_view, check_text
-from meshforge.synthesis.options import Options
 from meshforge.synthesis.search.terms import enumerate_more_leaves, leaf_key
 from tests.plugin_packages import page_files
 from tests.unit.cli.in_process import Run
@@ -105,20 +104,6 @@ def test_errors_have_their_place_and_remedy(install: Install, text: str, message
         Program.parse(text, "p")
 
 
-@pytest.mark.usefixtures("run")
-def test_a_word_that_no_package_has_is_unknown() -> None:
-    with pytest.raises(ProgramError, match="p:1:1: unknown word `Smaller`"):
-        Program.parse("Smaller(All, 0.05) => Delete", "p")
-
-
-def test_one_that_cannot_be_imported_says_so_at_its_place(run: Run, install: Install) -> None:  # noqa: F811
-    package = install("extractors", "Smaller", "import mf_library_that_is_not_there")
-    Path("p.mf").write_text("All => Delete\nSmaller(All, 0.1) => Delete\n")
-    done = run("apply", "p.mf", "table.obj", "--out", "out")
-    assert done.code == 2
-    assert f"p.mf:2:1: the extractor Smaller of the package {package} cannot be loaded" in done.err
-
-
 def test_a_mask_that_is_none_fails_by_asset(run: Run, install: Install) -> None:  # noqa: F811
     package = install("extractors", "Smaller", SMALLER.replace("return volumes <", "return volumes * "))
     Path("p.mf").write_text("Smaller(All, 0.1) => Delete\n")
@@ -135,28 +120,3 @@ def test_a_name_that_no_package_has_is_refused_before_the_work(run: Run, install
     assert "there is no extractor 'Smallr'" in done.err
     assert "Smaller" in done.err
     assert "extractors" not in (Path("home") / "meshforge.toml").read_text()
-
-
-@pytest.mark.usefixtures("run")
-def test_it_keeps_its_text_where_its_package_is_missing(
-    install: Install,  # noqa: F811
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    install("extractors", "Smaller", SMALLER)
-    kept = pickle.dumps(parse_extractor("Union(Smaller(All, 0.05), Is(leg))"))
-    monkeypatch.setattr("meshforge.language.registry.EXTRACTORS._loaded", {})
-    monkeypatch.setattr("meshforge.common.plugins.import_module", _no_module)
-    found = pickle.loads(kept)
-    assert str(found) == "Union(Smaller(All, 0.05), Is(leg))"
-    with pytest.raises(PluginError, match=r"the extractor Smaller of the package .* is not installed here"):
-        select(found, table())
-
-
-def _no_module(name: str) -> None:
-    raise ModuleNotFoundError(f"No module named {name!r}", name=name)
-
-
-def test_options_name_what_is_not_there() -> None:
-    with pytest.raises(UsageError, match="there is no extractor 'Nothing'"):
-        enumerate_more_leaves(Options(extractors=("Nothing",)).extractors, (), "S", [])
-    assert list(EXTRACTORS.built_in) == ["All", "Is", "Attach", "Geo"]

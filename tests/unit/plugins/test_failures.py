@@ -22,8 +22,8 @@ from meshforge.batch import (
 )
 from meshforge.checks import CheckOptions, check, examine_mesh
 from meshforge.common import PluginError, ProgramError, UsageError, plugins
-from meshforge.formats import is_asset, labels_beside, load, read
-from meshforge.language import All, Each, Program, Rule, show_label
+from meshforge.formats import load, read
+from meshforge.language import All, Each, Program, Rule
 from meshforge.project import Project
 from tests.plugin_packages import build_wheel, unpack
 from tests.program_parts import parse_action
@@ -94,17 +94,6 @@ MADE = "return GroupEdit((NewShape(cube_of({fault!r}), group.hulls[0], group.hul
 # A plug-in that cannot be imported
 
 
-@pytest.mark.slow
-def test_files_of_a_format_that_cannot_be_imported_fail_by_name(run: Run, install: Install) -> None:
-    package = install("formats", "cube", "raise RuntimeError('no licence')")
-    Path("a.cube").write_text("")
-    done = run("check", "a.cube", "table.obj", "--workers", "1")
-    assert done.code == 1
-    assert "table.obj: legal" in done.out
-    assert f"a.cube: the format .cube of the package {package} cannot be loaded: RuntimeError: no licence" in done.out
-    assert "Update or uninstall mf-broken." in done.out
-
-
 def test_a_program_with_an_action_that_cannot_be_imported_says_so_at_its_place(run: Run, install: Install) -> None:
     package = install("actions", "Spoil", "import mf_library_that_is_not_there")
     Path("p.mf").write_text("All => Spoil\n")
@@ -161,17 +150,6 @@ def test_the_list_says_why_a_plug_in_does_not_fit(run: Run, install: Install, ki
 
 
 @pytest.mark.slow
-def test_assets_whose_format_is_missing_in_a_worker_fail_by_name(run: Run, install: Install) -> None:
-    package = install("formats", "cube", broken.IN_WORKER + format_code(asset_code("CUBE")))
-    Path("a.cube").write_text("")
-    done = run("check", "a.cube", "table.obj", "--workers", "1")
-    assert done.code == 1
-    assert f"a.cube: the format .cube of the package {package} is not installed here" in done.out
-    assert "table.obj: legal" in done.out
-    assert "  Install mf-broken" in done.out
-
-
-@pytest.mark.slow
 def test_assets_whose_action_is_missing_in_a_worker_fail_by_name(run: Run, install: Install) -> None:
     package = install("actions", "Spoil", broken.IN_WORKER + action_code("return GroupEdit()"))
     write_table(Path("b.obj"))
@@ -182,15 +160,6 @@ def test_assets_whose_action_is_missing_in_a_worker_fail_by_name(run: Run, insta
     assert (done.code, b["status"], table["status"]) == (1, "unchanged", "failed")
     assert f"table.obj: the action Spoil of the package {package} is not installed here" in table["error"]
     assert not Path("out/table.obj").exists()
-
-
-@pytest.mark.slow
-def test_a_check_that_is_missing_in_a_worker_is_a_finding_of_each_asset(run: Run, install: Install) -> None:
-    package = install("checks", "odd", broken.IN_WORKER + broken.HEAD + broken.CHECK.format(body="return []"))
-    done = run("check", "table.obj", "--check", "odd", "--workers", "1", "--json")
-    (finding,) = done.lines[0]["findings"]
-    assert (done.code, finding["severity"]) == (1, "error")
-    assert finding["message"].startswith(f"the check odd of the package {package} is not installed here")
 
 
 def test_an_action_keeps_its_text_where_its_package_is_missing(
@@ -263,18 +232,6 @@ def test_an_asset_fails_when_an_action_makes_a_hull_that_is_none(run: Run, insta
     assert caught.value.message.startswith(f"table.obj: {wanted}")
 
 
-def test_the_other_assets_go_on_when_an_action_makes_a_hull_that_is_none(run: Run, install: Install) -> None:
-    package = install("actions", "Spoil", action_code(MADE.format(fault="convex")))
-    write_table(Path("b.obj"))
-    Path("b.labels.json").write_text(json.dumps({"hulls": {"top": "top"}}))
-    Path("p.mf").write_text("Is(misc) => Spoil\n")
-    jobs = make_jobs(expand(["table.obj", "b.obj"]))
-    b, table = apply(Program.read("p.mf"), jobs, Path("out"), execution=IN_PROCESS)
-    assert isinstance(table, Failed) and not isinstance(b, Failed)
-    assert f"table.obj: the action Spoil of the package {package} made a hull" in table.error
-    assert not Path("out/table.obj").exists()
-
-
 def test_a_hull_that_only_rounding_keeps_from_being_convex_is_made_anew(run: Run, install: Install) -> None:
     install("actions", "Spoil", action_code(MADE.format(fault="rounding")))
     made = Program.parse("Is(misc) => Spoil\n").run(load("table.obj")).mesh
@@ -337,17 +294,6 @@ def test_an_asset_gets_no_label_of_a_labeller_that_fails(run: Run, install: Inst
     assert not Path("home/labels/table.obj.json").exists()
 
 
-def test_a_labeller_that_fails_on_one_asset_labels_the_others(run: Run, install: Install) -> None:
-    write_table(Path("two/b.obj"), 1.5)
-    body = "return {'top': Label('top', 0.7 / bool(mesh.hull_of('top').aabb.max[2] < 1.3))}"
-    package = install("labelers", "odd", broken.HEAD + broken.LABELER.format(body=body))
-    project = Project.create("home", ["table.obj", "two/b.obj"], vocabulary=["top", "leg"])
-    table, b = project.label("odd").outcomes
-    assert (table.taken, table.problems, b.taken) == (1, (), 0)
-    assert f"b.obj: the labeller odd of the package {package} failed: ZeroDivisionError" in b.problems[0]
-    assert project.mesh("table.obj").hull_of("top").source == "plugin"
-
-
 def test_a_labeller_that_sees_the_family_takes_the_road_of_those_built_in(run: Run, install: Install) -> None:
     install("labelers", "tops", "from meshforge.symbolic import Label\n" + broken.FAMILY_LABELER)
     project = Project.create("home", ["table.obj"], vocabulary=["top", "leg"])
@@ -377,20 +323,6 @@ def test_a_name_that_no_plug_in_has_is_an_error_that_lists_those_there_are(insta
         CheckOptions.of(["oddd"])
 
 
-def test_a_label_is_written_alike_whatever_plug_ins_there_are(install: Install) -> None:
-    before = show_label("Spoil")
-    install("actions", "Spoil", action_code("return GroupEdit()"))
-    assert (before, show_label("Spoil")) == ("Spoil", "Spoil")
-
-
-def test_files_of_a_plug_in_have_labels_beside_them_like_others(install: Install, tmp_path: Path) -> None:
-    install("formats", "cube", format_code(asset_code("CUBE")))
-    path = tmp_path / "a.cube"
-    path.write_text("")
-    assert is_asset(path)
-    assert labels_beside(path).name == "a.labels.json"
-
-
 def test_outputs_are_made_again_after_an_update_of_the_plug_in(run: Run, install: Install) -> None:
     def edit() -> str:
         jobs, program = make_jobs(expand(["table.obj"])), Program.parse("Is(misc) => Spoil\n")
@@ -403,20 +335,3 @@ def test_outputs_are_made_again_after_an_update_of_the_plug_in(run: Run, install
     assert edit() == "Edited"
     stamp = read_stamp(Path("out"), "table.obj")
     assert stamp and stamp.inputs and package in stamp.inputs.software
-
-
-def test_nothing_is_looked_for_where_only_built_in_names_are_used(
-    run: Run, install: Install, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def refuse() -> frozenset[str]:
-        raise AssertionError("plug-ins were looked for")
-
-    forget_plugins()
-    monkeypatch.setattr("meshforge.common.plugins._read_mentions", refuse)
-    Path("p.mf").write_text("Is(leg) => Merge\n")
-    assert run("info", "table.obj").code == 0
-    assert run("fmt", "p.mf").code == 0
-    assert run("select", "Is(leg)", "table.obj").code == 0
-    assert run("check", "table.obj", "--engine", "unreal").code == 0
-    assert run("convert", "table.obj", "table.stl").code == 0
-    monkeypatch.undo()

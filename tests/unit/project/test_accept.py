@@ -57,15 +57,6 @@ def test_who_accepts_many_at_once_or_calls_one_wrong_says_not_what_is_right(tmp_
     assert isinstance(project.synthesize(), Ambiguous)
 
 
-def test_an_edit_by_hand_is_not_what_the_program_did(tmp_path: Path) -> None:
-    project = applied(tmp_path)
-    project.correct(SHELVED, ["knob"], Delete())
-    list(project.apply(execution=IN_PROCESS))
-    project.set_verdict(SHELVED, "accepted")
-    assert not last_word(project).seen
-    assert isinstance(project.synthesize(), Ambiguous)
-
-
 def test_nor_is_what_another_program_did(tmp_path: Path) -> None:
     project = applied(tmp_path)
     project.accept(Program.parse("labels board, leg, knob\nIs(knob) => Delete\n"))

@@ -13,7 +13,7 @@ from meshforge.project.family_state import measure_results
 from meshforge.project.sign_offs import find_inputs
 from meshforge.signoff import THRESHOLD, EditMeasures, describe_outliers, measure_edit
 from meshforge.symbolic import SymbolicMesh
-from tests.unit.project.racks import BLOCK, PLAIN, find_right, shown_racks
+from tests.unit.project.racks import BLOCK, PLAIN, shown_racks
 
 TURNED = "labels top, leg, rail\norient +Z: Is(leg) -> Is(top)\n\nIs(leg) => Each(Merge)\n"
 
@@ -77,13 +77,6 @@ def test_what_is_written_is_read_from_its_stamp_and_the_rest_is_measured_once(
     found = find_all(racks, meshes)
     assert len(measured) == len(meshes) - 2
     assert find_all(racks, meshes) == found and len(measured) == len(meshes) - 2
-
-
-def test_a_review_before_anything_is_written_holds_the_block(racks: Project) -> None:
-    find_right(racks, PLAIN[2])
-    found = racks.review(execution=IN_PROCESS).assessment
-    assert found.need_review == (BLOCK,)
-    assert found.assets[BLOCK].reasons[0].kind == "alarm"
 
 
 def test_what_stands_out_is_held_before_anybody_looked_at_a_result_and_the_rest_is_signed_off(racks: Project) -> None:

@@ -32,14 +32,6 @@ def test_an_answer_is_kept_as_one_can_read_it(tmp_path: Path) -> None:
     assert [line.answer for line in project.feedback().answers.values()] == [Answer(1, SHELVED, ["top"])]
 
 
-def test_neither_keeps_what_was_refused(tmp_path: Path) -> None:
-    project = ambiguous(tmp_path)
-    project.add_answer(choose(OPEN, None))
-    (line,) = project.feedback().answers.values()
-    assert line.answer == choose(OPEN, None)
-    assert line.answer.refused == OPEN.selections
-
-
 def test_of_very_many_assets_some_are_learned_from_and_all_of_which_something_was_said(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -74,24 +66,6 @@ def test_fields_that_this_version_does_not_know_are_kept(tmp_path: Path) -> None
     assert [one["event"] for one in others] == ["answer", "withdrawal", "withdrawal"]
 
 
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        ('{"event": "answer", "rule": 0, "asset": "a"}', r"line 1: the field (answer\.)?rule"),
-        ('\n{"event": "answer", "rule": 1}', r"line 2: the field (answer\.)?asset"),
-        ('{"event": "label fix", "asset": "a", "hull": "h", "to": "x"}', r"line 1: the field (label fix\.)?accepted"),
-        ('{"event": "advice"}', "line 1: .*advice"),
-        ("[", "line 1: .*JSON"),
-    ],
-)
-def test_a_damaged_file_is_named_with_the_line_and_the_field(tmp_path: Path, text: str, message: str) -> None:
-    project = ambiguous(tmp_path)
-    project.layout.events.write_text(text)
-    with pytest.raises(ProjectError, match=message) as caught:
-        project.feedback()
-    assert "events.jsonl" in caught.value.message
-
-
 def test_answers_that_cannot_be_are_refused(tmp_path: Path) -> None:
     project = ambiguous(tmp_path)
     with pytest.raises(ProjectError, match=r"no asset 'rack\.obj'"):
@@ -112,15 +86,6 @@ def test_a_confirmed_repair_becomes_the_label_and_remembers_the_one_before(tmp_p
     assert project.take_back("rack0.obj#knob=knob") is None
     assert knob(project) == MACHINE
     assert not project.feedback().answers_and_fixes
-
-
-def test_a_missing_label_that_was_filled_in_is_missing_again(tmp_path: Path) -> None:
-    project = mislabelled(tmp_path)
-    project.set_labels(PLAIN, {"knob": None})
-    said = project.confirm(LabelFix(PLAIN, "knob", None, "knob"))
-    assert knob(project) == Label("knob", 1.0, "repair")
-    project.take_back(said)
-    assert knob(project) is None
 
 
 def test_a_label_that_a_person_changed_after_the_repair_stays(tmp_path: Path) -> None:
@@ -151,14 +116,6 @@ def test_a_repair_that_no_longer_fits_is_refused(tmp_path: Path) -> None:
     with pytest.raises(ProjectError, match="knob is labelled board now, no longer leg"):
         project.confirm(WRONG)
     assert not project.feedback().answers_and_fixes
-
-
-def test_what_was_said_last_about_a_repair_counts(tmp_path: Path) -> None:
-    project = mislabelled(tmp_path)
-    demonstrations.reject(project, WRONG)
-    project.confirm(WRONG)
-    (line,) = project.feedback().fixes.values()
-    assert (line.id, line.accepted) == ("rack0.obj#knob=knob", True)
 
 
 def test_an_unknown_id_names_the_nearest(tmp_path: Path) -> None:

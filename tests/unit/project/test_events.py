@@ -13,7 +13,6 @@ from meshforge.common import ProjectError
 from meshforge.project import Project
 from meshforge.store import SnoozeEvent
 from meshforge.store.events import parse_events
-from meshforge.store.feedback import Feedback
 from meshforge.store.program import ProgramRecord
 from meshforge.store.sign_off import SignOffBasis
 from meshforge.synthesis import Answer
@@ -86,12 +85,6 @@ def test_of_two_people_who_contradict_each_other_the_last_counts(
     found = said.verdict_on(THIRD)
     assert found is not None and (found.verdict, found.by) == (last["verdict"], last["by"])
     assert [one.by for one in said.verdicts[THIRD]] == [first["by"], last["by"]]
-
-
-def test_the_order_is_that_of_the_file_whatever_clocks_say() -> None:
-    late, early = {**RIGHT, "when": "2026-11-28T12:00:00Z"}, {**WRONG, "when": "2020-01-01T00:00:00Z"}
-    found = Feedback.of(parse_events(lines(late, early), "here")).verdict_on(THIRD)
-    assert found is not None and found.verdict == "wrong"
 
 
 def test_fields_that_are_not_known_and_line_ends_stay(tmp_path: Path) -> None:

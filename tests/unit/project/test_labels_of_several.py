@@ -8,17 +8,6 @@ from meshforge.common import ProjectError
 from tests.unit.project.tables import FIRST, SECOND, labelled
 
 
-def test_labels_of_several_assets_are_written_as_those_of_each(tmp_path: Path) -> None:
-    together, apart = labelled(tmp_path / "together"), labelled(tmp_path / "apart")
-    hull, word = next(iter(together.mesh(FIRST).index)), together.vocabulary[0]
-    labels: dict[str, dict[str, str | None]] = {FIRST: {hull: word}, SECOND: {hull: None}}
-    reports = together.set_labels_of(labels)
-    assert reports == tuple(apart.set_labels(asset, own) for asset, own in labels.items())
-    assert [together.layout.labels(asset).read_bytes() for asset in labels] == [
-        apart.layout.labels(asset).read_bytes() for asset in labels
-    ]
-
-
 def test_of_labels_of_several_assets_all_are_written_or_none(tmp_path: Path) -> None:
     project = labelled(tmp_path)
     hull = next(iter(project.mesh(FIRST).index))

@@ -122,15 +122,6 @@ def test_a_result_that_was_called_wrong_is_right_after_all(place: Callable[[Case
     assert edited[0].read_bytes() == edited[1].read_bytes()
 
 
-def test_wrong_and_no_more_gives_way_to_right(place: Callable[[Case], Place]) -> None:
-    both = place(CASES["wrong"])
-    both.say(CASES["wrong"].reply, "Ada")
-    assert ASKED in look(both.project).assessment.need_review
-    told = both.say(CASES["right"].reply, "Bob")
-    assert f'{both.question}: Ada said {{"choice": "wrong"}} before, now it is {{"choice": "right"}}' in told.err
-    assert ASKED in look(both.project).assessment.signed_off
-
-
 def test_who_includes_an_asset_again_is_asked_about_it(place: Callable[[Case], Place]) -> None:
     both = place(CASES["not solved"])
     both.say(CASES["not solved"].reply, "Ada")
@@ -138,13 +129,6 @@ def test_who_includes_an_asset_again_is_asked_about_it(place: Callable[[Case], P
     both.say(CASES["right"].reply, "Bob")
     found = look(both.project)
     assert not found.assessment.excluded and ASKED in found.assessment.need_review
-
-
-def test_a_choice_that_never_was_is_no_last_word(place: Callable[[Case], Place]) -> None:
-    both = place(CASES["right"])
-    both.say(CASES["right"].reply, "Ada")
-    told = both.say({"choice": "perhaps"}, "Bob")
-    assert told.code == 1 and f"{both.question}: question {both.question} has no choice 'perhaps'" in told.err
 
 
 def sums(found: ProjectReview) -> object:

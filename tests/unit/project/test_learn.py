@@ -4,53 +4,13 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import pytest
-
-from meshforge.batch import IN_PROCESS
-from meshforge.language import Delete, Merge, Program
+from meshforge.language import Delete, Merge
 from meshforge.project import Project
 from meshforge.symbolic import Label
-from meshforge.synthesis import Ambiguous, Answer, Found, NeedsRepair, NoProgram, Repair, Step, TimedOut
-from tests.open_rules import choose
+from meshforge.synthesis import Answer, Found, NeedsRepair, NoProgram, Repair, Step, TimedOut
 from tests.unit.project.shelves import OTHER, PLAIN, SHELVED, ambiguous, mislabelled
 
 ALL, HIGHEST = (f"labels board, leg, knob\n\n{rule} => Delete\n" for rule in ("Is(board)", "Geo(Is(board), +Z)"))
-
-
-def test_a_question_stays_open_until_it_is_answered(tmp_path: Path) -> None:
-    project = ambiguous(tmp_path)
-    outcome = project.synthesize()
-    assert isinstance(outcome, Ambiguous)
-    assert str(project.program()) == ALL
-    assert outcome.open_rule.id == project.status(workers=0).question
-    say = project.status(workers=0).next.text
-    assert "answer the question about rule 1 on rack2.obj, or apply the program as it is." in say
-    (choice,) = (k for k, select in enumerate(outcome.open_rule.selections) if select == {"top"})
-    project.add_answer(choose(outcome.open_rule, choice))
-    assert project.status(workers=0).outdated
-    outcome = project.synthesize()
-    assert isinstance(outcome, Found) and outcome.unambiguous
-    assert str(project.program()) == HIGHEST
-    status = project.status(workers=0)
-    assert (status.outdated, status.question) == (False, None)
-
-
-@pytest.mark.slow
-def test_nobody_is_asked_who_applied_the_program_as_it_is(tmp_path: Path) -> None:
-    project = ambiguous(tmp_path)
-    project.synthesize()
-    list(project.apply(execution=IN_PROCESS))
-    status = project.status(workers=0)
-    assert status.question and (status.next.command or "").startswith("meshforge review")
-
-
-def test_an_answer_taken_back_is_asked_for_again(tmp_path: Path) -> None:
-    project = ambiguous(tmp_path)
-    said = project.add_answer(Answer(1, SHELVED, ["top"]))
-    project.synthesize()
-    project.take_back(said)
-    assert project.status(workers=0).outdated
-    assert isinstance(project.synthesize(), Ambiguous)
 
 
 def test_labels_of_an_answered_asset_are_learned_from(tmp_path: Path) -> None:
@@ -142,18 +102,3 @@ def test_a_family_reads_assets_once_and_labels_anew(tmp_path: Path) -> None:
     assert [name for name in before if before[name] is not after[name]] == [SHELVED]
     assert after[SHELVED].labels == project.mesh(SHELVED).labels
     assert [a.shape for a in before[SHELVED].hulls] == [b.shape for b in after[SHELVED].hulls]
-
-
-def test_an_asset_is_shown_as_the_rule_meets_it(tmp_path: Path) -> None:
-    project = ambiguous(tmp_path)
-    program = Program.parse("labels board, leg, knob\nIs(leg) => Merge\nIs(board) => Delete\n")
-    assert {hull.name for hull in project.mesh_before_rule(SHELVED, 2, program).hulls} == {
-        "top",
-        "shelf",
-        "knob",
-        "left~1",
-    }
-    assert project.mesh_before_rule(SHELVED, 1, program).index == project.mesh(SHELVED).index
-    assert (
-        "left" in project.mesh_before_rule(PLAIN, 2, program).index
-    )  # there it was shown that the rule does not take it

@@ -19,7 +19,6 @@ from meshforge.project import (
     NewAssetResult,
     Project,
     RebuildSettings,
-    new_assets,
     prepare_new_assets,
     read_preparation_plan,
 )
@@ -91,25 +90,11 @@ def test_what_was_guessed_is_no_surer_than_the_guess(folder: Path) -> None:
     assert left.probability == pytest.approx(1 - left.spanning[0].chance), "what likely spans parts is likely wrong"
 
 
-def test_without_a_rebuild_it_is_said_which_hulls_likely_span_parts(folder: Path) -> None:
-    found = prepare(folder, rebuild=False)["c.urdf"]
-    assert found.rebuilt == () and [span.hull for span in found.spanning] == ["base/h0"]
-    assert found.describe()[0].endswith(": left as it is")
-    assert not (folder / "aside/prepared/c.urdf").exists()
-    assert found.to_json()["spanning"][0]["hull"] == "base/h0" and found.to_json()["rebuilt"] == []
-
-
 def test_what_is_less_sure_than_the_project_asks_is_left_and_named(folder: Path) -> None:
     path = folder / "p/preparation.json"
     path.write_text(json.dumps(json.loads(path.read_text()) | {"min_confidence": 0.999}))
     found = prepare(folder)["c.urdf"]
     assert found.rebuilt == () and [span.hull for span in found.spanning] == ["base/h0"]
-
-
-def test_nothing_is_looked_for_where_the_project_does_not_say_so(folder: Path) -> None:
-    (folder / "p/preparation.json").unlink()
-    found = prepare(folder)["c.urdf"]
-    assert (found.rebuilt, found.spanning) == ((), ()) and len(found.guesses) == 4
 
 
 @pytest.mark.slow
@@ -118,33 +103,8 @@ def test_the_same_alone_and_together_here_and_in_workers(folder: Path) -> None:
     prepare(folder, ["d.urdf"], "alone")
     prepare(folder, ["d.urdf", "c.urdf"], "workers", execution=ExecutionOptions(workers=2))
     together, workers = tree(folder / "aside"), tree(folder / "workers")
-    assert len(together) == 8 and workers == together
+    assert len(together) == 6 and workers == together
     assert tree(folder / "alone") == {name: one for name, one in together.items() if "d.urdf" in str(name)}
-
-
-def test_what_was_prepared_of_the_same_is_not_prepared_again(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    done = list[str]()
-
-    def count(task: object, work: NewAsset) -> object:
-        done.append(work.id)
-        return prepare_one(task, work)  # type: ignore[arg-type]
-
-    prepare_one = new_assets._prepare
-    monkeypatch.setattr(new_assets, "_prepare", count)
-    first = prepare(folder)
-    again = prepare(folder)
-    assert done == ["c.urdf", "d.urdf"]
-    assert [(one.describe(), one.to_json()) for one in again.values()] == [
-        (one.describe(), one.to_json()) for one in first.values()
-    ]
-    (folder / "aside/labels/c.urdf.json").unlink()
-    with (folder / "new/d_seen.obj").open("a") as file:
-        file.write("# changed\n")
-    prepare(folder)
-    assert done[2:] == ["c.urdf", "d.urdf"], "what was made of it, or it, is another now"
-    Project.open(folder / "p").set_labels("a.urdf", {"base/h4": None})
-    prepare(folder)
-    assert done[4:] == ["c.urdf", "d.urdf"], "the family says something else now"
 
 
 def test_labels_that_a_new_asset_has_stay(folder: Path) -> None:

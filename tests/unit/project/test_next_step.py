@@ -104,12 +104,6 @@ def test_the_results_that_show_most_are_reviewed_first_as_far_as_nobody_did() ->
     assert step_with(*rows).kind == "export"
 
 
-def test_a_wrong_result_comes_before_those_that_show_most() -> None:
-    wrong = replace(DONE, id="b", review="wrong")
-    step = choose(DONE, wrong, has_program=True, last_run=LastRun("found", sample=("a", "b")))
-    assert (step.asset, step.text) == ("b", "1 result wrong: correct them, first b.")
-
-
 def test_a_run_without_a_program_leads_to_what_came_nearest() -> None:
     step = choose(SHOWN, last_run=LastRun("none", nearest=(2, "b")))
     assert (step.kind, step.asset) == ("learn", "b")
@@ -163,12 +157,6 @@ def test_unsure_labels_are_checked_unless_something_else_is_less_work() -> None:
     assert choose(whole, doubtful, propagation=PropagationState(2)).kind == "check-labels"
 
 
-def test_who_has_begun_to_demonstrate_is_not_asked_to_label() -> None:
-    whole, doubtful = asset("w"), asset("d", "muuum")
-    assert choose(BARE, whole, doubtful, has_program=True).kind == "apply"
-    assert choose(BARE, replace(whole, demonstrated=True), doubtful, propagation=PropagationState(9)).kind == "learn"
-
-
 def rows(*probabilities: float) -> list[AssetStatus]:
     return [
         replace(SURE, id=name, sign_off="sure" if p >= 0.95 else "needs review", probability=p)
@@ -209,8 +197,3 @@ def test_what_is_asked_comes_before_results_are_written_and_what_is_flagged_befo
     assert choose(SHOWN, **FOUND).text == "Apply the program: a is not up to date."
     flagged = replace(SURE, id="f", flags=("h1 is gone",))
     assert (choose(SURE, flagged, **FOUND).kind, choose(SURE, flagged, **FOUND).asset) == ("correct", "f")
-
-
-def test_excluded_assets_ask_for_nothing() -> None:
-    excluded = replace(SHOWN, id="x", excluded="not solved", sign_off="excluded")
-    assert choose(SURE, excluded, **FOUND).text == "1 result signed off: check and export."

@@ -9,9 +9,8 @@ from pathlib import Path
 import pytest
 
 from meshforge.batch import IN_PROCESS
-from meshforge.language import Program
 from meshforge.project import Project, Status
-from tests.unit.batch.families import label_of, obj, table_boxes, write_table, write_tables
+from tests.unit.batch.families import label_of, table_boxes, write_table
 from tests.unit.cli.in_process import Run, runner
 from tests.unit.project.shelves import ambiguous
 from tests.unit.project.tables import FIRST, SECOND, THIRD, applied, demonstrated, fresh, labelled, learned
@@ -192,12 +191,3 @@ def test_an_unreadable_asset_is_named_and_not_only_applied_to_again(tmp_path: Pa
     )
     list(Project.open(project.folder).apply(execution=IN_PROCESS))
     assert of(project).next.text == say
-
-
-def test_a_program_without_labels_asks_for_none(tmp_path: Path) -> None:
-    write_tables(tmp_path / "assets", 2)
-    (tmp_path / "assets/plain.obj").write_text(obj(table_boxes()))
-    project = Project.create(tmp_path / "tables", [tmp_path / "assets"])
-    project.label("file")
-    project.accept(Program.parse("labels top\nAll => Merge\n"))
-    assert of(project).next.command == f"meshforge apply {project.folder}"

@@ -87,11 +87,6 @@ def test_assets_that_come_later_are_new_until_they_are_done(project: Project) ->
     assert find_new_assets(Project.open(project.folder)) == ({}, None)
 
 
-def test_what_is_done_to_some_assets_says_nothing_about_others(project: Project) -> None:
-    list(project.decompose(["a.urdf"], QUICK, execution=IN_PROCESS))
-    assert not project.layout.preparation_plan.exists()
-
-
 def test_a_damaged_plan_is_named(project: Project) -> None:
     project.layout.preparation_plan.write_text('{"min_confidence": "often"}')
     with pytest.raises(ProjectError, match=r"preparation\.json"):

@@ -9,11 +9,10 @@ import pytest
 
 from meshforge.batch import IN_PROCESS, ExecutionOptions, Failed
 from meshforge.batch import status_of as word
-from meshforge.batch.outcome import Edited
 from meshforge.common import AssetError, ProjectError
 from meshforge.formats import load
 from meshforge.language import Delete, Merge
-from meshforge.project import PreparationResult, Project
+from meshforge.project import Project
 from meshforge.synthesis import Found, Step
 from tests.unit.batch.families import tree
 from tests.unit.batch.preparation.samples import QUICK, VOXELS, write_boxes, write_stand
@@ -58,26 +57,6 @@ def label_all(project: Project, asset: str) -> None:
 
 
 @pytest.mark.slow
-def test_what_has_no_hulls_gets_some_in_every_asset(tmp_path: Path) -> None:
-    project = fresh(tmp_path)
-    before = tree(tmp_path / "assets")
-    assert names(project, HIGH) == ["frame/foot"]
-    done = list(project.decompose(settings=QUICK, execution=IN_PROCESS))
-    assert [(d.asset, d.problems, d.notes) for d in done] == [(HIGH, (), ()), (LOW, (), ())]
-    assert names(project, HIGH) == ["frame/foot", *done[0].hulls]
-    assert project.mesh(HIGH).hulls[1].parent == "frame/body"
-    assert tree(tmp_path / "assets") == before
-
-
-def test_doing_it_twice_does_nothing_new(tmp_path: Path) -> None:
-    project = decomposed(tmp_path)
-    before = tree(project.folder / "prepared")
-    again = list(Project.open(project.folder).decompose(settings=VOXELS, execution=IN_PROCESS))
-    assert again == [PreparationResult(HIGH), PreparationResult(LOW)]
-    assert tree(project.folder / "prepared") == before
-
-
-@pytest.mark.slow
 def test_the_files_do_not_depend_on_the_workers(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     found = []
     for workers in (0, 2):
@@ -95,13 +74,6 @@ def test_one_asset_that_fails_is_told_and_the_others_are_done(tmp_path: Path) ->
     high, low = project.decompose(settings=QUICK, execution=ExecutionOptions(workers=1))
     assert len(high.problems) == 1 and HIGH in high.problems[0]
     assert len(low.made) == 2
-
-
-@pytest.mark.slow
-def test_an_asset_that_takes_too_long_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("MESHFORGE_CACHE", str(tmp_path / "cache"))
-    (done,) = fresh(tmp_path).decompose([HIGH], execution=ExecutionOptions(workers=1, timeout=0.05))
-    assert "longer than 0.05 seconds" in done.problems[0]
 
 
 def test_stopping_in_the_midst_keeps_what_is_done(tmp_path: Path) -> None:
@@ -147,12 +119,6 @@ def test_the_program_runs_on_what_is_prepared(tmp_path: Path) -> None:
     assert [word(o) for o in project.apply(execution=IN_PROCESS)] == ["skipped"] * 2
 
 
-def test_an_asset_that_only_its_preparation_changes_is_edited(tmp_path: Path) -> None:
-    project = decomposed(tmp_path)
-    (project.folder / "program.mf").write_text("labels gone\nGeo(All, +Z) => Each(Merge)\n")
-    assert all(isinstance(outcome, Edited) for outcome in project.apply(execution=IN_PROCESS))
-
-
 def test_outputs_programs_and_surveys_know_when_a_preparation_changed(tmp_path: Path) -> None:
     project = decomposed(tmp_path)
     for asset in (HIGH, LOW):
@@ -168,18 +134,6 @@ def test_outputs_programs_and_surveys_know_when_a_preparation_changed(tmp_path: 
         "2 pieces decomposed into 4 hulls by coacd",
         "frame/foot cut into 2 hulls",
     )
-
-
-def test_an_outdated_preparation_fails_in_applying_and_is_mended_by_doing_it_again(tmp_path: Path) -> None:
-    project = decomposed(tmp_path)
-    (project.folder / "program.mf").write_text("All => Merge\n")
-    list(project.apply(execution=IN_PROCESS))
-    path = tmp_path / "assets" / HIGH
-    path.write_text(path.read_text().replace('scale="1 1 0.5"', 'scale="1 1 0.7"'))
-    first, second = project.apply(execution=IN_PROCESS)
-    assert isinstance(first, Failed) and "out of date" in first.error and word(second) == "skipped"
-    list(project.decompose(settings=QUICK, execution=IN_PROCESS))
-    assert [word(o) for o in project.apply(execution=IN_PROCESS)] == ["edited", "skipped"]
 
 
 def test_an_asset_whose_preparation_cannot_be_read_is_not_edited_without_it(tmp_path: Path) -> None:
@@ -211,44 +165,6 @@ def test_labels_of_a_split_hull_go_to_its_parts_and_come_back(tmp_path: Path) ->
 def label_file(project: Project, asset: str) -> dict[str, str]:
     """The labels that are kept, by hull."""
     return {name: label.name for name, label in project.labels(asset).labels.items()}
-
-
-def test_labels_of_a_prepared_hull_that_is_split_come_back(tmp_path: Path) -> None:
-    project = decomposed(tmp_path)
-    label_all(project, HIGH)
-    before = label_file(project, HIGH)
-    project.cut(HIGH, "cover/geom0#0", *across(project, "cover/geom0#0"))
-    once = label_file(project, HIGH)
-    assert once.keys() - before.keys() == {"cover/geom0#0#0", "cover/geom0#0#1"}
-    project.cut(HIGH, "cover/geom0#0#0", *across(project, "cover/geom0#0#0"))
-    assert not any("no hull takes over" in note for note in project.unprepare(HIGH).notes)
-    assert label_file(project, HIGH) == once
-    project.unprepare(HIGH)
-    assert label_file(project, HIGH) == before
-
-
-def across(project: Project, hull: str) -> tuple[list[float], tuple[float, float, float]]:
-    """A plane through the middle of a hull."""
-    return project.mesh(HIGH).hull_of(hull).aabb.center.tolist(), (1, 0, 0)
-
-
-def test_labels_of_split_hulls_go_to_those_of_the_same_decomposition_done_again(tmp_path: Path) -> None:
-    project = decomposed(tmp_path)
-    label_all(project, HIGH)
-    before = label_file(project, HIGH)
-    project.cut(HIGH, "cover/geom0#0", *across(project, "cover/geom0#0"))
-    list(project.decompose([HIGH], QUICK, again=True, execution=IN_PROCESS))
-    assert label_file(project, HIGH) == before
-
-
-def test_labels_of_a_split_go_back_to_the_hull_though_the_asset_changed(tmp_path: Path) -> None:
-    project = decomposed(tmp_path)
-    label_all(project, HIGH)
-    project.cut(HIGH, "frame/foot", (0, 0, -1), (1, 0, 0))
-    path = tmp_path / "assets" / HIGH
-    path.write_text(path.read_text().replace("4 1 1", "4 1 1.2"))
-    project.unprepare(HIGH)
-    assert project.mesh(HIGH).hull_of("frame/foot").label == "foot"
 
 
 def test_labels_go_to_the_hulls_of_another_decomposition_that_lie_there(tmp_path: Path) -> None:
@@ -313,13 +229,6 @@ def test_labels_stay_where_all_is_taken_back_of_an_asset_that_cannot_be_read(tmp
     assert done.undone and "its labels stay as they are" in done.notes[0]
     assert label_file(project, HIGH) == before
     assert not (project.folder / "prepared" / HIGH).exists()
-
-
-def test_a_preparation_whose_folder_was_deleted_is_no_more(tmp_path: Path) -> None:
-    project = decomposed(tmp_path)
-    shutil.rmtree(project.folder / "prepared")
-    assert names(project, HIGH) == ["frame/foot"]
-    assert project.status(workers=0).assets[0].sources == 2
 
 
 def test_the_status_says_what_could_be_decomposed(tmp_path: Path) -> None:

@@ -11,9 +11,9 @@ from meshforge.batch import status_of as word
 from meshforge.common import DemonstrationError, MeshForgeError, ProgramError, ProjectError
 from meshforge.formats import load
 from meshforge.labels import FileLabeler
-from meshforge.language import Delete, Is, LandmarkPair, Merge, Orient, Program, Replace
+from meshforge.language import Delete, Is, LandmarkPair, Merge, Orient, Replace
 from meshforge.project import Project
-from meshforge.synthesis import Found, NoProgram, Step
+from meshforge.synthesis import Step
 from tests.unit.batch.families import PROGRAM, tree, write_table, write_urdf_table
 from tests.unit.project.tables import FIRST, LEGS, SECOND, STEPS, THIRD, applied, demonstrated, fresh, labelled, learned
 
@@ -35,15 +35,6 @@ def test_ids_stay_when_more_assets_are_named(tmp_path: Path) -> None:
     toml = project.folder / "meshforge.toml"
     toml.write_text(toml.read_text().replace("/*.obj", "/**/*.obj"))
     assert Project.open(project.folder).assets() == ("a.obj", "er/b.obj")
-
-
-def test_an_asset_outside_of_the_base_is_refused(tmp_path: Path) -> None:
-    project = fresh(tmp_path)
-    write_table(tmp_path / "other/a.obj")
-    toml = project.folder / "meshforge.toml"
-    toml.write_text(toml.read_text().replace('"../assets"]', '"../assets", "../other"]'))
-    with pytest.raises(ProjectError, match="lies outside"):
-        Project.open(project.folder)
 
 
 def test_a_project_is_not_made_twice(tmp_path: Path) -> None:
@@ -95,18 +86,6 @@ def test_settings_are_changed_in_place(tmp_path: Path) -> None:
         project.set_vocabulary(["top", "top"])
 
 
-def test_labels_are_kept_by_id_and_come_back_with_the_mesh(tmp_path: Path) -> None:
-    project = fresh(tmp_path)
-    project.set_vocabulary(["top", "leg"])
-    report = project.set_labels(SECOND, {"top": "top", "left_low": "leg"})
-    assert (report.taken, report.unlabelled) == (2, 4)
-    assert (project.folder / "labels" / f"{SECOND}.json").exists()
-    mesh = project.mesh(SECOND)
-    assert {h.name: h.source for h in mesh.hulls if h.label} == {"top": "user", "left_low": "user"}
-    project.set_labels(SECOND, {"top": None})
-    assert project.mesh(SECOND).hull_of("top").label is None
-
-
 def test_unknown_hulls_and_labels_in_a_file_are_told_with_the_nearest(tmp_path: Path) -> None:
     project = fresh(tmp_path)
     project.set_vocabulary(["top", "leg", "misc"])
@@ -121,10 +100,6 @@ def test_unknown_hulls_and_labels_in_a_file_are_told_with_the_nearest(tmp_path: 
         "there is no hull 'left_lo'; did you mean 'left_low'?",
         "top: the label 'topp' is not in the vocabulary; did you mean 'top'?",
     )
-
-
-def test_a_project_without_a_vocabulary_takes_that_of_the_files(tmp_path: Path) -> None:
-    assert labelled(tmp_path).vocabulary == ("top", "leg", "misc")
 
 
 def test_wrong_labels_given_by_hand_are_refused_whole(tmp_path: Path) -> None:
@@ -193,28 +168,6 @@ def test_a_damaged_demonstration_is_named(tmp_path: Path, text: str, message: st
     assert str(path) in caught.value.message
 
 
-def test_a_program_is_learned_and_kept(tmp_path: Path) -> None:
-    project = demonstrated(tmp_path)
-    outcome = project.synthesize()
-    assert isinstance(outcome, Found)
-    assert (project.folder / "program.mf").read_text() == str(outcome.program)
-    assert project.program() == outcome.program == Program.parse(PROGRAM)
-
-
-def test_learning_need_not_be_accepting(tmp_path: Path) -> None:
-    project = demonstrated(tmp_path)
-    assert isinstance(project.synthesize(accept=False), Found)
-    assert project.program() is None
-
-
-def test_nothing_is_accepted_where_no_program_was_found(tmp_path: Path) -> None:
-    project = labelled(tmp_path)
-    project.demonstrate(FIRST, [Step(1, {"left_low"}, Delete())])
-    project.demonstrate(SECOND, [Step(1, {"right_low"}, Delete())])
-    assert isinstance(project.synthesize(), NoProgram)
-    assert project.program() is None
-
-
 def test_learning_without_demonstrations_says_what_to_do(tmp_path: Path) -> None:
     with pytest.raises(ProjectError, match="nothing is demonstrated"):
         labelled(tmp_path).synthesize()
@@ -244,17 +197,6 @@ def test_the_program_is_applied_into_the_project(tmp_path: Path) -> None:
 def test_applying_without_a_program_says_what_to_do(tmp_path: Path) -> None:
     with pytest.raises(ProjectError, match="meshforge synthesize"):
         fresh(tmp_path).apply()
-
-
-def test_templates_come_from_their_folder_and_must_be_convex(tmp_path: Path) -> None:
-    project = labelled(tmp_path)
-    write_table(project.folder / "templates/knob.obj")
-    assert len(project.templates(["knob.obj"])["knob.obj"].shapes) == 6
-    with pytest.raises(ProgramError, match=r'"bar\.obj" is not there'):
-        project.templates(["bar.obj"])
-    (project.folder / "templates/bar.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\n")
-    with pytest.raises(ProgramError, match=r'"bar\.obj" is no convex hull'):
-        project.templates(["bar.obj"])
 
 
 def test_an_edit_by_hand_is_replayed_after_the_program(tmp_path: Path) -> None:
@@ -293,12 +235,6 @@ def test_an_edit_by_hand_in_a_turned_frame_leaves_the_other_hulls_alone(tmp_path
     assert [h.name for h in after.hulls] == ["left_low~1", "right_low~1"]
     for hull in after.hulls:
         assert hull.vertices.tobytes() == before.hull_of(hull.name).vertices.tobytes()
-
-
-def test_an_edit_by_hand_on_a_hull_that_is_not_there_is_refused(tmp_path: Path) -> None:
-    project = applied(tmp_path)
-    with pytest.raises(ProjectError, match="no hull 'crumb'"):
-        project.correct(FIRST, ["crumb"], Delete())
 
 
 def test_assets_of_a_project_are_never_written_to(tmp_path: Path) -> None:

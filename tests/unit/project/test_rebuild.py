@@ -88,11 +88,6 @@ def test_another_engine_makes_the_fine_pieces_where_it_is_asked_for(project: Pro
     assert engines == ["coacd"] * 3, "pieces of another engine are not taken for its own"
 
 
-def test_only_named_assets_are_rebuilt(project: Project) -> None:
-    assert [result.asset for result in rebuild(project, "a.urdf")] == ["a.urdf"]
-    assert len(project.mesh("c.urdf").hulls) == 4
-
-
 def test_bad_input_is_named(project: Project, tmp_path: Path) -> None:
     with pytest.raises(UsageError, match=r"--min-confidence 1\.5: a probability is needed"):
         rebuild(project, sure=1.5)
@@ -111,13 +106,6 @@ def test_a_hull_that_stands_for_nothing_is_named_and_left(project: Project, tmp_
     (result,) = rebuild(Project.open(project.folder), "c.urdf")
     assert result.made == ()
     assert any("stands for no surface: left as it is" in note for note in result.notes)
-
-
-def test_a_hull_of_a_body_whose_surface_is_flat_is_named_and_left(project: Project, tmp_path: Path) -> None:
-    path = write_stool(tmp_path / "assets", "c", boxes(0.18, 0.38), coarse(boxes(0.18, 0.38)))
-    (path.parent / "c_seen.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
-    (result,) = rebuild(Project.open(project.folder), "c.urdf", sure=0.5)
-    assert result.made == () and len([note for note in result.notes if "stands for no surface" in note]) == 4
 
 
 def test_a_broken_asset_does_not_stop_the_others(project: Project, tmp_path: Path) -> None:
@@ -198,15 +186,6 @@ def test_what_a_rebuild_made_is_not_rebuilt_again(project: Project, monkeypatch:
     (result,) = rebuild(project, "c.urdf")
     assert not result.made and not result.notes
     assert files(project).keys() == before.keys()
-
-
-def test_a_dry_run_names_what_would_be_rebuilt_and_writes_nothing(project: Project) -> None:
-    before = {path: path.read_bytes() for path in project.folder.rglob("*") if path.is_file()}
-    (_, _, result) = rebuild(project, dry_run=True)
-    assert (len(result.planned), sum(len(entry.made) for entry in result.planned)) == (4, 5)
-    assert result.planned[0].remark.startswith("base/h0 holds seat and leg, ")
-    assert {entry.remark for entry in result.planned[1:]} == {"made anew with its body"}
-    assert {path: path.read_bytes() for path in project.folder.rglob("*") if path.is_file()} == before
 
 
 def test_what_is_less_sure_than_is_asked_for_is_named_and_left(project: Project) -> None:

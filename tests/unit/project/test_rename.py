@@ -47,25 +47,6 @@ def test_a_label_is_renamed_wherever_the_project_says_it_and_nothing_else_change
     assert says(project) == renamed
 
 
-def test_what_was_said_means_the_same_by_the_other_name(tmp_path: Path) -> None:
-    project = saying(tmp_path)
-    project.rename_label("leg", "foot")
-    assert project.vocabulary == ("top", "foot", "misc")
-    assert str(project.orientation and project.orientation.pairs[0].start) == "Is(foot)"
-    assert {hull.label for hull in project.mesh(THIRD).hulls} == {"top", "foot", "misc"}
-    assert [step.label for step in project.steps(FIRST)] == [None, "foot"]
-    assert [edit.label for edit in project.manual_edits(SECOND)] == ["foot"]
-    said = project.feedback()
-    assert said.answers[f"2:{THIRD}"].action == "Merge as foot"
-    assert tuple(said.answers_and_fixes) == (f"2:{THIRD}", f"{FIRST}#crumb=foot", f"{SECOND}#top=foot")
-    assert project.take_back(f"{FIRST}#crumb=foot") is None
-    assert project.mesh(FIRST).hull_of("crumb").label == "misc"
-    program = project.program()
-    assert program and program.labels == ("top", "foot", "misc")
-    assert str(program.rules[0]) == "Diff(Attach(Is(foot), Is(top)), Geo(Is(foot), +Z)) => Merge as foot"
-    assert "# the legs" in str(program)
-
-
 def test_a_learned_program_stands_as_it_stood(tmp_path: Path) -> None:
     project = learned(tmp_path / "a")
     project.rename_label("leg", "foot")
@@ -76,14 +57,6 @@ def test_a_learned_program_stands_as_it_stood(tmp_path: Path) -> None:
     by_hand = saying(tmp_path / "b")
     by_hand.rename_label("leg", "foot")
     assert by_hand.program_state().by_hand
-
-
-def test_what_is_learned_after_a_renaming_is_the_renamed_program(tmp_path: Path) -> None:
-    project = learned(tmp_path)
-    project.rename_label("leg", "foot")
-    renamed = str(project.program())
-    project.synthesize()
-    assert str(project.program()) == renamed
 
 
 def test_what_an_inferred_label_replaced_is_renamed_too(tmp_path: Path) -> None:
@@ -118,14 +91,6 @@ def test_a_label_keeps_its_description_under_its_other_name(tmp_path: Path) -> N
     project.rename_label("leg", "chair leg")
     assert project.settings.vlm.descriptions == {"chair leg": "what it stands on", "panel": "boards"}
     assert 'panel = "boards"  # all of them\n' in project.layout.settings.read_text()
-
-
-def test_remarks_in_the_settings_stay(tmp_path: Path) -> None:
-    project = labelled(tmp_path)
-    toml = project.folder / "meshforge.toml"
-    before = toml.read_text()
-    project.rename_label("leg", "foot")
-    assert toml.read_text() == before.replace('"leg"', '"foot"')
 
 
 @pytest.mark.parametrize(

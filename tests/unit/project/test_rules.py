@@ -37,21 +37,6 @@ def three(folder: Path) -> Project:
     return project
 
 
-def test_a_rule_is_moved_in_all_demonstrations(tmp_path: Path) -> None:
-    project = three(tmp_path)
-    project.move_rule(3, 1)
-    assert said(project, FIRST) == [(1, {"left_low"}, ACTIONS[2]), (2, {"crumb"}, ACTIONS[0]), (3, {"top"}, ACTIONS[1])]
-    assert said(project, SECOND) == [(1, None, ACTIONS[2]), (2, {"crumb"}, ACTIONS[0])]
-
-
-def test_a_shorter_demonstration_is_filled_up_only_as_far_as_needed(tmp_path: Path) -> None:
-    project = three(tmp_path)
-    project.move_rule(2, 3)
-    assert said(project, SECOND) == [(1, {"crumb"}, ACTIONS[0])]
-    project.move_rule(1, 3)
-    assert said(project, SECOND) == [(1, None, ACTIONS[2]), (2, None, ACTIONS[1]), (3, {"crumb"}, ACTIONS[0])]
-
-
 def test_a_rule_is_taken_out_of_all_demonstrations(tmp_path: Path) -> None:
     project = three(tmp_path)
     project.delete_rule(1)
@@ -92,11 +77,6 @@ def test_a_rule_that_does_not_exist_is_refused(tmp_path: Path, rule: int, to: in
     with pytest.raises(UsageError, match="rules 1 to 3 are demonstrated"):
         project.move_rule(rule, to)
     assert tree(project.folder) == before
-
-
-def test_where_nothing_is_demonstrated_there_is_no_rule(tmp_path: Path) -> None:
-    with pytest.raises(UsageError, match="there is no rule 1: nothing is demonstrated"):
-        labelled(tmp_path).delete_rule(1)
 
 
 def test_steps_that_someone_numbered_otherwise_are_refused_with_nothing_changed(tmp_path: Path) -> None:

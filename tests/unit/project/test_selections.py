@@ -146,13 +146,6 @@ def test_an_answer_about_the_parts_since_is_not_lost_by_undoing_the_split(tmp_pa
         project.unprepare(FIRST)
 
 
-def test_a_fix_that_was_taken_back_is_none_of_the_parts(tmp_path: Path) -> None:
-    project = applied(tmp_path)
-    project.take_back(demonstrations.reject(project, LabelFix(FIRST, "crumb", "misc", "leg")))
-    project.cut(FIRST, "crumb", *PLANE)
-    assert not project.feedback().fixes
-
-
 def test_a_split_is_undone_and_done_again_in_a_project_whose_history_is_gone(tmp_path: Path) -> None:
     project = said(tmp_path)
     project.cut(FIRST, "crumb", *PLANE)
@@ -161,16 +154,6 @@ def test_a_split_is_undone_and_done_again_in_a_project_whose_history_is_gone(tmp
     assert done.undone == ("crumb cut into 2 hulls",)
     assert any("crumb#0, crumb#1, which it has no more: demonstrate it anew" in note for note in done.notes)
     assert "crumb" in project.mesh(FIRST).index
-
-
-def test_a_journal_of_an_earlier_version_is_no_hindrance(tmp_path: Path) -> None:
-    project = said(tmp_path)
-    project.cut(FIRST, "crumb", *PLANE)
-    shutil.rmtree(project.layout.history)
-    (project.layout.preparation(FIRST) / "selections.json").write_text("{")
-    assert project.status(workers=0).assets[0].error is None
-    project.unprepare(FIRST)
-    assert not project.layout.preparation(FIRST).exists()
 
 
 def test_undone_steps_are_not_done_again_by_another_undo(tmp_path: Path) -> None:
@@ -203,29 +186,6 @@ def test_parts_get_the_labels_of_what_split_their_hull_and_a_persons_comes_back(
     notes = project.unprepare(FIRST).notes
     assert project.mesh(FIRST).hull_of("top").label == "misc"
     assert "top gets its label from its parts, which were labelled since it was split" in notes
-
-
-@pytest.mark.slow
-@needs_fork
-def test_a_killed_split_or_undo_loses_nothing_and_flags_what_is_gone(tmp_path: Path) -> None:
-    project = said(tmp_path)
-    before = kept(project)
-    shutil.copytree(project.folder, tmp_path / "before")
-
-    def split_anew() -> None:
-        shutil.rmtree(project.folder)
-        shutil.copytree(tmp_path / "before", project.folder)
-        project.cut(FIRST, "crumb", *PLANE)
-
-    for _ in deaths(split_anew, costly=True):
-        here = project.mesh(FIRST).index
-        if not project.steps(FIRST)[0].select <= here.keys():  # type: ignore[operator]
-            assert any(flag.startswith("crumb, ") for flag in project.status(workers=0).assets[0].flags)
-        if project.preparation(FIRST).steps:
-            project.unprepare(FIRST)
-            assert {k: v for k, v in kept(project).items() if "prepared" not in k and "labels" not in k} == {
-                k: v for k, v in before.items() if "labels" not in k
-            }
 
 
 def include_again(project: Project, copy: Path) -> None:

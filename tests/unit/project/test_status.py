@@ -12,7 +12,6 @@ from meshforge.common import ProjectError
 from meshforge.formats import load
 from meshforge.language import Delete, Program
 from meshforge.project import AssetStatus, ProgramState, Project, Status, suggest_first_demonstration
-from meshforge.synthesis import Step
 from tests.unit.batch.families import PROGRAM, write_table
 from tests.unit.project.tables import FIRST, SECOND, STEPS, THIRD, applied, demonstrated, labelled, learned
 
@@ -96,22 +95,6 @@ def test_a_label_that_nothing_uses_makes_no_output_stale_and_leaves_what_was_acc
     assert (asset(project, FIRST).review, asset(project, FIRST).void) == ("accepted", ())
 
 
-def test_an_edit_by_hand_makes_an_output_stale(tmp_path: Path) -> None:
-    project = applied(tmp_path)
-    project.correct(FIRST, ["top"], Delete())
-    assert asset(project, FIRST).stale == ("manual edits",)
-
-
-def test_a_template_that_changed_makes_outputs_stale(tmp_path: Path) -> None:
-    project = learned(tmp_path)
-    (project.folder / "program.mf").write_text('labels top\nIs(top) => Replace("slab.obj")\n')
-    write_table(project.folder / "templates/slab.obj")
-    list(project.apply(execution=IN_PROCESS))
-    assert asset(project, FIRST).stale == ()
-    write_table(project.folder / "templates/slab.obj", 2.0)
-    assert asset(project, FIRST).stale == ("templates",)
-
-
 def test_a_failure_is_told_with_its_message(tmp_path: Path) -> None:
     project = learned(tmp_path)
     (project.folder / "labels" / f"{THIRD}.json").unlink()
@@ -119,16 +102,6 @@ def test_a_failure_is_told_with_its_message(tmp_path: Path) -> None:
     found = asset(project, THIRD)
     assert found.output == "failed" and found.error and "no labels" in found.error
     assert of(project).next.kind == "label-files"
-
-
-def test_an_asset_that_cannot_be_read_is_told_and_does_not_hide_the_others(tmp_path: Path) -> None:
-    project = labelled(tmp_path)
-    (tmp_path / "assets" / SECOND).write_text("nothing of use")
-    found = of(project)
-    assert [a.hulls for a in found.assets] == [6, None, 6]
-    assert found.assets[1].error
-    write_table(tmp_path / "assets" / SECOND)
-    assert [a.hulls for a in of(project).assets] == [6, 6, 6]
 
 
 def test_a_learned_program_is_outdated_when_what_it_was_learned_from_changes(tmp_path: Path) -> None:
@@ -175,11 +148,6 @@ def test_a_review_counts_until_the_output_changes(tmp_path: Path) -> None:
     assert project.feedback().verdicts.keys() == {FIRST}
 
 
-def test_only_an_output_can_be_reviewed(tmp_path: Path) -> None:
-    with pytest.raises(ProjectError, match="no output to be accepted"):
-        labelled(tmp_path).set_verdict(FIRST, "accepted")
-
-
 def test_several_outputs_are_reviewed_in_one_go_or_none_is(tmp_path: Path) -> None:
     project = applied(tmp_path)
     project.set_verdict([FIRST, THIRD], "accepted", "fine")
@@ -221,15 +189,6 @@ def test_the_next_step_for_some_assets_alone_counts_these(tmp_path: Path) -> Non
     assert (of(project).next.command or "").startswith("meshforge apply")
 
 
-def test_the_status_of_some_assets_does_not_forget_what_is_known_of_the_others(tmp_path: Path) -> None:
-    project = labelled(tmp_path)
-    of(project)
-    write_table(tmp_path / "assets" / FIRST, 4.0)
-    project.status([FIRST], workers=0)
-    survey = json.loads((project.folder / ".meshforge/survey.json").read_text())
-    assert list(survey["assets"]) == [FIRST, SECOND, THIRD]
-
-
 def test_labels_of_a_status_are_those_of_the_mesh(tmp_path: Path) -> None:
     project = labelled(tmp_path)
     before = asset(project, FIRST)
@@ -240,20 +199,6 @@ def test_labels_of_a_status_are_those_of_the_mesh(tmp_path: Path) -> None:
     assert found.names == tuple(hull.name for hull in mesh.hulls) != before.names
     assert found.labels == tuple(hull.annotation for hull in mesh.hulls)
     assert found.labelled == 5 and found.geometry != before.geometry
-
-
-def test_an_output_is_told_by_its_hulls_and_its_digest(tmp_path: Path) -> None:
-    project = applied(tmp_path)
-    first = asset(project, FIRST)
-    assert (first.hulls, first.after, first.manual_edits) == (6, 3, 0) and first.output_digest
-    project.correct(FIRST, ["top"], Delete())
-    list(project.apply(execution=IN_PROCESS))
-    again = asset(project, FIRST)
-    assert (again.after, again.manual_edits) == (2, 1)
-    assert again.output_digest not in (first.output_digest, None)
-    (tmp_path / "assets" / FIRST).write_text("nothing of use")
-    bad = asset(project, FIRST)
-    assert (bad.names, bad.labels, bad.geometry) == ((), (), "")
 
 
 def test_a_program_stands_by_what_it_was_learned_from(tmp_path: Path) -> None:
@@ -279,14 +224,6 @@ def test_in_a_clone_elsewhere_a_learned_program_is_a_learned_one_and_its_record_
     assert clone.program_state() == ProgramState()
     clone.synthesize()
     assert (clone.folder / "learned.json").read_bytes() == record
-
-
-def test_only_some_assets_are_edited_where_that_is_asked(tmp_path: Path) -> None:
-    project = learned(tmp_path)
-    assert [outcome.asset for outcome in project.apply([THIRD, FIRST], execution=IN_PROCESS)] == [FIRST, THIRD]
-    assert [a.output for a in of(project).assets] == ["edited", "none", "edited"]
-    with pytest.raises(ProjectError, match="there is no asset 'nobody'"):
-        project.apply(["nobody"])
 
 
 def test_a_damaged_memory_of_the_assets_is_made_anew(tmp_path: Path) -> None:
@@ -327,12 +264,6 @@ def test_the_status_is_plain_data_for_scripts(tmp_path: Path) -> None:
         "reasons": [],
     }
     assert data["next"]["command"].startswith("meshforge review")
-
-
-def test_an_open_step_counts_as_demonstrated(tmp_path: Path) -> None:
-    project = labelled(tmp_path)
-    project.demonstrate(FIRST, [Step(1, None, Delete())])
-    assert asset(project, FIRST).demonstrated
 
 
 def test_labels_of_hulls_that_changed_or_are_gone_are_doubtful(tmp_path: Path) -> None:

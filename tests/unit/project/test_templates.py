@@ -5,10 +5,9 @@ from pathlib import Path
 import pytest
 
 from meshforge.common import ProjectError
-from meshforge.language import Program, Replace
-from meshforge.synthesis import Step
+from meshforge.language import Program
 from tests.unit.batch.families import Corner, obj, tree
-from tests.unit.project.tables import FIRST, labelled
+from tests.unit.project.tables import labelled
 
 BOX: tuple[Corner, Corner] = ((0, 0, 0), (1, 1, 1))
 DATA = obj({"knob": BOX}).encode()
@@ -24,13 +23,6 @@ def test_a_template_that_was_taken_can_be_named_by_programs(tmp_path: Path) -> N
     assert len(project.templates(["knob.obj"])["knob.obj"].shapes) == 1
     project.accept(Program.parse('labels top\nIs(top) => Replace("knob.obj")\n'))
     assert project.status(workers=0).problem is None
-
-
-def test_a_template_takes_the_place_of_one_of_its_name(tmp_path: Path) -> None:
-    project = labelled(tmp_path)
-    for data in (DATA, obj({"knob": ((0, 0, 0), (1, 1, 2))}).encode()):
-        project.add_template("knob.obj", data)
-        assert (project.folder / "templates/knob.obj").read_bytes() == data
 
 
 def test_only_mesh_files_count_as_templates_and_those_in_folders_too(tmp_path: Path) -> None:
@@ -71,11 +63,3 @@ def test_a_name_that_would_be_taken_from_beside_the_program_is_refused(tmp_path:
     (project.folder / "knob.obj").write_bytes(DATA)
     with pytest.raises(ProjectError, match="beside the program"):
         project.add_template("knob.obj", DATA)
-
-
-def test_a_template_can_be_demonstrated_with(tmp_path: Path) -> None:
-    project = labelled(tmp_path)
-    project.add_template("a knob, round.obj", DATA)
-    project.demonstrate(FIRST, [Step(1, {"crumb"}, Replace("a knob, round.obj"))])
-    project.synthesize()
-    assert "a knob, round.obj" in str(project.program())

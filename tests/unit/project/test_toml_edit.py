@@ -52,10 +52,6 @@ def test_a_new_key_joins_those_above_it() -> None:
     assert "contact = 0.002\nextremity = 0.1\n\n[[note]]" in set_value(TEXT, "extremity", 0.1, "thresholds")
 
 
-def test_a_new_table_comes_last() -> None:
-    assert set_value(TEXT, "size", 2, "labelling") == TEXT + "\n[labelling]\nsize = 2\n"
-
-
 def test_a_table_within_a_table_is_found() -> None:
     text = '[a]\nx = 1\n[a.b]\n"y z" = "here"  # why\n[c]\n'
     assert set_value(text, "y z", "there", "a.b") == text.replace("here", "there")
@@ -66,10 +62,6 @@ def test_a_table_within_a_table_is_found() -> None:
 def test_none_takes_a_key_away() -> None:
     assert set_value(TEXT, "name", None) == TEXT.replace('name = "tables" # never change\n', "")
     assert set_value(TEXT, "absent", None) == TEXT
-
-
-def test_a_file_without_a_last_newline_is_completed() -> None:
-    assert set_value('a = "x"', "b", "y") == 'a = "x"\nb = "y"\n'
 
 
 def test_what_cannot_be_followed_is_refused_and_left_alone() -> None:

@@ -12,11 +12,10 @@ import pytest
 
 from meshforge.batch import IN_PROCESS
 from meshforge.language import Add, Delete, Program
-from meshforge.project import AssetStatus, Project, make_manual_edit, run_with_manual_edits
+from meshforge.project import Project, make_manual_edit, run_with_manual_edits
 from meshforge.store import ANSWERS
 from meshforge.synthesis import Answer, Step
 from tests.unit.batch.families import obj, write_tables, write_urdf_table
-from tests.unit.cli.in_process import Run, runner
 from tests.unit.project.tables import FIRST, SECOND, STEPS, THIRD
 
 ACCEPTED = "urdf/table.urdf"
@@ -72,11 +71,6 @@ def project(signed: Path, tmp_path: Path) -> Project:
     """A copy of that: every file has another inode and another time."""
     shutil.copytree(signed, tmp_path / "copy")
     return Project.open(tmp_path / "copy/tables")
-
-
-def status_of(project: Project, asset: str, *, verify: bool = False) -> AssetStatus:
-    found = Project.open(project.folder).status(workers=0, verify=verify)
-    return next(one for one in found.assets if one.id == asset)
 
 
 def find_voids(project: Project, *, verify: bool = False) -> Voids:
@@ -313,13 +307,6 @@ def test_without_a_program_all_that_it_made_is_void_but_what_a_person_accepted(p
     assert find_voids(project)[ACCEPTED] == ("program",)
 
 
-def test_after_the_next_review_what_is_still_sure_is_renewed(project: Project) -> None:
-    add_answer(project)
-    assert find_voids(project) == SHOWN
-    assert not project.review(0.5, execution=IN_PROCESS).taken_back
-    assert find_voids(project) == {}
-
-
 def test_an_output_that_is_not_as_it_was_written_is_signed_off_by_no_review(project: Project) -> None:
     edit_output(project)
     project.review(0.5, execution=IN_PROCESS)
@@ -337,23 +324,3 @@ def test_a_sign_off_of_an_earlier_version_is_void_until_a_review(project: Projec
     assert find_voids(project) == dict.fromkeys((FIRST, SECOND, THIRD), ("how sign-offs are kept",))
     project.review(0.5, execution=IN_PROCESS)
     assert find_voids(project) == {}
-
-
-@pytest.mark.parametrize(
-    ("change", "code"),
-    [(touch_all, 0), (delete_verdict, 1), (delete_demonstration, 1), (cut_outputs_to_nothing, 1)],
-)
-def test_the_command_says_by_its_exit_code_whether_all_is_signed_off(
-    project: Project,
-    change: Callable[[Project], None],
-    code: int,
-    monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
-) -> None:
-    monkeypatch.chdir(project.folder.parent)
-    run: Run = runner(monkeypatch, capsys)
-    assert run("status", "tables", "--signed-off").code == 0
-    change(project)
-    assert run("status", "tables", "--signed-off").code == code
-    told = run("status", "tables", "--signed-off", "--verify")
-    assert told.code == code

@@ -122,14 +122,6 @@ def test_an_edit_by_hand_counts_as_a_wrong_result_also_once_it_is_accepted(proje
     assert probabilities(accepted)[OTHER] == probabilities(edited)[OTHER]
 
 
-def test_an_edit_by_hand_of_a_corrected_result_leaves_what_was_meant(project: Project) -> None:
-    say(project, "wrong", selections={"1": THREE})
-    project.correct(ASKED, ["top"], Delete())
-    write(project, ASKED)
-    assert len(load(project.layout.edited / ASKED).hulls) == 4
-    assert ASKED in look(project).assessment.signed_off
-
-
 def test_a_demonstration_counts_more_than_what_was_said_of_a_result_before(project: Project) -> None:
     say(project, "wrong", selections={"1": THREE})
     project.demonstrate(ASKED, [Step(1, LEGS, Each(Merge()))])
@@ -157,14 +149,6 @@ def test_a_program_by_hand_that_contradicts_a_demonstration_is_the_first_reason_
     assert probabilities(found)[OTHER] < before[OTHER]
     accepted = say(project, "right", SHOWN)
     assert SHOWN in accepted.assessment.signed_off and ALSO in accepted.assessment.need_review
-
-
-def test_a_program_by_hand_that_does_what_was_shown_contradicts_nothing(project: Project) -> None:
-    before = look(project)
-    project.accept(Program.parse("labels top, leg, rail\n\nDiff(All, Union(Is(top), Is(rail))) => Each(Merge)\n"))
-    found = look(project)
-    assert {SHOWN, ALSO} <= set(found.assessment.signed_off)
-    assert probabilities(found)[SHOWN] == probabilities(before)[SHOWN]
 
 
 @pytest.fixture

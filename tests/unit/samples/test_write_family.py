@@ -28,14 +28,6 @@ def test_a_file_of_the_user_is_never_replaced(tmp_path: Path) -> None:
     assert (tmp_path / "table_05.obj").read_text() == "mine"
 
 
-def test_a_folder_of_the_user_gets_nothing_added(tmp_path: Path) -> None:
-    (tmp_path / "deep").mkdir()
-    (tmp_path / "deep" / "thesis.txt").write_text("mine")
-    with pytest.raises(UsageError, match=r"something else: deep/thesis\.txt"):
-        write_family(TABLES, tmp_path)
-    assert [path.name for path in tmp_path.iterdir()] == ["deep"]
-
-
 def test_what_a_user_added_beside_all_files_stays(tmp_path: Path) -> None:
     write_family(TABLES, tmp_path)
     (tmp_path / "notes.txt").write_text("mine")
@@ -51,9 +43,3 @@ def test_links_that_lead_nowhere_and_folders_in_place_of_files_are_refused(tmp_p
         with pytest.raises(UsageError, match=r"something else: table_01\.obj"):
             write_family(TABLES, tmp_path / folder)
     assert not (tmp_path / "gone.obj").exists()
-
-
-def test_a_file_in_place_of_the_folder_is_refused(tmp_path: Path) -> None:
-    (tmp_path / "tables").write_text("mine")
-    with pytest.raises(UsageError, match="this is a file"):
-        write_family(TABLES, tmp_path / "tables")

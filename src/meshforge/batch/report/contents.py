@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import base64
-from collections import Counter, defaultdict
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections import Counter
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from itertools import chain
-from typing import TYPE_CHECKING, Generic, Literal, TypeVar
+from typing import TYPE_CHECKING, Literal
 
 from meshforge.batch.execution import execute
 from meshforge.batch.jobs import AssetJob
-from meshforge.batch.outcome import MOST_SHOWN, RunSummary
+from meshforge.batch.outcome import RunSummary
 from meshforge.batch.preparation.storage import read_prepared
 from meshforge.batch.workers import EXECUTION_DEFAULTS, ExecutionOptions, WorkerFailure
 from meshforge.checks import Examination, Finding, draw_examination
@@ -36,8 +35,6 @@ ORDINARY: frozenset[ReportStatus] = frozenset({"edited", "written", "clean", "la
 BROKEN: frozenset[ReportStatus] = frozenset({"failed", "errors", "problems"})
 REMARKABLE = BROKEN | {"warnings", "doubtful"}
 
-Item = TypeVar("Item")
-
 MeshReader = Callable[[], SymbolicMesh]
 """Reads an asset, in this process or another."""
 READ_TIMEOUT = 300.0
@@ -59,14 +56,6 @@ class ResultStatus:
     reasons: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class EarlierExamination:
-    """What is kept of an earlier examination: findings, and sentences about what was measured."""
-
-    findings: tuple[Finding, ...]
-    descriptions: tuple[str, ...]
-
-
 @dataclass(frozen=True, eq=False, slots=True)
 class ReportAsset:
     """One asset of a batch.
@@ -86,7 +75,7 @@ class ReportAsset:
     error: str | None = None
     demonstrated: bool = False
     notes: tuple[str, ...] = ()
-    checked: Examination | EarlierExamination | None = None
+    checked: Examination | None = None
     alarms: tuple[str, ...] = ()
     result_status: ResultStatus | None = None
 
@@ -168,27 +157,6 @@ class RunFigures:
 
 def _hull_figures(before: int, after: int) -> dict[str, tuple[str, str | None]]:
     return {"hulls": (f"{before:,} → {after:,}", format_change(before, after))} if before or after else {}
-
-
-class TopItems(Generic[Item]):
-    """The first of the lowest ranks, never more than `most` at a time; in order of ranks, then as they came."""
-
-    def __init__(self, most: int = MOST_SHOWN) -> None:
-        self._most = most
-        self._kept = 0
-        self._ranks: defaultdict[int, list[Item]] = defaultdict(list)
-
-    def add(self, rank: int, item: Item) -> None:
-        """Keep one more, or not; rank: the lower, the sooner it is shown."""
-        self._ranks[rank].append(item)
-        self._kept += 1
-        if self._kept > self._most:
-            last = max(rank for rank, items in self._ranks.items() if items)
-            self._ranks[last].pop()
-            self._kept -= 1
-
-    def __iter__(self) -> Iterator[Item]:
-        return chain.from_iterable(self._ranks[rank] for rank in sorted(self._ranks))
 
 
 def read_again(
@@ -299,7 +267,7 @@ def _find_hulls_to_blame(asset: ReportAsset, mesh: SymbolicMesh) -> frozenset[st
 
 
 def _draw_checks(asset: ReportAsset, mesh: SymbolicMesh) -> tuple[tuple[str, str], ...]:
-    if not isinstance(asset.checked, Examination):
+    if asset.checked is None:
         return ()
     drawn = draw_examination(mesh, asset.checked, CHECK_PICTURE_SIZE)
     return tuple((words, _to_data_url(image)) for _, words, image in drawn)

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from meshforge.batch import Preparation, apply_preparation, cut_hull
-from meshforge.common import AssetError, GeometryError
+from meshforge.common import GeometryError
 from meshforge.formats import load, read, save
 from meshforge.symbolic import SymbolicMesh
-from tests.unit.batch.preparation.samples import stand, write_boxes, write_stand
+from tests.unit.batch.preparation.samples import write_boxes, write_stand
 
 NONE = Preparation()
 
@@ -21,12 +21,6 @@ def test_a_cut_hull_becomes_two_in_its_place(tmp_path: Path) -> None:
     assert [geom.name for geom in ready.geoms] == ["geom0#0", "geom0#1#0", "geom0#1#1", "geom0#2"]
     assert [geom.shape.volume for geom in ready.geoms] == pytest.approx([1, 0.5, 1.5, 1])
     assert [geom.parent for geom in ready.geoms] == [None, "geom0#1", "geom0#1", None]
-
-
-def test_the_side_that_the_direction_shows_is_the_second(tmp_path: Path) -> None:
-    asset = read(write_boxes(tmp_path / "row.obj"))
-    ready = apply_preparation(asset, cut_hull(asset, NONE, "geom0#1", (1.5, 0, 0), (-1, 0, 0)))
-    assert [geom.shape.volume for geom in ready.geoms][1:3] == pytest.approx([1.5, 0.5])
 
 
 def test_parts_can_be_cut_again_and_inherit_from_the_hull_of_the_file(tmp_path: Path) -> None:
@@ -50,15 +44,6 @@ def test_a_native_box_of_a_urdf_is_cut_into_meshes_with_its_attributes(tmp_path:
     assert done.steps[0].replaced[0].remark == "2 hulls"
 
 
-def test_hulls_of_a_decomposition_inherit_from_the_piece(tmp_path: Path) -> None:
-    asset, preparation = stand(tmp_path)
-    done = cut_hull(asset, preparation, "frame/body#0", (0, 0, 0.5), (0, 0, 1))
-    bare = cut_hull(asset, done, "cover/geom0#0", (0, 0, 2.25), (0, 0, 1))
-    parents = {geom.name: geom.parent for geom in apply_preparation(asset, bare).geoms}
-    assert parents["frame/body#0#1"] == "frame/body"
-    assert parents["cover/geom0#0#1"] is None
-
-
 @pytest.mark.parametrize("at", [(-1, 0, 0), (1, 0, 0), (3, 0, 0)])
 def test_a_plane_beside_the_hull_is_refused_with_its_box(tmp_path: Path, at: tuple[float, float, float]) -> None:
     asset = read(write_boxes(tmp_path / "row.obj"))
@@ -73,15 +58,6 @@ def test_what_is_no_hull_and_no_direction_is_refused(tmp_path: Path) -> None:
     for across in ((0, 0, 0), (float("nan"), 0, 0)):
         with pytest.raises(GeometryError, match="not zero"):
             cut_hull(asset, NONE, "geom0#1", (2, 0, 0), across)
-
-
-def test_a_cut_hull_that_changed_since_is_noticed(tmp_path: Path) -> None:
-    path = write_boxes(tmp_path / "row.obj")
-    asset = read(path)
-    done = cut_hull(asset, NONE, "geom0#1", (2, 0, 0), (1, 0, 0))
-    path.write_text(path.read_text().replace("v 3.0", "v 3.5"))
-    with pytest.raises(AssetError, match="geom0#1 has another geometry now"):
-        apply_preparation(read(path), done)
 
 
 def test_vertices_of_the_hull_stay_bit_for_bit(tmp_path: Path) -> None:

@@ -12,19 +12,13 @@ from meshforge.formats import NO_GEOMETRY, load, read, save
 from meshforge.geometry import volume_of_union
 from meshforge.geometry.decomposition.engines import DecomposeSettings
 from meshforge.symbolic import NonConvexPiece, Surface, SymbolicMesh
-from tests.unit.batch.preparation.samples import PIECES, QUICK, VOXELS, stand, write_boxes, write_stand
+from tests.unit.batch.preparation.samples import PIECES, QUICK, VOXELS, stand, write_stand
 
 
 def test_opaque_pieces_and_bodies_that_only_show_something_can_be_decomposed(tmp_path: Path) -> None:
     asset = read(write_stand(tmp_path))
     assert {source.what: source.kind for source in find_sources(asset)} == PIECES
     assert [source.base for source in find_sources(asset)] == ["frame/body", "cover/geom0"]
-
-
-def test_planes_and_the_like_have_no_triangles_and_stay_opaque(tmp_path: Path) -> None:
-    asset = read(write_boxes(tmp_path / "row.obj"))
-    plane = NonConvexPiece("ground", "body", "an endless plane")
-    assert find_sources(replace(asset, non_convex=(plane,))) == ()
 
 
 def test_a_prepared_asset_is_not_noted_to_have_no_collision_geometry(tmp_path: Path) -> None:
@@ -36,12 +30,6 @@ def test_a_prepared_asset_is_not_noted_to_have_no_collision_geometry(tmp_path: P
     }
     assert gone == NO_GEOMETRY
     assert apply_preparation(asset, Preparation()).notes == asset.notes
-
-
-def test_assets_of_hulls_have_nothing_to_be_done(tmp_path: Path) -> None:
-    asset = read(write_boxes(tmp_path / "row.obj"))
-    done = decompose_asset(asset, Preparation(), QUICK)
-    assert (done.preparation.steps, done.made, done.failed) == ((), (), ())
 
 
 @pytest.mark.parametrize("settings", [QUICK, VOXELS], ids=["coacd", "vhacd"])
@@ -58,12 +46,6 @@ def test_the_hulls_take_the_place_of_what_they_were_made_of(tmp_path: Path, sett
     frame = [geom for name, geom in made.items() if geom.body == "frame"]
     assert [geom.name for geom in frame] == [f"frame/body#{k}" for k in range(len(frame))]
     assert volume_of_union([geom.shape for geom in frame]) == pytest.approx(5.0, rel=0.15)
-
-
-def test_what_it_comes_to_is_told(tmp_path: Path) -> None:
-    done = decompose_asset(read(write_stand(tmp_path)), Preparation(), QUICK)
-    assert [entry.remark for entry in done.made] == ["2 hulls, 100% of the free space stays free"] * 2
-    assert str(done.preparation.steps[0]) == "2 pieces decomposed into 4 hulls by coacd"
 
 
 def test_the_edited_file_has_the_hulls_in_the_place_of_the_piece(tmp_path: Path) -> None:

@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 
-from meshforge.batch.preparation.decompose import describe_fit, measure_uncovered
+from meshforge.batch.preparation.decompose import describe_fit
 from meshforge.checks import measure_kept_space
 from meshforge.formats.meshfile.surface import stack_triangles
 from meshforge.geometry import Aabb, Box, Polytope
@@ -60,9 +60,3 @@ def test_where_nothing_is_free_no_share_is_said() -> None:
     square = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 1e-9], [0, 1, 0]], float)
     both = Surface(square, np.array([[0, 1, 2], [0, 2, 3], [0, 2, 1], [0, 3, 2]]))
     assert describe_fit(both, [box((0, 0, -1e-3), (1, 1, 1e-3))]) == "1 hull"
-
-
-def test_the_share_outside_is_that_of_the_area() -> None:
-    assert measure_uncovered(SURFACE, []) == 1.0
-    assert measure_uncovered(SURFACE, [WHOLE]) == 0.0
-    assert measure_uncovered(SURFACE, [box((0, 0, 0), (2, 1, 1))]) == pytest.approx(0.5, abs=0.02)

@@ -68,18 +68,6 @@ def test_each_collision_element_is_the_convex_hull_of_its_mesh(tmp_path: Path) -
     assert (base.volume, lid.volume) == pytest.approx((volume, 2 * volume))
 
 
-def test_the_rest_of_the_urdf_keeps_its_bytes(tmp_path: Path) -> None:
-    path = write_robot(tmp_path / "in")
-    saved = save(SymbolicMesh.of(hulled(read(path))), tmp_path / "out" / "cad.urdf")
-    before, after = path.read_text().splitlines(), saved.path.read_text().splitlines()
-    changed = [(a, b) for a, b in zip(before, after, strict=True) if a != b]
-    assert len(changed) == 2 and all("<mesh" in a and "<mesh" in b for a, b in changed)
-    assert '<friction mu="0.4"/>' in changed[1][1] and 'name="top"' in changed[1][1]
-    again = load(saved.path)
-    assert sorted(hull.name for hull in again.hulls) == ["base/geom0", "base/geom1", "lid/top"]
-    assert again.asset and again.asset.non_convex == ()
-
-
 def test_pieces_are_sources_of_their_own_for_engines_that_divide(tmp_path: Path) -> None:
     asset = read(write_robot(tmp_path))
     assert [(one.kind, one.what) for one in find_sources(asset)] == [

@@ -8,7 +8,6 @@ import pytest
 
 from meshforge.batch import (
     Preparation,
-    apply_preparation,
     cut_hull,
     decompose_asset,
     read_preparation,
@@ -18,7 +17,7 @@ from meshforge.batch import (
 )
 from meshforge.common import AssetError
 from meshforge.formats import read
-from tests.unit.batch.preparation.samples import VOXELS, stand, write_boxes
+from tests.unit.batch.preparation.samples import VOXELS, stand
 from tests.unit.deaths import deaths, needs_fork
 
 
@@ -85,11 +84,6 @@ def test_a_damaged_record_is_named(tmp_path: Path, text: str, problem: str) -> N
     assert "preparation.json" in caught.value.message and "--remove" in caught.value.message
 
 
-def test_a_record_is_read_with_a_byte_order_mark(tmp_path: Path) -> None:
-    (tmp_path / "preparation.json").write_text('{"steps": []}', encoding="utf-8-sig")
-    assert read_preparation(tmp_path) is not None
-
-
 def test_a_folder_in_the_place_of_a_record_is_to_be_taken_away_by_hand(tmp_path: Path) -> None:
     (tmp_path / "preparation.json").mkdir()
     for reach in (read_preparation, partial(write_preparation, preparation=Preparation())):
@@ -124,9 +118,3 @@ def test_a_killed_change_has_happened_or_not(tmp_path: Path) -> None:
         assert hulls(read_preparation(folder)) == hulls(after)
         text = (folder / "hulls.obj").read_text() if after.steps else ""
         assert "@before" not in text
-
-
-def test_nothing_prepared_is_nothing_done(tmp_path: Path) -> None:
-    asset = read(write_boxes(tmp_path / "row.obj"))
-    assert apply_preparation(asset, Preparation()).geoms == asset.geoms
-    write_preparation(tmp_path / "nowhere", Preparation())
