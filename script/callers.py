@@ -68,6 +68,10 @@ class Definition:
         return self.owner in uses.names and (self.is_handed_over or self.key.split(".")[-1] in uses.attributes)
 
 
+_TARGET = re.compile(r"[a-z_.]+:[A-Z]\w+")
+"""A class in a module, named from the package of whoever imports it."""
+
+
 class Names:
     """Where the names that modules read are defined."""
 
@@ -118,6 +122,9 @@ class Names:
                     uses.attributes.add(attribute)
                 case ast.MatchClass(kwd_attrs=attributes):
                     uses.attributes.update(attributes)
+                case ast.Constant(value=str() as text) if _TARGET.fullmatch(text):  # of what is imported late
+                    home, _, name = text.partition(":")
+                    uses.names.update(self.find(f"{module.rpartition('.')[0]}.{home}", name))
                 case ast.Call(func=ast.Name(id="getattr"), args=[_, ast.Constant(value=str() as word), *_]):
                     uses.attributes.add(word)
                 case ast.Call(args=[ast.Constant(value=str() as package), ast.Constant(value=str() as word)]):

@@ -8,7 +8,7 @@ from functools import partial
 from pathlib import Path
 
 from meshforge.common import MeshForgeError
-from meshforge.formats import FORMATS, read, save
+from meshforge.formats import list_formats, read, save
 from meshforge.formats.conversion import turn_upright
 from meshforge.formats.registry import format_for
 from meshforge.language import Program, Template
@@ -118,7 +118,7 @@ def made(folder: Path, names: Iterable[str], suffixes: Iterable[str] = SUFFIXES)
 def _written(asset: Asset, path: Path, name: str, *, shows: bool, edited: bool = False) -> Made | Refused:
     """An asset in a file; what this is to hold stands upright in it."""
     target = format_for(path, asset.format)
-    source = next((known for known in FORMATS if known.name == asset.format), None)
+    source = next((known for known in list_formats() if known.name == asset.format), None)
     meant = asset if source is target else turn_upright(asset, source, target)[0]
     try:
         save(asset, path, collision="replace")  # of scenes of hulls alone, which readers are to see

@@ -240,6 +240,34 @@ class Registry(Mapping[str, T], Generic[T]):
         return [plugin for plugin in find_plugins(self.kind) if plugin.name == name]
 
 
+class Targets(Mapping[str, T], Generic[T]):
+    """What is built in, by name: each is made by what `module:attribute` names when first asked for, once for all its
+    names."""
+
+    def __init__(self, targets: Mapping[str, str]) -> None:
+        self._targets = targets
+
+    def __getitem__(self, name: str) -> T:
+        made: T = make_target(self._targets[name])
+        return made
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._targets
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._targets)
+
+    def __len__(self) -> int:
+        return len(self._targets)
+
+
+@cache
+def make_target(target: str) -> Any:
+    """Return what the class or function `module:attribute` makes without arguments, always the same."""
+    module, _, attribute = target.partition(":")
+    return getattr(import_module(module), attribute)()
+
+
 def _clash(claims: list[Plugin]) -> PluginError:
     packages = " and ".join(f"{plugin.package} {plugin.version}" for plugin in claims)
     what = f"the {_WORDS[claims[0].kind]}{claims[0].name}"

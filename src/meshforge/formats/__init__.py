@@ -18,8 +18,8 @@ __getattr__, __all__ = export_lazily(
         "plain.obj_text": "format_obj",
         "plain.parts": "MeshPart",
         "registry": (
-            "FORMATS FORMATS_BY_SUFFIX MARKED_FORMATS MESH_SUFFIXES NO_GEOMETRY SUFFIXES Source all_suffixes "
-            "format_for format_of format_with_names is_asset is_description notes_after path_of "
+            "FORMATS_BY_SUFFIX MESH_SUFFIXES NO_GEOMETRY SUFFIXES Source all_suffixes format_for format_of "
+            "format_with_names is_asset is_description list_formats list_marked_formats notes_after path_of "
             "plugin_of_suffix read resolve_asset_path"
         ),
         "segmentation.parts": "AlignMode SegmentationFile align_points read_parts",

@@ -27,9 +27,7 @@ from meshforge.formats.output_tree import output_path_of as output_path_of
 from meshforge.formats.output_tree import save as save
 from meshforge.formats.plain.obj_text import format_obj as format_obj
 from meshforge.formats.plain.parts import MeshPart as MeshPart
-from meshforge.formats.registry import FORMATS as FORMATS
 from meshforge.formats.registry import FORMATS_BY_SUFFIX as FORMATS_BY_SUFFIX
-from meshforge.formats.registry import MARKED_FORMATS as MARKED_FORMATS
 from meshforge.formats.registry import MESH_SUFFIXES as MESH_SUFFIXES
 from meshforge.formats.registry import NO_GEOMETRY as NO_GEOMETRY
 from meshforge.formats.registry import SUFFIXES as SUFFIXES
@@ -40,6 +38,8 @@ from meshforge.formats.registry import format_of as format_of
 from meshforge.formats.registry import format_with_names as format_with_names
 from meshforge.formats.registry import is_asset as is_asset
 from meshforge.formats.registry import is_description as is_description
+from meshforge.formats.registry import list_formats as list_formats
+from meshforge.formats.registry import list_marked_formats as list_marked_formats
 from meshforge.formats.registry import notes_after as notes_after
 from meshforge.formats.registry import path_of as path_of
 from meshforge.formats.registry import plugin_of_suffix as plugin_of_suffix

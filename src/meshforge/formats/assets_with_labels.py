@@ -12,7 +12,6 @@ from meshforge import symbolic
 from meshforge.common import AssetError, expand_glob
 from meshforge.formats.base import Collision
 from meshforge.formats.engine_names.conventions import MarkName
-from meshforge.formats.mjcf.format import build_spec
 from meshforge.formats.output_tree import SaveResult, make_output, save
 from meshforge.formats.registry import FORMATS_BY_SUFFIX, Source, all_suffixes, is_asset, path_of, read
 from meshforge.symbolic import Label, SymbolicMesh, write_labels
@@ -104,6 +103,8 @@ def convert(
 
 def to_mjspec(mesh: SymbolicMesh) -> Any:
     """Return the mesh as a `mujoco.MjSpec`; see `SymbolicMesh.to_mjspec`."""
+    from meshforge.formats.mjcf.format import build_spec  # lazy: only MuJoCo needs it
+
     return build_spec(make_output(mesh, "mjcf", "model.xml"))
 
 

@@ -8,7 +8,7 @@ from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, ClassVar, Literal
+from typing import Any, ClassVar, Literal, Protocol, runtime_checkable
 
 from meshforge.common import AssetError, CollisionLossError, join_names, pluralize
 from meshforge.symbolic import Asset, Feature, FeatureKind, Surface
@@ -92,6 +92,35 @@ class Output:
     names: dict[str, str] = field(default_factory=dict)
     lost: tuple[Loss, ...] = ()
     hulled: tuple[str, ...] = ()
+
+
+@runtime_checkable
+class SpecObject(Protocol):
+    """A `mujoco.MjSpec`."""
+
+    assets: Any
+    modelfiledir: Any
+    modelname: Any
+
+    def to_xml(self) -> str:
+        """Return its XML."""
+
+
+@runtime_checkable
+class StageObject(Protocol):
+    """A `Usd.Stage`."""
+
+    def GetRootLayer(self) -> Any:  # noqa: N802
+        """Return its root layer."""
+
+    def GetUsedLayers(self) -> Any:  # noqa: N802
+        """Return all its layers."""
+
+    def GetSessionLayer(self) -> Any:  # noqa: N802
+        """Return the layer of what is changed for this session only."""
+
+    def Flatten(self) -> Any:  # noqa: N802
+        """Return all of it in one layer."""
 
 
 class Format(ABC):

@@ -17,7 +17,7 @@ from meshforge.engines import note_limits
 from meshforge.formats.base import Collision, Format, Mass, Output, SceneFormat
 from meshforge.formats.conversion import ConversionReport, report_conversion, turn_upright
 from meshforge.formats.engine_names.conventions import MarkName
-from meshforge.formats.registry import FOLDER, SUFFIXES, URDF_WITH_CAPSULES, format_for, format_named, format_with_names
+from meshforge.formats.registry import SUFFIXES, folder_format, format_for, format_named, format_with_names, load_format
 from meshforge.geometry import Pose
 from meshforge.symbolic import Asset, Body, Document, Geom, SymbolicMesh
 
@@ -76,7 +76,7 @@ def save(
     known = format_for(out, asset.format)
     known = format_with_names(known, names) if names else known
     if urdf_capsules and known.name == "urdf":
-        known = URDF_WITH_CAPSULES
+        known = load_format("urdf.format:UrdfWithCapsules")
     where = _place_collision(asset, known, names, collision)
     output, report = _make_output(asset, known, out.name, mass, where)
     limits = _note_limits(asset, known, where, output.names)
@@ -192,7 +192,7 @@ def _refuse_overwrite(plan: Mapping[Path, Content], asset: Asset, overwrite: boo
 
 def _find_extra_files(plan: Mapping[Path, Content], out: Path, overwrite: bool) -> list[Path]:
     """Mesh files in a folder that are not of the asset which is written there; they would count as its hulls."""
-    found = [path for path in FOLDER.mesh_files(out) if path not in plan] if out.is_dir() else []
+    found = [path for path in folder_format().mesh_files(out) if path not in plan] if out.is_dir() else []
     if found and not overwrite:
         raise AssetError(
             f"this folder has other mesh files in it, such as {found[0].name}",

@@ -9,60 +9,78 @@ from contextlib import suppress
 from dataclasses import replace
 from math import floor
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from meshforge import symbolic
 from meshforge.common import AssetError, Plugin, PluginError, Registry, UsageError, is_text, join_names, nearest_name
-from meshforge.formats.base import Format, ReadOptions
-from meshforge.formats.engine_names.conventions import MarkName
-from meshforge.formats.gltf.format import GltfForGodot, GltfFormat, GltfForUnity, GltfForUnreal, PhysicsGltf
+from meshforge.common.plugins import Targets, make_target
+from meshforge.formats.base import Format, ReadOptions, SpecObject, StageObject
 from meshforge.formats.meshfile.surface import FARTHEST
-from meshforge.formats.mjcf.format import MjcfFormat, SpecObject, read_spec, read_text
-from meshforge.formats.plain import folder, obj, ply, stl
 from meshforge.formats.plugin_format import guard_format
-from meshforge.formats.sdf.document import CONFIG, find_main_file
-from meshforge.formats.sdf.format import SdfFormat
 from meshforge.formats.segmentation.reader import is_segmentation
-from meshforge.formats.urdf.format import UrdfFormat, UrdfWithCapsules
-from meshforge.formats.urdf.xacro import XacroFormat
-from meshforge.formats.usd.format import StageObject, UsdFormat, read_stage
+
+if TYPE_CHECKING:
+    from meshforge.formats.engine_names.conventions import MarkName
+    from meshforge.formats.plain.folder import FolderFormat
 
 _HEAD = 4096  # bytes by which a format tells its assets from other files of its suffix
 _UNREAD = {".mjb": "is a model compiled for one version of MuJoCo: open the XML it was made from"}
 
-FOLDER = folder.FolderFormat((obj.ObjFormat(), stl.StlFormat(), ply.PlyFormat(), stl.WrlFormat()))
-FORMATS: tuple[Format, ...] = (
-    UrdfFormat(),
-    XacroFormat(),
-    MjcfFormat(),
-    SdfFormat(),
-    GltfFormat(),
-    UsdFormat(),
-    *FOLDER.members,
-    FOLDER,
-)
-URDF_WITH_CAPSULES = UrdfWithCapsules()
-"""URDF for readers that know `<capsule>`."""
-MARKED_FORMATS: Mapping[MarkName, tuple[Format, ...]] = {
-    "unreal": (GltfForUnreal(), obj.ObjForUnreal()),
-    "godot": (GltfForGodot(),),
-    "unity": (GltfForUnity(),),
-    "khr": (PhysicsGltf(),),
-    "usd": (UsdFormat(),),
+_SUFFIXES = {
+    "urdf.format:UrdfFormat": ("urdf",),
+    "urdf.xacro:XacroFormat": ("xacro",),
+    "mjcf.format:MjcfFormat": ("xml", "mjcf"),
+    "sdf.format:SdfFormat": ("sdf",),
+    "gltf.format:GltfFormat": ("glb", "gltf"),
+    "usd.format:UsdFormat": ("usda", "usd", "usdc", "usdz"),
+    "plain.obj:ObjFormat": ("obj",),
+    "plain.stl:StlFormat": ("stl",),
+    "plain.ply:PlyFormat": ("ply",),
+    "plain.stl:WrlFormat": ("wrl",),
 }
-"""The formats that can be written with collision marked in a way: by names that an engine knows, or an extension."""
+_MARKED: Mapping[MarkName, tuple[str, ...]] = {
+    "unreal": ("gltf.format:GltfForUnreal", "plain.obj:ObjForUnreal"),
+    "godot": ("gltf.format:GltfForGodot",),
+    "unity": ("gltf.format:GltfForUnity",),
+    "khr": ("gltf.format:PhysicsGltf",),
+    "usd": ("usd.format:UsdFormat",),
+}
 _EXTENSIONS = {"khr": "KHR_physics_rigid_bodies", "usd": "UsdPhysics"}
-SUFFIXES: tuple[str, ...] = tuple(suffix for known in FORMATS for suffix in known.suffixes)
+SUFFIXES = tuple(f".{suffix}" for suffixes in _SUFFIXES.values() for suffix in suffixes)
 """The suffixes of all files that can be read without plug-ins, lower case, with the dot; folders have none."""
 FORMATS_BY_SUFFIX: Registry[Format] = Registry(
     "formats",
-    {suffix.removeprefix("."): known for known in FORMATS for suffix in known.suffixes},
-    lambda plugin, kind: guard_format(plugin, kind, [known.name for known in FORMATS]),
+    Targets({suffix: f"{__package__}.{target}" for target, suffixes in _SUFFIXES.items() for suffix in suffixes}),
+    lambda plugin, kind: guard_format(plugin, kind, [known.name for known in list_formats()]),
 )
-"""The formats of files by suffix, without the dot: files of a plug-in that cannot be loaded are assets as well."""
-MESH_SUFFIXES: tuple[str, ...] = tuple(s for f in FOLDER.members for s in f.suffixes)
+"""The formats of files by suffix, without the dot, each imported when first asked for: files of a plug-in that cannot
+be loaded are assets as well."""
+MESH_SUFFIXES = (".obj", ".stl", ".ply", ".wrl")
 """The suffixes of plain mesh files, which may be pieces of a folder."""
+
+
+def load_format(target: str) -> Any:
+    """Return the format of a class below this package, `module:class`, always the same."""
+    return make_target(f"{__package__}.{target}")
+
+
+def folder_format() -> FolderFormat:
+    """Return the format of folders of mesh files."""
+    known: FolderFormat = load_format("plain.folder:FolderFormat")
+    return known
+
+
+def list_formats() -> tuple[Format, ...]:
+    """Return the formats that are built in."""
+    return (*map(load_format, _SUFFIXES), folder_format())
+
+
+def list_marked_formats(names: MarkName) -> tuple[Format, ...]:
+    """Return the formats that can be written with collision marked in a way: by names that an engine knows, or an
+    extension."""
+    return tuple(map(load_format, _MARKED[names]))
 
 
 def all_suffixes() -> tuple[str, ...]:
@@ -81,8 +99,11 @@ def is_description(path: Path) -> bool:
 
 def format_named(name: str) -> Format | None:
     """Return the format of a name, those of plug-ins last; None where there is none."""
-    built_in = next((known for known in FORMATS if known.name == name), None)
-    return built_in or next((known for known in FORMATS_BY_SUFFIX.loadable().values() if known.name == name), None)
+    own = FORMATS_BY_SUFFIX.built_in.get(name)  # most are named as one of their suffixes
+    if own and own.name == name:
+        return own
+    known = (*list_formats(), *FORMATS_BY_SUFFIX.loadable().values())
+    return next((one for one in known if one.name == name), None)
 
 
 def plugin_of_suffix(suffix: str) -> Plugin | None:
@@ -100,8 +121,11 @@ def resolve_asset_path(path: Path) -> Path:
 
     Raises AssetError: its `model.config` is no XML.
     """
-    is_model = path.is_dir() and (path / CONFIG).is_file()
-    return (find_main_file(path) if is_model else None) or path
+    if not path.is_dir():
+        return path
+    from meshforge.formats.sdf.document import CONFIG, find_main_file  # lazy: most assets are files
+
+    return (find_main_file(path) if (path / CONFIG).is_file() else None) or path
 
 
 def format_of(path: Path) -> Format:
@@ -111,7 +135,7 @@ def format_of(path: Path) -> Format:
     cannot be loaded.
     """
     if path.is_dir():
-        return FOLDER
+        return folder_format()
     if not path.exists():
         raise AssetError("there is no such file", where=str(path))
     if not path.is_file():  # reading a pipe would wait, a device may never end
@@ -148,19 +172,19 @@ def format_for(path: Path, own: str) -> Format:
     """
     if found := _format_of_suffix(path):
         return found
-    if own == FOLDER.name or path.is_dir() or not path.suffix:
-        return FOLDER
+    if own == "folder" or path.is_dir() or not path.suffix:
+        return folder_format()
     raise _unknown_format_error(path)
 
 
 def format_with_names(known: Format, names: MarkName) -> Format:
     """Return a format that marks collision in a way. Raises UsageError: its files cannot be marked so."""
-    for marked in MARKED_FORMATS[names]:
+    for marked in list_marked_formats(names):
         if marked.name == known.name:
             return marked
     files = known.title if known.is_folder else f"{known.title} files"
     mark = f"marked by {_EXTENSIONS[names]}" if names in _EXTENSIONS else f"named for {names.capitalize()}"
-    can = ", ".join(suffix for marked in MARKED_FORMATS[names] for suffix in marked.suffixes)
+    can = ", ".join(suffix for marked in list_marked_formats(names) for suffix in marked.suffixes)
     raise UsageError(f"{files} cannot be {mark}", remedy=f"Formats that can: {can}.")
 
 
@@ -200,10 +224,16 @@ def read(source: Source, options: ReadOptions | None = None) -> symbolic.Asset:
     if path := path_of(source):
         asset = format_of(path).read(path, options)
     elif isinstance(source, str):
+        from meshforge.formats.mjcf.format import read_text  # lazy: most assets are files
+
         asset = read_text(source)
     elif isinstance(source, SpecObject):
+        from meshforge.formats.mjcf.format import read_spec  # lazy: most assets are files
+
         asset = read_spec(source)
     elif isinstance(source, StageObject):
+        from meshforge.formats.usd.format import read_stage  # lazy: most assets are files
+
         asset = read_stage(source)
     else:
         remedy = "Give a path, the text of an MJCF, a mujoco.MjSpec or a Usd.Stage; for trimesh there is from_trimesh."

@@ -10,14 +10,14 @@ import pytest
 from meshforge.batch import IN_PROCESS, ApplyOptions, AssetJob, Failed, apply, load_templates
 from meshforge.checks import check
 from meshforge.engines import ENGINES
-from meshforge.formats import FORMATS, load, save
+from meshforge.formats import list_formats, load, save
 from meshforge.geometry import Aabb, Box, convex_hull
 from meshforge.language import Program
 from meshforge.symbolic import Hull, Label, SymbolicMesh, write_labels
 from tests.unit.cli.in_process import Run, runner
 
 SUFFIXES = {"mjcf": ".xml", "urdf": ".urdf", "sdf": ".sdf", "usd": ".usda"}
-ENGINES_OF = {known.name: known.engines for known in FORMATS if known.name in SUFFIXES}
+ENGINES_OF = {known.name: known.engines for known in list_formats() if known.name in SUFFIXES}
 ACTIONS = (
     *("Merge", "Replace(cylinder)", "Replace(cylinder, native)", "Replace(capsule, native)"),
     *("Replace(sphere, native)", "Scale(all, 0.00001)", 'Each(Replace("ball.obj"))', 'Add(+Z, "ball.obj")'),

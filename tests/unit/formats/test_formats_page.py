@@ -11,15 +11,15 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.formats import FORMATS, MARKED_FORMATS, Format
+from meshforge.formats import Format, list_formats, list_marked_formats
 from meshforge.symbolic import FeatureKind
 
 ROOT = Path(__file__).parents[3]
 PAGE = ROOT / "docs" / "formats.md"
 _START, _END = "<!-- {}: made by tests/unit/formats/test_formats_page.py -->\n", "<!-- end of {} -->"
 _MATRICES = {
-    "matrix": [known for known in FORMATS if known.writable],
-    "named matrix": [known for names in ("unreal", "godot", "unity") for known in MARKED_FORMATS[names]],
+    "matrix": [known for known in list_formats() if known.writable],
+    "named matrix": [known for names in ("unreal", "godot", "unity") for known in list_marked_formats(names)],
 }
 
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from meshforge.common import pluralize
-from meshforge.formats import FORMATS, Format, Loss, Output, read, save
+from meshforge.formats import Format, Loss, Output, list_formats, read, save
 from meshforge.formats.conversion import report_conversion
 from meshforge.formats.visuals import Visual, VisualSurfaces
 from meshforge.symbolic import Asset, FeatureKind
@@ -166,7 +166,7 @@ def test_reports_are_as_they_were(source: str, tmp_path: Path) -> None:
     assert said(source, tmp_path) == (GOLDEN / f"{source}.txt").read_text()
 
 
-@pytest.mark.parametrize("known", FORMATS, ids=lambda known: known.name)
+@pytest.mark.parametrize("known", list_formats(), ids=lambda known: known.name)
 def test_every_format_says_what_it_is_called_and_what_it_holds(known: Format) -> None:
     assert known.title
     assert not known.holds & set(known.instead)
@@ -189,7 +189,7 @@ def test_a_loss_is_a_sentence_with_a_count_and_names() -> None:
 
 
 def test_things_that_a_creator_left_out_do_not_count_as_held() -> None:
-    asset, urdf = SAMPLES["opaque"](), next(known for known in FORMATS if known.name == "urdf")
+    asset, urdf = SAMPLES["opaque"](), next(known for known in list_formats() if known.name == "urdf")
     lost = tuple(Loss(FeatureKind.NON_CONVEX, (name,), "flat") for name in ("room/walls", "room/other"))
     told = report_conversion(asset, None, urdf, Output(b"", lost=lost))
     assert FeatureKind.NON_CONVEX not in {feature.kind for feature in told.kept}
@@ -199,7 +199,7 @@ def test_things_that_a_creator_left_out_do_not_count_as_held() -> None:
 
 
 def test_names_count_where_an_author_gave_them_only() -> None:
-    obj = next(known for known in FORMATS if known.name == "obj")
+    obj = next(known for known in list_formats() if known.name == "obj")
     held = {feature.kind: feature.names for feature in report_conversion(crowd(), None, obj, Output(b"")).kept}
     assert held[FeatureKind.NAMES] == ("left/part", "right/part")
 

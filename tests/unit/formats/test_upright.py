@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.formats import FORMATS, Format, read, save
+from meshforge.formats import Format, list_formats, read, save
 from meshforge.formats.conversion import turn_asset, turn_upright
 from meshforge.formats.visuals import Visual, VisualSurfaces
 from meshforge.geometry import Pose
@@ -17,7 +17,7 @@ from tests.asset_bounds import bounds_of
 from tests.conversion_samples import TURNED, doors, opaque
 from tests.urdf_sample import boxes_obj
 
-BY_NAME: dict[str, Format] = {known.name: known for known in FORMATS}
+BY_NAME: dict[str, Format] = {known.name: known for known in list_formats()}
 
 
 @pytest.mark.parametrize(

@@ -7,10 +7,19 @@ import os
 import re
 from collections.abc import Iterable, Iterator
 from pathlib import Path
-from typing import Any, Protocol, runtime_checkable
+from typing import Any
 
 from meshforge.common import AssetError, is_file, plain_path, require_mujoco
-from meshforge.formats.base import BODY_FEATURES, Format, Mass, Output, ReadOptions, feature_of_others, list_others
+from meshforge.formats.base import (
+    BODY_FEATURES,
+    Format,
+    Mass,
+    Output,
+    ReadOptions,
+    SpecObject,
+    feature_of_others,
+    list_others,
+)
 from meshforge.formats.libraries import make_folder, mujoco
 from meshforge.formats.mjcf.document import MjcfDocument, read_tree
 from meshforge.symbolic import Asset, Feature, FeatureKind
@@ -88,18 +97,6 @@ def features_of(document: MjcfDocument) -> Iterator[Feature]:
         others += [kind for node in root.walk() if node.tag == tag and any(key in node.attributes for key in keys)]
     others += ["comment"] * sum(source.raw.count(b"<!--") for source in document.sources)
     yield feature_of_others(others)
-
-
-@runtime_checkable
-class SpecObject(Protocol):
-    """A `mujoco.MjSpec`."""
-
-    assets: Any
-    modelfiledir: Any
-    modelname: Any
-
-    def to_xml(self) -> str:
-        """Return its XML."""
 
 
 def read_text(text: str) -> Asset:

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TypeVar
@@ -13,7 +13,10 @@ from typing import TypeVar
 from meshforge.common import AssetError
 from meshforge.formats.base import Format, Mass, Output, ReadOptions, note_renames
 from meshforge.formats.plain.base import AS_HULLS, BODY, PlainFormat
+from meshforge.formats.plain.obj import ObjFormat
 from meshforge.formats.plain.parts import MeshPart, PlainDocument, collect_parts, name_members, natural_key, to_parts
+from meshforge.formats.plain.ply import PlyFormat
+from meshforge.formats.plain.stl import StlFormat, WrlFormat
 from meshforge.formats.references import find_companions
 from meshforge.formats.segmentation.reader import is_segmentation
 from meshforge.geometry import Pose
@@ -41,8 +44,7 @@ class FolderFormat(Format):
     holds = frozenset({FeatureKind.NAMES, FeatureKind.NON_CONVEX})
     instead = AS_HULLS
 
-    def __init__(self, members: Sequence[PlainFormat]) -> None:
-        self.members = tuple(members)
+    members: tuple[PlainFormat, ...] = (ObjFormat(), StlFormat(), PlyFormat(), WrlFormat())
 
     def read(self, path: Path, options: ReadOptions) -> Asset:
         files = self.mesh_files(path)

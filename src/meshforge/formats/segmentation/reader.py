@@ -14,8 +14,6 @@ import numpy as np
 import numpy.typing as npt
 
 from meshforge.common import AssetError, pluralize
-from meshforge.formats.mesh_reader import read_content
-from meshforge.formats.meshfile.ply import parse_ply
 from meshforge.geometry import Floats, Ints
 
 POINTS_SUFFIXES = (".ply", ".npz", ".npy")
@@ -68,6 +66,9 @@ def read_segmentation(path: Path) -> Segmentation:
     where = str(path)
     match path.suffix.lower():
         case ".ply":
+            from meshforge.formats.mesh_reader import read_content  # lazy: hardly any asset has points beside it
+            from meshforge.formats.meshfile.ply import parse_ply  # lazy: as above
+
             text = parse_ply(read_content(path), where)
             arrays = {"points": text.vertices} | ({"faces": text.faces} if len(text.faces) else {})
             vertex = next(e for e in text.elements if e.name == "vertex")

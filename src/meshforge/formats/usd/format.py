@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, ClassVar, Protocol, runtime_checkable
+from typing import Any, ClassVar
 
 from meshforge.common import AssetError
 from meshforge.common.processes import call_isolated
@@ -97,24 +97,7 @@ def _list_others(prim: Any) -> Iterator[str]:
         yield "drive"
 
 
-@runtime_checkable
-class StageObject(Protocol):
-    """A `Usd.Stage`."""
-
-    def GetRootLayer(self) -> Any:  # noqa: N802
-        """Return its root layer."""
-
-    def GetUsedLayers(self) -> Any:  # noqa: N802
-        """Return all its layers."""
-
-    def GetSessionLayer(self) -> Any:  # noqa: N802
-        """Return the layer of what is changed for this session only."""
-
-    def Flatten(self) -> Any:  # noqa: N802
-        """Return all of it in one layer."""
-
-
-def read_stage(stage: StageObject) -> Asset:
+def read_stage(stage: base.StageObject) -> Asset:
     """Return the asset in a stage.
 
     A stage as its saved files have it is read from these, so that an edit keeps all the rest of them. One that is made
@@ -135,7 +118,7 @@ def read_stage(stage: StageObject) -> Asset:
     return replace(asset, notes=(_FLAT, *asset.notes)) if flat else asset
 
 
-def _is_saved(stage: StageObject) -> bool:
+def _is_saved(stage: base.StageObject) -> bool:
     session = stage.GetSessionLayer()
     layers = [layer for layer in stage.GetUsedLayers() if layer != session]
     is_pure = session is None or session.empty
