@@ -45,7 +45,7 @@ FORMATS: tuple[Format, ...] = (
 URDF_WITH_CAPSULES = UrdfWithCapsules()
 """URDF for readers that know `<capsule>`."""
 MARKED_FORMATS: Mapping[MarkName, tuple[Format, ...]] = {
-    "unreal": (GltfForUnreal(), obj.ObjForUnreal()),
+    "unreal": (GltfForUnreal(),),
     "godot": (GltfForGodot(),),
     "unity": (GltfForUnity(),),
     "khr": (PhysicsGltf(),),
