@@ -101,17 +101,10 @@ def _list_others(prim: Any) -> Iterator[str]:
 class StageObject(Protocol):
     """A `Usd.Stage`."""
 
-    def GetRootLayer(self) -> Any:  # noqa: N802
-        """Return its root layer."""
-
-    def GetUsedLayers(self) -> Any:  # noqa: N802
-        """Return all its layers."""
-
-    def GetSessionLayer(self) -> Any:  # noqa: N802
-        """Return the layer of what is changed for this session only."""
-
-    def Flatten(self) -> Any:  # noqa: N802
-        """Return all of it in one layer."""
+    GetRootLayer: Any
+    GetUsedLayers: Any
+    GetSessionLayer: Any
+    Flatten: Any
 
 
 def read_stage(stage: StageObject) -> Asset:
