@@ -186,22 +186,14 @@ class HullEdit(LayerEdit):
             if name in (colliders.COLLISION, colliders.MESH_COLLISION)
             or (name.startswith("Physx") and "Collision" in name)
         ]
-        stack, is_own = prim.GetPrimStack(), self.layer.GetPrimAtPath(prim.GetPath()) is not None
         spec = self.spec_of(prim)
-        old = spec.GetInfo("apiSchemas") if spec.HasInfo("apiSchemas") else pxr.Sdf.TokenListOp()
-        others = stack[1:] if is_own and stack and stack[0].path == prim.GetPath() else stack
-        lists = [other.GetInfo("apiSchemas") for other in others if other.HasInfo("apiSchemas")]
-        elsewhere = {name for listed in lists for name in listed.GetAddedOrExplicitItems()}
-        for name in ("explicitItems", "prependedItems", "appendedItems", "addedItems"):
-            left = [item for item in getattr(old, name) if item not in gone]
-            if left != list(getattr(old, name)):
-                setattr(old, name, left)
-        if not old.isExplicit:
-            old.deletedItems = [*old.deletedItems, *(n for n in gone if n in elsewhere and n not in old.deletedItems)]
-        if old == pxr.Sdf.TokenListOp():
-            spec.ClearInfo("apiSchemas")
-        else:
-            spec.SetInfo("apiSchemas", old)
+        schemas = spec.GetInfo("apiSchemas") if spec.HasInfo("apiSchemas") else pxr.Sdf.TokenListOp()
+        lists = ("prependedItems", "appendedItems", "addedItems")
+        for name in ("explicitItems",) if schemas.isExplicit else lists:
+            setattr(schemas, name, [item for item in getattr(schemas, name) if item not in gone])
+        if not schemas.isExplicit:
+            schemas.deletedItems = list(dict.fromkeys([*schemas.deletedItems, *gone]))
+        spec.SetInfo("apiSchemas", schemas)
         for name in [p.name for p in spec.properties]:
             if name in _OWN or (name.startswith("physx") and "Collision:" in name):
                 spec.RemoveProperty(spec.properties[name])
