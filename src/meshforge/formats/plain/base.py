@@ -33,7 +33,17 @@ from meshforge.formats.plain.parts import (
 )
 from meshforge.formats.surface_parts import parts_of_groups
 from meshforge.geometry import Piece, Pose, distinct, split_pieces
-from meshforge.symbolic import PRIMITIVE_FEATURES, Asset, Body, FeatureKind, Geom, Mentions, NonConvexPiece, Surface
+from meshforge.symbolic import (
+    PRIMITIVE_FEATURES,
+    Asset,
+    Body,
+    Document,
+    FeatureKind,
+    Geom,
+    Mentions,
+    NonConvexPiece,
+    Surface,
+)
 
 BODY = "body"
 """The name of the one body of a plain mesh file."""
@@ -85,28 +95,8 @@ class PlainFormat(Format):
 
     def read(self, path: Path, options: ReadOptions) -> Asset:
         document, found, soup = self.parse(mesh_reader.read_content(path), path)
-        named = [(name, piece, _mentions_of(soup, piece)) for name, piece in zip(document.names, found, strict=True)]
-        own = [[name for name, piece, _ in named if piece.group == group] for group in range(len(soup.names))]
-        elements = [collision_pieces.element_of(names) if names else "" for names in own]
-        return Asset(
-            path=path,
-            format=self.name,
-            bodies=(Body(BODY, Pose.identity()),),
-            geoms=tuple(
-                Geom(name, BODY, piece.shape, mentions=mention, element=elements[piece.group], fill=piece.fill)
-                for name, piece, mention in named
-                if piece.shape
-            ),
-            document=document,
-            non_convex=tuple(
-                NonConvexPiece(
-                    name, BODY, piece.reason or "", _surface_of(soup, piece), None, mention, elements[piece.group]
-                )
-                for name, piece, mention in named
-                if not piece.shape
-            ),
-            files=tuple(dict.fromkeys(references.find_companions(path).values())),
-        )
+        files = tuple(dict.fromkeys(references.find_companions(path).values()))
+        return replace(build_asset(path, self.name, soup, found), document=document, files=files)
 
     def parse(self, data: bytes, path: Path) -> tuple[PlainDocument, list[Piece], Soup]:
         """Return the document of a file's bytes, its pieces and triangles. Raises AssetError naming the path."""
@@ -164,6 +154,22 @@ class PlainFormat(Format):
         """The names that a written file reads back otherwise. Raises AssetError where it reads back as other hulls."""
         document, found, soup = self.parse(data, path)
         return find_renamed_hulls(document, found, soup, wanted, hulls, str(where))
+
+
+def build_asset(path: Path, kind: str, soup: Soup, found: Sequence[Piece]) -> Asset:
+    """Return the asset of the pieces of triangles, without a document; kind: the name of its format."""
+    names = name_file_pieces(found, soup.names)
+    named = [(name, piece, _mentions_of(soup, piece)) for name, piece in zip(names, found, strict=True)]
+    own = [[name for name, piece, _ in named if piece.group == group] for group in range(len(soup.names))]
+    elements = [collision_pieces.element_of(names) if names else "" for names in own]
+    hulls, others = list[Geom](), list[NonConvexPiece]()
+    for name, piece, said in named:
+        if piece.shape:
+            hulls.append(Geom(name, BODY, piece.shape, mentions=said, element=elements[piece.group], fill=piece.fill))
+        else:
+            surface, reason = _surface_of(soup, piece), piece.reason or ""
+            others.append(NonConvexPiece(name, BODY, reason, surface, None, said, elements[piece.group]))
+    return Asset(path, kind, (Body(BODY, Pose.identity()),), tuple(hulls), Document(), tuple(others))
 
 
 def _mentions_of(soup: Soup, piece: Piece) -> Mentions:
