@@ -15,7 +15,7 @@ __getattr__, __all__ = export_lazily(
         "meshfile.surface": "RawSurface",
         "mjcf.compiler": "MujocoLoad try_in_mujoco",
         "output_tree": "SaveResult output_path_of save",
-        "plain.obj_text": "format_obj",
+        "plain.obj": "format_obj",
         "plain.parts": "MeshPart",
         "registry": (
             "FORMATS_BY_SUFFIX MESH_SUFFIXES NO_GEOMETRY SUFFIXES Source all_suffixes format_for format_of "

@@ -25,7 +25,7 @@ from meshforge.formats.mjcf.compiler import try_in_mujoco as try_in_mujoco
 from meshforge.formats.output_tree import SaveResult as SaveResult
 from meshforge.formats.output_tree import output_path_of as output_path_of
 from meshforge.formats.output_tree import save as save
-from meshforge.formats.plain.obj_text import format_obj as format_obj
+from meshforge.formats.plain.obj import format_obj as format_obj
 from meshforge.formats.plain.parts import MeshPart as MeshPart
 from meshforge.formats.registry import FORMATS_BY_SUFFIX as FORMATS_BY_SUFFIX
 from meshforge.formats.registry import MESH_SUFFIXES as MESH_SUFFIXES

@@ -110,17 +110,10 @@ class SpecObject(Protocol):
 class StageObject(Protocol):
     """A `Usd.Stage`."""
 
-    def GetRootLayer(self) -> Any:  # noqa: N802
-        """Return its root layer."""
-
-    def GetUsedLayers(self) -> Any:  # noqa: N802
-        """Return all its layers."""
-
-    def GetSessionLayer(self) -> Any:  # noqa: N802
-        """Return the layer of what is changed for this session only."""
-
-    def Flatten(self) -> Any:  # noqa: N802
-        """Return all of it in one layer."""
+    GetRootLayer: Any
+    GetUsedLayers: Any
+    GetSessionLayer: Any
+    Flatten: Any
 
 
 class Format(ABC):

@@ -49,11 +49,6 @@ class CollisionElement:
         return element_of(self.names)
 
 
-ElementPieces = Sequence[Sequence[CollisionPiece]]
-ElementMentions = Sequence[Sequence[Mentions]]
-"""The pieces of each element, in order, and what else the file calls each of them."""
-
-
 def place_pieces(
     pieces: Sequence[Piece], linear: Floats, offset: Floats, surfaces: Sequence[RawSurface] = ()
 ) -> list[CollisionPiece]:
@@ -206,26 +201,22 @@ def element_of(names: Sequence[str]) -> str:
     return names[0].removesuffix("#0") if len(names) > 1 else ""
 
 
-def geoms_of(authored: Sequence[CollisionElement], parts: ElementPieces, mentions: ElementMentions) -> tuple[Geom, ...]:
-    """Return the pieces that are hulls."""
-    return tuple(
-        Geom(name, one.link, part.shape, mentions=mention_of, element=one.element, fill=part.fill)
-        for one, own, words in zip(authored, parts, mentions, strict=True)
-        for name, part, mention_of in zip(one.names, own, words, strict=True)
-        if part.shape
-    )
-
-
-def non_convex_of(
-    authored: Sequence[CollisionElement], parts: ElementPieces, mentions: ElementMentions
-) -> tuple[NonConvexPiece, ...]:
-    """Return the pieces that are no hulls."""
-    return tuple(
-        NonConvexPiece(name, one.link, part.reason, part.surface, part.plane, mention_of, one.element)
-        for one, own, words in zip(authored, parts, mentions, strict=True)
-        for name, part, mention_of in zip(one.names, own, words, strict=True)
-        if part.shape is None
-    )
+def build_pieces(
+    authored: Sequence[CollisionElement],
+    parts: Sequence[Sequence[CollisionPiece]],
+    mentions: Sequence[Sequence[Mentions]],
+) -> tuple[tuple[Geom, ...], tuple[NonConvexPiece, ...]]:
+    """Return the pieces of elements that are hulls, and those that are none; parts: of each element, in order;
+    mentions: what else the file calls each of them."""
+    hulls, others = list[Geom](), list[NonConvexPiece]()
+    for one, own, words in zip(authored, parts, mentions, strict=True):
+        for name, part, said in zip(one.names, own, words, strict=True):
+            if part.shape:
+                hulls.append(Geom(name, one.link, part.shape, mentions=said, element=one.element, fill=part.fill))
+            else:
+                piece = NonConvexPiece(name, one.link, part.reason, part.surface, part.plane, said, one.element)
+                others.append(piece)
+    return tuple(hulls), tuple(others)
 
 
 @dataclass(frozen=True, slots=True)

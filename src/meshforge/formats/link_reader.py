@@ -171,9 +171,8 @@ class LinkReader(ABC):
         parts = [self._read_pieces(*one, use) for one, use in zip(found, uses, strict=True)]
         authored = name_elements(own, map(len, parts))
         mentions = [self._list_mentions(*one, use, len(p)) for one, use, p in zip(found, uses, parts, strict=True)]
-        geoms = collision_pieces.geoms_of(authored, parts, mentions)
-        non_convex = collision_pieces.non_convex_of(authored, parts, mentions)
-        return LinkCollisions(found, authored, geoms, non_convex, self.meshes.digests())
+        pieces = collision_pieces.build_pieces(authored, parts, mentions)
+        return LinkCollisions(found, authored, *pieces, self.meshes.digests())
 
     def read_visuals(self, links: Iterable[Link]) -> VisualSurfaces:
         """Return the visuals of all links; one that is not understood is left out, it never fails."""

@@ -15,7 +15,7 @@ import numpy as np
 from meshforge.common import MeshForgeError
 from meshforge.formats import kinematic_tree, mesh_reader
 from meshforge.formats.meshfile.surface import join_surfaces, stack_triangles
-from meshforge.formats.plain.obj_text import format_obj_rows
+from meshforge.formats.plain.obj import format_obj_rows
 from meshforge.formats.references import Resolver, find_companions, placement
 from meshforge.formats.visuals import Visual
 from meshforge.geometry import Floats, Ints, Pose, Shape

@@ -41,7 +41,7 @@ _SUFFIXES = {
     "plain.stl:WrlFormat": ("wrl",),
 }
 _MARKED: Mapping[MarkName, tuple[str, ...]] = {
-    "unreal": ("gltf.format:GltfForUnreal", "plain.obj:ObjForUnreal"),
+    "unreal": ("gltf.format:GltfForUnreal",),
     "godot": ("gltf.format:GltfForGodot",),
     "unity": ("gltf.format:GltfForUnity",),
     "khr": ("gltf.format:PhysicsGltf",),

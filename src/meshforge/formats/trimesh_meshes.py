@@ -11,11 +11,9 @@ import numpy as np
 from meshforge.common import UsageError
 from meshforge.formats.assets_with_labels import label_hulls
 from meshforge.formats.mesh_reader import split_into_pieces
-from meshforge.formats.meshfile.surface import RawSurface, check_surfaces
-from meshforge.formats.plain.base import BODY
-from meshforge.formats.plain.parts import name_file_pieces
-from meshforge.geometry import Pose
-from meshforge.symbolic import Asset, Body, Document, Geom, Label, NonConvexPiece, Surface, SymbolicMesh
+from meshforge.formats.meshfile.surface import RawSurface, check_surfaces, join_surfaces
+from meshforge.formats.plain.base import build_asset
+from meshforge.symbolic import Label, SymbolicMesh
 
 WHERE = "trimesh"
 _REMEDY = "Give a trimesh.Trimesh, a trimesh.Scene, a list of these, or a dict with names for them."
@@ -65,20 +63,7 @@ def from_trimesh(
     HullNotFoundError: a label for a hull that is not there.
     """
     surfaces = check_surfaces(list_surfaces(what), name)
-    pieces = split_into_pieces(surfaces, name=name)
-    named = list(zip(name_file_pieces(pieces, [surface.name for surface in surfaces]), pieces, strict=True))
-    asset = Asset(
-        path=Path(name),
-        format=WHERE,
-        bodies=(Body(BODY, Pose.identity()),),
-        geoms=tuple(Geom(own, BODY, piece.shape) for own, piece in named if piece.shape),
-        document=Document(),
-        non_convex=tuple(
-            NonConvexPiece(own, BODY, piece.reason or "", Surface(piece.vertices, piece.faces))
-            for own, piece in named
-            if not piece.shape
-        ),
-    )
+    asset = build_asset(Path(name), WHERE, join_surfaces(surfaces), split_into_pieces(surfaces, name=name))
     return label_hulls(SymbolicMesh.of(asset), labels or {})
 
 

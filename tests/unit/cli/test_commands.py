@@ -333,8 +333,8 @@ def test_convert_of_many_mirrors_their_tree_and_goes_on_where_it_was(run: Run) -
 
 
 def test_convert_calls_hulls_as_an_engine_knows_them_and_labels_follow(run: Run) -> None:
-    assert run("convert", "row.obj", "made/row.obj", "--names", "unreal").code == 0
-    hulls = run("info", "made/row.obj", "--json").json["hulls"]
+    assert run("convert", "row.obj", "made/row.glb", "--names", "unreal").code == 0
+    hulls = run("info", "made/row.glb", "--json").json["hulls"]
     assert [(hull["name"], hull["label"]) for hull in hulls] == [
         ("UCX_row_00", "leg"),
         ("UCX_row_01", "panel"),

@@ -12,12 +12,13 @@ import trimesh
 from meshforge.checks import check
 from meshforge.common import AssetError, UsageError
 from meshforge.formats import EngineName, MarkName, read, save
-from meshforge.geometry import Box, Pose, Sphere, convex_hull
+from meshforge.geometry import Box, Pose, convex_hull
 from meshforge.symbolic import Asset, Geom, NonConvexPiece, Surface, SymbolicMesh
 from tests.conversion_samples import SAMPLES, block, foreign, wedge
 from tests.gltf_files import SceneFile, tree_of
 from tests.gltf_validation import errors
-from tests.soups import Soup, angle, box, together
+from tests.soups import angle, box, together
+from tests.unit.formats.test_marked_convex import write_obj
 
 NAMED: list[tuple[EngineName, str]] = [("unreal", ".glb"), ("unreal", ".gltf"), ("godot", ".glb"), ("unity", ".gltf")]
 
@@ -26,106 +27,17 @@ def names(asset: Asset) -> list[str]:
     return [geom.name for geom in asset.geoms]
 
 
-def group(soup: Soup, start: int, *lines: str) -> str:
-    """A group of an OBJ; start: the vertices ahead of it."""
-    corners = "".join(f"v {x!r} {y!r} {z!r}\n" for x, y, z in soup[0].tolist())
-    faces = "".join("f " + " ".join(str(c + 1 + start) for c in face) + "\n" for face in soup[1].tolist())
-    return "".join(f"{line}\n" for line in lines) + corners + faces
-
-
-SEEN = "# a crate\nmtllib crate.mtl\n" + group(angle(), 0, "o SM_crate", "usemtl oak") + "vt 0 0\n"
-HULLS = group(box((3, 0, 0)), 12, "o UCX_SM_crate_00") + group(box((5, 0, 0)), 20, "o UBX_SM_crate_01")
-
-
-def crate(folder: Path, text: str = SEEN + HULLS) -> Path:
-    path = folder / "crate.obj"
-    path.write_text(text)
-    return path
-
-
-def made(shape: Box | Sphere, parent: str = "UCX_SM_crate_00") -> Geom:
+def made(shape: Box, parent: str) -> Geom:
     return Geom(f"{parent}~1", "body", shape, parent)
 
 
-# Reading an OBJ of Unreal
-
-
-def test_of_an_obj_of_unreal_only_what_is_named_so_collides(tmp_path: Path) -> None:
-    asset = read(crate(tmp_path))
-    assert [(geom.name, geom.shape.kind) for geom in asset.geoms] == [
-        ("UCX_SM_crate_00", "polytope"),
-        ("UBX_SM_crate_01", "box"),
-    ]
-    assert not asset.non_convex
-    assert [len(surface.faces) for surface in asset.visuals] == [len(angle()[1])]
-    np.testing.assert_array_equal(asset.visuals[0].vertices, angle()[0])
-
-
-def test_a_group_of_unreal_is_one_hull_whatever_its_pieces(tmp_path: Path) -> None:
-    apart = together(box(), box((2, 0, 0)))
-    text = group(box((0, 0, 9)), 0, "o crate") + group(apart, 8, "o any", "g UCX_crate_00")
-    text += group(angle(), 24, "o ucx_crate_1", "g top") + group(box((0, 0, 5)), 36, "g bottom")
-    asset = read(crate(tmp_path, text))
-    assert names(asset) == ["UCX_crate_00", "ucx_crate_1"]
-    np.testing.assert_allclose(asset.geoms[0].shape.aabb.size, [3, 1, 1])
-    assert asset.geoms[1].shape.aabb.max[2] == 6
-
-
-def test_a_flat_group_of_unreal_is_opaque(tmp_path: Path) -> None:
-    flat: Soup = (np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0.0]]), np.array([[0, 1, 2]]))
-    asset = read(crate(tmp_path, SEEN + HULLS + group(flat, 28, "o UCX_SM_crate_02")))
-    assert len(asset.geoms) == 2 and [piece.name for piece in asset.non_convex] == ["UCX_SM_crate_02"]
-
-
-# Editing one
-
-
-def test_an_edit_of_an_obj_of_unreal_leaves_what_is_seen_byte_for_byte(tmp_path: Path) -> None:
-    asset = read(crate(tmp_path))
-    kept = [geom for geom in asset.geoms if geom.name != "UCX_SM_crate_00"]
-    ball = made(Sphere(Pose.of_translation([0, 0, 9]), 0.5))
-    saved = save(asset.with_geoms([*kept, ball]), tmp_path / "out" / "crate.obj")
-    assert saved.path.read_text().startswith(SEEN)
-    assert saved.path.read_text().count("\no USP_SM_crate_02\ng USP_SM_crate_02\n") == 1
-    assert saved.names == {"UCX_SM_crate_00~1": "USP_SM_crate_02"}
-    assert saved.notes == ("hulls are called otherwise in what is written: UCX_SM_crate_00~1 is now USP_SM_crate_02",)
-    after = read(saved.path)
-    assert [(g.name, g.shape.kind) for g in after.geoms] == [("UBX_SM_crate_01", "box"), ("USP_SM_crate_02", "sphere")]
-    np.testing.assert_array_equal(after.visuals[0].vertices, asset.visuals[0].vertices)
-
-
-def test_hulls_ahead_of_what_is_seen_go_without_it(tmp_path: Path) -> None:
-    text = group(box((3, 0, 0)), 0, "o UCX_a_00") + group(angle(), 8, "o a") + group(box((5, 0, 0)), 20, "o UCX_a_01")
-    asset = read(crate(tmp_path, text))
-    after = read(save(asset.with_geoms(asset.geoms[1:]), tmp_path / "out.obj").path)
-    assert names(after) == ["UCX_a_01"]
-    np.testing.assert_array_equal(after.visuals[0].vertices, angle()[0])
-
-
-@pytest.mark.parametrize("place", ["crate.obj", ""])
-def test_an_edit_that_leaves_nothing_but_what_is_seen_is_refused(tmp_path: Path, place: str) -> None:
-    folder = tmp_path / "in"
-    folder.mkdir()
-    crate(folder)
-    (folder / "other.obj").write_text(group(box(), 0, "o other"))
-    asset = read(folder / place)
-    left = asset.with_geoms([geom for geom in asset.geoms if "crate" not in geom.name])
-    with pytest.raises(AssetError) as caught:
-        save(left, tmp_path / "out" / place)
-    assert caught.value.message == (
-        f"{folder / 'crate.obj'}: the edit leaves no collision in this file\n"
-        "  Leave one hull: without any, what is seen would be taken for collision."
+def test_groups_of_an_obj_with_names_for_unreal_are_read_as_all_others_and_that_is_said(tmp_path: Path) -> None:
+    path = write_obj(tmp_path / "gate.obj", box(), "UCX_gate_00")
+    asset = read(path)
+    assert names(asset) == ["UCX_gate_00"]
+    assert asset.notes == (
+        "its groups with names for Unreal (UCX_ and the like) are read as all others: such names count in glTF",
     )
-
-
-def test_a_folder_with_an_obj_of_unreal_has_its_hulls_and_shows_the_rest(tmp_path: Path) -> None:
-    folder = tmp_path / "in"
-    folder.mkdir()
-    crate(folder)
-    asset = read(folder)
-    assert names(asset) == ["crate/UCX_SM_crate_00", "crate/UBX_SM_crate_01"] and len(asset.visuals) == 1
-    after = read(save(asset.with_geoms(asset.geoms[:1]), tmp_path / "out").path)
-    assert len(after.geoms) == 1 and len(after.visuals) == 1
 
 
 # Making files
@@ -161,7 +73,7 @@ def test_what_is_no_hull_never_becomes_one_for_unreal(tmp_path: Path) -> None:
     bare = save(asset, tmp_path / "bare.glb", names="unreal")
     vertices, faces = box()
     shown = replace(asset, visuals=(Surface(vertices, faces, "room"),))
-    seen = save(shown, tmp_path / "seen.obj", names="unreal")
+    seen = save(shown, tmp_path / "seen.glb", names="unreal")
     told = {loss.kind.many: loss.instead for saved in (bare, seen) for loss in saved.report.lost}
     assert told["opaque pieces"] is None  # the body shows something of its own
     assert [loss.instead for loss in bare.report.lost if loss.kind.many == "opaque pieces"] == [
@@ -180,22 +92,9 @@ def test_what_is_no_hull_never_becomes_one_for_unreal(tmp_path: Path) -> None:
 
 def test_the_one_body_of_a_file_without_bodies_is_called_after_the_file(tmp_path: Path) -> None:
     asset = foreign({"body": Pose.identity()}, [("leg", "body", wedge(0))])
-    saved = save(asset, tmp_path / "old table.obj", names="unreal")
-    assert [line for line in saved.path.read_text().splitlines() if line[0] == "g"] == [
-        "g old_table",
-        "g UCX_old_table_00",
-    ]
-
-
-def test_an_obj_for_unreal_stands_upright_there_and_says_how_to_scale_it(tmp_path: Path) -> None:
-    standing = replace(foreign({"body": Pose.identity()}, [("leg", "body", block(0, 5, 0))]), format="gltf", up="y")
-    saved = save(standing, tmp_path / "a.obj", names="unreal")
-    assert read(saved.path).geoms[0].shape.aabb.center == pytest.approx([0, 0, 5])
-    assert saved.notes[:2] == (
-        "the asset is turned about X to stand upright: glTF is y-up, OBJ for Unreal z-up",
-        "numbers are metres: Unreal's importers of OBJ take them for centimetres, so import it with a uniform scale of"
-        " 100",
-    )
+    saved = save(asset, tmp_path / "old table.glb", names="unreal")
+    nodes = tree_of(saved.path.read_bytes())["nodes"]
+    assert [node["name"] for node in nodes] == ["old_table", "UCX_old_table_00"]
 
 
 def test_hulls_beyond_the_limits_of_unity_are_told_with_the_remedy(tmp_path: Path) -> None:
@@ -212,13 +111,6 @@ def test_hulls_beyond_the_limits_of_unity_are_told_with_the_remedy(tmp_path: Pat
     corners, faces = (note for note in saved.notes if note.startswith("Unity: "))
     assert corners.startswith("Unity: ball (400): more than 255 vertices") and "check --fix" in corners
     assert faces.startswith("Unity: ball (796), many (396): more than 255 flat faces") and "check --fix" in faces
-
-
-def test_an_obj_that_is_not_for_unreal_has_no_name_that_unreal_takes(tmp_path: Path) -> None:
-    asset = foreign({"body": Pose.identity()}, [("UCX_a_00", "body", wedge(0)), ("top", "body", wedge(5))])
-    saved = save(asset, tmp_path / "a.obj")
-    assert names(read(saved.path)) == ["_UCX_a_00", "top"]
-    assert saved.names == {"UCX_a_00": "_UCX_a_00"}
 
 
 # Names for Unity, read and edited
@@ -267,10 +159,10 @@ def test_pieces_that_an_edit_puts_below_their_node_do_not_make_a_file_one_for_un
     ("place", "engine", "message"),
     [
         ("a.obj", "godot", "OBJ files cannot be named for Godot\n  Formats that can: .glb, .gltf."),
-        ("a.urdf", "unreal", "URDF files cannot be named for Unreal\n  Formats that can: .glb, .gltf, .obj."),
+        ("a.urdf", "unreal", "URDF files cannot be named for Unreal\n  Formats that can: .glb, .gltf."),
         ("a.gltf", "usd", "glTF files cannot be marked by UsdPhysics\n  Formats that can: .usda, .usd, .usdc, .usdz."),
         ("a.usda", "unity", "USD files cannot be named for Unity\n  Formats that can: .glb, .gltf."),
-        ("a", "unreal", "a folder of mesh files cannot be named for Unreal\n  Formats that can: .glb, .gltf, .obj."),
+        ("a", "unreal", "a folder of mesh files cannot be named for Unreal\n  Formats that can: .glb, .gltf."),
     ],
 )
 def test_formats_without_such_names_are_refused_with_those_that_have_them(

@@ -38,10 +38,6 @@ def write_nodes(path: Path, meshes: Mapping[str, Soup], parents: Sequence[str] =
     return path
 
 
-def unreal_obj(folder: Path, soup: Soup) -> Path:
-    return write_obj(folder / "part.obj", soup, "UCX_part_00")
-
-
 def unreal(folder: Path, soup: Soup) -> Path:
     return write_nodes(folder / "part.glb", {"Part": box(), "UCX_Part_00": soup})
 
@@ -83,7 +79,7 @@ def Mesh "Part" (prepend apiSchemas = ["PhysicsCollisionAPI", "PhysicsMeshCollis
 
 
 Writer = Callable[[Path, Soup], Path]
-every_mark = pytest.mark.parametrize("write", [unreal_obj, unreal, godot, sdf, mjcf, usd])
+every_mark = pytest.mark.parametrize("write", [unreal, godot, sdf, mjcf, usd])
 
 
 def notes_of(path: Path) -> list[str]:

@@ -12,7 +12,7 @@ from meshforge.formats import load, save
 from meshforge.formats.engine_names.conventions import EngineName
 from tests.soups import box
 from tests.unit.cli.in_process import runner
-from tests.unit.formats.test_marked_convex import write_nodes, write_obj
+from tests.unit.formats.test_marked_convex import write_nodes
 
 
 def findings_of(folder: Path, engine: str, *nodes: str, parents: tuple[str, ...] = ()) -> list[Finding]:
@@ -90,17 +90,6 @@ def test_a_parent_that_does_not_say_that_what_it_holds_collides_is_an_error_for_
     assert finding.remedy == "Is _colliders meant? Spell it so."
 
 
-def test_an_obj_for_unreal_is_held_to_the_same(tmp_path: Path) -> None:
-    vertices, faces = box()
-    write_obj(tmp_path / "gate.obj", (vertices, faces), "UCX_Fence_00")
-    text = (tmp_path / "gate.obj").read_text()
-    (tmp_path / "gate.obj").write_text(text + "g Gate\nf 1 2 3\n")
-    (finding,) = (one for one in check(load(tmp_path / "gate.obj"), "unreal") if one.rule == "unreal-name")
-    assert "Gate" in finding.remedy
-    (tmp_path / "gate.obj").write_text(text + "g Fence\nf 1 2 3\n")
-    assert not [one for one in check(load(tmp_path / "gate.obj"), "unreal") if one.severity == "error"]
-
-
 def test_a_hull_without_any_mesh_is_an_error(tmp_path: Path) -> None:
     (finding,) = findings_of(tmp_path, "unreal", "UCX_Gate_00")
     assert finding.remedy == "There is no mesh to be seen: add Gate."
@@ -143,15 +132,6 @@ def test_marks_of_another_engine_are_an_error(tmp_path: Path, names: tuple[str, 
         assert finding.remedy == f"Mark it for {title}: meshforge convert FILE OUT --names {engine}."
         save(mesh, tmp_path / f"{engine}.glb", names=engine)
         assert not [one for one in check(load(tmp_path / f"{engine}.glb"), engine) if one.severity == "error"]
-
-
-def test_an_obj_for_unreal_is_nothing_for_godot(tmp_path: Path) -> None:
-    write_obj(tmp_path / "gate.obj", box(), "UCX_Gate_00")
-    text = (tmp_path / "gate.obj").read_text()
-    (tmp_path / "gate.obj").write_text(text + "g Gate\nf 1 2 3\n")
-    mesh = load(tmp_path / "gate.obj")
-    assert [one.rule for one in check(mesh, "godot") if one.severity == "error"] == ["godot-name"]
-    assert not [one for one in check(mesh, "mujoco") if one.severity == "error"]
 
 
 def test_a_file_with_marks_of_several_engines_is_right_for_each(tmp_path: Path) -> None:

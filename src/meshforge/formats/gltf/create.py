@@ -8,7 +8,6 @@ import json
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import PurePosixPath
-from typing import Literal
 from urllib.parse import quote
 
 import numpy as np
@@ -35,28 +34,25 @@ _STRAIGHT = [0.0, 0.0, 0.0, 1.0]
 _JOINT = "join the bodies in Godot, by a HingeJoint3D, SliderJoint3D, PinJoint3D or Generic6DOFJoint3D"
 
 
-def create_gltf(asset: Asset, name: str, convention: Literal["plain", "khr"] | None = None) -> Output:
+def create_gltf(asset: Asset, name: str) -> Output:
     """Return the files of an asset that came from another format.
 
-    One body of nothing but hull meshes becomes plain nodes. Else colliders of KHR_physics_rigid_bodies hold bodies and
-    native shapes; where the asset shows nothing, a mesh on each collider's node shows that.
-    convention: one of the two, whatever the asset is.
+    Colliders of KHR_physics_rigid_bodies hold bodies and native shapes; where the asset shows nothing, a mesh on each
+    collider's node shows that.
     """
-    path, marks = PurePosixPath(name), convention or ("plain" if _is_plain(asset) else "khr")
-    is_khr = marks == "khr"
-    bodies = [body for body in asset.bodies if is_khr and body.name != BODY]  # which all formats without bodies have
+    path = PurePosixPath(name)
+    bodies = [body for body in asset.bodies if body.name != BODY]  # which all formats without bodies have
     motions = [{"extensions": {KHR: {"motion": motion_of(asset, body)}}} for body in bodies]
     places = [{"name": body.name, **pose_keys(body.pose)} for body in bodies]
-    drafts = [place | motion for place, motion in zip(places, motions, strict=True)]
-    draft = _new_draft(asset, path, drafts, [KHR] if is_khr else [])
-    seen, lost = read_visual_surfaces(asset) if is_khr else ([], [])
-    style = PhysicsStyle(draft, marks, drawn=not seen) if is_khr else style_of(marks, draft, path.stem)
+    draft = _new_draft(asset, path, [place | motion for place, motion in zip(places, motions, strict=True)], [KHR])
+    seen, lost = read_visual_surfaces(asset)
+    style = PhysicsStyle(draft, "khr", drawn=not seen)
     nodes = {body.name: node for node, body in enumerate(bodies)}
-    non_convex = [piece for piece in asset.non_convex if has_triangles(piece) or (piece.plane and is_khr)]
-    pieces: list[Geom | NonConvexPiece] = [*asset.geoms, *non_convex]
+    pieces: list[Geom | NonConvexPiece] = [*asset.geoms, *asset.non_convex]
     for piece in pieces:
-        own = piece.name.removeprefix(f"{piece.body}/") if nodes else piece.name
-        style.add(NewPiece(piece, own, nodes.get(piece.body)))
+        if isinstance(piece, Geom) or piece.plane or has_triangles(piece):
+            own = piece.name.removeprefix(f"{piece.body}/") if nodes else piece.name
+            style.add(NewPiece(piece, own, nodes.get(piece.body)))
     if not draft.expected:
         raise nothing_collides_error(asset)
     for body_name, surface in seen:
@@ -65,19 +61,8 @@ def create_gltf(asset: Asset, name: str, convention: Literal["plain", "khr"] | N
         material = _add_material(draft, surface)
         mesh, middle = draft.add_surface_mesh(points, surface.faces, called, material, surface.texture)
         draft.add_node({"name": called, "mesh": mesh, "translation": middle.tolist()}, holder)
-    document = GltfDocument(b"", marks, (), tuple((node, body) for body, node in nodes.items()))
+    document = GltfDocument(b"", "khr", (), tuple((node, body) for body, node in nodes.items()))
     return _pack_new(asset, draft, document, path, lost, renames=True)
-
-
-def _is_plain(asset: Asset) -> bool:
-    names = [geom.name for geom in asset.geoms] + [piece.name for piece in asset.non_convex]
-    return (
-        [body.name for body in asset.bodies] in ([BODY], [])
-        and not len(asset.visuals)
-        and not any(geom.shape.is_primitive for geom in asset.geoms)
-        and not any(piece.plane for piece in asset.non_convex)
-        and not any(conventions.unreal_kind(name) or conventions.godot_kind(name) for name in names)
-    )
 
 
 def create_for_engine(asset: Asset, name: str, engine: conventions.CollisionNames) -> Output:

@@ -96,11 +96,6 @@ class PhysicsGltf(GltfFormat):
     title = f"glTF with {KHR}"
     convention = "khr"
 
-    def create(self, asset: Asset, name: str) -> Output:
-        from meshforge.formats.gltf import create  # lazy: only glTF needs it
-
-        return create.create_gltf(asset, name, "khr")
-
 
 class EngineGltf(GltfFormat):
     """glTF whose collision an engine knows by name."""

@@ -11,7 +11,7 @@ import numpy as np
 
 from meshforge.common import AssetError, MeshForgeError, file_digest, pluralize
 from meshforge.formats import collision_pieces, mesh_reader, references
-from meshforge.formats.collision_pieces import CollisionElement, drop_repeats, geoms_of, non_convex_of, place_surface
+from meshforge.formats.collision_pieces import CollisionElement, build_pieces, drop_repeats, place_surface
 from meshforge.formats.engine_names.name_problems import find_name_problems
 from meshforge.formats.gltf import physics
 from meshforge.formats.gltf.colliders import CollisionReader, NodeCollision, convention_of, names_of, visible_nodes
@@ -55,8 +55,8 @@ def read_gltf(path: Path) -> Asset:
         notes = [*_collect_notes(scene, reader.convention), *reader.notes]
         authored = _record_nodes(sources, owners)
         elements = [CollisionElement(element.body, element.names) for element in authored]
-        pieces = elements, [s.parts for s in sources], [_mentions_of_node(scene, source) for source in sources]
-        geoms = geoms_of(*pieces)
+        mentions = [_mentions_of_node(scene, source) for source in sources]
+        geoms, non_convex = build_pieces(elements, [source.parts for source in sources], mentions)
         hulls = {name: [geom.shape for geom in geoms if geom.body == name] for name in bodies.values()}
         found = (physics.read_inertial(scene.placements[k], name, hulls[name]) for k, name in bodies.items())
         masses = tuple(inertial for inertial in found if inertial is not None)
@@ -73,7 +73,7 @@ def read_gltf(path: Path) -> Asset:
         bodies=(*([Body(BODY, Pose.identity())] if fixed else []), *moving),
         geoms=geoms,
         document=GltfDocument(source, reader.convention, authored, tuple(bodies.items()), digests),
-        non_convex=non_convex_of(*pieces),
+        non_convex=non_convex,
         visuals=() if reader.convention == "plain" else SceneSurfaces(source, path, owners),
         files=files,
         missing=missing,

@@ -99,7 +99,6 @@ class Soup:
     """The triangles of a whole file in file order: vertices (n, 3), faces (m, 3), group (m,) into `names`.
 
     mentions: what else the file says of its triangles: the kind (see `Mentions`), (m,) into the names, the names.
-    marked: whether names mark collision, so that each group is one hull; -1 is the group of what is only seen.
     """
 
     vertices: Floats
@@ -107,7 +106,6 @@ class Soup:
     group: Ints
     names: tuple[str | None, ...]
     mentions: tuple[tuple[str, Ints, tuple[str, ...]], ...] = ()
-    marked: bool = False
 
 
 def join_surfaces(surfaces: Sequence[RawSurface]) -> Soup:

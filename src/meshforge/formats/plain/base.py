@@ -19,10 +19,8 @@ import numpy.typing as npt
 from meshforge.common import AssetError, GeometryError
 from meshforge.formats import collision_pieces, mesh_reader, references
 from meshforge.formats.base import Format, Mass, Output, ReadOptions, note_renames
-from meshforge.formats.engine_names.conventions import NATIVE_SHAPES
 from meshforge.formats.meshfile.surface import Soup
 from meshforge.formats.plain.parts import (
-    VISUAL_ONLY,
     MeshPart,
     PlainDocument,
     TargetTriangles,
@@ -34,8 +32,18 @@ from meshforge.formats.plain.parts import (
     to_parts,
 )
 from meshforge.formats.surface_parts import parts_of_groups
-from meshforge.geometry import Piece, Pose, Shape, distinct, hull_mesh, split_pieces
-from meshforge.symbolic import PRIMITIVE_FEATURES, Asset, Body, FeatureKind, Geom, Mentions, NonConvexPiece, Surface
+from meshforge.geometry import Piece, Pose, distinct, split_pieces
+from meshforge.symbolic import (
+    PRIMITIVE_FEATURES,
+    Asset,
+    Body,
+    Document,
+    FeatureKind,
+    Geom,
+    Mentions,
+    NonConvexPiece,
+    Surface,
+)
 
 BODY = "body"
 """The name of the one body of a plain mesh file."""
@@ -59,8 +67,7 @@ class MeshFileEdit:
     @property
     def stays(self) -> npt.NDArray[np.bool_]:
         """Whether each triangle (m,) stays."""
-        kept = np.array([name not in self.gone for name in (*self.document.names, VISUAL_ONLY)], dtype=bool)
-        return kept[self.document.owner]  # -1 is the last
+        return np.array([name not in self.gone for name in self.document.names], dtype=bool)[self.document.owner]
 
     @property
     def owners(self) -> list[str]:
@@ -88,59 +95,21 @@ class PlainFormat(Format):
 
     def read(self, path: Path, options: ReadOptions) -> Asset:
         document, found, soup = self.parse(mesh_reader.read_content(path), path)
-        named = [(name, piece, _mentions_of(soup, piece)) for name, piece in zip(document.names, found, strict=True)]
-        shapes, notes = self.interpret_hulls(document, found)
-        own = [[name for name, piece, _ in named if piece.group == group] for group in range(len(soup.names))]
-        elements = [collision_pieces.element_of(names) if names else "" for names in own]
-        return Asset(
-            path=path,
-            format=self.name,
-            bodies=(Body(BODY, Pose.identity()),),
-            geoms=tuple(
-                Geom(name, BODY, shapes[name], mentions=mention, element=elements[piece.group], fill=piece.fill)
-                for name, piece, mention in named
-                if name in shapes
-            ),
-            document=document,
-            non_convex=tuple(
-                NonConvexPiece(
-                    name, BODY, piece.reason or "", _surface_of(soup, piece), None, mention, elements[piece.group]
-                )
-                for name, piece, mention in named
-                if not piece.shape
-            ),
-            visuals=_visual_surface(soup),
-            files=tuple(dict.fromkeys(references.find_companions(path).values())),
-            notes=notes,
-        )
-
-    def interpret_hulls(
-        self, document: PlainDocument, found: Sequence[Piece]
-    ) -> tuple[dict[str, Shape], tuple[str, ...]]:
-        """Return the shapes of the hulls of a file by their names, and what a user should know about how they were
-        read."""
-        return {name: p.shape for name, p in zip(document.names, found, strict=True) if p.shape}, ()
-
-    def name_hulls(self, document: PlainDocument, geoms: Sequence[Geom]) -> list[str]:
-        """Return the names that made hulls get in a file."""
-        return [geom.name for geom in geoms]
+        files = tuple(dict.fromkeys(references.find_companions(path).values()))
+        return replace(build_asset(path, self.name, soup, found), document=document, files=files)
 
     def parse(self, data: bytes, path: Path) -> tuple[PlainDocument, list[Piece], Soup]:
         """Return the document of a file's bytes, its pieces and triangles. Raises AssetError naming the path."""
         soup = self.parse_soup(data, path)
         try:
-            if soup.marked:
-                found = [_hull_group(soup, group) for group in range(len(soup.names))]
-            else:
-                found = split_pieces(soup.vertices, soup.faces, name=str(path), groups=soup.group)
+            found = split_pieces(soup.vertices, soup.faces, name=str(path), groups=soup.group)
         except GeometryError as error:
             raise AssetError(error.problem, where=str(path), remedy=error.remedy) from error
-        owner = np.full(len(soup.faces), -1)
+        owner = np.zeros(len(soup.faces), dtype=np.int64)
         for k, piece in enumerate(found):
             owner[piece.face_indices] = k
-        groups = len(set(soup.group[soup.group >= 0].tolist()))
         names = tuple(name_file_pieces(found, soup.names))
-        return PlainDocument(data, names, owner, groups, soup.marked), found, soup
+        return PlainDocument(data, names, owner, len(np.unique(soup.group))), found, soup
 
     def write(self, asset: Asset, name: str, mass: Mass = "keep") -> Output:
         document = asset.document
@@ -153,12 +122,9 @@ class PlainFormat(Format):
         beside = references.find_companions(asset.path)
         if not gone and not new:
             return Output(document.data, copies=beside)
-        parts, notes = to_parts(new, NATIVE_SHAPES if document.marked else ())
-        made = dict(zip((geom.name for geom in new), self.name_hulls(document, new), strict=True))
-        parts = tuple(replace(part, name=made[part.name]) for part in parts)
-        data, read = self._edit_file(MeshFileEdit(document, asset.path, gone, parts), {*kept, *made.values()})
-        called = {**{name: name for name in document.names if name in kept}, **made}
-        names = {name: read.get(now, now) for name, now in called.items() if read.get(now, now) != name}
+        parts, notes = to_parts(new)
+        edit = MeshFileEdit(document, asset.path, gone, parts)
+        data, names = self._edit_file(edit, {*kept, *(geom.name for geom in new)})
         return Output(data, copies=beside, notes=(*notes, *note_renames(names)), names=names)
 
     def create(self, asset: Asset, name: str) -> Output:
@@ -172,12 +138,6 @@ class PlainFormat(Format):
         """The edited file, and the names that read back otherwise; with explicit names where that repairs them."""
         if not edit.owners:
             raise AssetError("the edit leaves nothing in this file", where=str(edit.path))
-        if edit.document.marked and set(edit.owners) == {VISUAL_ONLY}:
-            raise AssetError(
-                "the edit leaves no collision in this file",
-                where=str(edit.path),
-                remedy="Leave one hull: without any, what is seen would be taken for collision.",
-            )
         data = self.apply_edit(edit)
         soup = self.parse_soup(edit.document.data, edit.path)
         kept = soup.vertices[soup.faces[edit.stays]]
@@ -196,6 +156,22 @@ class PlainFormat(Format):
         return find_renamed_hulls(document, found, soup, wanted, hulls, str(where))
 
 
+def build_asset(path: Path, kind: str, soup: Soup, found: Sequence[Piece]) -> Asset:
+    """Return the asset of the pieces of triangles, without a document; kind: the name of its format."""
+    names = name_file_pieces(found, soup.names)
+    named = [(name, piece, _mentions_of(soup, piece)) for name, piece in zip(names, found, strict=True)]
+    own = [[name for name, piece, _ in named if piece.group == group] for group in range(len(soup.names))]
+    elements = [collision_pieces.element_of(names) if names else "" for names in own]
+    hulls, others = list[Geom](), list[NonConvexPiece]()
+    for name, piece, said in named:
+        if piece.shape:
+            hulls.append(Geom(name, BODY, piece.shape, mentions=said, element=elements[piece.group], fill=piece.fill))
+        else:
+            surface, reason = _surface_of(soup, piece), piece.reason or ""
+            others.append(NonConvexPiece(name, BODY, reason, surface, None, said, elements[piece.group]))
+    return Asset(path, kind, (Body(BODY, Pose.identity()),), tuple(hulls), Document(), tuple(others))
+
+
 def _mentions_of(soup: Soup, piece: Piece) -> Mentions:
     return collision_pieces.drop_repeats(
         (kind, names[k]) for kind, owner, names in soup.mentions for k in distinct(owner[piece.face_indices]).tolist()
@@ -206,23 +182,3 @@ def _surface_of(soup: Soup, piece: Piece) -> Surface:
     own = piece.face_indices
     materials = next(((owner[own], names) for kind, owner, names in soup.mentions if kind == "material"), None)
     return Surface(piece.vertices, piece.faces, parts=parts_of_groups(soup.group[own], soup.names, materials))
-
-
-def _visual_surface(soup: Soup) -> tuple[Surface, ...]:
-    faces = soup.faces[soup.group < 0]
-    if not len(faces):
-        return ()
-    used, numbers = np.unique(faces, return_inverse=True)
-    return (Surface(soup.vertices[used], numbers.reshape(-1, 3), BODY),)
-
-
-def _hull_group(soup: Soup, group: int) -> Piece:
-    """The convex hull of a group of a file with marks, whatever that looks like, as Unreal has it."""
-    own = np.flatnonzero(soup.group == group)
-    used, numbers = np.unique(soup.faces[own], return_inverse=True)
-    vertices, faces = soup.vertices[used], numbers.reshape(-1, 3)
-    try:
-        hull, fill = hull_mesh(vertices, faces)
-        return Piece(hull, None, vertices, faces, own, group, hull.volume, fill)
-    except GeometryError as error:
-        return Piece(None, error.problem, vertices, faces, own, group)

@@ -62,7 +62,6 @@ class FolderFormat(Format):
             geoms=tuple(_rename(g, names[g.name]) for names, asset in pairs for g in asset.geoms),
             document=FolderDocument(tuple(members)),
             non_convex=tuple(_rename(o, names[o.name]) for names, asset in pairs for o in asset.non_convex),
-            visuals=tuple(surface for asset in assets for surface in asset.visuals),
             files=tuple(dict.fromkeys(f for asset in assets for f in (asset.path, *asset.files))),
             notes=tuple(f"{asset.path.name}: {note}" for asset in assets for note in asset.notes),
         )
@@ -146,7 +145,7 @@ class FolderWriter:
         elif stay and member.document.groups == 1 and not member.asset.non_convex:
             for piece in stay:  # a file each, since a piece alone would be called after the file
                 self._edit_member(member, [piece], self._find_free_name(member.names[piece], Path(member.file).suffix))
-        elif stay or member.asset.visuals:  # a file of something seen is not lost with its hulls: its writer refuses
+        elif stay:
             self._edit_member(member, stay, member.file)
         if stay:
             self.beside |= find_companions(member.asset.path)

@@ -1,26 +1,24 @@
-"""Wavefront OBJ, and OBJ for Unreal: each connected convex piece of a group is a hull, or, where names mark
-collision for Unreal, each group that is marked."""
+"""Wavefront OBJ: each connected convex piece of a group is a hull; of authored text an edit changes vertex numbers and
+group lines only."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from pathlib import Path, PurePosixPath
-from typing import ClassVar
+from pathlib import Path
 
 import numpy as np
 
-from meshforge.formats.base import Output, ReadOptions, feature_of_others
-from meshforge.formats.engine_names import bodies, conventions
-from meshforge.formats.engine_names.name_problems import find_name_problems
-from meshforge.formats.meshfile.obj import ObjText, parse_obj
+from meshforge.common import AssetError
+from meshforge.formats.base import ReadOptions, feature_of_others
+from meshforge.formats.engine_names.conventions import unreal_kind
+from meshforge.formats.meshfile.obj import ObjGroup, ObjText, arguments, group_name_of, keywords, parse_obj
 from meshforge.formats.meshfile.surface import Soup
 from meshforge.formats.plain.base import MeshFileEdit, PlainFormat
-from meshforge.formats.plain.obj_text import edit_obj, format_obj
-from meshforge.formats.plain.parts import VISUAL_ONLY, MeshPart, PlainDocument, TargetTriangles, corners_of
-from meshforge.geometry import Piece, Shape
-from meshforge.symbolic import Asset, Feature, FeatureKind, FileNote, Geom, Surface
+from meshforge.formats.plain.parts import MeshPart, PlainDocument
+from meshforge.geometry import Floats, Ints
+from meshforge.symbolic import Asset, Feature, FeatureKind, FileNote
 
 _MATERIAL = re.compile(rb"^[ \t]*usemtl[ \t]+([^\r\n]+)", re.M)
 _OTHERS = {
@@ -30,15 +28,13 @@ _OTHERS = {
     "point": re.compile(rb"^[ \t]*p[ \t]", re.M),
     "comment": re.compile(rb"^[ \t]*#", re.M),
 }
-_MARK = re.compile(rb"^[ \t]*[og][ \t]+U(?:CX|BX|SP|CP|XC|XB)", re.M | re.I)
-_UNREAL = conventions.UnrealNames()
-_SCALE = (
-    "numbers are metres: Unreal's importers of OBJ take them for centimetres, so import it with a uniform scale of 100"
+_MARKS = FileNote(
+    "its groups with names for Unreal (UCX_ and the like) are read as all others: such names count in glTF"
 )
-
-MARKED_NOTE = FileNote(
-    "its collision is the groups that Unreal takes by their names, UCX_ and the like; the rest is only seen"
-)
+_NUMBER = re.compile(rb"(\s)([+-]?\d+)")
+_FACES = (b"f", b"fo")
+_STROKES = (b"l", b"p")
+_FREE_FORM = (b"curv", b"curv2", b"surf", b"bzp", b"bsp", b"cdc", b"cdp")
 
 
 class ObjFormat(PlainFormat):
@@ -49,41 +45,21 @@ class ObjFormat(PlainFormat):
     holds = frozenset({FeatureKind.NAMES, FeatureKind.NON_CONVEX})
     suffixes = (".obj",)
 
-    def parse_soup(self, data: bytes, path: Path) -> Soup:
-        text = parse_obj(data, str(path))
-        return regroup_by_marks(text, text.soup(str(path)))
-
-    def interpret_hulls(
-        self, document: PlainDocument, found: Sequence[Piece]
-    ) -> tuple[dict[str, Shape], tuple[str, ...]]:
-        shapes, _ = super().interpret_hulls(document, found)
-        if not document.marked:
-            return shapes, ()
-        meanings = {name: conventions.interpret_unreal_shape(name, hull) for name, hull in shapes.items()}
-        notes = (MARKED_NOTE, *(note for _, note in meanings.values() if note))
-        return {name: shape for name, (shape, _) in meanings.items()}, notes
-
     def read(self, path: Path, options: ReadOptions) -> Asset:
         asset = super().read(path, options)
-        if not isinstance(asset.document, PlainDocument) or not _MARK.search(asset.document.data):
-            return asset
-        groups = [[name for name in group if name] for group in parse_obj(asset.document.data, "").groups]
-        marks = ("unreal", *(geom.name for geom in asset.geoms[:1])) if asset.document.marked else ()
-        found = find_name_problems(groups, (), *marks)
-        return replace(asset, name_problems=tuple(one for one in found if one.engine == "unreal" or one.is_hull))
+        assert isinstance(asset.document, PlainDocument)
+        names = (name for group in parse_obj(asset.document.data, str(path)).groups for name in group)
+        return replace(asset, notes=(_MARKS,)) if any(map(unreal_kind, names)) else asset
 
-    def name_hulls(self, document: PlainDocument, geoms: Sequence[Geom]) -> list[str]:
-        if not document.marked:
-            return super().name_hulls(document, geoms)
-        return next_hull_names(parse_obj(document.data, ""), geoms)
+    def parse_soup(self, data: bytes, path: Path) -> Soup:
+        return parse_obj(data, str(path)).soup(str(path))
 
     def apply_edit(self, edit: MeshFileEdit) -> bytes:
-        return edit_obj(parse_obj(edit.document.data, str(edit.path)), edit)
+        """Return the edited file. Raises AssetError: free-form surfaces, which also use the vertices."""
+        return _ObjEditor(parse_obj(edit.document.data, str(edit.path)), edit).to_bytes()
 
     def format_parts(self, parts: Sequence[MeshPart]) -> bytes:
-        return format_obj(
-            [replace(part, name="_" * bool(conventions.unreal_kind(part.name)) + part.name) for part in parts]
-        )
+        return format_obj(parts)
 
     def features(self, asset: Asset) -> Iterator[Feature]:
         if isinstance(asset.document, PlainDocument):
@@ -93,59 +69,143 @@ class ObjFormat(PlainFormat):
             yield feature_of_others(others)
 
 
-class ObjForUnreal(ObjFormat):
-    """OBJ files whose collision Unreal knows by name."""
-
-    title = "OBJ for Unreal"
-    engines = ("unreal",)
-    up = "z"  # Interchange's translator of OBJ turns nothing, and Unreal is z-up
-    holds = _UNREAL.holds - {FeatureKind.COLORS}
-    instead: ClassVar[Mapping[FeatureKind, str]] = {
-        **conventions.fallbacks_of(_UNREAL),
-        FeatureKind.BODIES: "written as groups",
-    }
-
-    def can_write_back(self, asset: Asset) -> bool:
-        return isinstance(asset.document, PlainDocument) and asset.document.marked and super().can_write_back(asset)
-
-    def create(self, asset: Asset, name: str) -> Output:
-        found = bodies.name_bodies(asset, _UNREAL, PurePosixPath(name).stem)
-        seen = [MeshPart(family.name, surface) for family in found.each for surface in family.surfaces]
-        made = {
-            geom.name: MeshPart(_UNREAL.hull(family.name, geom, k, own), Surface(hull.vertices, hull.faces))
-            for family in found.each
-            for k, (geom, own) in enumerate(family.pieces)
-            if isinstance(geom, Geom) and (hull := geom.shape.tessellate())
+class _ObjEditor:
+    def __init__(self, text: ObjText, edit: MeshFileEdit) -> None:
+        self.text = text
+        self.edit = edit
+        self.words = keywords(text.statements)
+        if any(word in _FREE_FORM for word in self.words):
+            raise AssetError("files with free-form surfaces cannot be edited", where=str(edit.path))
+        self.stays = dict(zip(text.face_at.tolist(), edit.stays.tolist(), strict=True))
+        self.bare = {  # statements that name vertices and make no triangle, which stay
+            k for k, word in enumerate(self.words) if word in _STROKES or (word in _FACES and k not in self.stays)
         }
-        parts, hulls = [*seen, *made.values()], {part.name for part in made.values()}
-        whose = [part.name if part.name in hulls else VISUAL_ONLY for part in parts for _ in part.surface.faces]
-        data = format_obj(parts, words=(b"o", b"g"))
-        read = self._check_output(data, Path(name), TargetTriangles(whose, corners_of(parts)), hulls, asset.path)
-        named = {old: read.get(part.name, part.name) for old, part in made.items()}
-        names = {old: now for old, now in named.items() if now != old}
-        return Output(data, names=names, lost=found.lost, notes=(_SCALE, *found.notes))
+        self.wanted = self._target_groups()
+        first = text.statements[0] if text.statements else b"\n"
+        self.end = first[len(first.rstrip(b"\r\n")) :] or b"\n"
+        self._number_vertices()
+
+    def to_bytes(self) -> bytes:
+        body = b"".join(self._lines())
+        if body and not body.endswith((b"\n", b"\r")):
+            body += self.end
+        if self.edit.parts and body.rstrip(b"\r\n").endswith(b"\\"):  # what follows would be of the last statement
+            body += self.end
+        width = len(arguments(self.text.statements[self.text.vertex_at[0]]))
+        colors = width - 3 if width in (6, 7) else 0
+        return body + format_obj(self.edit.parts, int(self.kept.sum()), self.end, colors)
+
+    def _target_groups(self) -> dict[int, ObjGroup]:
+        document, text = self.edit.document, self.text
+        touched = set(text.face_group[~self.edit.stays].tolist())
+        wanted: dict[int, ObjGroup] = {}
+        for at, group, owner in zip(text.face_at.tolist(), text.face_group.tolist(), document.owners, strict=True):
+            if self.stays[at]:
+                wanted[at] = (owner, "") if self.edit.explicit or group in touched else text.groups[group]
+        return wanted
+
+    def _number_vertices(self) -> None:
+        """Which vertices stay, all but those that only faces which go have used, and their new numbers."""
+        text = self.text
+        self.kept = np.ones(len(text.vertices), dtype=bool)
+        self.kept[np.unique(text.faces[~self.edit.stays])] = False
+        self.kept[np.unique(text.faces[self.edit.stays])] = True
+        for k in self.bare:
+            before = int(np.searchsorted(text.vertex_at, k))
+            numbers = [int(w.partition(b"/")[0]) for w in arguments(text.statements[k])]
+            self.kept[[n - 1 if n > 0 else before + n for n in numbers]] = True
+        self.kept_before = np.concatenate([[0], np.cumsum(self.kept)])
+        self.number = self.kept_before[1:] - 1
+        self.gone_at = set(text.vertex_at[~self.kept].tolist())
+
+    def _lines(self) -> Iterator[bytes]:
+        force: ObjGroup = ("", "")
+        idle = self._idle_group_lines()
+        for k, statement in enumerate(self.text.statements):
+            word = self.words[k]
+            if word in (b"o", b"g"):
+                if k not in idle:
+                    force = (group_name_of(statement), "") if word == b"o" else (force[0], group_name_of(statement))
+                    yield statement
+            elif k in self.stays:
+                if self.stays[k]:
+                    yield from self._group_lines(force, self.wanted[k])
+                    force = self.wanted[k]
+                    yield self._renumber(k)
+            elif k in self.bare:
+                yield self._renumber(k)
+            elif k not in self.gone_at:
+                yield statement
+
+    def _idle_group_lines(self) -> set[int]:
+        """The group lines that no face needs any more: those below them have gone, or are named otherwise."""
+        faces = {b"o": 0, b"g": 0}  # face statements between here and the next line of that kind
+        needed = {b"o": 0, b"g": 0}  # those of them that stay as they are named
+        authored = {at: self.text.groups[g] for at, g in zip(self.text.face_at, self.text.face_group, strict=True)}
+        idle: set[int] = set()
+        for k in reversed(range(len(self.words))):
+            word = self.words[k]
+            if k in self.stays:
+                for kind in faces:
+                    faces[kind] += 1
+                    needed[kind] += self.stays[k] and self.wanted[k] == authored[k]
+            elif word in faces:
+                if faces[word] and not needed[word]:
+                    idle.add(k)
+                for kind in (b"g", b"o") if word == b"o" else (b"g",):
+                    faces[kind] = needed[kind] = 0
+        return idle
+
+    def _group_lines(self, force: ObjGroup, wanted: ObjGroup) -> Iterator[bytes]:
+        if force[0] != wanted[0]:
+            yield _format_group_line(b"o", wanted[0]) + self.end
+            force = (wanted[0], "")
+        if force[1] != wanted[1]:
+            yield _format_group_line(b"g", wanted[1]) + self.end
+
+    def _renumber(self, k: int) -> bytes:
+        """A statement of an element with the new numbers of its vertices; relative numbers stay relative."""
+        if not self.gone_at:
+            return self.text.statements[k]
+        statement, hash_mark, comment = self.text.statements[k].partition(b"#")
+        before = int(np.searchsorted(self.text.vertex_at, k))
+        now = int(self.kept_before[before])
+
+        def renumber(match: re.Match[bytes]) -> bytes:
+            old = int(match[2])
+            if old < 0:
+                return match[1] + str(int(self.number[before + old]) - now).encode()
+            return match[1] + str(int(self.number[old - 1]) + 1).encode()
+
+        return _NUMBER.sub(renumber, statement) + hash_mark + comment
 
 
-def regroup_by_marks(text: ObjText, soup: Soup) -> Soup:
-    """Return the triangles of a file with a group for each hull, and -1 for what is only seen; as they are without
-    marks."""
-    marks = [next((name for name in group if conventions.unreal_kind(name)), None) for group in text.groups]
-    names = list(dict.fromkeys(name for name in marks if name is not None))
-    if not names:
-        return soup
-    hull_of = np.array([names.index(name) if name is not None else -1 for name in marks], dtype=np.int64)
-    return Soup(soup.vertices, soup.faces, hull_of[soup.group], tuple(names), soup.mentions, marked=True)
+def format_obj(parts: Sequence[MeshPart], start: int = 0, end: bytes = b"\n", colors: int = 0) -> bytes:
+    """Return parts as text, an object each.
+
+    start: the vertices ahead of them in the file; end: the line end; colors: values behind the coordinates of each
+    vertex, where the file has colours there (some readers want them for all).
+    """
+    text: list[bytes] = []
+    for part in parts:
+        vertices, faces = part.surface.vertices, part.surface.faces
+        text += [_format_group_line(b"o", part.name), end]
+        text.append(format_obj_rows(vertices, faces + start, end, " 1.0" * colors))
+        start += len(vertices)
+    return b"".join(text)
 
 
-def next_hull_names(text: ObjText, geoms: Sequence[Geom]) -> list[str]:
-    """Return the names of made hulls in a file with marks, each after the mesh that its parent stands for."""
-    names = [name for group in text.groups for name in group if name]
-    rendered = [name for name in names if not conventions.unreal_kind(name)]
-    numbers: dict[str, Iterator[int]] = {}
-    made: list[str] = []
-    for geom in geoms:
-        base = conventions.visible_mesh_of(geom.parent, rendered) if geom.parent else next(iter(rendered), "hull")
-        if base not in numbers:
-            numbers[base] = conventions.number_hulls(base, names)
-        made.append(_UNREAL.hull(base, geom, next(numbers[base]), ""))
-    return made
+def format_obj_rows(vertices: Floats, faces: Ints, end: bytes = b"\n", tail: str = "") -> bytes:
+    """Return the statements of vertices (n, 3) in full precision and of triangles (m, 3), whose numbers count from 0.
+
+    end: the line end; tail: what follows the coordinates of each vertex.
+    """
+    last = end.decode()
+    corners = f"v %r %r %r{tail}{last}" * len(vertices) % tuple((vertices + 0.0).ravel().tolist())
+    return (corners + f"f %d %d %d{last}" * len(faces) % tuple((faces + 1).ravel().tolist())).encode()
+
+
+def _format_group_line(word: bytes, name: str) -> bytes:
+    """An `o` or `g` statement without its line end; a line break in the name becomes a blank, a last backslash goes."""
+    clean = re.sub(r"[\r\n]+", " ", name).rstrip("\\")
+    return word + b" " + clean.encode("utf-8", "surrogateescape")

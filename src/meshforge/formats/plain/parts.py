@@ -16,29 +16,23 @@ from meshforge.formats.meshfile.surface import Soup
 from meshforge.geometry import Box, Floats, Ints, Piece, Polytope
 from meshforge.symbolic import Asset, Document, Geom, Surface, unique_names
 
-VISUAL_ONLY = ""
-"""The owner of triangles that are only seen; no piece has this name."""
-
 
 @dataclass(frozen=True, eq=False, slots=True)
 class PlainDocument(Document):
     """A mesh file as it was read: its bytes, the names of its pieces, and the piece (m,) of each triangle.
 
-    groups: how many groups of the file have faces; marked: whether names mark its hulls (see `Soup`); then -1 is the
-    owner of what is only seen.
+    groups: how many groups of the file have faces.
     """
 
     data: bytes
     names: tuple[str, ...]
     owner: Ints
     groups: int
-    marked: bool = False
 
     @property
     def owners(self) -> list[str]:
-        """The name of the piece of each triangle, VISUAL_ONLY for what is only seen."""
-        names = [*self.names, VISUAL_ONLY]  # -1 is the last
-        return [names[k] for k in self.owner.tolist()]
+        """The name of the piece of each triangle."""
+        return [self.names[k] for k in self.owner.tolist()]
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -112,13 +106,13 @@ def natural_key(name: str) -> tuple[tuple[bool, int, str], ...]:
     return (*((not word.isdigit(), int(word) if word.isdigit() else 0, word) for word in words),)
 
 
-def to_parts(geoms: Iterable[Geom], native: Collection[str] = ()) -> tuple[tuple[MeshPart, ...], tuple[str, ...]]:
-    """Return geoms as triangles, and notes on those that lose by it; native: kinds of round shapes that come back."""
+def to_parts(geoms: Iterable[Geom]) -> tuple[tuple[MeshPart, ...], tuple[str, ...]]:
+    """Return geoms as triangles, and notes on those that lose by it."""
     parts, round_ones = [], []
     for geom in geoms:
         shape = geom.shape.tessellate()
         parts.append(MeshPart(geom.name, Surface(shape.vertices, shape.faces)))
-        if not isinstance(geom.shape, Polytope | Box) and geom.shape.kind not in native:
+        if not isinstance(geom.shape, Polytope | Box):
             round_ones.append(geom.shape.kind)
     return tuple(parts), tuple(note_shapes_as_hulls(round_ones, "mesh files have no primitives"))
 

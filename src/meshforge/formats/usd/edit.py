@@ -4,7 +4,6 @@ bodies keep their masses."""
 from __future__ import annotations
 
 import os
-import re
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path, PurePosixPath
 from typing import Any
@@ -21,14 +20,6 @@ from meshforge.symbolic import Asset, Geom, NonConvexPiece
 
 LayerAuthor = Callable[[stage.UsdStage, Any], tuple[list[str], dict[str, str]]]
 """Edits a copy of the root layer of a stage; returns notes, and what hulls read back as under another name."""
-
-_COMMENTS = re.compile(
-    r'"""(?:[^\\]|\\.)*?"""|"(?:[^"\\\n]|\\.)*"'
-    r"|'''(?:[^\\]|\\.)*?'''|'(?:[^'\\\n]|\\.)*'"
-    r"|@@@.*?@@@|@[^@\n]*@|(#[^\n]*|//[^\n]*|/\*.*?\*/)",
-    re.S,
-)
-"""Finds comments outside of texts and references; of these nothing."""
 
 
 def write_usd(asset: Asset, document: stage.UsdDocument, name: str, mass: Mass) -> Output:
@@ -60,7 +51,7 @@ def add_usd_colliders(asset: Asset, document: stage.UsdDocument, name: str) -> O
     """
 
     def author(scene: stage.UsdStage, layer: Any) -> tuple[list[str], dict[str, str]]:
-        edit = ColliderEdit(scene, layer, document, asset)
+        edit = ColliderEdit(scene, layer, document)
         pieces: list[Geom | NonConvexPiece] = [*asset.geoms, *asset.non_convex]
         for piece in pieces:
             edit.add(piece)
@@ -108,8 +99,8 @@ def _build_output(
     crate = layers.is_crate_wanted(PurePosixPath(first).suffix.lower() if is_package else suffix, root)
     main = layers.export_layer(layer, crate=crate)
     is_text = not crate and not layers.is_crate(root)
-    if is_text and sum(map(bool, _COMMENTS.findall(root.decode("utf-8", "replace")))) > 1:  # the first names the format
-        notes.append("comments in its text are lost: USD's library writes an edited layer anew")
+    if is_text and sum(b"#" in line for line in root.splitlines()) > 1:  # the first names the format
+        notes.append("comments in its text are lost, if there are any: USD's library writes an edited layer anew")
     if not is_package:
         return Output(main, inside, dict(copies), tuple(notes), names)
     package = layers.pack_usdz({first: main, **inside})

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from meshforge.common import AssetError, pluralize
+from meshforge.common import AssetError, join_names, pluralize
 from meshforge.formats.base import note_shapes_as_hulls
 from meshforge.formats.collision_pieces import CollisionPiece, names_to_keep, new_hulls
 from meshforge.formats.libraries import pxr
@@ -186,22 +186,14 @@ class HullEdit(LayerEdit):
             if name in (colliders.COLLISION, colliders.MESH_COLLISION)
             or (name.startswith("Physx") and "Collision" in name)
         ]
-        stack, is_own = prim.GetPrimStack(), self.layer.GetPrimAtPath(prim.GetPath()) is not None
         spec = self.spec_of(prim)
-        old = spec.GetInfo("apiSchemas") if spec.HasInfo("apiSchemas") else pxr.Sdf.TokenListOp()
-        others = stack[1:] if is_own and stack and stack[0].path == prim.GetPath() else stack
-        lists = [other.GetInfo("apiSchemas") for other in others if other.HasInfo("apiSchemas")]
-        elsewhere = {name for listed in lists for name in listed.GetAddedOrExplicitItems()}
-        for name in ("explicitItems", "prependedItems", "appendedItems", "addedItems"):
-            left = [item for item in getattr(old, name) if item not in gone]
-            if left != list(getattr(old, name)):
-                setattr(old, name, left)
-        if not old.isExplicit:
-            old.deletedItems = [*old.deletedItems, *(n for n in gone if n in elsewhere and n not in old.deletedItems)]
-        if old == pxr.Sdf.TokenListOp():
-            spec.ClearInfo("apiSchemas")
-        else:
-            spec.SetInfo("apiSchemas", old)
+        schemas = spec.GetInfo("apiSchemas") if spec.HasInfo("apiSchemas") else pxr.Sdf.TokenListOp()
+        lists = ("prependedItems", "appendedItems", "addedItems")
+        for name in ("explicitItems",) if schemas.isExplicit else lists:
+            setattr(schemas, name, [item for item in getattr(schemas, name) if item not in gone])
+        if not schemas.isExplicit:
+            schemas.deletedItems = list(dict.fromkeys([*schemas.deletedItems, *gone]))
+        spec.SetInfo("apiSchemas", schemas)
         for name in [p.name for p in spec.properties]:
             if name in _OWN or (name.startswith("physx") and "Collision:" in name):
                 spec.RemoveProperty(spec.properties[name])
@@ -221,27 +213,33 @@ class HullEdit(LayerEdit):
 
 
 class ColliderEdit(LayerEdit):
-    """Adds hulls beside an unmarked stage, in scopes below what they move with; count: how many."""
+    """Adds hulls beside an unmarked stage, in a scope below its default prim, or at the root; count: how many."""
 
-    def __init__(self, scene: UsdStage, layer: Any, document: UsdDocument, asset: Asset) -> None:
+    def __init__(self, scene: UsdStage, layer: Any, document: UsdDocument) -> None:
         super().__init__(scene, layer, document)
         self.count = 0
-        self._kept = names_to_keep(asset)
-        self._paths = {name: element.path for element in document.authored for name in element.names}
-        self._scopes: dict[str, Any] = {}
+        default = scene.stage.GetDefaultPrim()
+        can_hold = default and not default.IsInstance() and prims.PrimSpace.of(scene, default).holds_volume()
+        carrier = default if can_hold else scene.stage.GetPseudoRoot()
+        self._space = prims.PrimSpace.of(scene, carrier)
+        holder = self.spec_of(carrier)
+        self._scope = prims.add_prim(holder, self.free_name(holder, _SCOPE), "Scope")
+
+    @property
+    def notes(self) -> list[str]:
+        moving = [element.path for element in self.document.authored if self._is_animated(element.path)]
+        still = f"an animation moves {join_names(moving, 3)}: hulls stay where that is at the first moment"
+        return [*super().notes, *([still] if moving else [])]
 
     def add(self, piece: Geom | NonConvexPiece) -> None:
-        """Add a piece below the scope of what it moves with; one that is neither triangles nor a plane is left out."""
-        source = piece.name if piece.name in self._kept or isinstance(piece, NonConvexPiece) else piece.parent
-        carrier = self._find_carrier(self._paths.get(source or ""))
-        space, approximation = prims.PrimSpace.of(self.scene, carrier), None
+        """Add a piece; one that is neither triangles nor a plane is left out."""
+        holder, space, approximation = self._scope, self._space, None
         if isinstance(piece, Geom):
-            spec, approximation = self.add_geom(self._scope_of(carrier), piece, space)
+            spec, approximation = self.add_geom(holder, piece, space)
         elif piece.plane is not None and (place := space.split_pose(piece.plane)) is not None:
-            holder = self._scope_of(carrier)
             spec = prims.add_plane(holder, self.free_name(holder, piece.name), *place[:2])
         elif piece.surface is not None and len(piece.surface.faces):
-            holder, approximation = self._scope_of(carrier), "none"
+            approximation = "none"
             points, faces = np.asarray(piece.surface.vertices), piece.surface.faces
             spec = prims.add_mesh(holder, self.free_name(holder, piece.name), points, faces, space)
         else:
@@ -250,47 +248,10 @@ class ColliderEdit(LayerEdit):
         spec.SetInfoDictionaryValue("customData", colliders.HULL_NAME, piece.name)
         self.count += 1
 
-    def _find_carrier(self, path: str | None) -> Any:
-        """The prim that a piece moves with: the nearest animated one at or above where it comes from, else the default
-        prim; the root of the stage where below neither a prim could be."""
-        prim = self.scene.stage.GetPrimAtPath(path) if path else None
+    def _is_animated(self, path: str) -> bool:
+        prim = self.scene.stage.GetPrimAtPath(path)
         while prim and not prim.IsPseudoRoot():
-            moves = pxr.UsdGeom.Xformable(prim) and pxr.UsdGeom.Xformable(prim).TransformMightBeTimeVarying()
-            if moves and self._can_hold(prim):
-                return prim
+            if pxr.UsdGeom.Xformable(prim).TransformMightBeTimeVarying():
+                return True
             prim = prim.GetParent()
-        default = self.scene.stage.GetDefaultPrim()
-        return default if default and self._can_hold(default) else self.scene.stage.GetPseudoRoot()
-
-    def _can_hold(self, prim: Any) -> bool:
-        is_shared = prim.IsInstance() or prim.IsInstanceProxy()  # an instance shares what is below it
-        return not is_shared and prims.PrimSpace.of(self.scene, prim).holds_volume()
-
-    def _scope_of(self, carrier: Any) -> Any:
-        """The spec of the scope below a prim, which is made where there is none yet.
-
-        Below geometry no other may be: beside an animated mesh it is a group that moves as that does.
-        """
-        path = str(carrier.GetPath())
-        if path not in self._scopes:
-            beside = carrier.IsA(pxr.UsdGeom.Gprim) and not carrier.GetParent().IsPseudoRoot()
-            holder = self.spec_of(carrier.GetParent() if beside else carrier)
-            spec = prims.add_prim(holder, self.free_name(holder, _SCOPE), "Xform" if beside else "Scope")
-            if beside:
-                _copy_movement(carrier, spec)
-            self._scopes[path] = spec
-        return self._scopes[path]
-
-
-def _copy_movement(prim: Any, spec: Any) -> None:
-    """Author on a new prim where another one is below its parent, at all times."""
-    names = ["xformOpOrder", *(op.GetOpName() for op in pxr.UsdGeom.Xformable(prim).GetOrderedXformOps())]
-    for name in dict.fromkeys(name.removeprefix("!invert!") for name in names):
-        attribute = prim.GetAttribute(name)
-        if not attribute or not attribute.HasAuthoredValue():
-            continue
-        made = pxr.Sdf.AttributeSpec(spec, name, attribute.GetTypeName(), attribute.GetVariability())
-        if attribute.GetNumTimeSamples() == 0:
-            made.default = attribute.Get()
-        for time in attribute.GetTimeSamples():
-            spec.layer.SetTimeSample(made.path, time, attribute.Get(time))
+        return False

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -20,7 +20,7 @@ from meshforge.formats.usd.mechanism import read_mechanism
 from meshforge.formats.usd.shapes import read_mesh, read_parts
 from meshforge.formats.usd.stage import PrimRecord, UsdDocument, UsdStage, usd
 from meshforge.formats.visuals import LazySurfaces
-from meshforge.symbolic import Asset, FileNote, Geom, Mentions, Rgba, Surface
+from meshforge.symbolic import Asset, FileNote, Mentions, Rgba, Surface
 
 _LABELS = "SemanticsLabelsAPI:"
 _ISAAC = "SemanticsAPI:"
@@ -55,12 +55,13 @@ def _build_asset(scene: UsdStage, source: bytes) -> Asset:
     authored = tuple(PrimRecord(one.path, one.body, own) for one, own in zip(sources, names, strict=True))
     visuals = StageSurfaces.of(scene, bodies) if physics else ()
     mentions = [_mentions_of_prim(source.prim) for source in sources]
-    geoms = tuple(_build_geoms(authored, sources, mentions))
-    non_convex = collision_pieces.non_convex_of(
+    geoms, non_convex = collision_pieces.build_pieces(
         [collision_pieces.CollisionElement(element.body, element.names) for element in authored],
         [source.parts for source in sources],
         [[own] * len(source.parts) for own, source in zip(mentions, sources, strict=True)],
     )
+    prims = {name: source.prim for source, own in zip(sources, names, strict=True) for name in own}
+    geoms = tuple(replace(geom, contact=colliders.contact_attributes(prims[geom.name])) for geom in geoms)
     mechanism = read_mechanism(scene, bodies, geoms)
     own, layers_used = scene.path.resolve(), map(_file_of, (one.realPath for one in scene.stage.GetUsedLayers()))
     others = dict.fromkeys(layer for layer in layers_used if layer is not None and layer.resolve() != own)
@@ -88,18 +89,6 @@ def read_collisions(
             parts := read_parts(scene, prim, notes)
         ):
             yield PrimCollision(prim, bodies.of(prim), parts)
-
-
-def _build_geoms(
-    authored: Sequence[PrimRecord], sources: Sequence[PrimCollision], mentions: Sequence[Mentions]
-) -> Iterator[Geom]:
-    for element, source, own in zip(authored, sources, mentions, strict=True):
-        contact = colliders.contact_attributes(source.prim)
-        for name, part in zip(element.names, source.parts, strict=True):
-            if part.shape is not None:
-                whole = collision_pieces.element_of(element.names)
-                geom = Geom(name, element.body, part.shape, contact=contact, mentions=own, element=whole)
-                yield replace(geom, fill=part.fill)
 
 
 def _find_files(path: Path) -> tuple[tuple[Path, ...], tuple[str, ...]]:
