@@ -23,7 +23,7 @@ def joint(parent: str, child: str, origin: str = "", kind: str = "fixed") -> str
     return f'<joint name="{parent}_{child}" type="{kind}">{ends}{origin}</joint>'
 
 
-@pytest.mark.parametrize("kind", ["fixed", "revolute", "continuous", "prismatic", "floating", "planar", "ball"])
+@pytest.mark.parametrize("kind", ["fixed", "revolute", "continuous", "prismatic", "floating", "ball"])
 def test_a_joint_of_any_kind_is_taken_at_zero(kind: str, tmp_path: Path) -> None:
     text = robot(A, joint("b", "c", '<origin rpy="0 0 1.5707963267948966"/>', kind), B, C,
                  joint("a", "b", '<origin xyz="1 2 3" rpy="1.5707963267948966 0 0"/>', kind))  # fmt: skip
