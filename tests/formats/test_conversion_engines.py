@@ -177,24 +177,6 @@ def test_several_joints_of_one_body_and_a_ball_move_alike_in_urdf(tmp_path: Path
         np.testing.assert_allclose(seen[1][name], where, atol=1e-9, err_msg=name)
 
 
-@pytest.mark.parametrize("kind", ["floating", "planar"])
-def test_a_free_or_planar_joint_below_another_body_is_made_of_simpler_ones(kind: Any, tmp_path: Path) -> None:
-    base = doors()
-    rail = next(joint for joint in base.mechanism.joints if joint.name == "rail")
-    loose = Joint("loose", kind, "drawer", "wheel", rail.anchor, rail.axis)
-    kept = tuple(joint for joint in base.mechanism.joints if joint.child != "wheel")
-    asset = replace(base, mechanism=replace(base.mechanism, joints=(*kept, loose)))
-    model, data = at_rest(save(asset, tmp_path / "m.xml").path)
-    own = joints_of(model, data)
-    parts = {name.removeprefix("loose_"): joint[0] for name, joint in own.items() if name.startswith("loose")}
-    assert parts == ({"x": 2, "y": 2, "z": 2, "turn": 1} if kind == "floating" else {"x": 2, "y": 2, "turn": 3})
-    assert own.keys() - {f"loose_{part}" for part in parts} == {"hinge", "rail"}
-    if kind == "planar":
-        np.testing.assert_allclose(own["loose_turn"][1], rail.axis, atol=1e-9)
-        assert abs(np.dot(own["loose_x"][1], rail.axis)) < 1e-9
-        assert abs(np.dot(own["loose_y"][1], rail.axis)) < 1e-9
-
-
 def test_a_free_body_becomes_the_root_link_and_a_free_body_again(tmp_path: Path) -> None:
     cup = '<body name="cup" pos="1 2 3"><freejoint name="f"/><geom size=".1"/></body>'
     text = f"<mujoco><worldbody>{cup}</worldbody></mujoco>"

@@ -92,13 +92,3 @@ def test_visual_meshes_lie_where_the_model_shows_them(files: dict[str, Path]) ->
     points = compiled.mesh_vert[first : first + count] @ data.geom_xmat[k].reshape(3, 3).T + data.geom_xpos[k]
     np.testing.assert_allclose(shown.min(axis=0), points.min(axis=0), atol=1e-6)
     np.testing.assert_allclose(shown.max(axis=0), points.max(axis=0), atol=1e-6)
-
-
-def test_nothing_is_written_beside_the_files_or_where_one_works(
-    files: dict[str, Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    for key in ("weird/15_unknown_element_region.xml", "lamps/furniture_sim/lightButtons.xml"):
-        read(files[key])
-    assert not any(tmp_path.iterdir())
-    assert capfd.readouterr() == ("", "")

@@ -67,10 +67,6 @@ class BodyTree:
         return True
 
     @property
-    def joint_names(self) -> set[str]:
-        return {joint.name for joints in self.joints.values() for joint in joints if joint.name}
-
-    @property
     def roots(self) -> list[str]:
         return [name for name in self.order if not self.joints[name]]
 
@@ -117,7 +113,8 @@ class KinematicChain:
         self.lost: list[Loss] = []
         self.notes: list[str] = []
         self._kinds, self._poses, self._tree = kinds, asset.body_poses, BodyTree.of(asset)
-        self._links, self._joint_names = set(self._poses), self._tree.joint_names
+        self._links = set(self._poses)
+        self._joint_names = {joint.name for joints in self._tree.joints.values() for joint in joints if joint.name}
         self._dropped = None if has_world else self._find_idle_root(bare)
         self._root = self._add_root()
         for body in self._tree.order:
@@ -181,18 +178,14 @@ class KinematicChain:
 
     def _split_joint(self, joint: Joint) -> Sequence[Joint]:
         """The joints of the format that move as one does: a ball is three that turn about one point."""
-        if joint.kind in self._kinds or joint.kind not in ("ball", "planar"):
+        if joint.kind in self._kinds or joint.kind != "ball":
             return [joint]
-        if joint.kind == "planar":
-            parts = split_planar(joint)
-        else:
-            axes = self._poses[joint.child].rotation.T
-            parts = [(letter, "revolute", axes[k]) for k, letter in enumerate("xyz")]
-        name = joint.name or f"{joint.child}_{joint.kind}"
-        bare = replace(joint, limits=None)
+        name, axes = joint.name or f"{joint.child}_ball", self._poses[joint.child].rotation.T
         return [
-            replace(bare, name=claim_name(f"{name}_{part}", self._joint_names), kind=kind, axis=axis)
-            for part, kind, axis in parts
+            replace(
+                joint, name=claim_name(f"{name}_{letter}", self._joint_names), kind="revolute", axis=axis, limits=None
+            )
+            for letter, axis in zip("xyz", axes, strict=True)
         ]
 
 
@@ -204,14 +197,6 @@ def _link_origin_of(joint: Joint, pose: Pose) -> Floats:
     elif joint.kind != "ball":
         return pose.translation
     return pose.translation + away if np.linalg.norm(away) > _NEAR else pose.translation
-
-
-def split_planar(joint: Joint) -> list[tuple[str, JointKind, Floats]]:
-    """Return the name, kind and axis (3,) of each of the joints that move together as a planar one."""
-    side = np.cross(joint.axis, np.eye(3)[int(np.argmin(np.abs(joint.axis)))])
-    across: Floats = side / np.linalg.norm(side)
-    slides: list[tuple[str, JointKind, Floats]] = [("x", "prismatic", across)]
-    return [*slides, ("y", "prismatic", np.cross(joint.axis, across)), ("turn", "revolute", joint.axis)]
 
 
 def place_inertial(inertial: Inertial, root_t_link: Pose) -> tuple[Floats, Floats]:

@@ -9,7 +9,6 @@ from typing import Annotated, Any, Literal, NamedTuple, Self, TypeVar
 
 from pydantic import (
     AliasChoices,
-    BeforeValidator,
     ConfigDict,
     Field,
     SerializerFunctionWrapHandler,
@@ -117,7 +116,7 @@ class LabelBefore(JsonFile):
     """The label that a hull had, by whom, and how sure that was; given: see `Label`, left out where there is none."""
 
     label: str
-    source: Annotated[symbolic.LabelSource, BeforeValidator(symbolic.current_source)]
+    source: symbolic.LabelSource
     confidence: Probability
     given: LabelBefore | None = None
 

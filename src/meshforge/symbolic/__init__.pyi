@@ -30,7 +30,6 @@ from meshforge.symbolic.hull import LABEL_SOURCES as LABEL_SOURCES
 from meshforge.symbolic.hull import Hull as Hull
 from meshforge.symbolic.hull import Label as Label
 from meshforge.symbolic.hull import LabelSource as LabelSource
-from meshforge.symbolic.hull import current_source as current_source
 from meshforge.symbolic.label_file import LabelFile as LabelFile
 from meshforge.symbolic.label_file import LabelTransfer as LabelTransfer
 from meshforge.symbolic.label_file import format_labels as format_labels

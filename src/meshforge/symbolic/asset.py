@@ -12,7 +12,7 @@ import numpy as np
 
 from meshforge.geometry import Floats, Ints, Pose, Shape, SurfaceParts, freeze_floats
 
-JointKind = Literal["fixed", "revolute", "prismatic", "ball", "floating", "planar"]
+JointKind = Literal["fixed", "revolute", "prismatic", "ball", "floating"]
 Mentions = tuple[tuple[str, str], ...]
 """What a file calls a piece of collision geometry besides its own name and its body's: of what kind, and the name.
 
@@ -115,8 +115,8 @@ class Joint:
     """How a body moves against another, described where all joints are at zero.
 
     name: empty where the file gives none; parent, child: the bodies it joins.
-    anchor: (3,), a point of the axis, or the centre of a ball [m]; axis: (3,), of unit length, the normal of a planar
-    joint; both in the root frame. limits: [rad] or [m] from zero, None where there are none.
+    anchor: (3,), a point of the axis, or the centre of a ball [m]; axis: (3,), of unit length; both in the root frame.
+    limits: [rad] or [m] from zero, None where there are none.
     damping, friction: of the file, 0 where it has none; effort [N or Nm], velocity [m/s or rad/s]: the largest, None
     where it has none. coupling: by which it follows another one. Several joints of one child act one after another, the
     first one nearest to the parent.

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Any, Literal, get_args
 
+from meshforge.common import import_extra
 from meshforge.geometry import Aabb, Floats, Ints, Pose, Shape
-from meshforge.symbolic.trimesh_export import make_trimesh
 
 LabelSource = Literal["vlm", "propagated", "consensus", "rebuild", "name", "file", "user", "repair", "edit", "plugin"]
 LABEL_SOURCES: tuple[str, ...] = get_args(LabelSource)
@@ -15,11 +15,6 @@ INFERRED_SOURCES = frozenset({"propagated", "consensus"})
 """Sources of labels that follow from those of other hulls."""
 GIVEN_SOURCES = HUMAN_SOURCES | {"file"}
 """Sources of labels that are not guessed: a person, or a file that somebody made."""
-
-
-def current_source(source: Any) -> Any:
-    """Return what a source of labels is called now; projects of earlier versions say `split` for `rebuild`."""
-    return "rebuild" if source == "split" else source
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,7 +103,9 @@ class Hull:
 
         Raises MeshForgeError where trimesh is not installed.
         """
-        return make_trimesh(self.vertices, self.faces, {"name": self.name, "body": self.body, "label": self.label})
+        trimesh = import_extra("trimesh", "trimesh", "to_trimesh()")
+        metadata = {"name": self.name, "body": self.body, "label": self.label}
+        return trimesh.Trimesh(self.vertices.copy(), self.faces.copy(), process=False, metadata=metadata)
 
     def with_label(self, annotation: Label | None) -> Hull:
         return replace(self, annotation=annotation)

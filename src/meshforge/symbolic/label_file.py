@@ -6,7 +6,7 @@ from __future__ import annotations
 import json
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from pathlib import Path
 from types import MappingProxyType
@@ -14,7 +14,7 @@ from typing import Any
 
 from meshforge.common import AssetError, suggest_name, write_atomically
 from meshforge.geometry import digest
-from meshforge.symbolic.hull import INFERRED_SOURCES, LABEL_SOURCES, Label, current_source
+from meshforge.symbolic.hull import INFERRED_SOURCES, LABEL_SOURCES, Label
 from meshforge.symbolic.mesh import SymbolicMesh
 
 _MOST_FILES = 256  # contents of labels files that stay in memory
@@ -87,24 +87,20 @@ def parse_labels_text(text: str | None) -> LabelFile:
 @lru_cache(_MOST_FILES)  # each edit of labels asks several times for what the same file says
 def _parse(content: bytes, path: Path) -> LabelFile:
     data = _load_json(content, path)
-    known = {"vocabulary", "hulls"}
     if not isinstance(data, dict) or not isinstance(data.get("hulls"), dict):
         raise AssetError("this is no labels file", where=str(path), remedy=_REMEDY)
-    if not data.keys() <= known:
-        unknown = next(key for key in data if key not in known)
+    if unknown := next((key for key in data if key not in ("vocabulary", "hulls")), None):
         raise AssetError(f"the field {unknown!r} is not one of a labels file", where=str(path), remedy=_REMEDY)
     vocabulary = data.get("vocabulary", [])
     if not isinstance(vocabulary, list) or not all(isinstance(word, str) and word for word in vocabulary):
         raise AssetError("its vocabulary is not a list of labels", where=str(path), remedy=_REMEDY)
-    entries = {name: _HullEntry.of(name, value, path) for name, value in data["hulls"].items() if value is not None}
-    for name, entry in entries.items():
-        for label in entry.label.names:
-            _check_label(name, label, vocabulary, path)
-    return LabelFile(
-        tuple(dict.fromkeys(vocabulary)),
-        MappingProxyType({name: entry.label for name, entry in entries.items()}),
-        MappingProxyType({name: entry.digest for name, entry in entries.items() if entry.digest}),
-    )
+    entries = {name: _parse_entry(name, value, path) for name, value in data["hulls"].items() if value is not None}
+    for name, (label, _) in entries.items():
+        for word in label.names:
+            _check_label(name, word, vocabulary, path)
+    labels = {name: label for name, (label, _) in entries.items()}
+    digests = {name: known for name, (_, known) in entries.items() if known}
+    return LabelFile(tuple(dict.fromkeys(vocabulary)), MappingProxyType(labels), MappingProxyType(digests))
 
 
 def _load_json(content: bytes, path: Path) -> Any:
@@ -134,55 +130,33 @@ def _reject_duplicates(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     return found
 
 
-@dataclass(frozen=True, slots=True)
-class _HullEntry:
-    label: Label
-    digest: str | None = None
-
-    @staticmethod
-    def of(name: str, value: Any, path: Path) -> _HullEntry:
-        """What the file says of one hull, in the long form or the short."""
-        match value:
-            case str() if value:
-                return _HullEntry(Label(value, 1.0, "file"))
-            case {"label": str(label), **rest} if label:
-                return _HullEntry(
-                    _parse_label(label, name, rest, path),
-                    known if isinstance(known := rest.get("digest"), str) and known else None,
-                )
-        raise AssetError(f"hull {name!r} has no label, which is a text", where=str(path), remedy=_REMEDY)
-
-
-def _parse_label(label: str, name: str, rest: Mapping[Any, Any], path: Path) -> Label:
-    given = _parse_given(name, rest.get("given"), path)
-    return Label(label, _parse_confidence(name, rest, path), _parse_source(name, rest, path), given)
-
-
-def _parse_given(name: str, value: Any, path: Path) -> Label | None:
-    match value:
+def _parse_entry(name: str, value: Any, path: Path) -> tuple[Label, str | None]:
+    """The label of one hull, in the long form or the short, and the digest of its geometry."""
+    if isinstance(value, str) and value:
+        return Label(value, 1.0, "file"), None
+    label, known = _parse_label(name, value, path), value.get("digest")
+    match value.get("given"):
         case None:
-            return None
-        case {"label": str(label), **rest} if label and rest.get("given") is None:
-            found = _parse_label(label, name, rest, path)
-            if found.source not in INFERRED_SOURCES:
-                return found
+            return label, known if isinstance(known, str) and known else None
+        case {"label": str(), **rest} as given if rest.get("given") is None:
+            before = _parse_label(name, given, path)
+            if before.source not in INFERRED_SOURCES:
+                return replace(label, given=before), known if isinstance(known, str) and known else None
     problem = f"what hull {name!r} was given before is no label that a person, a file or a machine gave"
     raise AssetError(problem, where=str(path), remedy=_REMEDY)
 
 
-def _parse_confidence(name: str, rest: Mapping[Any, Any], path: Path) -> float:
-    value = rest.get("confidence", 1.0)
-    if isinstance(value, bool) or not isinstance(value, int | float) or not 0.0 <= value <= 1.0:
-        raise AssetError(f"the confidence of hull {name!r} is {value!r}, not a number from 0 to 1", where=str(path))
-    return float(value)
-
-
-def _parse_source(name: str, rest: Mapping[Any, Any], path: Path) -> Any:
-    value = current_source(rest.get("source", "file"))
-    if value not in LABEL_SOURCES:
+def _parse_label(name: str, value: Any, path: Path) -> Label:
+    if not (isinstance(value, dict) and isinstance(value.get("label"), str) and value["label"]):
+        raise AssetError(f"hull {name!r} has no label, which is a text", where=str(path), remedy=_REMEDY)
+    confidence, source = value.get("confidence", 1.0), value.get("source", "file")
+    if isinstance(confidence, bool) or not isinstance(confidence, int | float) or not 0.0 <= confidence <= 1.0:
+        problem = f"the confidence of hull {name!r} is {confidence!r}, not a number from 0 to 1"
+        raise AssetError(problem, where=str(path))
+    if source not in LABEL_SOURCES:
         remedy = f"It is one of: {', '.join(LABEL_SOURCES)}."
-        raise AssetError(f"the source of hull {name!r} is {value!r}", where=str(path), remedy=remedy)
-    return value
+        raise AssetError(f"the source of hull {name!r} is {source!r}", where=str(path), remedy=remedy)
+    return Label(value["label"], float(confidence), source)
 
 
 def _check_label(name: str, label: str, vocabulary: Sequence[str], path: Path) -> None:
@@ -202,25 +176,22 @@ class LabelMatch:
     """
 
     labels: Mapping[str, Label]
-    changed: tuple[str, ...] = ()
-    renamed: tuple[tuple[str, str], ...] = ()
-    gone: tuple[str, ...] = ()
+    changed: tuple[str, ...]
+    renamed: tuple[tuple[str, str], ...]
+    gone: tuple[str, ...]
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class LabelTransfer:
-    """A mesh with the labels of a file; changed, renamed, gone: see `LabelMatch`."""
+class LabelTransfer(LabelMatch):
+    """A mesh with the labels of a file."""
 
     mesh: SymbolicMesh
-    changed: tuple[str, ...] = ()
-    renamed: tuple[tuple[str, str], ...] = ()
-    gone: tuple[str, ...] = ()
 
 
 def transfer_labels(file: LabelFile, mesh: SymbolicMesh) -> LabelTransfer:
     """Return the mesh with the labels of the file, in the places that `match_labels` gives them."""
     homes = match_labels(file, {hull.name: digest(hull.shape) if file.digests else "" for hull in mesh.hulls})
-    return LabelTransfer(mesh.with_labels(homes.labels), homes.changed, homes.renamed, homes.gone)
+    return LabelTransfer(homes.labels, homes.changed, homes.renamed, homes.gone, mesh.with_labels(homes.labels))
 
 
 def match_labels(file: LabelFile, hulls: Mapping[str, str]) -> LabelMatch:

@@ -13,11 +13,10 @@ from typing import Any
 import numpy as np
 
 from meshforge import geometry
-from meshforge.common import HullNotFoundError, MeshForgeError, pluralize, suggest_name
+from meshforge.common import HullNotFoundError, MeshForgeError, import_extra, pluralize, suggest_name
 from meshforge.geometry import Aabb, Floats, Shape, bounds, is_same_shape
 from meshforge.symbolic.asset import Asset, Geom
 from meshforge.symbolic.hull import Hull, Label
-from meshforge.symbolic.trimesh_export import make_scene
 
 EPSILON = 0.002
 """Contact threshold as a share of the diagonal (paper, implementation)."""
@@ -56,11 +55,8 @@ class SymbolicMesh:
         labels = ", ".join(f"{count} {label}" for label, count in sorted(counts.items()))
         bare = len(self.hulls) - counts.total()
         labels += f"{', ' if counts else ''}{bare} without label" if bare else ""
-        non_convex = (
-            f"; {pluralize(len(self.asset.non_convex), 'non-convex piece')}"
-            if self.asset and self.asset.non_convex
-            else ""
-        )
+        others = self.asset.non_convex if self.asset else ()
+        non_convex = f"; {pluralize(len(others), 'non-convex piece')}" if others else ""
         return f"<SymbolicMesh {name}: {pluralize(len(self.hulls), 'hull')}, {bodies}: {labels or 'empty'}{non_convex}>"
 
     def _repr_html_(self) -> str:
@@ -79,7 +75,10 @@ class SymbolicMesh:
 
     def to_trimesh(self) -> Any:
         """Return a `trimesh.Scene` with a mesh for each hull, under its name. Raises MeshForgeError without trimesh."""
-        return make_scene({hull.name: hull.to_trimesh() for hull in self.hulls})
+        scene = import_extra("trimesh", "trimesh", "to_trimesh()").Scene()
+        for hull in self.hulls:
+            scene.add_geometry(hull.to_trimesh(), node_name=hull.name, geom_name=hull.name)
+        return scene
 
     def to_mjspec(self) -> Any:
         """Return a `mujoco.MjSpec` of the asset with these hulls; of an MJCF, all the rest as the file has it.

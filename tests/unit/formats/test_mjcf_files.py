@@ -152,48 +152,6 @@ def test_a_missing_collision_mesh_is_named_with_its_path(tmp_path: Path) -> None
     assert "Looked for lost/t.obj. A file of a similar name is there: lost/tt.obj." in told
 
 
-@pytest.mark.parametrize(
-    ("files", "message"),
-    [
-        ({"a.xml": '<x><include file="main.xml"/></x>'}, "a.xml:1: 'main.xml' is included twice, or includes itself"),
-        ({"a.xml": '<x>\n<include file="a.xml"/></x>'}, "a.xml:2: 'a.xml' is included twice, or includes itself"),
-        ({"a.xml": '<x><include file="b.xml"/></x>', "b.xml": '<x><include file="a.xml"/></x>'}, "b.xml:1: 'a.xml' is"),
-        ({"a.xml": '<x><include file="b.xml"/></x>'}, "a.xml:1: the included file 'b.xml' is not there"),
-        ({"a.xml": "<x><include/></x>"}, "a.xml:1: this <include> names no file"),
-        ({"a.xml": "<x><geom></x>"}, "a.xml:1: is not well-formed XML: mismatched tag"),
-        ({"a.xml": '<!DOCTYPE x [<!ENTITY a "b">]><x/>'}, "a.xml:1: declares XML entities"),
-        ({"a.xml": ""}, "a.xml: the file is empty"),
-        ({}, "main.xml:2: the included file 'a.xml' is not there\n  Looked for a.xml."),
-    ],
-)
-def test_a_broken_include_is_one_clear_message(files: Files, message: str, tmp_path: Path) -> None:
-    path = put(tmp_path, {"main.xml": '<mujoco><worldbody>\n<include file="a.xml"/></worldbody></mujoco>', **files})
-    assert refusal(path).startswith(message)
-
-
-def test_an_include_without_elements_is_passed_over_with_a_note(tmp_path: Path) -> None:
-    asset = read(put(tmp_path, {"main.xml": model('<include file="a.xml"/><geom size="1"/>'), "a.xml": "<x/>"}))
-    assert len(asset.geoms) == 1
-    assert asset.notes == ("MuJoCo refuses this file: the included file 'a.xml' is empty",)
-
-
-NAMED = '<mujoco><worldbody><geom name="é" size="1"/></worldbody></mujoco>'
-HEADED = {
-    "mark and version 0.0": b"\xef\xbb\xbf" + f'<?xml version="0.0"?>\n<!-- a -- b -->{NAMED}'.encode(),
-    "latin-1": f'<?xml version="1.0" encoding="iso-8859-1"?>{NAMED}'.encode("latin-1"),
-    "utf-16": NAMED.encode("utf-16"),
-    "blank lines and references": b'\n\n<?xml version="1.0"?>' + NAMED.replace("é", "&#233;").encode(),
-    "line ends of Windows": NAMED.replace("><", ">\r\n<").encode(),
-}
-
-
-@pytest.mark.parametrize("how", HEADED)
-def test_odd_encodings_and_headers_are_read(how: str, tmp_path: Path) -> None:
-    asset = read(put(tmp_path, {"main.xml": HEADED[how]}))
-    assert [geom.name for geom in asset.geoms] == ["world/é"]
-    assert asset.notes == (("MuJoCo refuses this file: main.xml is text in UTF-16",) if how == "utf-16" else ())
-
-
 def test_a_fragment_names_what_includes_it_directly_or_by_another(tmp_path: Path) -> None:
     files: Files = {
         "main.xml": model('<include file="parts/deep/one.xml"/>'),

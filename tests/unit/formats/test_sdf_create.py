@@ -6,10 +6,9 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-import pytest
 
 from meshforge.formats import read, save
-from meshforge.symbolic import FeatureKind, Joint, JointKind
+from meshforge.symbolic import FeatureKind, Joint
 from tests.conversion_samples import SAMPLES, block, doors, foreign, inertial
 
 
@@ -48,16 +47,13 @@ def test_model_sdf_gets_a_model_config_and_is_read_as_a_folder(tmp_path: Path) -
     assert len(read(tmp_path / "cupboard").geoms) == len(doors().geoms)
 
 
-@pytest.mark.parametrize(("kind", "expected"), [("ball", ["ball"]), ("planar", ["prismatic", "prismatic", "revolute"])])
-def test_balls_are_balls_and_planar_joints_are_made_of_simpler_ones(
-    kind: JointKind, expected: list[str], tmp_path: Path
-) -> None:
+def test_balls_are_balls(tmp_path: Path) -> None:
     asset = doors()
     last = asset.mechanism.joints[-1]
-    joint = Joint("loose", kind, last.parent, last.child, last.anchor, last.axis)
+    joint = Joint("loose", "ball", last.parent, last.child, last.anchor, last.axis)
     asset = replace(asset, mechanism=replace(asset.mechanism, joints=(*asset.mechanism.joints[:-1], joint)))
     found = read(save(asset, tmp_path / "m.sdf").path)
-    assert [j.kind for j in found.mechanism.joints if j.name.startswith("loose")] == expected
+    assert [j.kind for j in found.mechanism.joints if j.name.startswith("loose")] == ["ball"]
 
 
 def test_what_moves_freely_has_no_joint_and_that_is_told(tmp_path: Path) -> None:

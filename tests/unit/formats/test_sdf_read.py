@@ -117,20 +117,6 @@ def test_a_joint_of_the_name_of_a_link_stands_at_its_child(tmp_path: Path) -> No
     assert found.anchor.tolist() == [1, 0, 3]
 
 
-@pytest.mark.parametrize("text", [
-    model(link(box()), '<link name="b"><inertial><pose frame="a">0 0 1 0 0 0</pose></inertial></link>'),
-    model(link(box()), '<link name="b"/>', '<joint name="j" type="fixed"><pose frame="a">0 0 1 0 0 0</pose>'
-          "<parent>a</parent><child>b</child></joint>"),
-    model('<pose frame="a">0 0 1 0 0 0</pose>', link(box())),
-])  # fmt: skip
-def test_the_old_attribute_frame_is_refused_with_its_line(text: str, tmp_path: Path) -> None:
-    path = put_text(tmp_path, text)
-    with pytest.raises(AssetError, match="Write relative_to='a' if the pose counts from that frame") as error:
-        read(path)
-    line = next(k for k, content in enumerate(path.read_text().splitlines(), 1) if 'frame="a"' in content)
-    assert f"{path}:{line}: " in str(error.value)
-
-
 def test_an_axis_in_a_frame_that_is_not_there_is_refused(tmp_path: Path) -> None:
     joint = (
         '<joint name="j" type="revolute"><parent>a</parent><child>b</child>'

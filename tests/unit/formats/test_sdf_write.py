@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 import shutil
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -160,13 +159,6 @@ def test_a_world_is_read_only_and_says_what_to_do(tmp_path: Path) -> None:
     assert write(asset).main.decode() == text
     with pytest.raises(AssetError, match="Put its <model> into a file of its own"):
         write(without(asset, "a/c0"))
-
-
-def test_a_hull_on_a_link_that_is_not_there_is_refused(tmp_path: Path) -> None:
-    asset = read(put_text(tmp_path, model(link(box(), name="base"))))
-    astray = replace(asset.geoms[0], name="x", body="bas", parent="base/c0")
-    with pytest.raises(AssetError, match="nearest name of a link is 'base'"):
-        write(asset.with_geoms([astray]))
 
 
 def test_two_files_that_would_become_one_are_refused(tmp_path: Path) -> None:

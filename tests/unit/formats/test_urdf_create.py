@@ -144,13 +144,12 @@ def test_a_frame_that_is_on_the_axis_stays_where_it_is(tmp_path: Path) -> None:
 
 
 def test_limits_are_told_as_urdf_wants_them(tmp_path: Path) -> None:
-    bodies = {name: Pose.identity() for name in ("base", "a", "b", "c", "d")}
+    bodies = {name: Pose.identity() for name in ("base", "a", "b", "c")}
     x = np.array([1.0, 0, 0])
     joints = (
         Joint("endless", "revolute", "base", "a", np.zeros(3), x),
         Joint("hinge", "revolute", "base", "b", np.zeros(3), x, (-1.0, 0.5), effort=3.0, velocity=4.0),
         Joint("rail", "prismatic", "base", "c", np.zeros(3), x),
-        Joint("plane", "planar", "base", "d", np.zeros(3), x),
     )
     _, path, output = created(jointed(*joints, bodies=bodies), tmp_path)
     found = elements(path, "joint")
@@ -158,7 +157,6 @@ def test_limits_are_told_as_urdf_wants_them(tmp_path: Path) -> None:
         "endless": "continuous",
         "hinge": "revolute",
         "rail": "prismatic",
-        "plane": "planar",
     }
     limits = {name: limit.attrib for name, joint in found.items() if (limit := joint.find("limit")) is not None}
     assert limits == {

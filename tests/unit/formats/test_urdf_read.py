@@ -8,9 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.common import AssetError
 from meshforge.geometry import Box, Capsule, Cylinder, Polytope, Pose, Sphere
-from tests.urdf_sample import HULLS, THREE, corner_obj, link, read, robot, sample, write
+from tests.urdf_sample import HULLS, THREE, link, read, robot, sample, write
 
 
 def test_every_collision_of_the_sample_is_a_hull_of_its_kind(tmp_path: Path) -> None:
@@ -51,31 +50,6 @@ def test_a_reflected_hull_is_closed_outwards(scale: str, tmp_path: Path) -> None
     np.testing.assert_allclose(hull.centroid, np.array([3.5, 0.5, 1]) * factors, atol=1e-12)
 
 
-def test_one_number_scales_all_axes(tmp_path: Path) -> None:
-    mesh = '<mesh filename="meshes/three.obj" scale="2"/>'
-    assert read(sample(tmp_path, robot(link(mesh)))).geoms[0].shape.volume == pytest.approx(8)
-
-
-@pytest.mark.parametrize(
-    ("kind", "reason"),
-    [
-        ('<plane normal="0 0 1"/>', "a plane has no end"),
-        ("<heightmap/>", "<heightmap> is no geometry that is known"),
-        ('<box size="1 0 1"/>', "a box without volume: 1 0 1 m"),
-        ('<sphere radius="-1"/>', "a sphere without volume: -1 m"),
-        ('<mesh filename="meshes/corner.obj"/>', "not convex"),
-    ],
-)
-def test_what_is_no_hull_is_opaque_with_its_reason(kind: str, reason: str, tmp_path: Path) -> None:
-    path = sample(tmp_path, robot(link(kind, '<sphere radius="1"/>')))
-    (tmp_path / "meshes" / "corner.obj").write_text(corner_obj())
-    asset = read(path)
-    assert [g.name for g in asset.geoms] == ["a/geom1"]
-    assert [(o.name, o.body) for o in asset.non_convex] == [("a/geom0", "a")]
-    assert reason in asset.non_convex[0].reason
-    assert (asset.non_convex[0].surface is not None) == ("mesh" in kind)
-
-
 def test_an_opaque_piece_counts_among_the_pieces_and_is_shown_where_it_is(tmp_path: Path) -> None:
     text = '<mesh filename="meshes/mixed.obj" scale="1 1 -1"/>'
     path = sample(tmp_path, robot(link(text)))
@@ -103,29 +77,6 @@ def test_names_count_all_collisions_of_a_link_and_stay_unique(tmp_path: Path) ->
     asset = read(sample(tmp_path, text))
     assert [g.name for g in asset.geoms] == ["a/geom2", "a/geom2@2", "a/x", "a/x@2", "b/geom0"]
     assert [n for n in asset.notes if "a collision of link 'a' on line 2 has no geometry" in n]
-
-
-@pytest.mark.parametrize(
-    ("kind", "said"),
-    [
-        ('<box size="1 1"/>', "<box size='1 1'> does not hold 3 finite numbers"),
-        ('<box size="1 1 x"/>', "does not hold 3 finite numbers"),
-        ("<box/>", "<box> has no attribute 'size'"),
-        ('<sphere radius="inf"/>', "does not hold a finite number"),
-        ('<sphere radius="${r}"/>', "Expand the file with xacro first"),
-        ('<mesh filename="meshes/three.obj" scale="1 0 1"/>', "collision 'a/geom1' is scaled to nothing"),
-        ('<mesh filename="meshes/three.obj" scale="1 1"/>', "does not hold 3 finite numbers"),
-        ("<mesh/>", "collision 'a/geom1' names no mesh file"),
-        ('<mesh filename="meshes/bad.obj"/>', "collision 'a/geom1': "),
-    ],
-)
-def test_a_wrong_element_is_named_with_its_line(kind: str, said: str, tmp_path: Path) -> None:
-    path = sample(tmp_path, robot(link('<sphere radius="1"/>', kind)))
-    (tmp_path / "meshes" / "bad.obj").write_text("v 0 0 zero\nf 1 2 3\n")
-    with pytest.raises(AssetError) as error:
-        read(path)
-    assert said in str(error.value)
-    assert "cart.urdf:4" in str(error.value)
 
 
 def test_visuals_are_read_when_somebody_looks_and_never_fail(tmp_path: Path) -> None:

@@ -6,8 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.common import AssetError
-from meshforge.formats.references import find_companions, placement
+from meshforge.formats.references import find_companions
 from tests.urdf_sample import THREE, link, put, read, robot, sample, write
 
 
@@ -66,41 +65,6 @@ def test_a_folder_is_a_package_of_the_name_in_its_package_xml(tmp_path: Path) ->
     assert read(path).files == (tmp_path / "pkg" / "meshes" / "three.obj",)
 
 
-def test_a_missing_collision_mesh_says_what_where_and_what_to_do(tmp_path: Path) -> None:
-    with pytest.raises(AssetError) as error:
-        read(_tree(tmp_path, "meshes/tree.obj"))
-    text = str(error.value)
-    assert "cart.urdf:3: the mesh 'meshes/tree.obj' of collision 'a/geom0' is not there" in text
-    assert f"Looked for {tmp_path / 'pkg' / 'urdf' / 'meshes' / 'tree.obj'}." in text
-    assert "A file of a similar name is there: " in text
-    assert "three.obj. Put it there, or correct the reference." in text
-
-
-@pytest.mark.parametrize(
-    ("reference", "said"),
-    [
-        ("package://nowhere/a.stl", "Put the folder that holds it on ROS_PACKAGE_PATH"),
-        ("package://pkg/a.stl", "but holds no such file"),
-        ("http://example.org/a.stl", "Addresses are not followed"),
-    ],
-)
-def test_the_remedy_fits_the_kind_of_reference(reference: str, said: str, tmp_path: Path) -> None:
-    path = _tree(tmp_path, reference)
-    text = path.read_text().replace("</link>", f'</link><link name="b">{link(f"<mesh filename={reference!r}/>")[15:]}')
-    path.write_text(text)
-    with pytest.raises(AssetError) as error:
-        read(path)
-    assert said in str(error.value)
-    assert "(and 1 more like it)" in str(error.value)
-
-
-def test_a_missing_visual_mesh_is_only_recorded(tmp_path: Path) -> None:
-    visual = '<link name="b"><visual><geometry><mesh filename="gone.dae"/></geometry></visual></link>'
-    asset = read(sample(tmp_path, robot(link('<sphere radius="1"/>'), visual)))
-    assert asset.missing == ("gone.dae",)
-    assert write(asset).copies == {}
-
-
 def test_files_are_the_meshes_with_their_materials_and_textures(tmp_path: Path) -> None:
     path = sample(tmp_path, robot(link('<mesh filename="meshes/three.obj"/>'),
                                   '<material name="m"><texture filename="wood.png"/></material>'))  # fmt: skip
@@ -131,9 +95,3 @@ def test_companions_of_collada_and_gltf_are_their_images_and_buffers(tmp_path: P
     assert list(find_companions(tmp_path / "m.gltf")) == ["c.bin", "a b.png"]
     assert list(find_companions(tmp_path / "m.glb")) == ["c.bin", "a b.png"]
     assert all(find_companions(tmp_path / name) == {} for name in ("broken.gltf", "list.gltf", "none.obj", "c.bin"))
-
-
-def test_a_place_is_below_the_output_folder_or_none() -> None:
-    assert placement("a/../b/c.stl") == "b/c.stl"
-    assert placement("/a/b.stl") is None
-    assert placement("https://example.org/b.stl") is None

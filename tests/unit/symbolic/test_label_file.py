@@ -10,7 +10,6 @@ from hypothesis import strategies as st
 
 from meshforge.common import AssetError
 from meshforge.geometry import Aabb, Box, digest
-from meshforge.store.events import LabelBefore
 from meshforge.symbolic import (
     INFERRED_SOURCES,
     LABEL_SOURCES,
@@ -76,14 +75,6 @@ def test_the_short_form_is_read_as_certain_and_of_source_file(tmp_path: Path) ->
     file = read_labels(written(tmp_path / "x.json", {"hulls": {"a": "leg", "b": None}}))
     assert dict(file.labels) == {"a": Label("leg", 1.0, "file")}
     assert not file.digests
-
-
-def test_the_source_split_of_earlier_versions_is_rebuild(tmp_path: Path) -> None:
-    old = {"label": "leg", "confidence": 0.9, "source": "split"}
-    file = read_labels(written(tmp_path / "x.json", {"hulls": {"a": old}}))
-    assert dict(file.labels) == {"a": Label("leg", 0.9, "rebuild")}
-    before = LabelBefore.model_validate({"label": "leg", "source": "split", "confidence": 0.9})
-    assert before.source == "rebuild"
 
 
 def test_a_labels_file_pickles(tmp_path: Path) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import posixpath
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -15,7 +15,7 @@ from meshforge.formats.base import Loss, Output
 from meshforge.formats.mjcf import document, elements, references
 from meshforge.formats.xml import format_numbers, tag
 from meshforge.geometry import Aabb, Floats, Ints, Pose, convex_hull
-from meshforge.symbolic import Asset, FeatureKind, Geom, Joint, NonConvexPiece, Surface
+from meshforge.symbolic import Asset, FeatureKind, Geom, NonConvexPiece, Surface
 
 WORLD = "world"
 """What MuJoCo calls the body that never moves; no other may have this name."""
@@ -54,7 +54,6 @@ class _Creator:
         self.tree = kinematic_tree.BodyTree.of(asset)
         self.poses = asset.body_poses
         self.inertials = {inertial.body: inertial for inertial in asset.mechanism.inertials}
-        self.joint_names = self.tree.joint_names
         self.couplings = conversion.plan_couplings(asset.mechanism.joints, "MJCF", polynomials=True)
         self.bodies = _name_bodies(self.tree)
         self.named = _name_geoms(asset, self.tree, self.bodies)
@@ -111,13 +110,12 @@ class _Creator:
     def _place_of(self, body: str) -> str:
         parent = self.tree.parent(body)
         floats = [joint.kind for joint in self.tree.joints[body]] == ["floating"]
-        if parent is None or self.bodies[parent] == WORLD or (floats and self.tree.is_static(parent)):
+        if parent is None or self.bodies[parent] == WORLD or floats:
             return ""
         return parent
 
     def _element_lines(self, body: str, lead: bytes) -> Iterator[bytes]:
-        top = not self._place_of(body)
-        joints = [part for joint in self.tree.joints[body] for part in self._split_joint(joint, top)]
+        joints = [joint for joint in self.tree.joints[body] if joint.kind != "fixed"]
         own = [geom for geom in self.asset.geoms if geom.body == body]
         yield from (lead + elements.joint_tag(joint, self.poses[body]) for joint in joints)
         hulls = [self.geoms.make_hull(geom) for geom in own]
@@ -139,13 +137,6 @@ class _Creator:
             self.lost.append(Loss(FeatureKind.NON_CONVEX, (piece.name,), "MuJoCo refuses a mesh that is flat"))
         elif piece.surface is not None:
             yield self.geoms.make_surface(piece, piece.surface)
-
-    def _split_joint(self, joint: Joint, top: bool) -> Sequence[Joint]:
-        parts = elements.split_joint(joint, top, self.joint_names)
-        if len(parts) > 1:
-            names = join_names([part.name for part in parts])
-            self.notes.setdefault(f"{names} together move as {joint.kind} {joint.name or joint.child}", [])
-        return parts
 
     def _mass_lines(self, body: str, moves: bool, volume: float) -> Iterator[bytes]:
         inertial = self.inertials.get(body)

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from dataclasses import replace
+from collections.abc import Iterable
 from typing import assert_never
 
 import numpy as np
 
-from meshforge.formats.kinematic_tree import claim_name, drop_rounding, place_inertial, split_planar
+from meshforge.formats.kinematic_tree import drop_rounding, place_inertial
 from meshforge.formats.xml import format_numbers, tag
 from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Floats, Pose, Sphere, principal_axes
 from meshforge.symbolic import Inertial, Joint
@@ -65,29 +64,8 @@ def inertial_attributes(mass: float, pos: Floats, quaternion: Floats, diagonal: 
     return {"pos": format_numbers(pos), **turned, **weight}
 
 
-def split_joint(joint: Joint, top: bool, taken: set[str]) -> Sequence[Joint]:
-    """Return the joints that move together as one does; top: whether its body may have a free joint.
-
-    A planar joint is two slides and a hinge; a floating one that is not at the top three slides and a ball.
-    """
-    match joint.kind:
-        case "fixed":
-            return []
-        case "planar":
-            parts = split_planar(joint)
-        case "floating" if not top:
-            axes = np.eye(3)
-            parts = [(name, "prismatic", axes[k]) for k, name in enumerate("xyz")]
-            parts.append(("turn", "ball", axes[2]))
-        case _:
-            return [joint]
-    name = joint.name or joint.child
-    bare = replace(joint, limits=None, effort=None)
-    return [replace(bare, name=claim_name(f"{name}_{k}", taken), kind=kind, axis=axis) for k, kind, axis in parts]
-
-
 def joint_tag(joint: Joint, root_t_body: Pose) -> bytes:
-    """Return the element of a joint that is neither fixed nor planar, in its body."""
+    """Return the element of a joint that is not fixed, in its body."""
     named = {"name": joint.name} if joint.name else {}
     if joint.kind == "floating":
         return tag("freejoint", named)

@@ -31,7 +31,7 @@ def create_urdf(asset: Asset, name: str, *, capsules: bool = False) -> Output:
 class _Creator(link_output.LinkCreator):
     native = edit.UrdfShape
     title = "URDF"
-    kinds = ("fixed", "revolute", "prismatic", "floating", "planar")
+    kinds = ("fixed", "revolute", "prismatic", "floating")
     visual_suffixes = VISUAL_SUFFIXES
     lead = b"    "
 

@@ -84,13 +84,12 @@ def read_origin(element: Element, where: str) -> Pose:
     return Pose.from_rpy(list(xyz), list(rpy))
 
 
-_KINDS: dict[str, JointKind] = {
+JOINT_KINDS: dict[str, JointKind] = {
     "fixed": "fixed",
     "revolute": "revolute",
     "continuous": "revolute",
     "prismatic": "prismatic",
     "floating": "floating",
-    "planar": "planar",
     "spherical": "ball",  # of Bullet
 }
 _X = (1.0, 0.0, 0.0)
@@ -197,7 +196,7 @@ def _read_joint(element: Element, links: UrdfLinks) -> Joint:
     limit, dynamics = element.first("limit"), element.first("dynamics")
     return Joint(
         element.attributes.get("name", ""),
-        _KINDS.get(type_, "fixed"),
+        JOINT_KINDS.get(type_, "fixed"),
         parent,
         child,
         pose.translation,

@@ -50,7 +50,7 @@ def joint_lines(made: kinematic_tree.LinkJoint, coupling: Coupling | None) -> li
     kind = joint.kind if joint else "fixed"
     type_ = "continuous" if joint and kind == "revolute" and joint.limits is None else kind
     inside = [origin_tag(made.pose), xml.tag("parent", {"link": made.parent}), xml.tag("child", {"link": made.child})]
-    if kind in ("revolute", "prismatic", "planar"):
+    if kind in ("revolute", "prismatic"):
         inside.append(xml.tag("axis", {"xyz": xml.format_numbers(kinematic_tree.drop_rounding(made.axis))}))
     if joint and kind in ("revolute", "prismatic"):
         lower, upper = joint.limits or (-UNLIMITED_TRAVEL, UNLIMITED_TRAVEL)

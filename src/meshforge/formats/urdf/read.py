@@ -120,6 +120,9 @@ def _collect_notes(robot: Element, links: UrdfLinks, found: list[tuple[str, Elem
         )
     if xacro := [element.line for element in robot.walk() if element.tag.startswith("xacro:")]:
         yield f"{pluralize(len(xacro), 'xacro element')} not expanded, the first on line {xacro[0]}: passed over"
+    for joint in robot.each("joint"):
+        if (type_ := joint.attributes.get("type", "fixed")) not in document.JOINT_KINDS:
+            yield f"joint {joint.attributes.get('name', '')!r} on line {joint.line} is {type_!r}: it is taken for fixed"
     known = {id(collision) for _, collision in found}
     if stray := [e.line for e in robot.walk() if e.tag.lower() == "collision" and id(e) not in known]:
         strays = f"{pluralize(len(stray), 'collision')} in no link"
