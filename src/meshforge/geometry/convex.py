@@ -108,7 +108,10 @@ def _make_verified_hull(points: Floats, name: str) -> Polytope:
     for attempt in (hull_by_manifold, hull_by_qhull):
         for altitude in _SLIVERS:
             made = prune_vertices(unit, attempt, altitude)
-            if made is not None and _is_valid_hull(unit, *made, max(10 * altitude, 1e-6)):
+            if made is None or not is_convex_hull(unit[made[0]], made[1], _CONVEXITY):
+                continue
+            left = np.delete(unit, made[0], axis=0)
+            if not (len(left) and rises_above(left, unit[made[0]], made[1], max(10 * altitude, 1e-6))):
                 return Polytope(points[made[0]], made[1])
     raise GeometryError("no convex hull of its points could be made", where=name)
 
@@ -127,13 +130,6 @@ def _normalize(points: Floats) -> Floats:
     unit = np.stack(columns, axis=1)
     evened: Floats = unit / np.ptp(unit, axis=0)
     return evened
-
-
-def _is_valid_hull(unit: Floats, kept: Ints, faces: Ints, reach: float) -> bool:
-    vertices = unit[kept]
-    return is_convex_hull(vertices, faces, _CONVEXITY) and (
-        len(kept) == len(unit) or not rises_above(np.delete(unit, kept, axis=0), vertices, faces, reach)
-    )
 
 
 def prune_vertices(
