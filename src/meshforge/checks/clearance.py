@@ -15,7 +15,7 @@ from meshforge.common import join_names
 from meshforge.engines import Finding
 from meshforge.geometry import Aabb, Floats, Shape, convex_hull, is_sheet
 from meshforge.rendering import LengthUnit, draw_volumes
-from meshforge.symbolic import Hull, Surface, SymbolicMesh
+from meshforge.symbolic import Surface, SymbolicMesh
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -192,13 +192,9 @@ def _build_region(kind: RegionKind, part: Mask, grid: Grid, mesh: SymbolicMesh) 
     low = grid.origin + cells.min(axis=0) * grid.cell
     bounds = Aabb(low, grid.origin + (cells.max(axis=0) + 1) * grid.cell)
     near = [h for h in mesh.hulls if kind == "closed" and h.aabb.touches(bounds)]
-    hulls = _find_fillers(part, grid, near)
+    shares = [(np.count_nonzero(voxelize_hulls(grid, [h.shape]) & part), h.name) for h in near]
+    hulls = tuple(name for count, name in sorted(shares, key=lambda s: (-s[0], s[1])) if count)
     return ClearanceRegion(kind, grid.litres(part), bounds, hulls, voxels.cells_to_surface(grid, part))
-
-
-def _find_fillers(part: Mask, grid: Grid, hulls: list[Hull]) -> tuple[str, ...]:
-    shares = [(np.count_nonzero(voxelize_hulls(grid, [h.shape]) & part), h.name) for h in hulls]
-    return tuple(name for count, name in sorted(shares, key=lambda s: (-s[0], s[1])) if count)
 
 
 def _to_finding(region: ClearanceRegion, found: Clearance) -> Finding:

@@ -108,17 +108,14 @@ class Examination:
     @property
     def descriptions(self) -> tuple[str, ...]:
         """What was measured, a sentence each."""
-        texts = (f"{_title(key)}: {one.description}" for key, one in self.measures.items() if one.description)
+        titles = {key: key.removesuffix("_of_edit").replace("_", " ") for key in self.measures}
+        texts = (f"{titles[key]}: {one.description}" for key, one in self.measures.items() if one.description)
         return (*texts, *(f"note: {note}" for note in self.notes))
 
     def to_json(self) -> dict[str, Any]:
         """Return the measures as JSON-able data, without the findings; what was not measured is left out."""
         notes = {"notes": list(self.notes)} if self.notes else {}
         return {key: one.to_json() for key, one in self.measures.items()} | notes
-
-
-def _title(key: str) -> str:
-    return key.removesuffix("_of_edit").replace("_", " ")
 
 
 def examine_mesh(mesh: SymbolicMesh, wanted: CheckOptions, before: SymbolicMesh | None = None) -> Examination:

@@ -88,15 +88,14 @@ def fix(
             left.append(f"{hull.name}: left as it is, since {why}")
             continue
         hulls[k] = replace(hull, shape=made.hull, parent=hull.parent or hull.name)
-        changes.append(_describe_fix(hull, hulls[k], broken, made.error))
+        shapes = hull.shape.tessellate(), made.hull
+        (vertices, fewer), (polygons, left_over) = (
+            (len(one.vertices) for one in shapes),
+            (len(geometry.polygon_sizes(one)) for one in shapes),
+        )
+        rules = tuple(limit.rule for limit in broken)
+        changes.append(HullFix(hull.name, rules, made.error, (vertices, fewer), (polygons, left_over)))
     return FixResult(mesh.with_hulls(hulls) if changes else mesh, tuple(changes), tuple(left))
-
-
-def _describe_fix(old: Hull, new: Hull, broken: list[Limit], error: float) -> HullFix:
-    rules = tuple(limit.rule for limit in broken)
-    vertices = len(old.vertices), len(new.vertices)
-    polygons = len(geometry.polygon_sizes(old.shape.tessellate())), len(geometry.polygon_sizes(new.shape.tessellate()))
-    return HullFix(old.name, rules, error, vertices, polygons)
 
 
 def _find_broken_limits(limits: Sequence[Limit], hull: Hull) -> list[Limit]:

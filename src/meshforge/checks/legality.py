@@ -3,8 +3,7 @@ inside of others, pairs that overlap or gape."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
@@ -14,59 +13,50 @@ from meshforge.engines import Finding
 from meshforge.symbolic import Hull, SymbolicMesh
 
 _REHULL = "Merge the hull by itself, which makes it anew, or delete it."
+_SPLIT = "A mesh can be decomposed into hulls; anything else is left as it is."
 
 
-@dataclass(frozen=True, slots=True)
-class HullRule:
-    """A rule for one hull; problem completes `<names>: `."""
-
-    name: geometry.HullFault
-    problem: str
-    remedy: str
-
-
-HULL_RULES = (
-    HullRule("finite", "coordinates that are not finite numbers", "Fix the file's vertices."),
-    HullRule("solid", "too few vertices for a volume", "Delete the hull."),
-    HullRule("flat", "no thickness", "Give it a thickness, replace it by a box, or delete it."),
-    HullRule("closed", "not closed", _REHULL),
-    HullRule("volume", "no positive volume (inside out, or empty)", _REHULL),
-    HullRule("convex", "not convex", "Decompose it, or merge the hull by itself, which fills its hollows."),
-    HullRule("outward", "faces that look inwards", _REHULL),
-)
-"""Of a hull that breaks several, only the first is reported, since the others follow from it."""
+_REMEDIES: Mapping[geometry.HullFault, str] = {
+    "finite": "Fix the file's vertices.",
+    "solid": "Delete the hull.",
+    "flat": "Give it a thickness, replace it by a box, or delete it.",
+    "closed": _REHULL,
+    "volume": _REHULL,
+    "convex": "Decompose it, or merge the hull by itself, which fills its hollows.",
+    "outward": _REHULL,
+}
 
 
 def check_legality(mesh: SymbolicMesh) -> tuple[frozenset[str], tuple[Finding, ...]]:
     """Return the names of the hulls that are no hulls, and everything found."""
-    faults: dict[geometry.HullFault, list[str]] = {rule.name: [] for rule in HULL_RULES}
+    faults: dict[geometry.HullFault, list[str]] = {fault: [] for fault in _REMEDIES}
     for hull in mesh.hulls:
         if fault := geometry.find_fault(hull.shape):
             faults[fault].append(hull.name)
+    texts = {fault: geometry.describe_fault(fault).partition(" ")[2] for fault in faults}
     findings = [
-        Finding(rule.name, "error", tuple(names), f"{join_names(names)}: {rule.problem}", rule.remedy)
-        for rule in HULL_RULES
-        if (names := faults[rule.name])
+        Finding(fault, "error", tuple(names), f"{join_names(names)}: {texts[fault]}", _REMEDIES[fault])
+        for fault, names in faults.items()
+        if names
     ]
     faulty = frozenset(name for names in faults.values() for name in names)
     return faulty, (
         *findings,
-        *_check_names(mesh),
-        *_check_bodies(mesh),
+        *_check_names_and_bodies(mesh),
         *_check_duplicates([hull for hull in mesh.hulls if hull.name not in faulty]),
-        *_report_non_convex(mesh),
+        *(
+            Finding("non_convex", "warning", (piece.name,), f"{piece.name}: no convex hull ({piece.reason})", _SPLIT)
+            for piece in (mesh.asset.non_convex if mesh.asset else ())
+        ),
     )
 
 
-def _check_names(mesh: SymbolicMesh) -> Iterator[Finding]:
+def _check_names_and_bodies(mesh: SymbolicMesh) -> Iterator[Finding]:
     names = [hull.name for hull in mesh.hulls]
     twice = [name for name in dict.fromkeys(names) if names.count(name) > 1]
     if twice:
         message = f"{join_names(twice)}: a name that several hulls have"
         yield Finding("name", "error", tuple(twice), message, "Give each hull a name of its own.")
-
-
-def _check_bodies(mesh: SymbolicMesh) -> Iterator[Finding]:
     bodies = None if mesh.asset is None else {body.name for body in mesh.asset.bodies}
     astray = [h.name for h in mesh.hulls if (not h.body if bodies is None else h.body not in bodies)]
     if astray:
@@ -84,12 +74,6 @@ def _check_duplicates(hulls: list[Hull]) -> Iterator[Finding]:
             yield Finding("duplicate", "warning", tuple(names), message, "Delete all but one.")
 
 
-def _report_non_convex(mesh: SymbolicMesh) -> Iterator[Finding]:
-    for piece in mesh.asset.non_convex if mesh.asset else ():
-        remedy = "A mesh can be decomposed into hulls; anything else is left as it is."
-        yield Finding("non_convex", "warning", (piece.name,), f"{piece.name}: no convex hull ({piece.reason})", remedy)
-
-
 SLIVER = 0.02
 """A hull that is thinner than this share of its second extent is a sliver."""
 OBLONG = 20.0
@@ -101,15 +85,12 @@ OVERLAP = 0.25
 _PAIRS = 20_000  # that are measured; the nearest come first, and how many were left out is reported
 
 
-def find_oddities(mesh: SymbolicMesh, faulty: frozenset[str] = frozenset()) -> tuple[Finding, ...]:
-    """Return slivers, oblong and inner hulls, overlaps and gaps within bodies; `faulty` hulls are left out.
+def find_oddities(mesh: SymbolicMesh) -> tuple[Finding, ...]:
+    """Return slivers, oblong and inner hulls, overlaps and gaps within bodies.
 
     A gap is one that is wider than the contact distance of the mesh, but not by more than three times.
     """
-    hulls = [h for h in mesh.hulls if h.name not in faulty]
-    if faulty:
-        mesh = mesh.with_hulls(hulls)
-    return (*_find_thin(hulls), *_find_overlaps(mesh), *_find_gaps(mesh))
+    return (*_find_thin(mesh.hulls), *_find_overlaps(mesh), *_find_gaps(mesh))
 
 
 def _find_thin(hulls: Sequence[Hull]) -> Iterator[Finding]:

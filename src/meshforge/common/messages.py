@@ -9,6 +9,7 @@ import errno
 import os
 import re
 from collections.abc import Collection, Iterable, Sequence
+from functools import partial
 from typing import Any, ClassVar
 
 _UNSAFE = re.compile(
@@ -124,14 +125,10 @@ class MeshForgeError(Exception):
         return self if self.where else type(self)(self.problem, where=where, remedy=self.remedy)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _rebuild_error, (type(self), self.problem, self.where, self.remedy)
+        return partial(type(self), where=self.where, remedy=self.remedy), (self.problem,)
 
     def __str__(self) -> str:
         return self.message
-
-
-def _rebuild_error(kind: type[MeshForgeError], problem: str, where: str | None, remedy: str | None) -> MeshForgeError:
-    return kind(problem, where=where, remedy=remedy)
 
 
 def describe_error(error: Exception, where: str | None = None, fault: str = "please report it") -> str:

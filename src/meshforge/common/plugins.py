@@ -197,7 +197,9 @@ class Registry(Mapping[str, T], Generic[T]):
         """Return the plug-in of a name, None where there is none. Raises PluginError where two packages have it."""
         claims = self._claims(name)
         if len(claims) > 1:
-            raise _clash(claims)
+            packages = " and ".join(f"{plugin.package} {plugin.version}" for plugin in claims)
+            what = f"the {_WORDS[self.kind]}{name} is in several packages: {packages}"
+            raise PluginError(what, remedy="Uninstall all but one of them.")
         return claims[0] if claims else None
 
     def load(self, plugin: Plugin) -> T:
@@ -266,9 +268,3 @@ def make_target(target: str) -> Any:
     """Return what the class or function `module:attribute` makes without arguments, always the same."""
     module, _, attribute = target.partition(":")
     return getattr(import_module(module), attribute)()
-
-
-def _clash(claims: list[Plugin]) -> PluginError:
-    packages = " and ".join(f"{plugin.package} {plugin.version}" for plugin in claims)
-    what = f"the {_WORDS[claims[0].kind]}{claims[0].name}"
-    return PluginError(f"{what} is in several packages: {packages}", remedy="Uninstall all but one of them.")

@@ -187,7 +187,9 @@ def _make_context(can_fork: bool) -> Any:
         if can_fork and _has_one_thread():
             return get_context("fork").Process(**options)
         if sys.platform == "linux":
-            context.set_forkserver_preload(["meshforge.batch.edit", *_list_modules()])
+            own_modules = (name for name in sys.modules if name.startswith("meshforge."))
+            needed = [name for name in own_modules if not name.startswith("meshforge.cli")]  # which no worker runs
+            context.set_forkserver_preload(["meshforge.batch.edit", *needed])
             _start_server()
         return context.Process(**options)
 
@@ -214,11 +216,6 @@ def _has_one_thread() -> bool:
     except OSError:  # the system does not tell
         return False
     return is_alone and not getattr(current_process(), "_inheriting", False)
-
-
-def _list_modules() -> list[str]:
-    """The modules of MeshForge that this process has imported, but for the command line's, which no worker runs."""
-    return [name for name in sys.modules if name.startswith("meshforge.") and not name.startswith("meshforge.cli")]
 
 
 def describe_exit(code: int | None) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -67,10 +67,14 @@ def describe_invalid_field(complaint: Mapping[str, Any]) -> str:
     """Return one complaint of pydantic's, in one line; complaint: one of those that `ValidationError.errors()`
     lists."""
     kind, about, given = complaint["type"], complaint.get("ctx") or {}, complaint.get("input")
-    field = _name_field(complaint["loc"])
+    steps = (f"[{step}]" if isinstance(step, int) else f".{step}" for step in complaint["loc"])
+    field = "".join(steps).removeprefix(".")
     at = f"the field {field}" if field else ""
     if kind == "json_invalid":
-        return _describe_json_error(str(about.get("error", "")))
+        text = str(about.get("error", ""))
+        found = re.search(r"line (\d+) column (\d+)", text)
+        place = f" (line {found[1]}, column {found[2]})" if found else ""
+        return f"this JSON is nested too deeply{place}" if "recursion" in text else f"this is no JSON{place}"
     if kind.startswith("missing"):
         return f"{at or 'a field'} is missing"
     if kind.startswith(("extra_forbidden", "unexpected", "no_such")):
@@ -83,16 +87,6 @@ def describe_invalid_field(complaint: Mapping[str, Any]) -> str:
             f"expected {expected}, found {_format_value(given)}" if expected else f"{_format_value(given)} does not fit"
         )
     return f"{at}: {problem}" if at else problem
-
-
-def _name_field(steps: Sequence[int | str]) -> str:
-    return "".join(f"[{step}]" if isinstance(step, int) else f".{step}" for step in steps).removeprefix(".")
-
-
-def _describe_json_error(text: str) -> str:
-    found = re.search(r"line (\d+) column (\d+)", text)
-    place = f" (line {found[1]}, column {found[2]})" if found else ""
-    return f"this JSON is nested too deeply{place}" if "recursion" in text else f"this is no JSON{place}"
 
 
 def _format_value(value: Any) -> str:

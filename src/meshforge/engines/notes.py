@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Iterable
 from dataclasses import replace
 
 from meshforge import symbolic
-from meshforge.engines.limits import Engine, Finding, check_limit, check_primitives
+from meshforge.engines.limits import Finding, check_limit, check_primitives
 from meshforge.engines.table import ENGINES
-from meshforge.geometry import Polytope
 
 
 def note_limits(
@@ -21,20 +20,14 @@ def note_limits(
     it.
     """
     native = {kind for kind, what in symbolic.PRIMITIVE_FEATURES.items() if what in holds}
-    written = [_as_written(geom, native) for geom in geoms]
+    written = [
+        geom if geom.shape.kind in {"polytope", *native} else replace(geom, shape=geom.shape.tessellate())
+        for geom in geoms
+    ]
     found: dict[str, tuple[Finding, list[str]]] = {}
     for engine in map(ENGINES.__getitem__, engines):
-        for finding in _find_broken_rules(engine, written):
+        limits = (limit for limit in engine.limits if limit.severity == "error")
+        broken = (finding for limit in limits if (finding := check_limit(engine, limit, written)))
+        for finding in (*broken, *check_primitives(engine, written)):
             found.setdefault(finding.message, (finding, []))[1].append(engine.title)
     return tuple(f"{' and '.join(titles)}: {one.message}. {one.remedy}" for one, titles in found.values())
-
-
-def _as_written(geom: symbolic.Geom, native: Collection[str]) -> symbolic.Geom:
-    shape = geom.shape
-    return geom if isinstance(shape, Polytope) or shape.kind in native else replace(geom, shape=shape.tessellate())
-
-
-def _find_broken_rules(engine: Engine, geoms: Sequence[symbolic.Geom]) -> list[Finding]:
-    limits = (limit for limit in engine.limits if limit.severity == "error")
-    broken = [finding for limit in limits if (finding := check_limit(engine, limit, geoms))]
-    return [*broken, *check_primitives(engine, geoms)]

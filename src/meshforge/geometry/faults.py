@@ -48,7 +48,7 @@ def _find_fault(shape: Shape, convexity: float) -> HullFault | None:
 
 _WORDS: dict[HullFault, str] = {
     "finite": "has coordinates that are not finite numbers",
-    "solid": "has fewer than four vertices",
+    "solid": "has too few vertices for a volume",
     "flat": "has no thickness",
     "closed": "is not closed",
     "volume": "has no positive volume (inside out, or empty)",

@@ -7,7 +7,7 @@ from collections import OrderedDict
 from collections.abc import Callable
 from functools import wraps
 from hashlib import blake2b
-from typing import Protocol, TypeVar
+from typing import TypeVar, cast
 
 import numpy as np
 
@@ -26,32 +26,26 @@ _DIRECTIONS_TRIED = 24  # directions tried from each start in a round
 _ROUNDS = 120
 _DIRECTIONS = 96  # axes to begin with, besides those of the hull's faces and edges
 
-AnyShape = TypeVar("AnyShape", bound=Shape, covariant=True)
 _MEMO_SIZE = 4096  # fits, a few hundred bytes each
+_Fit = TypeVar("_Fit", bound=Callable[..., Shape])
 
 
-class FitFunction(Protocol[AnyShape]):
-    """A function that fits a shape around points (n, 3); name: what messages call them."""
-
-    def __call__(self, points: Floats, *, name: str = "points", thicken: float | None = None) -> AnyShape: ...
-
-
-def memoize_fit(fit: Callable[..., AnyShape]) -> FitFunction[AnyShape]:
-    """Return a fit that does the same points only once; failures are not remembered."""
-    known: OrderedDict[tuple[bytes, float | None], AnyShape] = OrderedDict()
+def _remember(fit: _Fit) -> _Fit:
+    """The same fit, which does the same points only once; failures are not remembered."""
+    known: OrderedDict[tuple[bytes, float | None], Shape] = OrderedDict()
 
     @wraps(fit)
-    def remembering(points: Floats, *, name: str = "points", thicken: float | None = None) -> AnyShape:
+    def remembering(points: Floats, *, name: str = "points", thicken: float | None = None) -> Shape:
         key = blake2b(np.ascontiguousarray(points).data, digest_size=16).digest(), thicken
         known[key] = fitted = known.pop(key, None) or fit(points, name=name, thicken=thicken)
         if len(known) > _MEMO_SIZE:
             known.popitem(last=False)
         return fitted
 
-    return remembering
+    return cast(_Fit, remembering)
 
 
-@memoize_fit
+@_remember
 def tight_box(points: Floats, *, name: str = "points", thicken: float | None = None) -> Box:
     """Return the smallest box around points (n, 3), in any orientation; all points are inside to 1e-12 of its size.
 
@@ -136,7 +130,7 @@ def descend(objective: Callable[[Floats], Floats], starts: Floats, step: float) 
     return lowest
 
 
-@memoize_fit
+@_remember
 def tight_cylinder(points: Floats, *, name: str = "points", thicken: float | None = None) -> Cylinder:
     """Return the smallest cylinder around points (n, 3), in any orientation; all points are inside to 1e-12 of its
     size.
@@ -154,7 +148,7 @@ def tight_cylinder(points: Floats, *, name: str = "points", thicken: float | Non
     return Cylinder(Pose(frame.T, origin), size * radius, size * (high - low) / 2)
 
 
-@memoize_fit
+@_remember
 def tight_capsule(points: Floats, *, name: str = "points", thicken: float | None = None) -> Capsule | Sphere:
     """Return the smallest capsule around points (n, 3), in any orientation; all points are inside to 1e-12 of its size.
 

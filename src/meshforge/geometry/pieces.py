@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from hashlib import blake2b
-from itertools import pairwise
+from itertools import pairwise, takewhile
 
 import numpy as np
 
@@ -232,15 +232,8 @@ class PieceReader:
         component = connectivity.components_by_edges(self.points, corners[proper], inward)
         parts = self._add_slivers(_subdivide(faces[proper], component), np.setdiff1d(faces, faces[proper]))
         closed = len(connectivity.find_closed_components(corners[proper], component)) == len(parts) > 1
-        return _join_backs(self._judge_all(parts) if closed else []) or ([whole] if whole.verdict.shape else [])
-
-    def _judge_all(self, parts: list[Ints]) -> list[PieceFaces]:
-        judged = []
-        for part in parts:
-            judged.append(self._judge(part))
-            if judged[-1].verdict.shape is None:
-                return []
-        return judged
+        solids = list(takewhile(lambda solid: solid.verdict.shape, map(self._judge, parts))) if closed else []
+        return _join_backs(solids if len(solids) == len(parts) else []) or ([whole] if whole.verdict.shape else [])
 
     def _add_slivers(self, parts: list[Ints], slivers: Ints) -> list[Ints]:
         """The parts, each with the faces without area that lie at one of its corners."""

@@ -38,12 +38,8 @@ class Sphere(PrimitiveShape):
         points, faces = unit_sphere()
         return Polytope(self.pose.apply(points * self.radius), faces)
 
-    def transform(self, linear: Floats, offset: Floats) -> Shape:
-        split = split_scaled_rotation(linear @ self.pose.rotation)
-        if split is None or np.ptp(split[1]) > 1e-9 * split[1].max():
-            return self.tessellate().transform(linear, offset)
-        rotation, scales = split
-        return Sphere(Pose(rotation, linear @ self.pose.translation + offset), self.radius * float(scales.mean()))
+    def scale(self, pose: Pose, scales: Floats) -> Shape | None:
+        return Sphere(pose, self.radius * float(scales.mean())) if _are_equal(scales, scales) else None
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -73,15 +69,16 @@ class Ellipsoid(PrimitiveShape):
         points, faces = unit_sphere()
         return Polytope(self.pose.apply(points * self.radii), faces)
 
+    def scale(self, pose: Pose, scales: Floats) -> Shape:
+        return Ellipsoid(pose, self.radii * scales)
+
     def transform(self, linear: Floats, offset: Floats) -> Shape:
-        center = linear @ self.pose.translation + offset
-        split = split_scaled_rotation(linear @ self.pose.rotation)
-        if split is not None:
-            return Ellipsoid(Pose(split[0], center), self.radii * split[1])
+        if split_scaled_rotation(linear @ self.pose.rotation):
+            return PrimitiveShape.transform(self, linear, offset)
         rotation, radii, _ = np.linalg.svd(linear @ self.pose.rotation * self.radii)
         if np.linalg.det(rotation) < 0:
             rotation = rotation * np.array([1.0, 1.0, -1.0])
-        return Ellipsoid(Pose(rotation, center), radii)
+        return Ellipsoid(Pose(rotation, linear @ self.pose.translation + offset), radii)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -114,13 +111,9 @@ class Cylinder(PrimitiveShape):
         points, faces = unit_cylinder()
         return Polytope(self.pose.apply(points * [self.radius, self.radius, self.half_length]), faces)
 
-    def transform(self, linear: Floats, offset: Floats) -> Shape:
-        split = split_scaled_rotation(linear @ self.pose.rotation)
-        if split is None or abs(split[1][0] - split[1][1]) > 1e-9 * split[1].max():
-            return self.tessellate().transform(linear, offset)
-        rotation, scales = split
-        pose = Pose(rotation, linear @ self.pose.translation + offset)
-        return Cylinder(pose, self.radius * float(scales[:2].mean()), self.half_length * float(scales[2]))
+    def scale(self, pose: Pose, scales: Floats) -> Shape | None:
+        made = Cylinder(pose, self.radius * float(scales[:2].mean()), self.half_length * float(scales[2]))
+        return made if _are_equal(scales[:2], scales) else None
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -149,14 +142,13 @@ class Capsule(PrimitiveShape):
         points, faces = tessellate_capsule(self.radius, self.half_length)
         return Polytope(self.pose.apply(points), faces)
 
-    def transform(self, linear: Floats, offset: Floats) -> Shape:
-        split = split_scaled_rotation(linear @ self.pose.rotation)
-        if split is None or np.ptp(split[1]) > 1e-9 * split[1].max():
-            return self.tessellate().transform(linear, offset)
-        rotation, scales = split
-        scale = float(scales.mean())
-        pose = Pose(rotation, linear @ self.pose.translation + offset)
-        return Capsule(pose, self.radius * scale, self.half_length * scale)
+    def scale(self, pose: Pose, scales: Floats) -> Shape | None:
+        mean = float(scales.mean())
+        return Capsule(pose, self.radius * mean, self.half_length * mean) if _are_equal(scales, scales) else None
+
+
+def _are_equal(some: Floats, scales: Floats) -> bool:
+    return bool(np.ptp(some) <= 1e-9 * scales.max())
 
 
 def _ring(radius: float, z: float, count: int) -> Floats:
@@ -199,17 +191,11 @@ def unit_sphere() -> tuple[Floats, Ints]:
 def unit_cylinder() -> tuple[Floats, Ints]:
     """Return vertices (64, 3) and outward triangles of the cylinder of radius 1 from z = -1 to z = 1."""
     vertices = np.concatenate([_ring(1.0, -1.0, _CYLINDER_SIDES), _ring(1.0, 1.0, _CYLINDER_SIDES)])
-    side = [t for k in range(_CYLINDER_SIDES) for t in _quad(k, (k + 1) % _CYLINDER_SIDES)]
-    caps = [
-        t
-        for k in range(1, _CYLINDER_SIDES - 1)
-        for t in ([0, k + 1, k], [_CYLINDER_SIDES, _CYLINDER_SIDES + k, _CYLINDER_SIDES + k + 1])
-    ]
+    sides = _CYLINDER_SIDES
+    around = [(k, (k + 1) % sides) for k in range(sides)]
+    side = [t for k, n in around for t in ([k, n, sides + n], [k, sides + n, sides + k])]
+    caps = [t for k in range(1, sides - 1) for t in ([0, k + 1, k], [sides, sides + k, sides + k + 1])]
     return freeze_floats(vertices, (-1, 3)), freeze_ints(side + caps, (-1, 3))
-
-
-def _quad(k: int, n: int) -> list[list[int]]:
-    return [[k, n, _CYLINDER_SIDES + n], [k, _CYLINDER_SIDES + n, _CYLINDER_SIDES + k]]
 
 
 def tessellate_capsule(radius: float, half_length: float) -> tuple[Floats, Ints]:

@@ -176,6 +176,15 @@ class PrimitiveShape(Shape):
     def centroid(self) -> Floats:
         return self.pose.translation
 
+    @abstractmethod
+    def scale(self, pose: Pose, scales: Floats) -> Shape | None:
+        """Return the primitive at another pose, scaled (3,) along its axes; None where it is none of its kind then."""
+
+    def transform(self, linear: Floats, offset: Floats) -> Shape:
+        split = split_scaled_rotation(linear @ self.pose.rotation)
+        made = self.scale(Pose(split[0], linear @ self.pose.translation + offset), split[1]) if split else None
+        return made or self.tessellate().transform(linear, offset)
+
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Box(PrimitiveShape):
@@ -208,22 +217,17 @@ class Box(PrimitiveShape):
     def tessellate(self) -> Polytope:
         return Polytope(self.pose.apply(_BOX_CORNERS * self.half), np.array(_BOX_FACES))
 
-    def transform(self, linear: Floats, offset: Floats) -> Shape:
-        split = split_scaled_rotation(linear @ self.pose.rotation)
-        if split is None:
-            return self.tessellate().transform(linear, offset)
-        rotation, scales = split
-        return Box(Pose(rotation, linear @ self.pose.translation + offset), self.half * scales)
+    def scale(self, pose: Pose, scales: Floats) -> Shape:
+        return Box(pose, self.half * scales)
 
 
 def digest(shape: Shape) -> str:
     """Return sixteen hexadecimal digits of the shape's kind and its vertices in single precision, in sorted order."""
     if not isinstance(shape, Polytope):
         return _compute_digest(shape)
-    known = _digests.get(shape)
-    if known is None:
-        known = _digests[shape] = _compute_digest(shape)
-    return known
+    if shape not in _digests:
+        _digests[shape] = _compute_digest(shape)
+    return _digests[shape]
 
 
 def _compute_digest(shape: Shape) -> str:

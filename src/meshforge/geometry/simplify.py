@@ -66,14 +66,10 @@ def _check_improved(hull: Polytope, improve: Callable[[], Floats], budget: HullB
     from scipy.spatial import QhullError  # lazy: slow to import, only simplifying needs it
 
     try:
-        return _grow_to_enclose(hull, improve(), budget)
+        corners, middle = improve(), hull.vertices.mean(axis=0)
     except (QhullError, GeometryError, np.linalg.LinAlgError):
         return None
-
-
-def _grow_to_enclose(hull: Polytope, corners: Floats, budget: HullBudget) -> Enclosure | None:
-    """The hull of corners, grown about the middle of a hull by as little as rounding asks for, to hold that."""
-    middle = hull.vertices.mean(axis=0)
+    # grown about the middle of the hull by as little as rounding asks for, to hold it
     tries = (_check_enclosure(hull, middle + (corners - middle) * (1 + growth), budget) for growth in _GROWTH)
     return next((made for made in tries if made), None)
 
@@ -118,17 +114,18 @@ def _choose_vertices(hull: Polytope, count: int) -> Floats:
 
 
 def _check_enclosure(hull: Polytope, corners: Floats, budget: HullBudget) -> Enclosure | None:
-    made = _try_hull(corners)
-    if made is None or not _has_inside(made, hull.vertices) or not _is_within_budget(made, budget):
-        return None
-    return Enclosure(made, float(_distances_to_surface(made.vertices, hull.vertices[hull.faces]).max()))
-
-
-def _try_hull(corners: Floats) -> Polytope | None:
+    """The hull of corners, where it holds another hull and is within the budget."""
     try:
-        return convex_hull(corners, name="a simpler hull")
+        made = convex_hull(corners, name="a simpler hull")
     except GeometryError:
         return None
+    planes = planes_of(made.vertices, made.faces)
+    rounding = 16 * np.finfo(float).eps * float(np.abs(made.vertices).max())
+    holds = ((hull.vertices - planes.middle) @ planes.normals.T <= planes.offsets + rounding).all()
+    if not holds or not _is_within_budget(made, budget):
+        return None
+    away = made.vertices - _nearest_on_surface(made.vertices, hull.vertices[hull.faces])
+    return Enclosure(made, float(np.linalg.norm(away, axis=1).max()))
 
 
 def _is_within_budget(hull: Polytope, budget: HullBudget) -> bool:
@@ -138,12 +135,6 @@ def _is_within_budget(hull: Polytope, budget: HullBudget) -> bool:
     return few and max(sizes) <= budget.polygon_vertices
 
 
-def _has_inside(hull: Polytope, points: Floats) -> bool:
-    planes = planes_of(hull.vertices, hull.faces)
-    rounding = 16 * np.finfo(float).eps * float(np.abs(hull.vertices).max())
-    return bool(((points - planes.middle) @ planes.normals.T <= planes.offsets + rounding).all())
-
-
 def _nearest_on_surface(points: Floats, triangles: Floats) -> Floats:
     """The nearest point (n, 3) on a convex surface to each of points (n, 3) outside; triangles: (m, 3, 3)."""
     found = np.empty_like(points)
@@ -151,11 +142,6 @@ def _nearest_on_surface(points: Floats, triangles: Floats) -> Floats:
         places = nearest_on_triangles(np.broadcast_to(point, (len(triangles), 3)), triangles)
         found[k] = places[np.linalg.norm(places - point, axis=1).argmin()]
     return found
-
-
-def _distances_to_surface(points: Floats, triangles: Floats) -> Floats:
-    gaps: Floats = np.linalg.norm(points - _nearest_on_surface(points, triangles), axis=1)
-    return gaps
 
 
 @dataclass(slots=True, eq=False)

@@ -26,17 +26,12 @@ def smallest_ball(centers: Floats, radii: Floats | None = None) -> tuple[Floats,
         farthest = int(np.argmax(reach))
         if reach[farthest] <= radius * (1 + _SLACK):
             break
-        point = _farthest_point(centers[farthest], float(own[farthest]), center)
+        away = centers[farthest] - center
+        length = float(np.linalg.norm(away))
+        unit = away / length if length > 0 else np.eye(len(center))[0]
+        point = centers[farthest] + own[farthest] * unit
         center, radius, bearing = _ball_around_few(np.concatenate([bearing, point[None]]))
     return center, float((np.linalg.norm(centers - center, axis=1) + own).max())
-
-
-def _farthest_point(center: Floats, radius: float, origin: Floats) -> Floats:
-    away = center - origin
-    length = float(np.linalg.norm(away))
-    unit = away / length if length > 0 else np.eye(len(center))[0]
-    point: Floats = center + radius * unit
-    return point
 
 
 def _ball_around_few(points: Floats) -> tuple[Floats, float, Floats]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from math import floor
 
@@ -51,11 +50,15 @@ def judge_solidity(points: Floats, corners: Ints) -> SolidityVerdict:
     """Return what a piece of points (n, 3) and distinct triangles (m, 3) is; the winding may be inverted or mixed."""
     used, corners = compact(corners)
     points = points[used]
-    rough = _make_hull(points, _make_roughly, _THIN) if len(corners) > _MANY else None
-    if rough and (found := _judge_by_hull(points, corners, rough)).shape is None:
+    made = hull_by_manifold(points - points.mean(axis=0)) if len(corners) > _MANY else None
+    rough = Polytope(points[made[0]], made[1]) if made else None  # to a millionth, not verified
+    if rough and not _is_flat(rough, _THIN) and (found := _judge_by_hull(points, corners, rough)).shape is None:
         return found
-    hull = _make_hull(points, convex_hull, _FLAT)
-    return _judge_by_hull(points, corners, hull) if hull else SolidityVerdict(None, "flat")
+    try:
+        hull = convex_hull(points)
+    except GeometryError:
+        return SolidityVerdict(None, "flat")
+    return SolidityVerdict(None, "flat") if _is_flat(hull, _FLAT) else _judge_by_hull(points, corners, hull)
 
 
 def refuse_dents(verdict: SolidityVerdict, points: Floats, corners: Ints) -> SolidityVerdict:
@@ -95,26 +98,16 @@ def _judge_by_hull(points: Floats, corners: Ints, hull: Polytope) -> SolidityVer
     if result.shape is None and not is_closed(corners):
         aligned = _judge_fill(points, _align_windings(corners), hull)
         result = aligned if aligned.shape else result
-    if result.shape is None and _covers(points, corners, hull):
+    has_area = _area(points, corners) >= LEAST_FILL * _area(hull.vertices, hull.faces)
+    may_cover = result.shape is None and has_area and len(hull.faces) * len(corners) <= _LARGE
+    if may_cover and not _is_deep(points, corners, hull, _DEPTH):  # however its triangles overlap and are wound
         return SolidityVerdict(hull, None, hull.volume, True)
     return result
 
 
-def _make_roughly(points: Floats) -> Polytope:
-    """The convex hull to a millionth, not verified."""
-    made = hull_by_manifold(points - points.mean(axis=0))
-    if made is None:
-        raise GeometryError("manifold3d finds no hull")
-    return Polytope(points[made[0]], made[1])
-
-
-def _make_hull(points: Floats, make: Callable[[Floats], Polytope], flat: float) -> Polytope | None:
-    """The convex hull, None where it is flat: thinner than a share of its size."""
-    try:
-        hull = make(points)
-    except GeometryError:
-        return None
-    return hull if _thickness(hull) > flat * float(hull.aabb.size.max()) else None
+def _is_flat(hull: Polytope, share: float) -> bool:
+    """Whether a hull is thinner than a share of its size."""
+    return _thickness(hull) <= share * float(hull.aabb.size.max())
 
 
 def _thickness(hull: Polytope) -> float:
@@ -125,12 +118,6 @@ def _thickness(hull: Polytope) -> float:
 def _area(points: Floats, corners: Ints) -> float:
     a, b, c = (points[corners[:, k]] for k in range(3))
     return float(np.linalg.norm(cross(b - a, c - a), axis=1).sum()) / 2
-
-
-def _covers(points: Floats, corners: Ints, hull: Polytope) -> bool:
-    """Whether triangles lie on the hull and cover it, however they overlap and are wound."""
-    has_area = _area(points, corners) >= LEAST_FILL * _area(hull.vertices, hull.faces)
-    return has_area and len(hull.faces) * len(corners) <= _LARGE and not _is_deep(points, corners, hull, _DEPTH)
 
 
 def _is_deep(points: Floats, corners: Ints, hull: Polytope, share: float) -> bool:

@@ -67,8 +67,14 @@ def show(mesh: SymbolicMesh, *, port: int | None = None, browser: bool = True, w
     print(f"{mesh!r} at {address}")
     if browser:
         webbrowser.open(address)
-    if not _is_interactive() if wait is None else wait:
-        _wait(server)
+    is_interactive = hasattr(sys, "ps1") or "ipykernel" in sys.modules  # a person can type on while it is open
+    if not is_interactive if wait is None else wait:
+        print("Ctrl-C closes it")
+        try:
+            while True:
+                time.sleep(1)
+        except KeyboardInterrupt:
+            server.stop()
     return server
 
 
@@ -81,17 +87,3 @@ def _describe_on_click(text: Any, hull: Hull) -> Callable[[Any], None]:
         text.content = f"**{hull.name}**\n\nlabel {hull.label or 'none'}, body {hull.body}, {hull.volume:.3g} m³"
 
     return describe
-
-
-def _is_interactive() -> bool:
-    """Whether a person can type on while the viewer is open: in a notebook, or at Python's prompt."""
-    return hasattr(sys, "ps1") or "ipykernel" in sys.modules
-
-
-def _wait(server: Any) -> None:
-    print("Ctrl-C closes it")
-    try:
-        while True:
-            time.sleep(1)
-    except KeyboardInterrupt:
-        server.stop()

@@ -18,6 +18,7 @@ from meshforge.geometry import (
     freeze_ints,
     is_same_shape,
 )
+from meshforge.geometry.arrays import sort_rows
 
 
 def test_frozen_arrays_are_copies_that_cannot_be_written() -> None:
@@ -78,6 +79,12 @@ def test_volumes_of_round_shapes_are_analytic() -> None:
     assert Sphere(here, 2.0).volume == pytest.approx(4 / 3 * np.pi * 8)
     assert Cylinder(here, 2.0, 3.0).volume == pytest.approx(np.pi * 4 * 6)
     assert Ellipsoid(here, np.array([1.0, 2.0, 3.0])).volume == pytest.approx(4 / 3 * np.pi * 6)
+
+
+@pytest.mark.parametrize("count", [0, 1, 400])
+def test_rows_are_sorted_as_by_numpy(count: int) -> None:
+    rows = np.random.default_rng(9).integers(-3, 4, (count, 3)).astype(np.float32) / 7
+    assert np.array_equal(sort_rows(rows), np.unique(rows, axis=0))
 
 
 def hull() -> Polytope:

@@ -1,17 +1,13 @@
-"""What coal is given: shapes made a quick way are those it makes from points and triangles, one by one."""
+"""What coal is given: hulls of more edges at a vertex than it can count; and which boxes are near each other."""
 
 from __future__ import annotations
 
-from concurrent.futures import ThreadPoolExecutor
-from typing import Any
-
-import coal
 import numpy as np
 import pytest
 
 from meshforge.geometry import Box, Floats, Polytope, Pose, close_pairs, convex_hull, distance
 from meshforge.geometry.arrays import bounds, near_boxes
-from meshforge.geometry.coal_distance import _POOL_SIZE, CoalFrame, _pool, split_shape
+from meshforge.geometry.coal_distance import split_shape
 
 
 def ball(corners: int, center: Floats) -> Polytope:
@@ -22,71 +18,6 @@ def ball(corners: int, center: Floats) -> Polytope:
     made = convex_hull(np.column_stack([flat * np.cos(turn), flat * np.sin(turn), height]) + center)
     assert len(made.vertices) == corners
     return made
-
-
-class Odd:
-    """A shape of a kind that nobody knows."""
-
-    kind = "odd"
-
-
-def plainly(shape: Polytope) -> Any:
-    points, triangles = coal.StdVec_Vec3s(), coal.StdVec_Triangle()
-    points.extend(list(shape.vertices / 8))
-    triangles.extend([coal.Triangle(*corners) for corners in shape.faces.tolist()])
-    return coal.Convex(points, triangles)
-
-
-def plain_distance(a: Polytope, b: Polytope) -> float:
-    request = coal.DistanceRequest()
-    request.enable_signed_distance, request.gjk_tolerance, request.gjk_max_iterations = False, 1e-10, 512
-    still = coal.Transform3s()
-    found = coal.distance(plainly(a), still, plainly(b), still, request, coal.DistanceResult())
-    return float(max(0.0, found * 8))
-
-
-@pytest.mark.parametrize("corners", [4, 12, 31, 32, 33, 48, 49, 80, 128, 129, 300])
-def test_shapes_of_few_and_of_many_corners_have_the_distances_of_shapes_made_plainly(corners: int) -> None:
-    rng = np.random.default_rng(corners)
-    for _ in range(20):
-        way = rng.normal(size=3)
-        a, b = ball(corners, np.zeros(3)), ball(20, way / np.linalg.norm(way) * rng.uniform(1.5, 3))
-        assert distance(a, b) == pytest.approx(plain_distance(a, b), abs=1e-8)
-
-
-def test_a_vessel_holds_nothing_of_what_was_in_it_before() -> None:
-    rng = np.random.default_rng(1)
-    shapes = [ball(int(corners), rng.normal(size=3) * 3) for corners in rng.permutation(np.arange(4, 200, 7))]
-    pairs = [(a, b) for a in shapes for b in shapes if a is not b]
-    first = [distance(a, b) for a, b in pairs]
-    assert [distance(a, b) for a, b in reversed(pairs)] == first[::-1]
-
-
-def test_vessels_are_used_again_and_not_too_many_are_kept() -> None:
-    crowd = [ball(30, np.array([3.0 * k, 0, 0])) for k in range(100)]
-    assert len(close_pairs(crowd, 1.5)) == 99
-    assert len(_pool[32]) == _POOL_SIZE
-    kept = {id(vessel.shape) for vessel in _pool[32]}
-    close_pairs(crowd[:5], 1.5)
-    assert {id(vessel.shape) for vessel in _pool[32]} == kept
-
-
-def test_vessels_come_back_when_a_shape_has_no_place() -> None:
-    shapes = [ball(30, np.zeros(3)), ball(30, np.ones(3))]
-    distance(*shapes)
-    kept = len(_pool[32])
-    with pytest.raises(TypeError, match="no distance for shapes of kind odd"):
-        CoalFrame.of_bounds(np.zeros(3), np.ones(3)).place([*shapes, Odd()]).__enter__()  # type: ignore[list-item]
-    assert len(_pool[32]) == kept
-
-
-def test_threads_do_not_pour_into_each_others_vessels() -> None:
-    rng = np.random.default_rng(2)
-    crowds = [[ball(40, rng.normal(size=3) * 2) for _ in range(12)] for _ in range(8)]
-    wanted = [close_pairs(crowd, 1.0) for crowd in crowds]
-    with ThreadPoolExecutor(8) as pool:
-        for _ in range(5):
-            assert list(pool.map(lambda crowd: close_pairs(crowd, 1.0), crowds)) == wanted
 
 
 @pytest.mark.parametrize("count", [254, 255, 300, 700])
@@ -134,14 +65,6 @@ def test_several_vertices_may_have_too_many_edges(shape: Polytope) -> None:
     top = float(shape.aabb.max[2])
     assert distance(shape, Box(Pose.of_translation([0, 0, top + 1.5]), np.ones(3))) == pytest.approx(0.5, abs=1e-9)
     assert distance(shape, Box(Pose.of_translation([2.5, 0, 0]), np.ones(3))) == pytest.approx(0.5, abs=1e-9)
-
-
-def test_a_frame_makes_what_lies_in_it_about_one_long() -> None:
-    for scale in (1e-6, 1.0, 3e5):
-        low, high = np.array([3.0, -1, 2]) * scale, np.array([5.0, 7, 2]) * scale
-        frame = CoalFrame.of_bounds(low, high)
-        assert 0.5 <= np.linalg.norm(high - low) / frame.unit < 1
-        assert np.abs((np.array([low, high]) - frame.origin) / frame.unit).max() <= 1
 
 
 def test_boxes_near_each_other_are_found_in_blocks_too() -> None:

@@ -3,7 +3,7 @@ whether the masses and inertias in its file can be those of its bodies."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from itertools import combinations
 from typing import Any
@@ -39,25 +39,16 @@ class JointTree:
         for joint in mesh.asset.mechanism.joints if mesh.asset else ():
             if joint.kind == "floating" or joint.child not in bodies or joint.parent not in bodies:
                 continue
-            if tree.above.get(joint.child, joint.parent) == joint.parent and not tree._is_below(joint):
+            if tree.above.get(joint.child, joint.parent) == joint.parent and joint.child != tree.root_of(joint.parent):
                 tree.above[joint.child] = joint.parent
                 tree.joints.setdefault(joint.child, []).append(joint)
         return tree
 
-    def _is_below(self, joint: Joint) -> bool:
-        at: str | None = joint.parent
-        while at is not None and at != joint.child:
-            at = self.above.get(at)
-        return at is not None
-
-    def roots_of(self, bodies: Iterable[str]) -> set[str]:
-        """Return the roots, which nothing holds, that some bodies hang on."""
-        found = set()
-        for body in bodies:
-            while body in self.above:
-                body = self.above[body]
-            found.add(body)
-        return found
+    def root_of(self, body: str) -> str:
+        """Return the body, which nothing holds, that one hangs on."""
+        while body in self.above:
+            body = self.above[body]
+        return body
 
     def children_of(self, body: str) -> list[str]:
         """Return the bodies joined to one directly."""

@@ -37,7 +37,7 @@ def compile_model(mesh: SymbolicMesh, tree: mechanism.JointTree, *, everything: 
         spec.option.disableflags = int(mujoco.mjtDisableBit.mjDSBL_FILTERPARENT)
     spec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_PLANE, size=[0, 0, 1], name=FLOOR)
     shown = _pose_on_floor(mesh)
-    tops = tree.roots_of({hull.body for hull in mesh.hulls})
+    tops = {tree.root_of(hull.body) for hull in mesh.hulls}
     for root in tree.bodies:
         if root in tops:
             _add_body(spec, spec.worldbody, root, Pose.identity(), mesh, tree, shown)

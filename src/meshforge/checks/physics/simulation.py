@@ -134,7 +134,9 @@ def _simulate_rest(mesh: SymbolicMesh, tree: JointTree) -> Rest | None:
     mujoco.mj_forward(model, data)
     moving = np.arange(1, model.nbody)
     start, upright = data.xipos[moving].copy(), data.xmat[moving].reshape(-1, 3, 3).copy()
-    size = np.array([_body_size(model, body) for body in moving])
+    reach = np.zeros(model.nbody)
+    np.maximum.at(reach, model.geom_bodyid, model.geom_rbound)
+    size = 2 * reach[moving]
     quiet = JITTER * np.sqrt(_GRAVITY * mesh.diagonal)
     fastest, restless = 0.0, 0
     watched: list[Floats] = []
@@ -142,7 +144,8 @@ def _simulate_rest(mesh: SymbolicMesh, tree: JointTree) -> Rest | None:
         mujoco.mj_step(model, data)
         if any(data.warning[w].number for w in (mujoco.mjtWarning.mjWARN_BADQPOS, mujoco.mjtWarning.mjWARN_BADQACC)):
             return None
-        speeds = _speeds(data.cvel[moving], size)
+        turning, going = np.split(data.cvel[moving], 2, axis=1)
+        speeds = np.concatenate([going, turning * (size / 2)[:, None]], axis=1)  # (n, 6) [m/s]
         highest = float(np.abs(speeds).max())
         restless = step if highest > quiet else restless
         fastest = max(fastest, highest) if step < _START else fastest
@@ -158,16 +161,6 @@ def _simulate_rest(mesh: SymbolicMesh, tree: JointTree) -> Rest | None:
     tilt, mass = float(np.degrees(np.arccos(min(turned)))), float(model.body_subtreemass[0])
     sunk = max((-float(c.dist) for c in data.contact[: data.ncon] if 0 in c.geom), default=0.0)
     return Rest(jitter, fastest, moved, tilt, sunk, mass)
-
-
-def _speeds(velocities: Floats, size: Floats) -> Floats:
-    """The linear speeds (n, 3) beside angular ones (n, 3) at half the size of each body, as rows (n, 6) [m/s]."""
-    return np.concatenate([velocities[:, 3:], velocities[:, :3] * (size / 2)[:, None]], axis=1)
-
-
-def _body_size(model: Any, body: int) -> float:
-    geoms = [g for g in range(model.ngeom) if model.geom_bodyid[g] == body]
-    return 2 * max((float(model.geom_rbound[g]) for g in geoms), default=0.0)
 
 
 def _report_refusal(refused: str | None) -> Iterator[Finding]:
@@ -229,7 +222,9 @@ def find_body_overlaps(mesh: SymbolicMesh, tree: JointTree) -> tuple[BodyOverlap
     model = compile_model(mesh, tree, everything=True)
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
-    rigid, numbers, touching = tree.rigid_roots(), _hull_numbers(model), ContactRules(mesh)
+    names = [model.geom(g).name for g in range(model.ngeom)]
+    numbers = [-1 if name == FLOOR else int(name.rpartition(" ")[2]) for name in names]
+    rigid, touching = tree.rigid_roots(), ContactRules(mesh)
     found: dict[tuple[str, str, bool], BodyOverlap] = {}
     for contact in data.contact[: data.ncon]:
         first, second = sorted(numbers[int(g)] for g in contact.geom)
@@ -243,8 +238,3 @@ def find_body_overlaps(mesh: SymbolicMesh, tree: JointTree) -> tuple[BodyOverlap
         joined = tree.above.get(a.body) == b.body or tree.above.get(b.body) == a.body
         found[key] = BodyOverlap((a.body, b.body), (a.name, b.name), -float(contact.dist), joined, excluded)
     return tuple(sorted(found.values(), key=lambda overlap: (-overlap.depth, overlap.bodies)))
-
-
-def _hull_numbers(model: Any) -> list[int]:
-    names = [model.geom(g).name for g in range(model.ngeom)]
-    return [-1 if name == FLOOR else int(name.rpartition(" ")[2]) for name in names]

@@ -63,89 +63,69 @@ def decompose_by_parts(
     points, triangles = freeze_floats(vertices, (-1, 3)), freeze_ints(faces, (-1, 3))
     engine = settings or engines.CoacdSettings()
     whole = None if is_sheet(points[triangles].reshape(-1, 3)) else clean_triangles(points, triangles)
+    close = close or (whole is not None and not whole.open_edges)
     joined = join_small_parts(points, triangles, parts, note)
-    run = _PartRun(engine, close or (whole is not None and not whole.open_edges), cache, control, joined)
     shares = _share_settings(points, triangles, joined, engine, note)
+    end = None if control.timeout is None else time.monotonic() + control.timeout
+    notes: dict[str, list[str]] = {}
     found: list[PartHull] = []
-    for part, own in shares.items():
-        found += run.decompose(points, triangles[joined.of_face == part], part, own)
-    for text, names in run.notes.items():
+
+    def add_note(name: str, text: str) -> None:
+        notes.setdefault(text, []).append(name)
+
+    def report(title: str, text: str) -> None:
+        control.progress(f"{title}: {text}")
+
+    for number, (part, own) in enumerate(shares.items(), 1):
+        name = joined.names[part]
+        title = f"part {number} of {len(shares)}, {name}"
+        control.progress(title)
+        left = None if end is None else max(end - time.monotonic(), 0.1)
+        limited = engines.EngineControl(partial(report, title), control.cancel, left)
+        add = partial(add_note, name)
+        run = partial(decompose, settings=own, close=close, cache=cache, note=add, control=limited)
+        hulls = _decompose_part(points, triangles[joined.of_face == part], name, close, run, add)
+        found += [PartHull(part, hull) for hull in hulls]
+    for text, names in notes.items():
         note(f"{join_names(list(dict.fromkeys(names)), 3)}: {text}")
     if not found:
         raise GeometryError(f"{engine.engine} made no hull", remedy="Decompose it as a whole, or fix the mesh.")
     return found
 
 
-class _PartRun:
-    """What is the same for all parts; notes: of each the parts that it is about."""
+def _decompose_part(
+    vertices: Floats,
+    faces: Ints,
+    name: str,
+    close: bool,
+    run: Callable[[Floats, Ints], list[Polytope]],
+    note: Callable[[str], None],
+) -> list[Polytope]:
+    """The hulls of one part, of faces (m, 3); run: makes those of a solid. Raises GeometryError that names the part.
 
-    def __init__(
-        self,
-        settings: engines.DecomposeSettings,
-        close: bool,
-        cache: Path | None,
-        control: engines.EngineControl,
-        parts: SurfaceParts,
-    ) -> None:
-        self._close, self._cache, self._control, self._names = close, cache, control, parts.names
-        self._count, self._done = len(parts.numbers), 0
-        self._end = None if control.timeout is None else time.monotonic() + control.timeout
-        self._engine = settings.engine
-        self.notes: dict[str, list[str]] = {}
-
-    def decompose(
-        self, vertices: Floats, faces: Ints, part: int, settings: engines.DecomposeSettings
-    ) -> list[PartHull]:
-        """The hulls of one part, of faces (m, 3). Raises GeometryError that names it."""
-        name = self._names[part]
-        self._done += 1
-        used, local = np.unique(faces, return_inverse=True)
-        points, triangles = self._close_cuts(vertices[used], local.reshape(-1, 3))
-        if is_line(points):
-            self._note(name, "it has no area: left out")
-            return []
-        try:
-            hulls = self._run(points, triangles, name, settings)
-        except engines.DecompositionCancelledError:
-            raise
-        except GeometryError as error:
-            raise GeometryError(error.problem, where=f"part {name}", remedy=error.remedy) from error
-        return [PartHull(part, hull) for hull in _keep_within(points, hulls)]
-
-    def _close_cuts(self, points: Floats, triangles: Ints) -> tuple[Floats, Ints]:
-        """A part with the holes closed that its cut from the rest leaves, whose rims are only about planar."""
-        if not self._close or is_sheet(points):
-            return points, triangles
-        mesh, _ = cap_holes(clean_triangles(points, triangles), ROUGH_RIM)
-        return (points, triangles) if mesh.open_edges else (mesh.vertices, mesh.faces)
-
-    def _run(self, points: Floats, triangles: Ints, name: str, settings: engines.DecomposeSettings) -> list[Polytope]:
-        def run(vertices: Floats, faces: Ints) -> list[Polytope]:
-            own = partial(self._note, name)
-            return decompose(
-                vertices, faces, settings, close=self._close, cache=self._cache, note=own, control=self._limit(name)
-            )
-
+    The holes are closed that its cut from the rest leaves, whose rims are only about planar.
+    """
+    used, local = np.unique(faces, return_inverse=True)
+    points, triangles = vertices[used], local.reshape(-1, 3)
+    if is_line(points):
+        note("it has no area: left out")
+        return []
+    try:
         if is_sheet(points):
-            self._note(name, "it is flat, so its hulls are thin sheets")
+            note("it is flat, so its hulls are thin sheets")
             return sheet_hulls(points, triangles, run, name)
-        return run(points, triangles)
-
-    def _limit(self, name: str) -> engines.EngineControl:
-        """The control of one run: its progress names the part, and it ends when the time for all is up."""
-        title = f"part {self._done} of {self._count}, {name}"
-        left = None if self._end is None else max(self._end - time.monotonic(), 0.1)
-        self._control.progress(title)
-        return replace(self._control, progress=lambda text: self._control.progress(f"{title}: {text}"), timeout=left)
-
-    def _note(self, name: str, text: str) -> None:
-        self.notes.setdefault(text, []).append(name)
+        if close:
+            mesh, _ = cap_holes(clean_triangles(points, triangles), ROUGH_RIM)
+            points, triangles = (points, triangles) if mesh.open_edges else (mesh.vertices, mesh.faces)
+        return _keep_within(points, run(points, triangles))
+    except engines.DecompositionCancelledError:
+        raise
+    except GeometryError as error:
+        raise GeometryError(error.problem, where=f"part {name}", remedy=error.remedy) from error
 
 
 def _keep_within(points: Floats, hulls: list[Polytope]) -> list[Polytope]:
     """The hulls, each cut to the convex hull of points (n, 3): voxels reach over what they stand for."""
-    if is_sheet(points):
-        return hulls
     around = convex_hull(points)
     height = _WITHIN * float(np.ptp(points, axis=0).max())
     kept: list[Polytope] = []

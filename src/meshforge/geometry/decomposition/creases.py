@@ -135,40 +135,23 @@ def _find_loops(vertices: Floats, faces: Ints, corners: Floats, pairs: Ints) -> 
         own = root == place
         if own.sum() < 4:
             continue
-        ends = vertices[edges[own]]
-        points = _sample_edges(ends, lengths[own])
+        sums, share = np.cumsum(lengths[own]), np.random.default_rng(0).random((_SAMPLES, 1))
+        places = np.searchsorted(sums, (np.arange(_SAMPLES) + 0.5) / _SAMPLES * sums[-1])
+        a, b = vertices[edges[own]][np.minimum(places, len(sums) - 1)].transpose(1, 0, 2)
+        points = a + share * (b - a)
         _, extents, axes = np.linalg.svd(points - points.mean(axis=0), full_matrices=False)
         if extents[2] <= _FLAT * extents[0]:
             found.append((points, float(total[place]), axes[2], True))
     return found
 
 
-def _sample_edges(ends: Floats, lengths: Floats) -> Floats:
-    """Points (_SAMPLES, 3) that lie evenly on edges (k, 2, 3)."""
-    share = np.random.default_rng(0).random((_SAMPLES, 1))
-    a, b = ends[_spread(lengths)].transpose(1, 0, 2)
-    points: Floats = a + share * (b - a)
-    return points
-
-
-def _spread(sizes: Floats) -> Ints:
-    """The places (_SAMPLES,) of sizes (k,) in proportion to these."""
-    ends = np.cumsum(sizes)
-    found = np.searchsorted(ends, (np.arange(_SAMPLES) + 0.5) / _SAMPLES * ends[-1])
-    places: Ints = np.minimum(found, len(sizes) - 1)
-    return places
-
-
-def cut_at_creases(piece: Polytope, creases: Creases, interior: Interior) -> list[Polytope]:
-    """Return the convex parts of a piece between the creases that go through it, none mostly outside of the surface."""
-    return _cut(piece, creases, interior, _DEPTH)
-
-
-def _cut(piece: Polytope, creases: Creases, interior: Interior, depth: int) -> list[Polytope]:
+def cut_at_creases(piece: Polytope, creases: Creases, interior: Interior, depth: int = _DEPTH) -> list[Polytope]:
+    """Return the convex parts of a piece between the creases that go through it, none mostly outside of the surface;
+    depth: how many cuts follow each other at most."""
     best = _choose(piece, creases, interior) if depth and len(creases.sizes) else None
     if best is None:
         return [piece]
-    return [half for part in best for half in _cut(part, creases, interior, depth - 1)]
+    return [half for part in best for half in cut_at_creases(part, creases, interior, depth - 1)]
 
 
 def _choose(piece: Polytope, creases: Creases, interior: Interior) -> tuple[Polytope, Polytope] | None:

@@ -11,7 +11,6 @@ import re
 import subprocess
 import sys
 import tempfile
-import threading
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, field, fields
@@ -44,7 +43,13 @@ class _Settings:
 
     def __post_init__(self) -> None:
         for option in fields(self):  # type: ignore[arg-type]  # subclasses are dataclasses
-            _check(f"{self.engine} {option.name}", getattr(self, option.name), **option.metadata)
+            value, (help, low, high, choices) = getattr(self, option.name), option.metadata.values()
+            where = f"{self.engine} {option.name}"
+            if choices and value not in choices:
+                raise UsageError(f"{value!r} is none of {', '.join(choices)}", where=where, remedy=help)
+            if (low is not None and not value >= low) or (high is not None and not value <= high):
+                bounds = f"at least {low:g}" if high is None else f"between {low:g} and {high:g}"
+                raise UsageError(f"{value!r} is not {bounds}", where=where, remedy=help)
 
     def as_dict(self) -> dict[str, Any]:
         return asdict(self)  # type: ignore[call-overload,no-any-return]  # as above
@@ -54,16 +59,6 @@ class _Settings:
         volume, so it may keep many; what is over the limit is reduced to a hull around it."""
         options = self.as_dict()
         return options | {name: max(most, options[name]) for name, most in _LEAST_LIMITS.items() if name in options}
-
-
-def _check(
-    name: str, value: Any, *, help: str, low: float | None, high: float | None, choices: tuple[str, ...]
-) -> None:
-    if choices and value not in choices:
-        raise UsageError(f"{value!r} is none of {', '.join(choices)}", where=name, remedy=help)
-    if (low is not None and not value >= low) or (high is not None and not value <= high):
-        bounds = f"between {low:g} and {high:g}" if low is not None and high is not None else f"at least {low:g}"
-        raise UsageError(f"{value!r} is not {bounds}", where=name, remedy=help)
 
 
 @dataclass(frozen=True, slots=True)
@@ -193,69 +188,46 @@ def run_engines(jobs: Sequence[EngineJob], control: EngineControl) -> list[list[
         log, started = folder / "errors.txt", time.monotonic()
         while len(found) < len(jobs):
             command = [sys.executable, "-P", worker.__file__, name, str(len(found))]
-            with log.open("wb") as errors:
-                code = _supervise(command, errors.fileno(), control, started)
+            code = _supervise(command, log, control, started)
             while (result := folder / PIECES.format(len(found))).exists():
                 found.append(unpack_pieces(result.read_bytes()))
             if len(found) < len(jobs):
-                problem = f"{jobs[len(found)][1].engine} crashed ({_last_message(log, code)})"
+                lines = [line for line in log.read_text(errors="replace").splitlines() if line.strip()]
+                message = lines[-1].strip()[-200:] if lines else "no message"
+                problem = f"{jobs[len(found)][1].engine} crashed (exit code {code}: {message})"
                 remedy = "Try other settings (preprocess_mode, threshold), the other engine, or fix the mesh."
                 found.append(GeometryError(problem, remedy=remedy))
     return found
 
 
-def _supervise(command: list[str], errors: int, control: EngineControl, started: float) -> int:
-    """The exit code of a command, which is killed when it is cancelled or time is up; started: when that began."""
+def _supervise(command: list[str], log: Path, control: EngineControl, started: float) -> int:
+    """The exit code of a command, which is killed when it is cancelled or time is up; log: a file for its errors;
+    started: when that began."""
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path)), "PYTHONWARNINGS": "ignore"}
     if parent_process() is not None:  # one of several workers, which share the processors; results are the same
         environment.setdefault("OMP_NUM_THREADS", "1")
-    process = subprocess.Popen(
-        command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=errors, text=True, env=environment
-    )
-    lines: list[str] = []
-    reader = threading.Thread(target=_read_progress, args=(process, lines), daemon=True)
-    reader.start()
+    progress = log.with_name("progress.txt")
+    with progress.open("wb") as lines, log.open("wb") as errors:
+        process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=lines, stderr=errors, env=environment)
+    shown = 0
     try:
-        while _is_running(process):
-            _report(lines, control)
+        while True:
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                process.wait(_TICK)
+            rounds = _ROUND.findall(progress.read_text(errors="replace"))  # of CoACD's log; V-HACD is silent
+            for number, waiting in rounds[shown:]:
+                control.progress(f"round {int(number) + 1}: {waiting} parts still to be split")
+            shown = len(rounds)
+            if process.returncode is not None:
+                return process.returncode
             if control.cancel():
                 raise DecompositionCancelledError("the decomposition was stopped")
             if control.timeout is not None and time.monotonic() - started > control.timeout:
                 problem = f"no decomposition within {control.timeout:g} s"
                 raise GeometryError(problem, remedy="Allow more time, or set a coarser threshold.")
-        reader.join()
-        _report(lines, control)
-        return process.returncode
     finally:
         process.kill()
         process.wait()
-        reader.join()
-        if process.stdout:
-            process.stdout.close()
-
-
-def _is_running(process: subprocess.Popen[str]) -> bool:
-    with contextlib.suppress(subprocess.TimeoutExpired):
-        process.wait(_TICK)
-        return False
-    return True
-
-
-def _read_progress(process: subprocess.Popen[str], lines: list[str]) -> None:
-    """Turns CoACD's log into progress; V-HACD is silent."""
-    found = (_ROUND.search(line) for line in process.stdout or ())
-    lines.extend(f"round {int(f[1]) + 1}: {f[2]} parts still to be split" for f in found if f)
-
-
-def _report(lines: list[str], control: EngineControl) -> None:
-    while lines:
-        control.progress(lines.pop(0))
-
-
-def _last_message(log: Path, code: int) -> str:
-    lines = [line for line in log.read_text(errors="replace").splitlines() if line.strip()]
-    message = lines[-1].strip() if lines else "no message"
-    return f"exit code {code}: {message[-200:]}"
 
 
 def unpack_pieces(content: bytes) -> list[EnginePiece]:

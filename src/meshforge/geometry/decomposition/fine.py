@@ -65,7 +65,8 @@ def decompose_finely(
     Raises GeometryError: nothing that has an area, a coordinate that is not finite.
     """
     mesh, settings = regions.turn_outward(clean_triangles(vertices, faces)), FINE_SETTINGS[engine]
-    key = _cache_key(mesh, settings)
+    text = f"fine pieces {_VERSION} {version('manifold3d')} {cache_key(mesh, settings)}"  # all that makes the pieces
+    key = hashlib.blake2b(text.encode(), digest_size=20).hexdigest()
     if cache and (known := read_entry(cache, key)) is not None:
         return _unpack(known)
     pieces, failed = _decompose_mesh(mesh, settings, cache)
@@ -85,12 +86,6 @@ def _unpack(content: bytes) -> tuple[regions.FinePiece, ...]:
     (numbers,) = unpack_arrays(content, "numbers")
     rows = zip(unpack_pieces(content), numbers.tolist(), strict=True)
     return tuple(regions.FinePiece(Polytope(*piece), region, solid) for piece, (region, solid) in rows)
-
-
-def _cache_key(mesh: TriangleMesh, settings: DecomposeSettings) -> str:
-    """A digest of geometry, settings, and the versions of all that makes the pieces."""
-    text = f"fine pieces {_VERSION} {version('manifold3d')} {cache_key(mesh, settings)}"
-    return hashlib.blake2b(text.encode(), digest_size=20).hexdigest()
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -96,12 +96,9 @@ def join_small_parts(
     small = _find_small(vertices, faces, places, len(numbers)) | _find_hollow(vertices, corners, places, len(numbers))
     home = _find_homes(_count_contacts(corners, places, len(numbers)), small, np.bincount(places))
     if gone := [parts.names[numbers[k]] for k in np.flatnonzero(home != np.arange(len(numbers)))]:
-        note(f"too small for parts of their own, or the inside of one, so joined with what they touch: {_list(gone)}")
+        names = join_names(list(dict.fromkeys(gone)), 3)
+        note(f"too small for parts of their own, or the inside of one, so joined with what they touch: {names}")
     return SurfaceParts(np.asarray(numbers)[home[places]], parts.names)
-
-
-def _list(names: Sequence[str]) -> str:
-    return join_names(list(dict.fromkeys(names)), 3)
 
 
 def _find_small(vertices: Floats, faces: Ints, places: Ints, count: int) -> Bools:
@@ -118,8 +115,7 @@ def _find_small(vertices: Floats, faces: Ints, places: Ints, count: int) -> Bool
 def _find_hollow(vertices: Floats, corners: Ints, places: Ints, count: int) -> Bools:
     """Which parts (count,) of a closed surface enclose, once their holes are capped, what the surface leaves empty."""
     hollow = np.zeros(count, dtype=bool)
-    points = np.zeros((int(corners.max()) + 1, 3))
-    points[corners.ravel()] = vertices[_faces_of(vertices, corners)].reshape(-1, 3)
+    points = vertices[np.unique(weld(vertices), return_index=True)[1]]  # corners are numbered by place
     if not is_closed(corners):
         return hollow
     whole = volume_and_centroid(points, corners)[0]
@@ -131,12 +127,6 @@ def _find_hollow(vertices: Floats, corners: Ints, places: Ints, count: int) -> B
             box = float(np.prod(np.ptp(points[np.unique(own)], axis=0)))
             hollow[k] = volume * whole < 0 and abs(volume) > _HOLLOW * box
     return hollow
-
-
-def _faces_of(vertices: Floats, corners: Ints) -> Ints:
-    """For corners (m, 3), numbered by place, a vertex at each place."""
-    _, first = np.unique(weld(vertices), return_index=True)
-    return np.asarray(first[corners], dtype=np.int64)
 
 
 def _count_contacts(corners: Ints, places: Ints, count: int) -> Ints:

@@ -70,7 +70,12 @@ def read_solid(
         mesh, holes = cap_holes(mesh)
         if holes:
             note(f"{pluralize(holes, 'planar hole')} closed, so that it counts as solid")
-    _check_openness(mesh, settings, note)
+    if mesh.open_edges:
+        problem = f"the mesh is open ({mesh.open_edges} edges of one triangle only)"
+        if isinstance(settings, engines.CoacdSettings) and settings.preprocess_mode == "off":
+            problem = f"{problem}, and CoACD returns nonsense for open meshes without preprocessing"
+            raise GeometryError(problem, remedy='Set preprocess_mode to "auto", or close the mesh.')
+        note(f"{problem}: the engine closes it by voxels, so its hulls may be thicker than the surface, or fill it")
     return mesh, settings
 
 
@@ -82,7 +87,8 @@ def decompose_solids(
 ) -> list[list[Polytope] | GeometryError]:
     """Return the convex hulls of each of some meshes, or why there are none; see `decompose`."""
     keys = [cache_key(*solid) if cache else "" for solid in solids]
-    kept = [_read_pieces(cache, key) if cache else None for key in keys]
+    contents = [read_entry(cache, key) if cache else None for key in keys]
+    kept = [None if content is None else engines.unpack_pieces(content) for content in contents]
     new = [number for number, pieces in enumerate(kept) if pieces is None]
     made = dict(zip(new, engines.run_engines([solids[number] for number in new], control) if new else (), strict=True))
     found = list[list[Polytope] | GeometryError]()
@@ -92,33 +98,14 @@ def decompose_solids(
             if isinstance(pieces, GeometryError):
                 raise pieces
             if cache and number in made:
-                _keep(cache, keys[number], pieces, note)
+                try:
+                    write_entry(cache, keys[number], pack_pieces(pieces))
+                except OSError as error:
+                    note(f"the result could not be kept in {cache}: {error.strerror or error}")
             found.append(_make_hulls(pieces, mesh.diagonal, settings, note))
         except GeometryError as error:
             found.append(error)
     return found
-
-
-def _read_pieces(cache: Path, key: str) -> list[engines.EnginePiece] | None:
-    content = read_entry(cache, key)
-    return None if content is None else engines.unpack_pieces(content)
-
-
-def _keep(cache: Path, key: str, pieces: list[engines.EnginePiece], note: Callable[[str], None]) -> None:
-    try:
-        write_entry(cache, key, pack_pieces(pieces))
-    except OSError as error:
-        note(f"the result could not be kept in {cache}: {error.strerror or error}")
-
-
-def _check_openness(mesh: TriangleMesh, settings: engines.DecomposeSettings, note: Callable[[str], None]) -> None:
-    if not mesh.open_edges:
-        return
-    problem = f"the mesh is open ({mesh.open_edges} edges of one triangle only)"
-    if isinstance(settings, engines.CoacdSettings) and settings.preprocess_mode == "off":
-        problem = f"{problem}, and CoACD returns nonsense for open meshes without preprocessing"
-        raise GeometryError(problem, remedy='Set preprocess_mode to "auto", or close the mesh.')
-    note(f"{problem}: the engine closes it by voxels, so its hulls may be thicker than the surface, or fill it")
 
 
 def _limit_vertices(hull: Polytope, most: int | None) -> Polytope:
@@ -173,15 +160,15 @@ def read_entry(folder: Path, key: str) -> bytes | None:
         content = (folder / "decompositions" / f"{key}.npz").read_bytes()
     except OSError:
         return None
-    packed, checksum = content[:-_CHECKSUM_SIZE], content[-_CHECKSUM_SIZE:]
-    return packed if checksum == _checksum(packed) else None
+    packed = content[:-_CHECKSUM_SIZE]
+    return packed if content == _add_checksum(packed) else None
 
 
 def write_entry(folder: Path, key: str, content: bytes) -> None:
     """Keep what `pack_pieces` made under a key. Raises OSError where the folder cannot be written."""
-    write_atomically(folder / "decompositions" / f"{key}.npz", content + _checksum(content))
+    write_atomically(folder / "decompositions" / f"{key}.npz", _add_checksum(content))
 
 
-def _checksum(content: bytes) -> bytes:
-    """What an entry ends with, so that any damage to it is noticed."""
-    return hashlib.blake2b(content, digest_size=_CHECKSUM_SIZE).digest()
+def _add_checksum(content: bytes) -> bytes:
+    """An entry, which ends so that any damage to it is noticed."""
+    return content + hashlib.blake2b(content, digest_size=_CHECKSUM_SIZE).digest()
