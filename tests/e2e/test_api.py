@@ -41,13 +41,6 @@ def test_hello_tells_everything(studio: Studio) -> None:
     assert studio.until(lambda hello: hello["project"]["next"]["kind"] == "apply")
 
 
-def test_hello_or_an_event_tells_the_reach_of_the_program(studio: Studio) -> None:
-    with studio.page() as page:
-        reach = page.hello["reach"] or page.kind("reach")["reach"]
-    assert {row["asset"] for row in reach} == {f"table_{k:02}.obj" for k in range(1, 15)}
-    assert all(len(row["rules"]) == 5 for row in reach)
-
-
 @pytest.mark.parametrize(
     ("path", "query"),
     [

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import signal
 from collections.abc import Callable, Iterator
 from functools import partial
 from pathlib import Path
@@ -230,17 +229,6 @@ def test_a_program_by_hand_stays_until_the_learned_one_is_asked_for(studio: Stud
     assert studio.settled()["program"]["text"] == learned
 
 
-def test_labels_files_are_offered_while_they_say_something_new(studio: Studio) -> None:
-    studio.settled()
-    assert ok(studio.get("/api/labels/sources"))["files"] == 1  # that of the hull without a label
-    studio.edit("label", hulls={FIRST: ["convex_00"]}, label=None)
-    assert ok(studio.get("/api/labels/sources"))["files"] == 2
-    studio.edit("label-files")
-    assert ok(studio.get("/api/labels/sources"))["files"] == 0
-    for _ in range(2):
-        ok(studio.post("/api/undo"))
-
-
 def test_what_a_command_in_a_terminal_changes_is_shown(studio: Studio, tmp_path: Path) -> None:
     folder = Path(studio.settled()["project"]["folder"])
     with studio.page() as page:
@@ -256,23 +244,6 @@ def test_what_a_command_in_a_terminal_changes_is_shown(studio: Studio, tmp_path:
     assert meshforge("status", folder, cwd=tmp_path).out
     project.set_labels(FIRST, {"convex_00": "panel"}, source="file")
     assert project.labels(FIRST).labels["convex_00"] == Label("panel", 1.0, "file")
-
-
-def test_an_edit_survives_a_kill_and_can_be_undone_after_it(tmp_path: Path) -> None:
-    project = demo_project(tmp_path, demonstrated=False, tables=FEW)
-    labels = project.layout.labels(FIRST).read_bytes()
-    with opened(tmp_path, project.folder) as studio:
-        studio.edit("label", hulls={FIRST: ["convex_00"]}, label="leg")
-        studio.edit("label", hulls={FIRST: ["convex_01"]}, label="leg")
-        studio.process.send_signal(signal.SIGKILL)
-        studio.process.wait()
-    assert project.labels(FIRST).labels["convex_01"].name == "leg"
-    with opened(tmp_path, project.folder) as studio:
-        hello = studio.settled()
-        assert hello["history"]["undoable"] == 2
-        for _ in range(2):
-            assert not ok(studio.post("/api/undo"))["nothing"]
-        assert project.layout.labels(FIRST).read_bytes() == labels
 
 
 def test_a_program_by_hand_reaches_the_family_where_nothing_was_demonstrated(tmp_path: Path) -> None:

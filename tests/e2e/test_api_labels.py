@@ -14,7 +14,6 @@ from meshforge.project import Project
 from meshforge.symbolic import Label
 from tests.e2e.legs import HULLS, LABELS, four_legged
 from tests.e2e.studio import PATIENCE, Page, Studio, ok, opened
-from tests.loop.command import meshforge_here as meshforge
 from tests.studio_project import demo_project
 from tests.unit.batch.families import tree
 
@@ -92,18 +91,6 @@ def test_labels_are_carried_over_with_one_step_and_what_changed_is_told(studio: 
         assert studio.until(lambda hello: (hello["project"]["carried"] or {}).get("unused") == 1)
 
 
-def test_a_studio_that_is_opened_anew_tells_the_same(tmp_path: Path) -> None:
-    project = four_legged(tmp_path)
-    project.set_labels(FIRST, {"top": "top"})
-    with opened(tmp_path, project.folder) as studio, studio.page() as page:
-        assert page.hello
-        carry(studio, page)
-        found = relabelled(page)
-    with opened(tmp_path, project.folder) as studio:
-        hello = studio.until(lambda hello: hello["relabelled"] is not None)
-        assert hello["relabelled"] == found
-
-
 def test_what_a_person_says_meanwhile_stays_and_is_not_blocked(studio: Studio) -> None:
     with studio.page() as page:
         assert page.hello
@@ -159,30 +146,6 @@ def test_hulls_that_were_cut_meanwhile_are_told_and_nothing_is_written(studio: S
         assert ok(studio.post("/api/undo"))["message"] == f"top of {THIRD} cut in two"
 
 
-def test_it_says_what_is_missing(tmp_path: Path) -> None:
-    project = four_legged(tmp_path, words=())
-    with opened(tmp_path, project.folder) as studio:
-        studio.settled()
-        refused = studio.post("/api/jobs", {"kind": "propagate"})
-        assert (refused.status_code, refused.json()["message"]) == (400, "the vocabulary is empty")
-        studio.edit("vocabulary", labels=["top", "leg"])
-        refused = studio.post("/api/jobs", {"kind": "propagate"})
-        assert refused.json()["remedy"] == "Label the hulls of one asset first."
-
-
-def test_a_second_time_without_news_stays_as_it_is_and_uses_what_was_said(studio: Studio) -> None:
-    with studio.page() as page:
-        assert page.hello
-        carry(studio, page)
-        card = studio.cards(lambda cards: bool(cards[SECOND]["unsure"]))[SECOND]
-        words = [word["name"] for word in studio.settled()["project"]["vocabulary"]]
-        for k, name in enumerate(HULLS):
-            studio.edit("label", hulls={SECOND: [name]}, label=words[card["labels"][k]])
-        assert studio.until(lambda hello: (hello["project"]["carried"] or {}).get("unused") == 5)
-        assert carry(studio, page)["state"] == "done"
-        assert studio.until(lambda hello: (hello["project"]["carried"] or {}).get("unused") == 0)
-
-
 @pytest.mark.parametrize("seconds", [0.0, 0.6, 1.2])
 def test_one_that_is_killed_leaves_labels_whole(tmp_path: Path, seconds: float) -> None:
     project = demo_project(tmp_path, demonstrated=False, tables=range(1, 8))
@@ -204,13 +167,3 @@ def test_one_that_is_killed_leaves_labels_whole(tmp_path: Path, seconds: float) 
         if hello["history"]["undo"] == "labels propagated":
             ok(studio.post("/api/undo"))
         assert {name: text for name, text in labels(studio).items() if not name.endswith(".tmp")} == before
-
-
-def test_labels_given_on_the_command_line_are_shown_and_undone_like_those_of_the_page(studio: Studio) -> None:
-    before = labels(studio)
-    with studio.page() as page:
-        meshforge("label", str(folder(studio)), SECOND, f"{HULLS[0]}={LABELS[HULLS[0]]}", cwd=folder(studio))
-        told = page.kind("history")
-        assert told["history"]["undo"] == f"{SECOND}: 1 hull labelled {LABELS[HULLS[0]]}"
-        ok(studio.post("/api/undo"))
-    assert labels(studio) == before

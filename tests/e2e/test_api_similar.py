@@ -4,12 +4,10 @@ back."""
 from __future__ import annotations
 
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 import pytest
 
-from meshforge.project import Project
 from tests.e2e.legs import LEGS, four_legged
 from tests.e2e.studio import Studio, ok, opened
 
@@ -46,19 +44,6 @@ def test_what_a_person_labelled_otherwise_is_left_alone(studio: Studio) -> None:
     assert "leg_a" not in similar(studio, "leg_b", [SECOND]).get(SECOND, [])
     assert similar(studio, "leg_b") == {FIRST: list(LEGS)}
     studio.undo_all()
-
-
-def test_hulls_of_several_assets_are_labelled_and_unlabelled_by_one_edit_each(studio: Studio) -> None:
-    project = Project.open(Path(studio.settled()["project"]["folder"]))
-    hulls = {asset: list(LEGS) for asset in (FIRST, SECOND)}
-    studio.edit("label", hulls=hulls, label="leg")
-    assert [project.labels(asset).labels["leg_c"].name for asset in (FIRST, SECOND)] == ["leg", "leg"]
-    assert studio.edit("label", hulls=hulls, label=None)["message"] == "label of 8 hulls of 2 assets taken away"
-    assert not any(project.labels(asset).labels for asset in (FIRST, SECOND))
-    ok(studio.post("/api/undo"))
-    assert project.labels(SECOND).labels["leg_d"].name == "leg"
-    ok(studio.post("/api/undo"))
-    assert not any(project.labels(asset).labels for asset in (FIRST, SECOND))
 
 
 def test_hulls_and_assets_that_are_not_there_are_refused(studio: Studio) -> None:

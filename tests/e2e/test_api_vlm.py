@@ -79,18 +79,6 @@ def test_the_cost_comes_first_then_the_labels_as_one_step(tmp_path: Path, monkey
         assert len(server.answered) == COUNT
 
 
-def test_a_limit_ends_the_asking_and_what_was_said_by_then_is_taken(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setenv(VARIABLE, KEY)
-    with serving(right) as server, asking(tmp_path, server) as studio, studio.page() as page:
-        job = run(studio, page, kind="ask", mode="cheap", max_cost=0.0)
-        assert job["state"] == "failed"
-        assert "cost" in job["message"]
-        assert server.answered == []
-        assert tree(tmp_path / "p/labels") == {}
-
-
 def test_without_a_key_or_a_model_it_is_said_and_nothing_begins(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 
 from tests.e2e.studio import ending, ok, started
-from tests.loop.command import meshforge_here as meshforge
 
 FIRST = "table_01.obj"
 
@@ -32,10 +31,3 @@ def test_the_demo_begins_with_labelled_tables_and_a_tour_and_keeps_what_is_done(
         ]
         ok(studio.post("/api/undo"))
         assert studio.steps(FIRST)["steps"] == []
-
-
-def test_a_folder_with_something_else_in_it_is_left_alone(tmp_path: Path) -> None:
-    (tmp_path / "mine.txt").write_text("mine")
-    done = meshforge("demo", "--studio", "--no-browser", "--out", tmp_path, cwd=tmp_path, code=2)
-    assert "this folder holds something else" in done.err
-    assert [path.name for path in tmp_path.iterdir()] == ["mine.txt"]

@@ -7,7 +7,6 @@ from pathlib import Path
 import pytest
 
 from meshforge.formats import load
-from meshforge.project import Project
 from tests.unit.batch.preparation.samples import write_boxes, write_stand
 from tests.unit.cli.in_process import Run, runner
 
@@ -70,12 +69,6 @@ def test_new_assets_beside_the_project_are_prepared_and_written(run: Run) -> Non
     assert names("out/later.urdf") == ["cover/geom0#0", "frame/body#0", "frame/foot"]
 
 
-def test_in_python_too(run: Run) -> None:
-    assert run("prepare", "p", "stand.urdf", *HULL).code == 0
-    outcomes = {one.asset: type(one).__name__ for one in Project.open("p").apply()}
-    assert outcomes == {"stand.urdf": "Edited", "row.obj": "Unchanged"}
-
-
 def test_nothing_follows_where_nothing_was_made(run: Run) -> None:
     assert run("prepare", "p", "stand.urdf", *HULL).code == 0
     assert run("prepare", "p", "stand.urdf", *HULL).err == ""
@@ -94,11 +87,6 @@ def test_a_project_or_program_that_is_not_there_is_said_with_the_nearest_name(ru
         told = run("apply", *words)
         assert told.code == 2 and f"{words[0]}: there is no such project or program" in told.err
         assert near is None or f"Did you mean '{near}'?" in told.err
-
-
-def test_what_status_says_of_a_file_is_one_line(run: Run) -> None:
-    Path("in/row.obj").write_text("v 0 0\n")
-    assert "\\n" not in run("status", "p").out
 
 
 def test_without_hulls_to_write_the_message_names_what_makes_them(run: Run) -> None:

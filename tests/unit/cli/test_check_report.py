@@ -70,13 +70,3 @@ def faces(sides: int) -> str:
     ring = [(a, b, b + sides, a + sides) for a, b in zip(below, [*below[1:], below[0]], strict=True)]
     ends = [tuple(reversed(below)), tuple(k + sides for k in below)]
     return "".join(f"f {' '.join(map(str, face))}\n" for face in (*ends, *ring))
-
-
-@pytest.mark.slow
-def test_of_very_many_assets_the_page_shows_some_and_says_so(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("meshforge.batch.report.contents.TopItems.__init__.__defaults__", (2,))
-    run("check", "mixed/*", "--report", "r.html", "--fit")
-    page = opened("r.html")
-    assert names(page) == [ODD, "cup.urdf"]
-    assert figures(page)["assets"] == "3"
-    assert "2 of 3 assets are shown, those that failed or have errors first." in texts(page, "//p")

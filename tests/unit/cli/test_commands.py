@@ -134,13 +134,6 @@ def test_select_of_a_label_that_no_hull_has_names_the_nearest(run: Run) -> None:
     assert run("select", "Is(panel)", "row.obj").err == f"error: row.obj: {said}\n"
 
 
-def test_a_label_of_the_family_need_not_be_on_the_asset(run: Run) -> None:
-    Path("row.labels.json").write_text('{"vocabulary": ["leg", "door"], "hulls": {"left": "leg"}}')
-    told = run("select", "Is(door)", "row.obj")
-    assert (told.code, told.out) == (0, "")
-    assert told.err == "0 of 3 hulls\nno hull here is labelled 'door'\n"
-
-
 def test_render_writes_a_turntable(run: Run) -> None:
     assert run("render", "row.obj", "--turntable", "row.gif", "--size", "64x48").code == 0
     with Image.open("row.gif") as turning:
@@ -168,12 +161,6 @@ def test_a_picture_is_a_jpeg_or_png_as_its_suffix_says(run: Run, words: tuple[st
     refused = run(*words, "a.gif")
     said = "a.gif: .gif is no picture that can be written\n  Pictures end in .png, .jpg, .jpeg."
     assert (refused.code, refused.out, refused.err) == (2, "", f"error: {said}\n")
-
-
-def test_decompose_makes_hulls_that_info_reads(run: Run) -> None:
-    Path("bar.obj").write_text(CUBE.format(*range(1, 9), name="bar", x=0, x1=3))
-    assert run("decompose", "bar.obj", "-o", "hulls.obj", "--no-cache", "--decompose", "vhacd").code == 0
-    assert len(run("info", "hulls.obj", "--json").json["hulls"]) >= 1
 
 
 QUICK_VOXELS = ("--no-cache", "--decompose", "vhacd", "--set", "resolution=5000")
@@ -342,16 +329,6 @@ def test_convert_calls_hulls_as_an_engine_knows_them_and_labels_follow(run: Run)
     ]
 
 
-def test_convert_of_many_makes_them_anew_for_another_engine(run: Run) -> None:
-    write_tables(Path("many"), 2)
-    for names, statuses in (("godot", "unchanged"), ("godot", "skipped"), ("unreal", "unchanged")):
-        told = run("convert", "many", "made", "--to", "glb", "--names", names, "--json")
-        assert told.code == 0 and [line["status"] for line in told.lines] == [statuses] * 2
-    hulls = run("info", "made/table1/model.glb", "--json").json["hulls"]
-    assert {hull["name"][:10] for hull in hulls} == {"UCX_model_"}
-    assert {hull["label"] for hull in hulls} == {"leg", "misc", "top"}
-
-
 @pytest.mark.parametrize(
     ("words", "message"),
     [
@@ -399,16 +376,6 @@ def test_apply_runs_a_program_on_files_and_names_the_one_that_fails(run: Run) ->
     assert row["hulls"] == {"before": 3, "after": 1}
     assert row["rules"] == [{"rule": 1, "selected": ["left", "far"], "made": [], "note": None}]
     assert not Path("out/bad.obj").exists()
-
-
-def test_apply_names_the_results_that_stand_out(run: Run) -> None:
-    write_tables(Path("family"), 2)
-    Path("all.mf").write_text("All => Replace(box)\n")
-    told = run("apply", "all.mf", "family", "--out", "out", "--workers", "1")
-    assert told.code == 0
-    said = "nearly one solid block: 100% of the free space is filled"
-    named = f"table0/model.obj ({said}), table1/model.obj ({said})"
-    assert told.out.splitlines()[-1] == f"2 results stand out: {named}"
 
 
 @pytest.mark.slow
@@ -481,13 +448,6 @@ def test_the_loop_of_a_project_from_the_command_line(run: Run) -> None:
     assert run("status", "rows", "--json").json["assets"][0]["output"] == "edited"
     assert run("demonstrate", "rows", "row.obj", "--clear").code == 0
     assert run("demonstrate", "rows", "row.obj").out == ""
-
-
-def test_demonstrate_names_the_nearest_hull(run: Run) -> None:
-    run("new", "rows", "row.obj", "--vocabulary", "leg,panel")
-    told = run("demonstrate", "rows", "row.obj", "lef => Delete")
-    assert told.code == 2
-    assert "'left'" in told.err
 
 
 def test_synthesize_that_finds_nothing_tells_why_and_the_nearest(run: Run) -> None:

@@ -23,13 +23,3 @@ def test_the_same_cut_again_says_so_and_changes_nothing(
     again = run(*words)
     assert again.code == 0 and "this was done already" in again.out + again.err
     assert outputs(project.folder) == before
-
-
-def test_another_cut_of_a_hull_that_is_gone_is_an_error(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, run: Run
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    cup_project(tmp_path)
-    assert run("cut", "project", CUP, "cup/b0", "--at", "0.05,0.05,0.005", "--across", "1,0,0").code == 0
-    again = run("cut", "project", CUP, "cup/b0", "--at", "0.05,0.05,0.005", "--across", "0,1,0")
-    assert again.code == 2 and "there is no hull 'cup/b0'" in again.err

@@ -8,14 +8,6 @@ from meshforge.cli.demo import STUDIO_MARK, create_tables, open_tables
 from meshforge.common import UsageError
 
 
-@pytest.mark.slow
-def test_the_tables_of_the_studio_are_labelled_and_nothing_is_shown_yet(tmp_path: Path) -> None:
-    project = open_tables(tmp_path / "demo")
-    assert len(project.assets()) == 14
-    assert all(hull.label for hull in project.mesh("table_01.obj").hulls)
-    assert not project.demonstrations() and project.program() is None
-
-
 def test_what_was_done_is_there_when_one_comes_back(tmp_path: Path) -> None:
     open_tables(tmp_path / "demo").set_labels("table_01.obj", {"convex_00": "leg"})
     again = open_tables(tmp_path / "demo")

@@ -65,22 +65,6 @@ def test_the_summary_counts_by_source_and_confidence(run: Run, tmp_path: Path) -
 
 
 @pytest.mark.slow
-def test_names_label_what_is_called_like_a_label(run: Run, tmp_path: Path) -> None:
-    told = run("label", "p", "--with", "names")
-    assert told.code == 0
-    assert "t1.obj: 2 labels taken, 4 hulls without a label\n" in told.out
-    labels = Project.open(tmp_path / "p").labels("t1.obj").labels
-    assert {name: label.name for name, label in labels.items()} == {"top": "top", "crumb": "crumb"}
-
-
-@pytest.mark.parametrize("source", ["names", "propagate"])
-def test_a_folder_of_labels_files_is_for_files_only(run: Run, source: str) -> None:
-    told = run("label", "p", "--with", source, "--labels", "elsewhere")
-    assert told.code == 2
-    assert "--labels is for --with file" in told.err
-
-
-@pytest.mark.slow
 def test_propagate_shows_what_it_would_carry_over(run: Run, tmp_path: Path) -> None:
     project = Project.open(tmp_path / "p")
     project.set_labels("t0.obj", {name: {"misc": "crumb"}.get(label_of(name), label_of(name)) for name in NAMES})

@@ -147,28 +147,11 @@ def test_an_asset_that_is_not_clear_is_asked_for_by_name(run: Run, tmp_path: Pat
     assert not Path("p/labels").exists()
 
 
-def test_names_with_commas_and_signs_are_names_first(run: Run) -> None:
-    path = Path("assets") / FIRST
-    path.write_text(path.read_text().replace("o crumb", "o crumb[1],a=b"))
-    assert run("label", "p", FIRST, "crumb[1],a=b=crumb").code == 0
-    assert set(labels_of()) == {"crumb[1],a=b"}
-
-
 def test_status_proposes_the_command_where_nothing_is_labelled(run: Run) -> None:
     Project.open("p").set_vocabulary(("panel", "leg"))
     advised = json.loads(run("status", "p", "--json").out)["next"]
     assert advised["command"] == f"meshforge label p {FIRST} 'top=LABEL'"
     assert advised["text"].endswith(f"label those of {FIRST}.")
-
-
-@pytest.mark.slow
-def test_propagate_without_any_label_shows_how_to_give_some(run: Run) -> None:
-    failed = run("label", "p", "--with", "propagate").err
-    assert "Label the hulls of one asset first, best " in failed
-    command = failed.splitlines()[-1].partition(", or: ")[2]
-    assert command.startswith("meshforge label p ") and command.endswith(" 'top=LABEL'")
-    told = run(*command.replace("'", "").replace("LABEL", "top").split()[1:])
-    assert told.out == f"{command.split()[3]}: 1 hull labelled top; 5 hulls of 6 without a label\n"
 
 
 def test_a_label_that_no_asset_has_is_named_with_the_nearest(run: Run, tmp_path: Path) -> None:
@@ -191,24 +174,6 @@ def test_a_label_that_no_asset_has_is_named_with_the_nearest(run: Run, tmp_path:
     assert not Path("p/demonstrations").exists()
     Project.open("p").set_vocabulary(())  # then it is what the steps and the hulls say
     assert run("demonstrate", "p", FIRST, "top => Merge as tpo").code == 0
-
-
-def test_a_hull_is_known_by_its_number_in_the_list_of_info(run: Run) -> None:
-    listed = run("info", FIRST, "--project", "p").out.splitlines()
-    numbers = {words[1]: words[0] for words in map(str.split, listed) if words and words[0].isdecimal()}
-    assert list(numbers.values()) == [str(k) for k in range(6)]
-    assert run("label", "p", FIRST, f"#{numbers['top']}, #{numbers['crumb']}=top").code == 0
-    assert set(labels_of()) == {"top", "crumb"}
-    refused = run("label", "p", FIRST, "#6=top")
-    assert refused.code == 2
-    assert refused.err.startswith("error: #6=top: no hull has the number #6\n  Hulls have the numbers #0 to #5: ")
-
-
-def test_a_name_counts_before_a_number(run: Run) -> None:
-    path = Path("assets") / FIRST
-    path.write_text(path.read_text().replace("o crumb", "o #0"))
-    assert run("label", "p", FIRST, "#0=crumb").code == 0
-    assert set(labels_of()) == {"#0"}
 
 
 @pytest.mark.parametrize("typed", ["b/t0.obj", "far/t0", "assets/x/t0.obj", "/nowhere/t0.obj"])

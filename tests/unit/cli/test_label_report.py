@@ -76,26 +76,6 @@ def test_carried_labels_are_shown_with_what_is_unsure(run: Run) -> None:
     assert ("hatched: an unsure label" in texts(page, "//ul[@class='legend']/li")) == bool(unsure)
 
 
-@pytest.mark.slow
-def test_labels_of_names_give_the_same_page(run: Run) -> None:
-    assert run("label", "p", "--with", "names", "--report", "r.html").code == 1  # for the damaged file
-    page = opened("r.html")
-    assert kinds(page) == ["problems", *["doubtful"] * 3]
-    assert texts(page, "//header/p")[0].startswith("Labels read off the names of hulls and bodies.")
-    assert [note for card in list(cards(page).values())[1:] for note in card] == [
-        "1 label taken, 5 hulls without a label"
-    ] * 3
-
-
-@pytest.mark.slow
-def test_of_very_many_assets_the_page_shows_some_and_says_so(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("meshforge.batch.MOST_PICTURED", 2)
-    run("label", "p", "--report", "r.html")
-    page = opened("r.html")
-    assert kinds(page) == ["problems", "problems"] and figures(page)["assets"] == "4"
-    assert "2 of 4 assets are shown, those with problems or labels in doubt first." in texts(page, "//p")
-
-
 def test_a_dry_run_has_nothing_to_show(run: Run) -> None:
     told = run("label", "p", "--dry-run", "--report", "r.html")
     assert told.code == 2 and "with --dry-run there is nothing to show" in told.err

@@ -148,9 +148,3 @@ def test_misuse_is_told_in_one_message(run: Run, tmp_path: Path, words: tuple[st
     assert done.code == 2 and not done.out
     assert done.err.count(message) == 1
     assert tree(tmp_path / "p") == before
-
-
-@pytest.mark.slow
-def test_a_pattern_may_hold_an_equals_sign(run: Run) -> None:
-    shown = run("label", "p", "--with", "names", "--dry-run", "--pattern", "/knob(?=-3)/=handle")
-    assert "knob-3" in shown.out

@@ -16,7 +16,7 @@ import pytest
 
 from meshforge.project import Project
 from tests.loopback import KEY, Asked, Server, labels_as_json, serving
-from tests.unit.batch.pages import kinds, names, opened, texts
+from tests.unit.batch.pages import opened, texts
 from tests.unit.cli.in_process import Run, runner
 from tests.unit.labels.vlm_family import VARIABLE, family, right, truth
 
@@ -86,19 +86,6 @@ def test_json_has_a_line_an_asset_and_one_for_the_bill(run: Run, server: Server)
 
 
 @pytest.mark.slow
-def test_the_report_tells_why_hulls_got_no_label(run: Run, server: Server) -> None:
-    run("label", "p", "--with", "vlm", "--report", "r.html")
-    page = opened("r.html")
-    assert names(page) == ["t002.obj", "t000.obj", "t001.obj"] and kinds(page)[0] == "doubtful"
-    assert texts(page, "//article[1]/p") == [
-        "4 labels taken, 2 hulls without a label",
-        "no label: top (the model does not know)",
-        "no label: left_low (the model said wheel, which is no label)",
-    ]
-    assert texts(page, "//header/p")[0].startswith("Labels by a vision-language model.")
-
-
-@pytest.mark.slow
 def test_a_dry_run_says_what_would_be_sent_and_sends_nothing(run: Run, server: Server, tmp_path: Path) -> None:
     before = sorted(tmp_path.rglob("*"))
     told = run("label", "p", "--with", "vlm", "--dry-run")
@@ -155,15 +142,6 @@ def test_what_does_not_fit_is_one_message(run: Run, server: Server, words: tuple
     assert message in told.err
     assert told.err.count("error:") == 1
     assert not told.out
-
-
-@pytest.mark.parametrize(
-    "words", [("--model", "x"), ("--mode", "exact"), ("--max-cost", "1"), ("--base-url", "http://x")]
-)
-def test_what_is_for_a_model_is_for_no_other_source(run: Run, server: Server, words: tuple[str, str]) -> None:
-    told = run("label", "p", "--with", "propagate", *words)
-    assert told.code == 2
-    assert f"{words[0]} is for --with vlm" in told.err
 
 
 @pytest.mark.slow

@@ -70,14 +70,6 @@ def test_new_with_decompose_exits_with_1_where_a_piece_fails_and_the_project_is_
     assert Path("p/meshforge.toml").is_file()
 
 
-@pytest.mark.slow
-def test_a_piece_without_area_is_told_once_and_not_advised_to_be_prepared(run: Run) -> None:
-    Path("in/line.obj").write_text("o l\nv 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n")
-    told = run("new", "p", "in/line.obj", *VOXELS)
-    assert told.code == 1 and "    failed: l: it is a line: it has no area\n" in told.out
-    assert "meshforge prepare" not in run("status", "p").out
-
-
 def test_a_project_without_a_name_is_not_made_here(run: Run) -> None:
     told = run("new", "", "in/row.obj")
     assert told.code == 2 and "the folder to make has no name" in told.err
@@ -146,13 +138,6 @@ def test_names_that_no_piece_or_body_has_are_told(run: Run, project: str) -> Non
     assert "note: no piece or body matches nothing*: it has none that can be decomposed\n" in told.out
     for _ in ("made", "made before"):
         assert "matches" not in run("prepare", project, "stand.urdf", *VOXELS, "--only", "no", "--only", "frame/*").out
-
-
-def test_an_asset_that_is_named_twice_is_prepared_once(run: Run, project: str) -> None:
-    told = run("prepare", project, "stand.urdf", "stand.urdf", *VOXELS, "--again")
-    assert told.code == 0 and told.out.count("stand.urdf: 2 pieces into ") == 1
-    told = run("prepare", project, "stand.urdf", "stand.urdf", "--undo")
-    assert told.code == 0 and told.out.count("taken back") == 1
 
 
 def test_what_cannot_be_taken_back_is_named_and_the_rest_is(run: Run, project: str) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import re
 import signal
@@ -21,7 +20,6 @@ from meshforge.cli.console import Progress, progress
 from meshforge.project.prepare import count_pieces
 from tests.unit.batch.preparation.samples import write_stand
 from tests.unit.cli.in_process import runner
-from tests.unit.project.racks import shown_racks
 from tests.urdf_sample import boxes_obj
 
 Capture = pytest.CaptureFixture[str]
@@ -167,30 +165,6 @@ def test_a_stop_leaves_no_warning_of_semaphores(tmp_path: Path, number: signal.S
     os.killpg(running.pid, number)
     _, rest = running.communicate(timeout=60)
     assert "semaphore" not in rest and "Traceback" not in rest
-
-
-LEARN = """
-import sys, time
-from meshforge.cli import console, main
-from meshforge.project import Project
-def slowly(own):
-    def call(*words, **more):
-        time.sleep(1)
-        return own(*words, **more)
-    return call
-Project.synthesize, console.QUIET_SECONDS = slowly(Project.synthesize), 0.3
-sys.argv = ["meshforge", "synthesize", "p", "--json"]
-main()
-"""
-
-
-@pytest.mark.slow
-def test_learning_in_a_pipe_says_seconds_and_json_stays_json(tmp_path: Path) -> None:
-    shown_racks(tmp_path).folder.rename(tmp_path / "p")
-    done = subprocess.run([sys.executable, "-c", LEARN], cwd=tmp_path, capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
-    assert "learning: 0 s\n" in done.stderr or "learning: 1 s\n" in done.stderr
-    assert json.loads(done.stdout)
 
 
 @pytest.mark.parametrize("words", [("info", "a.obj", "--json"), ("convert", "a.obj", "b.stl", "--json")])

@@ -62,14 +62,6 @@ def test_a_reply_to_a_question_that_does_not_stand_is_named_and_skipped(run: Run
     assert "group-of-old: this question is not asked any more, so the reply is skipped" in told.err
 
 
-@pytest.mark.parametrize(("text", "problem"), [("{", "this is no JSON"), ('[{"choice": 0}]', "reply 1 has no id")])
-def test_a_file_that_holds_no_replies_is_one_clear_message(run: Run, text: str, problem: str) -> None:
-    Path("said.json").write_text(text)
-    told = run("review", "tables", "--answers", "said.json")
-    assert told.code == 2
-    assert told.err.startswith(f"error: said.json: {problem}\n  Expected a list of ")
-
-
 def test_status_says_what_is_void_and_why(run: Run) -> None:
     run("review", "tables", "--min-confidence", "0.5")
     Project.open("tables").set_labels(THIRD, {"crumb": "leg"})
@@ -101,12 +93,6 @@ def test_a_program_alone_does_not_say_how_sure_it_is(run: Run) -> None:
     assert not Path("out").exists()
 
 
-def test_an_option_by_its_old_name_is_an_error_that_names_the_new(run: Run) -> None:
-    for words in (["review", "tables"], ["apply", "tables"]):
-        told = run(*words, "--sure", "0.5")
-        assert told.code == 2 and "--min-confidence" in told.err
-
-
 def test_a_wrong_result_is_held(run: Run) -> None:
     Project.open("tables").set_verdict(SECOND, "wrong")
     rows = [json.loads(line) for line in run("apply", "tables", "--min-confidence", "0.5", "--json").out.splitlines()]
@@ -120,13 +106,6 @@ def test_outputs_in_another_folder_sign_nothing_off(run: Run) -> None:
     assert not Path("tables/signoffs.jsonl").exists()
     assert run("apply", "tables").code == 0
     assert Path("tables/signoffs.jsonl").exists()
-
-
-def test_a_reply_is_taken_whatever_stands_before_it(run: Run) -> None:
-    question = json.loads(run("review", "tables", "--min-confidence", "1", "--json").out)["question"]
-    Path("said.json").write_text(json.dumps([{"id": "of-old", "choice": 0}, {"id": question["id"], "choice": 0}]))
-    told = run("review", "tables", "--min-confidence", "1", "--json", "--answers", "said.json")
-    assert told.code == 1 and "of-old" in told.err and question["id"] not in told.err
 
 
 def test_info_says_how_sure_an_edit_is_while_that_holds(run: Run) -> None:

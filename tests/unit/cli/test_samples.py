@@ -25,14 +25,6 @@ def test_a_family_and_the_command_that_makes_a_project_of_it(run: Run) -> None:
     assert "all files are there already" in run("samples", "tables", "my tables").out
 
 
-def test_a_family_that_is_not_there_names_the_nearest(run: Run) -> None:
-    shown = run("samples", "table", "out")
-    assert shown.code == 2
-    assert "there is no family 'table'" in shown.err
-    assert "Did you mean 'tables'?" in shown.err
-    assert not Path("out").exists()
-
-
 def test_without_a_folder_it_says_how_to_name_one(run: Run) -> None:
     shown = run("samples", "tables")
     assert shown.code == 2

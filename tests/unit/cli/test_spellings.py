@@ -17,6 +17,7 @@ from tests.unit.cli.in_process import Run
         (("apply", "p", "--fresh"), "--fresh", "--again"),
         (("apply", "p", "--force", "--out", "o"), "--force", "--again"),
         (("review", "p", "--redo"), "--redo", "--again"),
+        (("review", "p", "--sure", "0.5"), "--sure", "--min-confidence"),
         (("prepare", "p", "--engine", "coacd"), "--engine", "--decompose"),
         (("new", "p", "a.obj", "--method=vhacd"), "--method", "--decompose"),
         (("decompose", "a.obj", "-o", "b.obj", "--method", "vhacd"), "--method", "--decompose"),

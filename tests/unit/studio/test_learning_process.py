@@ -14,7 +14,7 @@ from meshforge.project import Project, select_assets
 from meshforge.samples import TABLES
 from meshforge.studio.edits.program import TakeLearned
 from meshforge.studio.learning import process
-from meshforge.studio.learning.process import RENEW_AFTER, FamilyCache
+from meshforge.studio.learning.process import FamilyCache
 from meshforge.studio.learning.queue import CancelFlag, LearningProcess, Superseded
 from meshforge.studio.wire.program import OutcomeView
 from meshforge.synthesis import Step
@@ -117,14 +117,6 @@ def test_an_extractor_is_generalised_as_the_rule_meets_the_assets(project: Proje
         assert own == tuple(sorted(mesh.index[name] for name in names))
 
 
-def test_without_a_program_an_extractor_is_generalised_on_turned_assets(
-    project: Project, learner: LearningProcess
-) -> None:
-    found = learner.call("generalise", process.generalise, "Is(leg)", 1, None).result().assets
-    for asset, own in found.items():
-        assert own == tuple(k for k, hull in enumerate(project.mesh(asset).hulls) if hull.label == "leg")
-
-
 def test_of_a_very_large_family_only_what_is_looked_at_while_learning_is_held_in_memory(
     project: Project, flag: CancelFlag, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -206,14 +198,6 @@ def test_the_death_of_the_process_is_one_message_and_the_next_call_has_a_new_one
     assert line.call("learn", echo, 5).result() == 5
 
 
-def test_a_call_that_nobody_waits_for_any_more_is_passed_over(line: LearningProcess) -> None:
-    first: Future[int] = line.call("learn", echo, 1)
-    second: Future[int] = line.call("reach", echo, 2)
-    second.cancel()
-    third: Future[int] = line.call("generalise", echo, 3)
-    assert (first.result(), third.result()) == (1, 3)
-
-
 def test_a_cancel_flag_stops_calls_of_its_kind_that_were_made_before(flag: CancelFlag) -> None:
     outcome, reach = flag.make_token("learn"), flag.make_token("reach")
     assert not outcome.stop()
@@ -235,18 +219,6 @@ def test_the_shelf_reads_again_only_what_changed(tmp_path: Path) -> None:
     assert set(before) - set(after) == {"table_04.obj"}
     with pytest.raises(StoppedError):
         list(shelf.read_meshes(project, project.assets(), lambda: True))
-
-
-def test_after_many_runs_the_shelf_hands_out_the_same_assets_anew(tmp_path: Path) -> None:
-    project, shelf = demo_project(tmp_path), FamilyCache()
-    before = dict(shelf.read_meshes(project, [OTHER], go_on))[OTHER]
-    known = dict(before.graph)
-    for _ in range(RENEW_AFTER):
-        shelf.count_run()
-    after = dict(shelf.read_meshes(project, [OTHER], go_on))[OTHER]
-    assert after is not before
-    assert after.hulls == before.hulls
-    assert dict(after.graph) == known
 
 
 @pytest.mark.slow

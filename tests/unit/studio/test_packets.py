@@ -99,17 +99,6 @@ def test_a_preview_shows_what_the_step_then_does(own: Project) -> None:
     assert {hull["label"] for hull in header["hulls"] if hull["name"] in header["made"]} == {"misc"}
 
 
-def test_a_preview_says_what_a_user_should_know(project: Project) -> None:
-    mesh = project.mesh(SHOWN)
-    request = PreviewRequest(asset=SHOWN, select=("convex_00",), action=read("Replace(capsule)"))
-    header, _ = read_packet(packets.preview_action(project, SHOWN, mesh, request))
-    assert header["note"] == (
-        "sides of the capsule differ by more than 1%, so it is a hull mesh"
-        " (Replace(capsule, native) or Replace(capsule, tight) makes a native capsule)"
-    )
-    assert header["trace"][0]["selected"] == ["convex_00"]
-
-
 def test_a_preview_of_what_cannot_be_done_has_one_clear_message(project: Project) -> None:
     mesh = project.mesh(SHOWN)
 
@@ -150,12 +139,6 @@ def test_an_extractor_selects_what_a_rule_of_the_program_meets(project: Project,
     assert "~" in "".join(found.select), "the rule before merged the legs"
 
 
-def test_an_extractor_sees_what_earlier_steps_made(project: Project) -> None:
-    request = SelectRequest(asset=SHOWN, steps=3, extractor="Is(leg)")
-    found = programs.select_hulls(project, SHOWN, project.mesh(SHOWN), request)
-    assert found.select == ("convex_06~1", "convex_10~1", "convex_14~1", "convex_18~1")
-
-
 @pytest.mark.parametrize(
     ("text", "line", "column", "message"),
     [
@@ -180,13 +163,6 @@ def test_guesses_on_a_demonstrated_asset_are_what_was_shown(project: Project, pr
     assert [set(guess.select) for guess in guessed] == [set(step.select or ()) for step in shown]
     assert [guess.action.text for guess in guessed] == [str(step.action) for step in shown]
     assert all(guess.error is None for guess in guessed)
-
-
-def test_guesses_on_another_asset_are_what_the_program_selects(project: Project, program: Program) -> None:
-    mesh = project.mesh(OTHER)
-    trace = program.run(mesh, project.templates(program.templates)).trace
-    guessed = programs.guess_selections(project, OTHER, mesh, program)
-    assert [guess.select for guess in guessed] == [line.selected for line in trace]
 
 
 def test_a_guess_meets_what_was_shown_before_it(project: Project, own: Project, program: Program) -> None:

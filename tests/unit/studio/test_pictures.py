@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from io import BytesIO
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -63,11 +62,3 @@ def test_a_picture_for_a_question_shows_the_hulls_that_tell_its_choices_apart(pr
         packet = assets.draw_rule_picture(project, TABLE, mesh, 2, program, [name])
         pixels = of_png(packet[4 + int.from_bytes(packet[:4], "little") :])
         assert (pixels[..., 1] == 1 + seen.index[name]).sum() > 60, name
-
-
-def test_without_a_program_the_picture_shows_the_asset_as_it_is_turned(project: Project, tmp_path: Path) -> None:
-    fresh = demo_project(tmp_path)
-    mesh, program = project.mesh(TABLE), project.program()
-    assert assets.draw_rule_picture(fresh, TABLE, mesh, 1, None) == assets.draw_rule_picture(
-        project, TABLE, mesh, 1, program
-    )

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from meshforge.project import Project, PropagationState
 from meshforge.store import History
-from meshforge.studio.edits.assets import LabelFromNames, LabelHulls, RenameLabel
+from meshforge.studio.edits.assets import LabelHulls, RenameLabel
 from meshforge.studio.edits.base import Edit, make_edit
 from meshforge.studio.label_changes import LabelChanges
 from meshforge.studio.wire.family import Card
@@ -97,25 +97,6 @@ def test_labels_that_were_others_are_told_with_what_they_were(tmp_path: Path) ->
     ]
 
 
-def test_assets_that_are_not_read_yet_are_told_later(tmp_path: Path) -> None:
-    project, history = labelled(tmp_path)
-    carry(project, history)
-    relabelling = LabelChanges(history)
-    first = relabelling.last_change({"t2.obj": NAMES})
-    assert first and [one.asset for one in first.assets] == ["t2.obj"]
-    both = relabelling.last_change(HULLS)
-    assert both and [one.asset for one in both.assets] == ["t1.obj", "t2.obj"]
-
-
-def test_labels_from_names_are_told_as_well(tmp_path: Path) -> None:
-    project = family(tmp_path)
-    history = History.open(project.folder)
-    make_edit(history, project, LabelFromNames())
-    found = LabelChanges(history).last_change(HULLS)
-    assert found and found.way == "label-names"
-    assert {(one.asset, one.new) for one in found.assets} == {(asset, (NAMES.index("top"),)) for asset in ASSETS}
-
-
 def test_what_a_person_says_since_is_counted_until_labels_are_carried_over_again(tmp_path: Path) -> None:
     project, history = labelled(tmp_path)
     assert carried(project, history) is None
@@ -178,18 +159,6 @@ def test_what_is_said_while_labels_are_carried_over_is_kept_and_is_news(tmp_path
     assert now and now.unused == 1
     history.undo()
     assert {name: one.name for name, one in project.labels("t1.obj").labels.items()} == {"crumb": "leg"}
-
-
-def test_an_asset_that_is_labelled_is_no_longer_the_next(tmp_path: Path) -> None:
-    project, history = labelled(tmp_path)
-    carry(project, history)
-    project.set_labels("t1.obj", {name: label_of(name) for name in NAMES[1:]})
-    assert carried(project, history) == PropagationState(unused=0, next="t1.obj"), (
-        "others than the studio are not counted"
-    )
-    make_edit(history, project, label("t1.obj", NAMES[0], label_of(NAMES[0])))
-    now = carried(project, history)
-    assert now and now.next is None
 
 
 def test_a_damaged_history_tells_less_and_fails_nowhere(tmp_path: Path) -> None:

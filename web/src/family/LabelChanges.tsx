@@ -11,7 +11,6 @@ import {
   dismissLabelChanges,
   highlightLabelChanges,
   openNextChange,
-  useLabelChanges,
 } from "../store/labelChanges";
 import { useProject } from "../store/project";
 import { labelProgress } from "../store/unsureHulls";
@@ -29,7 +28,7 @@ const TITLES: Readonly<Record<LabelUpdate["way"], string>> = {
 
 /** Where labels are given, and nothing else is in hand. */
 export function LabelChanges() {
-  const relabelled = useLabelChanges();
+  const relabelled = useProject((state) => state.relabelled);
   const isFree = useWorkspace(({ stage, tool }) => stage === "label" && tool !== "cut");
   return relabelled && isFree ? <ChangeBar relabelled={relabelled} /> : null;
 }

@@ -122,24 +122,21 @@ export function neighbour(
   return null;
 }
 
-let last: { cards: Cards; order: readonly string[]; filters: Filters; engine: string; labels: unknown; confidence: unknown; shown: readonly string[] } | null =
-  null;
+let last: { by: readonly unknown[]; shown: readonly string[] } | null = null;
 
 /** The assets that the family shows now; the same array as long as it is the same. */
 export function shownAssets(): readonly string[] {
   const { cards, order, project, confidence } = useProject.getState();
   const { filters, checks } = useWorkspace.getState();
-  const { engine } = checks;
-  const labels = project.vocabulary;
-  const same = last?.cards === cards && last.order === order && last.filters === filters && last.labels === labels && last.confidence === confidence;
-  if (last && same && last.engine === engine) return last.shown;
-  const fresh = filterAssets(cards, order, filters, project, engine, confidence);
+  const by = [cards, order, project.vocabulary, confidence, filters, checks.engine];
+  if (last && isEqual(last.by, by)) return last.shown;
+  const fresh = filterAssets(cards, order, filters, project, checks.engine, confidence);
   const shown = last && isEqual(last.shown, fresh) ? last.shown : fresh;
-  last = { cards, order, filters, engine, labels, confidence, shown };
+  last = { by, shown };
   return shown;
 }
 
-const isEqual = (a: readonly string[], b: readonly string[]) => a.length === b.length && a.every((x, k) => x === b[k]);
+const isEqual = (a: readonly unknown[], b: readonly unknown[]) => a.length === b.length && a.every((x, k) => x === b[k]);
 
 /** The assets that the family shows now. */
 export function useShown(): readonly string[] {

@@ -1,6 +1,5 @@
 // What the last edit of all labels changed, as long it was the last one and nobody dismissed it.
 import { useMemo } from "react";
-import { create } from "zustand";
 import type { LabelUpdate, AssetLabelUpdate } from "../wire";
 import { neighbour } from "./family";
 import { oncePer } from "./once";
@@ -14,31 +13,14 @@ const WHAT = "relabelled";
 
 const rowsOf = oncePer((relabelled: LabelUpdate) => new Map(relabelled.assets.map((one) => [one.asset, one])));
 
-/** The one that was dismissed. */
-const useDismissed = create<{ what: LabelUpdate | null }>()(() => ({ what: null }));
+/** What changed on one asset; null where the last edit was another one, or this was dismissed. */
+export const labelChangesOf = (asset: string): AssetLabelUpdate | null => rowOf(useProject.getState().relabelled, asset);
 
-/** What changed; null where the last edit was another one, or this was dismissed. */
-export function currentLabelChanges(): LabelUpdate | null {
-  const { relabelled } = useProject.getState();
-  return relabelled === useDismissed.getState().what ? null : relabelled;
-}
+export const useLabelChangesOf = (asset: string): AssetLabelUpdate | null => rowOf(useProject((state) => state.relabelled), asset);
 
-export function useLabelChanges(): LabelUpdate | null {
-  const relabelled = useProject((state) => state.relabelled);
-  const aside = useDismissed(({ what }) => what);
-  return relabelled === aside ? null : relabelled;
-}
-
-/** What changed on one asset. */
-export function useLabelChangesOf(asset: string): AssetLabelUpdate | null {
-  const relabelled = useLabelChanges();
+function rowOf(relabelled: LabelUpdate | null, asset: string): AssetLabelUpdate | null {
   return relabelled && (rowsOf(relabelled).get(asset) ?? null);
 }
-
-export const labelChangesOf = (asset: string): AssetLabelUpdate | null => {
-  const relabelled = currentLabelChanges();
-  return relabelled && (rowsOf(relabelled).get(asset) ?? null);
-};
 
 /** The label that each hull of an original asset had before, by name; hulls whose label stayed are not among them. */
 export function useFormerLabels(asset: string, own: readonly { name: string }[]): ReadonlyMap<string, string> {
@@ -51,17 +33,13 @@ export function useFormerLabels(asset: string, own: readonly { name: string }[])
 
 /** Calls back whenever what is shown of it may be another, until the returned function is called. */
 export function watchLabelChanges(changed: () => void): () => void {
-  const stops = [
-    useProject.subscribe((now, before) => now.relabelled !== before.relabelled && changed()),
-    useDismissed.subscribe(changed),
-  ];
-  return () => stops.forEach((stop) => stop());
+  return useProject.subscribe((now, before) => now.relabelled !== before.relabelled && changed());
 }
 
 /** No longer points out what changed; the labels stay. */
 export function dismissLabelChanges(): void {
   clearLabelChanges();
-  useDismissed.setState({ what: useProject.getState().relabelled });
+  useProject.setState({ relabelled: null });
 }
 
 /** Hulls of one sort, and on how many assets. */

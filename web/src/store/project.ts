@@ -2,37 +2,19 @@
 import { create } from "zustand";
 import { page } from "../server/http";
 import { oncePer } from "./once";
-import type { AssessmentView, Card, ConfidenceView, Event, HistoryState, Job, LanguageView, OutcomeView, ProgramView, ProjectView, Reach, LabelUpdate } from "../wire";
+import type { Card, ConfidenceView, Event, Hello, Reach } from "../wire";
 
-export interface ProjectState {
+export interface ProjectState extends Omit<Hello, "kind" | "cards" | "reach"> {
   connected: boolean;
   /** Whether a first Hello came. */
   ready: boolean;
-  version: string;
-  project: ProjectView;
   cards: Readonly<Record<string, Card>>;
   /** Ids of all assets, in order. */
   order: readonly string[];
-  history: HistoryState;
-  /** What the last edit did, where that was one of all labels. */
-  relabelled: LabelUpdate | null;
-  program: ProgramView;
-  outcome: OutcomeView | null;
-  learning: boolean;
   /** What the present program does on each asset. */
   reach: Readonly<Record<string, Reach>>;
-  /** How sure the edits are; null as soon as something changed, until that is known again. */
-  assessment: AssessmentView | null;
-  assessing: boolean;
   /** How sure each edit was when that was known last, by which the family stays in order meanwhile. */
   confidence: Readonly<Record<string, ConfidenceView>>;
-  jobs: readonly Job[];
-  tour: boolean;
-  /** Whether one can leave the project for the start page. */
-  leave: boolean;
-  /** Titles of the engines whose limits can be checked, by name. */
-  engines: Readonly<Record<string, string>>;
-  language: LanguageView;
   /** How often everything was sent anew, and of how many edits of this page. */
   hellos: number;
   own: number;
@@ -40,17 +22,6 @@ export interface ProjectState {
   revisions: Readonly<Record<string, number>>;
   shapeRevisions: Readonly<Record<string, number>>;
 }
-
-const noProgram: ProgramView = {
-  text: "",
-  version: "",
-  by_hand: false,
-  outdated: false,
-  labels: [],
-  orient_sentence: "",
-  rules: [],
-  error: null,
-};
 
 export const emptyProject: ProjectState = {
   connected: false,
@@ -77,7 +48,7 @@ export const emptyProject: ProjectState = {
   order: [],
   history: { undo: null, redo: null, undoable: 0, redoable: 0 },
   relabelled: null,
-  program: noProgram,
+  program: { text: "", version: "", by_hand: false, outdated: false, labels: [], orient_sentence: "", rules: [], error: null },
   outcome: null,
   learning: false,
   reach: {},
@@ -129,11 +100,13 @@ export function applyEvent(state: ProjectState, event: Event): ProjectState {
       };
     }
     case "project":
-      return { ...state, project: event.project };
+    case "program":
+    case "relabelled": {
+      const { kind, ...changed } = event;
+      return { ...state, ...changed };
+    }
     case "history":
       return { ...state, history: event.history, own: state.own + Number(event.by === page) };
-    case "relabelled":
-      return { ...state, relabelled: event.relabelled };
     case "assets": {
       const shapes = event.shapes ? increment(state.shapeRevisions, event.assets) : state.shapeRevisions;
       return { ...state, revisions: increment(state.revisions, event.assets), shapeRevisions: shapes };
@@ -148,8 +121,6 @@ export function applyEvent(state: ProjectState, event: Event): ProjectState {
       const confidence = event.assessment ? byAsset(event.assessment.assets) : state.confidence;
       return { ...state, assessment: event.assessment, assessing: event.assessing, confidence };
     }
-    case "program":
-      return { ...state, program: event.program };
     case "job":
       return { ...state, jobs: [...state.jobs.filter((job) => job.id !== event.job.id), event.job].slice(-20) };
     case "start":

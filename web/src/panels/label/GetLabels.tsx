@@ -19,12 +19,14 @@ import css from "./getLabels.module.css";
 
 export function GetLabels() {
   const { files, names, model } = useSources();
+  const beside = files ? `beside ${countText(files, "asset")}` : "";
+  const named = names ? `of ${countText(names, "hull")} without a label` : "";
   return (
     <Section title="Get labels">
       <ul className={css.ways}>
         <FromAssets />
-        <FromFiles files={files} />
-        <FromNames names={names} />
+        <Ready icon={FileText} title="From files" kind="label-files" text={beside} tip="Use the labels files beside the assets" />
+        <Ready icon={Type} title="From names" kind="label-names" text={named} tip="Use labels found in the names of hulls and bodies" />
         <FromModel key={model?.name} model={model} />
       </ul>
     </Section>
@@ -75,36 +77,22 @@ function SourceRow({ icon: Icon, title, text, action, children }: SourceRowProps
   );
 }
 
-/** files: assets whose labels file says something that is not taken yet. */
-function FromFiles({ files }: { files: number }) {
-  if (!files) return null;
-  const beside = `beside ${countText(files, "asset")}`;
-  const take = (
-    <Button
-      onClick={() => void perform({ kind: "label-files" })}
-      aria-label={`From files ${beside}: take`}
-      tip="Use the labels files beside the assets"
-    >
-      Take
-    </Button>
-  );
-  return <SourceRow icon={FileText} title="From files" text={beside} action={take} />;
+interface ReadyProps extends Pick<SourceRowProps, "icon" | "title"> {
+  kind: "label-files" | "label-names";
+  /** What there is to take, empty for nothing. */
+  text: string;
+  tip: string;
 }
 
-/** names: hulls without a label whose names say one. */
-function FromNames({ names }: { names: number }) {
-  if (!names) return null;
-  const of = `of ${countText(names, "hull")} without a label`;
+/** Labels that are there and need only be taken. */
+function Ready({ icon, title, kind, text, tip }: ReadyProps) {
+  if (!text) return null;
   const take = (
-    <Button
-      onClick={() => void perform({ kind: "label-names" })}
-      aria-label={`From names ${of}: take`}
-      tip="Use labels found in the names of hulls and bodies"
-    >
+    <Button onClick={() => void perform({ kind })} aria-label={`${title} ${text}: take`} tip={tip}>
       Take
     </Button>
   );
-  return <SourceRow icon={Type} title="From names" text={of} action={take} />;
+  return <SourceRow icon={icon} title={title} text={text} action={take} />;
 }
 
 const PROPAGATE_TITLE = "From labelled assets";
