@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 import sys
 import tempfile
 from dataclasses import replace
@@ -12,7 +11,7 @@ from meshforge.batch import load_templates
 from meshforge.formats import load
 from meshforge.language import Program, to_canonical_frame
 from meshforge.project import Project
-from meshforge.rendering import compare, draw_labeling_pictures, make_contact_sheet, render, write_png
+from meshforge.rendering import compare, draw_labeling_pictures, label_colors, make_contact_sheet, render, write_png
 from meshforge.samples import TABLES
 from meshforge.symbolic import SymbolicMesh, read_labels
 from script.sign_off_picture import draw_sign_off
@@ -82,8 +81,12 @@ def _labels(path: Path) -> None:
             true = read_labels(TABLES / f"{name}.labels.json").labels
             project.set_labels(f"{name}.obj", {hull: label.name for hull, label in true.items()})
         project.label("propagate")
-        (drawn,) = project.draw_labels(Path(scratch), project.assets())
-        shutil.copyfile(drawn, path)
+        meshes = project.meshes_by_id(project.assets())
+        drawn = {
+            asset: render(mesh, color_by="label", size=(320, 240), legend=False, vocabulary=project.vocabulary)
+            for asset, mesh in meshes
+        }
+        write_png(path, make_contact_sheet([*drawn.values()], 6, [*drawn], label_colors(project.vocabulary)))
 
 
 if __name__ == "__main__":

@@ -81,13 +81,6 @@ class LabelArguments:
         typer.Option("--labels", help="A file with labels, or a folder that mirrors the assets; default: beside each."),
     ] = None
     vocabulary: Annotated[str, typer.Option("--vocabulary", help="Set the labels that hulls can have: a,b,c.")] = ""
-    sheets: Annotated[
-        Path | None,
-        typer.Option(
-            "--sheets",
-            help="A folder for contact sheets of all assets, hulls coloured by label.",
-        ),
-    ] = None
     model: Annotated[str | None, typer.Option("--model", help="The model that --with vlm asks.")] = None
     base_url: Annotated[str | None, typer.Option("--base-url", help="Where it is, for example .../v1.")] = None
     mode: Annotated[
@@ -197,7 +190,7 @@ def label(given: LabelArguments) -> None:
     else:
         if words is not None:
             project.set_vocabulary(words)
-        printer = LabelPrinter(project, labeler, given.sheets, given.report, json=given.json)
+        printer = LabelPrinter(project, labeler, given.report, json=given.json)
         if isinstance(labeler, VlmLabeler):
             label_with_vlm(project, labeler, execution, printer)
         else:

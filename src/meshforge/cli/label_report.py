@@ -12,7 +12,7 @@ from time import perf_counter
 import typer
 
 from meshforge import batch
-from meshforge.cli.console import print_table, progress
+from meshforge.cli.console import print_table
 from meshforge.cli.report import write_report_page
 from meshforge.cli.terminal import print_json
 from meshforge.common import escape_name, join_names, pluralize
@@ -40,16 +40,14 @@ _SOURCE_WORDS = {
 class LabelPrinter:
     """Prints what became of each asset, and how many labels there are in the end.
 
-    sheets: a folder for contact sheets, None for none; page: the report that is to be written, too. failed: whether any
+    page: the report that is to be written, too. failed: whether any
     labels could not be taken.
     """
 
-    def __init__(
-        self, project: Project, labeler: Labeler, sheets: Path | None, page: Path | None, *, json: bool
-    ) -> None:
+    def __init__(self, project: Project, labeler: Labeler, page: Path | None, *, json: bool) -> None:
         self.json = json
         self.failed = False
-        self._project, self._sheets, self._page = project, sheets, page
+        self._project, self._page = project, page
         about = labeler.about or f"labels by the plug-in {labeler.name}"
         self._about = [f"{about[0].upper()}{about[1:]}."]
         self._outcomes: dict[str, LabelOutcome] = {}
@@ -74,18 +72,12 @@ class LabelPrinter:
         self._about.append(text)
 
     def summarize(self) -> None:
-        """Print how many labels there are, and write the contact sheets and the page."""
-        tally, written = self._project.tally_labels(), list[Path]()
-        if self._sheets:
-            assets = self._project.assets()
-            with progress(len(assets), "drawing") as advance:
-                written = list(self._project.draw_labels(self._sheets, assets, advance))
+        """Print how many labels there are, and write the page."""
+        tally = self._project.tally_labels()
         if self.json:
-            print_json({"labels": asdict(tally), "sheets": [str(path) for path in written]}, compact=True)
+            print_json({"labels": asdict(tally)}, compact=True)
         else:
             _print_tally(tally)
-            for path in written[:1]:
-                typer.echo(f"pictures: {path}{f' and {len(written) - 1} more' if len(written) > 1 else ''}")
         if self._page:
             self._write_page(self._page, tally)
 

@@ -20,7 +20,7 @@ __getattr__, __all__ = export_lazily(
         "reference_family": "ReferenceFamily pick_evenly read_reference_family",
         "registry": "LABELERS AssetLabeler make_labeler",
         "spans": "HullSpan SpanReport",
-        "summary": "Proposal Proposals SourceTally Tally describe_label_plan tally_labels write_contact_sheets",
+        "summary": "Proposal Proposals SourceTally Tally describe_label_plan tally_labels",
         "vlm.endpoint": "Endpoint approve_host check_approved describe_sending is_approved",
         "vlm.label_by_vlm": "VlmForecast VlmLabeler VlmResult check_vlm_settings forecast_vlm",
         "vlm.cost": "Usage",

@@ -34,7 +34,6 @@ from meshforge.labels.summary import SourceTally as SourceTally
 from meshforge.labels.summary import Tally as Tally
 from meshforge.labels.summary import describe_label_plan as describe_label_plan
 from meshforge.labels.summary import tally_labels as tally_labels
-from meshforge.labels.summary import write_contact_sheets as write_contact_sheets
 from meshforge.labels.vlm.endpoint import Endpoint as Endpoint
 from meshforge.labels.vlm.endpoint import approve_host as approve_host
 from meshforge.labels.vlm.endpoint import check_approved as check_approved

@@ -1,24 +1,17 @@
 """Labels put together for people: those that would be given, to be looked at before they are taken; and how far a
-project is labelled, counted by source and confidence, planned in words, and drawn on contact sheets."""
+project is labelled, counted by source and confidence, and planned in words."""
 
 from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from functools import partial
-from itertools import islice
-from pathlib import Path
-from typing import TYPE_CHECKING
 
 from meshforge import rendering
-from meshforge.batch import AssetJob, ExecutionOptions, WorkerFailure, plan_run, run_isolated
+from meshforge.batch import AssetJob, plan_run
 from meshforge.common import AssetError, MeshForgeError
-from meshforge.store import AssetFiles, Store, iterate_asset_index
+from meshforge.store import Store, iterate_asset_index
 from meshforge.symbolic import HUMAN_SOURCES, LABEL_SOURCES, Label, match_labels
-
-if TYPE_CHECKING:
-    from PIL.Image import Image
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,11 +90,6 @@ def _summarize_group(label: str | None, kind: str, group: Sequence[LabelEvidence
 SURE = 0.9
 """Labels as certain as this are sure; those below `UNSURE` are not."""
 
-PER_SHEET = 24
-_COLUMNS = 6
-_CELL = 320, 240
-_TIMEOUT = 120.0
-
 
 @dataclass(frozen=True, slots=True)
 class SourceTally:
@@ -174,39 +162,3 @@ def _has_human_label(store: Store, asset: str) -> bool:
         return any(label.source in HUMAN_SOURCES for label in store.labels(asset).labels.values())
     except AssetError:  # reported when its turn comes
         return False
-
-
-def write_contact_sheets(
-    store: Store, folder: Path, assets: Sequence[str], progress: Callable[[], None] | None = None
-) -> tuple[Path, ...]:
-    """Write contact sheets of some assets, `labels-001.png` and so on, in which hulls have their labels' colours.
-
-    Earlier sheets are replaced; what cannot be drawn is left out. Raises UsageError where one cannot be written.
-    """
-    vocabulary = store.vocabulary
-    draw = partial(_draw, vocabulary)
-    images = run_isolated(draw, store.asset_files(assets), ExecutionOptions(timeout=_TIMEOUT, progress=progress))
-    drawn = zip(assets, images, strict=True)
-    cells = ((asset, image) for asset, image in drawn if image and not isinstance(image, WorkerFailure))
-    written = list[Path]()
-    while batch := tuple(islice(cells, PER_SHEET)):
-        written.append(folder / f"labels-{len(written) + 1:03d}.png")
-        _write_sheet(written[-1], batch, vocabulary)
-    for old in folder.glob("labels-[0-9][0-9][0-9]*.png"):
-        if old not in written:
-            old.unlink()
-    return tuple(written)
-
-
-def _draw(vocabulary: tuple[str, ...], place: AssetFiles) -> Image | None:
-    try:
-        mesh = place.read_mesh()
-    except MeshForgeError:
-        return None
-    return rendering.render(mesh, color_by="label", size=_CELL, legend=False, vocabulary=vocabulary)
-
-
-def _write_sheet(path: Path, batch: Sequence[tuple[str, Image]], vocabulary: Sequence[str]) -> None:
-    images = [image for _, image in batch]
-    colors = rendering.label_colors(vocabulary) | {"no label": rendering.UNLABELLED}
-    rendering.write_png(path, rendering.make_contact_sheet(images, _COLUMNS, [asset for asset, _ in batch], colors))

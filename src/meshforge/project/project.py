@@ -68,7 +68,6 @@ class Project(Store):
     forecast_vlm = labels.forecast_vlm
     plan_labels = labels.describe_label_plan
     tally_labels = labels.tally_labels
-    draw_labels = labels.write_contact_sheets
     rename_label = rename.rename_label
 
     # Preparation

@@ -6,9 +6,7 @@ import json
 from pathlib import Path
 
 import pytest
-from PIL import Image
 
-from meshforge.common import MeshForgeError
 from meshforge.project import Project
 from tests.unit.batch.families import label_of, table_boxes, write_table
 from tests.unit.cli.in_process import Run, runner
@@ -51,7 +49,6 @@ def test_propagate_reports_as_json_a_line_an_asset(run: Run, tmp_path: Path) -> 
     closing = json.loads(told[-1])
     assert closing["labels"]["hulls"] == 3 * len(NAMES)
     assert {share["source"] for share in closing["labels"]["shares"]} == {"user", "propagated"}
-    assert closing["sheets"] == []
 
 
 @pytest.mark.slow
@@ -65,29 +62,6 @@ def test_the_summary_counts_by_source_and_confidence(run: Run, tmp_path: Path) -
     assert ["a", "model", "0", "0", "2"] in rows
     assert ["names", "0", "3", "0"] in rows
     assert ["no", "label", "12"] in rows
-    assert "pictures:" not in told.out
-
-
-@pytest.mark.slow
-def test_sheets_of_all_assets_go_where_one_wants_them(run: Run, tmp_path: Path) -> None:
-    told = run("label", "p", "--with", "names", "--sheets", "sheets")
-    assert "pictures: sheets/labels-001.png" in told.out
-    with Image.open(tmp_path / "sheets/labels-001.png") as picture:
-        assert picture.width > 2 * 320
-
-
-@pytest.mark.slow
-def test_labels_are_kept_where_pictures_cannot_be_drawn(
-    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def refuse(*given: object) -> None:
-        raise MeshForgeError("pictures need embreex, which is not installed")
-
-    monkeypatch.setattr("meshforge.project.Project.draw_labels", refuse)
-    told = run("label", "p", "--with", "names", "--sheets", "sheets")
-    assert told.code == 2
-    assert "pictures need embreex" in told.err
-    assert Project.open(tmp_path / "p").labels("t1.obj").labels
 
 
 @pytest.mark.slow

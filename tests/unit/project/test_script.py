@@ -20,7 +20,7 @@ from meshforge import Project
 project = Project.open("project")
 print([type(outcome).__name__ for outcome in project.apply()])
 print(len(project.review().assessment.assets), project.status().name)
-print(project.label("propagate"), len(project.draw_labels(Path("sheets"), project.assets())))
+print(project.label("propagate"))
 print(sum(1 for _ in project.decompose(project.assets())), len(list(project.rebuild_spanning(dry_run=True))))
 """
 COMMAND = """
