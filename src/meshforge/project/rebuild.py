@@ -16,7 +16,7 @@ from meshforge.engines import Finding, check_limits, find_engine
 from meshforge.formats import format_of, read
 from meshforge.label_model import RebuiltHull
 from meshforge.labels import HullSpan, ReferenceFamily, SpanReport, read_reference_family
-from meshforge.labels.family_comparison import Stage, ignore_stage
+from meshforge.labels.labeler import Stage, ignore_stage
 from meshforge.project.preparation_plan import REBUILD_DEFAULTS, RebuildSettings, keep_rebuilt
 from meshforge.project.prepare import PreparationResult, exchange_preparation
 from meshforge.store import Store

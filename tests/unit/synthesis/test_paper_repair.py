@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Mapping
+from collections.abc import Callable, Collection, Mapping
 
 import pytest
 
@@ -30,7 +30,7 @@ def run(
     *examples: Example,
     options: Options = Options(max_size=3),  # noqa: B008 (frozen)
     confirm: Callable[[LabelFix], bool] | None = None,
-    rejected: Container[LabelFix] = (),
+    rejected: Collection[LabelFix] = (),
     spent: Mapping[str, int] | None = None,
 ) -> SearchResult | HitWithFixes:
     return PaperSearch(
