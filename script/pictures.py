@@ -11,15 +11,7 @@ from meshforge.batch import load_templates
 from meshforge.formats import load
 from meshforge.language import Program, to_canonical_frame
 from meshforge.project import Project
-from meshforge.rendering import (
-    UNLABELLED,
-    compare,
-    draw_labeling_pictures,
-    label_colors,
-    make_contact_sheet,
-    render,
-    write_png,
-)
+from meshforge.rendering import compare, draw_labeling_pictures, label_colors, make_contact_sheet, render, write_png
 from meshforge.samples import TABLES
 from meshforge.symbolic import SymbolicMesh, read_labels
 from script.sign_off_picture import draw_sign_off
@@ -89,13 +81,12 @@ def _labels(path: Path) -> None:
             true = read_labels(TABLES / f"{name}.labels.json").labels
             project.set_labels(f"{name}.obj", {hull: label.name for hull, label in true.items()})
         project.label("propagate")
-        words, assets = project.vocabulary, project.assets()
-        drawn = [
-            render(project.mesh(asset), color_by="label", size=(320, 240), legend=False, vocabulary=words)
-            for asset in assets
-        ]
-        colors = label_colors(words) | {"no label": UNLABELLED}
-        write_png(path, make_contact_sheet(drawn, 6, assets, colors))
+        meshes = project.meshes_by_id(project.assets())
+        drawn = {
+            asset: render(mesh, color_by="label", size=(320, 240), legend=False, vocabulary=project.vocabulary)
+            for asset, mesh in meshes
+        }
+        write_png(path, make_contact_sheet([*drawn.values()], 6, [*drawn], label_colors(project.vocabulary)))
 
 
 if __name__ == "__main__":

@@ -15,7 +15,7 @@ from meshforge.common import join_and
 from meshforge.formats import read
 from meshforge.geometry import CoacdSettings
 from meshforge.labels import HullSpan, read_reference_family
-from meshforge.labels.family_comparison import ignore_stage
+from meshforge.labels.labeler import ignore_stage
 from meshforge.project import REBUILD_DEFAULTS, Project
 from meshforge.rendering import color_hulls, make_contact_sheet, write_png
 from meshforge.rendering.canvas import Canvas

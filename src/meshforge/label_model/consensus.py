@@ -5,9 +5,9 @@ the true label on calibration families (`python -m benchmark.labels consensus`).
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
+from typing import NamedTuple
 
 import numpy as np
 
@@ -90,8 +90,7 @@ def softmax(scores: Floats) -> Floats:
     return found
 
 
-@dataclass(frozen=True, eq=False)
-class _Helpers:
+class _Helpers(NamedTuple):
     """Hulls that say something about others. usable: (n,); worth: (n,) what each counts."""
 
     usable: Bools
@@ -137,7 +136,8 @@ class FamilyContext:
     def collect_evidence(self, chances: Floats) -> Floats:
         """Return the evidence (n, labels, len(EVIDENCE)) [nats] on each label of each hull."""
         seen, rows = self.seen, np.arange(len(chances))
-        informed = self._find_helpers(chances)
+        sure = ~seen.known & (chances.max(axis=1, initial=0.0) > _CERTAIN)
+        informed = _Helpers(seen.known | sure, np.where(seen.known, 1.0, _HELP))
         counted = chances * np.where(seen.known, 1.0, _UNSAID)[:, None]
         prior = counted.sum(axis=0) + 0.5
         prior /= prior.sum()
@@ -157,10 +157,6 @@ class FamilyContext:
         of_source = [own, kinds, own * self.far, kinds * self.far]
         of_others = [nearest, np.log(distinct), together, own_mesh, common, self._hear_neighbors(chances, informed)]
         return np.stack([*of_source, *of_others], axis=-1)
-
-    def _find_helpers(self, chances: Floats) -> _Helpers:
-        sure = ~self.seen.known & (chances.max(axis=1, initial=0.0) > _CERTAIN)
-        return _Helpers(self.seen.known | sure, np.where(self.seen.known, 1.0, _HELP))
 
     def _mix_twins(self, chances: Floats, informed: _Helpers) -> Floats:
         """What hulls say to others: those of one mesh that hardly anything tells apart say what they say on average."""

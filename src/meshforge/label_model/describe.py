@@ -168,41 +168,6 @@ def describe_shapes(whole: WholeShape, volumes: Floats) -> Floats:
     )
 
 
-class HullDescriber:
-    """A mesh that has hulls, to be described with one direction or another as the one that points up."""
-
-    def __init__(self, mesh: SymbolicMesh) -> None:
-        self._volumes = np.array([hull.volume for hull in mesh.hulls])
-        triangles = tuple(hull.vertices[hull.faces] for hull in mesh.hulls)
-        self._whole = whole_of(tuple(hull.vertices for hull in mesh.hulls), triangles)
-        self._touching = np.zeros((len(mesh.hulls), len(mesh.hulls)))  # symmetric, of 0 and 1
-        for a, b in mesh.contacts:
-            self._touching[a, b] = self._touching[b, a] = 1.0
-
-    def describe_shapes(self, up: Floats) -> Floats:
-        """Return what each hull is itself, and how it lies: `SHAPE_COLUMNS` of its row, which is quick. up: (3,)."""
-        return describe_shapes(self._whole.rotate(rotation_to_z(up)), self._volumes)
-
-    def describe(self, up: Floats) -> Floats:
-        """Return a row for each hull (n, WIDTH). up: (3,).
-
-        What is around it, what it is itself, how the hulls that it touches differ from it (the mean, and the largest),
-        and how many there are of what. Neither place nor size nor yaw of the mesh changes it, and a tilt hardly.
-        """
-        whole = self._whole.rotate(rotation_to_z(up))
-        own = describe_shapes(whole, self._volumes)
-        touching = self._touching
-        around = touching * np.sqrt(np.maximum(self._volumes, 0.0))
-        total = around.sum(axis=1, keepdims=True)
-        mean = np.divide(around @ own, total, out=own.copy(), where=total > 0)
-        most = around >= around.max(axis=1, keepdims=True) * (1 - EQUAL)
-        largest = np.where(total > 0, most / most.sum(axis=1, keepdims=True) @ own, own)
-        counts = _describe_counts(own, touching, self._volumes)
-        return np.concatenate(
-            [surroundings.describe_surroundings(whole), own, mean - own, largest - own, counts], axis=1
-        )
-
-
 def _describe_counts(own: Floats, touching: Floats, volumes: Floats) -> Floats:
     """How many hulls look alike, touch, and are there; the share of the volume, of the largest, and the rank."""
     from scipy.spatial.distance import cdist  # lazy: as above
@@ -239,24 +204,48 @@ class MeshDescriber:
     """A mesh to be described, as it seems to stand and on other sides."""
 
     def __init__(self, mesh: SymbolicMesh) -> None:
-        self._mesh = mesh
-        if mesh.hulls:
-            self._describer = HullDescriber(mesh)
-            self._up = find_up(mesh)
-            self._ups = find_other_sides(mesh, self._up, _SIDES)
+        self._count, self._touching = len(mesh.hulls), np.array(sorted(mesh.contacts), dtype=np.int64).reshape(-1, 2)
+        if not mesh.hulls:
+            return
+        self._volumes = np.array([hull.volume for hull in mesh.hulls])
+        triangles = tuple(hull.vertices[hull.faces] for hull in mesh.hulls)
+        self._whole = whole_of(tuple(hull.vertices for hull in mesh.hulls), triangles)
+        self._up = find_up(mesh)
+        self._ups = find_other_sides(mesh, self._up, _SIDES)
 
     def describe(self) -> ShapeDescriptor:
         """Return the mesh as it seems to stand, and what is quickly told of its other sides."""
-        count, columns = len(self._mesh.hulls), SHAPE_COLUMNS.stop - SHAPE_COLUMNS.start
+        count, columns = self._count, SHAPE_COLUMNS.stop - SHAPE_COLUMNS.start
         if not count:
-            return ShapeDescriptor(np.zeros((0, ROW_WIDTH)), np.zeros((0, 2), np.int64), np.zeros((0, 0, columns)))
-        touching = np.array(sorted(self._mesh.contacts), dtype=np.int64).reshape(-1, 2)
-        sides = np.array([self._describer.describe_shapes(up) for up in self._ups]).reshape(-1, count, columns)
-        return ShapeDescriptor(self._describer.describe(self._up), touching, sides)
+            return ShapeDescriptor(np.zeros((0, ROW_WIDTH)), self._touching, np.zeros((0, 0, columns)))
+        sides = np.array([describe_shapes(self._turn(up), self._volumes) for up in self._ups])
+        return ShapeDescriptor(self._describe(self._up), self._touching, sides.reshape(-1, count, columns))
 
     def describe_side(self, side: int) -> Floats:
         """Return the rows (n, WIDTH) on one of the sides of the sketch."""
-        return self._describer.describe(self._ups[side])
+        return self._describe(self._ups[side])
+
+    def _turn(self, up: Floats) -> WholeShape:
+        return self._whole.rotate(rotation_to_z(up))
+
+    def _describe(self, up: Floats) -> Floats:
+        """A row for each hull (n, WIDTH) with one direction (3,) or another as the one that points up.
+
+        What is around it, what it is itself, how the hulls that it touches differ from it (the mean, and the largest),
+        and how many there are of what. Neither place nor size nor yaw of the mesh changes it, and a tilt hardly.
+        """
+        whole, touching = self._turn(up), np.zeros((self._count, self._count))  # symmetric, of 0 and 1
+        a, b = self._touching.T
+        touching[a, b] = touching[b, a] = 1.0
+        own = describe_shapes(whole, self._volumes)
+        around = touching * np.sqrt(np.maximum(self._volumes, 0.0))
+        total = around.sum(axis=1, keepdims=True)
+        mean = np.divide(around @ own, total, out=own.copy(), where=total > 0)
+        most = around >= around.max(axis=1, keepdims=True) * (1 - EQUAL)
+        largest = np.where(total > 0, most / most.sum(axis=1, keepdims=True) @ own, own)
+        counts = _describe_counts(own, touching, self._volumes)
+        around_rows = surroundings.describe_surroundings(whole)
+        return np.concatenate([around_rows, own, mean - own, largest - own, counts], axis=1)
 
 
 def describe_mesh(mesh: SymbolicMesh) -> ShapeDescriptor:

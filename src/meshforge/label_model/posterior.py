@@ -213,7 +213,7 @@ class FamilyModel:
         found = find_doubtful_sides(self.table, seen, self._sides.__getitem__)
         doubtful = {mesh: sides for mesh, sides in found if sides}
         rows = {mesh: [self._closely(mesh)(side) for side in sides] for mesh, sides in doubtful.items()}
-        chosen = choose_sides(self.table, seen, rows.items())
+        chosen = choose_sides(self.table, seen, rows)
         if not chosen:
             return self.table
         key = tuple((mesh, doubtful[mesh][place]) for mesh, place in chosen.items())

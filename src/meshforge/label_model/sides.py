@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 
 import numpy as np
 
@@ -74,9 +74,7 @@ def find_doubtful_sides(
         yield mesh, tuple([side for side in order if likeness[side] < seems - EQUAL][:_CLOSE])
 
 
-def choose_sides(
-    table: FamilyTable, seen: Observations, closer: Iterable[tuple[int, Sequence[Floats]]]
-) -> dict[int, int]:
+def choose_sides(table: FamilyTable, seen: Observations, closer: Mapping[int, Sequence[Floats]]) -> dict[int, int]:
     """Return those meshes whose hulls are clearly more like those of others on another side, each with which of its
     rows.
 
@@ -84,7 +82,7 @@ def choose_sides(
     """
     reference, every = UprightReference(table, seen), slice(0, table.rows.shape[1])
     found = {}
-    for mesh, sides in closer:
+    for mesh, sides in closer.items():
         seems, *apart = reference.apart(mesh, [table.rows[table.spans[mesh]], *map(table.scale, sides)], every)
         order = greatest_first(-np.array(apart))
         if order and apart[order[0]] < _BETTER * seems:
@@ -92,10 +90,7 @@ def choose_sides(
     return found
 
 
-def correct_upright(
-    table: FamilyTable, seen: Observations, closer: Iterable[tuple[int, Sequence[Floats]]]
-) -> FamilyTable:
+def correct_upright(table: FamilyTable, seen: Observations, closer: Mapping[int, Sequence[Floats]]) -> FamilyTable:
     """Return the table with those meshes turned; closer: as of `choose_sides`."""
-    rows = {mesh: list(sides) for mesh, sides in closer}
-    chosen = choose_sides(table, seen, rows.items())
-    return table.turn((table.spans[mesh], table.scale(rows[mesh][side])) for mesh, side in chosen.items())
+    chosen = choose_sides(table, seen, closer)
+    return table.turn((table.spans[mesh], table.scale(closer[mesh][side])) for mesh, side in chosen.items())

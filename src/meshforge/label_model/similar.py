@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 import numpy.typing as npt
 
@@ -55,27 +53,18 @@ def _find(table: FamilyTable, hulls: Ints, excluded: Bools, others: Ints | None,
 
 def _chain(table: FamilyTable, hulls: Ints, excluded: Bools, most: float) -> Ints:
     """Hulls with those of the same meshes that a chain leads to whose links are at most so long."""
-    found = [_chain_in(table, table.spans[mesh], hulls, excluded, most) for mesh in _meshes(table, hulls)]
-    return np.concatenate([np.zeros(0, dtype=np.int64), *found])
-
-
-def _meshes(table: FamilyTable, hulls: Ints) -> Sequence[int]:
-    meshes: list[int] = np.unique(table.owner[hulls]).tolist()
-    return meshes
-
-
-def _chain_in(table: FamilyTable, span: slice, hulls: Ints, excluded: Bools, most: float) -> Ints:
     from scipy.spatial.distance import cdist  # lazy: 0.5 s, half of all imports
 
-    rows = table.rows[span] * table.metric
-    linked = (cdist(rows, rows, "cityblock") <= most) & ~excluded[span][None, :]
-    reached = np.isin(np.arange(span.start, span.stop), hulls)
-    while True:
-        wider = reached | linked[reached].any(axis=0)
-        if (wider == reached).all():
-            found: Ints = np.flatnonzero(reached) + span.start
-            return found
-        reached = wider
+    found = [np.zeros(0, dtype=np.int64)]
+    for mesh in np.unique(table.owner[hulls]).tolist():
+        span = table.spans[mesh]
+        rows = table.rows[span] * table.metric
+        linked = (cdist(rows, rows, "cityblock") <= most) & ~excluded[span][None, :]
+        reached, wider = None, np.isin(np.arange(span.start, span.stop), hulls)
+        while reached is None or (wider != reached).any():
+            reached, wider = wider, wider | linked[wider].any(axis=0)
+        found.append(np.flatnonzero(reached) + span.start)
+    return np.concatenate(found)
 
 
 def _least(table: FamilyTable, hulls: Ints, to: Ints) -> Floats:

@@ -3,8 +3,7 @@ stopped at any time."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import AbstractContextManager, contextmanager
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -12,27 +11,15 @@ from meshforge import label_model, symbolic
 from meshforge.batch import ExecutionOptions, WorkerFailure, raise_if_stopped, run_isolated
 from meshforge.common import AssetError, MeshForgeError, ProjectError
 from meshforge.geometry import Floats, Ints
-from meshforge.labels.by_hand import label_command
 from meshforge.labels.descriptor_cache import DescriptorCache
+from meshforge.labels.labeler import LabelFamily
 from meshforge.labels.merge import infer_over
-from meshforge.store import Store, iterate_asset_index
+from meshforge.labels.summary import label_command
+from meshforge.store import AssetFacts, iterate_asset_index
 from meshforge.symbolic import Label
 
 HullLabels = Mapping[str, Label]
 """Labels by hull."""
-
-Stage = Callable[[int, str], AbstractContextManager[Callable[[], None]]]
-"""Given how many assets a part of the work is about and what it is called, what is entered meanwhile: that gives the
-function that counts one more."""
-
-WriteBlock = Callable[[str | None], AbstractContextManager[object]]
-"""The block in which labels are written, when all is known; given the asset that would help most."""
-
-
-@contextmanager
-def ignore_stage(total: int, what: str) -> Iterator[Callable[[], None]]:
-    """Give a stage that reports nothing."""
-    yield lambda: None
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,20 +51,15 @@ class FamilyComparison:
                 yield asset, {name: infer_over(current.get(name), label) for name, label in rows if label}
 
 
-def compare_assets(
-    store: Store,
-    vocabulary: Sequence[str],
-    speak: Callable[[Label | None], Label | None],
-    execution: ExecutionOptions,
-    stage: Stage,
-) -> FamilyComparison:
+def compare_assets(family: LabelFamily, speak: Callable[[Label | None], Label | None]) -> FamilyComparison:
     """Compare the hulls of all assets that can be read.
 
     speak: what the label of a hull, or none, says to others; words outside of the vocabulary say nothing.
     Raises ProjectError: no vocabulary, or nothing is said at all.
     """
-    with stage(len(store.assets()), "reading") as advance:
-        facts = dict(iterate_asset_index(store.found, store.layout, execution=execution, progress=advance))
+    store, vocabulary = family.store, family.vocabulary
+    with family.stage(len(store.assets()), "reading") as advance:
+        facts = dict(iterate_asset_index(store.found, store.layout, execution=family.execution, progress=advance))
     lost = {asset: own.error for asset, own in facts.items() if own.error}
     current = dict[str, HullLabels]()
     for asset, own in facts.items():
@@ -87,13 +69,11 @@ def compare_assets(
             )
         except AssetError as error:
             lost[asset] = error.message
-    if not vocabulary and any(current.values()):
-        remedy = "Say first what hulls can be: --vocabulary a,b,c."
-        raise ProjectError("the vocabulary is empty", where=str(store.folder), remedy=remedy)
+    if any(current.values()):
+        family.require_vocabulary()
     hulls = {asset: facts[asset].hulls for asset in current}
-    cache = DescriptorCache(store, {asset: facts[asset] for asset in current}, execution)
+    describer = _Describer(family, {asset: facts[asset] for asset in current}, lost)
     del facts
-    describer = _Describer(cache, lost, execution.stop, stage)
     described = describer.describe(list(current))
     assets, table = tuple(described), label_model.FamilyTable.of([*described.values()])
     del described
@@ -101,7 +81,9 @@ def compare_assets(
     observed = tuple(label if label and label.name in vocabulary else None for label in spoken)
     seen = label_model.Observations.of(observed)
     table = describer.set_upright(assets, table, seen)
-    compared = FamilyComparison(hulls, current, lost, assets, observed, _compute_isolated(table, seen, execution.stop))
+    compared = FamilyComparison(
+        hulls, current, lost, assets, observed, _compute_isolated(table, seen, family.execution.stop)
+    )
     if not compared.found.seen.labels:
         best, remedy = compared.next, "Decompose the assets first." if any(current) else _describe_lost(lost)
         if best:
@@ -118,10 +100,9 @@ def _describe_lost(lost: Mapping[str, str]) -> str:
 class _Describer:
     """Describes assets, and looks at other sides of those that may have fallen; why some cannot be goes to `lost`."""
 
-    def __init__(
-        self, cache: DescriptorCache, lost: dict[str, str], stop: Callable[[], bool] | None, stage: Stage
-    ) -> None:
-        self._cache, self._lost, self._stop, self._stage = cache, lost, stop, stage
+    def __init__(self, family: LabelFamily, facts: Mapping[str, AssetFacts], lost: dict[str, str]) -> None:
+        self._cache = DescriptorCache(family.store, facts, family.execution)
+        self._lost, self._stop, self._stage = lost, family.execution.stop, family.stage
 
     def describe(self, assets: Sequence[str]) -> dict[str, tuple[Floats, Ints]]:
         seen = {asset: self._cache.read_rows(asset) for asset in assets}
@@ -144,19 +125,15 @@ class _Describer:
             raise_if_stopped(self._stop)
             if sides:
                 doubtful[assets[place]] = place, sides
+        closer = dict[int, list[Floats]]()
         with self._stage(len(doubtful), "looking at other sides") as advance:
             wanted = [(asset, sides) for asset, (_, sides) in doubtful.items()]
-            found = self._cache.describe_sides(wanted, advance)
-            return label_model.correct_upright(table, observed, self._keep_read(found, doubtful))
-
-    def _keep_read(
-        self, found: Iterable[tuple[str, list[Floats] | str]], places: Mapping[str, tuple[int, object]]
-    ) -> Iterator[tuple[int, list[Floats]]]:
-        for asset, rows in found:
-            if isinstance(rows, str):
-                self._lost[asset] = rows
-            else:
-                yield places[asset][0], rows
+            for asset, rows in self._cache.describe_sides(wanted, advance):
+                if isinstance(rows, str):
+                    self._lost[asset] = rows
+                else:
+                    closer[doubtful[asset][0]] = rows
+        return label_model.correct_upright(table, observed, closer)
 
 
 def _compute_isolated(

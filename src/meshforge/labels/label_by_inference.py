@@ -23,9 +23,8 @@ class PropagationLabeler(Labeler):
     about = "labels of a few assets propagated to all others"
 
     def propose(self, family: LabelFamily) -> LabelProposal:
-        compared = compare_assets(family.store, family.vocabulary, _as_evidence, family.execution, family.stage)
-        found = compared.found
-        labels = [label for place in range(len(compared.assets)) for label in found.labels(place)]
+        compared = compare_assets(family, lambda label: label if label_model.reference_label(label) else None)
+        labels = [label for place in range(len(compared.assets)) for label in compared.found.labels(place)]
         return LabelProposal(_share_labels(family, compared, labels, lambda current, label: "likeness"), compared.next)
 
 
@@ -45,10 +44,6 @@ def _share_labels(
         yield AssetLabels(asset, compared.hulls[asset], given, reasons)
 
 
-def _as_evidence(label: Label | None) -> Label | None:
-    return label if label_model.reference_label(label) else None
-
-
 class ConsensusLabeler(Labeler):
     """Gives each hull the label that all sources together support; labels of people stay.
 
@@ -62,9 +57,7 @@ class ConsensusLabeler(Labeler):
     replaces = True
 
     def propose(self, family: LabelFamily) -> LabelProposal:
-        compared = compare_assets(
-            family.store, family.vocabulary, label_model.evidence_of, family.execution, family.stage
-        )
+        compared = compare_assets(family, label_model.evidence_of)
         labels = compared.found.agree(compared.observed)
         assets = _share_labels(family, compared, labels, _name_kind)
         return LabelProposal(assets, compared.next, compared.found.find_alike_labels())

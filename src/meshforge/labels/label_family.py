@@ -2,21 +2,54 @@
 
 from __future__ import annotations
 
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import closing
 from dataclasses import dataclass, replace
 
+from meshforge import rendering
 from meshforge.batch import IN_PROCESS, ExecutionOptions
 from meshforge.common import AssetError
-from meshforge.labels.family_comparison import Stage, WriteBlock, ignore_stage
 from meshforge.labels.label_sources import keep_label_source
-from meshforge.labels.labeler import NO_REASON, AssetLabels, Labeler, LabelFamily
+from meshforge.labels.labeler import NO_REASON, AssetLabels, Labeler, LabelFamily, Stage, WriteBlock, ignore_stage
 from meshforge.labels.merge import LabelMerge, LabelOutcome, LabelWriter, OutcomeCallback
 from meshforge.labels.registry import make_labeler
-from meshforge.labels.summary import LabelEvidence, Proposals, group_evidence
 from meshforge.store import Store
 from meshforge.symbolic import HUMAN_SOURCES
+
+
+@dataclass(frozen=True, slots=True)
+class Proposal:
+    """Hulls that would get the same label, None for none, for the like reason.
+
+    names: those that say so, the most frequent first; hulls, assets: how many there are, and in how many assets;
+    low, high: how sure the label is.
+    """
+
+    label: str | None
+    kind: str
+    names: tuple[str, ...]
+    hulls: int
+    assets: int
+    low: float
+    high: float
+
+    @property
+    def is_unsure(self) -> bool:
+        return self.label is not None and self.low < rendering.UNSURE
+
+
+@dataclass(frozen=True, slots=True)
+class Proposals:
+    """What would be taken, and what would be left without a label; problems: a sentence on each thing left out.
+
+    labelled: hulls whose label stays.
+    """
+
+    rows: tuple[Proposal, ...]
+    left: tuple[Proposal, ...]
+    labelled: int = 0
+    problems: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,7 +134,8 @@ class _LabelRun:
         self._store, self._labeler, self._vocabulary = store, labeler, vocabulary
         self._writer = LabelWriter(store)
         self._hulls, self._changes = Counter[tuple[str | None, str | None]](), Counter[tuple[str | None, str | None]]()
-        self._evidence, self._labelled, self._free = list[LabelEvidence](), 0, 0
+        self._groups = defaultdict[tuple[str | None, str, bool], list[tuple[str, str, float]]](list)
+        self._labelled, self._free = 0, 0
 
     def take(self, assets: Iterable[AssetLabels], report: OutcomeCallback) -> None:
         for found in assets:
@@ -137,15 +171,28 @@ class _LabelRun:
                 continue
             is_meant = label is not None or found.given.get(hull) is None
             kind, name = found.reasons.get(hull, (NO_REASON, hull)) if is_meant else (NO_REASON, hull)
-            self._evidence.append(LabelEvidence(found.asset, label, kind, name))
+            sure = label.confidence if label else 0.0
+            is_unsure = label is not None and sure < rendering.UNSURE
+            self._groups[label.name if label else None, kind, is_unsure].append((found.asset, name, sure))
 
     def result(self) -> LabelResult:
         changes = [LabelChange(*pair, count, self._changes[pair]) for pair, count in self._hulls.items()]
         changes.sort(key=lambda one: (-one.hulls, one.was or "", one.label or ""))
         outcomes = tuple(self.outcomes[asset] for asset in self._store.assets() if asset in self.outcomes)
         problems = [f"{outcome.asset}: {problem}" for outcome in outcomes for problem in outcome.problems]
-        shown = group_evidence(self._evidence, self._vocabulary or (), self._labelled, problems)
+        order = {label: k for k, label in enumerate(self._vocabulary or ())}
+        rows = [_summarize_group(label, kind, group) for (label, kind, _), group in self._groups.items()]
+        rows.sort(key=lambda row: (order.get(row.label or "", len(order)), row.is_unsure, -row.hulls, row.kind))
+        taken, left = (tuple(row for row in rows if (row.label is None) is bare) for bare in (False, True))
+        shown = Proposals(taken, left, self._labelled, tuple(problems))
         return LabelResult(outcomes, shown, tuple(changes), free=self._free)
+
+
+def _summarize_group(label: str | None, kind: str, group: Sequence[tuple[str, str, float]]) -> Proposal:
+    assets, names, sure = zip(*group, strict=True)
+    counts = Counter(names)
+    ordered = sorted(counts, key=lambda name: (-counts[name], name))
+    return Proposal(label, kind, tuple(ordered), len(group), len({*assets}), min(sure), max(sure))
 
 
 def _iterate_renames(merged: LabelMerge) -> Iterator[tuple[str | None, str | None]]:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Generator, Iterator, Mapping, Sequence
+from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass, field
 
 from meshforge.batch import ExecutionOptions
 from meshforge.common import ProjectError
-from meshforge.labels.family_comparison import Stage
 from meshforge.labels.merge import can_replace_less_certain
 from meshforge.store import AssetFacts, Store, iterate_asset_index
 from meshforge.symbolic import Label
@@ -17,6 +17,20 @@ LabelReason = tuple[str, str]
 """Why a hull gets its label, or none: the kind of what says so (`hull`, `body by pattern`, `points`), and its name."""
 NO_REASON = "nothing said"
 """The kind of reason where nothing says what a hull is."""
+
+
+Stage = Callable[[int, str], AbstractContextManager[Callable[[], None]]]
+"""Given how many assets a part of the work is about and what it is called, what is entered meanwhile: that gives the
+function that counts one more."""
+
+WriteBlock = Callable[[str | None], AbstractContextManager[object]]
+"""The block in which labels are written, when all is known; given the asset that would help most."""
+
+
+@contextmanager
+def ignore_stage(total: int, what: str) -> Iterator[Callable[[], None]]:
+    """Give a stage that reports nothing."""
+    yield lambda: None
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,7 +11,7 @@ from meshforge import batch
 from meshforge.geometry import PieceEngine
 from meshforge.label_model import AssetPieces, SpanModel, evidence_beside_rebuilt, model_family
 from meshforge.label_model.describe import describe_mesh
-from meshforge.labels.family_comparison import Stage
+from meshforge.labels.labeler import Stage
 from meshforge.labels.spans import FinePieces, SpanReport, decompose_surfaces, find_pieces, is_given
 from meshforge.store import Store
 from meshforge.symbolic import HUMAN_SOURCES, Asset, Label, LabelFile, SymbolicMesh

@@ -14,7 +14,7 @@ from meshforge.common import MeshForgeError, describe_error, format_share, join_
 from meshforge.formats import VisualSurfaces, read
 from meshforge.geometry import FinePiece, Floats, PieceEngine, cache_folder, decompose_finely
 from meshforge.label_model import RebuiltHull, SpanPosterior, SurfacePieces, piece_mesh
-from meshforge.labels.family_comparison import Stage
+from meshforge.labels.labeler import Stage
 from meshforge.store import Store
 from meshforge.symbolic import GIVEN_SOURCES, Asset, Hull, SymbolicMesh
 

@@ -1,91 +1,18 @@
-"""Labels put together for people: those that would be given, to be looked at before they are taken; and how far a
-project is labelled, counted by source and confidence, and planned in words."""
+"""How far a project is labelled, counted by source and confidence, and planned in words; and the command that labels by
+hand, for messages that propose it."""
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Callable, Iterable, Sequence
+import shlex
+from collections.abc import Callable, Collection
 from dataclasses import dataclass
+from pathlib import Path
 
 from meshforge import rendering
 from meshforge.batch import AssetJob, plan_run
-from meshforge.common import AssetError, MeshForgeError
+from meshforge.common import AssetError, MeshForgeError, quote_path
 from meshforge.store import Store, iterate_asset_index
-from meshforge.symbolic import HUMAN_SOURCES, LABEL_SOURCES, Label, match_labels
-
-
-@dataclass(frozen=True, slots=True)
-class LabelEvidence:
-    """The label of one hull, None for one that is left without, and what says so: of what kind, and its name.
-
-    kind: `hull`, `body` or another one of names, with ` by pattern` or ` nearly` behind it, or the kind of a file.
-    """
-
-    asset: str
-    label: Label | None
-    kind: str
-    name: str
-
-
-@dataclass(frozen=True, slots=True)
-class Proposal:
-    """Hulls that would get the same label, None for none, for the like reason.
-
-    names: those that say so, the most frequent first; hulls, assets: how many there are, and in how many assets;
-    low, high: how sure the label is.
-    """
-
-    label: str | None
-    kind: str
-    names: tuple[str, ...]
-    hulls: int
-    assets: int
-    low: float
-    high: float
-
-    @property
-    def is_unsure(self) -> bool:
-        return self.label is not None and self.low < rendering.UNSURE
-
-
-@dataclass(frozen=True, slots=True)
-class Proposals:
-    """What would be taken, and what would be left without a label; problems: a sentence on each thing left out.
-
-    labelled: hulls whose label stays.
-    """
-
-    rows: tuple[Proposal, ...]
-    left: tuple[Proposal, ...]
-    labelled: int = 0
-    problems: tuple[str, ...] = ()
-
-
-def group_evidence(
-    found: Iterable[LabelEvidence], vocabulary: Sequence[str], labelled: int, problems: Iterable[str]
-) -> Proposals:
-    """Return all evidence, put together by label, kind and whether it is sure; in the order of the vocabulary."""
-    groups: dict[tuple[str | None, str, bool], list[LabelEvidence]] = {}
-    for one in found:
-        unsure = one.label is not None and one.label.confidence < rendering.UNSURE
-        groups.setdefault((one.label.name if one.label else None, one.kind, unsure), []).append(one)
-    rows = [_summarize_group(key[0], key[1], group) for key, group in groups.items()]
-    order = {label: k for k, label in enumerate(vocabulary)}
-    rows.sort(key=lambda row: (order.get(row.label or "", len(order)), row.is_unsure, -row.hulls, row.kind))
-    return Proposals(
-        tuple(row for row in rows if row.label is not None),
-        tuple(row for row in rows if row.label is None),
-        labelled,
-        tuple(problems),
-    )
-
-
-def _summarize_group(label: str | None, kind: str, group: Sequence[LabelEvidence]) -> Proposal:
-    names = Counter(one.name for one in group)
-    sure = [one.label.confidence for one in group if one.label] or [0.0]
-    ordered = sorted(names, key=lambda name: (-names[name], name))
-    return Proposal(label, kind, tuple(ordered), len(group), len({one.asset for one in group}), min(sure), max(sure))
-
+from meshforge.symbolic import HUMAN_SOURCES, LABEL_SOURCES, match_labels
 
 SURE = 0.9
 """Labels as certain as this are sure; those below `UNSURE` are not."""
@@ -162,3 +89,12 @@ def _has_human_label(store: Store, asset: str) -> bool:
         return any(label.source in HUMAN_SOURCES for label in store.labels(asset).labels.values())
     except AssetError:  # reported when its turn comes
         return False
+
+
+def label_command(folder: Path, asset: str, hull: str, vocabulary: Collection[str]) -> str:
+    """Return the command that labels a hull of an asset of the project in a folder, as one types it here; LABEL stands
+    for its label, and without a vocabulary `a,b,c` for that."""
+    quoted = shlex.quote(f"{hull}=LABEL")
+    words = "" if vocabulary else " --vocabulary a,b,c"
+    what = quoted if quoted.startswith("'") else f"'{quoted}'"
+    return f"meshforge label {quote_path(folder)} {shlex.quote(asset)} {what}{words}"

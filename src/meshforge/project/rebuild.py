@@ -15,7 +15,7 @@ from meshforge.common import MeshForgeError, ProjectError, UsageError, describe_
 from meshforge.formats import read
 from meshforge.label_model import RebuiltHull
 from meshforge.labels import HullSpan, ReferenceFamily, SpanReport, read_reference_family
-from meshforge.labels.family_comparison import Stage, ignore_stage
+from meshforge.labels.labeler import Stage, ignore_stage
 from meshforge.project.preparation_plan import REBUILD_DEFAULTS, RebuildSettings, keep_rebuilt
 from meshforge.project.prepare import PreparationResult, exchange_preparation
 from meshforge.store import Store

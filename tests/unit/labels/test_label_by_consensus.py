@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from meshforge.batch import ExecutionOptions
-from meshforge.common import ProjectError, StoppedError
+from meshforge.common import StoppedError
 from meshforge.labels import LabelChange
 from meshforge.project import Project
 from meshforge.symbolic import HUMAN_SOURCES, INFERRED_SOURCES, Label, LabelSource
@@ -85,13 +85,6 @@ def test_propagated_labels_can_be_taken_back_too_with_what_they_replaced(tmp_pat
     assert tree(project.folder / "labels") == before
 
 
-def test_what_a_person_said_stays_against_all_others(tmp_path: Path) -> None:
-    project = guessed(tmp_path)
-    project.set_labels("t3.obj", {"top": "misc"})
-    project.label("consensus")
-    assert project.labels("t3.obj").labels["top"] == Label("misc")
-
-
 def test_people_who_labelled_every_hull_are_left_alone(tmp_path: Path) -> None:
     project = family(tmp_path)
     for asset in project.assets():
@@ -100,26 +93,6 @@ def test_people_who_labelled_every_hull_are_left_alone(tmp_path: Path) -> None:
     result = project.label("consensus")
     assert (result.free, result.changes, result.next) == (0, (), None)
     assert tree(project.folder / "labels") == before
-
-
-def test_a_family_of_one_asset_keeps_what_was_said(tmp_path: Path) -> None:
-    project = family(tmp_path, 1)
-    project.set_labels("t0.obj", RIGHT | {"left_low": None}, source="vlm", confidence=0.9)
-    result = project.label("consensus")
-    assert result.changes == (LabelChange(None, "leg", 1, 1),)
-    assert {name: label.name for name, label in project.labels("t0.obj").labels.items()} == RIGHT
-
-
-def test_without_a_label_or_a_vocabulary_it_says_what_to_do(tmp_path: Path) -> None:
-    project = family(tmp_path)
-    with pytest.raises(ProjectError, match=r"no label that others could be taken from\n  Label .* best t\d\.obj"):
-        project.label("consensus")
-    project.set_labels("t0.obj", {"top": "top"}, source="propagated", confidence=0.9)
-    with pytest.raises(ProjectError, match="no label that others could be taken from"):
-        project.label("consensus")
-    project.set_vocabulary(())
-    with pytest.raises(ProjectError, match="the vocabulary is empty"):
-        project.label("consensus")
 
 
 def test_words_outside_of_the_vocabulary_say_nothing_but_can_be_put_back(tmp_path: Path) -> None:
@@ -180,15 +153,6 @@ def test_a_stop_leaves_all_labels_as_they_were(tmp_path: Path) -> None:
     with pytest.raises(StoppedError):
         project.label("consensus", execution=ExecutionOptions(0, stop=lambda: True))
     assert tree(project.folder / "labels") == before
-
-
-def test_an_asset_that_cannot_be_read_is_told_and_does_not_hide_the_others(tmp_path: Path) -> None:
-    project = guessed(tmp_path)
-    (tmp_path / "assets/t3.obj").write_text("nothing of use")
-    for found in (project.label("consensus"), project.label("sources")):
-        reports = {report.asset: report for report in found.outcomes}
-        assert "t3.obj" in reports["t3.obj"].problems[0]
-        assert reports["t1.obj"].taken == 1
 
 
 def test_what_is_foretold_is_what_is_done_then(tmp_path: Path) -> None:

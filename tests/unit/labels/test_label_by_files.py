@@ -189,15 +189,6 @@ def test_classes_mean_labels_as_names_do_and_several_may_mean_one(tmp_path: Path
     assert all(now > sure[name] for name, (label, now, _) in labels(project, "t.obj").items() if label == "leg")
 
 
-def test_points_without_class_leave_hulls_without_label(tmp_path: Path) -> None:
-    project = table(tmp_path, *NAMES)
-    points, owner = surface_points(project, "t.obj")
-    kinds = [-1 if name == "crumb" else NAMES.index(label_of(name)) for name in owner]
-    np.savez(tmp_path / "given.npz", points=points, labels=kinds, names=NAMES)
-    (report,) = project.label(FileLabeler(tmp_path / "given.npz")).outcomes
-    assert (report.taken, report.unlabelled, report.problems) == (5, 1, ())
-
-
 def test_points_elsewhere_are_refused_and_taken_when_the_way_is_said(tmp_path: Path) -> None:
     project = partnet(tmp_path, "link_0", "link_1", "link_2")
     points, owner = surface_points(project, ASSET)
@@ -310,12 +301,6 @@ def test_points_and_semantics_are_offered_until_something_was_taken(tmp_path: Pa
     assert offers.of(project).files == (ASSET,)
     project.label("file")
     assert offers.of(project).files == ()
-
-
-def test_they_are_not_offered_where_a_person_said_everything(tmp_path: Path) -> None:
-    project = partnet(tmp_path)
-    project.set_labels(ASSET, dict.fromkeys(HULLS, "frame"))
-    assert OfferCache().of(project).files == ()
 
 
 def test_status_advises_to_take_them(tmp_path: Path) -> None:

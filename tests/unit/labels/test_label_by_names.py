@@ -9,7 +9,7 @@ from meshforge.common import ProjectError, UsageError
 from meshforge.labels import LabelOutcome, NameLabeler, OfferCache
 from meshforge.project import Project
 from meshforge.symbolic import Label
-from tests.unit.batch.families import Corner, obj, tree, write_table
+from tests.unit.batch.families import Corner, tree
 
 BOX: tuple[Corner, Corner] = ((0, 0, 0), (1, 1, 1))
 URDF = '<robot name="r">{links}</robot>'
@@ -36,39 +36,6 @@ def found(project: Project) -> dict[str, str]:
     return dict(OfferCache().of(project).names.get("robot.urdf", {}))
 
 
-@pytest.mark.parametrize(
-    ("name", "label"),
-    [
-        ("handle", "handle"),
-        ("Handles_03", "handle"),
-        ("boxes", "box"),
-        ("leftShelfBoard", "shelf board"),
-        ("shelf_2_boards", "shelf board"),
-        ("board_of_shelf", "shelf board"),
-        ("handlebar", None),
-        ("drawer_front", "drawer front"),
-        ("drawer_handle", "handle"),  # the last thing is what it is
-        ("drawer_box", "box"),
-        ("geom7", None),
-    ],
-)
-def test_a_hull_is_labelled_by_whole_words_of_its_name(tmp_path: Path, name: str, label: str | None) -> None:
-    words = ("handle", "box", "shelf board", "drawer", "drawer front")
-    assert found(named(tmp_path, *words, base=(name,))) == ({f"base/{name}": label} if label else {})
-
-
-def test_the_body_counts_where_the_own_name_says_nothing(tmp_path: Path) -> None:
-    project = named(tmp_path, "door", "knob", base=("a",), left_door=("panel", "knobs", "door_knob"))
-    assert found(project) == {"left_door/panel": "door", "left_door/knobs": "knob", "left_door/door_knob": "knob"}
-
-
-def test_the_body_of_a_format_without_bodies_says_nothing(tmp_path: Path) -> None:
-    (tmp_path / "assets").mkdir()
-    (tmp_path / "assets/cup.obj").write_text(obj({"wall": BOX, "other": BOX}))
-    project = Project.create(tmp_path / "p", [tmp_path / "assets"], vocabulary=["body", "wall"])
-    assert OfferCache().of(project).names == {"cup.obj": {"wall": "wall"}}
-
-
 def test_labels_are_taken_where_there_are_none(tmp_path: Path) -> None:
     project = named(tmp_path, "door", "leg", base=("door1", "door2", "thing"))
     project.set_labels("robot.urdf", {"base/door1": "leg"})
@@ -79,17 +46,6 @@ def test_labels_are_taken_where_there_are_none(tmp_path: Path) -> None:
     labels = project.labels("robot.urdf").labels
     assert labels == {"base/door1": Label("leg"), "base/door2": Label("door", 0.7, "name")}
     assert project.label("names").outcomes == (LabelOutcome("robot.urdf", unlabelled=1),)
-
-
-def test_an_asset_that_cannot_be_read_is_told_and_does_not_hide_the_others(tmp_path: Path) -> None:
-    for name in ("a", "b"):
-        write_table(tmp_path / f"assets/{name}.obj", labels=False)
-    project = Project.create(tmp_path / "p", [tmp_path / "assets"], vocabulary=["crumb"])
-    (tmp_path / "assets/a.obj").write_text("nothing of use")
-    assert OfferCache().of(project).names == {"b.obj": {"crumb": "crumb"}}
-    bad, good = project.label("names").outcomes
-    assert bad.asset == "a.obj" and "a.obj" in bad.problems[0]
-    assert good.taken == 1
 
 
 def test_without_a_vocabulary_nothing_can_be_taken(tmp_path: Path) -> None:
@@ -156,10 +112,3 @@ def test_a_label_that_is_renamed_is_renamed_in_the_patterns(tmp_path: Path) -> N
     project.rename_label("door", "gate")
     assert '"*strut*" = "gate"  # as seen\n"a" = "leg"\n' in project.layout.settings.read_text()
     assert found(project) == {"base/strut": "gate"}
-
-
-def test_what_a_person_said_stays_whatever_the_patterns_say(tmp_path: Path) -> None:
-    project = with_names(named(tmp_path, "door", "leg", base=("a", "b")), '"*" = "door"')
-    project.set_labels("robot.urdf", {"base/a": "leg"})
-    assert project.label("names").outcomes == (LabelOutcome("robot.urdf", taken=1),)
-    assert project.labels("robot.urdf").labels["base/a"] == Label("leg")

@@ -60,14 +60,6 @@ def test_a_surer_label_of_another_machine_stays_and_a_less_sure_one_gives_way(tm
     assert labels["crumb"].source == "propagated"
 
 
-def test_what_a_file_says_stays_however_unsure_it_is(tmp_path: Path) -> None:
-    project = family(tmp_path)
-    project.set_labels("t0.obj", {name: label_of(name) for name in NAMES})
-    project.set_labels("t1.obj", {"top": "misc"}, source="file", confidence=0.01)
-    project.label("propagate")
-    assert project.labels("t1.obj").labels["top"] == Label("misc", 0.01, "file")
-
-
 def test_what_a_file_says_without_being_sure_teaches_nothing(tmp_path: Path) -> None:
     project = family(tmp_path)
     wrong = dict.fromkeys(NAMES, "misc")
@@ -100,15 +92,6 @@ def test_a_label_that_left_the_vocabulary_teaches_nothing(tmp_path: Path) -> Non
     assert not any(report.problems for report in carried.outcomes)
     assert {label.name for label in project.labels("t1.obj").labels.values()} == {"top", "leg"}
     assert project.labels("t0.obj").labels["crumb"] == Label("misc")
-
-
-def test_an_asset_that_cannot_be_read_is_told_and_does_not_hide_the_others(tmp_path: Path) -> None:
-    project = family(tmp_path)
-    project.set_labels("t0.obj", {name: label_of(name) for name in NAMES})
-    (tmp_path / "assets/t1.obj").write_text("nothing of use")
-    reports = {report.asset: report for report in project.label("propagate").outcomes}
-    assert "t1.obj" in reports["t1.obj"].problems[0]
-    assert reports["t2.obj"].taken == len(NAMES)
 
 
 Act = tuple[str, str, str, str]

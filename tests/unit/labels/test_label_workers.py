@@ -48,6 +48,17 @@ def test_labels_are_the_same_whatever_the_number_of_workers(tmp_path: Path, way:
     assert found[0] == found[1] == found[2]
 
 
+@pytest.mark.parametrize("way", WAYS)
+def test_an_asset_that_cannot_be_read_is_told_and_does_not_hide_the_others(tmp_path: Path, way: str) -> None:
+    project = begun(tmp_path)
+    for name in ("t2", "t3"):
+        write_table(tmp_path / f"assets/{name}.obj", height=1.7)
+    (tmp_path / "assets/t2.obj").write_text("nothing of use")
+    reports = {report.asset: report for report in WAYS[way](project, IN_PROCESS)}
+    assert "t2.obj" in reports["t2.obj"].problems[0]
+    assert reports["t3.obj"].taken and not reports["t3.obj"].problems
+
+
 @pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="only Linux bounds the memory of a process")
 def test_an_asset_without_room_is_told_and_the_others_are_labelled(tmp_path: Path) -> None:
@@ -112,16 +123,3 @@ def test_only_assets_that_changed_are_described_again(tmp_path: Path) -> None:
     write_table(tmp_path / "assets/t3.obj", height=2.0, labels=False)
     project.label("propagate")
     assert file_state(kept[0]) == times[0] and file_state(kept[3]) != times[3]
-
-
-def test_what_is_foretold_is_what_is_carried_over_then(tmp_path: Path) -> None:
-    project = begun(tmp_path)
-    project.set_labels("t1.obj", {"top": "leg"}, source="vlm", confidence=0.999)
-    before = tree(project.folder / "labels")
-    shown = project.label("propagate", dry_run=True).proposals
-    assert tree(project.folder / "labels") == before
-    reports = project.label("propagate").outcomes
-    assert sum(row.hulls for row in shown.rows) == sum(report.taken for report in reports)
-    assert shown.labelled == len(NAMES) + 1
-    assert {row.label for row in shown.rows} == {"top", "leg", "misc"}
-    assert project.label("propagate", dry_run=True).proposals.rows == ()

@@ -8,7 +8,6 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from meshforge.common import UsageError
 from meshforge.labels.names.label_by_names import HullNames, NameMatch, match_names, pattern_of
 from meshforge.labels.names.words import (
     EXACT,
@@ -227,11 +226,6 @@ def test_patterns_come_before_words_and_may_leave_a_hull_bare() -> None:
         "leg", 0.9, "hull", "door/knob1", "pattern"
     )
     assert match_names(names, VOCABULARY, [pattern_of("nob", "leg")]) == match_names(names, VOCABULARY)
-
-
-def test_an_expression_that_is_none_is_refused() -> None:
-    with pytest.raises(UsageError, match=r"the pattern /\[/ is no regular expression"):
-        pattern_of("/[/", "leg")
 
 
 texts = st.text("abAB*?[]!-_.\n", max_size=8)

@@ -89,13 +89,6 @@ def test_a_sure_label_is_right_more_often_than_an_unsure_one() -> None:
 
 
 @pytest.mark.slow
-def test_the_same_comes_out_every_time() -> None:
-    rows = samples("knife", calibration=True)
-    one, other = (propagate(asking(rows, [0, 5])) for _ in range(2))
-    assert np.array_equal(one.chances, other.chances)
-
-
-@pytest.mark.slow
 def test_chances_are_chances() -> None:
     found, _ = advised("cup", 1)
     assert found.chances.min() >= 0

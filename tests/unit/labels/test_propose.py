@@ -72,13 +72,3 @@ def test_a_project_without_vocabulary_shows_that_of_the_files_and_stays_without(
     project = fresh(tmp_path)
     assert {row.label for row in project.label("file", dry_run=True).proposals.rows} == {"top", "leg", "misc"}
     assert Project.open(project.folder).vocabulary == ()
-
-
-def test_an_asset_that_cannot_be_read_is_told_and_does_not_hide_the_others(tmp_path: Path) -> None:
-    project = fresh(tmp_path)
-    project.set_vocabulary(["top", "leg", "misc"])
-    (tmp_path / "assets" / FIRST).write_text("nothing of use")
-    for shown in (project.label("names", dry_run=True).proposals, project.label("file", dry_run=True).proposals):
-        (problem,) = shown.problems
-        assert problem.startswith(f"{FIRST}: ") and "this is no OBJ file" in problem
-        assert shown.rows and all(row.assets == 2 for row in shown.rows)

@@ -46,22 +46,6 @@ def test_points_in_boxes_give_back_the_class_of_each(case: Case) -> None:
         assert kind == own[0] and confidence == pytest.approx(len(own) / (len(own) + 2))
 
 
-@given(cases(), st.integers(0, 99))
-def test_the_order_of_points_does_not_matter(case: Case, seed: int) -> None:
-    boxes, points, classes = case
-    order = np.random.default_rng(seed).permutation(len(points))
-    assert vote_by_points(boxes, points, classes) == vote_by_points(boxes, points[order], classes[order])
-
-
-@given(cases(), st.integers(2, 4))
-def test_points_given_several_times_say_the_same_more_surely(case: Case, times: int) -> None:
-    boxes, points, classes = case
-    once, _ = vote_by_points(boxes, points, classes)
-    more, _ = vote_by_points(boxes, np.tile(points, (times, 1)), np.tile(classes, times))
-    for few, many in zip(once, more, strict=True):
-        assert few[0] == many[0] >= 0 and many[1] > few[1]
-
-
 def test_the_majority_counts_and_its_share_is_how_sure_it_is() -> None:
     rng = np.random.default_rng(1)
     (box,) = shelf_of(1)

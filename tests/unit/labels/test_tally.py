@@ -1,4 +1,4 @@
-"""How far a project is labelled, counted."""
+"""How far a project is labelled, in counts."""
 
 from __future__ import annotations
 

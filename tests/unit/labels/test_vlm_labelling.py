@@ -23,7 +23,7 @@ from meshforge.labels.vlm import label_by_vlm, prompt
 from meshforge.project import Project
 from meshforge.symbolic import GIVEN_SOURCES, Label, SymbolicMesh
 from tests.examples import examples
-from tests.loopback import CUT, FAULTS, Asked, Server, labels_as_json, serving, sometimes, status
+from tests.loopback import FAULTS, Asked, Server, labels_as_json, serving, sometimes, status
 from tests.unit.labels.vlm_family import KEY, VARIABLE, WORDS, family, hulls, label_with_vlm, right, settings, truth
 
 MANY = 200
@@ -108,7 +108,7 @@ def test_two_hundred_meshes_with_a_fifth_of_faults_are_all_labelled_or_named(tmp
     def fault(asked: Asked) -> object:
         if asked.asset in hopeless:
             return status(500, "out of order")
-        return sometimes(0.2, [one for one in FAULTS if one.kind != "garbage"])(asked)
+        return sometimes(0.2)(asked)
 
     told = []
     with serving(lying, fault=fault, slow=60.0) as server:
@@ -134,23 +134,6 @@ def test_two_hundred_meshes_with_a_fifth_of_faults_are_all_labelled_or_named(tmp
         assert (found.usage.usage.input, found.usage.usage.output) == (server.usage["input"], server.usage["output"])
         broken = sum(not whole for _, _, whole in server.asked)  # slow ones may be under way there still
         assert found.usage.retries + len(hopeless) >= broken
-
-
-def test_what_a_person_or_a_file_says_stays_and_so_does_what_is_surer(tmp_path: Path) -> None:
-    project = family(tmp_path, 1)
-    asset = project.assets()[0]
-    project.set_labels(asset, {"top": "misc"})
-    project.set_labels(asset, {"crumb": "leg"}, source="file", confidence=0.1)
-    project.set_labels(asset, {"left_low": "misc"}, source="propagated", confidence=0.999)
-    project.set_labels(asset, {"left_high": "misc"}, source="name", confidence=0.01)
-    with serving(right) as server:
-        (report,) = label_with_vlm(project, settings(server)).outcomes
-    assert report.taken == 3
-    now = project.labels(asset).labels
-    assert now["top"] == Label("misc")
-    assert now["crumb"] == Label("leg", 0.1, "file")
-    assert now["left_low"] == Label("misc", 0.999, "propagated")
-    assert (now["left_high"].name, now["left_high"].source) == ("leg", "vlm")
 
 
 def test_assets_that_are_labelled_by_hand_are_not_asked_about(tmp_path: Path) -> None:
@@ -449,12 +432,3 @@ def test_an_asset_that_cannot_be_drawn_is_named_and_the_others_are_labelled(
         found = label_with_vlm(project, settings(server))
     assert [report.taken for report in found.outcomes] == [6, 0, 6]
     assert "t001.obj: ZeroDivisionError: no room for the picture" in found.outcomes[1].problems[0]
-
-
-def test_a_cut_answer_that_stays_cut_names_the_hulls(tmp_path: Path) -> None:
-    project = family(tmp_path, 1)
-    with serving(right, fault=lambda asked: None if asked.is_probe else CUT) as server:
-        found = label_with_vlm(project, settings(server))
-    here = labels(project, "t000.obj")
-    assert set(found.open["t000.obj"].values()) == {"the answer was cut off"}
-    assert here.keys() | found.open["t000.obj"].keys() == set(hulls("t000.obj"))

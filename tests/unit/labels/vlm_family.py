@@ -9,7 +9,7 @@ from typing import Any
 
 from meshforge.batch import IN_PROCESS, ExecutionOptions
 from meshforge.labels import LabelOutcome, VlmLabeler, VlmResult
-from meshforge.labels.family_comparison import WriteBlock
+from meshforge.labels.labeler import WriteBlock
 from meshforge.project import Project
 from meshforge.store import VlmSettings
 from tests.loopback import KEY, Asked, Server, labels_as_json

@@ -8,7 +8,6 @@ import pytest
 from meshforge.common import ProgramError
 from meshforge.geometry import Box, Cylinder, Ellipsoid, Floats, Pose, Sphere, convex_hull
 from meshforge.language import (
-    ACTIONS,
     PRIMITIVES,
     Action,
     Add,
@@ -253,19 +252,6 @@ def test_names_count_on_and_are_never_given_twice() -> None:
     assert third.made == ("a~1~1",) and third.mesh.hull_of("a~1~1").parent == "a~1"
 
 
-def test_an_empty_selection_does_nothing_and_says_so() -> None:
-    scene = table()
-    result = apply_action(scene, 0, Merge())
-    assert result.mesh is scene and result.note == "nothing selected"
-
-
-def test_a_missing_template_is_named_with_those_that_there_are() -> None:
-    with pytest.raises(ProgramError) as error:
-        apply_action(table(), 0, Each(Add("+X", "knob.obj")), TEMPLATES)
-    assert 'there is no template "knob.obj" (templates given: wedge.obj)' in str(error.value)
-    assert "beside the program" in str(error.value)
-
-
 @pytest.mark.parametrize(
     "wrong",
     [
@@ -287,17 +273,3 @@ def test_an_action_with_arguments_that_cannot_be_is_refused_at_birth(wrong: obje
     assert callable(wrong)
     with pytest.raises(ProgramError):
         wrong()
-
-
-def test_the_registry_knows_every_action_by_the_name_it_is_written_with() -> None:
-    assert list(ACTIONS) == ["Delete", "Replace", "Add", "Merge", "Scale", "Shrink", "Each"]
-    assert [kind.usage() for kind in ACTIONS.values()] == [
-        "Delete",
-        'Replace(box|cylinder|capsule|sphere|"file"'
-        "[, native|tight|inscribed|volume|longest][, X|Y|Z][, radius = metres])",
-        'Add(+X|-X|+Y|-Y|+Z|-Z, "file"[, keep])',
-        "Merge",
-        "Scale(all|X|Y|Z, factor)",
-        "Shrink(metres)",
-        "Each(action)",
-    ]

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from meshforge.language import ACTIONS, Program, explain, parse_extractor
-from meshforge.language.print import Rule
-from tests.program_parts import parse_action, parse_orient
+from meshforge.language import Program, explain, parse_extractor
+from tests.program_parts import parse_orient
 
 _SENTENCES = [
     ("Is(misc) => Delete", "The misc hulls are deleted."),
@@ -70,20 +69,6 @@ _SENTENCES = [
 def test_a_rule_reads_as_a_sentence(text: str, sentence: str) -> None:
     (rule,) = Program.parse(text).rules
     assert explain(rule).endswith(sentence)
-
-
-@pytest.mark.parametrize(
-    "usage", ["Delete", "Merge", "Scale(X, 2)", "Shrink(0.002)", "Replace(sphere)", 'Add(-Z, "a.obj")', "Each(Delete)"]
-)
-def test_every_action_has_words(usage: str) -> None:
-    assert explain(Rule(parse_extractor("All"), parse_action(usage))).endswith(".")
-    assert usage.partition("(")[0] in ACTIONS
-
-
-def test_no_action_is_without_words() -> None:
-    said = {text.partition("=> ")[2].partition("(")[0].split(" ")[0] for text, _ in _SENTENCES}
-    assert said >= set(ACTIONS) - {"Add", "Replace", "Scale", "Shrink"}
-    assert {"Add", "Replace", "Scale", "Shrink"} <= set(ACTIONS)
 
 
 def test_an_orientation_says_what_will_point_where() -> None:

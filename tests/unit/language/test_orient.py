@@ -38,11 +38,6 @@ def test_an_upright_square_table_stays_the_very_mesh() -> None:
     assert oriented is scene and np.array_equal(pose.rotation, np.eye(3))
 
 
-def test_no_directive_leaves_the_mesh_as_it_is() -> None:
-    scene = table()
-    assert orient_mesh(scene, None)[0] is scene
-
-
 def test_a_table_on_its_side_is_put_upright_exactly() -> None:
     lying = moved(table(), np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]]))
     oriented, pose = orient_mesh(lying, UPRIGHT)
@@ -131,8 +126,3 @@ def test_landmarks_at_one_point_are_named_with_what_they_selected() -> None:
 def test_two_pairs_along_one_line_give_no_frame() -> None:
     with pytest.raises(ProgramError, match="run along one line"):
         orient_mesh(table(), parse_orient("orient +Z: Is(leg) -> Is(panel), +X: Is(panel) -> Is(leg)"))
-
-
-def test_a_mesh_without_hulls_has_no_landmark() -> None:
-    with pytest.raises(ProgramError, match="the landmark All selects nothing"):
-        orient_mesh(mesh(), parse_orient("orient +Z: All -> All"))

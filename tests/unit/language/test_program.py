@@ -72,10 +72,6 @@ def test_sizes_are_those_of_the_paper() -> None:
     assert {text: size_of(parse_extractor(text)) for text in sizes} == sizes
 
 
-def test_extractors_parse_on_their_own() -> None:
-    assert parse_extractor(" Geo(Is(leg), +X) ") == GEO
-
-
 @pytest.mark.parametrize(
     ("text", "message"),
     [

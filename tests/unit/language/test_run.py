@@ -125,16 +125,6 @@ def test_a_missing_template_fails_even_where_nothing_is_selected() -> None:
         program.run(table(), {"wedge.obj": wedge()})
 
 
-def test_a_hull_without_a_label_makes_hulls_without_one() -> None:
-    scene = mesh(hull("a", box([0, 0, 0], [1, 1, 1])))
-    assert Program.parse("All => Scale(X, 2)").run(scene).mesh.hulls[0].annotation is None
-
-
-def test_an_unlabelled_hull_is_selected_by_all_only() -> None:
-    scene = mesh(hull("a", box([0, 0, 0], [1, 1, 1])), hull("b", box([3, 0, 0], [4, 1, 1]), "leg"))
-    assert Program.parse("Diff(All, Is(leg)) => Delete").run(scene).trace[0].selected == ("a",)
-
-
 def test_a_hull_that_cannot_be_is_refused_by_name() -> None:
     scene = mesh(hull("a", convex_hull(wedge().shapes[0].vertices), "leg"))
     with pytest.raises(GeometryError, match="a: a coordinate is not a finite number"):

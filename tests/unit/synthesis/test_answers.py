@@ -69,16 +69,6 @@ def test_every_choice_of_every_question_about_a_family_can_be_taken() -> None:
     assert asked > 10
 
 
-def test_a_choice_is_never_larger_than_what_can_be_learned() -> None:
-    options = Options(repair=False, max_size=2)
-    outcome = synthesize(DEMOS, MESHES, options=options)
-    assert isinstance(outcome, Ambiguous)
-    assert {reading.size for reading in outcome.candidates} == {1, 2}
-    for choice in range(len(outcome.open_rule.selections)):
-        answers = [choose(outcome.open_rule, choice)]
-        assert isinstance(synthesize(DEMOS, MESHES, answers=answers, options=options), Found | Ambiguous)
-
-
 def test_neither_is_taken_note_of_and_not_asked_again_on_that_asset() -> None:
     answers: list[Answer] = []
     for _ in range(len(MESHES)):
@@ -103,12 +93,6 @@ def test_what_was_refused_on_an_asset_is_believed_less() -> None:
     assert sum(reading.belief for reading in others) > sum(before[show(reading.extractor)] for reading in others)
 
 
-def test_neither_to_one_rule_says_nothing_about_another() -> None:
-    asked = learned(Answer(2, "c1", None))
-    assert isinstance(asked, Ambiguous)
-    assert asked.open_rule.id == "1:c1"
-
-
 def test_an_answer_is_evidence_for_its_rule_only() -> None:
     demos = shown(MESHES, ["c0"], "Is(body) => Delete\nIs(handle) => Delete")
     assert rules(learned(Answer(2, "c1", BOTH), demos=demos)) == ["Is(body)", "Is(handle)"]
@@ -127,12 +111,6 @@ def test_of_several_answers_to_one_question_the_last_counts() -> None:
     taken_back = learned(Answer(1, "c1", BOTH), Answer(1, "c1", None))
     assert rules(taken_back) == rules(learned(Answer(1, "c1", None)))
     assert taken_back.open_rule == learned(Answer(1, "c1", None)).open_rule
-
-
-def test_the_order_of_answers_about_different_assets_does_not_matter() -> None:
-    answers = [Answer(1, "c1", BOTH), Answer(1, "c2", {"pull"}), Answer(1, "c5", None)]
-    one, other = (outcome_to_json(learned(*row)) for row in (answers, answers[::-1]))
-    assert {**one, "seconds": 0} == {**other, "seconds": 0}
 
 
 def test_a_demonstration_stands_against_an_answer_about_the_same_mesh() -> None:

@@ -8,8 +8,6 @@ import pytest
 
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Ambiguous, Found, Hint, LearningOutcome, Options, synthesize
-from meshforge.synthesis.asset_selection import suggest_demonstration
-from meshforge.synthesis.outcome import candidate_id
 from tests.synthesis_boxes import boxes
 from tests.synthesis_cupboards import cupboard, cupboards, shown, with_rare_doors
 
@@ -18,14 +16,6 @@ ALIKE = "believable readings of the rules differ there"
 
 def learned(meshes: Mapping[str, SymbolicMesh], names: Sequence[str], program: str) -> LearningOutcome:
     return synthesize(shown(meshes, names, program), meshes, options=Options(repair=False))
-
-
-def test_readings_are_counted_from_one_within_their_rule() -> None:
-    assert [candidate_id(2, place) for place in (0, 9)] == ["2.1", "2.10"]
-    outcome = learned(cupboards(), ["c0"], "Is(drawer) => Delete\nIs(handle) => Delete\n")
-    for rule in (1, 2):
-        ids = [reading.id for reading in outcome.candidates if reading.rule == rule]
-        assert ids == [f"{rule}.{place}" for place in range(1, len(ids) + 1)]
 
 
 @pytest.mark.parametrize(
@@ -108,8 +98,3 @@ def test_where_readings_agree_the_asset_with_most_hulls_unlike_those_shown_is_na
     demos = shown(meshes, ["first"], "Is(y) => Delete")
     outcome = synthesize(demos, meshes, options=Options(layers="S", above=0, repair=False))
     assert outcome.hint == (Hint("other", why) if why else None)
-
-
-def test_without_other_assets_there_is_no_hint() -> None:
-    assert learned({"c0": cupboard()}, ["c0"], "Is(handle) => Delete").hint is None
-    assert suggest_demonstration([]) is None

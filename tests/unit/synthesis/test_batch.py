@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 import meshforge as mf
-from meshforge.language import Delete, Is, LandmarkPair, Orient, Program, Template
+from meshforge.language import Delete, Is, LandmarkPair, Orient, Program
 from meshforge.symbolic import Label, SymbolicMesh
 from meshforge.synthesis import (
     Ambiguous,
@@ -22,9 +22,7 @@ from meshforge.synthesis import (
     outcome_to_json,
     synthesize,
 )
-from meshforge.synthesis.demonstration import collect_rule_specs
-from meshforge.synthesis.questions import LabelFix
-from meshforge.synthesis.task import LearningTask, ReplaySet, apply_fixes, name_family
+from meshforge.synthesis.task import name_family
 from tests.synthesis_boxes import boxes
 from tests.synthesis_cupboards import cupboard, cupboards, shown, with_rare_doors
 
@@ -50,11 +48,6 @@ def at(size: float) -> SymbolicMesh:
     )
 
 
-def test_meshes_made_in_memory_are_counted_from_one() -> None:
-    named = name_family([cupboard(), cupboard(True)], DEMOS)
-    assert list(named) == ["mesh 1", "mesh 2"]
-
-
 def test_meshes_of_files_are_called_by_their_paths(tmp_path: Path) -> None:
     paths = [tmp_path / f"{name}.obj" for name in ("b", "a")]
     for path in paths:
@@ -72,10 +65,6 @@ def test_demonstrated_meshes_are_left_out_by_name_and_by_identity() -> None:
     assert sorted(name_family(MESHES, [unnamed])) == [f"c{k}" for k in range(1, 8)]
 
 
-def test_one_mesh_under_two_names_is_two_assets() -> None:
-    assert list(name_family({"a": MESHES["c1"], "b": MESHES["c1"]}, DEMOS)) == ["a", "b"]
-
-
 @pytest.mark.parametrize("batch", [(), [], {}, iter(())])
 def test_without_a_batch_one_reading_is_enough_and_nothing_is_settled(batch: Any) -> None:
     outcome = synthesize(DEMOS, batch)
@@ -84,20 +73,11 @@ def test_without_a_batch_one_reading_is_enough_and_nothing_is_settled(batch: Any
     assert (outcome.hint, len(outcome.candidates)) == (None, 1)
 
 
-def test_a_generator_is_read_once_and_does_what_a_list_does() -> None:
-    others = list(MESHES.values())
-    assert shape(synthesize(DEMOS, (mesh for mesh in others))) == shape(synthesize(DEMOS, others))
-
-
 def test_the_order_of_a_mapping_does_not_matter() -> None:
     forth, back = (synthesize(DEMOS, dict(rows)) for rows in (RARE.items(), list(RARE.items())[::-1]))
     assert isinstance(forth, Ambiguous)
     assert shape(forth) == shape(back)
     assert forth.open_rule == back.open_rule
-
-
-def test_learning_twice_gives_the_same() -> None:
-    assert shape(synthesize(DEMOS, MESHES)) == shape(synthesize(DEMOS, MESHES))
 
 
 def test_meshes_that_cannot_be_oriented_leave_the_batch() -> None:
@@ -167,30 +147,3 @@ def test_the_strategy_of_the_paper_takes_a_batch_and_settles_nothing() -> None:
     assert (outcome.unambiguous, outcome.open_rule) == (False, None)
     assert [rule.extractor for rule in outcome.rules] == [Is("handle")]
     assert outcome.hint is not None
-
-
-def test_a_course_runs_the_last_rule_on_demonstrated_meshes_only() -> None:
-    program, rules = Program.parse(HANDLES), collect_rule_specs(DEMOS)
-    task = LearningTask(
-        rules, tuple(DEMOS), name_family(MESHES, DEMOS), program, dict[str, Template](), (), frozenset(), Options()
-    )
-    course, (rule,) = ReplaySet(task), rules
-    examples, rest = course.examples(rule)
-    assert [example.name for example in examples] == ["c0"]
-    assert [replay.name for replay in rest] == [f"c{k}" for k in range(1, 8)]
-    course.advance(program.rules[0], last=True)
-    assert "pull" not in course.shown[0].mesh.index
-    assert all("pull" in replay.mesh.index for replay in course.others)
-    before_another = ReplaySet(task)
-    before_another.advance(program.rules[0], last=False)
-    assert len(before_another.others) == 7
-    assert not any("pull" in replay.mesh.index for replay in before_another.others)
-
-
-def test_corrections_of_other_meshes_and_of_hulls_that_are_gone_change_nothing() -> None:
-    mesh = MESHES["c1"]
-    assert apply_fixes(mesh, "c1", [LabelFix("c2", "pull", "handle", "door")]) is mesh
-    after = apply_fixes(mesh, "c1", [LabelFix("c1", "pull", "handle", "door"), LabelFix("c1", "gone", None, "door")])
-    assert (after.hull_of("pull").label, after.hull_of("pull").source) == ("door", "repair")
-    assert mesh.hull_of("pull").label == "handle"
-    assert {hull.name for hull in after.hulls} == {hull.name for hull in mesh.hulls}

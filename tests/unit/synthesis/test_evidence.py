@@ -46,24 +46,9 @@ def test_without_other_hulls_there_is_no_evidence(batch: list[SymbolicMesh]) -> 
     assert said(["Is(leg)", "All"], [row(2)], batch) == (NO_EVIDENCE, NO_EVIDENCE)
 
 
-def test_where_nothing_was_selected_there_is_nothing_to_compare_with() -> None:
-    assert said(["Is(leg)"], [row(0)], [row(2)]) == (NO_EVIDENCE,)
-
-
-def test_no_readings_have_no_evidence() -> None:
-    assert said([], [row(2)], [row(2)]) == ()
-
-
 def test_a_reading_is_idle_on_the_share_of_assets_where_it_selects_nothing() -> None:
     (legs,) = said(["Is(leg)"], [row(2)], [row(0), row(2), row(2), row(2)])
     assert legs.idle == 0.25
-
-
-def test_a_mesh_without_hulls_is_one_where_nothing_is_selected() -> None:
-    for batch in ([NONE_AT_ALL, row(2)], [row(2), NONE_AT_ALL]):
-        (legs,) = said(["Is(leg)"], [row(2)], batch)
-        assert legs.idle == 0.5
-        assert legs.strange == pytest.approx(0.0, abs=1e-9)
 
 
 def test_a_reading_that_never_selects_is_idle_and_nothing_else() -> None:
@@ -75,12 +60,6 @@ def test_hulls_like_those_demonstrated_are_not_strange_and_others_are_the_more_t
     assert alike.strange == pytest.approx(0.0, abs=1e-9)
     assert label.strange >= STRANGE_LABEL**2
     assert alike.strange < both.strange
-
-
-def test_a_hull_without_a_label_is_not_foreign_where_such_a_one_was_shown() -> None:
-    bare = boxes(("a", None, (0, 0, 0), (1, 1, 1)), ("b", "leg", (5, 0, 0), (1, 1, 1)))
-    (found,) = said(["Diff(All, Is(leg))"], [bare], [bare], rule="Diff(All, Is(leg))")
-    assert found.strange == pytest.approx(0.0, abs=1e-9)
 
 
 def test_the_evidence_does_not_depend_on_the_unit_of_length() -> None:

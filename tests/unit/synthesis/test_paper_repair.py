@@ -60,10 +60,6 @@ def test_of_labels_as_frequent_the_first_of_the_vocabulary_is_taken() -> None:
     assert answer.fixes == (LabelFix("table", "residue_0", "leg", "panel"),)
 
 
-def test_without_repair_labels_are_taken_as_they_are() -> None:
-    assert isinstance(run(one_leg_wrong(), options=Options(repair=False, max_size=3)), Miss)
-
-
 def test_what_is_confirmed_ends_the_search() -> None:
     asked: list[LabelFix] = []
 
@@ -100,11 +96,6 @@ def test_corrections_are_asked_about_one_by_one_until_one_is_refused() -> None:
 
     run(example, options=Options(max_size=1), confirm=confirm)
     assert asked == ["leg1_low", "leg2_low"]
-
-
-def test_a_rejected_correction_is_not_proposed() -> None:
-    answer = run(one_leg_wrong(), rejected={WRONG_LEG})
-    assert not isinstance(answer, HitWithFixes) or WRONG_LEG not in answer.fixes
 
 
 @pytest.mark.parametrize(("spent", "explained"), [({}, True), ({"other": 2}, True), ({"table": 2}, False)])

@@ -30,10 +30,6 @@ def test_harm_is_the_believed_share_of_assets_on_which_others_differ_from_the_pr
     assert doubt.harm == pytest.approx(0.2 * 0.5 + 0.1 * 1.0)
 
 
-def test_the_harm_counts_from_the_programs_reading_even_where_another_is_believed_more() -> None:
-    assert QuestionValue([[1], [2]], [0.25, 0.75]).harm == pytest.approx(0.75)
-
-
 def test_what_differs_everywhere_is_seen_and_costs_a_demonstration() -> None:
     for belief, worth in ((QUESTION_PRICE * 0.99, False), (QUESTION_PRICE * 1.01, True)):
         best = QuestionValue([["a"] * 5, ["b"] * 5], [1 - belief, belief]).best_question(askable(*range(5)))
@@ -90,14 +86,3 @@ def test_gains_are_of_assets_from_a_place_on_where_an_answer_spares_harm() -> No
     doubt = QuestionValue([["a", "a", "a"], ["b", "a", "b"]], [0.75, 0.25])
     assert doubt.gains(1) == {2: pytest.approx(doubt.harm)}
     assert sorted(doubt.gains(0)) == [0, 2]
-
-
-def test_what_is_selected_may_be_anything_that_can_be_compared() -> None:
-    as_sets = QuestionValue([[frozenset({1, 2})], [frozenset({2, 1})], [frozenset()]], [0.5, 0.3, 0.2])
-    as_masks = QuestionValue([[6], [6], [0]], [0.5, 0.3, 0.2])
-    assert as_sets.harm == as_masks.harm == pytest.approx(0.2)
-    assert as_sets.best_question(askable(0)) == as_masks.best_question(askable(0))
-
-
-def test_masks_wider_than_a_machine_word_are_told_apart() -> None:
-    assert QuestionValue([[1 << 300], [1 << 301]], [0.5, 0.5]).harm == pytest.approx(0.5)

@@ -11,7 +11,7 @@ from meshforge.label_model.odds import LabelBeliefs
 from meshforge.language import Extractor, parse_extractor, select_mask, show
 from meshforge.symbolic import Label, LabelSource, SymbolicMesh
 from meshforge.synthesis.demonstration import Example
-from meshforge.synthesis.options import Options, OutOfTime, TimeBudget
+from meshforge.synthesis.options import Options, TimeBudget
 from meshforge.synthesis.questions import LabelFix
 from meshforge.synthesis.repair.explain import Explanation, FixSearch
 from meshforge.synthesis.search.smallest import Hit, Search
@@ -144,14 +144,6 @@ def test_a_wrong_label_that_the_program_does_not_meet_is_left_alone() -> None:
     assert explained(examples_of("Is(leg)", {"drawer0_left": "handle"}, {})) is None
 
 
-def test_a_rejected_correction_is_not_asked_again() -> None:
-    examples = examples_of("Is(leg)", {"leg0_low": "drawer"}, {})
-    first = explained(examples)
-    assert first
-    again = explained(examples, rejected=first.fixes)
-    assert again is None or not set(again.fixes) & set(first.fixes)
-
-
 def test_a_label_that_is_not_to_be_corrected_stands_whatever_else_it_might_be() -> None:
     examples = examples_of("Is(leg)", {"leg0_low": "drawer"}, {})
     first = explained(examples)
@@ -185,10 +177,3 @@ def test_the_reason_names_similar_hulls_confidence_and_the_program() -> None:
         "6 of the 6 most similar hulls are labelled leg; drawer has a confidence of 0.60 only; "
         "with it, Is(leg) selects what was shown",
     )
-
-
-def test_the_time_is_kept() -> None:
-    examples = examples_of("Is(leg)", {"leg0_low": "drawer"}, {})
-    labels = LabelBeliefs({example.name: example.mesh for example in examples}, {}, VOCABULARY)
-    with pytest.raises(OutOfTime):
-        FixSearch(examples, VOCABULARY, labels, OPTIONS, TimeBudget(0)).run()

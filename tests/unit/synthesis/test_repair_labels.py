@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 import pytest
 
 from meshforge.geometry import Aabb, Box
 from meshforge.label_model.odds import LabelBeliefs
 from meshforge.symbolic import Hull, Label, LabelSource, SymbolicMesh
-from tests.synthesis_boxes import boxes, table
+from tests.synthesis_boxes import table
 
 VOCABULARY = ("drawer", "handle", "leg", "misc", "panel")
 
@@ -50,10 +49,6 @@ def test_a_missing_label_is_filled_in_by_what_similar_hulls_have() -> None:
     assert 0 < cost(None, "leg") < cost(None, "panel")
 
 
-def test_every_correction_costs_something() -> None:
-    assert cost(Label("drawer", 0.0, "vlm"), "leg") > 0
-
-
 def test_a_hull_that_a_rule_made_or_relabelled_has_no_standing() -> None:
     mesh = table()
     labels, hull = LabelBeliefs({"table": mesh}, {}, VOCABULARY), mesh.hulls[0]
@@ -77,13 +72,6 @@ def test_a_demonstrated_mesh_in_the_batch_is_not_asked_about_itself() -> None:
         assert alone.cost("table", hull, "misc") == twice.cost("table", hull, "misc")
 
 
-def test_a_label_outside_the_vocabulary_and_meshes_without_labels_do_no_harm() -> None:
-    bare = boxes(("a", None, (0, 0, 0), (1, 1, 1)), ("b", "other", (1, 0, 0), (1, 1, 1)))
-    labels = LabelBeliefs({"bare": bare}, {"again": replace(bare), "none": boxes()}, VOCABULARY)
-    for hull in bare.hulls:
-        assert 0 < labels.cost("bare", hull, "leg") < math.inf
-
-
 def test_wrong_and_missing_labels_are_expected_where_look_alikes_disagree() -> None:
     others = {f"table {k}": said("leg1_low", Label("leg", 0.9, "vlm")) for k in range(4)}
     right, missing = said("leg0_low", Label("leg", 0.9, "vlm")), said("leg0_low", None)
@@ -95,13 +83,3 @@ def test_wrong_and_missing_labels_are_expected_where_look_alikes_disagree() -> N
     persons = {name: mesh.with_labels({hull.name: Label(hull.label or "", 1.0, "user") for hull in mesh.hulls})
                for name, mesh in others.items()}  # fmt: skip
     assert max(LabelBeliefs({}, persons, VOCABULARY).errors.values()) < 0.05
-
-
-def test_no_meshes_and_no_labels_are_no_trouble() -> None:
-    assert LabelBeliefs({}, {}, ()).errors == {}
-    assert LabelBeliefs({}, {"bare": boxes(), "one": boxes(("a", "x", (0, 0, 0), (1, 1, 1)))}, ()).errors == {
-        "bare": 0,
-        "one": 1,
-    }
-    assert LabelBeliefs({}, {}, ()).cost("table", table().hulls[0], "leg") == math.inf
-    assert LabelBeliefs({"none": boxes()}, {}, VOCABULARY).cost("none", table().hulls[0], "leg") == math.inf

@@ -135,12 +135,6 @@ def test_the_reverse_of_what_was_confirmed_is_never_proposed() -> None:
     assert all(correction.reverse not in person.corrections for correction in person.corrections)
 
 
-def test_the_reverse_of_a_correction_undoes_it_and_a_filled_gap_has_none() -> None:
-    assert LEG.reverse == LabelFix("one", "leg0_low", "leg", "drawer")
-    assert LEG.reverse.reverse == LEG
-    assert LabelFix("one", "leg0_low", None, "leg").reverse is None
-
-
 def test_after_a_repair_for_a_later_rule_the_first_is_learned_anew() -> None:
     program = "Is(misc) => Delete\nIs(leg) => Delete"
     person = Person(LEG)
@@ -168,12 +162,6 @@ def test_repair_that_is_switched_off_asks_nothing() -> None:
     learned(planted(WRONG), person, Options(max_size=9, repair=False))
     assert person.asked == []
     learned(planted(WRONG), person, Options(max_size=9, eta=0))
-    assert person.asked == []
-
-
-def test_right_labels_raise_no_question() -> None:
-    person = Person()
-    learned(planted({}), person)
     assert person.asked == []
 
 
@@ -223,14 +211,6 @@ def test_a_person_who_stops_while_being_asked_is_not_asked_again() -> None:
     assert len(asked) == 1
     assert isinstance(outcome, TimedOut)
     assert outcome.program is None
-
-
-def test_an_error_of_the_person_s_own_code_is_passed_on() -> None:
-    def broken(repair: Repair) -> bool:
-        raise KeyboardInterrupt
-
-    with pytest.raises(KeyboardInterrupt):
-        learned(planted(WRONG), broken)
 
 
 def test_the_strategy_of_the_paper_asks_by_rule_once_and_learns_on() -> None:

@@ -68,11 +68,6 @@ def test_kinds_of_hulls_that_nobody_showed_come_before_more_of_the_same() -> Non
     assert synthesize(shown(meshes, ["p0"], "Is(body) => Delete\n"), meshes).sample[0] == "odd"
 
 
-def test_without_a_batch_there_is_nothing_to_look_at() -> None:
-    meshes = cupboards(1)
-    assert synthesize(shown(meshes, ["c0"], HANDLES)).sample == ()
-
-
 def test_an_asset_that_is_demonstrated_under_another_name_is_no_trouble() -> None:
     meshes = with_rare_doors()
     one = shown(meshes, ["c0"], HANDLES)[0]

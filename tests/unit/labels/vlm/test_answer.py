@@ -122,17 +122,6 @@ def test_where_unknown_has_most_there_is_no_label() -> None:
     assert decide_label([], PARTS) is None
 
 
-@given(votes=VOTES)
-def test_the_order_of_votes_does_not_matter_and_confidence_is_a_share(votes: list[LabelVote]) -> None:
-    found = decide_label(votes, PARTS)
-    back = decide_label(votes[::-1], PARTS)
-    if found is None or back is None:
-        assert found == back or abs(sum(weight for label, weight in votes if label is None)) > 0
-        return
-    assert 0 < found[1] < 1
-    assert found[1] == pytest.approx(back[1], abs=2e-4)
-
-
 @given(votes=VOTES, weight=st.floats(0.01, 1))
 def test_one_more_vote_for_the_winner_never_makes_it_less_sure(votes: list[LabelVote], weight: float) -> None:
     found = decide_label(votes, PARTS)

@@ -205,18 +205,6 @@ def test_the_groups_do_not_change_when_some_hulls_have_a_label_by_then() -> None
         assert not list(build_questions(shown, [], labeller.config))
 
 
-def test_a_hull_within_another_is_asked_about_all_the_same() -> None:
-    shown = mesh(outer=box(0, 0, 0, 1, 1, 1), leg0=box(0, 0, 0, 0.2, 0.2, 0.2))
-    with labelling(lambda asked: labels_as_json(dict.fromkeys(asked.numbers, "leg")), "exact") as (labeller, _):
-        assert names(begin(labeller, shown).result()) == {"outer": "leg", "leg0": "leg"}
-
-
-def test_a_mesh_without_hulls_asks_nothing() -> None:
-    with labelling(lambda asked: "") as (labeller, server):
-        assert begin(labeller, SymbolicMesh(())).result() == VlmAnswers()
-        assert not server.asked
-
-
 @pytest.mark.slow
 def test_the_answers_come_out_the_same_however_many_are_under_way(tmp_path: Path) -> None:
     shown = [table(legs) for legs in (2, 3, 9)]
