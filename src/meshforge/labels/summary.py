@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from meshforge import rendering
-from meshforge.batch import AssetJob, ExecutionOptions, WorkerFailure, plan_run, run_isolated
+from meshforge.batch import AssetJob, ExecutionOptions, WorkerFailure, describe_jobs, run_isolated
 from meshforge.common import AssetError, MeshForgeError
 from meshforge.store import AssetFiles, Store, iterate_asset_index
 from meshforge.symbolic import HUMAN_SOURCES, LABEL_SOURCES, Label, match_labels
@@ -166,7 +166,7 @@ def describe_label_plan(store: Store) -> str:
         for asset, path in found.ids.items()
     ]
     by_people = sum(_has_human_label(store, job.id) for job in jobs if job.labels)
-    return f"{plan_run(jobs, layout.edited).assets}, {by_people:,} of them by a person"
+    return f"{describe_jobs(jobs)}, {by_people:,} of them by a person"
 
 
 def _has_human_label(store: Store, asset: str) -> bool:

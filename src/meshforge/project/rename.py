@@ -68,9 +68,10 @@ def _rewrite_files(store: Store, old: str, new: str) -> Iterator[tuple[Path, str
             labels = {key: label.rename(old, new) for key, label in file.labels.items()}
             words = tuple(new if word == old else word for word in file.vocabulary)
             yield path, format_labels(LabelFile(words, labels, file.digests))
-    kinds = ((layout.demonstration, files.DemonstrationFile), (layout.manual_edits, files.ManualEditsFile))
-    for path, kind in ((place(asset), kind) for place, kind in kinds for asset in place.ids):
-        yield from _rename_in_steps(path, files.read_json(path, kind), old, new)
+    for path in map(layout.demonstration, layout.demonstration.ids):
+        yield from _rename_in_steps(path, files.DemonstrationFile, old, new)
+    for path in map(layout.manual_edits, layout.manual_edits.ids):
+        yield from _rename_in_steps(path, files.ManualEditsFile, old, new)
     kept = files.read_json(layout.label_sources, LabelSourcesFile) or LabelSourcesFile()
     if (after := files.json_text(rename_in_label_sources(kept, old, new))) != files.json_text(kept):
         yield layout.label_sources, after
@@ -81,8 +82,9 @@ def _rewrite_files(store: Store, old: str, new: str) -> Iterator[tuple[Path, str
 
 
 def _rename_in_steps(
-    path: Path, kept: files.DemonstrationFile | files.ManualEditsFile | None, old: str, new: str
+    path: Path, kind: type[files.DemonstrationFile | files.ManualEditsFile], old: str, new: str
 ) -> Iterator[tuple[Path, str]]:
+    kept = files.read_json(path, kind)
     steps = kept.steps if kept else ()
     lines = tuple(line.model_copy(update={"action": _rename_in_action(line.action, path, old, new)}) for line in steps)
     if kept and lines != steps:
