@@ -15,6 +15,7 @@ from tests.gltf_validation import errors
 from tests.loop.command import meshforge_here as meshforge
 from tests.loop.labels import write_labels
 from tests.loop.readme import parse_commands
+from tests.urdf_engines import mujoco_model
 
 Parts = dict[str, tuple[int, ...]]
 SLATS: Parts = {"leg": (1, 2, 3, 4), "back": (5, 6, 7, 8)}
@@ -97,6 +98,18 @@ def test_the_edited_file_is_valid_and_the_chair_looks_as_it_did(chairs: Path, na
     np.testing.assert_array_equal(now.visual.uv, whole.visual.uv)
     np.testing.assert_array_equal(now.vertices, whole.vertices)
     np.testing.assert_array_equal(now.faces, whole.faces)
+
+
+@pytest.mark.parametrize("name", ["furniture/chair_A.gltf", "restaurant/chair_B.glb"])
+def test_mujoco_loads_the_edited_chair_as_an_mjcf_made_of_it(chairs: Path, name: str, tmp_path: Path) -> None:
+    _, out = both(chairs, name)
+    meshforge("convert", out, tmp_path / "chair.xml", cwd=tmp_path)  # MuJoCo reads no glTF itself
+    model = mujoco_model(tmp_path / "chair.xml")
+    assert model.ngeom - 1 == len(load(out).hulls) == 6  # and the chair, to be seen
+    assert sorted(model.geom_contype.tolist()) == [0] + [1] * 6
+    meshforge("convert", out, tmp_path / "chair.obj", cwd=tmp_path)
+    volume = sum(hull.volume for hull in load(out).hulls)
+    assert trimesh.load_scene(tmp_path / "chair.obj").volume == pytest.approx(volume, rel=1e-5)
 
 
 def test_bytes_that_the_edit_does_not_touch_are_as_they_were(chairs: Path) -> None:

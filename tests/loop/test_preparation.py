@@ -21,6 +21,7 @@ from meshforge.synthesis import Step
 from tests.corpus_path import corpus
 from tests.loop.command import meshforge_here as meshforge
 from tests.loop.readme import commands
+from tests.urdf_engines import bullet, mujoco_model
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "preparation.md"
 CABINETS = ("sektion_cabinet.urdf", "sektion_cabinet_2.urdf")
@@ -70,6 +71,18 @@ def test_the_edited_cabinet_has_a_box_for_each_knob_and_all_else_as_it_was(folde
         corners = np.array([hull.aabb.min, hull.aabb.max])
         np.testing.assert_allclose(corners, _bounds(piece.surface.vertices), atol=2e-3)
     assert len(after.hulls) == len(before.hulls) + 2
+
+
+@pytest.mark.parametrize("name", CABINETS)
+def test_engines_load_the_edited_cabinets(folder: Path, name: str) -> None:
+    path = folder / "applied/edited/urdf" / name
+    hulls = load(path).hulls
+    assert len(bullet(path)["shapes"]) == 9
+    plain = path.with_name(f"plain_{name}")
+    plain.write_text(path.read_text().replace("package://", ""))  # MuJoCo knows no packages
+    model = mujoco_model(plain)
+    boxes = sum(hull.shape.kind == "box" for hull in hulls)
+    assert sum(int(kind) == 6 for kind in model.geom_type) == boxes
 
 
 def test_the_cut_and_the_undo_of_the_page_leave_nothing_behind(folder: Path) -> None:

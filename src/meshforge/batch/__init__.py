@@ -19,7 +19,7 @@ __getattr__, __all__ = export_lazily(
         "execution": "execute",
         "jobs": (
             "APPLY_DEFAULTS ApplyOptions ApplyTask AssetJob inputs_of load_templates make_jobs "
-            "plan_run read_template template_folders"
+            "describe_jobs read_template template_folders"
         ),
         "lock": "hold_lock",
         "outcome": (

@@ -1,9 +1,7 @@
-"""What a batch is given: one job an asset, one task that is the same for all, and the hull templates of its program;
-and the plan, which says what a run has before it."""
+"""What a batch is given: one job an asset, one task that is the same for all, and the hull templates of its program."""
 
 from __future__ import annotations
 
-import shutil
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -19,7 +17,6 @@ from meshforge.batch.provenance import (
     content_digest,
     program_digest,
     software_version,
-    stamp_path,
     template_digests,
 )
 from meshforge.batch.workers import GIB, MIB
@@ -180,65 +177,13 @@ def _find_template(name: str, folders: Sequence[Path]) -> Path:
     raise ProgramError(f'the template "{name}" is not there', remedy=f"Looked for {looked}.")
 
 
-@dataclass(frozen=True, slots=True)
-class RunPlan:
-    """kinds: how many assets have which suffix, `folder` for folders; size: of the assets' own files [bytes], without
-    those that they refer to; labelled: how many have a labels file; out: the folder of outputs, None where there are
-    none; earlier: how many an earlier run was at; free: on the disk of the output [bytes].
-    """
-
-    kinds: Mapping[str, int]
-    size: int
-    labelled: int
-    earlier: int
-    out: Path | None
-    free: int
-
-    @property
-    def count(self) -> int:
-        """How many assets there are."""
-        return sum(self.kinds.values())
-
-    @property
-    def is_tight(self) -> bool:
-        """Whether the disk may not hold as much again as the assets that no earlier run was at."""
-        return self.free < self.size * (self.count - self.earlier) / max(self.count, 1)
-
-    @property
-    def assets(self) -> str:
-        """How many there are of what, in words."""
-        kinds = ", ".join(f"{number:,} {kind}" for kind, number in self.kinds.items())
-        return f"{pluralize(self.count, 'asset')} ({kinds}; {format_size(self.size)}), {self.labelled:,} with labels"
-
-    def __str__(self) -> str:
-        if self.out is None:
-            return self.assets
-        known = (
-            f", where an earlier run was at {self.earlier:,} of them: what is up to date stays" if self.earlier else ""
-        )
-        lines = [self.assets, f"into {self.out}{known}; {format_size(self.free)} free"]
-        if self.is_tight:
-            lines.append("the disk may be too small for all of it; a run that this stops goes on when there is room")
-        return "\n".join(lines)
-
-
-def plan_run(jobs: Iterable[AssetJob], out: Path | None) -> RunPlan:
-    """Look at the assets from outside, without reading them."""
-    kinds: Counter[str] = Counter()
-    size = labelled = earlier = 0
-    for job in jobs:
-        kinds[job.path.suffix.lower().lstrip(".").upper() or "folder"] += 1
-        size += _size_on_disk(job.path)
-        labelled += job.labels is not None
-        earlier += out is not None and stamp_path(out, job.id).is_file()
-    target = Path.cwd() if out is None else out.absolute()
-    place = next(folder for folder in (target, *target.parents) if folder.exists())
-    return RunPlan(dict(kinds.most_common()), size, labelled, earlier, out, shutil.disk_usage(place).free)
-
-
-def format_size(size: int) -> str:
-    """Return bytes as people say them: `3.2 MiB`."""
-    return f"{size / GIB:,.1f} GiB" if size >= GIB else f"{size / MIB:,.1f} MiB"
+def describe_jobs(jobs: Sequence[AssetJob]) -> str:
+    """Return how many assets there are of what, without reading them: `3 assets (3 OBJ; 0.2 MiB), 2 with labels`."""
+    suffixes = (job.path.suffix.lower().lstrip(".").upper() or "folder" for job in jobs)
+    kinds = ", ".join(f"{number:,} {kind}" for kind, number in Counter(suffixes).most_common())
+    size, labelled = sum(_size_on_disk(job.path) for job in jobs), sum(job.labels is not None for job in jobs)
+    shown = f"{size / GIB:,.1f} GiB" if size >= GIB else f"{size / MIB:,.1f} MiB"
+    return f"{pluralize(len(jobs), 'asset')} ({kinds}; {shown}), {labelled:,} with labels"
 
 
 def _size_on_disk(path: Path) -> int:

@@ -46,7 +46,7 @@ def apply(given: ApplyArguments) -> None:
 
 def _run(given: ApplyArguments, work: ApplyWork, measures: CheckOptions | None) -> int:
     if len(work.jobs) > 1:
-        remark(str(batch.plan_run(work.jobs, work.out)))
+        remark(batch.describe_jobs(work.jobs))
     shown = work.project.reference_measures() if work.project else ()
     summary, started, done = batch.RunSummary(shown=shown), perf_counter(), list[batch.AssetOutcome]()
     run_options = batch.ApplyOptions(

@@ -96,7 +96,7 @@ def check(given: CheckArguments) -> None:
     )
     jobs = batch.make_jobs(batch.expand(given.assets), given.labels)
     if len(jobs) > _FEW:
-        remark(str(batch.plan_run(jobs, given.out)))
+        remark(batch.describe_jobs(jobs))
     # of one asset, starting a process would take longer than the work
     isolated = measures.is_costly or given.engine in batch.ENGINES_TO_ASK  # an engine may crash
     is_bounded = given.execution.timeout is not None or given.execution.memory is not None

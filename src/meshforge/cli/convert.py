@@ -94,7 +94,7 @@ def _convert_many(sources: Sequence[str], out: Path, given: ConvertArguments, su
         urdf_capsules=given.urdf_capsules,
     )
     if len(jobs) > 1:
-        remark(str(batch.plan_run(jobs, out)))
+        remark(batch.describe_jobs(jobs))
     with progress(len(jobs), "converting") as advance:
         execution = replace(given.execution.to_options(), progress=advance)
         for outcome in batch.apply(Program(), jobs, out, options=run_options, execution=execution):

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from meshforge import rendering
-from meshforge.batch import AssetJob, plan_run
+from meshforge.batch import AssetJob, describe_jobs
 from meshforge.common import AssetError, MeshForgeError, quote_path
 from meshforge.store import Store, iterate_asset_index
 from meshforge.symbolic import HUMAN_SOURCES, LABEL_SOURCES, match_labels
@@ -81,7 +81,7 @@ def describe_label_plan(store: Store) -> str:
         for asset, path in found.ids.items()
     ]
     by_people = sum(_has_human_label(store, job.id) for job in jobs if job.labels)
-    return f"{plan_run(jobs, layout.edited).assets}, {by_people:,} of them by a person"
+    return f"{describe_jobs(jobs)}, {by_people:,} of them by a person"
 
 
 def _has_human_label(store: Store, asset: str) -> bool:

@@ -128,7 +128,8 @@ def _write_reordered(store: Store, kept: Mapping[Path, files.DemonstrationFile],
 
     order: the old number of the rule that is first from now on, of the second, and so on.
     """
-    actions = _actions_by_rule(kept)
+    lines = [line for file in [*kept.values()][::-1] for line in file.steps]
+    actions = {line.rule: line.action for line in sorted(lines, key=lambda line: bool(line.select))}
     for path, file in kept.items():
         steps = _reorder(file.steps, order, actions)
         if not steps:
@@ -136,11 +137,6 @@ def _write_reordered(store: Store, kept: Mapping[Path, files.DemonstrationFile],
         elif steps != file.steps:
             files.write_json(path, file.model_copy(update={"steps": steps}))
     store.change_events(lambda events: _renumber(events, order, len(actions)))
-
-
-def _actions_by_rule(kept: Mapping[Path, files.DemonstrationFile]) -> dict[int, str]:
-    lines = [line for file in [*kept.values()][::-1] for line in file.steps]
-    return {line.rule: line.action for line in sorted(lines, key=lambda line: bool(line.select))}
 
 
 def _reorder(

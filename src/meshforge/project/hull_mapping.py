@@ -127,10 +127,9 @@ def confirm_replaced(store: Store, asset: str) -> None:
     if edits and any(line.replaced for line in edits.steps):
         lines = tuple(line.model_copy(update={"replaced": {}}) for line in edits.steps)
         files.write_json(path, edits.model_copy(update={"steps": lines}))
-    store.change_events(lambda events: (_confirm_event(event, asset) for event in events))
 
+    def confirm(event: Event) -> Event:
+        is_open = isinstance(event, AnswerEvent | LabelFixEvent) and event.asset == asset and event.replaced
+        return event.model_copy(update={"replaced": {}}) if is_open else event
 
-def _confirm_event(event: Event, asset: str) -> Event:
-    if isinstance(event, AnswerEvent | LabelFixEvent) and event.asset == asset and event.replaced:
-        return event.model_copy(update={"replaced": {}})
-    return event
+    store.change_events(lambda events: map(confirm, events))

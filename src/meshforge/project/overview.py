@@ -145,7 +145,10 @@ def _asset_status(
 ) -> AssetStatus:
     stamp = output.stamp
     failed = stamp.error if stamp and stamp.status == "failed" else None
-    file, unreadable = _read_labels(store, job)
+    try:
+        file, unreadable = store.labels(job.id), None
+    except MeshForgeError as error:
+        file, unreadable = symbolic.LabelFile(), error.message
     homes = symbolic.match_labels(symbolic.LabelFile() if facts.error else file, facts.hulls)
     is_current = bool(review and (review.output == output_digest(stamp) or review.verdict == "wrong"))
     current_review = review if is_current else None
@@ -158,15 +161,7 @@ def _asset_status(
         output=stamp.status if stamp else "none",
         stale=_find_changes(output, edit),
         error=facts.error or unreadable or failed,
-        flags=tuple(
-            dict.fromkeys(
-                (
-                    *_describe_unknown_hulls(store, job.id, facts),
-                    *_describe_replaced(store, job.id, facts),
-                    *(stamp.flags if stamp else ()),
-                )
-            )
-        ),
+        flags=tuple(dict.fromkeys([*_find_flags(store, job.id, facts), *(stamp.flags if stamp else ())])),
         review=current_review.verdict if current_review else None,
         prepared=facts.prepared,
         sources=facts.sources,
@@ -181,38 +176,23 @@ def _asset_status(
     )
 
 
-def _describe_unknown_hulls(store: Store, asset: str, facts: AssetFacts) -> Iterator[str]:
+def _find_flags(store: Store, asset: str, facts: AssetFacts) -> Iterator[str]:
+    """What a person has to look at: demonstrated hulls that are gone, parts that stand for split hulls, and a
+    preparation that was cut short."""
+    if facts.error:
+        return
     try:
-        steps = () if facts.error else store.steps(asset)
+        for rule, name in find_unknown_hulls(store.steps(asset), facts.hulls):
+            parts = facts.replaced.get(name)
+            fate = f"was split into {', '.join(parts)}" if parts else "is gone"
+            yield f"{name}, which is demonstrated for rule {rule}, {fate}: demonstrate it anew"
+        yield from describe_replaced(store, asset)
     except MeshForgeError as error:
         yield error.message
-        return
-    for rule, name in find_unknown_hulls(steps, facts.hulls):
-        parts = facts.replaced.get(name)
-        fate = f"was split into {', '.join(parts)}" if parts else "is gone"
-        yield f"{name}, which is demonstrated for rule {rule}, {fate}: demonstrate it anew"
-
-
-def _describe_replaced(store: Store, asset: str, facts: AssetFacts) -> tuple[str, ...]:
-    """What names parts of split hulls in their place, so that a person has to look at it."""
-    try:
-        return () if facts.error else (*describe_replaced(store, asset), *_describe_interrupted(store, asset))
-    except MeshForgeError as error:
-        return (error.message,)
-
-
-def _describe_interrupted(store: Store, asset: str) -> Iterator[str]:
     own = relative_name(store.layout.preparation(asset), store.folder)
     if any(name == own or name.startswith(f"{own}/") for name in History(store.folder).interrupted):
         command = f"meshforge prepare {store.folder} {asset} --undo"
         yield f"its preparation was cut short, and selections may name hulls that are not there. Finish with: {command}"
-
-
-def _read_labels(store: Store, job: batch.AssetJob) -> tuple[symbolic.LabelFile, str | None]:
-    try:
-        return store.labels(job.id), None
-    except MeshForgeError as error:
-        return symbolic.LabelFile(), error.message
 
 
 def _find_changes(output: AssetOutput, edit: batch.OutputInputs | None) -> tuple[str, ...]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -91,6 +91,21 @@ def exchange_preparation(
         notes = list(follow.notes if follow else ())
         notes += [f"look at it: {one}" for one in describe_replaced(store, asset)] if others else []
         return [*notes, *change.describe_gone()]
+
+
+def keep_preparation(
+    store: Store,
+    asset: str,
+    after: batch.Preparation,
+    seen: str | None,
+    made: tuple[batch.Replacement, ...],
+    labels: Mapping[str, Label] | None = None,
+) -> PreparationResult:
+    """Return what became of an asset by `exchange_preparation`, with what was made now, or why that is not possible."""
+    try:
+        return PreparationResult(asset, made, tuple(exchange_preparation(store, asset, after, seen, labels)))
+    except MeshForgeError as error:
+        return PreparationResult(asset, problems=(error.message,))
 
 
 def check_selections(store: Store, asset: str) -> None:
@@ -256,12 +271,10 @@ def count_pieces(folder: Path) -> tuple[int, int]:
 
 
 def _write_result(store: Store, asset: str, result: batch.DecompositionResult, seen: str | None) -> PreparationResult:
-    problems = [f"{lost.what}: {lost.why}" for lost in result.failed]
+    problems = tuple(f"{lost.what}: {lost.why}" for lost in result.failed)
     notes = [f"given up, since {lost.what} {lost.why}" for lost in result.dropped]
     notes += [result.missed] if result.missed else []
-    try:
-        if result.made or result.dropped:
-            notes += exchange_preparation(store, asset, result.preparation, seen)
-    except MeshForgeError as error:
-        return PreparationResult(asset, problems=(*problems, error.message))
-    return PreparationResult(asset, result.made, tuple(notes), tuple(problems))
+    kept = PreparationResult(asset)
+    if result.made or result.dropped:
+        kept = keep_preparation(store, asset, result.preparation, seen, result.made)
+    return replace(kept, notes=() if kept.problems else (*notes, *kept.notes), problems=(*problems, *kept.problems))

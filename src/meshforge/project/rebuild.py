@@ -3,21 +3,19 @@ labelled assets of the project alone, so that what is found of one does not depe
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import asdict, dataclass, replace
 from functools import partial
-from itertools import starmap
 
 from meshforge import batch
 from meshforge.batch.preparation.decompose import matches_only
-from meshforge.common import MeshForgeError, ProjectError, UsageError, describe_error, join_names
+from meshforge.common import ProjectError, UsageError, describe_error, join_names
 from meshforge.formats import read
-from meshforge.label_model import RebuiltHull
 from meshforge.labels import HullSpan, ReferenceFamily, SpanReport, read_reference_family
 from meshforge.labels.labeler import Stage, ignore_stage
 from meshforge.project.preparation_plan import REBUILD_DEFAULTS, RebuildSettings, keep_rebuilt
-from meshforge.project.prepare import PreparationResult, exchange_preparation
+from meshforge.project.prepare import PreparationResult, keep_preparation
 from meshforge.store import Store
 from meshforge.store.meshes import AssetFiles
 from meshforge.symbolic import Asset, Label, SymbolicMesh
@@ -60,7 +58,7 @@ def rebuild_spanning(
         remedy = "Label the hulls of one or two assets first: meshforge label, or the studio."
         problem = "no hull has a label, so nothing says what parts there are"
         raise ProjectError(problem, where=str(store.folder), remedy=remedy)
-    work = list(starmap(_Work, zip(ids, store.asset_files(ids), strict=True)))
+    work = list(zip(ids, store.asset_files(ids), strict=True))
     with stage(len(work), "looking for hulls that span parts") as advance:
         found = batch.execute(partial(_search, family, how), work, replace(execution, progress=advance))
         for asset, one in zip(ids, found, strict=True):
@@ -71,30 +69,13 @@ def rebuild_spanning(
                 planned = one.rebuild.after.steps[-1].replaced if one.rebuild.bodies else ()
                 yield PreparationResult(asset, notes=one.notes, planned=planned)
             else:
-                yield _write(store, asset, one, write_block)
+                after, words = one.rebuild.after, store.vocabulary
+                labels = {name: label for name, label in one.rebuild.labels.items() if label.name in words}
+                with write_block(asset):
+                    kept = keep_preparation(store, asset, after, one.seen, after.steps[-1].replaced, labels)
+                yield replace(kept, notes=(*kept.notes, *(() if kept.problems else one.notes)))
     if not dry_run:
         keep_rebuilt(store, ids, how)
-
-
-def _write(
-    store: Store, asset: str, found: _SearchResult, write_block: Callable[[str], AbstractContextManager[object]]
-) -> PreparationResult:
-    after = found.rebuild.after
-    labels = {name: label for name, label in found.rebuild.labels.items() if label.name in store.vocabulary}
-    try:
-        with write_block(asset):
-            notes = exchange_preparation(store, asset, after, found.seen, labels)
-    except MeshForgeError as error:
-        return PreparationResult(asset, problems=(error.message,))
-    return PreparationResult(asset, after.steps[-1].replaced, (*notes, *found.notes))
-
-
-@dataclass(frozen=True, slots=True)
-class _Work:
-    """An asset to be looked at."""
-
-    asset: str
-    files: AssetFiles
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -106,17 +87,18 @@ class _SearchResult:
     seen: str | None
 
 
-def _search(family: ReferenceFamily, how: RebuildSettings, work: _Work) -> _SearchResult | str:
+def _search(family: ReferenceFamily, how: RebuildSettings, work: tuple[str, AssetFiles]) -> _SearchResult | str:
+    asset, files = work
     try:
-        folder = work.files.preparation
-        seen, before = batch.record_digest(folder), batch.read_preparation(folder) or batch.Preparation()
-        source, mesh = read(work.files.path), work.files.read_mesh()
-        found = plan_rebuild(family.without(work.asset), source, before, mesh, how)
+        seen = batch.record_digest(files.preparation)
+        before = batch.read_preparation(files.preparation) or batch.Preparation()
+        source, mesh = read(files.path), files.read_mesh()
+        found = plan_rebuild(family.without(asset), source, before, mesh, how)
         matches = any(_matches(hull.name, hull.body, how) for hull in mesh.hulls)
         missed = [] if matches else [f"no hull or body matches {join_names(how.only)}"]
         return _SearchResult(found, (*found.notes, *missed, *found.describe_left(how.min_confidence)), seen)
     except Exception as error:  # one asset never stops the others
-        return describe_error(error, str(work.files.path))
+        return describe_error(error, str(files.path))
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -184,7 +166,10 @@ def plan_rebuild(
     settings = {**asdict(how), "only": list(how.only), "rebuilt": list(made), "chances": chances}
     after = batch.replace_hulls(source, before, tuple(parts), settings)
     labels = {
-        entry.what: dict(zip(entry.made, map(_label_hull, rows[entry.what]), strict=True))
+        entry.what: {
+            name: Label(one.label, round(one.share, _DIGITS), "rebuild")
+            for name, one in zip(entry.made, rows[entry.what], strict=True)
+        }
         for entry in after.steps[-1].replaced
     }
     rebuilt = (
@@ -211,18 +196,14 @@ def _matches(hull: str, body: str, how: RebuildSettings) -> bool:
     return any(matches_only(name, how.only) for name in (hull, body))
 
 
-def _label_hull(hull: RebuiltHull) -> Label:
-    return Label(hull.label, round(hull.share, _DIGITS), "rebuild")
-
-
 def describe_labels(labels: Iterable[Label]) -> str:
     """Return how many hulls have which label, and how sure these are: `10 wall (75% to 92%), handle (93%)`."""
     confidences = dict[str, list[float]]()
     for label in labels:
         confidences.setdefault(label.name, []).append(min(label.confidence, MOST_SHOWN))
-    return ", ".join(_describe_label(name, own) for name, own in confidences.items())
-
-
-def _describe_label(name: str, confidences: Sequence[float]) -> str:
-    ends = dict.fromkeys(f"{one:.0%}" for one in (min(confidences), max(confidences)))
-    return f"{f'{len(confidences)} ' if len(confidences) > 1 else ''}{name} ({' to '.join(ends)})"
+    rows = (
+        (name, own, dict.fromkeys(f"{one:.0%}" for one in (min(own), max(own)))) for name, own in confidences.items()
+    )
+    return ", ".join(
+        f"{f'{len(own)} ' if len(own) > 1 else ''}{name} ({' to '.join(ends)})" for name, own, ends in rows
+    )

@@ -65,11 +65,13 @@ def _rewrite_files(store: Store, old: str, new: str) -> Iterator[tuple[Path, str
     for path in map(layout.labels, layout.labels.ids):
         file = read_labels(path)
         if old in (*file.vocabulary, *(name for label in file.labels.values() for name in label.names)):
-            yield path, format_labels(_rename_in_labels(file, old, new))
+            labels = {key: label.rename(old, new) for key, label in file.labels.items()}
+            words = tuple(new if word == old else word for word in file.vocabulary)
+            yield path, format_labels(LabelFile(words, labels, file.digests))
     for path in map(layout.demonstration, layout.demonstration.ids):
-        yield from _rename_in_steps(path, files.read_json(path, files.DemonstrationFile), old, new)
+        yield from _rename_in_steps(path, files.DemonstrationFile, old, new)
     for path in map(layout.manual_edits, layout.manual_edits.ids):
-        yield from _rename_in_steps(path, files.read_json(path, files.ManualEditsFile), old, new)
+        yield from _rename_in_steps(path, files.ManualEditsFile, old, new)
     kept = files.read_json(layout.label_sources, LabelSourcesFile) or LabelSourcesFile()
     if (after := files.json_text(rename_in_label_sources(kept, old, new))) != files.json_text(kept):
         yield layout.label_sources, after
@@ -79,14 +81,10 @@ def _rewrite_files(store: Store, old: str, new: str) -> Iterator[tuple[Path, str
         yield layout.events, files.format_lines(now)
 
 
-def _rename_in_labels(file: LabelFile, old: str, new: str) -> LabelFile:
-    labels = {key: label.rename(old, new) for key, label in file.labels.items()}
-    return LabelFile(tuple(new if word == old else word for word in file.vocabulary), labels, file.digests)
-
-
 def _rename_in_steps(
-    path: Path, kept: files.DemonstrationFile | files.ManualEditsFile | None, old: str, new: str
+    path: Path, kind: type[files.DemonstrationFile | files.ManualEditsFile], old: str, new: str
 ) -> Iterator[tuple[Path, str]]:
+    kept = files.read_json(path, kind)
     steps = kept.steps if kept else ()
     lines = tuple(line.model_copy(update={"action": _rename_in_action(line.action, path, old, new)}) for line in steps)
     if kept and lines != steps:
@@ -111,13 +109,10 @@ def _rename_in_event(event: files.Event, where: Path, old: str, new: str) -> fil
             )
             return event.model_copy(update=dict(zip(("seen", "meant"), pairs, strict=True)))
         case files.WithdrawalEvent():
-            return event.model_copy(update={"id": _rename_in_id(event.id, old, new)})
+            is_fix = "#" in event.id and event.id.endswith(f"={old}")
+            return event.model_copy(update={"id": f"{event.id.removesuffix(old)}{new}"}) if is_fix else event
         case _:
             return event
-
-
-def _rename_in_id(name: str, old: str, new: str) -> str:
-    return f"{name.removesuffix(f'={old}')}={new}" if "#" in name and name.endswith(f"={old}") else name
 
 
 def _rename_in_tables(store: Store, text: str, settings: files.Settings, old: str, new: str) -> str:

@@ -118,7 +118,10 @@ def _judge(store: Store, question: signoff.ResultQuestion, choice: ReviewChoice 
         reason = EXCLUDE[choice.id]
         store.add_events(ExclusionEvent(asset=asset, reason=reason, **origin._asdict()))
     elif choice.id == RIGHT:
-        _make_output(store, asset)
+        program, jobs, templates = run.build_work(store, {asset})
+        for outcome in batch.apply(program, jobs, store.layout.edited, templates=templates, execution=IN_PROCESS):
+            if isinstance(outcome, Failed):
+                raise ProjectError(f"{asset} cannot be edited: {outcome.error}", where=str(store.folder))
         run.review_assets(store, asset, "accepted", origin=origin)
     else:
         run.review_assets(store, asset, "wrong", selections=reply.selections, labels=reply.labels, origin=origin)
@@ -126,13 +129,6 @@ def _judge(store: Store, question: signoff.ResultQuestion, choice: ReviewChoice 
             _agree_again(store)
         if not (reply.selections or reply.labels) and question.choice(RIGHT) is None:
             _snooze(store, origin)  # it was called wrong before, and nothing more was said
-
-
-def _make_output(store: Store, asset: str) -> None:
-    program, jobs, templates = run.build_work(store, {asset})
-    for outcome in batch.apply(program, jobs, store.layout.edited, templates=templates, execution=IN_PROCESS):
-        if isinstance(outcome, Failed):
-            raise ProjectError(f"{asset} cannot be edited: {outcome.error}", where=str(store.folder))
 
 
 def _label(

@@ -41,7 +41,9 @@ def unprepare(store: Store, asset: str, *, everything: bool = False) -> Preparat
         before = read_or_empty(folder) if everything else batch.read_preparation(folder) or batch.Preparation()
         snapshot = _find_snapshot(store, asset, history, before, everything)
         if snapshot.conflicts and not everything:
-            raise _conflict_error(store, asset, snapshot.conflicts)
+            again = f"meshforge prepare {quote_path(store.folder)} {asset} --remove"
+            remedy = f"Undo that first. Or undo all that was done to it, which leaves such files as they are: {again}"
+            raise ConflictError("; ".join(map(str, snapshot.conflicts)), where=asset, remedy=remedy)
         notes = _restore(store, asset, history, snapshot)
     undone = tuple(map(str, before.steps[len(snapshot.preparation.steps) :]))
     return PreparationResult(asset, undone=undone or ("what was kept, which was damaged",), notes=notes)
@@ -76,7 +78,7 @@ def _list_entries(store: Store, asset: str, history: History, everything: bool) 
     """The entries that led to the preparation as it is, the last one first: one, or all of them; none where the history
     does not have them."""
     path, found = store.layout.preparation(asset) / batch.RECORD_FILE, list[HistoryEntry]()
-    name, digest = relative_name(path, store.folder), _digest_or_none(path)
+    name, digest = relative_name(path, store.folder), file_digest(path) if path.is_file() else None
     for entry in reversed(history.entries):
         if digest and entry.edit.get("kind") != "unprepare" and entry.after.get(name) == digest:
             found.append(entry)
@@ -84,10 +86,6 @@ def _list_entries(store: Store, asset: str, history: History, everything: bool) 
             if not everything:
                 return found
     return [] if digest else found
-
-
-def _digest_or_none(path: Path) -> str | None:
-    return file_digest(path) if path.is_file() else None
 
 
 def _read_snapshot(
@@ -127,14 +125,6 @@ def _read_preparation(folder: Path, files: Mapping[Path, bytes | None]) -> batch
             if path.parent == folder and content is not None:
                 (Path(draft) / path.name).write_bytes(content)
         return batch.read_preparation(Path(draft)) or batch.Preparation()
-
-
-def _conflict_error(store: Store, asset: str, conflicts: Sequence[FileConflict]) -> ConflictError:
-    remedy = (
-        "Undo that first. Or undo all that was done to it, which leaves such files as they are: "
-        f"meshforge prepare {quote_path(store.folder)} {asset} --remove"
-    )
-    return ConflictError("; ".join(map(str, conflicts)), where=asset, remedy=remedy)
 
 
 def _restore(store: Store, asset: str, history: History, snapshot: _Snapshot) -> tuple[str, ...]:

@@ -21,10 +21,9 @@ from meshforge.batch import (
 )
 from meshforge.batch.execution import run_on_cluster
 from meshforge.checks import CheckOptions
-from meshforge.common import MeshForgeError, StoppedError
 from meshforge.language import Program
 from meshforge.project import Project
-from tests.unit.batch.cluster_work import has_ray, slow_square, square_or_worse
+from tests.unit.batch.cluster_work import square_or_worse
 from tests.unit.batch.families import PROGRAM, label_of, table_boxes, tree, write_tables
 
 ray = pytest.importorskip("ray")
@@ -94,24 +93,3 @@ def test_checks_and_labels_are_the_same_there(cluster: Any, tmp_path: Path) -> N
         labels.append((named, told, tree(made.folder / "labels")))
     assert found[0] == found[1] and [row["asset"] for row in found[0] if row["error"]] == [str(work[3].path)]
     assert labels[0] == labels[1] and len(labels[0][2]) == 5
-
-
-def test_workers_need_not_load_ray(cluster: Any) -> None:
-    assert list(run_on_cluster(has_ray, range(4))) == [False] * 4
-
-
-def test_it_can_be_stopped(cluster: Any) -> None:
-    with pytest.raises(StoppedError):
-        list(run_on_cluster(slow_square, range(1000), ExecutionOptions(timeout=None, stop=lambda: True)))
-
-
-def test_a_cluster_that_does_not_answer_is_one_message(monkeypatch: pytest.MonkeyPatch, cluster: Any) -> None:
-    def refuses(**_: Any) -> None:
-        raise ConnectionError("nobody there")
-
-    monkeypatch.setattr(ray, "is_initialized", lambda: False)
-    monkeypatch.setattr(ray, "init", refuses)
-    with pytest.raises(
-        MeshForgeError, match="no Ray cluster answers: nobody there\n  Start one with `ray start --head`"
-    ):
-        list(run_on_cluster(slow_square, range(2)))

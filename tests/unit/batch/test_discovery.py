@@ -8,7 +8,7 @@ import pytest
 from meshforge.batch import expand, make_jobs
 from meshforge.common import UsageError, expand_glob
 from meshforge.formats import load_many
-from tests.unit.batch.families import obj, write_table, write_tables, write_urdf_table
+from tests.unit.batch.families import obj, write_table, write_tables
 
 
 def ids(*patterns: str | Path, root: Path | None = None) -> list[str]:
@@ -41,14 +41,6 @@ def test_parts_of_models_and_other_xml_are_no_assets_unless_named(tmp_path: Path
     one_box(tmp_path / "mesh.obj")
     assert ids(tmp_path) == ids(tmp_path / "*.xml") == ["model.xml", "odd.xml"]
     assert ids(tmp_path / "part.xml") == ["part.xml"]
-
-
-def test_scenes_are_assets_beside_mesh_files_and_parts_of_descriptions(tmp_path: Path) -> None:
-    (tmp_path / "a.glb").write_bytes(b"glTF")
-    one_box(tmp_path / "b.obj")
-    assert ids(tmp_path) == ["a.glb", "b.obj"]
-    write_urdf_table(tmp_path / "robots" / "urdf", mesh="../meshes/crumb.obj")
-    assert ids(tmp_path) == ["robots/urdf/table.urdf"]
 
 
 def test_mesh_files_of_one_hull_each_are_the_pieces_of_one_asset(tmp_path: Path) -> None:
@@ -134,10 +126,3 @@ def test_a_glob_matches_what_python_matches(pattern: str, tmp_path: Path) -> Non
     theirs = {Path(name) for name in glob(pattern, root_dir=tmp_path, recursive=True)}  # noqa: PTH207
     assert {path for path in ours if (tmp_path / path).is_file()} == {p for p in theirs if (tmp_path / p).is_file()}
     assert ours <= theirs
-
-
-def test_the_nearest_name_of_a_mistyped_file_is_proposed(tmp_path: Path) -> None:
-    (tmp_path / "ketchup.obj").write_text("")
-    with pytest.raises(UsageError, match="there is no such file") as raised:
-        expand([tmp_path / "ketchap.obj"])
-    assert raised.value.remedy == "Did you mean 'ketchup.obj'?"

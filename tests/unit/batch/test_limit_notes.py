@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshforge.batch import IN_PROCESS, ApplyOptions, AssetJob, Failed, apply, load_templates
+from meshforge.batch import IN_PROCESS, AssetJob, Failed, apply, load_templates
 from meshforge.checks import check
 from meshforge.engines import ENGINES
 from meshforge.formats import list_formats, load, save
@@ -67,18 +67,6 @@ def test_each_hull_that_an_engine_of_the_format_refuses_or_lacks_is_in_a_note(
                 about = [note for note in notes if all(name in note for name in finding.hulls)]
                 assert about, (finding, outcome.notes)
                 assert finding.remedy.split(" that ")[0] in about[0]
-
-
-def test_what_nobody_made_is_not_noted_again_in_its_own_format(tmp_path: Path) -> None:
-    first = save(ball(300), tmp_path / "in/ball.usda")
-    assert any("PhysX on the GPU" in note for note in first.notes)
-    job = AssetJob("ball.usda", first.path, first.path.parent)
-    (same,) = apply(Program(), [job], tmp_path / "out", execution=IN_PROCESS)
-    assert not isinstance(same, Failed) and not any("PhysX" in note for note in same.notes)
-    assert not any("Bullet" in note for note in save(ball(300), tmp_path / "in/ball.sdf").notes)
-    job = AssetJob("ball.sdf", tmp_path / "in/ball.sdf", first.path.parent)
-    (other,) = apply(Program(), [job], tmp_path / "to", options=ApplyOptions(to=".usda"), execution=IN_PROCESS)
-    assert not isinstance(other, Failed) and any("PhysX on the GPU" in note for note in other.notes)
 
 
 def test_a_conversion_notes_what_the_engine_of_its_format_refuses(

@@ -9,14 +9,13 @@ import numpy as np
 import pytest
 
 from meshforge.batch import (
-    IN_PROCESS,
     ExecutionOptions,
     Failed,
     RunSummary,
     apply,
+    describe_jobs,
     expand,
     make_jobs,
-    plan_run,
     run_isolated,
     status_of,
 )
@@ -61,18 +60,10 @@ def test_an_asset_without_room_fails_alone(tmp_path: Path) -> None:
     assert "big.obj: there is not enough memory for it\n  More for one asset: --memory" in outcomes[0].error
 
 
-def test_a_plan_tells_what_is_there_and_what_was_done(tmp_path: Path) -> None:
+def test_jobs_are_described_by_kind_size_and_labels(tmp_path: Path) -> None:
     write_tables(tmp_path / "assets", 3)
     (tmp_path / "assets/table0/model.labels.json").unlink()
-    work, out = make_jobs(expand([tmp_path / "assets"])), tmp_path / "out"
-    before = plan_run(work, out)
-    assert (before.count, before.kinds, before.labelled, before.earlier) == (3, {"OBJ": 3}, 2, 0)
-    assert before.size == sum(path.stat().st_size for path in (tmp_path / "assets").rglob("*.obj"))
-    assert str(before).startswith("3 assets (3 OBJ; 0.0 MiB), 2 with labels\n")
-    list(apply(Program.parse(PROGRAM), work[:2], out, execution=IN_PROCESS))
-    after = plan_run(work, out)
-    assert after.earlier == 2
-    assert "an earlier run was at 2 of them" in str(after)
+    assert describe_jobs(make_jobs(expand([tmp_path / "assets"]))) == "3 assets (3 OBJ; 0.0 MiB), 2 with labels"
 
 
 def test_a_summary_counts_all_and_keeps_few() -> None:

@@ -72,25 +72,3 @@ def test_of_another_format_is_said_what_its_own_file_is(run: Run, words: tuple[s
     said = told.out + told.err
     assert told.code == 0 and "Gazebo" not in said
     assert said.count("71%") == 1, "what MuJoCo makes of it is said once"
-
-
-def test_what_became_true_by_the_conversion_is_said(run: Run) -> None:
-    write_model(Path("in"), "corner")
-    told = run("convert", "in/m.sdf", "out.sdf.glb", "--names", "unreal", "--concave", "hull")
-    assert told.code == 0 and "Gazebo" not in told.err
-    assert "its collision is the nodes that Unreal takes by their names" in told.err
-    back = run("convert", "out.sdf.glb", "back.xml")
-    assert back.code == 0 and "Unreal" not in back.err, "of the input alone"
-
-
-def flat_model(folder: Path) -> Path:
-    path = write_model(folder, "corner")
-    (folder / "corner.obj").write_text("v 0 0 0\nv 2 0 0\nv 2 2 0\nv 1 0.2 0\nf 1 2 4\nf 2 3 4\n")
-    return path
-
-
-def test_a_dry_run_finds_what_would_collide_no_more(run: Run) -> None:
-    flat_model(Path("in"))
-    dry = run("convert", "in/m.sdf", "out", "--to", "xml", "--dry-run")
-    assert dry.code == 1 and "would collide no more" in dry.out and not Path("out").exists()
-    assert run("convert", "in/m.sdf", "out", "--to", "xml").out == dry.out.replace(" (nothing was written)", "")

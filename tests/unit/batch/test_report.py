@@ -107,18 +107,6 @@ def test_names_are_shown_and_never_run(page: str, tree: Any) -> None:
     assert texts(tree, "//h1") == ["Tables & <co>"]
 
 
-def test_headline_counts_assets_hulls_and_seconds(tree: Any) -> None:
-    figures = dict(zip(texts(tree, "//dl//dt"), texts(tree, "//dl//dd"), strict=True))
-    assert figures == {
-        "assets": "4",
-        "edited": "1",
-        "unchanged": "1",
-        "failed": "2",
-        "hulls": "7 → 6 −14 %",
-        "run time": "3.2 s",
-    }
-
-
 @pytest.mark.slow
 def test_of_a_large_run_the_headline_tells_all_and_how_many_are_shown(tmp_path: Path) -> None:
     summary = RunSummary()
@@ -162,15 +150,6 @@ def test_of_a_project_what_is_held_or_failed_comes_first_then_alarms_the_least_s
     assert texts(page, "//article/p[@class='result-status needs-review']") == ["needs review <now>"] * 3
     assert texts(page, "//ul[@class='reasons']/li") == ["rule 1 may mean <b>"] * 7
     assert page.xpath("//div[@class='bar']/i/@class") == ["needs-review", "sure", "signed-off", "excluded"]
-
-
-def test_without_a_program_and_pairs_there_is_no_panel_and_no_slider(tmp_path: Path) -> None:
-    mesh = table()
-    write_report(tmp_path / "r.html", ReportHeader("Checks"), [ReportAsset("a", mesh, mesh, (), "clean")])
-    page = opened(tmp_path / "r.html")
-    assert page.xpath("//*[@id='program' or @id='every' or @id='modes']") == []
-    assert texts(page, "//h2") == ["Assets"] and page.xpath("//article//img/@class") == ["only"]
-    assert texts(page, "//span[@id='kinds']/button") == ["all", "clean"]
 
 
 @pytest.mark.slow

@@ -1,11 +1,8 @@
 from __future__ import annotations
 
-import gc
 import os
-import subprocess
 import sys
 import time
-import weakref
 from collections.abc import Iterator, Sequence
 from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
@@ -15,7 +12,6 @@ import pytest
 
 from meshforge.batch import ExecutionOptions, WorkerFailure, hold_lock, run_isolated, workers
 from meshforge.common import MeshForgeError, processes
-from meshforge.common.processes import worker_context
 
 
 @pytest.fixture(params=["server", "fork"], autouse=True)
@@ -125,26 +121,3 @@ def test_a_lock_is_not_held_by_the_workers_of_who_holds_it(tmp_path: Path) -> No
         assert next(results) == 0
     with hold_lock(tmp_path / "lock", "this", wait=0):
         results.close()
-
-
-@pytest.mark.slow
-def test_a_script_without_a_main_guard_is_told_what_to_do(tmp_path: Path) -> None:
-    script = tmp_path / "script.py"
-    call = "print(list(run_isolated(abs, [1, -2], ExecutionOptions(1))))"
-    thread = "Thread(target=sleep, args=[60], daemon=True).start()"  # beside which nothing is forked
-    imports = "from threading import Thread\nfrom time import sleep\n"
-    imports += "from meshforge.batch import ExecutionOptions, run_isolated"
-    script.write_text(f"{imports}\n{thread}\n{call}\n")
-    done = subprocess.run([sys.executable, str(script)], capture_output=True, text=True, timeout=60)
-    assert done.returncode == 1 and "if __name__ == '__main__'" in done.stderr
-
-
-@pytest.mark.slow
-def test_the_locks_of_a_pool_stay_for_workers_that_are_just_starting_until_the_pool_goes() -> None:
-    context = worker_context()
-    lock = weakref.ref(context.RLock())
-    gc.collect()
-    assert lock() is not None
-    del context
-    gc.collect()
-    assert lock() is None

@@ -16,7 +16,6 @@ from benchmark.assets import samples
 from benchmark.baselines.blender.apart import find_python
 from benchmark.baselines.blender.process import Blender, Limits
 from benchmark.baselines.blender.scene import mesh_of, scene_of
-from benchmark.baselines.blender.shapes import Illegal
 from meshforge.common import UsageError
 from meshforge.geometry import digest
 from meshforge.symbolic import SymbolicMesh
@@ -71,27 +70,6 @@ bpy.ops.object.light_add()
     assert back.hull_of("box").volume == pytest.approx(0.008, rel=1e-5)
     assert back.hull_of("box").shape.kind == "polytope"
     assert all(back.hull_of(name) is MESH.hull_of(name) for name in rest)
-
-
-@needs_blender
-@pytest.mark.parametrize(
-    ("script", "why"),
-    [
-        ("bpy.ops.mesh.primitive_torus_add()", "Torus: not convex"),
-        ("bpy.ops.mesh.primitive_monkey_add()", "Suzanne: not closed"),
-        ("bpy.ops.mesh.primitive_plane_add()", "Plane: no thickness"),
-        ("bpy.data.objects[0].scale.x = 0", "hull_00: no thickness"),
-        ("bpy.data.objects[0].data.clear_geometry()", "hull_00: no faces"),
-        ("bpy.data.objects[0].location.x = float('nan')", "hull_00: no faces, or coordinates that are not finite"),
-        ("bpy.data.objects[0]['primitive'] = 'box'", "hull_00: its mesh is not the box"),
-        ("bpy.data.objects[0]['primitive'] = 'cone'", "there is no primitive 'cone'"),
-        ("for k in range(1001): bpy.context.scene.collection.objects.link(bpy.data.objects[0].copy())", "1000 at most"),
-    ],
-)
-def test_what_is_no_legal_hull_is_refused(blender: Blender, script: str, why: str) -> None:
-    answer = blender.run(script, SCENE)
-    with pytest.raises(Illegal, match=why.replace("(", r"\(")):
-        mesh_of(answer["objects"], MESH)
 
 
 @needs_blender

@@ -127,25 +127,3 @@ def test_what_is_not_finished_is_said_to_be_and_goes_on_where_it_was(tmp_path: P
         found = run(tmp_path / "out", "--vlm", settings)
         assert functional(found)["VLM Agent"][0] > "0.8"
         assert all(asked_about(asked).name != "cup-easy" for asked in server.answered[before:])
-
-
-@pytest.mark.parametrize(
-    ("text", "complaint"),
-    [
-        ("", "there is no table [vlm]"),
-        ("[vlm", "this is no TOML"),
-        ('[vlm]\nmodel = "x"\nmodle = "y"', "modle"),
-        ('[vlm]\nmodel = ""', "no model is named"),
-        ('[vlm]\nmodel = "x"\nkey_env = "MESHFORGE_NO_SUCH_API_KEY"', "MESHFORGE_NO_SUCH_API_KEY"),
-        (None, "No such file"),
-    ],
-)
-def test_settings_that_cannot_be_are_one_message(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], text: str | None, complaint: str
-) -> None:
-    path = tmp_path / "vlm.toml"
-    if text is not None:
-        path.write_text(text, "utf-8")
-    assert bench.main(["comparison", "--quick", "--out", str(tmp_path / "out"), "--vlm", str(path)]) == 1
-    assert complaint in capsys.readouterr().err
-    assert not (tmp_path / "out").exists()

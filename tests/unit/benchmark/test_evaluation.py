@@ -9,12 +9,10 @@ from typing import Any
 import pytest
 
 from benchmark import __main__ as bench
-from benchmark import journal, progress
+from benchmark import journal
 from benchmark.evaluation import contest, effectiveness
 from benchmark.evaluation.figures import share_solved_at
 from benchmark.journal import run_units
-from benchmark.pages import Page
-from benchmark.report import Result
 from benchmark.study import FLAT, TRUE, Round, Session
 from benchmark.study.condition import KIND, PROPAGATED
 
@@ -93,28 +91,6 @@ def test_units_come_in_order_and_are_worked_out_once(journals: Path) -> None:
     assert len(told) == 2
     assert run_units("numbers", doubled, [(1,), (2,), (3,)], told.append) == [2, 4, 6]
     assert len(told) == 3
-
-
-def test_an_interrupted_run_goes_on_after_the_parts_that_are_done(
-    journals: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    begun: list[str] = []
-
-    def measure(page: Page, part: str, *given: object) -> Result:
-        begun.append(part)
-        if len(begun) == 2:
-            raise KeyboardInterrupt
-        return Result(part, part.capitalize(), ())
-
-    monkeypatch.setattr(progress.Progress.__init__, "__defaults__", (journals,))
-    monkeypatch.setattr(bench, "run", measure)
-    command = ["load", "save", "geometry", "--quick", "--out", str(tmp_path / "out")]
-    with pytest.raises(KeyboardInterrupt):
-        bench.main(command)
-    assert bench.main(command) == 0
-    assert begun == ["load", "save", "save", "geometry"]
-    assert bench.main(command) == 0
-    assert begun[4:] == ["load", "save", "geometry"]
 
 
 def test_results_depend_on_the_code_that_their_work_imports_and_on_no_other() -> None:

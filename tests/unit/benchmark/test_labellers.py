@@ -19,7 +19,7 @@ from benchmark.labels.scores import score_labels
 from meshforge.common import UsageError
 from meshforge.labels.vlm.prompt import MODES
 from meshforge.rendering import draw_labeling_pictures, encode_png
-from tests.loopback import Asked, labels_as_json, serving, status
+from tests.loopback import Asked, labels_as_json, serving
 from tests.unit.benchmark.model_asking import PRICES, key, settings_file
 
 __all__ = ["key"]
@@ -153,17 +153,3 @@ def test_a_model_is_asked_five_times_and_its_price_is_that_of_once(tmp_path: Pat
     cost = (PRICES[0] * spent["input"] + PRICES[1] * spent["output"]) / 1e6
     assert row["$ a mesh"] == pytest.approx(cost / REPEATS / 2, rel=0.1)  # but for probes
     assert any("loopback-vl, mode cheap" in note for note in found["notes"])
-
-
-@pytest.mark.long
-def test_a_model_that_fails_on_the_way_is_not_scored(tmp_path: Path, answers: Path) -> None:
-    (family,) = families(2, ("cup",), ("coarse",))
-    model = Model(family)
-    with serving(model, fault=lambda asked: None if asked.is_probe or model.asked < 1 else status(500)) as server:
-        settings = settings_file(server, tmp_path / "vlm.toml", CHEAP)
-        found = run(tmp_path / "out", "--vlm", settings)
-        assert set(list(found["loopback-vl, cheap"].values())[1:]) == {"not finished"}
-        assert any("loopback-vl, cheap is not finished: " in note for note in found["notes"])
-        server.fault = lambda asked: None
-        found = run(tmp_path / "out", "--vlm", settings)
-        assert found["loopback-vl, cheap"]["right"] > 0.9

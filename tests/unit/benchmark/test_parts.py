@@ -128,14 +128,3 @@ def test_a_part_is_whole_when_it_is_one_hull() -> None:
     assert "larger" in str(failure([*without("leg"), everything], whole))
     assert failure(BEFORE, {**whole, "hulls": 2}) is None
     assert "a box wanted" in str(failure(BEFORE, {**whole, "hulls": 2, "lowest": "box"}))
-
-
-def test_what_is_added_is_at_its_site_and_not_in_something() -> None:
-    added = [{"site": "knob", "reach": 0.05, "hulls": 1}]
-    knob = hull("new", "panel", box(((-0.01, -0.01, 0.76), (0.01, 0.01, 0.8))))
-    assert failure([*BEFORE, knob], added=added) is None
-    assert "made of 0 hulls, 1 wanted" in str(failure(BEFORE, added=added))
-    sunk = hull("new", "panel", box(((-0.01, -0.01, 0.72), (0.01, 0.01, 0.755))))
-    assert failure([*BEFORE, sunk], added=added) is not None
-    aside = hull("new", "panel", box(((0.3, 0.2, 0.76), (0.35, 0.25, 0.8))))
-    assert "larger" in str(failure([*BEFORE, aside], added=added))

@@ -12,13 +12,11 @@ from benchmark.signoff.calibration import calibrate
 from benchmark.signoff.client import Client, FamilyStatus
 from benchmark.signoff.conditions import ERRS
 from benchmark.signoff.judge import Judge, run_on_desk
-from benchmark.signoff.opening import FirstLook, open_review
 from benchmark.signoff.queue import DONE, Review, sign_off
 from benchmark.signoff.reviewer import Reviewer
 from benchmark.study import FLAT, TRUE, Bench
 from benchmark.study.condition import PROPAGATED
 from benchmark.study.keystrokes import APPROVAL, GLANCE, STROKE, price_group
-from benchmark.study.person import Person
 from benchmark.tasks import task
 from meshforge.signoff import (
     DemonstrationQuestion,
@@ -116,18 +114,6 @@ def test_each_exception_of_a_group_is_named_and_paid_for(bench: Bench) -> None:
     reply = reviewer.reply(question, bench.truth, None, None)
     assert (reply.choice, reply.exceptions) == (labels[0], {HullPlace(name, other): labels[1]})
     assert reviewer.ledger.total == pytest.approx(price_group(len(hulls), 1) + STROKE)
-
-
-def test_before_any_question_all_that_nobody_showed_or_looked_at_has_a_probability(
-    bench: Bench, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(Person, "looks_at", lambda _, names: names[:1])
-    opening = open_review(bench, TRUE, 1, FakeClient)
-    assert opening.right == opening.possible
-    assert 0 < len(opening.pairs) < opening.possible
-    monkeypatch.undo()
-    assert not open_review(bench, TRUE, 1, FakeClient).pairs  # a dozen looks are all that there is
-    assert FirstLook.of_json(json.loads(json.dumps(asdict(opening)))) == opening
 
 
 def test_probabilities_that_are_met_are_calibrated_and_order_what_they_can() -> None:

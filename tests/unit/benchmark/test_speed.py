@@ -3,24 +3,16 @@
 from __future__ import annotations
 
 import json
-import subprocess
-import sys
 from pathlib import Path
 from types import ModuleType
 
-import numpy as np
 import pytest
 
-import meshforge as mf
 from benchmark import __main__ as bench
 from benchmark.report import Goal, Result, Table, as_text
-from benchmark.speed import by_hand, geometry, load, robots, save
+from benchmark.speed import geometry, load, robots, save
 from benchmark.speed.assets import multi_hull
 from benchmark.speed.contact import one_mesh
-from benchmark.speed.watch import look
-from meshforge.batch import load_templates
-from meshforge.language import Program
-from meshforge.samples import TABLES
 
 
 def silent(_: str) -> None:
@@ -67,40 +59,6 @@ def test_commands_run_beside_the_script_by_hand(tmp_path: Path) -> None:
     assert names[0] == "the script by hand"
     assert {"apply", "check", "status", "synthesize", "label", "info", "render", "mf.load"} == set(names[1:])
     assert len(data["goals"]) == len(names) - 1
-
-
-def test_the_script_by_hand_makes_of_a_table_what_its_program_does(tmp_path: Path) -> None:
-    table = TABLES / "table_03.obj"
-    labels = json.loads(table.with_suffix(".labels.json").read_text("utf-8"))["hulls"]
-    tray = by_hand.read_tray(TABLES)
-    by_hand.edit_table(by_hand.read_parts(table), labels, tray).export(tmp_path / table.name)
-    program = Program.read(TABLES / "tables.mf")
-    edited = program.run(mf.load(table), load_templates(program.templates, [TABLES / "templates"])).mesh
-    made = mf.load(tmp_path / table.name)
-    assert made.aabb and edited.aabb
-    assert len(made.hulls) == len(edited.hulls)
-    assert np.allclose(made.aabb.corners, edited.aabb.corners, atol=0.02)
-
-
-@pytest.mark.skipif(sys.platform != "linux", reason="only Linux tells the memory of other processes")
-def test_a_process_that_becomes_another_program_has_the_memory_of_that_one() -> None:
-    code = "import os; big = bytes(range(256)) * (1 << 20); print(flush=True); os.read(0, 1); os.execvp('cat', ['cat'])"
-    largest: dict[int, int] = {}
-    with subprocess.Popen([sys.executable, "-c", code], stdin=subprocess.PIPE, stdout=subprocess.PIPE) as process:
-        assert process.stdin is not None and process.stdout is not None
-        process.stdout.readline()
-        look(process.pid, largest)
-        assert largest[process.pid] > 256 * 2**20
-        process.stdin.write(b"\nhere\n")
-        process.stdin.flush()
-        process.stdout.readline()  # what `cat` says
-        look(process.pid, largest)
-        before = dict(largest)
-        process.stdin.close()
-        process.wait()
-        look(process.pid, largest)
-    assert 0 < largest[process.pid] < 64 * 2**20
-    assert largest == before  # one that has ended keeps what it had
 
 
 def test_a_part_that_is_not_there_is_refused(capsys: pytest.CaptureFixture[str]) -> None:

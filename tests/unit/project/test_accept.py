@@ -8,9 +8,8 @@ from pathlib import Path
 import pytest
 
 from meshforge.batch import IN_PROCESS
-from meshforge.language import Delete, Program
+from meshforge.language import Delete
 from meshforge.project import Project
-from meshforge.store import VerdictEvent
 from meshforge.synthesis import Ambiguous, Found, Options, Step
 from tests.unit.project.shelves import ambiguous
 
@@ -27,12 +26,6 @@ def applied(folder: Path) -> Project:
     return project
 
 
-def last_word(project: Project) -> VerdictEvent:
-    found = project.feedback().verdict_on(SHELVED)
-    assert found is not None
-    return found
-
-
 @pytest.mark.slow
 def test_what_was_accepted_by_itself_settles_what_was_open(tmp_path: Path) -> None:
     project = applied(tmp_path)
@@ -45,23 +38,6 @@ def test_what_was_accepted_by_itself_settles_what_was_open(tmp_path: Path) -> No
     assert not outcome.stale and not outcome.overruled
     project.set_verdict(SHELVED, None)
     assert isinstance(project.synthesize(), Ambiguous)
-
-
-@pytest.mark.slow
-def test_who_accepts_many_at_once_or_calls_one_wrong_says_not_what_is_right(tmp_path: Path) -> None:
-    project = applied(tmp_path)
-    project.set_verdict([SHELVED, ALSO], "accepted")
-    assert not any(said.seen for some in project.feedback().verdicts.values() for said in some)
-    assert isinstance(project.synthesize(), Ambiguous)
-    project.set_verdict(SHELVED, "wrong")
-    assert isinstance(project.synthesize(), Ambiguous)
-
-
-def test_nor_is_what_another_program_did(tmp_path: Path) -> None:
-    project = applied(tmp_path)
-    project.accept(Program.parse("labels board, leg, knob\nIs(knob) => Delete\n"))
-    project.set_verdict(SHELVED, "accepted")
-    assert not last_word(project).seen
 
 
 def test_a_demonstration_counts_more_than_an_accepted_result(tmp_path: Path) -> None:

@@ -14,7 +14,6 @@ from tests.unit.batch.families import tree
 from tests.unit.cli.in_process import runner
 from tests.unit.deaths import deaths, needs_fork
 from tests.unit.project.replying import CASES, MAKERS, STRICT, find_question, look, reply_by_method
-from tests.unit.project.tables import LEGS, THIRD, applied
 
 SAME = ("labels/", "demonstrations/", "meshforge.toml", "program.mf", "edited/")
 SURE = ("--min-confidence", str(STRICT), "--answers", "said.json")
@@ -65,25 +64,3 @@ def test_a_reply_whose_command_was_killed_is_taken_again(
     told = run("review", "racks", *SURE)
     assert (told.code, "is not asked any more" in told.err) == (code, False)
     assert outcome(project) == expected
-
-
-DONE: dict[str, dict[str, object]] = {
-    "right": {"choice": "right"},
-    "other hulls": {"choice": "wrong", "selections": {"2": sorted(LEGS)[:3]}},
-    "not solved": {"choice": "not-solved"},
-}
-
-
-@pytest.mark.parametrize("name", DONE)
-def test_who_replies_again_once_all_is_done_gets_the_exit_code_of_that(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], name: str
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    project, run = applied(tmp_path), runner(monkeypatch, capsys)
-    question = find_question(project.review(STRICT, execution=IN_PROCESS), "result", THIRD)
-    Path("said.json").write_text(json.dumps([{"id": question.id, **DONE[name]}]))
-    for is_again in (False, True):
-        told = run("review", "tables", *SURE)
-        assert (told.code, "skipped" in told.err) == (0, False)
-        assert (f"{question.id}: it was replied to before" in told.err) == is_again
-    assert len(project.layout.events.read_text().splitlines()) == 1

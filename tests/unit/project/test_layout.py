@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from meshforge.batch import OWN_FOLDERS, stamp_path
+from meshforge.batch import stamp_path
 from meshforge.common import relative_name
 from meshforge.store import Layout, identify_file, list_files
 from meshforge.studio.edits import assets, program, replies
@@ -21,11 +21,6 @@ def test_every_file_of_a_project_is_in_the_table(tmp_path: Path) -> None:
     project.review()
     names = {name for name in tree(project.folder) if not name.endswith(".tmp")} - LEFT
     assert {name for name in names if identify_file(name) is None} == set()
-
-
-def test_the_folders_of_the_table_are_those_that_hold_no_assets() -> None:
-    folders = {file.name.partition("/")[0] for file in list_files() if "/" in file.name}
-    assert folders == {*OWN_FOLDERS, ".meshforge"}
 
 
 def test_a_path_is_that_of_its_asset(tmp_path: Path) -> None:

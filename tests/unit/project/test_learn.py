@@ -7,20 +7,10 @@ from pathlib import Path
 from meshforge.language import Delete, Merge
 from meshforge.project import Project
 from meshforge.symbolic import Label
-from meshforge.synthesis import Answer, Found, NeedsRepair, NoProgram, Repair, Step, TimedOut
+from meshforge.synthesis import Answer, Found, NeedsRepair, NoProgram, Repair, Step
 from tests.unit.project.shelves import OTHER, PLAIN, SHELVED, ambiguous, mislabelled
 
 ALL, HIGHEST = (f"labels board, leg, knob\n\n{rule} => Delete\n" for rule in ("Is(board)", "Geo(Is(board), +Z)"))
-
-
-def test_labels_of_an_answered_asset_are_learned_from(tmp_path: Path) -> None:
-    project = ambiguous(tmp_path)
-    project.add_answer(Answer(1, SHELVED, ["top"]))
-    project.synthesize()
-    project.set_labels("rack4.obj", {"knob": "leg"})
-    assert not project.status(workers=0).outdated
-    project.set_labels(SHELVED, {"knob": "leg"})
-    assert project.status(workers=0).outdated
 
 
 def test_answers_about_what_is_gone_are_reported_not_refused(tmp_path: Path) -> None:
@@ -69,18 +59,6 @@ def test_a_refused_repair_is_not_proposed_again(tmp_path: Path) -> None:
     assert not isinstance(project.synthesize(), NeedsRepair)
     project.forget_answers()
     assert project.synthesize().repairs == outcome.repairs
-
-
-def test_a_trial_keeps_no_repair(tmp_path: Path) -> None:
-    project = mislabelled(tmp_path)
-    assert project.synthesize(accept=False, confirm=lambda _: True).program
-    assert project.mesh(PLAIN).hull_of("knob").label == "leg" and not project.feedback().answers_and_fixes
-
-
-def test_learning_can_be_stopped(tmp_path: Path) -> None:
-    project = mislabelled(tmp_path)
-    assert isinstance(project.synthesize(stop=lambda: True), TimedOut)
-    assert project.program() is None
 
 
 def test_an_answer_that_fits_nothing_leaves_the_program_as_it_was(tmp_path: Path) -> None:

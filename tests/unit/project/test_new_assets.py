@@ -1,6 +1,5 @@
 from __future__ import annotations
 
-import json
 import shutil
 from collections.abc import Sequence
 from pathlib import Path
@@ -11,7 +10,6 @@ import pytest
 from meshforge.batch import IN_PROCESS, ExecutionOptions, read_preparation
 from meshforge.common import format_share
 from meshforge.geometry import volume_of_union
-from meshforge.labels.reference_family import choose_labelled
 from meshforge.labels.spans import FinePieces, find_pieces
 from meshforge.project import (
     NewAsset,
@@ -22,7 +20,7 @@ from meshforge.project import (
     prepare_new_assets,
     read_preparation_plan,
 )
-from meshforge.symbolic import Label, LabelFile, read_labels
+from meshforge.symbolic import Label, read_labels
 from tests.unit.batch.families import tree
 from tests.unit.project.stools import PARTS, boxes, coarse, write_stool
 
@@ -90,13 +88,6 @@ def test_what_was_guessed_is_no_surer_than_the_guess(folder: Path) -> None:
     assert left.probability == pytest.approx(1 - left.spanning[0].chance), "what likely spans parts is likely wrong"
 
 
-def test_what_is_less_sure_than_the_project_asks_is_left_and_named(folder: Path) -> None:
-    path = folder / "p/preparation.json"
-    path.write_text(json.dumps(json.loads(path.read_text()) | {"min_confidence": 0.999}))
-    found = prepare(folder)["c.urdf"]
-    assert found.rebuilt == () and [span.hull for span in found.spanning] == ["base/h0"]
-
-
 @pytest.mark.slow
 def test_the_same_alone_and_together_here_and_in_workers(folder: Path) -> None:
     prepare(folder)
@@ -116,14 +107,6 @@ def test_labels_that_a_new_asset_has_stay(folder: Path) -> None:
     ((work, found),) = prepare_new_assets(project, [new], folder / "aside", options)
     assert "base/h1" not in found.guesses and work.labels is not None
     assert read_labels(work.labels).labels["base/h1"] == Label("seat", 1.0, "file")
-
-
-def test_new_assets_are_looked_at_by_the_engine_of_the_project(folder: Path) -> None:
-    project = Project.open(folder / "p")
-    list(project.rebuild_spanning(how=RebuildSettings(0.7, pieces="vhacd"), execution=IN_PROCESS))
-    assert len(prepare(folder)["c.urdf"].rebuilt) == 1
-    kept = read_preparation(folder / "aside/prepared/c.urdf")
-    assert kept is not None and kept.steps[0].settings["pieces"] == "vhacd" and "vhacdx" in kept.steps[0].software
 
 
 def test_an_asset_that_cannot_be_read_does_not_stop_the_others(folder: Path) -> None:
@@ -169,14 +152,3 @@ def test_labelled_assets_that_could_not_be_compared_are_named(folder: Path, monk
     monkeypatch.setattr("meshforge.labels.reference_family.find_pieces", lose_one)
     results = prepare(folder, ["c.urdf"])
     assert "not compared with b.urdf: no answer within 600 s" in results["c.urdf"].notes
-
-
-def test_those_that_people_labelled_come_first_of_more_than_are_compared() -> None:
-    files = {
-        f"{k:02}": LabelFile(labels={"h": Label("leg", 1.0, "user" if k % 10 == 0 else "name")}) for k in range(40)
-    }
-    files["lone"] = LabelFile(labels={"h": Label("leg", 1.0, "propagated")})
-    chosen = choose_labelled(files, 8)
-    assert {"00", "10", "20", "30"} <= set(chosen) and len(chosen) == 8 and "lone" not in chosen
-    assert chosen == sorted(chosen)
-    assert len(choose_labelled(files, 100)) == 40

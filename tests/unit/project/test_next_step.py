@@ -82,14 +82,6 @@ def test_the_step_names_the_asset_to_go_to() -> None:
     assert choose(DONE, **FOUND).asset == "a"
 
 
-def test_the_asset_that_shows_most_is_demonstrated_first_and_without_one_the_first_with_labels() -> None:
-    step = choose(LABELLED, replace(LABELLED, id="b"))
-    assert (step.asset, step.text) == ("b", "Show the steps of the edit on an asset or two, best first on b.")
-    step = choose(LABELLED)
-    assert (step.asset, step.text) == ("a", "Show the steps of the edit on an asset or two.")
-    assert step.note == "Names of hulls: meshforge info a --project p"
-
-
 def test_the_results_that_show_most_are_reviewed_first_as_far_as_nobody_did() -> None:
     rows = {name: replace(DONE, id=name) for name in "abcd"}
 
@@ -116,11 +108,6 @@ def test_a_program_that_cannot_be_applied_is_fixed_before_anything_else_is_done_
     step = choose(SHOWN, problem="no template knob.obj\n  more", has_program=True, outdated=True)
     assert (step.kind, step.text) == ("fix-program", "The program cannot be applied: no template knob.obj")
     assert choose(BARE, problem="does not parse").kind == "fix-program"
-
-
-def test_a_program_is_learned_again_once_it_is_outdated() -> None:
-    assert choose(SHOWN, has_program=True, outdated=True).command == "meshforge synthesize p"
-    assert choose(LABELLED, has_program=True, outdated=True).kind == "demonstrate"
 
 
 def test_labels_are_propagated_from_an_asset_that_people_or_files_labelled_as_a_whole() -> None:

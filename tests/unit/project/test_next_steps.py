@@ -8,7 +8,6 @@ from pathlib import Path
 
 import pytest
 
-from meshforge.batch import IN_PROCESS
 from meshforge.project import Project, Status
 from tests.unit.batch.families import label_of, table_boxes, write_table
 from tests.unit.cli.in_process import Run, runner
@@ -165,29 +164,3 @@ def test_propagation_of_nothing_shows_how_to_label_the_advised_asset(words: str,
     assert shown.startswith("meshforge label tables ") and ("--vocabulary a,b,c" in shown) == (not words)
     typed = shown.replace("LABEL", "leg").replace("a,b,c", "top,leg,misc")
     assert run(*shlex.split(typed)[1:]).code == 0
-
-
-def test_assets_that_are_gone_or_cannot_be_read_are_to_be_mended_by_hand(tmp_path: Path, run: Run) -> None:
-    project = labelled(tmp_path)
-    for name in (FIRST, SECOND, THIRD):
-        (tmp_path / "assets" / name).write_text("nothing of use")
-        (project.folder / "labels" / f"{name}.json").unlink()
-    advice = of(project).next
-    assert advice.command is None or "label" in advice.command
-    told = run("label", "tables", "--with", "propagate")
-    assert told.code == 2 and "No asset can be read" in told.err
-    for name in (FIRST, SECOND, THIRD):
-        (tmp_path / "assets" / name).unlink()
-    told = run("status", "tables")
-    assert told.code == 2 and "meshforge.toml: assets: ../assets: no assets here" in told.err
-
-
-def test_an_unreadable_asset_is_named_and_not_only_applied_to_again(tmp_path: Path) -> None:
-    project = signed_off(tmp_path)
-    (tmp_path / "assets" / THIRD).write_text("nothing of use")
-    say = of(project).next.text
-    assert (
-        say == "The program fails on 1 of 3 assets, first on table2/model.obj: fix what is named, then apply it again."
-    )
-    list(Project.open(project.folder).apply(execution=IN_PROCESS))
-    assert of(project).next.text == say

@@ -15,7 +15,7 @@ from meshforge.language import Delete, Merge
 from meshforge.project import Project
 from meshforge.synthesis import Found, Step
 from tests.unit.batch.families import tree
-from tests.unit.batch.preparation.samples import QUICK, VOXELS, write_boxes, write_stand
+from tests.unit.batch.preparation.samples import QUICK, write_boxes, write_stand
 from tests.unit.deaths import deaths, needs_fork
 from tests.unit.project.tables import FIRST, SECOND, applied, labelled
 
@@ -74,15 +74,6 @@ def test_one_asset_that_fails_is_told_and_the_others_are_done(tmp_path: Path) ->
     high, low = project.decompose(settings=QUICK, execution=ExecutionOptions(workers=1))
     assert len(high.problems) == 1 and HIGH in high.problems[0]
     assert len(low.made) == 2
-
-
-def test_stopping_in_the_midst_keeps_what_is_done(tmp_path: Path) -> None:
-    project = fresh(tmp_path)
-    work = project.decompose(settings=QUICK, execution=IN_PROCESS)
-    next(work)
-    work.close()  # type: ignore[attr-defined]  # a generator
-    assert [len(project.preparation(asset).steps) for asset in (HIGH, LOW)] == [1, 0]
-    assert [len(done.made) for done in project.decompose(settings=QUICK, execution=IN_PROCESS)] == [0, 2]
 
 
 def test_a_changed_asset_is_told_to_be_prepared_again_and_then_is(tmp_path: Path) -> None:
@@ -162,22 +153,6 @@ def test_labels_of_a_split_hull_go_to_its_parts_and_come_back(tmp_path: Path) ->
     assert not (project.folder / "prepared" / FIRST).exists()
 
 
-def label_file(project: Project, asset: str) -> dict[str, str]:
-    """The labels that are kept, by hull."""
-    return {name: label.name for name, label in project.labels(asset).labels.items()}
-
-
-def test_labels_go_to_the_hulls_of_another_decomposition_that_lie_there(tmp_path: Path) -> None:
-    project = decomposed(tmp_path)
-    label_all(project, HIGH)
-    (done,) = project.decompose([HIGH], VOXELS, only=["frame/body"], again=True, execution=IN_PROCESS)
-    mesh = project.mesh(HIGH)
-    made = [mesh.hull_of(name) for name in done.hulls]
-    assert {hull.label for hull in made} == {"body"}
-    assert mesh.hull_of("frame/foot").label == "foot"
-    assert project.status(workers=0).assets[0].doubtful == ()
-
-
 def test_a_hull_between_two_labels_takes_that_of_its_greater_part_with_less_confidence(tmp_path: Path) -> None:
     write_boxes(tmp_path / "assets/row.obj")
     project = Project.create(tmp_path / "p", [tmp_path / "assets"], vocabulary=["a", "b"])
@@ -218,17 +193,6 @@ def test_all_that_was_done_can_be_taken_back_also_where_it_is_damaged(tmp_path: 
         project.mesh(LOW)
     project.unprepare(LOW, everything=True)
     assert names(project, LOW) == ["frame/foot"]
-
-
-def test_labels_stay_where_all_is_taken_back_of_an_asset_that_cannot_be_read(tmp_path: Path) -> None:
-    project = decomposed(tmp_path)
-    label_all(project, HIGH)
-    before = label_file(project, HIGH)
-    (tmp_path / "assets" / HIGH).write_text("<robot")
-    done = project.unprepare(HIGH, everything=True)
-    assert done.undone and "its labels stay as they are" in done.notes[0]
-    assert label_file(project, HIGH) == before
-    assert not (project.folder / "prepared" / HIGH).exists()
 
 
 def test_the_status_says_what_could_be_decomposed(tmp_path: Path) -> None:

@@ -8,7 +8,7 @@ import pytest
 
 from meshforge.batch import IN_PROCESS, ExecutionOptions
 from meshforge.batch import status_of as word
-from meshforge.common import DemonstrationError, MeshForgeError, ProgramError, ProjectError
+from meshforge.common import MeshForgeError, ProgramError, ProjectError
 from meshforge.formats import load
 from meshforge.labels import FileLabeler
 from meshforge.language import Delete, Is, LandmarkPair, Merge, Orient, Replace
@@ -25,16 +25,6 @@ def test_a_new_project_is_one_readable_file(tmp_path: Path) -> None:
     settings = tomllib.loads((project.folder / "meshforge.toml").read_text())
     assert settings == {"name": "tables", "assets": ["../assets"], "base": "../assets", "vocabulary": [], "orient": ""}
     assert project.assets() == (FIRST, SECOND, THIRD)
-
-
-def test_ids_stay_when_more_assets_are_named(tmp_path: Path) -> None:
-    write_table(tmp_path / "assets/deep/a.obj")
-    project = Project.create(tmp_path / "p", [tmp_path / "assets/deep/*.obj"])
-    assert project.assets() == ("a.obj",)
-    write_table(tmp_path / "assets/deep/er/b.obj")
-    toml = project.folder / "meshforge.toml"
-    toml.write_text(toml.read_text().replace("/*.obj", "/**/*.obj"))
-    assert Project.open(project.folder).assets() == ("a.obj", "er/b.obj")
 
 
 def test_a_project_is_not_made_twice(tmp_path: Path) -> None:
@@ -141,15 +131,6 @@ def test_fields_that_this_version_does_not_know_are_kept(tmp_path: Path) -> None
     assert json.loads(path.read_text())["author"] == "me"
 
 
-def test_a_demonstration_that_cannot_be_is_refused(tmp_path: Path) -> None:
-    project = labelled(tmp_path)
-    with pytest.raises(ProjectError, match="no hull 'crum'"):
-        project.demonstrate(FIRST, [Step(1, {"crum"}, Delete())])
-    with pytest.raises(DemonstrationError, match="numbered"):
-        project.demonstrate(FIRST, [Step(2, {"crumb"}, Delete())])
-    project.demonstrate(FIRST, [*STEPS, Step(3, {"left_low~1"}, Delete())])
-
-
 @pytest.mark.parametrize(
     ("text", "message"),
     [
@@ -171,14 +152,6 @@ def test_a_damaged_demonstration_is_named(tmp_path: Path, text: str, message: st
 def test_learning_without_demonstrations_says_what_to_do(tmp_path: Path) -> None:
     with pytest.raises(ProjectError, match="nothing is demonstrated"):
         labelled(tmp_path).synthesize()
-
-
-def test_a_program_that_another_takes_the_place_of_stays_beside_it(tmp_path: Path) -> None:
-    project = learned(tmp_path)
-    mine = "# by hand\n" + PROGRAM
-    (project.folder / "program.mf").write_text(mine)
-    project.synthesize()
-    assert (project.folder / "program.previous.mf").read_text() == mine
 
 
 def test_the_program_is_applied_into_the_project(tmp_path: Path) -> None:

@@ -74,20 +74,6 @@ def engines(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     return used
 
 
-def test_another_engine_makes_the_fine_pieces_where_it_is_asked_for(project: Project, engines: list[str]) -> None:
-    before = files(project)
-    list(project.rebuild_spanning(how=RebuildSettings(SURE, "vhacd"), execution=IN_PROCESS))
-    assert engines == ["vhacd"] * 3
-    (step,) = project.preparation("c.urdf").steps
-    assert step.settings["pieces"] == "vhacd" and "vhacdx" in step.software
-    assert json.loads(project.layout.preparation_plan.read_text())["pieces"] == "vhacd"
-    project.unprepare("c.urdf")
-    assert files(project).keys() - {"preparation.json"} == before.keys()
-    engines.clear()
-    rebuild(project, dry_run=True)
-    assert engines == ["coacd"] * 3, "pieces of another engine are not taken for its own"
-
-
 def test_bad_input_is_named(project: Project, tmp_path: Path) -> None:
     with pytest.raises(UsageError, match=r"--min-confidence 1\.5: a probability is needed"):
         rebuild(project, sure=1.5)
@@ -155,18 +141,6 @@ def test_a_surface_in_another_unit_does_not_count_and_is_named(project: Project)
     assert found.notes[0].startswith("base: its surface is 1e+03 times the size of its hulls")
     assert found.notes[1] == "no surface says which hulls of base span parts; cut them by hand: meshforge cut"
     assert not found.planned
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    ("text", "why"),
-    [(None, "no such file"), ("", "the file is empty"), ("v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "finite")],
-)
-def test_a_surface_that_cannot_be_read_is_named(project: Project, text: str | None, why: str) -> None:
-    seen = project.path("c.urdf").with_name("c_seen.obj")
-    seen.unlink() if text is None else seen.write_text(text)
-    (_, _, found) = rebuild(project, dry_run=True)
-    assert "does not count: " in found.notes[0] and "c_seen.obj" in found.notes[0] and why in found.notes[0]
 
 
 def test_a_hull_that_likely_spans_parts_is_told_with_two_labels_and_no_surer_than_it_is() -> None:

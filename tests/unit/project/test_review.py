@@ -146,15 +146,6 @@ def test_the_same_review_writes_the_same_files(tmp_path: Path) -> None:
     assert [json.loads(line)["asset"] for line in before["signoffs.jsonl"].splitlines()] == [FIRST, SECOND, THIRD]
 
 
-def test_what_is_sure_is_signed_off_only_when_its_output_is_there(tmp_path: Path) -> None:
-    project = learned(tmp_path)
-    assert set(review(project).assessment.signed_off) == {FIRST, SECOND, THIRD}
-    assert sign_off_of(project, THIRD) == "sure" and not project.status().is_signed_off
-    list(project.apply(execution=IN_PROCESS))
-    project.renew_sign_offs(clock=lambda: NOON)
-    assert sign_off_of(project, THIRD) == "signed off" and project.status().is_signed_off
-
-
 def test_a_result_that_was_accepted_counts_only_while_the_program_does_the_same_there(tmp_path: Path) -> None:
     project = applied(tmp_path)
     project.set_verdict(THIRD, "accepted")
@@ -207,13 +198,6 @@ def test_a_slip_that_is_admitted_corrects_the_demonstration_and_what_was_meant_s
     project.reply(selection_of(FIRST), ReviewReply("s", YES))
     assert project.steps(FIRST)[0].select == frozenset({"crumb", "left_low"})
     assert project.steps(SECOND)[0].select == frozenset({"crumb"})
-
-
-def test_a_slip_in_a_step_that_is_gone_is_an_error_and_changes_nothing(tmp_path: Path) -> None:
-    project = demonstrated(tmp_path)
-    with pytest.raises(ProjectError, match="rule 1 is not demonstrated here any more"):
-        project.reply(selection_of(THIRD), ReviewReply("s", YES))
-    assert project.steps(THIRD) == ()
 
 
 def test_a_repair_that_a_person_did_not_want_is_not_proposed_again(tmp_path: Path) -> None:
@@ -283,16 +267,3 @@ def test_while_nothing_fits_what_was_shown_is_signed_off_no_longer_and_what_was_
     assert found.assessment.looked_at == {THIRD}
     assert found.taken_back.keys() == {FIRST, SECOND}
     assert project.sign_offs().keys() == {THIRD}
-
-
-@pytest.mark.slow
-def test_a_sign_off_of_what_cannot_be_read_now_is_void_and_stays(tmp_path: Path) -> None:
-    project = applied(tmp_path)
-    review(project)
-    text = project.path(THIRD).read_text()
-    project.path(THIRD).write_text("no mesh at all")
-    assert review(project).assessment.need_review == (THIRD,)
-    assert THIRD in project.sign_offs() and sign_off_of(project, THIRD) == "void"
-    project.path(THIRD).write_text(text)
-    review(project)
-    assert sign_off_of(project, THIRD) == "signed off"

@@ -74,32 +74,6 @@ def test_a_split_is_an_edit_that_the_studio_undoes_and_does_again(tmp_path: Path
     assert (kept(project), History.open(project.folder).state.undoable) == (before, 2)
 
 
-def test_an_edit_by_hand_of_a_split_hull_is_one_of_its_parts(tmp_path: Path) -> None:
-    project = applied(tmp_path)
-    project.correct(FIRST, ["top"], Merge())
-    before = kept(project)
-    project.cut(FIRST, "top", (1, 0, 0), (1, 0, 0))
-    (edit,) = project.manual_edits(FIRST)
-    assert [name for name, _ in edit.hulls] == ["top#0", "top#1"]
-    assert edit.find_problem(project.mesh(FIRST)) is None
-    project.unprepare(FIRST)
-    assert kept(project) == before
-
-
-def test_splits_of_splits_are_all_undone_at_once(tmp_path: Path) -> None:
-    project = said(tmp_path)
-    before = kept(project)
-    project.cut(FIRST, "crumb", *PLANE)
-    middle = kept(project)
-    project.cut(FIRST, "crumb#0", project.mesh(FIRST).hull_of("crumb#0").aabb.center.tolist(), (1, 0, 0))
-    assert project.steps(FIRST)[0].select == frozenset({"crumb#0#0", "crumb#0#1", "crumb#1"})
-    project.unprepare(FIRST)
-    assert kept(project) == middle
-    project.cut(FIRST, "crumb#0", project.mesh(FIRST).hull_of("crumb#0").aabb.center.tolist(), (1, 0, 0))
-    project.unprepare(FIRST, everything=True)
-    assert kept(project) == before
-
-
 def test_an_undo_names_what_was_changed_since_and_by_what_and_writes_nothing(tmp_path: Path) -> None:
     project = said(tmp_path)
     project.cut(FIRST, "crumb", *PLANE)
@@ -154,19 +128,6 @@ def test_a_split_is_undone_and_done_again_in_a_project_whose_history_is_gone(tmp
     assert done.undone == ("crumb cut into 2 hulls",)
     assert any("crumb#0, crumb#1, which it has no more: demonstrate it anew" in note for note in done.notes)
     assert "crumb" in project.mesh(FIRST).index
-
-
-def test_undone_steps_are_not_done_again_by_another_undo(tmp_path: Path) -> None:
-    project = said(tmp_path)
-    before = kept(project)
-    project.cut(FIRST, "crumb", *PLANE)
-    middle = kept(project)
-    for _ in range(2):
-        project.cut(FIRST, "crumb#0", project.mesh(FIRST).hull_of("crumb#0").aabb.center.tolist(), (1, 0, 0))
-        project.unprepare(FIRST)
-        assert kept(project) == middle
-    project.unprepare(FIRST)
-    assert kept(project) == before
 
 
 def test_parts_get_the_labels_of_what_split_their_hull_and_a_persons_comes_back(tmp_path: Path) -> None:

@@ -9,7 +9,6 @@ import pytest
 
 from meshforge.batch import IN_PROCESS
 from meshforge.common import ProjectError
-from meshforge.formats import load
 from meshforge.language import Delete, Program
 from meshforge.project import AssetStatus, ProgramState, Project, Status, suggest_first_demonstration
 from tests.unit.batch.families import PROGRAM, write_table
@@ -48,13 +47,6 @@ def test_labels_that_lie_nowhere_are_to_be_given_by_hand_or_read_from_names(tmp_
     assert advice.command == f"meshforge label {project.folder} --with names"
     (tmp_path / "assets/t.obj").write_text("nothing of use")
     assert of(project).next.command is None
-
-
-def test_the_labels_of_an_output_are_in_the_order_of_its_file(tmp_path: Path) -> None:
-    project = applied(tmp_path)
-    for name in (FIRST, THIRD):
-        written = load(project.layout.edited / name)
-        assert asset(project, name).after_labels == tuple(hull.label for hull in written.hulls)
 
 
 def test_each_asset_says_how_far_it_is(tmp_path: Path) -> None:
@@ -124,12 +116,6 @@ def test_a_learned_program_is_outdated_when_a_result_is_called_wrong_that_was_no
     assert not of(project).outdated
 
 
-def test_what_is_kept_for_assets_that_are_gone_is_named(tmp_path: Path) -> None:
-    project = labelled(tmp_path)
-    (tmp_path / "assets" / THIRD).unlink()
-    assert of(Project.open(project.folder)).lost == (THIRD,)
-
-
 def test_a_review_counts_until_the_output_changes(tmp_path: Path) -> None:
     project = applied(tmp_path)
     project.set_verdict(FIRST, "accepted")
@@ -181,26 +167,6 @@ def test_the_status_of_some_assets_is_theirs_in_the_status_of_all(tmp_path: Path
         project.status(["nobody"])
 
 
-def test_the_next_step_for_some_assets_alone_counts_these(tmp_path: Path) -> None:
-    project = applied(tmp_path)
-    project.set_labels(THIRD, {"crumb": "leg"})
-    assert (project.status([FIRST], workers=0).next.command or "").startswith("meshforge review")
-    assert (project.status([THIRD], workers=0).next.command or "").startswith("meshforge apply")
-    assert (of(project).next.command or "").startswith("meshforge apply")
-
-
-def test_labels_of_a_status_are_those_of_the_mesh(tmp_path: Path) -> None:
-    project = labelled(tmp_path)
-    before = asset(project, FIRST)
-    path = tmp_path / "assets" / FIRST
-    path.write_text(path.read_text().replace("o left_low", "o one").replace("o left_high", "o left_low"))
-    project.set_labels(FIRST, {"top": None})
-    mesh, found = project.mesh(FIRST), asset(project, FIRST)
-    assert found.names == tuple(hull.name for hull in mesh.hulls) != before.names
-    assert found.labels == tuple(hull.annotation for hull in mesh.hulls)
-    assert found.labelled == 5 and found.geometry != before.geometry
-
-
 def test_a_program_stands_by_what_it_was_learned_from(tmp_path: Path) -> None:
     assert demonstrated(tmp_path / "a").program_state() == ProgramState()
     project = learned(tmp_path / "b")
@@ -224,20 +190,6 @@ def test_in_a_clone_elsewhere_a_learned_program_is_a_learned_one_and_its_record_
     assert clone.program_state() == ProgramState()
     clone.synthesize()
     assert (clone.folder / "learned.json").read_bytes() == record
-
-
-def test_a_damaged_memory_of_the_assets_is_made_anew(tmp_path: Path) -> None:
-    project = labelled(tmp_path)
-    before = of(project)
-    (project.folder / ".meshforge" / "survey.json").write_text('{"software": 3')
-    assert of(project) == before
-
-
-def test_a_status_does_not_depend_on_the_number_of_workers(tmp_path: Path) -> None:
-    project = labelled(tmp_path)
-    one = project.status(workers=2)
-    (project.folder / ".meshforge" / "survey.json").unlink()
-    assert of(project) == one
 
 
 def test_the_status_is_plain_data_for_scripts(tmp_path: Path) -> None:

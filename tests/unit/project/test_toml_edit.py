@@ -42,16 +42,6 @@ def test_keys_of_other_characters_are_found_and_written_in_quotes() -> None:
     assert set_value("", "a b", "c", "names") == '\n[names]\n"a b" = "c"\n'
 
 
-def test_an_array_of_several_lines_becomes_one_line_and_keeps_the_comment_behind_it() -> None:
-    edited = set_value(TEXT, "vocabulary", ["top"])
-    assert 'vocabulary = ["top"]  # closed list\norient' in edited
-
-
-def test_a_new_key_joins_those_above_it() -> None:
-    assert '# up\nbase = ".."\n\n[thresholds]' in set_value(TEXT, "base", "..")
-    assert "contact = 0.002\nextremity = 0.1\n\n[[note]]" in set_value(TEXT, "extremity", 0.1, "thresholds")
-
-
 def test_a_table_within_a_table_is_found() -> None:
     text = '[a]\nx = 1\n[a.b]\n"y z" = "here"  # why\n[c]\n'
     assert set_value(text, "y z", "there", "a.b") == text.replace("here", "there")
@@ -67,11 +57,6 @@ def test_none_takes_a_key_away() -> None:
 def test_what_cannot_be_followed_is_refused_and_left_alone() -> None:
     with pytest.raises(ProjectError, match="cannot be changed where it stands"):
         set_value("thresholds = { contact = 0.1 }\n", "contact", 0.2, "thresholds")
-
-
-def test_an_indented_array_line_that_looks_like_a_table_is_none() -> None:
-    text = 'x = [\n[ "contact" ],\n]\ny = 1\n'
-    assert tomllib.loads(set_value(text, "y", 2)) == {"x": [["contact"]], "y": 2}
 
 
 @examples(150)

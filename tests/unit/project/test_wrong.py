@@ -122,15 +122,6 @@ def test_an_edit_by_hand_counts_as_a_wrong_result_also_once_it_is_accepted(proje
     assert probabilities(accepted)[OTHER] == probabilities(edited)[OTHER]
 
 
-def test_a_demonstration_counts_more_than_what_was_said_of_a_result_before(project: Project) -> None:
-    say(project, "wrong", selections={"1": THREE})
-    project.demonstrate(ASKED, [Step(1, LEGS, Each(Merge()))])
-    found = look(project)
-    assert ASKED in found.assessment.signed_off
-    write(project, ASKED)
-    assert len(load(project.layout.edited / ASKED).hulls) == 4
-
-
 def test_a_wrong_result_of_a_demonstrated_asset_needs_review_until_something_else_is_shown(project: Project) -> None:
     write(project)
     project.set_verdict(SHOWN, "wrong")

@@ -23,18 +23,6 @@ def test_a_cut_hull_becomes_two_in_its_place(tmp_path: Path) -> None:
     assert [geom.parent for geom in ready.geoms] == [None, "geom0#1", "geom0#1", None]
 
 
-def test_parts_can_be_cut_again_and_inherit_from_the_hull_of_the_file(tmp_path: Path) -> None:
-    asset = read(write_boxes(tmp_path / "row.obj"))
-    once = cut_hull(asset, NONE, "geom0#1", (2, 0, 0), (1, 0, 0))
-    twice = cut_hull(asset, once, "geom0#1#1", (0, 0.5, 0), (0, 1, 0))
-    names = {geom.name: geom.parent for geom in apply_preparation(asset, twice).geoms if geom.parent}
-    assert names == {f"geom0#1#{k}": "geom0#1" for k in ("0", "1#0", "1#1")}
-    assert [geom.name for geom in apply_preparation(asset, twice.with_only(twice.steps[:1])).geoms if geom.parent] == [
-        "geom0#1#0",
-        "geom0#1#1",
-    ]
-
-
 def test_a_native_box_of_a_urdf_is_cut_into_meshes_with_its_attributes(tmp_path: Path) -> None:
     asset = read(write_stand(tmp_path / "in"))
     done = cut_hull(asset, NONE, "frame/foot", (0, 0, -1), (1, 1, 0))
