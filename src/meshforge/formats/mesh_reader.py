@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from meshforge.common import AssetError, is_beyond_reach
+from meshforge.formats.meshfile import dae, gltf_scene, obj, ply, stl, vrml
 from meshforge.formats.meshfile.surface import RawSurface, join_surfaces
 from meshforge.geometry import Piece, split_pieces
 
@@ -111,28 +112,16 @@ def parse_surfaces(data: bytes, path: Path) -> list[RawSurface]:
     where = str(path)
     match path.suffix.lower():
         case ".obj":
-            from meshforge.formats.meshfile import obj  # lazy: one kind of file in six
-
             return obj.parse_obj(data, where).surfaces(where)
         case ".stl":
-            from meshforge.formats.meshfile import stl  # lazy: one kind of file in six
-
             return stl.parse_stl(data, where).surfaces(where)
         case ".ply":
-            from meshforge.formats.meshfile import ply  # lazy: one kind of file in six
-
             return ply.parse_ply(data, where).surfaces(where)
         case ".dae":
-            from meshforge.formats.meshfile import dae  # lazy: one kind of file in six
-
             return dae.parse_dae(data, where)
         case ".glb" | ".gltf":
-            from meshforge.formats.meshfile import gltf_scene  # lazy: one kind of file in six
-
             return gltf_scene.parse_gltf(data, path)
         case ".wrl":
-            from meshforge.formats.meshfile import vrml  # lazy: one kind of file in six
-
             return vrml.parse_vrml(data, where)
     raise _unknown_kind_error(path)
 
