@@ -819,7 +819,7 @@ export interface DecomposeJob {
   kind: "decompose";
   assets: string[];
   method?: ("coacd" | "vhacd") | null;
-  by?: "whole" | "parts" | "labels";
+  by?: "whole" | "parts";
 }
 /**
  * Make a file that the browser fetches then. what: a zip of outputs, the report, or a GIF in which assets turn,
@@ -1353,7 +1353,7 @@ export interface ProjectOfFolder {
   folder: string;
   project: string;
   decompose?: ("coacd" | "vhacd") | null;
-  by?: "whole" | "parts" | "labels";
+  by?: "whole" | "parts";
 }
 /**
  * Make a project of the files that were sent, which come into its own folder; fields as in `ProjectOfFolder`.
@@ -1362,7 +1362,7 @@ export interface ProjectOfUpload {
   kind: "upload";
   project: string;
   decompose?: ("coacd" | "vhacd") | null;
-  by?: "whole" | "parts" | "labels";
+  by?: "whole" | "parts";
 }
 /**
  * Make a project of a bundled family, whose files are written into its own folder.

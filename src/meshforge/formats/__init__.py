@@ -9,7 +9,7 @@ __getattr__, __all__ = export_lazily(
     {
         "assets_with_labels": "convert labels_beside load load_many to_mesh to_mjspec",
         "base": "Collision Format Loss Mass Output ReadOptions",
-        "decompose_mesh": "DecomposeBy decompose label_surface read_surface",
+        "decompose_mesh": "DecomposeBy decompose read_surface",
         "engine_names.conventions": "EngineName MarkName",
         "mesh_reader": "read_triangles split_into_pieces",
         "meshfile.surface": "RawSurface",
@@ -22,8 +22,7 @@ __getattr__, __all__ = export_lazily(
             "format_for format_of format_with_names is_asset is_description notes_after path_of "
             "plugin_of_suffix read resolve_asset_path"
         ),
-        "segmentation.parts": "AlignMode SegmentationFile align_points read_parts",
-        "segmentation.reader": "POINTS_SUFFIXES points_beside read_segmentation",
+        "segmentation": "AlignMode POINTS_SUFFIXES align_points points_beside read_segmentation",
         "surface_parts": "plain_part_name",
         "trimesh_meshes": "from_trimesh",
         "visuals": "VisualSurfaces",

@@ -13,7 +13,6 @@ from meshforge.formats.base import Output as Output
 from meshforge.formats.base import ReadOptions as ReadOptions
 from meshforge.formats.decompose_mesh import DecomposeBy as DecomposeBy
 from meshforge.formats.decompose_mesh import decompose as decompose
-from meshforge.formats.decompose_mesh import label_surface as label_surface
 from meshforge.formats.decompose_mesh import read_surface as read_surface
 from meshforge.formats.engine_names.conventions import EngineName as EngineName
 from meshforge.formats.engine_names.conventions import MarkName as MarkName
@@ -45,13 +44,11 @@ from meshforge.formats.registry import path_of as path_of
 from meshforge.formats.registry import plugin_of_suffix as plugin_of_suffix
 from meshforge.formats.registry import read as read
 from meshforge.formats.registry import resolve_asset_path as resolve_asset_path
-from meshforge.formats.segmentation.parts import AlignMode as AlignMode
-from meshforge.formats.segmentation.parts import SegmentationFile as SegmentationFile
-from meshforge.formats.segmentation.parts import align_points as align_points
-from meshforge.formats.segmentation.parts import read_parts as read_parts
-from meshforge.formats.segmentation.reader import POINTS_SUFFIXES as POINTS_SUFFIXES
-from meshforge.formats.segmentation.reader import points_beside as points_beside
-from meshforge.formats.segmentation.reader import read_segmentation as read_segmentation
+from meshforge.formats.segmentation import AlignMode as AlignMode
+from meshforge.formats.segmentation import POINTS_SUFFIXES as POINTS_SUFFIXES
+from meshforge.formats.segmentation import align_points as align_points
+from meshforge.formats.segmentation import points_beside as points_beside
+from meshforge.formats.segmentation import read_segmentation as read_segmentation
 from meshforge.formats.surface_parts import plain_part_name as plain_part_name
 from meshforge.formats.trimesh_meshes import from_trimesh as from_trimesh
 from meshforge.formats.visuals import VisualSurfaces as VisualSurfaces

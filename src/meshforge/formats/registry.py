@@ -23,7 +23,7 @@ from meshforge.formats.plain import folder, obj, ply, stl
 from meshforge.formats.plugin_format import guard_format
 from meshforge.formats.sdf.document import CONFIG, find_main_file
 from meshforge.formats.sdf.format import SdfFormat
-from meshforge.formats.segmentation.reader import is_segmentation
+from meshforge.formats.segmentation import is_segmentation
 from meshforge.formats.urdf.format import UrdfFormat, UrdfWithCapsules
 from meshforge.formats.urdf.xacro import XacroFormat
 from meshforge.formats.usd.format import StageObject, UsdFormat, read_stage

@@ -15,7 +15,7 @@ from meshforge.formats.base import Format, Mass, Output, ReadOptions, note_renam
 from meshforge.formats.plain.base import AS_HULLS, BODY, PlainFormat
 from meshforge.formats.plain.parts import MeshPart, PlainDocument, collect_parts, name_members, natural_key, to_parts
 from meshforge.formats.references import find_companions
-from meshforge.formats.segmentation.reader import is_segmentation
+from meshforge.formats.segmentation import is_segmentation
 from meshforge.geometry import Pose
 from meshforge.symbolic import Asset, Body, Document, FeatureKind, Geom, Mentions, NonConvexPiece
 
