@@ -163,12 +163,12 @@ def build_asset(path: Path, kind: str, soup: Soup, found: Sequence[Piece]) -> As
     own = [[name for name, piece, _ in named if piece.group == group] for group in range(len(soup.names))]
     elements = [collision_pieces.element_of(names) if names else "" for names in own]
     hulls, others = list[Geom](), list[NonConvexPiece]()
-    for name, piece, said in named:
+    for name, piece, texts in named:
         if piece.shape:
-            hulls.append(Geom(name, BODY, piece.shape, mentions=said, element=elements[piece.group], fill=piece.fill))
+            hulls.append(Geom(name, BODY, piece.shape, mentions=texts, element=elements[piece.group], fill=piece.fill))
         else:
             surface, reason = _surface_of(soup, piece), piece.reason or ""
-            others.append(NonConvexPiece(name, BODY, reason, surface, None, said, elements[piece.group]))
+            others.append(NonConvexPiece(name, BODY, reason, surface, None, texts, elements[piece.group]))
     return Asset(path, kind, (Body(BODY, Pose.identity()),), tuple(hulls), Document(), tuple(others))
 
 
