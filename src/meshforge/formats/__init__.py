@@ -9,10 +9,10 @@ __getattr__, __all__ = export_lazily(
     {
         "assets_with_labels": "convert labels_beside load load_many to_mesh to_mjspec",
         "base": "Collision Format Loss Mass Output ReadOptions",
-        "decompose_mesh": "DecomposeBy decompose read_surface",
         "engine_names.conventions": "EngineName MarkName",
+        "mesh_input": "DecomposeBy decompose from_trimesh read_surface",
         "mesh_reader": "read_triangles split_into_pieces",
-        "meshfile.surface": "RawSurface",
+        "meshfile.surface": "RawSurface plain_part_name",
         "mjcf.compiler": "MujocoLoad try_in_mujoco",
         "output_tree": "SaveResult output_path_of save",
         "plain.obj": "format_obj",
@@ -23,8 +23,6 @@ __getattr__, __all__ = export_lazily(
             "plugin_of_suffix read resolve_asset_path"
         ),
         "segmentation": "AlignMode POINTS_SUFFIXES align_points points_beside read_segmentation",
-        "surface_parts": "plain_part_name",
-        "trimesh_meshes": "from_trimesh",
         "visuals": "VisualSurfaces",
     },
 )

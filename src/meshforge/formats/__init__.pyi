@@ -11,14 +11,16 @@ from meshforge.formats.base import Loss as Loss
 from meshforge.formats.base import Mass as Mass
 from meshforge.formats.base import Output as Output
 from meshforge.formats.base import ReadOptions as ReadOptions
-from meshforge.formats.decompose_mesh import DecomposeBy as DecomposeBy
-from meshforge.formats.decompose_mesh import decompose as decompose
-from meshforge.formats.decompose_mesh import read_surface as read_surface
 from meshforge.formats.engine_names.conventions import EngineName as EngineName
 from meshforge.formats.engine_names.conventions import MarkName as MarkName
+from meshforge.formats.mesh_input import DecomposeBy as DecomposeBy
+from meshforge.formats.mesh_input import decompose as decompose
+from meshforge.formats.mesh_input import from_trimesh as from_trimesh
+from meshforge.formats.mesh_input import read_surface as read_surface
 from meshforge.formats.mesh_reader import read_triangles as read_triangles
 from meshforge.formats.mesh_reader import split_into_pieces as split_into_pieces
 from meshforge.formats.meshfile.surface import RawSurface as RawSurface
+from meshforge.formats.meshfile.surface import plain_part_name as plain_part_name
 from meshforge.formats.mjcf.compiler import MujocoLoad as MujocoLoad
 from meshforge.formats.mjcf.compiler import try_in_mujoco as try_in_mujoco
 from meshforge.formats.output_tree import SaveResult as SaveResult
@@ -49,6 +51,4 @@ from meshforge.formats.segmentation import POINTS_SUFFIXES as POINTS_SUFFIXES
 from meshforge.formats.segmentation import align_points as align_points
 from meshforge.formats.segmentation import points_beside as points_beside
 from meshforge.formats.segmentation import read_segmentation as read_segmentation
-from meshforge.formats.surface_parts import plain_part_name as plain_part_name
-from meshforge.formats.trimesh_meshes import from_trimesh as from_trimesh
 from meshforge.formats.visuals import VisualSurfaces as VisualSurfaces

@@ -12,8 +12,7 @@ import numpy as np
 
 from meshforge import geometry
 from meshforge.common import AssetError, GeometryError, file_digest
-from meshforge.formats.meshfile.surface import RawSurface
-from meshforge.formats.surface_parts import parts_of_surfaces
+from meshforge.formats.meshfile.surface import RawSurface, parts_of_surfaces
 from meshforge.formats.xml import Element, format_numbers
 from meshforge.geometry import FLATNESS, Floats, Ints, Piece, Pose, Shape, Sphere, principal_extents
 from meshforge.symbolic import Asset, Geom, Mentions, NonConvexPiece, Surface, unique_names

@@ -15,8 +15,7 @@ import numpy as np
 
 from meshforge.common import MeshForgeError
 from meshforge.formats import base, collision_pieces, mesh_reader
-from meshforge.formats.meshfile.surface import GAMMA
-from meshforge.formats.surface_parts import parts_of_surfaces
+from meshforge.formats.meshfile.surface import GAMMA, parts_of_surfaces
 from meshforge.geometry import Floats, Ints, Pose, Shape
 from meshforge.symbolic import Asset, FeatureKind, Rgba, Surface, Texture
 

@@ -19,7 +19,7 @@ import numpy.typing as npt
 from meshforge.common import AssetError, GeometryError
 from meshforge.formats import collision_pieces, mesh_reader, references
 from meshforge.formats.base import Format, Mass, Output, ReadOptions, note_renames
-from meshforge.formats.meshfile.surface import Soup
+from meshforge.formats.meshfile.surface import Soup, parts_of_groups
 from meshforge.formats.plain.parts import (
     MeshPart,
     PlainDocument,
@@ -31,7 +31,6 @@ from meshforge.formats.plain.parts import (
     owners_of,
     to_parts,
 )
-from meshforge.formats.surface_parts import parts_of_groups
 from meshforge.geometry import Piece, Pose, distinct, split_pieces
 from meshforge.symbolic import (
     PRIMITIVE_FEATURES,

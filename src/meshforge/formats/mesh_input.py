@@ -1,22 +1,110 @@
-"""Any mesh into a symbolic mesh of convex hulls."""
+"""Mesh files, and meshes and scenes of trimesh, as symbolic meshes: by their connected convex pieces, or decomposed."""
 
 from __future__ import annotations
 
 import os
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Literal, get_args
+from typing import Any, Literal, Protocol, get_args, runtime_checkable
+
+import numpy as np
 
 from meshforge import geometry
 from meshforge.common import UsageError, join_names
-from meshforge.formats import mesh_reader, surface_parts
-from meshforge.formats.meshfile.surface import RawSurface, check_surfaces, stack_triangles
-from meshforge.formats.trimesh_meshes import WHERE, TrimeshObject, list_surfaces
-from meshforge.symbolic import Asset, Body, Document, Geom, Surface, SymbolicMesh, unique_names
+from meshforge.formats import mesh_reader
+from meshforge.formats.assets_with_labels import label_hulls
+from meshforge.formats.meshfile import surface as meshfile
+from meshforge.formats.meshfile.surface import RawSurface, check_surfaces
+from meshforge.formats.plain.base import build_asset
+from meshforge.symbolic import Asset, Body, Document, Geom, Label, Surface, SymbolicMesh, unique_names
+
+WHERE = "trimesh"
+_REMEDY = "Give a trimesh.Trimesh, a trimesh.Scene, a list of these, or a dict with names for them."
 
 DecomposeBy = Literal["whole", "parts"]
 """Whether a surface is decomposed at once, or each of the parts that its file names by itself."""
+
+
+@runtime_checkable
+class MeshObject(Protocol):
+    """A `trimesh.Trimesh`, or what is like one."""
+
+    @property
+    def vertices(self) -> Any:
+        """(n, 3) [m]."""
+
+    @property
+    def faces(self) -> Any:
+        """(m, 3)."""
+
+
+@runtime_checkable
+class SceneObject(Protocol):
+    """A `trimesh.Scene`, or what is like one."""
+
+    @property
+    def geometry(self) -> Any:
+        """Meshes by name."""
+
+    @property
+    def graph(self) -> Any:
+        """Where they are."""
+
+
+TrimeshObject = MeshObject | SceneObject
+
+
+def from_trimesh(
+    what: TrimeshObject | Iterable[TrimeshObject] | Mapping[str, TrimeshObject],
+    *,
+    labels: Mapping[str, Label | str] | None = None,
+    name: str = WHERE,
+) -> SymbolicMesh:
+    """Return the symbolic mesh of meshes and scenes of trimesh.
+
+    what: one, several, or several by name. Each connected convex piece is a hull. It is called as its mesh, or its node
+    of the scene, with `#k` where that has several pieces. What is not convex is in `.asset.opaque`, with the reason.
+    Coordinates are metres in one root frame. labels: by the names of hulls; name: of the mesh, for messages.
+    Raises AssetError: no triangles, or coordinates that are not finite; UsageError: it is no mesh;
+    HullNotFoundError: a label for a hull that is not there.
+    """
+    surfaces = check_surfaces(list_surfaces(what), name)
+    asset = build_asset(
+        Path(name), WHERE, meshfile.join_surfaces(surfaces), mesh_reader.split_into_pieces(surfaces, name=name)
+    )
+    return label_hulls(SymbolicMesh.of(asset), labels or {})
+
+
+def list_surfaces(what: Any, name: str | None = None) -> Iterator[RawSurface]:
+    """Yield the triangles of meshes and scenes, in the root frame. Raises UsageError."""
+    if isinstance(what, SceneObject):
+        yield from _list_nodes(what)
+    elif isinstance(what, MeshObject):
+        own = name or getattr(what, "metadata", {}).get("name")
+        yield RawSurface(own, np.asarray(what.vertices, dtype=np.float64), np.asarray(what.faces, dtype=np.int64))
+    elif isinstance(what, Mapping):
+        for key, item in what.items():
+            yield from list_surfaces(item, str(key))
+    elif isinstance(what, Iterable) and not isinstance(what, str | bytes):
+        for item in what:
+            yield from list_surfaces(item, name)
+    else:
+        raise UsageError(f"a {type(what).__name__} is no mesh of trimesh", remedy=_REMEDY)
+
+
+def _list_nodes(scene: SceneObject) -> Iterator[RawSurface]:
+    """The meshes of a scene where its nodes put them; paths and points have no triangles."""
+    for node in scene.graph.nodes_geometry:
+        matrix, key = scene.graph[node]
+        mesh = scene.geometry[key]
+        if not isinstance(mesh, MeshObject):
+            continue
+        matrix = np.asarray(matrix, dtype=np.float64)
+        vertices = np.asarray(mesh.vertices, dtype=np.float64) @ matrix[:3, :3].T + matrix[:3, 3]
+        faces = np.asarray(mesh.faces, dtype=np.int64)
+        mirrored = np.linalg.det(matrix[:3, :3]) < 0
+        yield RawSurface(str(node), vertices, faces[:, ::-1] if mirrored else faces)
 
 
 def decompose(
@@ -77,13 +165,13 @@ def read_surface(mesh: str | os.PathLike[str] | TrimeshObject) -> tuple[Path, Su
         path, surfaces = Path(mesh), mesh_reader.read_triangles(Path(mesh))
     else:
         path, surfaces = Path(WHERE), check_surfaces(list_surfaces(mesh), WHERE)
-    vertices, faces = stack_triangles((surface.vertices, surface.faces) for surface in surfaces)
-    return path, Surface(vertices, faces, parts=surface_parts.parts_of_surfaces(surfaces))
+    vertices, faces = meshfile.stack_triangles((surface.vertices, surface.faces) for surface in surfaces)
+    return path, Surface(vertices, faces, parts=meshfile.parts_of_surfaces(surfaces))
 
 
 def name_hulls(parts: Sequence[str]) -> list[str]:
     """Return the names of hulls, each by its part and a number: `handle_0`; parts of one name are numbered together."""
-    return unique_names(_number([surface_parts.plain_part_name(part) for part in parts]))
+    return unique_names(_number([meshfile.plain_part_name(part) for part in parts]))
 
 
 def _number(bases: Sequence[str]) -> list[str]:
