@@ -28,28 +28,18 @@ DecomposeBy = Literal["whole", "parts"]
 
 @runtime_checkable
 class MeshObject(Protocol):
-    """A `trimesh.Trimesh`, or what is like one."""
+    """A `trimesh.Trimesh`, or what is like one: vertices (n, 3) [m], and faces (m, 3)."""
 
-    @property
-    def vertices(self) -> Any:
-        """(n, 3) [m]."""
-
-    @property
-    def faces(self) -> Any:
-        """(m, 3)."""
+    vertices: Any
+    faces: Any
 
 
 @runtime_checkable
 class SceneObject(Protocol):
-    """A `trimesh.Scene`, or what is like one."""
+    """A `trimesh.Scene`, or what is like one: meshes by name, and where they are."""
 
-    @property
-    def geometry(self) -> Any:
-        """Meshes by name."""
-
-    @property
-    def graph(self) -> Any:
-        """Where they are."""
+    geometry: Any
+    graph: Any
 
 
 TrimeshObject = MeshObject | SceneObject
