@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 
 from meshforge.common import MeshForgeError
-from meshforge.formats.segmentation.reader import read_segmentation
+from meshforge.formats.segmentation import read_segmentation
 from meshforge.language import Program
 from meshforge.store.program import read_steps
 from meshforge.store.settings import read_settings
@@ -24,19 +24,17 @@ from tests.corpus_case import ROOT
 from tests.damage import damaged
 from tests.laws.test_readers_never_crash import DAE, WHOLE, told_or_read
 from tests.rearranging import rearranged
-from tests.usd_crates import anyhow
 
 KINDS = {
     **WHOLE,
     "dae": DAE,
-    "crate": ("usd/made_by_hand.usdc",),
     "program": tuple(sorted(p.relative_to(ROOT).as_posix() for p in (ROOT / "program").glob("*.mf"))),
     "labels": ("labels/good.json",),
     "steps": ("demonstrations/good.json",),
     "settings": ("settings/good.toml",),
     "points": ("points/a.npz", "points/a.ply"),
 }
-"""Whole inputs of each kind: files of the corpus, and segmented points and crates, which are made."""
+"""Whole inputs of each kind: files of the corpus, and segmented points, which are made."""
 _OF_PROJECTS: dict[str, Callable[[Path], object]] = {
     "labels": read_labels,
     "steps": read_steps,
@@ -62,8 +60,6 @@ def changed(kind: str, seed: int) -> tuple[str, bytes]:
     """The name of a whole input, and its bytes after some damage, to its bytes or its structure or both."""
     rng = random.Random(f"{kind} {seed}")
     name = rng.choice(KINDS[kind])
-    if kind == "crate":
-        return name, anyhow(rng)
     data = _points(Path(name).suffix) if kind == "points" else (ROOT / name).read_bytes()
     how = rng.randrange(5)
     if how < 3:

@@ -18,7 +18,6 @@ from meshforge.symbolic import SymbolicMesh, read_labels
 from tests.corpus_case import ROOT
 from tests.damage import damaged
 from tests.examples import examples
-from tests.usd_crates import anyhow
 
 WHOLE = {
     "obj": ("obj/cube.obj", "obj/groups_of_one_name.obj", "obj/corner_with_slashes.obj", "obj/index_negative.obj"),
@@ -29,7 +28,7 @@ WHOLE = {
     "glb": ("glb/cube.glb",),
     "urdf": ("urdf/mesh_beside.urdf", "urdf/two_roots.urdf", "urdf/joint_without_limits.urdf", "urdf/box.urdf"),
     "usda": ("usd/cube.usda", "usd/reference_beside.usda", "usd/mesh_index_beyond.usda"),
-    "usdc": ("usd/cube.usdc", "usd/cube.usdz"),
+    "usdc": ("usd/cube.usdc", "usd/cube.usdz", "usd/made_by_hand.usdc"),
     "sdf": ("sdf/nested.sdf", "sdf/world.sdf", "sdf/geometry_mesh_submesh.sdf", "sdf/two_models.sdf"),
     "mjcf": ("mjcf/mesh_good.xml", "mjcf/box.xml", "mjcf/default_type.xml", "mjcf/include_good.xml"),
 }
@@ -46,13 +45,6 @@ def test_a_damaged_asset_is_read_or_refused(kind: str, seed: int) -> None:
         if (whole.parent / "parts").is_dir():
             Path(folder, "parts").symlink_to(whole.parent / "parts")
         told_or_read(written(Path(folder, whole.name), damaged(whole.read_bytes(), rng)))
-
-
-@examples(200)
-@given(seed=st.integers(0, 2**32))
-def test_a_binary_layer_that_says_what_it_likes_is_read_or_refused(seed: int) -> None:
-    with tempfile.TemporaryDirectory() as folder:
-        told_or_read(written(Path(folder, "a.usdc"), anyhow(random.Random(seed))))
 
 
 @examples(60)

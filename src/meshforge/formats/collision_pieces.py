@@ -12,8 +12,7 @@ import numpy as np
 
 from meshforge import geometry
 from meshforge.common import AssetError, GeometryError, file_digest
-from meshforge.formats.meshfile.surface import RawSurface
-from meshforge.formats.surface_parts import parts_of_surfaces
+from meshforge.formats.meshfile.surface import RawSurface, parts_of_surfaces
 from meshforge.formats.xml import Element, format_numbers
 from meshforge.geometry import FLATNESS, Floats, Ints, Piece, Pose, Shape, Sphere, principal_extents
 from meshforge.symbolic import Asset, Geom, Mentions, NonConvexPiece, Surface, unique_names
@@ -209,12 +208,12 @@ def build_pieces(
     """Return the pieces of elements that are hulls, and those that are none; parts: of each element, in order;
     mentions: what else the file calls each of them."""
     hulls, others = list[Geom](), list[NonConvexPiece]()
-    for one, own, words in zip(authored, parts, mentions, strict=True):
-        for name, part, said in zip(one.names, own, words, strict=True):
+    for one, own, texts in zip(authored, parts, mentions, strict=True):
+        for name, part, mention in zip(one.names, own, texts, strict=True):
             if part.shape:
-                hulls.append(Geom(name, one.link, part.shape, mentions=said, element=one.element, fill=part.fill))
+                hulls.append(Geom(name, one.link, part.shape, mentions=mention, element=one.element, fill=part.fill))
             else:
-                piece = NonConvexPiece(name, one.link, part.reason, part.surface, part.plane, said, one.element)
+                piece = NonConvexPiece(name, one.link, part.reason, part.surface, part.plane, mention, one.element)
                 others.append(piece)
     return tuple(hulls), tuple(others)
 

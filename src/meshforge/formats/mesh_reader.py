@@ -6,10 +6,11 @@ import errno
 import os
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 from meshforge.common import AssetError, is_beyond_reach
+from meshforge.formats.meshfile import dae, gltf_scene, obj, ply, stl, vrml
 from meshforge.formats.meshfile.surface import RawSurface, join_surfaces
 from meshforge.geometry import Piece, split_pieces
 
@@ -40,42 +41,37 @@ _NEVER_XML = (".obj", ".stl", ".ply", ".wrl", ".glb", ".gltf")
 Mismatch = tuple[str, str | None]
 
 
-@dataclass(frozen=True, slots=True)
-class FileSignature:
+class FileSignature(NamedTuple):
     """A kind of file: how it begins, its name for people, the suffixes under which it is right, and the remedy.
 
     Without a remedy, it is to be renamed to the first of its suffixes.
     """
 
-    begins: re.Pattern[bytes]
+    begins: bytes
     name: str
     suffixes: tuple[str, ...] = ()
     remedy: str | None = None
 
 
-def _signature(begins: bytes, name: str, *suffixes: str, remedy: str | None = None) -> FileSignature:
-    return FileSignature(re.compile(rb"(?:\xef\xbb\xbf)?\s*" + begins, re.S | re.I), name, suffixes, remedy)
-
-
 _SIGNATURES = (
-    _signature(rb"version https://git-lfs\.github\.com/spec", "a Git LFS pointer, not the file itself", remedy=_FETCH),
-    _signature(rb"<!doctype html|<html", "a web page", remedy=_LOADED),
-    _signature(rb"\x1f\x8b", "a file compressed by gzip", remedy="Unpack it first (gunzip)."),
-    _signature(rb"PK\x03\x04", "a ZIP archive", ".usdz", ".zae", remedy="Unpack it first (unzip)."),
-    _signature(rb"7z\xbc\xaf|Rar!", "a compressed archive", remedy="Unpack it first."),
-    _signature(rb"\x89PNG|\xff\xd8\xff|GIF8|BM.{4}\0\0\0\0", "a picture"),
-    _signature(rb"%PDF-", "a PDF document"),
-    _signature(rb"glTF", "a binary glTF file", ".glb", ".gltf"),
-    _signature(rb"ply\s+(?:format|comment|element|obj_info)\b", "a PLY file", ".ply"),
-    _signature(rb"#VRML V", "a VRML file", ".wrl"),
-    _signature(rb"solid\b.*\bfacet\b", "an ASCII STL file", ".stl"),
-    _signature(rb"n?OFF\s+[\d#]", "an OFF file", remedy=_OTHER),
-    _signature(rb"Kaydara FBX|; FBX", "an FBX file", remedy=_OTHER),
-    _signature(rb"BLENDER", "a Blender file", remedy=_OTHER),
-    _signature(rb"PXR-USDC|#usda", "a USD file", ".usd", ".usda", ".usdc"),
-    _signature(rb"(?:#[^\n]*\n\s*)*(?:mtllib\s|o\s|g\s|v\s+[-\d.])", "an OBJ file", ".obj"),
-    _signature(rb"\{\s*\"asset\"", "a glTF file", ".gltf"),
-    _signature(rb"\{\s*[\"}]", "JSON, not a mesh", ".gltf", remedy=_LOADED),
+    FileSignature(rb"version https://git-lfs\.github\.com/spec", "a Git LFS pointer, not the file itself", (), _FETCH),
+    FileSignature(rb"<!doctype html|<html", "a web page", (), _LOADED),
+    FileSignature(rb"\x1f\x8b", "a file compressed by gzip", (), "Unpack it first (gunzip)."),
+    FileSignature(rb"PK\x03\x04", "a ZIP archive", (".usdz", ".zae"), "Unpack it first (unzip)."),
+    FileSignature(rb"7z\xbc\xaf|Rar!", "a compressed archive", (), "Unpack it first."),
+    FileSignature(rb"\x89PNG|\xff\xd8\xff|GIF8|BM.{4}\0\0\0\0", "a picture"),
+    FileSignature(rb"%PDF-", "a PDF document"),
+    FileSignature(rb"glTF", "a binary glTF file", (".glb", ".gltf")),
+    FileSignature(rb"ply\s+(?:format|comment|element|obj_info)\b", "a PLY file", (".ply",)),
+    FileSignature(rb"#VRML V", "a VRML file", (".wrl",)),
+    FileSignature(rb"solid\b.*\bfacet\b", "an ASCII STL file", (".stl",)),
+    FileSignature(rb"n?OFF\s+[\d#]", "an OFF file", (), _OTHER),
+    FileSignature(rb"Kaydara FBX|; FBX", "an FBX file", (), _OTHER),
+    FileSignature(rb"BLENDER", "a Blender file", (), _OTHER),
+    FileSignature(rb"PXR-USDC|#usda", "a USD file", (".usd", ".usda", ".usdc")),
+    FileSignature(rb"(?:#[^\n]*\n\s*)*(?:mtllib\s|o\s|g\s|v\s+[-\d.])", "an OBJ file", (".obj",)),
+    FileSignature(rb"\{\s*\"asset\"", "a glTF file", (".gltf",)),
+    FileSignature(rb"\{\s*[\"}]", "JSON, not a mesh", (".gltf",), _LOADED),
 )
 
 
@@ -111,28 +107,16 @@ def parse_surfaces(data: bytes, path: Path) -> list[RawSurface]:
     where = str(path)
     match path.suffix.lower():
         case ".obj":
-            from meshforge.formats.meshfile import obj  # lazy: one kind of file in six
-
             return obj.parse_obj(data, where).surfaces(where)
         case ".stl":
-            from meshforge.formats.meshfile import stl  # lazy: one kind of file in six
-
             return stl.parse_stl(data, where).surfaces(where)
         case ".ply":
-            from meshforge.formats.meshfile import ply  # lazy: one kind of file in six
-
             return ply.parse_ply(data, where).surfaces(where)
         case ".dae":
-            from meshforge.formats.meshfile import dae  # lazy: one kind of file in six
-
             return dae.parse_dae(data, where)
         case ".glb" | ".gltf":
-            from meshforge.formats.meshfile import gltf_scene  # lazy: one kind of file in six
-
             return gltf_scene.parse_gltf(data, path)
         case ".wrl":
-            from meshforge.formats.meshfile import vrml  # lazy: one kind of file in six
-
             return vrml.parse_vrml(data, where)
     raise _unknown_kind_error(path)
 
@@ -184,7 +168,7 @@ def _check_kind(data: bytes, suffix: str) -> Mismatch | None:
 
 def _check_signature(data: bytes, suffix: str) -> Mismatch | None:
     for known in _SIGNATURES:
-        if known.begins.match(data[:_HEAD]):
+        if re.match(rb"(?:\xef\xbb\xbf)?\s*" + known.begins, data[:_HEAD], re.S | re.I):
             if suffix in known.suffixes:
                 return None
             if known.remedy or not known.suffixes:

@@ -15,8 +15,7 @@ import numpy as np
 
 from meshforge.common import MeshForgeError
 from meshforge.formats import base, collision_pieces, mesh_reader
-from meshforge.formats.meshfile.surface import GAMMA
-from meshforge.formats.surface_parts import parts_of_surfaces
+from meshforge.formats.meshfile.surface import GAMMA, parts_of_surfaces
 from meshforge.geometry import Floats, Ints, Pose, Shape
 from meshforge.symbolic import Asset, FeatureKind, Rgba, Surface, Texture
 
@@ -154,6 +153,12 @@ def linear_color(rgba: Rgba) -> list[float]:
     return [round(float(share), 6) for share in np.clip(rgba[:3], 0, 1) ** GAMMA]
 
 
+def screen_color(linear: Sequence[float], alpha: float) -> Rgba:
+    """Return a colour as screens show it, of red, green and blue as glTF and USD have them."""
+    red, green, blue = (round(float(share), 4) for share in np.clip(linear, 0, 1) ** (1 / GAMMA))
+    return red, green, blue, round(float(np.clip(alpha, 0, 1)), 6)
+
+
 MATERIAL_SUFFIXES = (".obj", ".dae", ".glb", ".gltf")
 """The mesh files whose base colours and pictures `read_materials` reads."""
 _SLIGHT = 1e-4  # share of the size, by which single precision moves a box
@@ -192,8 +197,8 @@ def _read_mesh(mesh: Any, suffix: str) -> Surface:
     if color is None:
         return Surface(vertices, faces)
     red, green, blue, alpha = (np.asarray(color, dtype=np.float64) / 255).tolist()
-    linear = suffix in (".glb", ".gltf")
-    rgba: Rgba = (*(round(share ** (1 / GAMMA), 4) if linear else share for share in (red, green, blue)), alpha)
+    is_linear = suffix in (".glb", ".gltf")
+    rgba = screen_color((red, green, blue), alpha) if is_linear else (red, green, blue, alpha)
     return Surface(vertices, faces, rgba=rgba)
 
 

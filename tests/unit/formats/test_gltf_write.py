@@ -41,16 +41,6 @@ def test_a_removed_hull_takes_its_node_out_of_the_scene_and_no_number_changes(tm
     assert [node["name"] for node in after["nodes"]] == ["legs", "top"]
 
 
-def test_a_parent_that_loses_its_only_child_has_no_empty_list(tmp_path: Path) -> None:
-    scene = SceneFile()
-    child = scene.node("child", box())
-    scene.node("parent", children=[child])
-    scene.node("other", box((2, 0, 0)))
-    case = Edited(scene, tmp_path)
-    case.edit(gone=["child"])
-    assert case.trees[1]["nodes"][1] == {"name": "parent"}
-
-
 @pytest.mark.parametrize("what", ["animation", "joint", "camera", "extension"])
 def test_a_node_that_something_else_hangs_on_stays_in_the_scene_empty(tmp_path: Path, what: str) -> None:
     scene = SceneFile.of(("door", box()), ("frame", box((2, 0, 0))))
@@ -175,16 +165,6 @@ def test_points_and_lines_stay_with_the_pieces_that_are_left(tmp_path: Path, nam
     assert modes(case.trees[1]) == {name: [4, 1]}
 
 
-def test_a_line_of_a_mesh_that_two_nodes_show_stays_in_both(tmp_path: Path) -> None:
-    scene = SceneFile()
-    mesh = with_a_line(scene, box())
-    scene.node("left", mesh=mesh)
-    scene.node("right", mesh=mesh, translation=[0, 0, 9])
-    case = Edited(scene, tmp_path)
-    assert names(case.edit(gone=["left"])) == ["right"]
-    assert modes(case.trees[1]) == {"left": [1], "right": [4, 1]}
-
-
 def test_strips_become_lists_of_triangles_where_they_are_parted(tmp_path: Path) -> None:
     scene = SceneFile()
     strip = np.array([3, 2, 7, 6, 4, 2, 0, 3, 1, 7, 5, 4, 1, 0])  # a box in one strip
@@ -198,17 +178,6 @@ def test_strips_become_lists_of_triangles_where_they_are_parted(tmp_path: Path) 
     assert len(hulls) >= 2
     after = case.edit(gone=hulls[1:-1])
     assert after.geoms[0].shape.volume == pytest.approx(case.before.geoms[0].shape.volume)
-
-
-def test_hulls_without_a_name_of_their_own_keep_the_one_they_had(tmp_path: Path) -> None:
-    scene = SceneFile()
-    for x in range(3):
-        scene.node(None, box((2.0 * x, 0, 0)))
-    scene.node("leg", box((0, 3, 0)))
-    scene.node("leg", box((0, 6, 0)))
-    case = Edited(scene, tmp_path)
-    assert names(case.edit(gone=["geom0", "leg"])) == ["geom1", "geom2", "leg@2"]
-    assert not case.saved.names
 
 
 def test_new_geometry_of_a_text_goes_to_a_file_beside_it_and_again_to_another(tmp_path: Path) -> None:

@@ -69,13 +69,6 @@ def test_hulls_are_named_after_objects_and_groups(tmp_path: Path, first: str, se
     assert names(read(written(tmp_path / "a.obj", two_legs(first, second)))) == expected
 
 
-def test_an_edit_that_changes_nothing_gives_the_same_bytes(tmp_path: Path) -> None:
-    text = two_legs().replace("\n", "\r\n").encode() + b"# no line end \xff"
-    asset = read(written(tmp_path / "a.obj", text))
-    save(asset.with_geoms(reversed(asset.geoms)), tmp_path / "b.obj")
-    assert (tmp_path / "b.obj").read_bytes() == text
-
-
 def test_a_deleted_hull_takes_its_faces_vertices_and_group_line_along(tmp_path: Path) -> None:
     asset, text = edited(written(tmp_path / "a.obj", two_legs()), tmp_path / "b.obj", drop={"left leg"})
     assert names(asset) == ["right leg"]

@@ -142,14 +142,6 @@ def test_hulls_that_an_stl_cannot_hold_apart_are_refused_not_fused(tmp_path: Pat
     assert not (tmp_path / "b.stl").exists()
 
 
-def test_of_hulls_that_cannot_be_told_apart_the_first_by_name_is_named(tmp_path: Path) -> None:
-    row = [(low[0], low[1][2:]) for low in (box((3 * k, 0, 0)) for k in range(12))]
-    asset = read(put(tmp_path, ".stl", stl_binary(together(*row))))
-    twins = [Geom(f"{geom.name}~1", "body", geom.shape, geom.name) for geom in asset.geoms]
-    with pytest.raises(AssetError, match="the hull geom0#0 cannot be told apart"):
-        save(without(asset, add=twins), tmp_path / "b.stl")
-
-
 @pytest.mark.parametrize(("old", "new"), [("6.0", "6.5"), ("0.25", "0.375")], ids=["stays", "made"])
 def test_corners_that_a_writer_moves_are_noticed(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, old: str, new: str
@@ -195,15 +187,6 @@ def test_other_formats_are_converted_with_what_is_opaque(tmp_path: Path, suffix:
         f"1 capsule (pin) is written as triangles: {suffix[1:].upper()} has no capsules",
         "1 piece without a surface (floor) is left out: an endless plane",
     ]
-
-
-@pytest.mark.parametrize("suffix", [".obj", ".ply"])
-def test_a_new_file_holds_double_precision(tmp_path: Path, suffix: str) -> None:
-    points = np.random.default_rng(4).normal(size=(20, 3)) * np.pi
-    asset = read(put(tmp_path, ".wrl", wrl(LEGS))).with_geoms([Geom("ball", "body", convex_hull(points))])
-    save(asset, tmp_path / f"b{suffix}")
-    (ball,) = read(tmp_path / f"b{suffix}").geoms
-    assert set(map(tuple, ball.shape.vertices.tolist())) <= set(map(tuple, points.tolist()))
 
 
 def test_nothing_is_not_written(tmp_path: Path) -> None:

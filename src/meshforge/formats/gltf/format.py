@@ -15,6 +15,7 @@ from meshforge.formats.engine_names.conventions import CollisionNames, GodotName
 from meshforge.formats.gltf.document import Convention, GltfDocument
 from meshforge.formats.gltf.physics import KHR, explain_missing_mass, read_motion
 from meshforge.formats.meshfile.gltf_document import Json, entries, entry, extension, report_damage
+from meshforge.formats.meshfile.gltf_scene import GltfScene
 from meshforge.symbolic import Asset, Feature, FeatureKind, Surface
 
 _LISTS = ("materials", "textures", "animations", "skins", "cameras")
@@ -65,8 +66,6 @@ class GltfFormat(SceneFormat):
         if not isinstance(asset.document, GltfDocument):
             return ()
         with report_damage(str(asset.path)):
-            from meshforge.formats.meshfile.gltf_scene import GltfScene  # lazy: only glTF needs it
-
             tree = GltfScene.of(asset.document.source, asset.path).tree
             return [*_list_features(tree), *_list_missing_masses(tree, asset.document, asset)]
 

@@ -20,8 +20,7 @@ from meshforge.formats.gltf.draft import name_of
 from meshforge.formats.meshfile.gltf_document import Json, entries, entry, extension, report_damage
 from meshforge.formats.meshfile.gltf_meshes import GltfMesh
 from meshforge.formats.meshfile.gltf_scene import GltfScene
-from meshforge.formats.meshfile.surface import GAMMA
-from meshforge.formats.visuals import LazySurfaces
+from meshforge.formats.visuals import LazySurfaces, screen_color
 from meshforge.geometry import Floats, Ints, Pose
 from meshforge.symbolic import Asset, Body, FileNote, Mechanism, Mentions, NameProblem, Rgba, Surface, unique_names
 
@@ -177,8 +176,7 @@ def _read_color(material: Json) -> Rgba | None:
     factor = shading.get("baseColorFactor")
     if factor is None or len(factor) != 4 or "baseColorTexture" in shading:
         return None
-    red, green, blue = (np.clip(np.asarray(factor[:3], dtype=np.float64), 0, 1) ** (1 / GAMMA)).tolist()
-    return round(red, 4), round(green, 4), round(blue, 4), float(factor[3])
+    return screen_color(np.asarray(factor[:3], dtype=np.float64).tolist(), float(factor[3]))
 
 
 def _mentions_of_node(scene: GltfScene, source: NodeCollision) -> list[Mentions]:

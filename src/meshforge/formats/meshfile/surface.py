@@ -1,4 +1,5 @@
-"""What every mesh file is read into: named surfaces, checked for what no reader may let pass."""
+"""What every mesh file is read into: named surfaces, checked for what no reader may let pass; and the parts of these,
+by groups, objects, nodes and materials."""
 
 from __future__ import annotations
 
@@ -10,11 +11,13 @@ import numpy as np
 import numpy.typing as npt
 
 from meshforge.common import AssetError, pluralize
-from meshforge.geometry import Floats, Ints
+from meshforge.geometry import Floats, Ints, SurfaceParts
 
 GAMMA = 2.2
 """Colours of glTF and USD are linear, those of other formats are as screens show them."""
 
+_ODD = re.compile(r"[^A-Za-z0-9_]+")
+_MATERIALS = tuple[Ints, tuple[str, ...]]
 _NUMBER = re.compile(rb"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?|[+-]?(nan|inf(inity)?)", re.I)
 FARTHEST = 1e15
 """The largest coordinate that is read: farther out, doubles are coarser than a decimetre, and volumes overflow."""
@@ -32,7 +35,7 @@ class RawSurface:
     vertices: Floats
     faces: Ints
     unit: float = 1.0
-    materials: tuple[Ints, tuple[str, ...]] | None = None
+    materials: _MATERIALS | None = None
 
 
 def check_surfaces(surfaces: Iterable[RawSurface], where: str) -> list[RawSurface]:
@@ -136,3 +139,38 @@ def remedy_for(words: Sequence[bytes]) -> str:
     """Return what to do about words that are no numbers."""
     commas = any(b"," in word for word in words)
     return "Decimal commas are not read: export it with points." if commas else "Fix or export it again."
+
+
+def parts_of_surfaces(surfaces: Sequence[RawSurface], name: str = "") -> SurfaceParts:
+    """Return the parts of surfaces one after the other; name: what one is called that has no name."""
+    group = np.repeat(np.arange(len(surfaces)), [len(surface.faces) for surface in surfaces])
+    own_materials = [surface.materials or (np.zeros(len(surface.faces), dtype=np.int64), ("",)) for surface in surfaces]
+    known = tuple(dict.fromkeys(name for _, names in own_materials for name in names))
+    owners = [np.array([known.index(name) for name in names])[owner] for owner, names in own_materials]
+    materials = (np.concatenate(owners), known) if owners else None
+    return parts_of_groups(group, [surface.name or name for surface in surfaces], materials)
+
+
+def parts_of_groups(group: Ints, names: Sequence[str | None], materials: _MATERIALS | None = None) -> SurfaceParts:
+    """Return the parts of triangles of some groups (m,); each group with several materials is a part a material.
+
+    group: negative for triangles that are only seen; names: of the groups. A part is called by its group, or by its
+    material where it has no other name, or there are several in the group.
+    """
+    owner, known = materials or (np.zeros(len(group), dtype=np.int64), ("",))
+    keys, of_face = np.unique(group * len(known) + owner, return_inverse=True)
+    pairs = np.column_stack(np.divmod(keys, len(known)))
+    several = {int(k) for k, count in zip(*np.unique(pairs[:, 0], return_counts=True), strict=True) if count > 1}
+    called: list[str] = []
+    for k, material in pairs.tolist():
+        own = (names[k] if 0 <= k < len(names) else None) or ""
+        words = [own, known[material] if k in several or not own else ""]
+        called.append("_".join(filter(None, words)) or f"part_{len(called)}")
+    return SurfaceParts(of_face.reshape(-1), tuple(called))
+
+
+def plain_part_name(name: str) -> str:
+    """Return the name of a part as names of hulls begin in every format: letters, digits and underscores, no digit
+    first."""
+    plain = _ODD.sub("_", name.strip()).strip("_")
+    return plain if plain and not plain[0].isdigit() else f"part_{plain}".rstrip("_")

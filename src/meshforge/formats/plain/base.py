@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import itertools
 from abc import abstractmethod
+from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -19,20 +20,18 @@ import numpy.typing as npt
 from meshforge.common import AssetError, GeometryError
 from meshforge.formats import collision_pieces, mesh_reader, references
 from meshforge.formats.base import Format, Mass, Output, ReadOptions, note_renames
-from meshforge.formats.meshfile.surface import Soup
+from meshforge.formats.meshfile.surface import Soup, parts_of_groups
 from meshforge.formats.plain.parts import (
     MeshPart,
     PlainDocument,
-    TargetTriangles,
     collect_parts,
     corners_of,
-    find_renamed_hulls,
     name_file_pieces,
+    natural_key,
     owners_of,
     to_parts,
 )
-from meshforge.formats.surface_parts import parts_of_groups
-from meshforge.geometry import Piece, Pose, distinct, split_pieces
+from meshforge.geometry import Floats, Piece, Pose, distinct, split_pieces
 from meshforge.symbolic import (
     PRIMITIVE_FEATURES,
     Asset,
@@ -73,6 +72,18 @@ class MeshFileEdit:
     def owners(self) -> list[str]:
         """The owner that each triangle of the edited file should have."""
         return list(itertools.compress(self.document.owners, self.stays)) + owners_of(self.parts)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class TargetTriangles:
+    """The triangles that a written file should hold: the owner of each, and the corners (m, 3, 3).
+
+    kept: how many of them, the first, stay as they were; the others are made.
+    """
+
+    owners: Sequence[str]
+    corners: Floats
+    kept: int = 0
 
 
 class PlainFormat(Format):
@@ -151,9 +162,39 @@ class PlainFormat(Format):
     def _check_output(
         self, data: bytes, path: Path, wanted: TargetTriangles, hulls: Collection[str], where: Path
     ) -> dict[str, str]:
-        """The names that a written file reads back otherwise. Raises AssetError where it reads back as other hulls."""
+        """The hulls that a written file reads back under another name, with that name.
+
+        wanted: what it should hold; hulls: those of its owners that are hulls. Raises AssetError at `where`: hulls that
+        the file cannot hold apart, or holds as something else or elsewhere.
+        """
         document, found, soup = self.parse(data, path)
-        return find_renamed_hulls(document, found, soup, wanted, hulls, str(where))
+        if len(document.owner) != len(wanted.owners):
+            raise AssetError("the written file would lose triangles", where=str(where))
+        _refuse_moved(soup, wanted, str(where))
+        convex = {name for name, piece in zip(document.names, found, strict=True) if piece.shape}
+        back: dict[str, set[str]] = {}
+        for name, piece in zip(wanted.owners, document.owners, strict=True):
+            back.setdefault(name, set()).add(piece)
+        shared = Counter(piece for pieces in back.values() for piece in pieces)
+        for name in sorted(hulls, key=natural_key):
+            holders = back.get(name, set())
+            if len(holders) != 1 or any(shared[piece] > 1 or piece not in convex for piece in holders):
+                problem = f"the hull {name} cannot be told apart from others in this file"
+                raise AssetError(
+                    problem, where=str(where), remedy="Write an OBJ, which has groups, or a folder of files."
+                )
+        read = {name: min(back[name]) for name in back if name in hulls}
+        return {name: now for name, now in read.items() if now != name}
+
+
+def _refuse_moved(soup: Soup, wanted: TargetTriangles, where: str) -> None:
+    """Raise AssetError where a corner is not where it should be; those of made triangles may be single precision."""
+    corners = soup.vertices[soup.faces]
+    there = corners == wanted.corners
+    there[wanted.kept :] |= corners[wanted.kept :] == wanted.corners[wanted.kept :].astype(np.float32)
+    if not there.all():
+        x, y, z = wanted.corners[~there.all(axis=2)][0]
+        raise AssetError(f"the written file would have the vertex {x:.6g} {y:.6g} {z:.6g} elsewhere", where=where)
 
 
 def build_asset(path: Path, kind: str, soup: Soup, found: Sequence[Piece]) -> Asset:
@@ -163,12 +204,12 @@ def build_asset(path: Path, kind: str, soup: Soup, found: Sequence[Piece]) -> As
     own = [[name for name, piece, _ in named if piece.group == group] for group in range(len(soup.names))]
     elements = [collision_pieces.element_of(names) if names else "" for names in own]
     hulls, others = list[Geom](), list[NonConvexPiece]()
-    for name, piece, said in named:
+    for name, piece, texts in named:
         if piece.shape:
-            hulls.append(Geom(name, BODY, piece.shape, mentions=said, element=elements[piece.group], fill=piece.fill))
+            hulls.append(Geom(name, BODY, piece.shape, mentions=texts, element=elements[piece.group], fill=piece.fill))
         else:
             surface, reason = _surface_of(soup, piece), piece.reason or ""
-            others.append(NonConvexPiece(name, BODY, reason, surface, None, said, elements[piece.group]))
+            others.append(NonConvexPiece(name, BODY, reason, surface, None, texts, elements[piece.group]))
     return Asset(path, kind, (Body(BODY, Pose.identity()),), tuple(hulls), Document(), tuple(others))
 
 

@@ -4,15 +4,13 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from meshforge.common import AssetError
 from meshforge.formats.base import note_shapes_as_hulls, nothing_collides_error
-from meshforge.formats.meshfile.surface import Soup
 from meshforge.geometry import Box, Floats, Ints, Piece, Polytope
 from meshforge.symbolic import Asset, Document, Geom, Surface, unique_names
 
@@ -41,18 +39,6 @@ class MeshPart:
 
     name: str
     surface: Surface
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class TargetTriangles:
-    """The triangles that a written file should hold: the owner of each, and the corners (m, 3, 3).
-
-    kept: how many of them, the first, stay as they were; the others are made.
-    """
-
-    owners: Sequence[str]
-    corners: Floats
-    kept: int = 0
 
 
 def owners_of(parts: Sequence[MeshPart]) -> list[str]:
@@ -124,44 +110,3 @@ def collect_parts(asset: Asset) -> tuple[MeshPart, ...]:
     if not parts:
         raise nothing_collides_error(asset)
     return parts
-
-
-def find_renamed_hulls(
-    document: PlainDocument,
-    found: Sequence[Piece],
-    soup: Soup,
-    wanted: TargetTriangles,
-    hulls: Collection[str],
-    where: str,
-) -> dict[str, str]:
-    """Return the hulls that read back under another name, with that name.
-
-    document, found, soup: the written file, its pieces and its triangles; wanted: what it should hold; hulls: those of
-    its owners that are hulls. Raises AssetError at `where`: hulls that the file cannot hold apart, or holds as
-    something else or elsewhere.
-    """
-    if len(document.owner) != len(wanted.owners):
-        raise AssetError("the written file would lose triangles", where=where)
-    _refuse_moved(soup, wanted, where)
-    convex = {name for name, piece in zip(document.names, found, strict=True) if piece.shape}
-    back: dict[str, set[str]] = {}
-    for name, piece in zip(wanted.owners, document.owners, strict=True):
-        back.setdefault(name, set()).add(piece)
-    shared = Counter(piece for pieces in back.values() for piece in pieces)
-    for name in sorted(hulls, key=natural_key):
-        holders = back.get(name, set())
-        if len(holders) != 1 or any(shared[piece] > 1 or piece not in convex for piece in holders):
-            problem = f"the hull {name} cannot be told apart from others in this file"
-            raise AssetError(problem, where=where, remedy="Write an OBJ, which has groups, or a folder of files.")
-    read = {name: min(back[name]) for name in back if name in hulls}
-    return {name: now for name, now in read.items() if now != name}
-
-
-def _refuse_moved(soup: Soup, wanted: TargetTriangles, where: str) -> None:
-    """Raise AssetError where a corner is not where it should be; those of made triangles may be single precision."""
-    corners = soup.vertices[soup.faces]
-    there = corners == wanted.corners
-    there[wanted.kept :] |= corners[wanted.kept :] == wanted.corners[wanted.kept :].astype(np.float32)
-    if not there.all():
-        x, y, z = wanted.corners[~there.all(axis=2)][0]
-        raise AssetError(f"the written file would have the vertex {x:.6g} {y:.6g} {z:.6g} elsewhere", where=where)

@@ -115,12 +115,8 @@ class StageBodies:
         """
         of_body = next((own for own, name in self.names.items() if name == body), "")
         prim = self.scene.stage.GetPrimAtPath(path)
-        authored_value = prim.GetCustomDataByKey(HULL_NAME) if prim else None
-        own = (
-            authored_value
-            if isinstance(authored_value, str) and authored_value
-            else self.scene.shorten_path(path, of_body)
-        )
+        authored = prim.GetCustomDataByKey(HULL_NAME) if prim else None
+        own = authored if isinstance(authored, str) and authored else self.scene.shorten_path(path, of_body)
         return f"{body}/{own}" if self.names else own
 
 

@@ -13,13 +13,12 @@ from meshforge.common import AssetError, GeometryError, MeshForgeError, file_dig
 from meshforge.common.processes import call_isolated, report_progress
 from meshforge.formats import collision_pieces, mesh_reader
 from meshforge.formats.libraries import pxr
-from meshforge.formats.meshfile.surface import GAMMA
 from meshforge.formats.usd import colliders, layers
 from meshforge.formats.usd.colliders import PrimCollision
 from meshforge.formats.usd.mechanism import read_mechanism
 from meshforge.formats.usd.shapes import read_mesh, read_parts
 from meshforge.formats.usd.stage import PrimRecord, UsdDocument, UsdStage, usd
-from meshforge.formats.visuals import LazySurfaces
+from meshforge.formats.visuals import LazySurfaces, screen_color
 from meshforge.symbolic import Asset, FileNote, Mentions, Rgba, Surface
 
 _LABELS = "SemanticsLabelsAPI:"
@@ -224,8 +223,4 @@ def _read_color(scene: UsdStage, prim: Any) -> Rgba | None:
 
 
 def _to_rgba(color: Any, alpha: float) -> Rgba | None:
-    values = np.array([*color, alpha], dtype=np.float64)
-    if not np.isfinite(values).all():
-        return None
-    red, green, blue = (round(float(c), 6) for c in np.clip(values[:3], 0, 1) ** (1 / GAMMA))
-    return red, green, blue, round(float(np.clip(alpha, 0, 1)), 6)
+    return screen_color([*color], alpha) if np.isfinite([*color, alpha]).all() else None
