@@ -123,11 +123,6 @@ class GltfForGodot(EngineGltf):
 
     engine = GodotNames()
 
-    def create(self, asset: Asset, name: str) -> Output:
-        from meshforge.formats.gltf import create  # lazy: only glTF needs it
-
-        return create.create_for_godot(asset, name, self.engine)
-
 
 class GltfForUnity(EngineGltf):
     """With a node for what collides: `table_colliders`."""
