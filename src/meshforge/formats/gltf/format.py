@@ -80,7 +80,7 @@ class GltfFormat(SceneFormat):
         assert isinstance(asset.document, GltfDocument)
         from meshforge.formats.gltf import read  # lazy: only glTF needs it
 
-        return read.read_scene_surfaces(asset, asset.document)
+        return read.SceneSurfaces(asset.document.source, asset.path, unmarked=True)
 
     def add_colliders(self, asset: Asset, name: str) -> Output:
         assert isinstance(asset.document, GltfDocument)
