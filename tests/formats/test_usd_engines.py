@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from meshforge.formats import read, save
+from meshforge.formats.usd.stage import UsdDocument
 from meshforge.geometry import Box, Capsule, Cylinder, Shape, Sphere
 from meshforge.symbolic import Asset, Geom
 from tests.corpus_path import corpus
@@ -42,9 +43,11 @@ def agrees(path: Path) -> Asset:
     asset, told = read(path), physics_shapes(path)
     assert complaints(path) == []
     assert len(told) == len(asset.geoms) + len(asset.non_convex)
+    assert isinstance(asset.document, UsdDocument)
+    paths = {name: element.path for element in asset.document.authored for name in element.names}
     poses = asset.body_poses
     for geom in asset.geoms:
-        (found,) = [shape for at, shape in told.items() if at.endswith(f"/{geom.name.removeprefix('body/')}")]
+        found = told[paths[geom.name]]
         body = poses[geom.body]
         middle = body.inverse().apply(_origin(geom.shape)[None])[0] if wanted(geom.shape) else None
         assert np.allclose(sizes(found), wanted(geom.shape), rtol=1e-5)

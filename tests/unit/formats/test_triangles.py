@@ -12,7 +12,7 @@ from meshforge.common import AssetError
 from meshforge.formats import RawSurface, read_triangles, split_into_pieces
 from meshforge.geometry import Floats
 from tests.gltf_files import SceneFile
-from tests.mesh_files import KINDS, dae, glb, gltf, wrl
+from tests.mesh_files import KINDS, dae, wrl
 from tests.soups import Soup, box, together
 
 Write = Callable[[Soup], bytes]
@@ -64,28 +64,12 @@ def test_a_collada_geometry_may_stand_in_several_nodes(tmp_path: Path) -> None:
     assert bounds(surfaces(tmp_path / "a.dae", twice)) == [[0, 0, 0], [4, 1, 1]]
 
 
-def test_transforms_of_gltf_nodes_are_applied(tmp_path: Path) -> None:
-    half = np.sqrt(0.5)
-    turned = gltf(box(), translation=[5, 0, 0], rotation=[0, 0, half, half], scale=[1, 2, 3])
-    assert bounds(surfaces(tmp_path / "a.gltf", turned)) == [[3, 0, 0], [5, 1, 3]]
-    matrix = [1, 0, 0, 0, 0, 2, 0, 0, 0, 0, 3, 0, 5, 0, 0, 1]
-    assert bounds(surfaces(tmp_path / "b.glb", glb(box(), matrix=matrix))) == [[5, 0, 0], [6, 2, 3]]
-
-
 @pytest.mark.parametrize(("mode", "faces"), [(5, [[0, 1, 2], [3, 2, 1]]), (6, [[0, 1, 2], [0, 2, 3]])])
 def test_strips_and_fans_of_gltf_are_cut_into_triangles(tmp_path: Path, mode: int, faces: list[list[int]]) -> None:
     quad = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0.0]]), np.array([[0, 1, 2, 3]])
     scene = SceneFile()
     scene.node("quad", mesh=scene.mesh(scene.primitive(quad, mode=mode)))
     assert surfaces(tmp_path / "a.gltf", scene.gltf())[0].faces.tolist() == faces
-
-
-def test_a_gltf_buffer_may_lie_beside_it_and_is_missed_by_name(tmp_path: Path) -> None:
-    scene = SceneFile.of(("box", box()))
-    with pytest.raises(AssetError, match=r"its buffer the%20box\.bin is not there"):
-        surfaces(tmp_path / "a.gltf", scene.gltf("the%20box.bin"))
-    (tmp_path / "the box.bin").write_bytes(scene.data)
-    assert len(surfaces(tmp_path / "a.gltf", scene.gltf("the%20box.bin"))[0].faces) == 12
 
 
 @pytest.mark.parametrize("place", [b"translation 5 0 0", b"rotation 0 0 1 3.14", b"scale 2, 1 1", b"scale 1 1"])

@@ -49,18 +49,13 @@ class CollisionNames(ABC):
     def body(self, wanted: str) -> str:
         """Return a name for what is seen of a body, as near to the wanted one as the engine lets it be seen alone."""
 
-    @abstractmethod
-    def hull(self, body: str, geom: Geom, number: int, own: str) -> str:
-        """Return the name of a hull; body: of the mesh that it stands for; number: its place there, from 0; own: it
-        had."""
-
-    def holder(self, body: str) -> str | None:
-        """Return the name of a node that holds what collides of a body; None where that lies right below the body's."""
-        return None
+    def hull(self, own: str) -> str:
+        """Return the name of a hull, which had another one."""
+        return self.body(own)
 
     def non_convex(self, own: str) -> str:
         """Return the name of a piece that collides with its triangles."""
-        raise AssertionError(f"{self.title} takes no such pieces")
+        return self.body(own)
 
 
 def clean_name(name: str, not_taken: str) -> str:
@@ -156,8 +151,10 @@ class UnrealNames(CollisionNames):
         name = _END.sub("", clean_name(wanted, _REFUSED)) or "part"
         return _ANYWHERE.sub(lambda found: found[0].lower(), name)
 
-    def hull(self, body: str, geom: Geom, number: int, own: str) -> str:
-        return f"{_PREFIXES.get(geom.shape.kind, 'UCX')}_{body}_{number:02}"
+
+def unreal_hull(body: str, geom: Geom, number: int) -> str:
+    """Return the name of a hull of a mesh, which is called as the body; number: its place there, from 0."""
+    return f"{_PREFIXES.get(geom.shape.kind, 'UCX')}_{body}_{number:02}"
 
 
 def number_hulls(base: str, names: Iterable[str]) -> Iterator[int]:
@@ -231,7 +228,7 @@ class GodotNames(CollisionNames):
         name = clean_name(wanted, _GODOT_REFUSED)
         return f"{name}-seen" if any(has_godot_word(name, word) for word in _GODOT_WORDS) else name
 
-    def hull(self, body: str, geom: Geom, number: int, own: str) -> str:
+    def hull(self, own: str) -> str:
         base, tilde, made = own.partition("~")
         return f"{clean_name(base, _GODOT_REFUSED)}{tilde}{made}-convcolonly"
 
@@ -244,12 +241,6 @@ class GodotBodyNames(GodotNames):
 
     in_bodies: ClassVar[bool] = True
 
-    def hull(self, body: str, geom: Geom, number: int, own: str) -> str:
-        return self.body(own)
-
-    def non_convex(self, own: str) -> str:
-        return self.body(own)
-
 
 class UnityNames(CollisionNames):
     """Nodes of any name, below one node a body."""
@@ -260,15 +251,6 @@ class UnityNames(CollisionNames):
     def body(self, wanted: str) -> str:
         name = clean_name(wanted, _UNITY_REFUSED)
         return f"{name}_part" if holds_colliders(name) else name
-
-    def hull(self, body: str, geom: Geom, number: int, own: str) -> str:
-        return self.body(own)
-
-    def holder(self, body: str) -> str:
-        return body + COLLIDERS
-
-    def non_convex(self, own: str) -> str:
-        return self.body(own)
 
 
 def holds_colliders(name: object) -> bool:

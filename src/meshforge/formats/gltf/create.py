@@ -66,9 +66,24 @@ def create_gltf(asset: Asset, name: str) -> Output:
 
 
 def create_for_engine(asset: Asset, name: str, engine: conventions.CollisionNames) -> Output:
-    """Return the files of an asset with the names of an engine.
+    """Return the files of an asset with the names of an engine; for Godot, rigid bodies where anything moves."""
+    if engine.engine != "godot":
+        return _create_nodes(asset, name, engine)
+    tree = BodyTree.of(asset)
+    if not all(map(tree.is_static, tree.order)):
+        return _create_rigid_bodies(asset, tree, PurePosixPath(name))
+    made = _create_nodes(asset, name, engine)
+    bodies, masses = [body.name for body in asset.bodies], [i.body for i in asset.mechanism.inertials]
+    losses = [Loss(FeatureKind.MASSES, tuple(masses), _STILL)]
+    if len(bodies) > 1:
+        losses.append(Loss(FeatureKind.BODIES, tuple(bodies), "none of them moves", "written as nodes"))
+    return replace(made, lost=(*made.lost, *(loss for loss in losses if loss.count)))
 
-    No node is scaled. For Unreal, the meshes of a body are in its frame, since its importers have not always obeyed the
+
+def _create_nodes(asset: Asset, name: str, engine: conventions.CollisionNames) -> Output:
+    """The files of an asset whose nodes say by their names what collides; no node is scaled.
+
+    For Unreal, the meshes of a body are in its frame, since its importers have not always obeyed the
     places of nodes with collision; for others they lie about their own middle, so that single precision is fine.
     """
     path = PurePosixPath(name)
@@ -82,19 +97,6 @@ def create_for_engine(asset: Asset, name: str, engine: conventions.CollisionName
         for piece, own in family.pieces:
             style.add(NewPiece(piece, own, node))
     return _pack_new(asset, draft, GltfDocument(b"", engine.engine, ()), path, found.lost, found.notes)
-
-
-def create_for_godot(asset: Asset, name: str, names: conventions.CollisionNames) -> Output:
-    """Return the files of an asset: rigid bodies where anything moves, else nodes that Godot knows by their names."""
-    tree = BodyTree.of(asset)
-    if not all(map(tree.is_static, tree.order)):
-        return _create_rigid_bodies(asset, tree, PurePosixPath(name))
-    made = create_for_engine(asset, name, names)
-    bodies, masses = [body.name for body in asset.bodies], [i.body for i in asset.mechanism.inertials]
-    losses = [Loss(FeatureKind.MASSES, tuple(masses), _STILL)]
-    if len(bodies) > 1:
-        losses.append(Loss(FeatureKind.BODIES, tuple(bodies), "none of them moves", "written as nodes"))
-    return replace(made, lost=(*made.lost, *(loss for loss in losses if loss.count)))
 
 
 def _create_rigid_bodies(asset: Asset, tree: BodyTree, path: PurePosixPath) -> Output:

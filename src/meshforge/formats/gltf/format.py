@@ -80,7 +80,7 @@ class GltfFormat(SceneFormat):
         assert isinstance(asset.document, GltfDocument)
         from meshforge.formats.gltf import read  # lazy: only glTF needs it
 
-        return read.read_scene_surfaces(asset, asset.document)
+        return read.SceneSurfaces(asset.document.source, asset.path, unmarked=True)
 
     def add_colliders(self, asset: Asset, name: str) -> Output:
         assert isinstance(asset.document, GltfDocument)
@@ -122,11 +122,6 @@ class GltfForGodot(EngineGltf):
     """With suffixes: `leg-convcolonly`; rigid bodies, where anything moves, by OMI_physics_body."""
 
     engine = GodotNames()
-
-    def create(self, asset: Asset, name: str) -> Output:
-        from meshforge.formats.gltf import create  # lazy: only glTF needs it
-
-        return create.create_for_godot(asset, name, self.engine)
 
 
 class GltfForUnity(EngineGltf):

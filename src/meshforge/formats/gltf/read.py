@@ -73,7 +73,7 @@ def read_gltf(path: Path) -> Asset:
         geoms=geoms,
         document=GltfDocument(source, reader.convention, authored, tuple(bodies.items()), digests),
         non_convex=non_convex,
-        visuals=() if reader.convention == "plain" else SceneSurfaces(source, path, owners),
+        visuals=() if reader.convention == "plain" else SceneSurfaces(source, path),
         files=files,
         missing=missing,
         notes=tuple(notes),
@@ -124,34 +124,28 @@ def _find_files(scene: GltfScene, path: Path) -> tuple[tuple[Path, ...], tuple[s
     return tuple(dict.fromkeys(found.values())), tuple(dict.fromkeys(missing))
 
 
-def read_scene_surfaces(asset: Asset, document: GltfDocument) -> SceneSurfaces:
-    """Return what a scene shows in which all meshes are taken for collision."""
-    with report_damage(str(asset.path)):
-        owners, _ = _name_bodies(GltfScene.of(document.source, asset.path))
-    return SceneSurfaces(document.source, asset.path, owners, unmarked=True)
-
-
 class SceneSurfaces(LazySurfaces):
-    """The visible surfaces of a file, none where it is damaged; bodies: the body of each node that is in one.
+    """The visible surfaces of a file, none where it is damaged.
 
     unmarked: whether meshes are seen that are taken for collision as nothing is marked.
     """
 
-    def __init__(self, source: bytes, path: Path, bodies: dict[int, str], *, unmarked: bool = False) -> None:
-        self._source, self._path, self._bodies, self._unmarked = source, path, bodies, unmarked
+    def __init__(self, source: bytes, path: Path, *, unmarked: bool = False) -> None:
+        self._source, self._path, self._unmarked = source, path, unmarked
 
     def _make(self) -> list[Surface]:
         found = []
         try:
             with report_damage(str(self._path)):
                 scene = GltfScene.of(self._source, self._path)
+                bodies, _ = _name_bodies(scene)
                 shown = [k for k, placement in scene.placements.items() if "mesh" in placement.node]
                 for index in shown if self._unmarked else visible_nodes(scene, convention_of(scene)):
                     if "skin" in scene.placements[index].node:
                         continue
                     mesh, linear, offset = scene.place_mesh(scene.placements[index])
                     for vertices, faces, rgba in _split_by_color(scene, scene.placements[index].node["mesh"], mesh):
-                        surface = place_surface(vertices, faces, linear, offset, self._bodies.get(index))
+                        surface = place_surface(vertices, faces, linear, offset, bodies.get(index))
                         found.append(replace(surface, rgba=rgba))
         except MeshForgeError:
             return []

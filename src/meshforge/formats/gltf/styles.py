@@ -157,10 +157,9 @@ class EngineStyle(PlainStyle):
 
     def name_piece(self, piece: NewPiece) -> str:
         """Return a name that nothing else in the file has."""
-        what, names = piece.what, self.names
-        if isinstance(what, NonConvexPiece):
-            return conventions.claim_name(names.non_convex, piece.own, self.taken)
-        return conventions.claim_name(lambda own: names.hull("", what, 0, own), piece.own, self.taken)
+        is_hull = isinstance(piece.what, Geom)
+        named = self.names.hull if is_hull else self.names.non_convex
+        return conventions.claim_name(named, piece.own, self.taken)
 
     def material_of(self, piece: NewPiece) -> int | None:
         return None
@@ -181,7 +180,9 @@ class UnityStyle(EngineStyle):
         if node in self.colliding or conventions.holds_colliders(above):
             return node
         if node not in self.holders:
-            name = conventions.claim_name(lambda own: names.holder(names.body(own)), above or self.stem, self.taken)
+            name = conventions.claim_name(
+                lambda own: names.body(own) + conventions.COLLIDERS, above or self.stem, self.taken
+            )
             self.holders[node] = self.draft.add_node({"name": name}, node)
         return self.holders[node]
 
@@ -259,7 +260,7 @@ class UnrealStyle(EngineStyle):
         base = self._mesh_seen(piece)
         if base not in self.numbers:
             self.numbers[base] = conventions.number_hulls(base, self.taken)
-        names = (self.names.hull(base, piece.what, number, piece.own) for number in self.numbers[base])
+        names = (conventions.unreal_hull(base, piece.what, number) for number in self.numbers[base])
         name = next(n for n in names if n.lower() not in self.taken and n.partition("_")[2].lower() not in self.seen)
         self.taken.add(name.lower())
         return name

@@ -18,7 +18,7 @@ RIGID_BODY, TRIGGER = "PhysicsRigidBodyAPI", "PhysxTriggerAPI"
 DRAWN = "meshforgeDrawn"
 """The custom data of a collider that a conversion shows, since the asset shows nothing."""
 HULL_NAME = "meshforgeName"
-"""The custom data of a collider beside an unmarked stage: the name of the hull, which is called after what is seen."""
+"""The custom data of a collider: the name of its hull, where the prim has another one."""
 
 _CONTACT_PREFIXES = ("physxcollision", "physxconvexhull", "newton", "mjc")
 _PHYSICS_MATERIAL = "material:binding:physics"

@@ -12,7 +12,7 @@ from meshforge.formats.base import Loss, Output
 from meshforge.formats.kinematic_tree import BodyTree
 from meshforge.formats.libraries import pxr
 from meshforge.formats.usd import prims
-from meshforge.formats.usd.colliders import apply_schemas
+from meshforge.formats.usd.colliders import HULL_NAME, apply_schemas
 from meshforge.formats.usd.layers import PACKAGE_SUFFIX, export_layer, is_crate_wanted, pack_usdz
 from meshforge.formats.usd.stage import BODY, usd
 from meshforge.formats.visuals import linear_color, read_visual_surfaces
@@ -74,40 +74,37 @@ class _Creator:
             prims.write_mass(spec, inertial, self._space(body))
 
     def _add_hull(self, geom: Geom) -> None:
-        holder, name = self._find_holder(geom.name, geom.body)
-        space = self._space(geom.body)
-        spec, approximation = prims.add_shape(holder, name, geom.shape, space)
+        holder = self.bodies.get(geom.body, self.root)
+        spec, approximation = prims.add_shape(holder, self._free_name(holder, geom), geom.shape, self._space(geom.body))
         prims.mark_collider(spec, approximation, drawn=self.drawn)
-        body = self.bodies.get(geom.body)
-        own = str(spec.path).removeprefix(f"{body.path if body else self.root.path}/")
-        read = f"{body.name if body else BODY}/{own}" if self.bodies else own
+        own = self._keep_name(spec, geom)
+        read = f"{holder.name if geom.body in self.bodies else BODY}/{own}" if self.bodies else own
         if read != geom.name:
             self.names[geom.name] = read
+
+    def _free_name(self, holder: Any, piece: Geom | NonConvexPiece) -> str:
+        return prims.free_prim_name(holder, piece.name.rsplit("/", 1)[-1])
+
+    def _keep_name(self, spec: Any, piece: Geom | NonConvexPiece) -> str:
+        """Author the name of a piece without its body's where that is not the name of the prim; it is returned."""
+        own = piece.name.removeprefix(f"{piece.body}/") if self.bodies else piece.name
+        if own != spec.name:
+            spec.SetInfoDictionaryValue("customData", HULL_NAME, own)
+        return own
 
     def _add_non_convex(self, piece: NonConvexPiece) -> None:
         """Add a piece as its triangles, or as a plane; the report names one that is neither."""
         if piece.plane is not None:  # which USD does not let move
-            name = prims.free_prim_name(self.root, piece.name.rsplit("/", 1)[-1])
+            name = self._free_name(self.root, piece)
             spec = prims.add_plane(self.root, name, piece.plane.translation, piece.plane.rotation)
             prims.mark_collider(spec, None)
             return
         if piece.surface is not None and len(piece.surface.faces):
-            holder, name = self._find_holder(piece.name, piece.body)
-            space = self._space(piece.body)
-            spec = prims.add_mesh(holder, name, np.asarray(piece.surface.vertices), piece.surface.faces, space)
+            holder, points = self.bodies.get(piece.body, self.root), np.asarray(piece.surface.vertices)
+            name, space = self._free_name(holder, piece), self._space(piece.body)
+            spec = prims.add_mesh(holder, name, points, piece.surface.faces, space)
+            self._keep_name(spec, piece)
             prims.mark_collider(spec, "convexDecomposition" if piece.body in self.bodies else "none", drawn=self.drawn)
-
-    def _find_holder(self, name: str, body: str) -> tuple[Any, str]:
-        """The spec below which a hull goes, and its name there; what its name has of folders becomes scopes."""
-        holder = self.bodies.get(body, self.root)
-        *above, own = name.removeprefix(f"{body}/").split("/")
-        for k, part in enumerate(above):
-            found = holder.nameChildren.get(prims.prim_name(part))
-            if found is not None and found.typeName != "Scope":
-                own = "_".join([*above[k:], own])
-                break
-            holder = found or prims.add_prim(holder, prims.prim_name(part), "Scope")
-        return holder, prims.free_prim_name(holder, own)
 
     def _add_visuals(self) -> list[Loss]:
         """Add meshes that are seen and do not collide, with their display colours; what cannot be read."""
