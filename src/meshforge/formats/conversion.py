@@ -1,5 +1,4 @@
-"""What happens to an asset on its way into another format: it is turned upright, couplings of joints are followed to
-the joint that drives them, and a report says what that format does not hold."""
+"""An asset on its way into another format: turned upright, couplings followed to their drivers, losses reported."""
 
 from __future__ import annotations
 
@@ -129,8 +128,7 @@ def turn_upright(asset: Asset, source: Format | None, target: Format) -> tuple[A
 
 
 def turn_asset(asset: Asset, turn: Pose) -> Asset:
-    """Return the asset in another root frame, new_T_old; frames of bodies are turned along, so that a root stays
-    one."""
+    """Return the asset in another root frame, new_T_old; frames of bodies turn along, so that a root stays one."""
 
     def turn_surface(surface: Surface) -> Surface:
         return replace(surface, vertices=turn.apply(surface.vertices))

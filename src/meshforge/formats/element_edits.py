@@ -1,5 +1,4 @@
-"""The collision elements of an edited description before they are text, authored, copied or new: what an edit makes
-of each (left alone, removed, split, joined by new ones), what they are called, and where they go."""
+"""The collision elements of an edited description before they are text: authored, copied or new, named and placed."""
 
 from __future__ import annotations
 
@@ -97,8 +96,7 @@ class ElementMaker(ABC):
 
     @abstractmethod
     def extract_piece(self, element: xml.Element, name: str, k: int) -> tuple[xml.Splice, ...]:
-        """Return the edits that leave of an element its k-th piece alone, triangles as authored; name: of that
-        piece."""
+        """Return the edits that leave of an element its k-th piece alone, as authored; name: of that piece."""
 
     def explain_hull(self, shape: Shape) -> str:
         """Return why a native shape is written as a hull."""
@@ -125,8 +123,7 @@ class ElementMaker(ABC):
         return OutputElement(piece.body, (piece.name,), text=self.build_collision(Pose.identity(), kind, lead))
 
     def make_piece(self, reference: str, part: tuple[str, ...], name: str, k: int) -> tuple[Piece, str]:
-        """Return the k-th piece of a mesh, or of a part of it, and the reference to a file of its own, which is
-        made."""
+        """Return the k-th piece of a mesh, or of a part of it, and the reference to a file that is made of it."""
         assert self.files.resolver is not None and self.meshes is not None  # only meshes have several pieces
         path = self.files.resolver.find(reference)
         if path is None:

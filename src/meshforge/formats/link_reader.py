@@ -1,5 +1,4 @@
-"""Read what the links of a URDF or SDF hold: collision elements with their mesh files, each found, read and cut once,
-what else the file calls them, and visuals."""
+"""Read the links of a URDF or SDF: collisions with their mesh files, each read and cut once, names, and visuals."""
 
 from __future__ import annotations
 
@@ -126,8 +125,7 @@ class LinkReader(ABC):
 
     @abstractmethod
     def read_scale(self, mesh: Element, where: str) -> tuple[Floats, str]:
-        """Return the factors (3,) by which a `<mesh>` is scaled, and how it says so. Raises AssetError with
-        `where:line`."""
+        """Return the factors (3,) of a `<mesh>`, and how it says so. Raises AssetError with `where:line`."""
 
     @abstractmethod
     def read_shape(self, element: Element, kind: Element, pose: Pose, where: str) -> CollisionPiece:

@@ -41,10 +41,13 @@ class SaveResult:
 
     path: Path
     files: tuple[Path, ...]
-    notes: tuple[str, ...] = ()
     names: Mapping[str, str] = field(default_factory=dict)
     hulled: tuple[str, ...] = ()
     report: ConversionReport = field(default=ConversionReport())
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        return self.report.sentences
 
 
 def save(
@@ -91,12 +94,11 @@ def save(
         path.unlink()
     kept = {} if isinstance(what, Asset) else what.names_in_file
     found = output.names | {name: output.names.get(own, own) for name, own in kept.items()}
-    return SaveResult(out, tuple(plan), report.sentences, found, output.hulled, report)
+    return SaveResult(out, tuple(plan), found, output.hulled, report)
 
 
 def make_output(mesh: SymbolicMesh, kind: str, name: str) -> Output:
-    """Return the files of a mesh in the format of a name, main file named `name`, without writing them. Raises
-    AssetError."""
+    """Return the files of a mesh in the format of a name, main file named `name`. Raises AssetError."""
     known = format_named(kind)
     assert known is not None
     asset = _to_asset(mesh)

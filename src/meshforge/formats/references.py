@@ -1,6 +1,4 @@
-"""Files that a description or a mesh file refers to: where a reference leads, which files a mesh needs beside it
-(materials, textures, buffers), and where each goes in an output folder.
-"""
+"""Files that a file refers to: where a reference leads, what a mesh needs beside it, where each goes in an output."""
 
 from __future__ import annotations
 

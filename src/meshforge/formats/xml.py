@@ -1,5 +1,4 @@
-"""XML files that are edited in place: their text, their elements with byte offsets, edits of it, and numbers as
-text."""
+"""XML files that are edited in place: text, elements with byte offsets, edits, and numbers as text."""
 
 from __future__ import annotations
 
@@ -256,8 +255,7 @@ def indent_of(data: bytes, at: int) -> bytes | None:
 
 
 def line_gap(data: bytes, at: int) -> bytes:
-    """Return what parts two elements where the first is at `at`: a line end and its indent, nothing where it has no
-    line."""
+    """Return what parts an element at `at` from the next: a line end and its indent, nothing where it has no line."""
     lead = indent_of(data, at)
     return b"" if lead is None else newline_of(data) + lead
 
@@ -286,8 +284,7 @@ def format_numbers(values: Iterable[float]) -> str:
 
 
 def parse_numbers(text: str) -> list[float] | None:
-    """Return the numbers of a text, apart by blanks or (as PyBullet reads) commas, None where one is none or not
-    finite."""
+    """Return the numbers of a text, apart by blanks or commas, None where one is none or not finite."""
     if "_" in text or not text.isascii():  # Python's own ways to write numbers, which no engine reads
         return None
     try:

@@ -1,5 +1,4 @@
-"""What an asset has besides its hulls: the kinds of things a file may hold, and those that any asset can be asked
-for."""
+"""What an asset has besides its hulls: the kinds of things, and those that any asset can be asked for."""
 
 from __future__ import annotations
 

@@ -1,5 +1,4 @@
-"""Labels as a file beside an asset: JSON keyed by hull name, with a digest of each hull's geometry, by which labels
-follow hulls that were renamed."""
+"""Labels as JSON beside an asset, by hull name, with digests by which they follow hulls that were renamed."""
 
 from __future__ import annotations
 
@@ -46,8 +45,7 @@ def write_labels(path: Path | None, mesh: SymbolicMesh, vocabulary: Sequence[str
 
 
 def format_labels(file: LabelFile) -> str:
-    """Return the text of a labels file: one hull a line; labels that its vocabulary lacks are added at the end of
-    that."""
+    """Return the text of a labels file, one hull a line; labels that its vocabulary lacks end that."""
     labels = [name for label in file.labels.values() for name in label.names]
     words = json.dumps(list(dict.fromkeys([*file.vocabulary, *labels])), ensure_ascii=False)
     rows = [_format_row(name, label, file.digests.get(name)) for name, label in file.labels.items()]

@@ -1,5 +1,4 @@
-"""Writing an edited MJCF: the authored files with other geoms, all else byte for byte as it was, compiled again
-before it is given out."""
+"""Writing an edited MJCF: other geoms, all else byte for byte as it was, compiled again before it is given out."""
 
 from __future__ import annotations
 

@@ -1,5 +1,4 @@
-"""What an edit makes of each `<geom>` element: left alone, removed, followed by new ones; and the geoms that MuJoCo
-shall make of these."""
+"""What an edit makes of each `<geom>`: left alone, removed, followed by new ones; and what MuJoCo shall make of it."""
 
 from __future__ import annotations
 

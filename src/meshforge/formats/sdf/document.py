@@ -1,5 +1,4 @@
-"""What is kept of an SDF to write it back: its files, where their references lead, the `model.config` of a folder,
-and their roots and versions."""
+"""What is kept of an SDF to write it back: its files, their references, roots and versions, and `model.config`."""
 
 from __future__ import annotations
 
@@ -86,8 +85,7 @@ class ModelResolver(Resolver):
     """Finds what a file refers to, from its folder, upwards, and in the roots."""
 
     def candidates(self, reference: str) -> Iterator[Path]:
-        """Yield the places where the file may be; what no model of that name has may be in this one, under another
-        name."""
+        """Yield the places where the file may be; without a model of that name, in this one, under another name."""
         reference = reference.strip()
         rest = reference.removeprefix(_FILE)
         if rest != reference and not rest.startswith("/"):  # Gazebo takes it for a path
@@ -155,8 +153,7 @@ def is_main_file(path: Path) -> bool:
 
 
 def read_versions(folder: Path) -> dict[tuple[int, int], str]:
-    """Return the files that a folder's `model.config` names, by the version of SDF they are in; none where there is
-    none."""
+    """Return the files that a folder's `model.config` names, by their versions of SDF."""
     path = folder / CONFIG
     if not is_file(path):
         return {}
@@ -195,8 +192,7 @@ def mesh_uri(mesh: Element) -> str:
 
 
 def references(root: Element) -> list[str]:
-    """Return every mesh and texture that a file refers to, in order of mention, each once; not what Gazebo brings
-    along."""
+    """Return each mesh and texture that a file refers to, in order, without what Gazebo brings along."""
     return [text for text in dict.fromkeys(_iterate_references(root)) if text and not text.startswith(_BUILT_IN)]
 
 

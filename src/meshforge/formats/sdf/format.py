@@ -1,5 +1,4 @@
-"""The format SDF as the registry has it: what an SDF can hold, what one holds besides hulls, joints, masses and
-visuals, and making one from an asset of another format."""
+"""The format SDF as the registry has it: what it can hold, and what a file holds that no conversion takes."""
 
 from __future__ import annotations
 

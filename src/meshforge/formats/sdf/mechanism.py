@@ -30,8 +30,7 @@ _UNIT_TENSOR = (1.0, 0.0, 0.0, 1.0, 0.0, 1.0)
 
 
 def read_joints(tree: ModelTree) -> tuple[list[Joint], list[str]]:
-    """Return the joints of all models that make trees of their bodies, and notes, which name those that would close
-    rings."""
+    """Return the joints of all models that make trees of their bodies, and notes on those that are passed over."""
     joints, notes = list[Joint](), list[str]()
     parents: dict[str, str] = {}
     passed: dict[str, list[str]] = {"not understood": [], "which would close a ring": []}

@@ -65,8 +65,7 @@ class ModelTree:
     links: dict[str, SdfLink] = field(default_factory=dict)
 
     def pose_in_link(self, link: link_reader.Link, element: Element) -> Pose:
-        """Return root_T_element of something in a link, whose pose counts from the link or from a frame of its
-        model."""
+        """Return root_T_element of something in a link, whose pose counts from that or from a frame of its model."""
         at, scope = pose_of(element, link.where), self.links[link.body].scope
         if not at.base:
             return link.pose @ at.pose

@@ -1,5 +1,4 @@
-"""Read an SDF: from its files to an asset, with what its links show, other names of its collisions, the files it
-refers to, and notes."""
+"""Read an SDF: from its files to an asset with visuals, the files it refers to, and notes."""
 
 from __future__ import annotations
 

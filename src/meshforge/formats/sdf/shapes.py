@@ -71,8 +71,7 @@ def _read_polylines(lines: Sequence[Element], pose: Pose, where: str) -> collisi
 
 
 def read_submesh(mesh: Element) -> tuple[str, ...]:
-    """Return what of its file a `<mesh>` uses: nothing for all, else the name of a submesh, and `center` where it is
-    moved."""
+    """Return the submesh that a `<mesh>` uses: its name, and `center` where it is moved; nothing for all."""
     submesh = mesh.first("submesh")
     name = text_of(submesh, "name")
     if not name or name == "__default__":
@@ -102,8 +101,7 @@ class SdfMeshes(link_reader.CollisionMeshes):
 
 
 def hull_of(surfaces: Sequence[RawSurface], linear: Floats, offset: Floats) -> collision_pieces.CollisionPiece:
-    """Return the convex hull of a mesh that says it is one (`optimization="convex_hull"`), under x -> linear @ x +
-    offset."""
+    """Return the convex hull of a mesh with `optimization="convex_hull"`, under x -> linear @ x + offset."""
     whole = join_surfaces(surfaces)
     try:
         hull, fill = hull_mesh(whole.vertices, whole.faces)

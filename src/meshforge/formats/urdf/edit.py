@@ -1,5 +1,4 @@
-"""Writing an edited URDF: the authored text with other collision elements, all else byte for byte as it was; and the
-XML text of elements: collisions new or edited, joints, masses and visuals."""
+"""Writing an edited URDF, all but collisions byte for byte as it was; the XML of new collisions, joints, visuals."""
 
 from __future__ import annotations
 

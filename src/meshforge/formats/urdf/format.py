@@ -1,5 +1,4 @@
-"""The format URDF as the registry has it: what a URDF can hold, what one holds besides hulls, joints, masses and
-visuals, and making one from an asset of another format."""
+"""The format URDF as the registry has it: what it can hold, and what a file holds that no conversion takes."""
 
 from __future__ import annotations
 
