@@ -12,6 +12,7 @@ import numpy as np
 from meshforge.common import AssetError, nearest_name, pluralize
 from meshforge.formats import collision_pieces, mesh_output, xml
 from meshforge.formats.link_reader import CollisionMeshes, geometry_of
+from meshforge.formats.references import reference_of
 from meshforge.geometry import Piece, Polytope, Pose, Shape
 from meshforge.symbolic import Asset, Geom, NonConvexPiece, Surface
 
@@ -68,10 +69,6 @@ class ElementMaker(ABC):
     folder: str = ""
     meshes: CollisionMeshes | None = None
     notes: list[str] = field(default_factory=list)
-
-    @abstractmethod
-    def reference_of(self, mesh: xml.Element) -> str:
-        """Return the reference of a `<mesh>`."""
 
     @abstractmethod
     def native_lines(self, shape: Shape) -> tuple[Pose, list[bytes]] | None:
@@ -135,7 +132,7 @@ class ElementMaker(ABC):
         """Return the folder of the first mesh of some collisions, in which hulls go whose parents have none."""
         meshes = (kind for element in collisions if (kind := geometry_of(element)) and kind.tag == "mesh")
         first = next(meshes, None)
-        return self.files.folder_of(self.reference_of(first) if first else None)
+        return self.files.folder_of(reference_of(first) if first else None)
 
     def _make_mesh(self, geom: Geom, shape: Shape, template: xml.Element | None) -> str:
         if not isinstance(shape, Polytope):

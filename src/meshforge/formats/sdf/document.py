@@ -11,7 +11,7 @@ from pathlib import Path
 
 from meshforge.common import AssetError, is_file
 from meshforge.formats.collision_pieces import CollisionElement
-from meshforge.formats.references import Resolver, placement
+from meshforge.formats.references import Resolver, placement, reference_of
 from meshforge.formats.xml import Element, SourceFile, XmlText, parse_numbers, parse_xml
 from meshforge.symbolic import Document
 
@@ -185,12 +185,6 @@ def parse_root(data: bytes, where: str) -> tuple[Element, Version]:
     return root, version
 
 
-def mesh_uri(mesh: Element) -> str:
-    """Return the reference of a `<mesh>`; up to version 1.2 it was called `<filename>`."""
-    found = mesh.first("uri") or mesh.first("filename")
-    return found.text if found else ""
-
-
 def references(root: Element) -> list[str]:
     """Return each mesh and texture that a file refers to, in order, without what Gazebo brings along."""
     return [text for text in dict.fromkeys(_iterate_references(root)) if text and not text.startswith(_BUILT_IN)]
@@ -199,7 +193,7 @@ def references(root: Element) -> list[str]:
 def _iterate_references(root: Element) -> Iterator[str]:
     for element in root.walk():
         if element.tag == "mesh":
-            yield mesh_uri(element)
+            yield reference_of(element)
         elif element.tag in ("heightmap", "image"):
             uri = element.first("uri")
             yield uri.text if uri else ""

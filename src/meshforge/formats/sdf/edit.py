@@ -10,7 +10,7 @@ from pathlib import Path
 from meshforge.common import AssetError, join_names
 from meshforge.formats import element_edits, link_reader, mesh_output, xml
 from meshforge.formats.base import Mass, Output
-from meshforge.formats.references import add_copy, note_absolute
+from meshforge.formats.references import add_copy, note_absolute, reference_of
 from meshforge.formats.sdf import document, elements, shapes
 from meshforge.formats.sdf.frames import is_computed
 from meshforge.geometry import Capsule, Ellipsoid, Pose, Shape
@@ -92,9 +92,6 @@ class SdfElementMaker(element_edits.ElementMaker):
 
     version: document.Version = field(kw_only=True)
 
-    def reference_of(self, mesh: xml.Element) -> str:
-        return document.mesh_uri(mesh)
-
     def native_lines(self, shape: Shape) -> tuple[Pose, list[bytes]] | None:
         is_known = self.version >= document.ROUND_SHAPES or not isinstance(shape, Capsule | Ellipsoid)
         if isinstance(shape, elements.SdfShape) and is_known:
@@ -131,7 +128,7 @@ class SdfElementMaker(element_edits.ElementMaker):
         """Scale and place stay; the file is used whole."""
         mesh = link_reader.geometry_of(element)
         assert mesh is not None  # only meshes have several pieces
-        _, made = self.make_piece(document.mesh_uri(mesh), shapes.read_submesh(mesh), name, k)
+        _, made = self.make_piece(reference_of(mesh), shapes.read_submesh(mesh), name, k)
         uri, submesh = mesh.first("uri") or mesh.first("filename"), mesh.first("submesh")
         assert uri is not None  # it has pieces
         new = xml.Splice(uri.start, uri.end, elements.leaf(uri.tag, made))

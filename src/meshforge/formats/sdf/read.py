@@ -51,6 +51,8 @@ def read_sdf(path: Path, options: base.ReadOptions) -> Asset:
 
 
 class _SdfReader(link_reader.LinkReader):
+    kinds = ("box", "ellipsoid", "sphere", "cylinder", "capsule", "cone", "plane")
+
     def __init__(self, tree: models.ModelTree) -> None:
         super().__init__(shapes.SdfMeshes())
         self.tree = tree
@@ -58,24 +60,22 @@ class _SdfReader(link_reader.LinkReader):
     def place(self, link: link_reader.Link, element: Element) -> Pose:
         return self.tree.pose_in_link(link, element)
 
-    def reference_of(self, mesh: Element) -> str:
-        return document.mesh_uri(mesh)
-
     def part_of(self, mesh: Element) -> tuple[str, ...]:
         return shapes.read_submesh(mesh)
 
     def unit_of(self, path: Path) -> float:
         return shapes.collada_unit_of(path)
 
-    def read_scale(self, mesh: Element, where: str) -> tuple[Floats, str]:
-        return frames.read_floats(
-            mesh, "scale", where, (1.0, 1.0, 1.0)
-        ), f"<scale>{frames.text_of(mesh, 'scale')}</scale>"
+    def read_numbers(self, element: Element, name: str, where: str, default: tuple[float, ...]) -> Floats:
+        return frames.read_floats(element, name, where, default)
 
     def read_shape(self, element: Element, kind: Element, pose: Pose, where: str) -> collision_pieces.CollisionPiece:
-        geometry = element.first("geometry")
-        assert geometry is not None  # it holds the kind
-        return shapes.read_shape(geometry, kind, pose, where)
+        lines = [child for child in getattr(element.first("geometry"), "children", ()) if child.tag == "polyline"]
+        if kind.tag == "polyline":
+            return shapes.read_polylines(lines, pose, where)
+        if reason := shapes.NO_HULLS.get(kind.tag):
+            return collision_pieces.CollisionPiece(None, reason)
+        return super().read_shape(element, kind, pose, where)
 
     def place_mesh(
         self, kind: Element, path: Path, linear: Floats, offset: Floats
@@ -91,14 +91,6 @@ class _SdfReader(link_reader.LinkReader):
         red, green, blue, alpha = (min(1.0, max(0.0, share)) for share in [*found, 1.0][:4])
         through = parse_numbers(frames.text_of(visual, "transparency")) or [0.0]
         return red, green, blue, alpha * (1.0 - min(1.0, max(0.0, through[0])))
-
-    def identify_shape(self, element: Element, kind: Element) -> object:
-        sizes = tuple((child.tag, " ".join(child.text.split())) for child in kind.children)
-        return sizes, " ".join(frames.text_of(element, "pose").split())
-
-    def material_of(self, element: Element) -> str:
-        material = element.first("material")
-        return frames.text_of(material.first("script") if material else None, "name")
 
 
 def _collect_notes(tree: models.ModelTree, collisions: Sequence[Element]) -> Iterator[str]:

@@ -19,36 +19,12 @@ from meshforge.geometry import Floats, Pose, convex_hull, hull_mesh
 _UNIT = re.compile(rb"<unit\b[^>]*?\bmeter\s*=\s*[\"']\s*([0-9.eE+-]+)\s*[\"']")
 _HEAD_BYTES = 100_000  # bytes within which a file says its unit
 _MOST_POINTS = 10_000  # points of a polyline
-_NO_HULLS = {"heightmap": "a height map is no hull", "image": "an image is no hull", "empty": "it is empty"}
+NO_HULLS = {"heightmap": "a height map is no hull", "image": "an image is no hull", "empty": "it is empty"}
+"""Elements of a `<geometry>` that are no shapes, and why."""
 
 
-def read_shape(geometry: Element, kind: Element, pose: Pose, where: str) -> collision_pieces.CollisionPiece:
-    """Return the shape of an element of a geometry that is no mesh; pose: root_T_geometry.
-
-    What is left out has libsdformat's default. Raises AssetError with `where:line` for an unreadable number.
-    """
-    match kind.tag:
-        case "box" | "ellipsoid":
-            sizes = read_floats(kind, "size" if kind.tag == "box" else "radii", where, (1.0, 1.0, 1.0))
-        case "sphere":
-            sizes = read_floats(kind, "radius", where, (1.0,))
-        case "cylinder" | "capsule" | "cone":
-            radius = read_floats(kind, "radius", where, (1.0 if kind.tag == "cylinder" else 0.5,))
-            sizes = np.concatenate([radius, read_floats(kind, "length", where, (1.0,))])
-        case "plane":
-            turn = collision_pieces.turn_z_to(read_floats(kind, "normal", where, (0, 0, 1)))
-            return collision_pieces.CollisionPiece(None, "a plane has no end", plane=pose @ turn)
-        case "polyline":
-            return _read_polylines(list(geometry.each("polyline")), pose, where)
-        case _:
-            return collision_pieces.CollisionPiece(
-                None, _NO_HULLS.get(kind.tag, f"<{kind.tag}> is no geometry that is known")
-            )
-    return collision_pieces.build_primitive(kind.tag, sizes, pose)
-
-
-def _read_polylines(lines: Sequence[Element], pose: Pose, where: str) -> collision_pieces.CollisionPiece:
-    """Outlines of points, drawn up to a height: a hull where there is one that is convex."""
+def read_polylines(lines: Sequence[Element], pose: Pose, where: str) -> collision_pieces.CollisionPiece:
+    """Return outlines of points, drawn up to a height: a hull where there is one that is convex."""
     if len(lines) > 1:
         return collision_pieces.CollisionPiece(None, f"{len(lines)} polylines in one")
     corners = list(lines[0].each("point"))
