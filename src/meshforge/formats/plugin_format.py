@@ -76,10 +76,9 @@ def _guard(plugin: Plugin, kind: type[Format]) -> type[Format]:
 
 def _check_asset(plugin: Plugin, name: str, asset: Any, path: Path) -> Asset:
     """The asset that was read. Raises PluginError where it is none that MeshForge can work with."""
-    problem = f"read a {type(asset).__name__}, not an Asset"
-    if isinstance(asset, Asset):
-        problem = next(_find_faults(name, asset), "")
-    if problem:
+    if not isinstance(asset, Asset):
+        raise plugin.error(f"read a {type(asset).__name__}, not an Asset", str(path))
+    if problem := next(_find_faults(name, asset), None):
         raise plugin.error(problem, str(path))
     return asset
 
