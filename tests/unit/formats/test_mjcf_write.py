@@ -169,7 +169,7 @@ def test_nothing_takes_after_a_hull_of_a_sub_model(tmp_path: Path) -> None:
         "sub.xml": model('<body name="part"><geom name="g" size="1"/></body>'),
     }
     asset = read(put(tmp_path / "in", files))
-    for body, why in (("b", "takes after 'x-part/x-g', of which it comes out of"), ("x-part", "which is out of")):
+    for body, why in (("b", "takes after 'x-part/x-g', which is out of"), ("x-part", "which is out of")):
         with pytest.raises(AssetError, match=f"'{body}/new~1' .*{why} another model"):
             write(replaced(asset, [], Geom(f"{body}/new~1", body, BOX, "x-part/x-g")), tmp_path / "out")
 
