@@ -179,10 +179,6 @@ class LinkReader(ABC):
         found = (self._read_visual(link, element) for link in links for element in link.element.each("visual"))
         return VisualSurfaces(tuple(visual for visual in found if visual))
 
-    def mentions_of(self, link: Element, collision: Element) -> Mentions:
-        """Return what the file calls a `<collision>` of a link besides its own name."""
-        return collision_pieces.collect_mentions(self._names_of(collision), map(self._names_of, link.each("visual")))
-
     def _find_mesh(self, link: Link, element: Element, label: str) -> _MeshUse | None:
         kind = geometry_of(element)
         if kind is None or kind.tag != "mesh":
@@ -215,7 +211,8 @@ class LinkReader(ABC):
 
     def _list_mentions(self, link: Link, element: Element, use: _MeshUse | None, count: int) -> list[Mentions]:
         """What is said of each piece of an element, of those of a file also the name of its group or node."""
-        common, kind = self.mentions_of(link.element, element), geometry_of(element)
+        shown, kind = map(self._names_of, link.element.each("visual")), geometry_of(element)
+        common = collision_pieces.collect_mentions(self._names_of(element), shown)
         key = (use.path, self.part_of(kind)) if kind and use and use.path else None
         pieces = self.meshes.cut.get(key, []) if key else []
         if key is None or len(pieces) != count:

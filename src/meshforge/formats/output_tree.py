@@ -259,20 +259,14 @@ def has_content(target: Path, content: bytes | Path) -> bool:
 def copy_atomically(source: Path, target: Path, *, link: bool) -> None:
     """Put a copy of a file in place, or with `link` a hard link where the disk allows it. Folders are made."""
     with replace_atomically(target) as draft:
-        if link and _try_link(source, draft):
-            return
+        if link:
+            spare = draft.with_name(draft.name + "l")
+            with contextlib.suppress(OSError):  # another disk or file system may not allow it
+                os.link(source.resolve(), spare)
+                spare.replace(draft)
+                return
         with draft.open("wb") as stream, source.open("rb") as original:
             shutil.copyfileobj(original, stream)
             stream.flush()
             os.fsync(stream.fileno())
         draft.chmod(source.stat().st_mode & 0o777)
-
-
-def _try_link(source: Path, draft: Path) -> bool:
-    """Whether the draft could be made a link to the source; another disk or file system may not allow it."""
-    spare = draft.with_name(draft.name + "l")
-    with contextlib.suppress(OSError):
-        os.link(source.resolve(), spare)
-        spare.replace(draft)
-        return True
-    return False

@@ -48,15 +48,11 @@ def format_labels(file: LabelFile) -> str:
     """Return the text of a labels file, one hull a line; labels that its vocabulary lacks end that."""
     labels = [name for label in file.labels.values() for name in label.names]
     words = json.dumps(list(dict.fromkeys([*file.vocabulary, *labels])), ensure_ascii=False)
-    rows = [_format_row(name, label, file.digests.get(name)) for name, label in file.labels.items()]
+    digests = {name: {"digest": known} for name, known in file.digests.items() if known}
+    values = {name: _to_json(label) | digests.get(name, {}) for name, label in file.labels.items()}
+    rows = [f"    {json.dumps(n, ensure_ascii=False)}: {json.dumps(v, ensure_ascii=False)}" for n, v in values.items()]
     hulls = "{\n" + ",\n".join(rows) + "\n  }" if rows else "{}"
     return f'{{\n  "vocabulary": {words},\n  "hulls": {hulls}\n}}\n'
-
-
-def _format_row(name: str, label: Label, geometry: str | None) -> str:
-    value = _to_json(label)
-    value |= {"digest": geometry} if geometry else {}
-    return f"    {json.dumps(name, ensure_ascii=False)}: {json.dumps(value, ensure_ascii=False)}"
 
 
 def _to_json(label: Label) -> dict[str, Any]:

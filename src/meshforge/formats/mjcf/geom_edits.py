@@ -70,10 +70,11 @@ class GeomEdits:
         self.names = self._assign_names()
 
     @property
-    def changed_bodies(self) -> list[str]:
-        """The bodies whose geoms change."""
+    def changed_bodies(self) -> list[int]:
+        """The bodies, by number, that weigh and whose geoms change."""
         gone = [self.before.body_of[element.geoms[0]] for element in self.elements if element.own is None]
-        return list(dict.fromkeys([*gone, *(geom.body for geom in self._hulls.values())]))
+        names = dict.fromkeys([*gone, *(geom.body for geom in self._hulls.values())])
+        return [k for k in map(self.before.body_names.index, names) if self.before.model.body_mass[k] > 0]
 
     def body_node(self, body: str) -> MjcfNode | None:
         """Return the element of a body; of the world, the last one, in which its last geoms stand. None without one."""
