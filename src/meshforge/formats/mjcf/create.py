@@ -149,11 +149,7 @@ class _Creator:
             if changed:
                 self.notes.setdefault(_REPAIRED, []).append(body)
             yield text
-        elif (
-            inertial is None
-            and volume * _DENSITY >= (kinematic_tree.LIGHT_INERTIAL.mass if moves else 0)
-            and volume > 0
-        ):
+        elif inertial is None and volume * _DENSITY >= (_LIGHT_MASS if moves else 0) and volume > 0:
             self.notes.setdefault(_COMPUTED, []).append(body)
         elif moves:
             self.notes.setdefault(_LIGHT, []).append(body)
