@@ -47,8 +47,6 @@ def test_the_sample_has_its_hulls_bodies_joint_masses_and_visual(tmp_path: Path)
         ("<capsule><radius>0.5</radius><length>3</length></capsule>", "capsule", [1, 1, 4]),
         ("<ellipsoid><radii>1 2 3</radii></ellipsoid>", "ellipsoid", [2, 4, 6]),
         ("<cone><radius>0.5</radius><length>3</length></cone>", "polytope", [1, 1, 3]),
-        ("<polyline><point>0 0</point><point>2 0</point><point>0 1</point><height>3</height></polyline>", "polytope",
-         [2, 1, 3]),
     ],
 )  # fmt: skip
 def test_primitives_have_their_sizes(geometry: str, kind: str, size: list[float], tmp_path: Path) -> None:

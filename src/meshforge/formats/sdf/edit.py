@@ -14,7 +14,7 @@ from meshforge.common import AssetError, join_names
 from meshforge.formats import element_edits, kinematic_tree, link_reader, mesh_output, xml
 from meshforge.formats.base import Mass, Output
 from meshforge.formats.references import add_copy, note_absolute, reference_of
-from meshforge.formats.sdf import document, shapes
+from meshforge.formats.sdf import document, models
 from meshforge.formats.sdf.frames import is_computed
 from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Floats, Pose, Shape, Sphere
 from meshforge.symbolic import Asset, Coupling, Geom, Inertial
@@ -118,7 +118,7 @@ def write_sdf(asset: Asset, origin: document.SdfDocument, name: str, mass: Mass)
     """
     for geom in asset.geoms:
         element_edits.refuse_unknown_link(geom, origin.links, str(asset.path))
-    meshes, taken = shapes.SdfMeshes(origin.digests), set[str]()
+    meshes, taken = models.SdfMeshes(origin.digests), set[str]()
     plans = []
     for number, source in enumerate(origin.sources):
         files = mesh_output.HullFiles(Path(name).stem, source.resolver, taken)
@@ -140,7 +140,7 @@ def _plan_source(
     origin: document.SdfDocument,
     number: int,
     files: mesh_output.HullFiles,
-    meshes: shapes.SdfMeshes,
+    meshes: models.SdfMeshes,
 ) -> element_edits.ElementEdits:
     source = origin.sources[number]
     data = source.text.data
@@ -206,20 +206,18 @@ class SdfElementMaker(element_edits.ElementMaker):
     def replace_geometry(
         self, collision: xml.Element, pose: Pose, kind: Sequence[bytes], reference: str | None
     ) -> tuple[xml.Splice, ...]:
-        geometry, old = collision.first("geometry"), link_reader.geometry_of(collision)
-        assert geometry is not None and old is not None  # only elements with pieces are copied
+        old = link_reader.geometry_of(collision)
+        assert old is not None  # only elements with pieces are copied
         if b"\n" not in self.data[old.start : old.end]:  # all in one line
             kind = [b"".join(line.strip() for line in kind)]
         made = xml.Splice(old.start, old.end, xml.line_gap(self.data, old.start).join(kind))
-        polylines = (child for child in geometry.children if child.tag == "polyline" and child is not old)
-        placed = xml.replace_or_insert(self.data, collision, "pose", "geometry", pose_leaf(pose))
-        return (placed, made, *(xml.remove_element(self.data, child) for child in polylines))
+        return xml.replace_or_insert(self.data, collision, "pose", "geometry", pose_leaf(pose)), made
 
     def extract_piece(self, element: xml.Element, name: str, k: int) -> tuple[xml.Splice, ...]:
         """Scale and place stay; the file is used whole."""
         mesh = link_reader.geometry_of(element)
         assert mesh is not None  # only meshes have several pieces
-        _, made = self.make_piece(reference_of(mesh), shapes.read_submesh(mesh), name, k)
+        _, made = self.make_piece(reference_of(mesh), models.read_submesh(mesh), name, k)
         uri, submesh = mesh.first("uri") or mesh.first("filename"), mesh.first("submesh")
         assert uri is not None  # it has pieces
         new = xml.Splice(uri.start, uri.end, leaf(uri.tag, made))
