@@ -71,11 +71,11 @@ class MjcfFormat(Format):
         return references.top_folder(asset.document)
 
     def features(self, asset: Asset) -> Iterable[Feature]:
-        return features_of(asset.document) if isinstance(asset.document, MjcfDocument) else ()
+        return _features_of(asset.document) if isinstance(asset.document, MjcfDocument) else ()
 
 
-def features_of(document: MjcfDocument) -> Iterator[Feature]:
-    """Yield the features of an MJCF that its asset does not have; those that classes set count once."""
+def _features_of(document: MjcfDocument) -> Iterator[Feature]:
+    """The features of an MJCF that its asset does not have; those that classes set count once."""
     root = document.tree.root
     others = [*list_others(root, _TAKEN, _LEAVES)]
     constraints = [child for node in root.each("equality") for child in node.children]
