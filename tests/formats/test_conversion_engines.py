@@ -95,22 +95,6 @@ def test_a_made_mjcf_has_the_joints_and_masses_of_the_urdf_as_mujoco_reads_it(tm
         np.testing.assert_array_equal(getattr(made[0], field), getattr(own[0], field), err_msg=field)
 
 
-def test_a_made_mjcf_moves_as_the_urdf_does_when_its_joints_are_opened(tmp_path: Path) -> None:
-    urdf = save(doors(), tmp_path / "u" / "m.urdf").path
-    mjcf = save(read(urdf), tmp_path / "x" / "m.xml").path
-    places = []
-    for path in (unfused(urdf), mjcf):
-        model, data = at_rest(path)
-        for name, value in {"hinge": 0.7, "rail": 0.3, "axle": 2.0}.items():
-            data.qpos[model.jnt_qposadr[model.joint(name).id]] = value
-        mujoco.mj_forward(model, data)
-        places.append({model.body(k).name: (data.xpos[k].copy(), data.xmat[k].copy()) for k in range(model.nbody)})
-    assert places[0].keys() == places[1].keys()
-    for name, (where, turn) in places[0].items():
-        np.testing.assert_allclose(places[1][name][0], where, atol=1e-9, err_msg=name)
-        np.testing.assert_allclose(places[1][name][1], turn, atol=1e-9, err_msg=name)
-
-
 def test_bullet_and_yourdfpy_have_the_joints_and_masses_of_a_urdf_made_of_an_mjcf(tmp_path: Path) -> None:
     before = read(save(doors(), tmp_path / "x" / "m.xml").path)
     path = save(before, tmp_path / "u" / "m.urdf").path

@@ -12,22 +12,8 @@ from meshforge.symbolic import FeatureKind, Joint
 from tests.conversion_samples import block, doors, foreign, inertial
 
 
-def test_doors_come_back_with_joints_masses_visuals_and_colours(tmp_path: Path) -> None:
-    asset = doors()
-    found = read(save(asset, tmp_path / "model.sdf").path)
-    assert {b.name for b in found.bodies} == {b.name for b in asset.bodies}
-    was, now = ({j.name: j for j in a.mechanism.joints} for a in (asset, found))
-    assert was.keys() == now.keys()
-    for name, joint in was.items():
-        assert (now[name].kind, now[name].parent, now[name].child) == (joint.kind, joint.parent, joint.child)
-        assert now[name].limits == joint.limits
-        if joint.kind != "fixed":
-            np.testing.assert_allclose(now[name].axis, joint.axis, atol=1e-12)
-    masses = {i.body: i for i in found.mechanism.inertials}
-    for one in asset.mechanism.inertials:
-        assert masses[one.body].mass == one.mass
-        np.testing.assert_allclose(masses[one.body].centre, one.centre, atol=1e-12)
-        np.testing.assert_allclose(masses[one.body].inertia, one.inertia, atol=1e-12)
+def test_doors_come_back_with_their_visuals_and_colours(tmp_path: Path) -> None:
+    found = read(save(doors(), tmp_path / "model.sdf").path)
     assert sorted((v.body, v.rgba) for v in found.visuals) == [("door", (1, 0.25, 0, 1)), ("frame", None)]
 
 
