@@ -202,9 +202,7 @@ class SceneFormat(Format):
 
 def feature_of_others(kinds: Iterable[str]) -> Feature:
     """Return the feature of elements that no conversion takes: each kind is named once."""
-    each = list(kinds)
-    names = tuple(dict.fromkeys(each))
-    return Feature(FeatureKind.OTHERS, names, len(each) - len(names))
+    return Feature.of(FeatureKind.OTHERS, kinds)
 
 
 def list_others(top: Any, taken: Collection[str], leaves: Collection[str]) -> Iterator[str]:

@@ -54,8 +54,8 @@ def report_conversion(
     visuals = asset.visuals
     shown: Sequence[Surface | Visual] = visuals.visuals if isinstance(visuals, VisualSurfaces) else visuals
     of_visuals = (
-        _body_feature(FeatureKind.VISUALS, [visual.body for visual in shown]),
-        _body_feature(FeatureKind.COLORS, [visual.body for visual in shown if visual.rgba is not None]),
+        Feature.of(FeatureKind.VISUALS, (visual.body for visual in shown)),
+        Feature.of(FeatureKind.COLORS, (visual.body for visual in shown if visual.rgba is not None)),
     )
     features = [f for feature in (*features_of(asset), *of_visuals) if (f := _subtract_losses(feature, own)).count]
     # a creator sees the asset, not the document: what only that holds is never converted
@@ -103,11 +103,6 @@ def _find_faded_materials(asset: Asset, target: Format) -> list[Loss]:
     instead = "shown with one picture or base colour a mesh" if target.has_pictures else "shown without these"
     why = f"MeshForge does not convert the rest of materials to {target.title}"
     return [Loss(FeatureKind.MESH_MATERIALS, tuple(faded), why, instead)] if faded else []
-
-
-def _body_feature(what: FeatureKind, bodies: list[str | None]) -> Feature:
-    names = tuple(dict.fromkeys(body for body in bodies if body))
-    return Feature(what, names, len(bodies) - len(names))
 
 
 def turn_upright(asset: Asset, source: Format | None, target: Format) -> tuple[Asset, tuple[str, ...]]:
