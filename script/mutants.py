@@ -80,7 +80,7 @@ def record_reach(folder: Path) -> None:
     (tree / "src/meshforge/_probe.py").write_text(_PROBE.replace("{FOLDER}", str(folder)), encoding="utf-8")
     for place in read_places():
         path = tree / place.file
-        lines = path.read_text(encoding="utf-8").splitlines()
+        lines = path.read_text(encoding="utf-8").splitlines() if path.exists() else []
         at = place.find(lines)
         if at is None:
             print(f"{place.number:02d}: {place.file} has no line {place.text!r} any more")

@@ -9,8 +9,6 @@ import numpy as np
 import pytest
 
 from meshforge.formats import convert, read, save
-from meshforge.formats.visuals import VisualSurfaces
-from meshforge.symbolic import SymbolicMesh
 from tests.loop.command import Done
 from tests.unit.cli.in_process import Run, runner
 from tests.urdf_engines import bullet
@@ -159,9 +157,3 @@ def test_where_nothing_is_there_to_collide_the_input_is_what_is_wrong(run: Run) 
     Path("arm.urdf").write_text('<robot name="arm"><link name="base"/></robot>')
     told = run("convert", "arm.urdf", "out/arm.obj")
     assert told.code == 2 and told.err.endswith("there is no hull to write\n")
-
-
-def test_visuals_stay_what_they_are(tmp_path: Path) -> None:
-    after = read(convert(write_arm(tmp_path), tmp_path / "out" / "arm.xml").path)
-    assert isinstance(after.visuals, VisualSurfaces) and len(after.visuals) == 2
-    assert len(SymbolicMesh.of(after).hulls) == 2 and after.non_convex == ()

@@ -68,8 +68,7 @@ def load_many(patterns: str | Path | Iterable[str | Path]) -> Iterator[symbolic.
 
 
 def labels_beside(path: Path) -> Path:
-    """Return where the labels of an asset lie: beside it, `table.labels.json` for table.urdf and for a folder
-    `table`."""
+    """Return where the labels of an asset lie: beside it, `table.labels.json` for table.urdf and a folder `table`."""
     suffix = path.suffix.lower()
     is_file = not path.is_dir() and suffix.removeprefix(".") in FORMATS_BY_SUFFIX
     stem = path.stem if is_file else path.name
@@ -112,7 +111,6 @@ def _write_labels(mesh: SymbolicMesh, saved: SaveResult, overwrite: bool) -> Sav
     path = labels_beside(saved.path)
     if path.exists() and not overwrite:
         note = f"{path} is there already and was left as it is"
-        report = replace(saved.report, remarks=(*saved.report.remarks, note))
-        return replace(saved, notes=(*saved.notes, note), report=report)
+        return replace(saved, report=replace(saved.report, remarks=(*saved.report.remarks, note)))
     write_labels(path, mesh.as_written(saved.names, read(saved.path)), ())
     return saved

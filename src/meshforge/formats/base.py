@@ -162,13 +162,11 @@ class Format(ABC):
         return asset.format == self.name
 
     def engines_of(self, asset: Asset) -> tuple[str, ...]:
-        """Return the engines that an asset in this format is for: those of the format, or by whose names it was
-        marked."""
+        """Return the engines that an asset in this format is for: its own, or those by whose names it is marked."""
         return self.engines
 
     def create(self, asset: Asset, name: str) -> Output:
-        """Return the files of an asset that came from another format: geometry and bodies, as far as the format holds
-        them."""
+        """Return the files of an asset that came from another format, as far as this one holds it."""
         raise self._creation_error(asset)
 
     def _creation_error(self, asset: Asset) -> Exception:
@@ -183,13 +181,11 @@ class Format(ABC):
         return ()
 
     def top(self, asset: Asset) -> Path:
-        """Return the highest folder that the references of an asset name on their way, from that of its file
-        upwards."""
+        """Return the highest folder that the references of an asset pass, from that of its file upwards."""
         return asset.path.parent
 
     def is_main(self, path: Path) -> bool:
-        """Return whether a file of this format is an asset of its own, and not what stands in for one in older
-        programs."""
+        """Return whether a file of this format is an asset of its own, not a stand-in for one in older programs."""
         return True
 
     def matches_head(self, head: bytes) -> bool:
@@ -228,14 +224,11 @@ class SceneFormat(Format):
 
 def feature_of_others(kinds: Iterable[str]) -> Feature:
     """Return the feature of elements that no conversion takes: each kind is named once."""
-    each = list(kinds)
-    names = tuple(dict.fromkeys(each))
-    return Feature(FeatureKind.OTHERS, names, len(each) - len(names))
+    return Feature.of(FeatureKind.OTHERS, kinds)
 
 
 def list_others(top: Any, taken: Collection[str], leaves: Collection[str]) -> Iterator[str]:
-    """Yield the tags below an XML element that a conversion does not take; it takes those of `leaves` with all
-    inside."""
+    """Yield the tags below an XML element that a conversion does not take; `leaves` are taken with all inside."""
     waiting = [top]
     while waiting:
         for child in waiting.pop().children:

@@ -1,5 +1,4 @@
-"""What happens to an asset on its way into another format: it is turned upright, couplings of joints are followed to
-the joint that drives them, and a report says what that format does not hold."""
+"""An asset on its way into another format: turned upright, couplings followed to their drivers, losses reported."""
 
 from __future__ import annotations
 
@@ -55,8 +54,8 @@ def report_conversion(
     visuals = asset.visuals
     shown: Sequence[Surface | Visual] = visuals.visuals if isinstance(visuals, VisualSurfaces) else visuals
     of_visuals = (
-        _body_feature(FeatureKind.VISUALS, [visual.body for visual in shown]),
-        _body_feature(FeatureKind.COLORS, [visual.body for visual in shown if visual.rgba is not None]),
+        Feature.of(FeatureKind.VISUALS, (visual.body for visual in shown)),
+        Feature.of(FeatureKind.COLORS, (visual.body for visual in shown if visual.rgba is not None)),
     )
     features = [f for feature in (*features_of(asset), *of_visuals) if (f := _subtract_losses(feature, own)).count]
     # a creator sees the asset, not the document: what only that holds is never converted
@@ -106,11 +105,6 @@ def _find_faded_materials(asset: Asset, target: Format) -> list[Loss]:
     return [Loss(FeatureKind.MESH_MATERIALS, tuple(faded), why, instead)] if faded else []
 
 
-def _body_feature(what: FeatureKind, bodies: list[str | None]) -> Feature:
-    names = tuple(dict.fromkeys(body for body in bodies if body))
-    return Feature(what, names, len(bodies) - len(names))
-
-
 def turn_upright(asset: Asset, source: Format | None, target: Format) -> tuple[Asset, tuple[str, ...]]:
     """Return the asset as it stands upright in the target format, and remarks on that for the user.
 
@@ -129,8 +123,7 @@ def turn_upright(asset: Asset, source: Format | None, target: Format) -> tuple[A
 
 
 def turn_asset(asset: Asset, turn: Pose) -> Asset:
-    """Return the asset in another root frame, new_T_old; frames of bodies are turned along, so that a root stays
-    one."""
+    """Return the asset in another root frame, new_T_old; frames of bodies turn along, so that a root stays one."""
 
     def turn_surface(surface: Surface) -> Surface:
         return replace(surface, vertices=turn.apply(surface.vertices))

@@ -1,5 +1,4 @@
-"""The collision elements of an edited description before they are text, authored, copied or new: what an edit makes
-of each (left alone, removed, split, joined by new ones), what they are called, and where they go."""
+"""The collision elements of an edited description before they are text: authored, copied or new, named and placed."""
 
 from __future__ import annotations
 
@@ -13,6 +12,7 @@ import numpy as np
 from meshforge.common import AssetError, nearest_name, pluralize
 from meshforge.formats import collision_pieces, mesh_output, xml
 from meshforge.formats.link_reader import CollisionMeshes, geometry_of
+from meshforge.formats.references import reference_of
 from meshforge.geometry import Piece, Polytope, Pose, Shape
 from meshforge.symbolic import Asset, Geom, NonConvexPiece, Surface
 
@@ -71,10 +71,6 @@ class ElementMaker(ABC):
     notes: list[str] = field(default_factory=list)
 
     @abstractmethod
-    def reference_of(self, mesh: xml.Element) -> str:
-        """Return the reference of a `<mesh>`."""
-
-    @abstractmethod
     def native_lines(self, shape: Shape) -> tuple[Pose, list[bytes]] | None:
         """Return the pose of a shape that the format has of its own, and its lines without that; None for others."""
 
@@ -97,8 +93,7 @@ class ElementMaker(ABC):
 
     @abstractmethod
     def extract_piece(self, element: xml.Element, name: str, k: int) -> tuple[xml.Splice, ...]:
-        """Return the edits that leave of an element its k-th piece alone, triangles as authored; name: of that
-        piece."""
+        """Return the edits that leave of an element its k-th piece alone, as authored; name: of that piece."""
 
     def explain_hull(self, shape: Shape) -> str:
         """Return why a native shape is written as a hull."""
@@ -125,8 +120,7 @@ class ElementMaker(ABC):
         return OutputElement(piece.body, (piece.name,), text=self.build_collision(Pose.identity(), kind, lead))
 
     def make_piece(self, reference: str, part: tuple[str, ...], name: str, k: int) -> tuple[Piece, str]:
-        """Return the k-th piece of a mesh, or of a part of it, and the reference to a file of its own, which is
-        made."""
+        """Return the k-th piece of a mesh, or of a part of it, and the reference to a file that is made of it."""
         assert self.files.resolver is not None and self.meshes is not None  # only meshes have several pieces
         path = self.files.resolver.find(reference)
         if path is None:
@@ -138,7 +132,7 @@ class ElementMaker(ABC):
         """Return the folder of the first mesh of some collisions, in which hulls go whose parents have none."""
         meshes = (kind for element in collisions if (kind := geometry_of(element)) and kind.tag == "mesh")
         first = next(meshes, None)
-        return self.files.folder_of(self.reference_of(first) if first else None)
+        return self.files.folder_of(reference_of(first) if first else None)
 
     def _make_mesh(self, geom: Geom, shape: Shape, template: xml.Element | None) -> str:
         if not isinstance(shape, Polytope):

@@ -1,5 +1,4 @@
-"""The bodies of an asset as a tree, and as the links and joints of a new URDF or SDF, each with its frame on its
-joint."""
+"""The bodies of an asset as a tree, and as links and joints of a new URDF or SDF, each with its frame on its joint."""
 
 from __future__ import annotations
 
@@ -218,15 +217,13 @@ def tensor_of_moments(moments: Iterable[float]) -> Floats:
 
 
 def drop_rounding(values: Floats, scale: float | None = None) -> Floats:
-    """Return the numbers without those that are but the rounding of larger ones; scale: of these, else of the
-    largest."""
+    """Return the numbers without those that are but the rounding of `scale`, else of the largest one."""
     largest = float(np.abs(values).max()) if scale is None else scale
     return np.where(np.abs(values) < _ROUNDING * largest, 0.0, values)
 
 
 def read_numbers(text: str, count: int, given: str, place: str) -> Floats:
-    """Return the numbers (count,) of a text. Raises AssetError at a place: others, or none of a size; given: the
-    element."""
+    """Return the numbers (count,) of a text. Raises AssetError about `given`, at a place, where it holds others."""
     values = parse_numbers(text)
     if values is None or len(values) != count:
         wanted = "a finite number" if count == 1 else f"{count} finite numbers"

@@ -1,5 +1,4 @@
-"""Libraries that are loaded when something of them is first used, as they take long or are optional; and folders for
-what those that read files read from memory."""
+"""Libraries that are loaded when they are first used, and folders for what those that read files read from memory."""
 
 from __future__ import annotations
 

@@ -1,5 +1,4 @@
-"""Read what the links of a URDF or SDF hold: collision elements with their mesh files, each found, read and cut once,
-what else the file calls them, and visuals."""
+"""Read the links of a URDF or SDF: collisions with their mesh files, each read and cut once, names, and visuals."""
 
 from __future__ import annotations
 
@@ -15,9 +14,9 @@ from meshforge.formats import collision_pieces
 from meshforge.formats.collision_pieces import CollisionElement, CollisionPiece, ShapeNames, name_elements
 from meshforge.formats.mesh_reader import read_triangles, split_into_pieces
 from meshforge.formats.meshfile.surface import RawSurface
-from meshforge.formats.references import Resolver
+from meshforge.formats.references import Resolver, reference_of
 from meshforge.formats.visuals import Visual, VisualSurfaces
-from meshforge.formats.xml import Element
+from meshforge.formats.xml import Element, format_numbers
 from meshforge.geometry import Floats, Piece, Pose
 from meshforge.symbolic import Geom, Mentions, NonConvexPiece, Rgba
 
@@ -111,7 +110,9 @@ class _MeshUse:
 
 
 class LinkReader(ABC):
-    """A reader of links: how its format writes shapes; meshes: the mesh files so far."""
+    """A reader of links: how its format writes shapes; kinds: their elements; meshes: the mesh files so far."""
+
+    kinds: tuple[str, ...]
 
     def __init__(self, meshes: CollisionMeshes) -> None:
         self.meshes = meshes
@@ -121,29 +122,27 @@ class LinkReader(ABC):
         """Return root_T_element of something in a link. Raises AssetError with `where:line`."""
 
     @abstractmethod
-    def reference_of(self, mesh: Element) -> str:
-        """Return the reference of a `<mesh>`, empty without one."""
-
-    @abstractmethod
-    def read_scale(self, mesh: Element, where: str) -> tuple[Floats, str]:
-        """Return the factors (3,) by which a `<mesh>` is scaled, and how it says so. Raises AssetError with
-        `where:line`."""
-
-    @abstractmethod
-    def read_shape(self, element: Element, kind: Element, pose: Pose, where: str) -> CollisionPiece:
-        """Return the shape of a collision or visual that is no mesh; pose: root_T_geometry. Raises AssetError."""
+    def read_numbers(self, element: Element, name: str, where: str, default: tuple[float, ...]) -> Floats:
+        """Return what an element says of a name, as long as the default of SDF. Raises AssetError with `where:line`."""
 
     @abstractmethod
     def read_color(self, visual: Element, where: str) -> Rgba | None:
         """Return the colour of a `<visual>`, None where that is left to its file."""
 
-    @abstractmethod
-    def identify_shape(self, element: Element, kind: Element) -> object:
-        """Return what tells the shape of an element that is no mesh from others."""
-
-    @abstractmethod
-    def material_of(self, element: Element) -> str:
-        """Return the name of an element's material, empty without one."""
+    def read_shape(self, element: Element, kind: Element, pose: Pose, where: str) -> CollisionPiece:
+        """Return the shape of a collision or visual that is no mesh; pose: root_T_geometry. Raises AssetError."""
+        if kind.tag not in self.kinds:
+            return CollisionPiece(None, f"<{kind.tag}> is no geometry that is known")
+        if kind.tag == "plane":
+            turn = collision_pieces.turn_z_to(self.read_numbers(kind, "normal", where, (0.0, 0.0, 1.0)))
+            return CollisionPiece(None, "a plane has no end", plane=pose @ turn)
+        defaults: dict[str, tuple[float, ...]] = {"radius": (1.0 if kind.tag in ("sphere", "cylinder") else 0.5,)}
+        if kind.tag in ("box", "ellipsoid"):
+            defaults = {"size" if kind.tag == "box" else "radii": (1.0, 1.0, 1.0)}
+        elif kind.tag != "sphere":
+            defaults["length"] = (1.0,)
+        sizes = [self.read_numbers(kind, name, where, default) for name, default in defaults.items()]
+        return collision_pieces.build_primitive(kind.tag, np.concatenate(sizes), pose)
 
     def part_of(self, mesh: Element) -> tuple[str, ...]:
         """Return what of its file a `<mesh>` uses, see `CollisionMeshes.select`."""
@@ -179,15 +178,11 @@ class LinkReader(ABC):
         found = (self._read_visual(link, element) for link in links for element in link.element.each("visual"))
         return VisualSurfaces(tuple(visual for visual in found if visual))
 
-    def mentions_of(self, link: Element, collision: Element) -> Mentions:
-        """Return what the file calls a `<collision>` of a link besides its own name."""
-        return collision_pieces.collect_mentions(self._names_of(collision), map(self._names_of, link.each("visual")))
-
     def _find_mesh(self, link: Link, element: Element, label: str) -> _MeshUse | None:
         kind = geometry_of(element)
         if kind is None or kind.tag != "mesh":
             return None
-        reference = self.reference_of(kind)
+        reference = reference_of(kind)
         path = link.resolver.find(reference) if reference else None
         return _MeshUse(label, reference, f"{link.where}:{kind.line}", link.resolver, path)
 
@@ -206,15 +201,17 @@ class LinkReader(ABC):
             raise AssetError(f"collision {use.label!r}: {error.message}", where=use.place) from error
 
     def _scale_of(self, mesh: Element, where: str, label: str) -> Floats:
-        scale, given = self.read_scale(mesh, where)
+        scale = self.read_numbers(mesh, "scale", where, (1.0, 1.0, 1.0))
         if np.abs(scale).min() < _LEAST_SCALE:
-            problem, place = f"collision {label!r} is scaled to nothing: {given}", f"{where}:{mesh.line}"
-            raise AssetError(problem, where=place, remedy="Give every axis a factor that is not zero.")
+            problem = f"collision {label!r} is scaled to nothing: scale {format_numbers(scale)}"
+            remedy = "Give every axis a factor that is not zero."
+            raise AssetError(problem, where=f"{where}:{mesh.line}", remedy=remedy)
         return scale
 
     def _list_mentions(self, link: Link, element: Element, use: _MeshUse | None, count: int) -> list[Mentions]:
         """What is said of each piece of an element, of those of a file also the name of its group or node."""
-        common, kind = self.mentions_of(link.element, element), geometry_of(element)
+        shown, kind = map(self._names_of, link.element.each("visual")), geometry_of(element)
+        common = collision_pieces.collect_mentions(self._names_of(element), shown)
         key = (use.path, self.part_of(kind)) if kind and use and use.path else None
         pieces = self.meshes.cut.get(key, []) if key else []
         if key is None or len(pieces) != count:
@@ -227,10 +224,10 @@ class LinkReader(ABC):
         kind = geometry_of(element)
         if kind is None:
             return None
-        reference = self.reference_of(kind) if kind.tag == "mesh" else ""
+        reference = reference_of(kind) if kind.tag == "mesh" else ""
         name = "" if element.tag == "collision" else element.attributes.get("name", "")
-        shape = reference or (kind.tag, self.identify_shape(element, kind))
-        return ShapeNames(shape, name, collision_pieces.stem_of(reference), self.material_of(element))
+        shape = reference or tuple(map(_identify, (kind, element.first("origin"), element.first("pose"))))
+        return ShapeNames(shape, name, collision_pieces.stem_of(reference), material_of(element))
 
     def _read_visual(self, link: Link, element: Element) -> Visual | None:
         kind = geometry_of(element)
@@ -241,7 +238,7 @@ class LinkReader(ABC):
             if kind.tag != "mesh":
                 shape = self.read_shape(element, kind, at, link.where).shape
                 found = Visual(link.body, shape, np.eye(3), np.zeros(3)) if shape else None
-            elif path := link.resolver.find(self.reference_of(kind)):
+            elif path := link.resolver.find(reference_of(kind)):
                 scale = self._scale_of(kind, link.where, "visual") * self.unit_of(path)
                 found = Visual(link.body, path, at.rotation * scale, at.translation)
             else:
@@ -249,6 +246,22 @@ class LinkReader(ABC):
         except MeshForgeError:
             return None
         return replace(found, rgba=self.read_color(element, link.where)) if found else None
+
+
+def _identify(element: Element | None) -> object:
+    """What tells an element from others."""
+    if element is None:
+        return None
+    texts = [(part.tag, " ".join(part.text.split())) for part in (element, *element.children)]
+    return tuple(sorted(element.attributes.items())), tuple(texts)
+
+
+def material_of(element: Element) -> str:
+    """Return the name of an element's material, of SDF that of its script; empty without one."""
+    material = element.first("material")
+    script = material.first("script") if material else None
+    named = script.first("name") if script else None
+    return named.text if named else material.attributes.get("name", "") if material else ""
 
 
 def _refuse_missing(uses: Sequence[_MeshUse]) -> None:

@@ -41,10 +41,13 @@ class SaveResult:
 
     path: Path
     files: tuple[Path, ...]
-    notes: tuple[str, ...] = ()
     names: Mapping[str, str] = field(default_factory=dict)
     hulled: tuple[str, ...] = ()
     report: ConversionReport = field(default=ConversionReport())
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        return self.report.sentences
 
 
 def save(
@@ -91,12 +94,11 @@ def save(
         path.unlink()
     kept = {} if isinstance(what, Asset) else what.names_in_file
     found = output.names | {name: output.names.get(own, own) for name, own in kept.items()}
-    return SaveResult(out, tuple(plan), report.sentences, found, output.hulled, report)
+    return SaveResult(out, tuple(plan), found, output.hulled, report)
 
 
 def make_output(mesh: SymbolicMesh, kind: str, name: str) -> Output:
-    """Return the files of a mesh in the format of a name, main file named `name`, without writing them. Raises
-    AssetError."""
+    """Return the files of a mesh in the format of a name, main file named `name`. Raises AssetError."""
     known = format_named(kind)
     assert known is not None
     asset = _to_asset(mesh)
@@ -257,20 +259,14 @@ def has_content(target: Path, content: bytes | Path) -> bool:
 def copy_atomically(source: Path, target: Path, *, link: bool) -> None:
     """Put a copy of a file in place, or with `link` a hard link where the disk allows it. Folders are made."""
     with replace_atomically(target) as draft:
-        if link and _try_link(source, draft):
-            return
+        if link:
+            spare = draft.with_name(draft.name + "l")
+            with contextlib.suppress(OSError):  # another disk or file system may not allow it
+                os.link(source.resolve(), spare)
+                spare.replace(draft)
+                return
         with draft.open("wb") as stream, source.open("rb") as original:
             shutil.copyfileobj(original, stream)
             stream.flush()
             os.fsync(stream.fileno())
         draft.chmod(source.stat().st_mode & 0o777)
-
-
-def _try_link(source: Path, draft: Path) -> bool:
-    """Whether the draft could be made a link to the source; another disk or file system may not allow it."""
-    spare = draft.with_name(draft.name + "l")
-    with contextlib.suppress(OSError):
-        os.link(source.resolve(), spare)
-        spare.replace(draft)
-        return True
-    return False

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from inspect import isabstract
 from pathlib import Path
 from typing import Any
@@ -78,28 +78,23 @@ def _check_asset(plugin: Plugin, name: str, asset: Any, path: Path) -> Asset:
     """The asset that was read. Raises PluginError where it is none that MeshForge can work with."""
     if not isinstance(asset, Asset):
         raise plugin.error(f"read a {type(asset).__name__}, not an Asset", str(path))
-    if problem := _find_bad_asset(name, asset) or _find_bad_geom(asset):
+    if problem := next(_find_faults(name, asset), None):
         raise plugin.error(problem, str(path))
     return asset
 
 
-def _find_bad_asset(name: str, asset: Asset) -> str | None:
+def _find_faults(name: str, asset: Asset) -> Iterator[str]:
     if asset.format != name:
-        return f"read an asset of the format {asset.format!r}, not {name!r}"
+        yield f"read an asset of the format {asset.format!r}, not {name!r}"
     pieces: list[Geom | NonConvexPiece] = [*asset.geoms, *asset.non_convex]
     counts = Counter(piece.name for piece in pieces)
-    twice = [one for one, count in counts.items() if count > 1]
-    if twice:
-        return f"gave several hulls the name {twice[0]!r}"
-    astray = [piece for piece in pieces if piece.body not in asset.body_poses]
-    return f"put the hull {astray[0].name!r} into the body {astray[0].body!r}, which is not there" if astray else None
-
-
-def _find_bad_geom(asset: Asset) -> str | None:
+    yield from (f"gave several hulls the name {one!r}" for one, count in counts.items() if count > 1)
+    for piece in pieces:
+        if piece.body not in asset.body_poses:
+            yield f"put the hull {piece.name!r} into the body {piece.body!r}, which is not there"
     for geom in asset.geoms:
         if fault := find_fault(geom.shape):
-            return f"read the hull {geom.name!r}, which {describe_fault(fault)}"
-    return None
+            yield f"read the hull {geom.name!r}, which {describe_fault(fault)}"
 
 
 def _check_output(plugin: Plugin, output: Any) -> Output:

@@ -1,6 +1,4 @@
-"""Files that a description or a mesh file refers to: where a reference leads, which files a mesh needs beside it
-(materials, textures, buffers), and where each goes in an output folder.
-"""
+"""Files that a file refers to: where a reference leads, what a mesh needs beside it, where each goes in an output."""
 
 from __future__ import annotations
 
@@ -14,6 +12,7 @@ from urllib.parse import unquote, urlsplit
 
 from meshforge.common import AssetError, is_file, nearest_name
 from meshforge.formats.meshfile.gltf_document import entries, parse_json, report_damage
+from meshforge.formats.xml import Element
 
 _PACKAGE = re.compile(r"(?:package|model)://+([^/]+)/(.*)", re.S)
 _FILE = re.compile(r"file:(?://[^/]*(?=/)|//)?(.*)", re.S)
@@ -148,6 +147,12 @@ def find_companions(mesh: Path) -> dict[str, Path]:
         for reference in _find_matches(_MAP, _read_or_empty(library)):
             _add_files(found, mesh.parent, posixpath.dirname(key), reference)
     return found
+
+
+def reference_of(mesh: Element) -> str:
+    """Return the reference of a `<mesh>` of URDF or SDF, which up to version 1.2 called it `<filename>`; else empty."""
+    child = mesh.first("uri") or mesh.first("filename")
+    return child.text if child else mesh.attributes.get("filename", "").strip()
 
 
 def find_all(references: Iterable[str], resolver: Resolver) -> tuple[tuple[Path, ...], tuple[str, ...]]:

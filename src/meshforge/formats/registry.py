@@ -1,5 +1,4 @@
-"""The formats MeshForge knows, one line each, those of plug-ins, and which of them a file is of; assets read by them,
-alone or many, with the labels that lie beside them."""
+"""The formats MeshForge knows, one line each, with those of plug-ins; which of them a file is of; reading by them."""
 
 from __future__ import annotations
 
@@ -107,8 +106,7 @@ def format_named(name: str) -> Format | None:
 
 
 def plugin_of_suffix(suffix: str) -> Plugin | None:
-    """Return the plug-in that reads files of a suffix, None where it is built in, unknown, or several plug-ins have
-    it."""
+    """Return the plug-in that alone reads files of a suffix, None where there is none."""
     try:
         return FORMATS_BY_SUFFIX.plugin(suffix.lower().removeprefix("."))
     except PluginError:

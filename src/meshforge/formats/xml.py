@@ -1,5 +1,4 @@
-"""XML files that are edited in place: their text, their elements with byte offsets, edits of it, and numbers as
-text."""
+"""XML files that are edited in place: text, elements with byte offsets, edits, and numbers as text."""
 
 from __future__ import annotations
 
@@ -67,59 +66,40 @@ def parse_xml(data: bytes, where: str) -> Element:
     """
     if not data.strip():
         raise AssetError("the file is empty", where=where)
-    reader = _TreeReader(blank_markup(data), where)
-    return reader.root()
+    data = blank_markup(data)
+    opened: list[tuple[Element, list[str]]] = []
+    done: list[Element] = []
+    parser = expat.ParserCreate("utf-8")
+    parser.buffer_text = parser.specified_attributes = True
 
-
-class _TreeReader:
-    """Builds the tree from expat's events; offsets are those of the text."""
-
-    def __init__(self, data: bytes, where: str) -> None:
-        self.data, self.where = data, where
-        self.open: list[Element] = []
-        self.texts: list[list[str]] = []
-        self.done: Element | None = None
-        self.parser = expat.ParserCreate("utf-8")
-        self.parser.StartElementHandler = self._start
-        self.parser.EndElementHandler = self._end
-        self.parser.CharacterDataHandler = lambda text: self.texts[-1].append(text)
-        self.parser.buffer_text = True
-        self.parser.EntityDeclHandler = self._entity
-        self.parser.specified_attributes = True
-
-    def root(self) -> Element:
-        try:
-            self.parser.Parse(self.data, True)
-        except expat.ExpatError as error:
-            reason = expat.ErrorString(error.code)
-            raise AssetError(f"is not well-formed XML: {reason}", where=f"{self.where}:{error.lineno}") from None
-        assert self.done is not None  # expat refuses a text without an element
-        return self.done
-
-    def _start(self, tag: str, attributes: dict[str, str]) -> None:
-        start = self.parser.CurrentByteIndex
-        match = _TAG_END.match(self.data, start)
+    def start(tag: str, attributes: dict[str, str]) -> None:
+        match = _TAG_END.match(data, parser.CurrentByteIndex)
         assert match is not None  # expat saw the tag's end
-        element = Element(tag, attributes, self.parser.CurrentLineNumber, start, match.end())
-        if self.open:
-            self.open[-1].children.append(element)
-        self.open.append(element)
-        self.texts.append([])
+        element = Element(tag, attributes, parser.CurrentLineNumber, parser.CurrentByteIndex, match.end())
+        if opened:
+            opened[-1][0].children.append(element)
+        opened.append((element, []))
 
-    def _end(self, tag: str) -> None:
-        element = self.open.pop()
-        element.text = "".join(self.texts.pop()).strip()
-        empty = self.data[element.inside - 2 : element.inside] == b"/>"
-        closing = element.inside - 1 if empty else self.parser.CurrentByteIndex
-        element.end = self.data.index(b">", closing) + 1
-        self.done = element
+    def end(tag: str) -> None:
+        element, texts = opened.pop()
+        element.text = "".join(texts).strip()
+        empty = data[element.inside - 2 : element.inside] == b"/>"
+        element.end = data.index(b">", element.inside - 1 if empty else parser.CurrentByteIndex) + 1
+        done.append(element)
 
-    def _entity(self, *declaration: object) -> NoReturn:
-        raise AssetError(
-            "declares XML entities, which are not read",
-            where=f"{self.where}:{self.parser.CurrentLineNumber}",
-            remedy="Remove the document type; it may also be an attack on the reader.",
-        )
+    def refuse_entity(*declaration: object) -> NoReturn:
+        problem, place = "declares XML entities, which are not read", f"{where}:{parser.CurrentLineNumber}"
+        remedy = "Remove the document type; it may also be an attack on the reader."
+        raise AssetError(problem, where=place, remedy=remedy)
+
+    parser.StartElementHandler, parser.EndElementHandler, parser.EntityDeclHandler = start, end, refuse_entity
+    parser.CharacterDataHandler = lambda text: opened[-1][1].append(text)
+    try:
+        parser.Parse(data, True)
+    except expat.ExpatError as error:
+        reason = expat.ErrorString(error.code)
+        raise AssetError(f"is not well-formed XML: {reason}", where=f"{where}:{error.lineno}") from None
+    return done[-1]  # expat refuses a text without an element
 
 
 @dataclass(frozen=True, slots=True)
@@ -256,8 +236,7 @@ def indent_of(data: bytes, at: int) -> bytes | None:
 
 
 def line_gap(data: bytes, at: int) -> bytes:
-    """Return what parts two elements where the first is at `at`: a line end and its indent, nothing where it has no
-    line."""
+    """Return what parts an element at `at` from the next: a line end and its indent, nothing where it has no line."""
     lead = indent_of(data, at)
     return b"" if lead is None else newline_of(data) + lead
 
@@ -286,8 +265,7 @@ def format_numbers(values: Iterable[float]) -> str:
 
 
 def parse_numbers(text: str) -> list[float] | None:
-    """Return the numbers of a text, apart by blanks or (as PyBullet reads) commas, None where one is none or not
-    finite."""
+    """Return the numbers of a text, apart by blanks or commas, None where one is none or not finite."""
     if "_" in text or not text.isascii():  # Python's own ways to write numbers, which no engine reads
         return None
     try:

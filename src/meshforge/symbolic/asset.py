@@ -1,5 +1,4 @@
-"""What every file becomes: bodies with poses, convex geoms, pieces that are no hulls, joints and masses in one form for
-all formats, and the source document."""
+"""What every file becomes: bodies, convex geoms, pieces that are no hulls, joints, masses, and the source document."""
 
 from __future__ import annotations
 
@@ -242,8 +241,7 @@ class Asset:
 
 
 def unique_names(names: Iterable[str]) -> list[str]:
-    """Return the names in order, a repeated one made unique by `@2`, `@3`, ...; a name that is unique stays as it
-    is."""
+    """Return the names in order, a repeated one made unique by `@2`, `@3`, ...; others stay as they are."""
     names = list(names)
     taken, out = set(names), []
     seen: dict[str, int] = {}

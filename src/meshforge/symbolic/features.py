@@ -1,5 +1,4 @@
-"""What an asset has besides its hulls: the kinds of things a file may hold, and those that any asset can be asked
-for."""
+"""What an asset has besides its hulls: the kinds of things, and those that any asset can be asked for."""
 
 from __future__ import annotations
 
@@ -55,6 +54,13 @@ class Feature:
     unnamed: int = 0
     reason: str = ""
 
+    @staticmethod
+    def of(kind: FeatureKind, names: Iterable[str | None]) -> Feature:
+        """Return the feature of things, each name once; what has none is counted, and so is a name that comes again."""
+        each = list(names)
+        named = tuple(dict.fromkeys(name for name in each if name))
+        return Feature(kind, named, len(each) - len(named))
+
     @property
     def count(self) -> int:
         return len(self.names) + self.unnamed
@@ -91,16 +97,10 @@ def _features_of_geoms(asset: Asset) -> Iterator[Feature]:
 def _features_of_mechanism(asset: Asset) -> Iterator[Feature]:
     joints = asset.mechanism.joints
     moving = [joint for joint in joints if joint.kind not in ("fixed", "ball")]
-    yield _feature_of_names(FeatureKind.JOINTS, (joint.name for joint in moving))
-    yield _feature_of_names(FeatureKind.BALL_JOINTS, (joint.name for joint in joints if joint.kind == "ball"))
-    yield Feature(
-        FeatureKind.FIXED_JOINTS, tuple(joint.name for joint in joints if joint.kind == "fixed" and joint.name)
-    )
-    yield _feature_of_names(FeatureKind.SPEEDS, (joint.name for joint in moving if joint.velocity is not None))
-    yield _feature_of_names(FeatureKind.MIMICS, (joint.name for joint in joints if joint.coupling))
+    yield Feature.of(FeatureKind.JOINTS, (joint.name for joint in moving))
+    yield Feature.of(FeatureKind.BALL_JOINTS, (joint.name for joint in joints if joint.kind == "ball"))
+    fixed = [joint.name for joint in joints if joint.kind == "fixed" and joint.name]
+    yield Feature(FeatureKind.FIXED_JOINTS, tuple(fixed))
+    yield Feature.of(FeatureKind.SPEEDS, (joint.name for joint in moving if joint.velocity is not None))
+    yield Feature.of(FeatureKind.MIMICS, (joint.name for joint in joints if joint.coupling))
     yield Feature(FeatureKind.MASSES, tuple(inertial.body for inertial in asset.mechanism.inertials))
-
-
-def _feature_of_names(what: FeatureKind, names: Iterable[str]) -> Feature:
-    names = list(names)
-    return Feature(what, tuple(name for name in names if name), sum(not name for name in names))

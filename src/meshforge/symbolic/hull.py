@@ -19,8 +19,7 @@ GIVEN_SOURCES = HUMAN_SOURCES | {"file"}
 
 @dataclass(frozen=True, slots=True)
 class Label:
-    """A label with its confidence in 0..1 and its source; given: of one that was inferred from others, the label that
-    its hull had before, None where it had none."""
+    """A label with confidence in 0..1 and source; given: the label that an inferred one replaced, None without one."""
 
     name: str
     confidence: float = 1.0

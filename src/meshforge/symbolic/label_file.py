@@ -1,5 +1,4 @@
-"""Labels as a file beside an asset: JSON keyed by hull name, with a digest of each hull's geometry, by which labels
-follow hulls that were renamed."""
+"""Labels as JSON beside an asset, by hull name, with digests by which they follow hulls that were renamed."""
 
 from __future__ import annotations
 
@@ -46,19 +45,14 @@ def write_labels(path: Path | None, mesh: SymbolicMesh, vocabulary: Sequence[str
 
 
 def format_labels(file: LabelFile) -> str:
-    """Return the text of a labels file: one hull a line; labels that its vocabulary lacks are added at the end of
-    that."""
+    """Return the text of a labels file, one hull a line; labels that its vocabulary lacks end that."""
     labels = [name for label in file.labels.values() for name in label.names]
     words = json.dumps(list(dict.fromkeys([*file.vocabulary, *labels])), ensure_ascii=False)
-    rows = [_format_row(name, label, file.digests.get(name)) for name, label in file.labels.items()]
+    digests = {name: {"digest": known} for name, known in file.digests.items() if known}
+    values = {name: _to_json(label) | digests.get(name, {}) for name, label in file.labels.items()}
+    rows = [f"    {json.dumps(n, ensure_ascii=False)}: {json.dumps(v, ensure_ascii=False)}" for n, v in values.items()]
     hulls = "{\n" + ",\n".join(rows) + "\n  }" if rows else "{}"
     return f'{{\n  "vocabulary": {words},\n  "hulls": {hulls}\n}}\n'
-
-
-def _format_row(name: str, label: Label, geometry: str | None) -> str:
-    value = _to_json(label)
-    value |= {"digest": geometry} if geometry else {}
-    return f"    {json.dumps(name, ensure_ascii=False)}: {json.dumps(value, ensure_ascii=False)}"
 
 
 def _to_json(label: Label) -> dict[str, Any]:

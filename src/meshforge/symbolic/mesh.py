@@ -201,8 +201,7 @@ class SymbolicMesh:
         return edited
 
     def to_asset(self) -> Asset:
-        """Return the asset with the hulls of this mesh as its geoms. Raises MeshForgeError for a mesh made in
-        memory."""
+        """Return the asset with the hulls of this mesh as its geoms. Raises MeshForgeError for one made in memory."""
         if self.asset is None:
             raise MeshForgeError("this mesh was made in memory and has no file to be written back to")
         named = self.names_in_file

@@ -14,7 +14,7 @@ from meshforge.common import AssetError
 from meshforge.formats import SaveResult, read, save
 from meshforge.formats.visuals import Visual, VisualSurfaces
 from meshforge.geometry import Aabb, Box, Pose, Sphere, convex_hull
-from meshforge.symbolic import Asset, Body, Inertial, Joint, Mechanism, NonConvexPiece, Surface
+from meshforge.symbolic import Asset, Inertial, Joint, Mechanism, NonConvexPiece, Surface
 from tests.conversion_samples import TURNED, block, foreign, wedge
 from tests.soups import angle
 from tests.urdf_sample import boxes_obj
@@ -40,13 +40,6 @@ def pair(kind: Any = "revolute", **more: Any) -> Asset:
 def with_mass(asset: Asset, body: str, mass: float, *moments: float) -> Asset:
     inertial = Inertial(body, mass, ORIGIN, np.diag(moments))
     return replace(asset, mechanism=replace(asset.mechanism, inertials=(inertial,)))
-
-
-def test_bodies_are_nested_as_their_joints_have_it(tmp_path: Path) -> None:
-    after, model, _ = made(pair(), tmp_path)
-    assert [body.name for body in after.bodies] == ["world", "base", "arm"]
-    assert model.body_parentid.tolist() == [0, 0, 1]
-    np.testing.assert_allclose(after.body_poses["arm"].rotation, TURNED.rotation, atol=1e-12)
 
 
 def test_the_root_called_world_is_the_world(tmp_path: Path) -> None:
@@ -77,13 +70,6 @@ def test_a_floating_body_on_a_still_one_moves_freely_in_the_world(tmp_path: Path
     assert model.body_parentid.tolist() == [0, 0, 0]
     np.testing.assert_allclose(after.geoms[1].shape.centroid, TURNED.translation, atol=1e-12)
     assert not [note for note in saved.notes if "freejoint" in note]
-
-
-def test_what_stands_still_is_told_how_it_would_move(tmp_path: Path) -> None:
-    assert [note for note in made(pair(), tmp_path)[2].notes if "<freejoint/>" in note] == [
-        "1 body fixed to the world (base): for one that moves freely, write <freejoint/> as the first thing in its "
-        "<body>"
-    ]
 
 
 def test_names_that_bodies_share_are_kept_by_the_body_s_name(tmp_path: Path) -> None:
@@ -240,24 +226,6 @@ def test_a_visual_that_mujoco_would_show_in_part_or_refuse_becomes_an_obj(name: 
     assert model.mesh_facenum[0] == sum(len(surface.faces) for surface in asset.visuals)
 
 
-def test_files_beside_a_visual_stay_beside_it(tmp_path: Path) -> None:
-    (tmp_path / "in").mkdir()
-    (tmp_path / "in" / "box.mtl").write_text("newmtl a\nmap_Kd pictures/a.png\n")
-    (tmp_path / "in" / "pictures").mkdir()
-    (tmp_path / "in" / "pictures" / "a.png").write_bytes(b"x")
-    _, _, saved = made(shown(tmp_path, "box.obj", "mtllib box.mtl\n" + ONE), tmp_path)
-    assert {path.relative_to(tmp_path / "out").as_posix() for path in saved.files} == {
-        "m.xml",
-        "m--visuals/box.obj",
-        "m--visuals/box.mtl",
-        "m--visuals/pictures/a.png",
-    }
-    assert (
-        "1 mesh file with materials (box.obj) is shown without these: "
-        "MeshForge does not convert the rest of materials to MJCF" in saved.notes
-    )
-
-
 def test_a_visual_that_is_sheared_is_written_as_it_looks(tmp_path: Path) -> None:
     asset = shown(tmp_path, "box.obj", ONE)
     assert isinstance(asset.visuals, VisualSurfaces)
@@ -308,10 +276,3 @@ def test_without_visuals_hulls_are_shown_and_with_them_they_are_in_group_three(t
     assert made(pair(), tmp_path / "a")[1].geom_group.tolist() == [0, 0]
     model = made(shown(tmp_path, "box.obj", ONE), tmp_path / "b")[1]
     assert sorted(model.geom_group.tolist()) == [2, 3, 3]
-
-
-def test_a_body_of_an_asset_made_in_memory_becomes_a_body(tmp_path: Path) -> None:
-    asset = replace(pair(), bodies=(Body("base", Pose.identity()), Body("arm", TURNED)), mechanism=Mechanism())
-    _, model, saved = made(asset, tmp_path)
-    assert model.njnt == 0
-    assert "MuJoCo computes the masses that the file does not say, at 1000 kg/m^3 (base, arm)" in saved.notes

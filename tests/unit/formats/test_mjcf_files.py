@@ -12,7 +12,7 @@ from meshforge.common import AssetError
 from meshforge.formats import read as read_any
 from meshforge.formats.mjcf.document import MjcfDocument
 from meshforge.symbolic import Asset
-from tests.mjcf_engines import TETRAHEDRON, assert_as_in_mujoco, model, put, read
+from tests.mjcf_engines import assert_as_in_mujoco, model, put, read
 
 OBJ = "v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n"
 MESHED = '<geom type="mesh" mesh="t"/>'
@@ -35,12 +35,6 @@ PNG = b"".join(
 
 def names(asset: Asset, folder: Path) -> list[str]:
     return [path.relative_to(folder).as_posix() for path in asset.files]
-
-
-def refusal(path: Path) -> str:
-    with pytest.raises(AssetError) as error:
-        read(path)
-    return error.value.message.replace(f"{path.parent}/", "")
 
 
 def test_includes_stand_in_one_another_wherever_mujoco_finds_them(tmp_path: Path) -> None:
@@ -128,28 +122,6 @@ def test_every_referenced_file_is_told_with_its_companions(tmp_path: Path) -> No
     asset = read(put(tmp_path, files))
     assert set(names(asset, tmp_path)) == set(files) - {"main.xml"}
     assert not asset.missing
-
-
-def test_missing_files_that_no_hull_needs_are_told(tmp_path: Path) -> None:
-    visual = '<geom type="mesh" mesh="v" contype="0" conaffinity="0" material="k"/>'
-    assets = (
-        f'<asset><mesh name="v" file="v.obj"/><mesh name="t" vertex="{TETRAHEDRON}"/>'
-        '<texture name="w" type="2d" file="w.png"/><material name="k" texture="w"/></asset>'
-    )
-    asset = read(put(tmp_path, {"main.xml": model(f"{visual}<geom size='1'/>{MESHED}", assets)}))
-    assert asset.missing == ("v.obj", "w.png")
-    assert [geom.name for geom in asset.geoms] == ["world/geom1", "world/geom2"]
-    assert asset.notes[0].startswith("MuJoCo refuses this file: Error opening file")
-    assert len(asset.visuals) == 1
-
-
-def test_a_missing_collision_mesh_is_named_with_its_path(tmp_path: Path) -> None:
-    before = '<asset>\n<mesh name="t" file="lost/t.obj"/><mesh name="u" file="u.obj"/></asset>'
-    inside = f'<body name="b">{MESHED}<geom name="g" type="mesh" mesh="u"/></body>'
-    path = put(tmp_path, {"main.xml": model(inside, before), "lost/tt.obj": OBJ})
-    told = refusal(path)
-    assert told.startswith("main.xml:2: the mesh 'lost/t.obj' of a collision geom of body 'b' is not there (and 1 more")
-    assert "Looked for lost/t.obj. A file of a similar name is there: lost/tt.obj." in told
 
 
 def test_a_fragment_names_what_includes_it_directly_or_by_another(tmp_path: Path) -> None:

@@ -288,14 +288,6 @@ def test_an_asset_pickles_with_its_document_and_visuals(tmp_path: Path) -> None:
     assert again.document.tree.main.raw == found.path.read_bytes()
 
 
-def test_flexible_bodies_are_told_not_read(tmp_path: Path) -> None:
-    cloth = '<flexcomp name="f" type="grid" count="3 3 1" spacing=".1 .1 .1" radius=".01" dim="2" mass="1"/>'
-    found = asset(tmp_path, cloth + '<geom size="1"/>')
-    assert [geom.name for geom in found.geoms] == ["world/geom0"]
-    assert "1 flexible body: no hulls, left as authored" in found.notes
-    assert any(note.startswith("MuJoCo warns: flex 'f'") for note in found.notes)
-
-
 def test_geoms_tell_how_they_collide_with_defaults_and_classes(tmp_path: Path) -> None:
     before = (
         '<default><geom friction=".5"/><default class="stiff"><geom solref=".01 1" condim="4"/></default></default>'

@@ -14,7 +14,7 @@ from meshforge.formats import Format, Loss, Output, list_formats, read, save
 from meshforge.formats.conversion import report_conversion
 from meshforge.formats.visuals import Visual, VisualSurfaces
 from meshforge.symbolic import Asset, FeatureKind
-from tests.conversion_samples import SAMPLES, crowd, doors
+from tests.conversion_samples import SAMPLES, doors
 from tests.gltf_files import SceneFile
 from tests.soups import box
 from tests.urdf_sample import THREE
@@ -172,22 +172,6 @@ def test_every_format_says_what_it_is_called_and_what_it_holds(known: Format) ->
     assert not known.holds & set(known.instead)
 
 
-def test_what_only_the_document_tells_is_never_told_to_be_held(tmp_path: Path) -> None:
-    told = save(SOURCES["busy_mjcf"](tmp_path), tmp_path / "out" / "m.urdf").report
-    (others,) = [loss.names for loss in told.lost if loss.kind is FeatureKind.OTHERS]
-    assert {"sensor", "material", "actuator", "contact setting", "comment"} <= set(others)
-    assert not {feature.kind for feature in told.kept} & {loss.kind for loss in told.lost}
-
-
-def test_a_loss_is_a_sentence_with_a_count_and_names() -> None:
-    three = Loss(FeatureKind.JOINTS, ("door", "drawer", "lid", "wheel"), "OBJ has no joints")
-    assert str(three) == "4 joints (door, drawer, lid and 1 more) are left out: OBJ has no joints"
-    assert str(Loss(FeatureKind.BODIES, ("a",), "so it is", "flat")) == "1 body (a) is flat: so it is"
-    assert str(Loss(FeatureKind.MASSES, (), "because", unnamed=1_200)) == "1,200 masses are left out: because"
-    others = Loss(FeatureKind.OTHERS, ("a", "b", "c", "d"), "because", unnamed=3)
-    assert str(others) == "7 other elements (a, b, c, d) are left out: because"
-
-
 def test_things_that_a_creator_left_out_do_not_count_as_held() -> None:
     asset, urdf = SAMPLES["opaque"](), next(known for known in list_formats() if known.name == "urdf")
     lost = tuple(Loss(FeatureKind.NON_CONVEX, (name,), "flat") for name in ("room/walls", "room/other"))
@@ -196,12 +180,6 @@ def test_things_that_a_creator_left_out_do_not_count_as_held() -> None:
     assert [str(loss) for loss in told.lost if loss.kind is FeatureKind.NON_CONVEX] == [
         "2 opaque pieces (room/walls, room/other) are left out: flat"
     ]
-
-
-def test_names_count_where_an_author_gave_them_only() -> None:
-    obj = next(known for known in list_formats() if known.name == "obj")
-    held = {feature.kind: feature.names for feature in report_conversion(crowd(), None, obj, Output(b"")).kept}
-    assert held[FeatureKind.NAMES] == ("left/part", "right/part")
 
 
 @pytest.mark.parametrize("suffix", [".urdf", ".xml", ".sdf", ".glb"])

@@ -40,16 +40,6 @@ def test_the_report_says_what_was_done_about_up(source: str | None, target: str,
     np.testing.assert_allclose(after.size, before.size[[0, 2, 1]] if is_turned else before.size)
 
 
-@pytest.mark.parametrize("way", [("urdf", "gltf", 1), ("gltf", "urdf", -1)])
-def test_what_is_on_top_stays_on_top(way: tuple[str, str, int]) -> None:
-    source, target, sign = way
-    up, now = (2, 1) if sign > 0 else (1, 2)
-    before, after = doors(), turn_upright(doors(), BY_NAME[source], BY_NAME[target])[0]
-    for old, new in zip(before.geoms, after.geoms, strict=True):
-        np.testing.assert_allclose(new.shape.centroid[now], old.shape.centroid[up], atol=1e-12)
-        np.testing.assert_allclose(new.shape.aabb.max[now], old.shape.aabb.max[up], atol=1e-12)
-
-
 def test_all_of_an_asset_turns_together(tmp_path: Path) -> None:
     file = tmp_path / "box.obj"
     file.write_text(boxes_obj(((0, 0, 0), (1, 2, 3))))

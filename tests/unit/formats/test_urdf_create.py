@@ -136,13 +136,6 @@ def test_a_link_has_its_frame_on_the_axis_of_its_joint(tmp_path: Path) -> None:
     np.testing.assert_allclose(again.geoms[1].shape.aabb.max, BLOCK.aabb.max, atol=1e-12)
 
 
-def test_a_frame_that_is_on_the_axis_stays_where_it_is(tmp_path: Path) -> None:
-    axis = np.array([0.6, 0.0, 0.8])
-    along = TURNED.translation + 3 * axis
-    again, _, _ = created(jointed(Joint("j", "revolute", "base", "arm", along, axis)), tmp_path)
-    np.testing.assert_allclose(again.body_poses["arm"].translation, TURNED.translation, atol=1e-12)
-
-
 def test_limits_are_told_as_urdf_wants_them(tmp_path: Path) -> None:
     bodies = {name: Pose.identity() for name in ("base", "a", "b", "c")}
     x = np.array([1.0, 0, 0])

@@ -53,10 +53,6 @@ def test_a_native_sphere_touches_a_box_where_its_surface_does() -> None:
     assert near.graph[0, 1] == pytest.approx(gap, abs=1e-8)
 
 
-def test_exact_duplicates_are_in_contact() -> None:
-    assert row(0, 0).contacts == {(0, 1)}
-
-
 def test_hulls_that_share_one_shape_keep_their_contacts_through_an_edit() -> None:
     shared, other = box(0), box(1)
     hulls = (Hull("a", "b", shared), Hull("b", "b", shared), Hull("c", "b", other), Hull("d", "b", box(9)))
@@ -78,27 +74,9 @@ def test_labels_can_be_set_and_taken_away_without_measuring_again() -> None:
     assert mesh.labels == {}
 
 
-def test_a_hull_tells_label_confidence_and_source_or_none() -> None:
-    hull = Hull("a", "b", box(0))
-    assert (hull.label, hull.confidence, hull.source) == (None, None, None)
-    named = hull.with_label(Label("leg", 0.25, "name"))
-    assert (named.label, named.confidence, named.source) == ("leg", 0.25, "name")
-
-
-def test_a_box_is_its_own_primitive_and_a_polytope_has_none() -> None:
-    assert Hull("a", "b", box(0)).primitive is not None
-    assert Hull("a", "b", box(0).tessellate()).primitive is None
-
-
 def test_an_empty_mesh_has_no_box_and_no_contacts() -> None:
     empty = SymbolicMesh(())
     assert (empty.aabb, empty.diagonal, empty.contacts, empty.adjacency) == (None, 0.0, frozenset(), ())
-
-
-def test_a_hull_is_found_by_name_or_named_as_missing() -> None:
-    assert row(0, 1).hull_of("b").aabb.min[0] == 1
-    with pytest.raises(MeshForgeError, match="there is no hull 'z'"):
-        row(0).hull_of("z")
 
 
 def asset() -> Asset:

@@ -36,8 +36,3 @@ def test_labels_are_given_by_name_when_a_mesh_is_loaded(tmp_path: Path) -> None:
     assert all(hull.label is None for hull in mf.load(path, labels={}).hulls)
     with pytest.raises(mf.MeshForgeError, match="Did you mean 'body/top'"):
         mf.load(path, labels={"body/topp": "seat"})
-
-
-def test_labels_are_set_and_taken_away_by_name() -> None:
-    mesh = table().with_labels({"knob": "handle", "leg0": None})
-    assert (mesh["knob"].label, mesh["leg0"].label, mesh["leg1"].label) == ("handle", None, "leg")

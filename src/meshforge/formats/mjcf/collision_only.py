@@ -47,17 +47,6 @@ _LEAST_MASS, _LEAST_INERTIA = 1e-9, 1e-12  # [kg], [kg m^2] above what MuJoCo as
 _Masses = Literal["authored", "fixed", "none"]
 
 
-def _keep_needed(node: MjcfNode, masses: _Masses) -> Mapping[str, str] | None:
-    if node.tag in _WHOLE:
-        return node.attributes
-    if node.tag == "inertial" and masses != "authored":
-        return _FIXED if masses == "fixed" else None
-    if node.tag not in _NEEDED:
-        return None
-    kept = _NEEDED[node.tag].split()
-    return {name: value for name, value in node.attributes.items() if name in kept}
-
-
 def strip_to_collision(tree: MjcfTree, refusal: AssetError, masses: Literal["fixed", "none"] = "none") -> MjcfModel:
     """Return the model of the collision geometry of a tree that MuJoCo refuses as a whole.
 
@@ -69,7 +58,12 @@ def strip_to_collision(tree: MjcfTree, refusal: AssetError, masses: Literal["fix
     for all_visuals, of_masses in attempts:
 
         def keep(node: MjcfNode, masses: _Masses = of_masses) -> Mapping[str, str] | None:
-            return _keep_needed(node, masses)
+            if node.tag == "inertial" and masses != "authored":
+                return _FIXED if masses == "fixed" else None
+            if node.tag in _WHOLE or node.tag not in _NEEDED:
+                return node.attributes if node.tag in _WHOLE else None
+            kept = _NEEDED[node.tag].split()
+            return {name: value for name, value in node.attributes.items() if name in kept}
 
         flat = compiler.flatten(repaired, keep)
         try:

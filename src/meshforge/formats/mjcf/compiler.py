@@ -1,5 +1,4 @@
-"""MuJoCo as a compiler: one text of all files, made into a model, with messages about the authored lines and nothing
-printed; and its own answer to a file as it is."""
+"""MuJoCo as a compiler: one text of all files, messages about the authored lines, nothing printed."""
 
 from __future__ import annotations
 
@@ -195,31 +194,21 @@ def flatten(tree: MjcfTree, keep: KeepAttributes | None = None) -> FlatText:
     folders = AssetFolders(tree)
     nodes: list[MjcfNode] = []
     parts: list[bytes] = []
-    closing: list[tuple[MjcfNode, int]] = []
-    for node, depth, attributes in _walk_kept(tree.root, keep or (lambda node: node.attributes)):
-        while closing and closing[-1][1] >= depth:
-            parts.append(b"</%s>" % closing.pop()[0].tag.encode())
-        nodes.append(node)
-        closing.append((node, depth))
-        parts.append(_start_tag(folders, node, attributes, first=not depth))
-    parts += [b"</%s>" % node.tag.encode() for node, _ in reversed(closing)]
+    waiting: list[MjcfNode | bytes] = [tree.root]
+    while waiting:
+        entry = waiting.pop()
+        if isinstance(entry, bytes):
+            parts.append(entry)
+        elif (attributes := entry.attributes if keep is None else keep(entry)) is not None:
+            parts.append(_start_tag(folders, entry, attributes, first=not nodes))
+            nodes.append(entry)
+            waiting += [b"</%s>" % entry.tag.encode(), *reversed(entry.children)]
     return FlatText(tree, b"".join(parts), tuple(nodes))
 
 
 def drop_scaling(node: MjcfNode) -> Mapping[str, str]:
-    """Return the attributes without those that scale masses to a total, or put frames of free bodies at their
-    centres."""
+    """Return the attributes without those that scale masses, or put frames of free bodies at their centres."""
     return {name: value for name, value in node.attributes.items() if name not in _SCALING.get(node.tag, ())}
-
-
-def _walk_kept(root: MjcfNode, keep: KeepAttributes) -> Iterator[tuple[MjcfNode, int, Mapping[str, str]]]:
-    waiting = [(root, 0)]
-    while waiting:
-        node, depth = waiting.pop()
-        attributes = keep(node)
-        if attributes is not None:
-            yield node, depth, attributes
-            waiting.extend((child, depth + 1) for child in reversed(node.children))
 
 
 def _start_tag(folders: AssetFolders, node: MjcfNode, attributes: Mapping[str, str], first: bool) -> bytes:

@@ -23,7 +23,8 @@ WORLD = "world"
 _REPAIRED = "moments of inertia that no rigid body has are replaced by their mean"
 _DENSITY = 1000.0  # [kg/m^3], at which MuJoCo computes masses
 _COMPUTED = f"MuJoCo computes the masses that the file does not say, at {_DENSITY:g} kg/m^3"
-_LIGHT = f"moving bodies without a mass to speak of get {elements.LIGHT_MASS:g} kg"
+_LIGHT_MASS = kinematic_tree.LIGHT_INERTIAL.mass
+_LIGHT = f"moving bodies without a mass to speak of get {_LIGHT_MASS:g} kg"
 _DEFAULTS = [
     b"  <default>",
     b'    <default class="collision">',
@@ -148,11 +149,11 @@ class _Creator:
             if changed:
                 self.notes.setdefault(_REPAIRED, []).append(body)
             yield text
-        elif inertial is None and volume * _DENSITY >= (elements.LIGHT_MASS if moves else 0) and volume > 0:
+        elif inertial is None and volume * _DENSITY >= (_LIGHT_MASS if moves else 0) and volume > 0:
             self.notes.setdefault(_COMPUTED, []).append(body)
         elif moves:
             self.notes.setdefault(_LIGHT, []).append(body)
-            yield elements.light_tag()
+            yield elements.inertial_tag(kinematic_tree.LIGHT_INERTIAL, Pose.identity())[0]
 
     def _collect_notes(self) -> tuple[str, ...]:
         notes = [*self.couplings.notes]

@@ -1,5 +1,4 @@
-"""What is kept of an MJCF to write it back, its files as one tree without includes, and the names of its geoms and
-bodies."""
+"""What is kept of an MJCF to write it back, its files as one tree, and the names of its geoms and bodies."""
 
 from __future__ import annotations
 

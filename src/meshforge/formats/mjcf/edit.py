@@ -1,5 +1,4 @@
-"""Writing an edited MJCF: the authored files with other geoms, all else byte for byte as it was, compiled again
-before it is given out."""
+"""Writing an edited MJCF: other geoms, all else byte for byte as it was, compiled again before it is given out."""
 
 from __future__ import annotations
 
@@ -94,7 +93,7 @@ class MjcfEdit:
             try:
                 after = self._compile(texts)
             except AssetError as error:  # perhaps for a body that has lost the geoms that it has its mass from
-                if mass == "keep" and self.masses.add(self._find_changed_bodies()):
+                if mass == "keep" and self.masses.add(self.geoms.changed_bodies):
                     continue
                 remedy = "Keep the masses (--mass keep)." if mass == "recompute" else error.remedy
                 raise AssetError(f"of the edited file: {error.problem}", where=where, remedy=remedy) from None
@@ -173,10 +172,6 @@ class MjcfEdit:
                 return f"the geometry of hull {geom.name!r}"
         return ""
 
-    def _find_changed_bodies(self) -> list[int]:
-        found = map(self.before.body_names.index, self.geoms.changed_bodies)
-        return [body for body in found if self.before.model.body_mass[body] > 0]
-
 
 def _is_same_shape(found: Shape | None, wanted: Shape) -> bool:
     if found is None or found.kind != wanted.kind:
@@ -207,7 +202,8 @@ class BodyMasses:
     def add(self, bodies: Iterable[int]) -> bool:
         """Let bodies say their masses; whether there was one that did not. Raises AssetError where one cannot."""
         nodes = {body: self.geoms.body_node(self.before.body_names[body]) for body in bodies}
-        new = [body for body, node in nodes.items() if body not in self.bodies and not self._has_inertial(node)]
+        own = [body for body, node in nodes.items() if node and not self.are_ignored and any(_inertials_of(node))]
+        new = [body for body in nodes if body not in (*self.bodies, *own)]
         for body in new:
             node, why = nodes[body], ""
             if node is None:
@@ -244,9 +240,6 @@ class BodyMasses:
                     yield old.source, xml.remove_element(texts[old.source], old.element)
                 at, gap = node.element.inside, xml.line_gap(texts[node.source], node.element.children[0].start)
                 yield node.source, xml.Splice(at, at, gap + text)
-
-    def _has_inertial(self, node: MjcfNode | None) -> bool:
-        return node is not None and not self.are_ignored and any(True for _ in _inertials_of(node))
 
 
 def _inertials_of(node: MjcfNode) -> Iterator[MjcfNode]:

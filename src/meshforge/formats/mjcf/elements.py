@@ -17,8 +17,6 @@ MjcfShape = Box | Capsule | Cylinder | Ellipsoid | Sphere
 
 _TYPES = {"revolute": "hinge", "prismatic": "slide", "ball": "ball"}
 
-LIGHT_MASS = 1e-6
-"""The mass [kg] of a moving body that has none; MuJoCo refuses to move nothing."""
 LEAST_MASS = 1e-9
 """The least mass [kg] that a moving body is left with."""
 _LEAST_MOMENT = 1e-14  # [kg m^2]; MuJoCo refuses less than 1e-15
@@ -94,12 +92,6 @@ def inertial_tag(inertial: Inertial, root_t_body: Pose) -> tuple[bytes, bool]:
     quaternion = Pose(axes, np.zeros(3)).to_quaternion()
     text = tag("inertial", inertial_attributes(inertial.mass, drop_rounding(centre, 1.0), quaternion, legal))
     return text, not np.allclose(legal, moments, rtol=_SLIGHT, atol=0)
-
-
-def light_tag() -> bytes:
-    """Return the `<inertial>` of a body without a mass."""
-    moments = np.full(3, _LIGHT_MOMENT)
-    return tag("inertial", inertial_attributes(LIGHT_MASS, np.zeros(3), np.array([1.0, 0, 0, 0]), moments))
 
 
 def _legal_moments(moments: Floats, mass: float) -> Floats:

@@ -1,5 +1,4 @@
-"""The format MJCF as the registry has it, and what one holds besides bodies, hulls, joints, masses and visuals; MJCF in
-memory: text, and `mujoco.MjSpec`, read as a file in the folder from which their references count."""
+"""The format MJCF as the registry has it; MJCF in memory: text, and `mujoco.MjSpec`, read like files of a folder."""
 
 from __future__ import annotations
 
@@ -81,12 +80,11 @@ class MjcfFormat(Format):
         return references.top_folder(asset.document)
 
     def features(self, asset: Asset) -> Iterable[Feature]:
-        return features_of(asset.document) if isinstance(asset.document, MjcfDocument) else ()
+        return _features_of(asset.document) if isinstance(asset.document, MjcfDocument) else ()
 
 
-def features_of(document: MjcfDocument) -> Iterator[Feature]:
-    """Yield the features of an MJCF that its asset does not have, as its elements say; those that classes set count
-    once."""
+def _features_of(document: MjcfDocument) -> Iterator[Feature]:
+    """The features of an MJCF that its asset does not have; those that classes set count once."""
     root = document.tree.root
     others = [*list_others(root, _TAKEN, _LEAVES)]
     constraints = [child for node in root.each("equality") for child in node.children]
@@ -125,31 +123,24 @@ def read_spec(spec: SpecObject) -> Asset:
     if not files_of_spec:
         return read_mjcf(folder / name, {folder / name: text})
     home = make_folder()
+    (home / name).write_bytes(text)
     for path, data in _gather_files(folder / name, text, files_of_spec):
-        _put(home / path.name if not path.is_relative_to(folder) else home / path.relative_to(folder), data)
-    _put(home / name, text)
+        target = home / (path.relative_to(folder) if path.is_relative_to(folder) else path.name)
+        target.parent.mkdir(parents=True, exist_ok=True)
+        target.write_bytes(data)
     return read_mjcf(home / name)
 
 
-def _gather_files(main: Path, text: bytes, files_of_spec: dict[str, bytes]) -> list[tuple[Path, bytes]]:
+def _gather_files(main: Path, text: bytes, files_of_spec: dict[str, bytes]) -> Iterator[tuple[Path, bytes]]:
     """The files that a text refers to: those that the spec holds, under its names for them, before those on disk."""
     from meshforge.formats.mjcf.references import list_references  # lazy: only MJCF needs it
 
-    found = []
     for reference in list_references(read_tree(main, {main: text})):
         path = reference.path
         below = path.relative_to(main.parent).as_posix() if path.is_relative_to(main.parent) else path.name
-        key = next((key for key in (reference.text, below, path.name, str(path)) if key in files_of_spec), None)
-        if key is not None:
-            found.append((path, files_of_spec[key]))
-        elif is_file(path):
-            found.append((path, path.read_bytes()))
-    return found
-
-
-def _put(path: Path, data: bytes) -> None:
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_bytes(data)
+        names = (key for key in (reference.text, below, path.name, str(path)) if key in files_of_spec)
+        if (key := next(names, None)) is not None or is_file(path):
+            yield path, files_of_spec[key] if key is not None else path.read_bytes()
 
 
 def build_spec(output: Output) -> Any:

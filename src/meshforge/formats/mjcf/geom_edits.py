@@ -1,5 +1,4 @@
-"""What an edit makes of each `<geom>` element: left alone, removed, followed by new ones; and the geoms that MuJoCo
-shall make of these."""
+"""What an edit makes of each `<geom>`: left alone, removed, followed by new ones; and what MuJoCo shall make of it."""
 
 from __future__ import annotations
 
@@ -17,7 +16,6 @@ from meshforge.symbolic import Asset, Geom
 _ROUNDS = 4  # a name that one geom gets may change those that others read back under
 _PLAIN = ("geom", "geom1", "geom2")
 _TYPED = (("objtype", "objname"), ("reftype", "refname"))
-_ATTACHED = "it comes out of another model, which is attached"
 
 
 @dataclass(slots=True, eq=False)
@@ -72,10 +70,11 @@ class GeomEdits:
         self.names = self._assign_names()
 
     @property
-    def changed_bodies(self) -> list[str]:
-        """The bodies whose geoms change."""
+    def changed_bodies(self) -> list[int]:
+        """The bodies, by number, that weigh and whose geoms change."""
         gone = [self.before.body_of[element.geoms[0]] for element in self.elements if element.own is None]
-        return list(dict.fromkeys([*gone, *(geom.body for geom in self._hulls.values())]))
+        names = dict.fromkeys([*gone, *(geom.body for geom in self._hulls.values())])
+        return [k for k in map(self.before.body_names.index, names) if self.before.model.body_mass[k] > 0]
 
     def body_node(self, body: str) -> MjcfNode | None:
         """Return the element of a body; of the world, the last one, in which its last geoms stand. None without one."""
@@ -99,10 +98,6 @@ class GeomEdits:
                 yield element_edits.append_elements(data, node.element, outputs)
 
     def _list_elements(self) -> Iterator[GeomElement]:
-        fixed: dict[int, str] = {}
-        for top in self.before.flat.nodes:
-            if why := _obstacle_in(top):
-                fixed |= {id(node): why for node in top.walk() if id(node) not in fixed}
         copies: dict[int, list[int]] = {}
         for k, node in enumerate(self.before.elements):
             copies.setdefault(-k - 1 if node is None else id(node), []).append(k)
@@ -112,8 +107,18 @@ class GeomEdits:
             attribute = node.attributes.get("name") if node else None
             body, source = self.before.body_of[numbers[0]], node.element if node else None
             own = element_edits.OutputElement(body, names, attribute, source)
-            why = fixed.get(id(node), "")
-            yield GeomElement(node, numbers, f"it is inside {why}" if why else "" if node else _ATTACHED, own)
+            yield GeomElement(node, numbers, self._find_obstacle(node), own)
+
+    def _find_obstacle(self, node: MjcfNode | None) -> str:
+        """Why an element cannot be edited, empty where it can."""
+        if node is None:
+            return "out of another model, which is attached"
+        for around in (node, *self.maker.context.ancestors_of(node)):
+            if around.tag == "replicate":
+                return "inside a <replicate>, which makes several geoms of one element"
+            if around.tag == "frame" and "scale" in around.attributes:
+                return "inside a <frame> that scales what it holds"
+        return ""
 
     def _remove(self, renewed: set[str]) -> None:
         """Take away the elements of hulls that are gone; renewed: the names of new hulls."""
@@ -125,7 +130,7 @@ class GeomEdits:
                 continue
             if element.fixed or element.node is None:
                 where = self.tree.where(element.node) if element.node else str(self.tree.main.path)
-                raise AssetError(f"hull {gone[0]!r} cannot be changed: {element.fixed}", where=where)
+                raise AssetError(f"hull {gone[0]!r} cannot be changed: it is {element.fixed}", where=where)
             element.own = None
             if (name := element.node.attributes.get("name")) and gone[0] not in renewed:
                 removed[name] = gone[0]
@@ -137,7 +142,7 @@ class GeomEdits:
         node = parent.node if parent else None
         if parent is not None and node is None:
             raise AssetError(
-                f"hull {geom.name!r} takes after {geom.parent!r}, of which {parent.fixed}", where=str(self.asset.path)
+                f"hull {geom.name!r} takes after {geom.parent!r}, which is {parent.fixed}", where=str(self.asset.path)
             )
         is_adjacent = (
             (parent is not None and node is not None and not parent.fixed)
@@ -149,13 +154,10 @@ class GeomEdits:
         self._hulls[id(output)] = geom
 
     def _find_body(self, geom: Geom) -> MjcfNode:
-        body = self.body_node(geom.body)
-        around = (body, *self.maker.context.ancestors_of(body)) if body is not None else ()
-        why = next((why for node in around if (why := _obstacle_in(node))), "")
-        if body is not None and not why:
+        body, known = self.body_node(geom.body), geom.body in self._poses
+        place = self._find_obstacle(body) if known else "not there"
+        if body is not None and not place:
             return body
-        known = geom.body in self._poses
-        place = f"inside {why}" if why else "out of another model" if known else "not there"
         like = None if known else nearest_name(geom.body, self._poses)
         raise AssetError(
             f"hull {geom.name!r} is on body {geom.body!r}, which is {place}",
@@ -219,13 +221,6 @@ def _assign_name(geom: GeomPlan, taken: set[str]) -> bool:
             taken.add(name)
             return True
     return False
-
-
-def _obstacle_in(node: MjcfNode) -> str:
-    """What an element is, so that a geom within it cannot be edited; empty where it leaves that alone."""
-    if node.tag == "replicate":
-        return "a <replicate>, which makes several geoms of one element"
-    return "a <frame> that scales what it holds" if node.tag == "frame" and "scale" in node.attributes else ""
 
 
 def _refuse_referenced(tree: MjcfTree, removed: dict[str, str]) -> None:

@@ -1,5 +1,4 @@
-"""What MuJoCo compiled, as an asset has it: bodies, joints and masses in the root frame, hulls, and whose element
-each geom is."""
+"""What MuJoCo compiled, in the root frame: bodies, joints, masses, hulls, and whose element each geom is."""
 
 from __future__ import annotations
 

@@ -24,6 +24,8 @@ _NOT_INHERITED = (
     *("mass", "shellinertia"),
 )
 """The attributes that make up the geometry and the mass of a geom; all others are inherited."""
+_LASTING = ("pos", *_TURNS, "fromto", "mesh", "hfield", "fitscale")
+"""Those that a default class sets for good: a geom that has others is of another class."""
 _FAR = 1000.0  # sizes away from the origin of its body, a mesh would lose digits in MuJoCo's single precision
 
 _NEUTRAL = {"scale": "1 1 1", "maxhullvert": "-1", "inertia": "convex"}
@@ -60,25 +62,27 @@ class NewGeoms:
         by_class = self.context.defaults_of(class_)
         inherited = {**by_class, **own}
         attributes = self._place_shape(geom, root_t_body, inherited if parent else {})
-        if parent and is_adjacent and "fromto" not in by_class:
+        is_lasting = any(key in by_class for key in _LASTING)
+        if parent and is_adjacent and not is_lasting:
             attributes = _complete(geom, attributes, inherited, by_class, volume)
             data = self.tree.sources[parent.source].text.data
             changed = [key for key in _NOT_INHERITED if attributes.get(key) != parent.attributes.get(key)]
             edits = (xml.set_attribute(data, parent.element, key, attributes.get(key), last=True) for key in changed)
             return element_edits.OutputElement(geom.body, (geom.name,), None, parent.element, tuple(edits), copy=True)
-        set_by_class = self.context.defaults_of(_MAIN_CLASS) if parent else by_class
-        if "fromto" in set_by_class:
+        is_spelled_out = parent is not None or is_lasting
+        set_by_class = self.context.defaults_of(_MAIN_CLASS) if is_spelled_out else by_class
+        if lasting := next((key for key in _LASTING if key in set_by_class), None):
             raise AssetError(
-                f"hull {geom.name!r} cannot be written: the default class of all geoms sets 'fromto', which nothing "
+                f"hull {geom.name!r} cannot be written: the default class of all geoms sets {lasting!r}, which nothing "
                 "undoes",
                 where=self.tree.where(parent or body),
-                remedy="Move 'fromto' from <default> to the geoms that use it.",
+                remedy=f"Move {lasting!r} from <default> to the geoms that use it.",
             )
         attributes = _complete(geom, attributes, inherited, set_by_class, volume)
-        if parent:  # all that its class says is spelled out
+        if is_spelled_out:
             rest = {k: v for k, v in inherited.items() if k not in _NOT_INHERITED and v != set_by_class.get(k)}
             attributes = {"class": _MAIN_CLASS, **attributes, **rest}
-        elif by_class.get("contype") == "0" == by_class.get("conaffinity"):  # a class of visual geoms
+        if not parent and by_class.get("contype") == "0" == by_class.get("conaffinity"):  # a class of visual geoms
             attributes |= {"contype": "1", "conaffinity": "1"}
         return element_edits.OutputElement(geom.body, (geom.name,), text=xml.tag("geom", attributes))
 
@@ -144,13 +148,6 @@ def _complete(
 ) -> dict[str, str]:
     """The attributes by which a geom has its geometry whatever its class sets, and its parent's density."""
     found = dict(attributes)
-    if "pos" in set_by_class:
-        found.setdefault("pos", "0 0 0")
-    if any(turn in set_by_class for turn in _TURNS):
-        found.setdefault("quat", "1 0 0 0")
-    for reference in ("mesh", "hfield"):
-        if reference in set_by_class:
-            found.setdefault(reference, "")
     if "size" in found:
         count = len(set_by_class.get("size", "").split())
         given = found["size"].split()

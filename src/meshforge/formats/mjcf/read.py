@@ -1,5 +1,4 @@
-"""Reading an MJCF: from its files, unless they are fragments or too large to be made, through the compiled model to
-an asset with its visuals."""
+"""Reading an MJCF: its files, unless they are fragments or too large, through MuJoCo to an asset with visuals."""
 
 from __future__ import annotations
 

@@ -121,8 +121,7 @@ def list_references(tree: MjcfTree, seen: set[Path] | None = None) -> Iterator[F
 
 
 def find_files(tree: MjcfTree) -> tuple[tuple[Path, ...], tuple[str, ...]]:
-    """Return the files but for the main one, with their companions, in order of mention; and references without a
-    file."""
+    """Return all files but the main one, with companions, in order of mention; and references without a file."""
     trees, found, missing = [tree], list[Path](), dict[str, None]()
     for reference in list_references(tree):
         if not reference.is_there:
@@ -140,8 +139,7 @@ def find_files(tree: MjcfTree) -> tuple[tuple[Path, ...], tuple[str, ...]]:
 
 
 def read_submodels(tree: MjcfTree, lines: int) -> dict[Path, bytes]:
-    """Return the texts of all sub-models, moved down below line `lines`, so that no line is one of the model's own
-    text."""
+    """Return the texts of all sub-models, moved down below line `lines`, so that no line is one of the model's."""
     models = {reference.path: reference.model for reference in list_references(tree)}
     return {path: b"\n" * lines + model.main.text.data for path, model in models.items() if model is not None}
 

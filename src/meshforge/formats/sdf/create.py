@@ -9,7 +9,7 @@ import numpy as np
 from meshforge.common import join_names, pluralize
 from meshforge.formats import element_edits, kinematic_tree, link_output, mesh_output, xml
 from meshforge.formats.base import Loss, Output
-from meshforge.formats.sdf import edit, elements
+from meshforge.formats.sdf import edit
 from meshforge.formats.sdf.document import CONFIG, VISUAL_SUFFIXES
 from meshforge.formats.sdf.frames import WORLD
 from meshforge.geometry import Pose
@@ -29,7 +29,7 @@ def create_sdf(asset: Asset, name: str) -> Output:
 
 
 class _Creator(link_output.LinkCreator):
-    native = elements.SdfShape
+    native = edit.SdfShape
     title = "SDF"
     kinds = ("fixed", "revolute", "prismatic", "ball", "floating")
     has_world = True
@@ -53,7 +53,7 @@ class _Creator(link_output.LinkCreator):
             fixed = kinematic_tree.LinkJoint(
                 "world_fixed", None, WORLD, self.links[WORLD], Pose.identity(), np.zeros(3)
             )
-            inside += elements.joint_lines(fixed, WORLD, self.links[WORLD])
+            inside += edit.joint_lines(fixed, WORLD, self.links[WORLD], None)
         for joint in self.chain.joints:
             inside += self._joint_lines(joint)
         version = _WITH_COUPLINGS if self.couplings.by_joint else ".".join(map(str, _VERSION))
@@ -62,7 +62,7 @@ class _Creator(link_output.LinkCreator):
         made = dict(self.maker.files.made)
         if self.name == _MAIN:
             listed = xml.tag("sdf", {"version": version}, closed=False) + xml.escape(self.name) + b"</sdf>"
-            config = xml.nest("model", elements.leaf("name", self.model), listed)
+            config = xml.nest("model", edit.leaf("name", self.model), listed)
             made[CONFIG] = b"\n".join([b'<?xml version="1.0"?>', *config, b""])  # it makes the folder a Gazebo model
         return Output(main, made, self.visuals.copies, self._collect_notes(), names, self.collect_losses())
 
@@ -85,17 +85,17 @@ class _Creator(link_output.LinkCreator):
         return "" if len(surface.faces) else "it has no triangle"
 
     def build_plane(self, piece: NonConvexPiece, link_t_plane: Pose) -> list[element_edits.OutputElement]:
-        kind = xml.nest("plane", elements.leaf("normal", "0 0 1"), elements.leaf("size", "100 100"))
+        kind = xml.nest("plane", edit.leaf("normal", "0 0 1"), edit.leaf("size", "100 100"))
         text = self.maker.build_collision(link_t_plane, kind, self.lead)
         return [element_edits.OutputElement(piece.body, (piece.name,), text=text)]
 
     def _link_lines(self, link: str) -> list[bytes]:
         frame = self.chain.frames[link]
         inertial, base = self.inertial_of(link)
-        inside = [elements.pose_leaf(Pose(frame.rotation, kinematic_tree.drop_rounding(frame.translation)))]
-        inside += elements.inertial_lines(inertial, base) if inertial else []
+        inside = [edit.pose_leaf(Pose(frame.rotation, kinematic_tree.drop_rounding(frame.translation)))]
+        inside += edit.inertial_lines(inertial, base) if inertial else []
         for k, visual in enumerate(self.shown[link]):
-            inside += elements.visual_lines(f"visual{k}", visual)
+            inside += edit.visual_lines(f"visual{k}", visual)
         collisions = [output.to_bytes(b"").split(b"\n") for output in self.outputs[link]]
         inside += [line.removeprefix(self.lead) for lines in collisions for line in lines]
         return xml.nest("link", *inside, name=self.links[link])
@@ -108,7 +108,7 @@ class _Creator(link_output.LinkCreator):
             self.lost.append(Loss(FeatureKind.JOINTS, (name,) * bool(name), why, None, not name))
             return []
         coupling = self.couplings.by_joint.get(made.name)
-        return elements.joint_lines(made, self.links.get(made.parent, WORLD), self.links[made.child], coupling)
+        return edit.joint_lines(made, self.links.get(made.parent, WORLD), self.links[made.child], coupling)
 
     def _collect_notes(self) -> tuple[str, ...]:
         notes = [*self.chain.notes, *self.couplings.notes, *self.maker.notes]

@@ -1,5 +1,4 @@
-"""What is kept of an SDF to write it back: its files, where their references lead, the `model.config` of a folder,
-and their roots and versions."""
+"""What is kept of an SDF to write it back: its files, their references, roots and versions, and `model.config`."""
 
 from __future__ import annotations
 
@@ -12,7 +11,7 @@ from pathlib import Path
 
 from meshforge.common import AssetError, is_file
 from meshforge.formats.collision_pieces import CollisionElement
-from meshforge.formats.references import Resolver, placement
+from meshforge.formats.references import Resolver, placement, reference_of
 from meshforge.formats.xml import Element, SourceFile, XmlText, parse_numbers, parse_xml
 from meshforge.symbolic import Document
 
@@ -86,8 +85,7 @@ class ModelResolver(Resolver):
     """Finds what a file refers to, from its folder, upwards, and in the roots."""
 
     def candidates(self, reference: str) -> Iterator[Path]:
-        """Yield the places where the file may be; what no model of that name has may be in this one, under another
-        name."""
+        """Yield the places where the file may be; without a model of that name, in this one, under another name."""
         reference = reference.strip()
         rest = reference.removeprefix(_FILE)
         if rest != reference and not rest.startswith("/"):  # Gazebo takes it for a path
@@ -155,8 +153,7 @@ def is_main_file(path: Path) -> bool:
 
 
 def read_versions(folder: Path) -> dict[tuple[int, int], str]:
-    """Return the files that a folder's `model.config` names, by the version of SDF they are in; none where there is
-    none."""
+    """Return the files that a folder's `model.config` names, by their versions of SDF."""
     path = folder / CONFIG
     if not is_file(path):
         return {}
@@ -188,22 +185,15 @@ def parse_root(data: bytes, where: str) -> tuple[Element, Version]:
     return root, version
 
 
-def mesh_uri(mesh: Element) -> str:
-    """Return the reference of a `<mesh>`; up to version 1.2 it was called `<filename>`."""
-    found = mesh.first("uri") or mesh.first("filename")
-    return found.text if found else ""
-
-
 def references(root: Element) -> list[str]:
-    """Return every mesh and texture that a file refers to, in order of mention, each once; not what Gazebo brings
-    along."""
+    """Return each mesh and texture that a file refers to, in order, without what Gazebo brings along."""
     return [text for text in dict.fromkeys(_iterate_references(root)) if text and not text.startswith(_BUILT_IN)]
 
 
 def _iterate_references(root: Element) -> Iterator[str]:
     for element in root.walk():
         if element.tag == "mesh":
-            yield mesh_uri(element)
+            yield reference_of(element)
         elif element.tag in ("heightmap", "image"):
             uri = element.first("uri")
             yield uri.text if uri else ""

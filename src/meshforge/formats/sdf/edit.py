@@ -1,4 +1,4 @@
-"""Writing an edited SDF: its files with other collisions, all else byte for byte as it was."""
+"""Writing an edited SDF, all but collisions byte for byte as it was; the XML of new collisions, joints, visuals."""
 
 from __future__ import annotations
 
@@ -6,17 +6,108 @@ import posixpath
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import assert_never
+
+import numpy as np
 
 from meshforge.common import AssetError, join_names
-from meshforge.formats import element_edits, link_reader, mesh_output, xml
+from meshforge.formats import element_edits, kinematic_tree, link_reader, mesh_output, xml
 from meshforge.formats.base import Mass, Output
-from meshforge.formats.references import add_copy, note_absolute
-from meshforge.formats.sdf import document, elements, shapes
+from meshforge.formats.references import add_copy, note_absolute, reference_of
+from meshforge.formats.sdf import document, models
 from meshforge.formats.sdf.frames import is_computed
-from meshforge.geometry import Capsule, Ellipsoid, Pose, Shape
-from meshforge.symbolic import Asset, Geom
+from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Floats, Pose, Shape, Sphere
+from meshforge.symbolic import Asset, Coupling, Geom, Inertial
 
 _REMEDY = "Rename one of them, or put both under one folder."
+SdfShape = Box | Capsule | Cylinder | Ellipsoid | Sphere
+"""The shapes that SDF has of its own and MeshForge knows, the round ones from 1.8 on."""
+_ENDLESS = (-1e16, 1e16)
+"""Limits that stand for none, which PyBullet asks for."""
+
+
+def leaf(tag: str, text: str) -> bytes:
+    """Return an element that holds a text."""
+    return b"<%s>%s</%s>" % (tag.encode(), xml.escape(text), tag.encode())
+
+
+def _number_leaf(tag: str, number: float) -> bytes:
+    return leaf(tag, xml.format_numbers([number]))
+
+
+def pose_leaf(pose: Pose) -> bytes:
+    """Return the element of a pose, its numbers in full precision."""
+    return leaf("pose", xml.format_numbers([*pose.translation, *pose.to_rpy()]))
+
+
+def native_lines(shape: SdfShape) -> list[bytes]:
+    """Return the lines of the element of a native shape, without its pose."""
+    match shape:
+        case Box():
+            inside = [leaf("size", xml.format_numbers(2 * shape.half))]
+        case Ellipsoid():
+            inside = [leaf("radii", xml.format_numbers(shape.radii))]
+        case Sphere():
+            inside = [_number_leaf("radius", shape.radius)]
+        case Cylinder() | Capsule():
+            inside = [_number_leaf("radius", shape.radius), _number_leaf("length", 2 * shape.half_length)]
+        case _:
+            assert_never(shape)
+    return xml.nest(shape.kind, *inside)
+
+
+def mesh_lines(reference: str, scale: Floats | None = None) -> list[bytes]:
+    """Return the lines of the element of a mesh file in metres."""
+    scaled = [] if scale is None else [leaf("scale", xml.format_numbers(scale))]
+    return xml.nest("mesh", leaf("uri", reference), *scaled)
+
+
+def joint_lines(
+    made: kinematic_tree.LinkJoint, parent: str, child: str, coupling: Coupling | None = None
+) -> list[bytes]:
+    """Return the lines of a `<joint>`, whose frame is that of its child; coupling: to another joint, from 1.11 on."""
+    joint = made.joint
+    kind = joint.kind if joint else "fixed"
+    inside = [leaf("parent", parent), leaf("child", child)]
+    if joint and kind in ("revolute", "prismatic"):
+        lower, upper = joint.limits or _ENDLESS
+        most = (("effort", joint.effort), ("velocity", joint.velocity))
+        losses = (("damping", joint.damping), ("friction", joint.friction))
+        limit = [_number_leaf("lower", lower), _number_leaf("upper", upper)]
+        limit += [_number_leaf(tag, number) for tag, number in most if number]
+        dynamics = [_number_leaf(tag, number) for tag, number in losses if number]
+        axis = [leaf("xyz", xml.format_numbers(kinematic_tree.drop_rounding(made.axis))), *xml.nest("limit", *limit)]
+        mimic = []
+        if coupling:
+            offset, factor = coupling.coefficients
+            numbers = (("multiplier", factor), ("offset", offset), ("reference", 0.0))
+            inside_mimic = (_number_leaf(tag, number) for tag, number in numbers)
+            mimic = xml.nest("mimic", *inside_mimic, joint=coupling.joint, axis="axis")
+        inside += xml.nest("axis", *axis, *(xml.nest("dynamics", *dynamics) if dynamics else []), *mimic)
+    return xml.nest("joint", *inside, name=made.name, type=kind)
+
+
+def inertial_lines(inertial: Inertial, root_t_link: Pose) -> list[bytes]:
+    """Return the lines of an `<inertial>`, its axes those of the link."""
+    centre, tensor = kinematic_tree.place_inertial(inertial, root_t_link)
+    moments = xml.nest("inertia", *(_number_leaf(name, value) for name, value in kinematic_tree.name_moments(tensor)))
+    return xml.nest("inertial", pose_leaf(Pose.of_translation(centre)), _number_leaf("mass", inertial.mass), *moments)
+
+
+def visual_lines(name: str, visual: mesh_output.LinkVisual) -> list[bytes]:
+    """Return the lines of a `<visual>`."""
+    if isinstance(visual.what, SdfShape):
+        pose, kind = visual.what.pose, native_lines(visual.what)
+    else:
+        assert isinstance(visual.what, str)  # a file is made for every shape that is not native
+        scale = None if np.array_equal(visual.scale, np.ones(3)) else visual.scale
+        pose, kind = visual.pose, mesh_lines(visual.what, scale)
+    inside = [pose_leaf(pose), *xml.nest("geometry", *kind)]
+    if visual.rgba:
+        color = xml.format_numbers(visual.rgba)
+        inside += xml.nest("material", leaf("ambient", color), leaf("diffuse", color))
+        inside += [_number_leaf("transparency", 1 - visual.rgba[3])] if visual.rgba[3] < 1 else []
+    return xml.nest("visual", *inside, name=name)
 
 
 def write_sdf(asset: Asset, origin: document.SdfDocument, name: str, mass: Mass) -> Output:
@@ -27,7 +118,7 @@ def write_sdf(asset: Asset, origin: document.SdfDocument, name: str, mass: Mass)
     """
     for geom in asset.geoms:
         element_edits.refuse_unknown_link(geom, origin.links, str(asset.path))
-    meshes, taken = shapes.SdfMeshes(origin.digests), set[str]()
+    meshes, taken = models.SdfMeshes(origin.digests), set[str]()
     plans = []
     for number, source in enumerate(origin.sources):
         files = mesh_output.HullFiles(Path(name).stem, source.resolver, taken)
@@ -49,7 +140,7 @@ def _plan_source(
     origin: document.SdfDocument,
     number: int,
     files: mesh_output.HullFiles,
-    meshes: shapes.SdfMeshes,
+    meshes: models.SdfMeshes,
 ) -> element_edits.ElementEdits:
     source = origin.sources[number]
     data = source.text.data
@@ -92,20 +183,17 @@ class SdfElementMaker(element_edits.ElementMaker):
 
     version: document.Version = field(kw_only=True)
 
-    def reference_of(self, mesh: xml.Element) -> str:
-        return document.mesh_uri(mesh)
-
     def native_lines(self, shape: Shape) -> tuple[Pose, list[bytes]] | None:
         is_known = self.version >= document.ROUND_SHAPES or not isinstance(shape, Capsule | Ellipsoid)
-        if isinstance(shape, elements.SdfShape) and is_known:
-            return shape.pose, elements.native_lines(shape)
+        if isinstance(shape, SdfShape) and is_known:
+            return shape.pose, native_lines(shape)
         return None
 
     def mesh_lines(self, reference: str) -> list[bytes]:
-        return elements.mesh_lines(reference)
+        return mesh_lines(reference)
 
     def build_collision(self, pose: Pose, kind: Sequence[bytes], lead: bytes) -> bytes:
-        lines = xml.nest("collision", elements.pose_leaf(pose), *xml.nest("geometry", *kind))
+        lines = xml.nest("collision", pose_leaf(pose), *xml.nest("geometry", *kind))
         return (xml.newline_of(self.data) + lead).join(lines)
 
     def make_element(
@@ -118,23 +206,21 @@ class SdfElementMaker(element_edits.ElementMaker):
     def replace_geometry(
         self, collision: xml.Element, pose: Pose, kind: Sequence[bytes], reference: str | None
     ) -> tuple[xml.Splice, ...]:
-        geometry, old = collision.first("geometry"), link_reader.geometry_of(collision)
-        assert geometry is not None and old is not None  # only elements with pieces are copied
+        old = link_reader.geometry_of(collision)
+        assert old is not None  # only elements with pieces are copied
         if b"\n" not in self.data[old.start : old.end]:  # all in one line
             kind = [b"".join(line.strip() for line in kind)]
         made = xml.Splice(old.start, old.end, xml.line_gap(self.data, old.start).join(kind))
-        polylines = (child for child in geometry.children if child.tag == "polyline" and child is not old)
-        placed = xml.replace_or_insert(self.data, collision, "pose", "geometry", elements.pose_leaf(pose))
-        return (placed, made, *(xml.remove_element(self.data, child) for child in polylines))
+        return xml.replace_or_insert(self.data, collision, "pose", "geometry", pose_leaf(pose)), made
 
     def extract_piece(self, element: xml.Element, name: str, k: int) -> tuple[xml.Splice, ...]:
         """Scale and place stay; the file is used whole."""
         mesh = link_reader.geometry_of(element)
         assert mesh is not None  # only meshes have several pieces
-        _, made = self.make_piece(document.mesh_uri(mesh), shapes.read_submesh(mesh), name, k)
+        _, made = self.make_piece(reference_of(mesh), models.read_submesh(mesh), name, k)
         uri, submesh = mesh.first("uri") or mesh.first("filename"), mesh.first("submesh")
         assert uri is not None  # it has pieces
-        new = xml.Splice(uri.start, uri.end, elements.leaf(uri.tag, made))
+        new = xml.Splice(uri.start, uri.end, leaf(uri.tag, made))
         return (new, xml.remove_element(self.data, submesh)) if submesh else (new,)
 
 

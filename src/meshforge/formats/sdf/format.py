@@ -1,9 +1,8 @@
-"""The format SDF as the registry has it: what an SDF can hold, what one holds besides hulls, joints, masses and
-visuals, and making one from an asset of another format."""
+"""The format SDF as the registry has it: what it can hold, and what a file holds that no conversion takes."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 from meshforge.common import AssetError
@@ -55,13 +54,8 @@ class SdfFormat(base.Format):
 
         return create.create_sdf(asset, name)
 
-    def features(self, asset: Asset) -> Iterable[Feature]:
-        return features_of(asset.document) if isinstance(asset.document, SdfDocument) else ()
-
-
-def features_of(document: SdfDocument) -> Iterator[Feature]:
-    """Yield the features of an SDF, and of what it includes, that its asset does not have."""
-    roots = [parse_root(source.text.data, "")[0] for source in document.sources]
-    others = [tag for root in roots for tag in base.list_others(root, _TAKEN, _LEAVES)]
-    others += ["comment"] * sum(source.text.data.count(b"<!--") for source in document.sources)
-    yield base.feature_of_others(others)
+    def features(self, asset: Asset) -> Iterator[Feature]:
+        if isinstance(asset.document, SdfDocument):
+            texts = [source.text.data for source in asset.document.sources]
+            others = [tag for text in texts for tag in base.list_others(parse_root(text, "")[0], _TAKEN, _LEAVES)]
+            yield base.feature_of_others([*others, *["comment"] * sum(text.count(b"<!--") for text in texts)])

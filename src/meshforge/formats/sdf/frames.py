@@ -50,8 +50,7 @@ class FrameTable:
         return next((known for known in (path, f"{path}::") if known in self.by_path), None)
 
     def find_body(self, scope: str, name: str) -> str | None:
-        """Return the body that a frame moves with, of a model its first link or the one that it names; None without
-        one."""
+        """Return the body that a frame moves with, of a model the link that it names or its first; None without one."""
         passed: set[str | None] = {None}
         while name and (path := self.find(scope, name)) not in passed:
             passed.add(path)
@@ -135,8 +134,7 @@ class PoseElement:
 
 
 def pose_of(owner: Element | None, where: str) -> PoseElement:
-    """Return the pose of an element's first `<pose>`, identity where there is none. Raises AssetError with
-    `where:line`."""
+    """Return the pose of an element's first `<pose>`, identity without one. Raises AssetError with `where:line`."""
     element = owner.first("pose") if owner else None
     if element is None:
         return PoseElement(Pose.identity(), "", owner.line if owner else 0)

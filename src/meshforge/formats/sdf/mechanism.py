@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -15,23 +15,19 @@ from meshforge.formats.xml import Element, parse_numbers
 from meshforge.geometry import Floats, Pose
 from meshforge.symbolic import Coupling, Inertial, Joint, JointKind, unit_vector
 
-_KINDS: dict[str, tuple[JointKind, ...]] = {
-    "fixed": ("fixed",),
-    "revolute": ("revolute",),
-    "continuous": ("revolute",),
-    "screw": ("revolute",),
-    "prismatic": ("prismatic",),
-    "ball": ("ball",),
-    "universal": ("revolute", "revolute"),
-    "revolute2": ("revolute", "revolute"),
+_KINDS: dict[str, JointKind] = {
+    "fixed": "fixed",
+    "revolute": "revolute",
+    "continuous": "revolute",
+    "prismatic": "prismatic",
+    "ball": "ball",
 }
 _ENDLESS = 1e15  # limits beyond mean none
 _UNIT_TENSOR = (1.0, 0.0, 0.0, 1.0, 0.0, 1.0)
 
 
 def read_joints(tree: ModelTree) -> tuple[list[Joint], list[str]]:
-    """Return the joints of all models that make trees of their bodies, and notes, which name those that would close
-    rings."""
+    """Return the joints of all models that make trees of their bodies, and notes on those that are passed over."""
     joints, notes = list[Joint](), list[str]()
     parents: dict[str, str] = {}
     passed: dict[str, list[str]] = {"not understood": [], "which would close a ring": []}
@@ -50,9 +46,7 @@ def read_joints(tree: ModelTree) -> tuple[list[Joint], list[str]]:
                 passed["which would close a ring"].append(name)
                 continue
             parents[child] = parent
-            joints += _read_joint_parts(tree, scope, element, name, parent, child)
-            if type_ == "screw":
-                notes.append(f"joint {name!r} is a screw: it is taken for one that turns only")
+            joints.append(_read_joint(tree, scope, element, name, parent, child))
     for why, names in passed.items():
         if names:
             notes.append(f"{pluralize(len(names), 'joint')} passed over, {why} ({join_names(names, 3)})")
@@ -66,45 +60,33 @@ def _find_body(tree: ModelTree, scope: ModelScope, name: str) -> str | None:
     return tree.frames.find_body(scope.path, name)
 
 
-def _read_joint_parts(
-    tree: ModelTree, scope: ModelScope, element: Element, name: str, parent: str, child: str
-) -> Sequence[Joint]:
-    """The joints of a `<joint>`, one after another; its frame is that of the child unless it names another."""
+def _read_joint(tree: ModelTree, scope: ModelScope, element: Element, name: str, parent: str, child: str) -> Joint:
+    """The joint of an element; its frame is that of the child unless it names another."""
     type_ = element.attributes["type"]
-    at = pose_of(element, scope.where)
+    at, axis = pose_of(element, scope.where), element.first("axis")
     base, place = at.base or text_of(element, "child"), f"{scope.where}:{at.line}"
     pose = tree.frames.pose_of(scope.path, base, place) @ at.pose
-    kinds = _KINDS[type_]
-    found = []
-    for kind, tag in zip(kinds, ("axis", "axis2"), strict=False):
-        axis = element.first(tag)
-        limit, dynamics = (axis.first("limit"), axis.first("dynamics")) if axis else (None, None)
-        found.append(
-            Joint(
-                name if tag == "axis" else f"{name}_2",
-                kind,
-                parent,
-                child,
-                pose.translation,
-                _read_axis(tree, scope, axis, pose),
-                _read_limits(limit) if kind in ("revolute", "prismatic") and type_ != "continuous" else None,
-                damping=_read_number(dynamics, "damping") or 0.0,
-                friction=_read_number(dynamics, "friction") or 0.0,
-                effort=_positive_or_none(_read_number(limit, "effort")),
-                velocity=_positive_or_none(_read_number(limit, "velocity")),
-                coupling=_read_coupling(scope, axis.first("mimic")) if axis else None,
-            )
-        )
-    return found
+    limit, dynamics = (axis.first("limit"), axis.first("dynamics")) if axis else (None, None)
+    return Joint(
+        name,
+        _KINDS[type_],
+        parent,
+        child,
+        pose.translation,
+        _read_axis(tree, scope, axis, pose),
+        _read_limits(limit) if type_ in ("revolute", "prismatic") else None,
+        damping=_number_or(dynamics, "damping", 0.0),
+        friction=_number_or(dynamics, "friction", 0.0),
+        effort=_positive_or_none(_read_number(limit, "effort")),
+        velocity=_positive_or_none(_read_number(limit, "velocity")),
+        coupling=_read_coupling(scope, axis.first("mimic")) if axis else None,
+    )
 
 
 def _read_coupling(scope: ModelScope, mimic: Element | None) -> Coupling | None:
     if mimic is None:
         return None
-    joint = f"{scope.prefix}{mimic.attributes.get('joint', '')}"
-    if mimic.attributes.get("axis", "axis") == "axis2":
-        joint = f"{joint}_2"
-    factor = _number_or(mimic, "multiplier", 1.0)
+    joint, factor = f"{scope.prefix}{mimic.attributes.get('joint', '')}", _number_or(mimic, "multiplier", 1.0)
     return Coupling(joint, (_number_or(mimic, "offset", 0.0) - factor * _number_or(mimic, "reference", 0.0), factor))
 
 

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import posixpath
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from meshforge.common import AssetError
+import numpy as np
+
+from meshforge.common import AssetError, join_names
 from meshforge.formats import link_reader, mesh_reader, references
+from meshforge.formats.meshfile.surface import RawSurface
 from meshforge.formats.sdf.document import ModelResolver, SdfSource, Version, parse_root
 from meshforge.formats.sdf.frames import MODEL, WORLD, FrameTable, SdfFrame, is_true, pose_of, text_of
 from meshforge.formats.xml import Element, XmlText
@@ -65,8 +68,7 @@ class ModelTree:
     links: dict[str, SdfLink] = field(default_factory=dict)
 
     def pose_in_link(self, link: link_reader.Link, element: Element) -> Pose:
-        """Return root_T_element of something in a link, whose pose counts from the link or from a frame of its
-        model."""
+        """Return root_T_element of something in a link, whose pose counts from that or from a frame of its model."""
         at, scope = pose_of(element, link.where), self.links[link.body].scope
         if not at.base:
             return link.pose @ at.pose
@@ -223,6 +225,36 @@ class _Composer:
             pose = tree.frames.pose_of(scope.path, name, f"{scope.where}:{element.line}")
             resolver = self.sources[scope.source.number].resolver
             tree.links[body] = SdfLink(body, element, pose, scope.where, resolver, scope)
+
+
+def read_submesh(mesh: Element) -> tuple[str, ...]:
+    """Return the submesh that a `<mesh>` uses: its name, and `center` where it is moved; nothing for all."""
+    submesh = mesh.first("submesh")
+    name = text_of(submesh, "name")
+    if not name or name == "__default__":
+        return ()
+    return (name, "center") if is_true(text_of(submesh, "center")) else (name,)
+
+
+class SdfMeshes(link_reader.CollisionMeshes):
+    """The mesh files of an SDF, of which elements use submeshes."""
+
+    def select(self, surfaces: Sequence[RawSurface], part: tuple[str, ...]) -> Sequence[RawSurface]:
+        """Return what a part of `read_submesh` stands for, in metres: Gazebo obeys the unit of a Collada file.
+
+        Raises AssetError: there is no such submesh.
+        """
+        found = [s for s in surfaces if not part or s.name == part[0]]
+        if not found:
+            names = [s.name for s in surfaces if s.name]
+            remedy = f"Its submeshes are {join_names(names, 5)}." if names else "None of its submeshes has a name."
+            raise AssetError(f"the mesh has no submesh {part[0]!r}", remedy=remedy)
+        scaled = [replace(s, vertices=s.vertices * s.unit, unit=1.0) if s.unit != 1.0 else s for s in found]
+        if "center" not in part[1:]:
+            return scaled
+        used = np.concatenate([s.vertices[np.unique(s.faces)] for s in scaled])
+        middle = (used.min(axis=0) + used.max(axis=0)) / 2
+        return [replace(s, vertices=s.vertices - middle) for s in scaled]
 
 
 def _output_place(outer: SdfSource, uri: str, path: Path) -> str | None:

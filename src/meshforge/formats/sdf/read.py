@@ -1,18 +1,29 @@
-"""Read an SDF: from its files to an asset, with what its links show, other names of its collisions, the files it
-refers to, and notes."""
+"""Read an SDF: from its files to an asset with visuals, the files it refers to, and notes."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from meshforge.common import join_names, plain_path, pluralize
+from meshforge.common import GeometryError, join_names, plain_path, pluralize
 from meshforge.formats import base, collision_pieces, link_reader, references
-from meshforge.formats.sdf import document, frames, models, shapes
+from meshforge.formats.meshfile.surface import RawSurface, join_surfaces
+from meshforge.formats.sdf import document, frames, models
 from meshforge.formats.sdf.mechanism import read_joints, read_masses
 from meshforge.formats.xml import Element, parse_numbers
-from meshforge.geometry import Floats, Pose
+from meshforge.geometry import Floats, Pose, hull_mesh
 from meshforge.symbolic import Asset, Body, FileNote, Mechanism, Rgba
+
+_UNIT = re.compile(rb"<unit\b[^>]*?\bmeter\s*=\s*[\"']\s*([0-9.eE+-]+)\s*[\"']")
+_HEAD_BYTES = 100_000  # bytes within which a file says its unit
+_NO_HULLS = {
+    "heightmap": "a height map is no hull",
+    "image": "an image is no hull",
+    "empty": "it is empty",
+    "polyline": "a polyline is not read: write it as a mesh",
+}
+"""Elements of a `<geometry>` that are no shapes, and why."""
 
 
 def read_sdf(path: Path, options: base.ReadOptions) -> Asset:
@@ -52,37 +63,34 @@ def read_sdf(path: Path, options: base.ReadOptions) -> Asset:
 
 
 class _SdfReader(link_reader.LinkReader):
+    kinds = ("box", "ellipsoid", "sphere", "cylinder", "capsule", "cone", "plane")
+
     def __init__(self, tree: models.ModelTree) -> None:
-        super().__init__(shapes.SdfMeshes())
+        super().__init__(models.SdfMeshes())
         self.tree = tree
 
     def place(self, link: link_reader.Link, element: Element) -> Pose:
         return self.tree.pose_in_link(link, element)
 
-    def reference_of(self, mesh: Element) -> str:
-        return document.mesh_uri(mesh)
-
     def part_of(self, mesh: Element) -> tuple[str, ...]:
-        return shapes.read_submesh(mesh)
+        return models.read_submesh(mesh)
 
     def unit_of(self, path: Path) -> float:
-        return shapes.collada_unit_of(path)
+        return _collada_unit_of(path)
 
-    def read_scale(self, mesh: Element, where: str) -> tuple[Floats, str]:
-        return frames.read_floats(
-            mesh, "scale", where, (1.0, 1.0, 1.0)
-        ), f"<scale>{frames.text_of(mesh, 'scale')}</scale>"
+    def read_numbers(self, element: Element, name: str, where: str, default: tuple[float, ...]) -> Floats:
+        return frames.read_floats(element, name, where, default)
 
     def read_shape(self, element: Element, kind: Element, pose: Pose, where: str) -> collision_pieces.CollisionPiece:
-        geometry = element.first("geometry")
-        assert geometry is not None  # it holds the kind
-        return shapes.read_shape(geometry, kind, pose, where)
+        if reason := _NO_HULLS.get(kind.tag):
+            return collision_pieces.CollisionPiece(None, reason)
+        return super().read_shape(element, kind, pose, where)
 
     def place_mesh(
         self, kind: Element, path: Path, linear: Floats, offset: Floats
     ) -> list[collision_pieces.CollisionPiece]:
         if kind.attributes.get("optimization") == "convex_hull":
-            return [shapes.hull_of(self.meshes.surfaces(path, self.part_of(kind)), linear, offset)]
+            return [_hull_of(self.meshes.surfaces(path, self.part_of(kind)), linear, offset)]
         return super().place_mesh(kind, path, linear, offset)
 
     def read_color(self, visual: Element, where: str) -> Rgba | None:
@@ -93,13 +101,28 @@ class _SdfReader(link_reader.LinkReader):
         through = parse_numbers(frames.text_of(visual, "transparency")) or [0.0]
         return red, green, blue, alpha * (1.0 - min(1.0, max(0.0, through[0])))
 
-    def identify_shape(self, element: Element, kind: Element) -> object:
-        sizes = tuple((child.tag, " ".join(child.text.split())) for child in kind.children)
-        return sizes, " ".join(frames.text_of(element, "pose").split())
 
-    def material_of(self, element: Element) -> str:
-        material = element.first("material")
-        return frames.text_of(material.first("script") if material else None, "name")
+def _hull_of(surfaces: Sequence[RawSurface], linear: Floats, offset: Floats) -> collision_pieces.CollisionPiece:
+    """The convex hull of a mesh with `optimization="convex_hull"`, under x -> linear @ x + offset."""
+    whole = join_surfaces(surfaces)
+    try:
+        hull, fill = hull_mesh(whole.vertices, whole.faces)
+        return collision_pieces.CollisionPiece(hull.transform(linear, offset), fill=fill)
+    except GeometryError as error:
+        return collision_pieces.CollisionPiece(None, error.problem)
+
+
+def _collada_unit_of(mesh: Path) -> float:
+    """The metres of the unit that a mesh file is in: as a Collada file says, 1 for all others."""
+    if mesh.suffix.lower() != ".dae":
+        return 1.0
+    try:
+        with mesh.open("rb") as stream:
+            found = _UNIT.search(stream.read(_HEAD_BYTES))
+        unit = float(found[1]) if found else 1.0
+    except (OSError, ValueError):
+        return 1.0
+    return unit if 0 < unit < float("inf") else 1.0
 
 
 def _collect_notes(tree: models.ModelTree, collisions: Sequence[Element]) -> Iterator[str]:

@@ -1,5 +1,4 @@
-"""What is kept of a URDF to write it back, and how its XML is read: the robot, its collisions and references, numbers
-and poses; where each link is with all joints at zero, and how it moves and weighs."""
+"""What is kept of a URDF to write it back, and how its XML is read: links where they are at zero, joints, masses."""
 
 from __future__ import annotations
 
@@ -104,15 +103,6 @@ class UrdfLinks:
     roots: tuple[str, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class _JointEnds:
-    name: str
-    parent: str
-    child: str
-    pose: Pose
-    line: int
-
-
 def read_links(robot: Element, where: str) -> UrdfLinks:
     """Return the links of a `<robot>`, placed.
 
@@ -120,16 +110,16 @@ def read_links(robot: Element, where: str) -> UrdfLinks:
     which is not there, a link with two parents, a cycle.
     """
     elements = _collect_links(robot, where)
-    parents: dict[str, _JointEnds] = {}
+    joints: dict[str, tuple[Element, str]] = {}  # by child, each with its parent
     for element in robot.each("joint"):
-        joint = _read_joint_ends(element, elements, where)
-        if joint.child in parents:
-            first = parents[joint.child]
-            problem = f"link {joint.child!r} has two parents: joint {first.name!r} of line {first.line}, and this one"
-            raise AssetError(f"joint {joint.name!r}: {problem}", where=f"{where}:{joint.line}")
-        parents[joint.child] = joint
-    poses = _place_links(elements, parents, where)
-    return UrdfLinks(elements, {name: poses[name] for name in elements}, tuple(n for n in elements if n not in parents))
+        parent, child = (_read_end(element, role, elements, where) for role in ("parent", "child"))
+        if child in joints:
+            name, first = element.attributes.get("name", ""), joints[child][0]
+            problem = f"two parents: joint {first.attributes.get('name', '')!r} of line {first.line}, and this one"
+            raise AssetError(f"joint {name!r}: link {child!r} has {problem}", where=f"{where}:{element.line}")
+        joints[child] = element, parent
+    poses = _place_links(elements, joints, where)
+    return UrdfLinks(elements, {name: poses[name] for name in elements}, tuple(n for n in elements if n not in joints))
 
 
 def _collect_links(robot: Element, where: str) -> dict[str, Element]:
@@ -147,38 +137,36 @@ def _collect_links(robot: Element, where: str) -> dict[str, Element]:
     return found
 
 
-def _read_joint_ends(element: Element, links: Mapping[str, Element], where: str) -> _JointEnds:
-    name = element.attributes.get("name", "")
-    place = f"{where}:{element.line}"
-    ends = []
-    for role in ("parent", "child"):
-        end = element.first(role)
-        link = end.attributes.get("link") if end else None
-        if link is None:
-            raise AssetError(f"joint {name!r} names no {role} link", where=place)
-        if link not in links:
-            like = nearest_name(link, links)
-            remedy = f"The nearest name of a link is {like!r}." if like else None
-            raise AssetError(f"joint {name!r}: its {role} link {link!r} is not there", where=place, remedy=remedy)
-        ends.append(link)
-    return _JointEnds(name, ends[0], ends[1], read_origin(element, where), element.line)
+def _read_end(joint: Element, role: str, links: Mapping[str, Element], where: str) -> str:
+    name, place, end = joint.attributes.get("name", ""), f"{where}:{joint.line}", joint.first(role)
+    link = end.attributes.get("link") if end else None
+    if link is None:
+        raise AssetError(f"joint {name!r} names no {role} link", where=place)
+    if link not in links:
+        like = nearest_name(link, links)
+        remedy = f"The nearest name of a link is {like!r}." if like else None
+        raise AssetError(f"joint {name!r}: its {role} link {link!r} is not there", where=place, remedy=remedy)
+    return link
 
 
-def _place_links(links: Mapping[str, Element], parents: Mapping[str, _JointEnds], where: str) -> dict[str, Pose]:
+def _place_links(
+    links: Mapping[str, Element], joints: Mapping[str, tuple[Element, str]], where: str
+) -> dict[str, Pose]:
     poses: dict[str, Pose] = {}
     for name in links:
         chain: dict[str, None] = {}
         at = name
-        while at not in poses and at in parents and at not in chain:
+        while at not in poses and at in joints and at not in chain:
             chain[at] = None
-            at = parents[at].parent
+            at = joints[at][1]
         if at in chain:
             ring = list(chain)[list(chain).index(at) :]
             path = " -> ".join([ring[0], *reversed(ring)])
-            raise AssetError(f"the joints form a cycle: {path}", where=f"{where}:{parents[at].line}")
+            raise AssetError(f"the joints form a cycle: {path}", where=f"{where}:{joints[at][0].line}")
         poses.setdefault(at, Pose.identity())
         for link in reversed(chain):
-            poses[link] = poses[parents[link].parent] @ parents[link].pose
+            joint, parent = joints[link]
+            poses[link] = poses[parent] @ read_origin(joint, where)
     return poses
 
 

@@ -1,5 +1,4 @@
-"""Writing an edited URDF: the authored text with other collision elements, all else byte for byte as it was; and the
-XML text of elements: collisions new or edited, joints, masses and visuals."""
+"""Writing an edited URDF, all but collisions byte for byte as it was; the XML of new collisions, joints, visuals."""
 
 from __future__ import annotations
 
@@ -11,7 +10,7 @@ from typing import assert_never
 import numpy as np
 
 from meshforge.formats import base, collision_pieces, element_edits, kinematic_tree, link_reader, mesh_output, xml
-from meshforge.formats.references import Resolver, add_copy, note_absolute, placement
+from meshforge.formats.references import Resolver, add_copy, note_absolute, placement, reference_of
 from meshforge.formats.urdf.document import UrdfDocument, collisions, parse_robot, references
 from meshforge.geometry import Box, Capsule, Cylinder, Pose, Shape, Sphere
 from meshforge.symbolic import Asset, Coupling, Inertial
@@ -142,9 +141,6 @@ class UrdfElementMaker(element_edits.ElementMaker):
     def explain_hull(self, shape: Shape) -> str:
         return CAPSULE_READERS if isinstance(shape, Capsule) else super().explain_hull(shape)
 
-    def reference_of(self, mesh: xml.Element) -> str:
-        return mesh.attributes.get("filename", "")
-
     def native_lines(self, shape: Shape) -> tuple[Pose, list[bytes]] | None:
         if isinstance(shape, UrdfShape) or (self.capsules and isinstance(shape, Capsule)):
             return shape.pose, [native_tag(shape)]
@@ -172,7 +168,7 @@ class UrdfElementMaker(element_edits.ElementMaker):
     def extract_piece(self, element: xml.Element, name: str, k: int) -> tuple[xml.Splice, ...]:
         mesh = link_reader.geometry_of(element)
         assert mesh is not None  # only meshes have several pieces
-        piece, made = self.make_piece(mesh.attributes["filename"], (), name, k)
+        piece, made = self.make_piece(reference_of(mesh), (), name, k)
         if piece.shape is None and collision_pieces.is_flat(piece.vertices):
             self.notes.append(f"flat piece {name!r} stays, now in a file of its own, which MuJoCo refuses")
         return (xml.set_attribute(self.data, mesh, "filename", made),)

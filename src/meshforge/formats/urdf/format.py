@@ -1,9 +1,8 @@
-"""The format URDF as the registry has it: what a URDF can hold, what one holds besides hulls, joints, masses and
-visuals, and making one from an asset of another format."""
+"""The format URDF as the registry has it: what it can hold, and what a file holds that no conversion takes."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import ClassVar
 
@@ -57,8 +56,11 @@ class UrdfFormat(base.Format):
 
         return create.create_urdf(asset, name, capsules=self.has_capsules)
 
-    def features(self, asset: Asset) -> Iterable[Feature]:
-        return features_of(asset.document) if isinstance(asset.document, UrdfDocument) else ()
+    def features(self, asset: Asset) -> Iterator[Feature]:
+        if isinstance(asset.document, UrdfDocument):
+            data = XmlText.of(asset.document.source).data
+            others = [*base.list_others(parse_robot(data, ""), _TAKEN, _LEAVES), *["comment"] * data.count(b"<!--")]
+            yield base.feature_of_others(others)
 
 
 class UrdfWithCapsules(UrdfFormat):
@@ -69,10 +71,3 @@ class UrdfWithCapsules(UrdfFormat):
     instead: ClassVar[Mapping[FeatureKind, str]] = {
         kind: text for kind, text in UrdfFormat.instead.items() if kind is not FeatureKind.CAPSULES
     }
-
-
-def features_of(document: UrdfDocument) -> Iterator[Feature]:
-    """Yield the features of a URDF that its asset does not have."""
-    data = XmlText.of(document.source).data
-    robot = parse_robot(data, "")
-    yield base.feature_of_others([*base.list_others(robot, _TAKEN, _LEAVES), *["comment"] * data.count(b"<!--")])

@@ -8,15 +8,13 @@ from pathlib import Path
 import numpy as np
 
 from meshforge.common import AssetError, join_names, plain_path, pluralize
-from meshforge.formats import base, collision_pieces, link_reader, mesh_reader
+from meshforge.formats import base, link_reader, mesh_reader
 from meshforge.formats.references import Resolver, find_all
 from meshforge.formats.urdf import document
 from meshforge.formats.urdf.document import UrdfLinks, read_links, read_mechanism
 from meshforge.formats.xml import Element, XmlText
 from meshforge.geometry import Floats, Pose
 from meshforge.symbolic import Asset, Body, FileNote, Rgba
-
-_UP = (0.0, 0.0, 1.0)
 
 
 def read_urdf(path: Path, options: base.ReadOptions, source: bytes | None = None) -> Asset:
@@ -53,6 +51,8 @@ def read_urdf(path: Path, options: base.ReadOptions, source: bytes | None = None
 
 
 class _UrdfReader(link_reader.LinkReader):
+    kinds = ("box", "sphere", "cylinder", "capsule", "plane")
+
     def __init__(self, robot: Element, where: str) -> None:
         super().__init__(link_reader.CollisionMeshes())
         named = [e for e in robot.walk() if e.tag == "material" and "name" in e.attributes]
@@ -62,43 +62,17 @@ class _UrdfReader(link_reader.LinkReader):
     def place(self, link: link_reader.Link, element: Element) -> Pose:
         return link.pose @ document.read_origin(element, link.where)
 
-    def reference_of(self, mesh: Element) -> str:
-        return mesh.attributes.get("filename", "").strip()
-
-    def read_scale(self, mesh: Element, where: str) -> tuple[Floats, str]:
-        """One number stands for three, as in PyBullet."""
-        single = len(mesh.attributes.get("scale", "").replace(",", " ").split()) == 1
-        scale = document.read_floats(mesh, "scale", 1 if single else 3, where, (1.0, 1.0, 1.0))
-        return np.broadcast_to(scale, (3,)), f"scale={mesh.attributes.get('scale')!r}"
-
-    def read_shape(self, element: Element, kind: Element, pose: Pose, where: str) -> collision_pieces.CollisionPiece:
-        match kind.tag:
-            case "box":
-                sizes = document.read_floats(kind, "size", 3, where)
-            case "sphere":
-                sizes = document.read_floats(kind, "radius", 1, where)
-            case "cylinder" | "capsule":
-                sizes = np.concatenate([document.read_floats(kind, name, 1, where) for name in ("radius", "length")])
-            case "plane":
-                turn = collision_pieces.turn_z_to(document.read_floats(kind, "normal", 3, where, _UP))
-                return collision_pieces.CollisionPiece(None, "a plane has no end", plane=pose @ turn)
-            case _:
-                return collision_pieces.CollisionPiece(None, f"<{kind.tag}> is no geometry that is known")
-        return collision_pieces.build_primitive(kind.tag, sizes, pose)
+    def read_numbers(self, element: Element, name: str, where: str, default: tuple[float, ...]) -> Floats:
+        """One factor stands for three, as in PyBullet."""
+        single = name == "scale" and len(element.attributes.get(name, "").replace(",", " ").split()) == 1
+        optional = default if name in ("scale", "normal") else None
+        found = document.read_floats(element, name, 1 if single else len(default), where, optional)
+        return np.broadcast_to(found, (len(default),))
 
     def read_color(self, visual: Element, where: str) -> Rgba | None:
         material = visual.first("material")
         color = material.first("color") if material else None
-        return _read_rgba(color, where) if color else self.colors.get(self.material_of(visual))
-
-    def identify_shape(self, element: Element, kind: Element) -> object:
-        origin = element.first("origin")
-        place = tuple(sorted(origin.attributes.items())) if origin else ()
-        return tuple(sorted(kind.attributes.items())), place
-
-    def material_of(self, element: Element) -> str:
-        material = element.first("material")
-        return material.attributes.get("name", "") if material else ""
+        return _read_rgba(color, where) if color else self.colors.get(link_reader.material_of(visual))
 
 
 def _read_rgba(color: Element | None, where: str) -> Rgba | None:

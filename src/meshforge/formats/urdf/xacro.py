@@ -1,5 +1,4 @@
-"""Xacro files: URDF with macros. They are read as the URDF that they expand to, and an edit is written as plain URDF:
-what a macro made cannot be changed in one place of the source."""
+"""Xacro files: read as the URDF that they expand to, and written as plain URDF, as no edit fits into a macro."""
 
 from __future__ import annotations
 
