@@ -22,6 +22,7 @@ from meshforge.formats import collision_pieces, mesh_reader, references
 from meshforge.formats.base import Format, Mass, Output, ReadOptions, note_renames
 from meshforge.formats.meshfile.surface import Soup, parts_of_groups
 from meshforge.formats.plain.parts import (
+    AS_HULLS,
     MeshPart,
     PlainDocument,
     collect_parts,
@@ -32,22 +33,10 @@ from meshforge.formats.plain.parts import (
     to_parts,
 )
 from meshforge.geometry import Floats, Piece, Pose, distinct, split_pieces
-from meshforge.symbolic import (
-    PRIMITIVE_FEATURES,
-    Asset,
-    Body,
-    Document,
-    FeatureKind,
-    Geom,
-    Mentions,
-    NonConvexPiece,
-    Surface,
-)
+from meshforge.symbolic import Asset, Body, Document, FeatureKind, Geom, Mentions, NonConvexPiece, Surface
 
 BODY = "body"
 """The name of the one body of a plain mesh file."""
-AS_HULLS: Mapping[FeatureKind, str] = dict.fromkeys(PRIMITIVE_FEATURES.values(), "written as triangles")
-"""How formats without native shapes hold them."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)

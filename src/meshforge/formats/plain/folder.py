@@ -12,9 +12,17 @@ from typing import TypeVar
 
 from meshforge.common import AssetError
 from meshforge.formats.base import Format, Mass, Output, ReadOptions, note_renames
-from meshforge.formats.plain.base import AS_HULLS, BODY, PlainFormat
+from meshforge.formats.plain.base import BODY, PlainFormat
 from meshforge.formats.plain.obj import ObjFormat
-from meshforge.formats.plain.parts import MeshPart, PlainDocument, collect_parts, name_members, natural_key, to_parts
+from meshforge.formats.plain.parts import (
+    AS_HULLS,
+    MeshPart,
+    PlainDocument,
+    collect_parts,
+    name_members,
+    natural_key,
+    to_parts,
+)
 from meshforge.formats.plain.ply import PlyFormat
 from meshforge.formats.plain.stl import StlFormat, WrlFormat
 from meshforge.formats.references import find_companions

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -12,7 +12,10 @@ import numpy as np
 
 from meshforge.formats.base import note_shapes_as_hulls, nothing_collides_error
 from meshforge.geometry import Box, Floats, Ints, Piece, Polytope
-from meshforge.symbolic import Asset, Document, Geom, Surface, unique_names
+from meshforge.symbolic import PRIMITIVE_FEATURES, Asset, Document, FeatureKind, Geom, Surface, unique_names
+
+AS_HULLS: Mapping[FeatureKind, str] = dict.fromkeys(PRIMITIVE_FEATURES.values(), "written as triangles")
+"""How formats without native shapes hold them."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
