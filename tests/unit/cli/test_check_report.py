@@ -74,7 +74,7 @@ def faces(sides: int) -> str:
 
 @pytest.mark.slow
 def test_of_very_many_assets_the_page_shows_some_and_says_so(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("meshforge.batch.report.contents.TopItems.__init__.__defaults__", (2,))
+    monkeypatch.setattr("meshforge.batch.MOST_SHOWN", 2)
     run("check", "mixed/*", "--report", "r.html", "--fit")
     page = opened("r.html")
     assert names(page) == [ODD, "cup.urdf"]
