@@ -27,7 +27,7 @@ def measure(tell: Tell, quick: bool) -> Result:
     )
     near = [row.among for row in rows if row.near]
     settled_wrong = sum(row.settled and not row.right for row in rows)
-    settled_wrong += sum(row["unambiguous"] and row["wrong"] > 0 for row in details)
+    settled_wrong += sum(row["settled"] and row["wrong"] > 0 for row in details)
     goals = (
         Goal("hidden behaviour among the readings, of the near, %", "at least", 99.0, percent(near)),
         Goal("rules and programs that are settled, yet wrong", "at most", 0.0, float(settled_wrong)),

@@ -12,7 +12,7 @@ import pytest
 from meshforge.language import Program, Rule
 from meshforge.project import Project
 from meshforge.samples import TABLES
-from meshforge.synthesis import Answer, Step
+from meshforge.synthesis import Step
 from tests.loop.command import meshforge_here as meshforge
 
 TAUGHT = Program.read(TABLES / "tables.mf")
@@ -58,17 +58,3 @@ def test_questions_are_answered_from_a_file_until_the_program_is_what_is_meant(t
         found = meshforge("review", "tables", "--json", "--answers", "given.json", cwd=tables, code=1).json
     assert Program.read(tables / "tables" / "program.mf") == MEANT
     assert given
-
-
-def test_more_answers_settle_what_is_not_asked(tables: Path) -> None:
-    """Answers need not be asked for: what is left of doubt is settled by saying what is meant."""
-    project = Project.open(tables / "tables")
-    for path in sorted(TABLES.glob("*.obj")):
-        if path.name not in SHOWN:
-            for number, (names, _) in enumerate(_meant(tables, path.name), 1):
-                project.add_answer(Answer(number, path.name, names))
-    done = meshforge("synthesize", "tables", cwd=tables)
-    assert Program.parse(done.out) == MEANT
-    assert "all believable readings of the rules agree on your 14 assets" in done.err
-    status = Project.open(tables / "tables").status(workers=0)
-    assert (status.outdated, status.question) == (False, None)

@@ -58,14 +58,6 @@ def right(project: Project) -> float:
     return sum(same) / len(same)
 
 
-def test_labels_files_are_taken_over(folder: Path) -> None:
-    project = begin(folder)
-    for path in TABLES.glob("*.labels.json"):
-        shutil.copy(path, folder / "assets")
-    meshforge("label", KEPT, "--with", "file", cwd=folder)
-    assert right(project) == 1.0
-
-
 def test_segmented_points_make_labels_of_hulls(folder: Path) -> None:
     """As a segmentation of point clouds would give them: numbers of classes, one point in ten wrong."""
     project, draw = begin(folder), np.random.default_rng(7)

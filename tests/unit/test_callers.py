@@ -72,12 +72,3 @@ def test_overrides_are_used_as_their_base_s_methods_are(tmp_path: Path) -> None:
         "def main(told: Told): Base().called(); return Own, Other\n"
     )
     assert uncalled(tmp_path, {"a.py": a}) == ["a:Base.idle", "a:Own.idle"]
-
-
-def test_what_a_library_s_decorator_takes_is_called_by_it(tmp_path: Path) -> None:
-    a = (
-        "from functools import cache\nfrom pydantic import field_validator\nfrom meshforge.b import own\n"
-        "router = object()\n@router.get('/')\ndef route(): ...\n@cache\ndef plain(): ...\n@own\ndef wrapped(): ...\n"
-        "class C:\n    @field_validator('x')\n    def check(self): ...\ndef main(): C()\n"
-    )
-    assert uncalled(tmp_path, {"a.py": a, "b.py": "def own(f): return f\n"}) == ["a:plain", "a:wrapped", "b:own"]

@@ -8,7 +8,6 @@ from meshforge.common.exports import export_lazily
 __getattr__, __all__ = export_lazily(
     __name__,
     {
-        "archive": "write_archive",
         "check": "CheckOutcome CheckTask check_asset check_assets",
         "manual_edits": (
             "ManualEdit RuleSelection action_text action_text_without_each replay_manual_edits selections_of"
@@ -33,6 +32,7 @@ __getattr__, __all__ = export_lazily(
             "RECORD_FILE list_preparation_writes read_preparation read_prepared read_steps record_digest "
             "write_preparation"
         ),
+        "outputs": "write_archive",
         "provenance": (
             "OutputInputs Stamp asset_digests content_digest has_same_files program_digest read_stamp "
             "software_version source_files stamp_path template_digests text_digest value_digest"

@@ -136,16 +136,15 @@ def to_json_line(outcome: AssetOutcome, alarms: Sequence[str] | None = None) -> 
         "status": status_of(outcome),
         "out": ran.out if ran else None,
         "error": outcome.error if isinstance(outcome, Failed) else None,
-        "rules": [_rule_to_json(line) for line in ran.rules] if ran else [],
+        "rules": [
+            {"rule": line.rule, "selected": list(line.selected), "made": list(line.made), "note": line.note}
+            | ({"gone": list(line.gone)} if line.gone else {})
+            for line in (ran.rules if ran else ())
+        ],
         "hulls": {"before": ran.before if ran else None, "after": ran.after if ran else None},
         "seconds": round(outcome.seconds, 3),
         **({} if alarms is None else {"alarms": list(alarms)}),
     }
-
-
-def _rule_to_json(line: RuleEffect) -> dict[str, Any]:
-    found = {"rule": line.rule, "selected": list(line.selected), "made": list(line.made), "note": line.note}
-    return found | ({"gone": list(line.gone)} if line.gone else {})
 
 
 @dataclass(eq=False, slots=True)

@@ -119,7 +119,8 @@ def _run_pools(
         except BrokenProcessPool as error:
             barren = 0 if done > before else barren + 1
             last = error
-    raise _start_error(last) from last
+    remedy = "In a script of your own, put the call below `if __name__ == '__main__':`, or pass workers=0."
+    raise MeshForgeError(f"worker processes do not start: {last}", remedy=remedy) from last
 
 
 def _run_pool(
@@ -202,8 +203,3 @@ def _collect(future: Future[Result], timeout: float | None) -> Result | WorkerFa
         return WorkerFailure(f"it took longer than {timeout:g} seconds and was stopped", timeout or 0.0)
     except ProcessExpired as error:
         return WorkerFailure(f"its worker process died ({describe_exit(error.exitcode)})")
-
-
-def _start_error(error: Exception) -> MeshForgeError:
-    remedy = "In a script of your own, put the call below `if __name__ == '__main__':`, or pass workers=0."
-    return MeshForgeError(f"worker processes do not start: {error}", remedy=remedy)

@@ -199,13 +199,17 @@ def confirm(store: Store, right: synthesis.LabelFix, origin: Origin = NO_ORIGIN)
     Raises ProjectError where the asset, the hull or the label is not there, or the hull has another label by now.
     """
     with store.lock():
-        mesh = store.mesh(right.asset)
-        labels, problem = _repair_label(store, mesh, right)
+        mesh, fixed = store.mesh(right.asset), _label_of_repair(right)
+        given = {right.hull: fixed}
+        labels, report = merge.merge_labels(right.asset, mesh.index, mesh.labels, given, store.vocabulary)
+        problem = report.problems[0] if report.problems else None
+        if not problem and (label := mesh.hull_of(right.hull).label) not in (right.was, right.to):
+            problem = f"{right.hull} is labelled {label or 'nothing'} now, no longer {right.was or 'nothing'}"
         if problem:
             raise ProjectError(problem, where=right.asset, remedy=f"Learn again: meshforge synthesize {store.folder}")
         event = files.LabelFixEvent(asset=right.asset, hull=right.hull, was=right.was, to=right.to, accepted=True)
         known, current = store.feedback().fixes.get(event.id), mesh.hull_of(right.hull).annotation
-        is_repeated = known and known.accepted and current == _label_of_repair(right)
+        is_repeated = known and known.accepted and current == fixed
         before = known.before if known and is_repeated else files.LabelBefore.of(current)
         # the record first: killed in between, the repair is merely proposed again
         store.add_events(event.model_copy(update={"before": before}).with_origin(origin))
@@ -247,19 +251,6 @@ def forget_answers(store: Store) -> tuple[str, ...]:
 
 def _label_of_repair(fix: synthesis.LabelFix) -> symbolic.Label:
     return symbolic.Label(fix.to, 1.0, "repair")
-
-
-def _repair_label(
-    store: Store, mesh: symbolic.SymbolicMesh, right: synthesis.LabelFix
-) -> tuple[dict[str, symbolic.Label], str | None]:
-    given = {right.hull: _label_of_repair(right)}
-    labels, report = merge.merge_labels(right.asset, mesh.index, mesh.labels, given, store.vocabulary)
-    if report.problems:
-        return labels, report.problems[0]
-    label = mesh.hull_of(right.hull).label
-    if label not in (right.was, right.to):
-        return labels, f"{right.hull} is labelled {label or 'nothing'} now, no longer {right.was or 'nothing'}"
-    return labels, None
 
 
 def _restore_label(store: Store, line: files.LabelFixEvent) -> str | None:

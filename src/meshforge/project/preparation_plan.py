@@ -75,7 +75,7 @@ def read_preparation_plan(store: Store) -> PreparationPlan:
         if done:  # what was continued was done once
             ways.setdefault("\n".join(dict.fromkeys(done)), []).append(asset)
     if len(ways) > 1:
-        some = "; ".join(f"{_describe_way(way)}: {join_names(assets, _EXAMPLES)}" for way, assets in ways.items())
+        some = "; ".join(join_names(assets, _EXAMPLES) for assets in ways.values())
         problem = f"the assets were decomposed in {len(ways)} ways, so new ones are not decomposed ({some})"
         return PreparationPlan(rebuild=rebuild, unclear=problem)
     lines = next(iter(ways), "").splitlines()
@@ -84,19 +84,6 @@ def read_preparation_plan(store: Store) -> PreparationPlan:
         problem = "the assets were decomposed by another version, with other options, so new ones are not decomposed"
         return PreparationPlan(rebuild=rebuild, unclear=problem)
     return PreparationPlan(tuple(plan for plan in plans if plan), rebuild)
-
-
-def _describe_way(way: str) -> str:
-    """`coacd threshold=0.1 only=knob`: what differs from the defaults."""
-    texts = []
-    for line in way.splitlines():
-        settings = json.loads(line)
-        plan = _parse_plan(settings)
-        usual = type(plan.settings)().as_dict() | {"hollow": False, "by": "whole"} if plan else {}
-        unusual = {k: v for k, v in settings.items() if k != "method" and (k not in usual or usual[k] != v)}
-        shown = (f"{k}={','.join(v) if isinstance(v, list) else v}" for k, v in unusual.items())
-        texts.append(" ".join([settings.get("method", "?"), *shown]))
-    return " then ".join(texts)
 
 
 def _parse_plan(settings: Mapping[str, Any]) -> DecompositionPlan | None:

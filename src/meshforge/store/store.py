@@ -210,14 +210,13 @@ class Store:
         hulls: Mapping[str, str],
         labels: Mapping[str, symbolic.Label],
         vocabulary: Sequence[str],
-        away: Collection[str] = (),
     ) -> None:
         """Write the labels of an asset, under the lock that the caller holds; without any label its file is removed.
 
         Labels of hulls that are gone stay in the file, since hulls may come back. hulls: the digests of all, by name,
-        in order; away: names of hulls that are gone whose labels do not stay.
+        in order.
         """
-        self.write_labels_files({asset: self.labels_text(asset, hulls, labels, vocabulary, away)})
+        self.write_labels_files({asset: self.labels_text(asset, hulls, labels, vocabulary)})
 
     def labels_text(
         self,
@@ -227,7 +226,8 @@ class Store:
         vocabulary: Sequence[str],
         away: Collection[str] = (),
     ) -> str | None:
-        """Return what `write_labels` writes; None where the file is to be removed."""
+        """Return what `write_labels` writes; None where the file is to be removed. away: names of hulls that are gone
+        whose labels do not stay."""
         return format_labels_file(self.layout.labels(asset), hulls, labels, vocabulary, away)
 
     def write_labels_files(self, texts: Mapping[str, str | None]) -> None:

@@ -47,21 +47,6 @@ def test_whenever_a_run_is_killed_each_file_is_the_old_or_the_new_and_the_next_r
     assert tree(out) == tree(tmp_path / "new")
 
 
-@pytest.mark.slow
-@needs_fork
-def test_a_killed_run_is_finished_or_done_again(tmp_path: Path) -> None:
-    assets, out = tmp_path / "robots", tmp_path / "out"
-    write_urdf_table(assets)
-    run(assets, tmp_path / "new", NEW)
-    words = set()
-    for _ in deaths(lambda: run(assets, out, NEW)):
-        words.update(run(assets, out, NEW))  # skipped: where all that was left to do was to put the draft in place
-        assert tree(out) == tree(tmp_path / "new")
-        for name in files(out):
-            (out / name).unlink()  # the next death comes to a fresh folder of which only the stamps are left
-    assert words == {"edited", "skipped"}
-
-
 SCRIPT = """\
 import sys
 import time

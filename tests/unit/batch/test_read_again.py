@@ -22,7 +22,3 @@ def test_what_crashes_or_cannot_be_read_costs_the_others_nothing(tmp_path: Path)
     found = read_again([dying, None, good, partial(load, tmp_path / "gone.obj"), good])
     assert [mesh is not None for mesh in found] == [False, False, True, False, True]
     assert found[2] and [hull.name for hull in found[2].hulls] == [hull.name for hull in good().hulls]
-
-
-def test_nothing_is_read_for_nothing() -> None:
-    assert read_again([]) == [] and read_again([None, None]) == [None, None]

@@ -149,6 +149,8 @@ def test_of_a_project_what_is_held_or_failed_comes_first_then_alarms_the_least_s
     ]
     assert texts(page, "//article/p[@class='result-status needs-review']") == ["needs review <now>"] * 3
     assert texts(page, "//ul[@class='reasons']/li") == ["rule 1 may mean <b>"] * 7
+    words = ["all", "edited", "failed", "needs review", "sure", "signed off", "excluded", "doubtful"]
+    assert texts(page, "//span[@id='kinds']/button") == words
     assert page.xpath("//div[@class='bar']/i/@class") == ["needs-review", "sure", "signed-off", "excluded"]
 
 

@@ -7,7 +7,7 @@ import json
 import pytest
 
 from benchmark.baselines.agent import Agent
-from benchmark.baselines.refinement import ROUNDS, find_code, refine
+from benchmark.baselines.refinement import ROUNDS, refine
 from benchmark.baselines.replay import Replay, replay_demonstrations
 from benchmark.baselines.verdicts import judge_program
 from benchmark.study import TRUE, Bench, Session
@@ -120,20 +120,3 @@ def test_a_model_that_never_gets_it_ends_as_failure_within_the_rounds(
     judged = Session.of_json(json.loads(json.dumps(judge_program(NAME, TRUE.name, 100, taught.shown, written.text))))
     assert (judged.right, judged.judged) == (False, len(bench.samples) - 2)
     assert judged.failures.keys() == bench.samples.keys() - set(taught.shown)
-
-
-@pytest.mark.parametrize(
-    ("answer", "text"),
-    [
-        ("```\na\n```", "a"),
-        ("x ```a``` y", "x ```a``` y"),
-        ("first\n```mf\na\n```\nthen\n```python\nb\nc\n```\n", "b\nc"),
-        ("```mf\na\nb", "a\nb"),
-        ("a => b", "a => b"),
-        ("  ```mf\n  a\n  ```", "a"),
-        ("```\n```", ""),
-        ("", ""),
-    ],
-)
-def test_the_last_block_of_code_is_the_answer(answer: str, text: str) -> None:
-    assert find_code(answer) == text

@@ -79,18 +79,6 @@ def test_none_and_foreign_words_count_as_wrong_and_repeats_are_held_against_each
     assert (alone.agreement, alone.friedman) == (None, None)
 
 
-def test_labellers_that_ask_nobody(cups: Family) -> None:
-    scores = {}
-    for method in offline(()):
-        assert method.repeats == REPEATS
-        scores[method.name] = score_labels(method, [cups], [[method.tell(cups, repeat)] for repeat in range(3)])
-    assert all(score.agreement == 1.0 and score.friedman is None for score in scores.values())
-    assert scores["propagation, 1 labelled"].accuracy > 0.9
-    assert scores["propagation, 3 labelled"].accuracy > scores["majority, 1 labelled"].accuracy > 0.2
-    assert (scores["names"].accuracy, scores["names"].unlabelled) == (0.0, 1.0)
-    assert {score.cost for score in scores.values()} == {0.0}
-
-
 class Model:
     """A model that knows the meshes by their first picture, and what is wrong with its answers."""
 

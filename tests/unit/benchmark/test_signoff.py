@@ -8,7 +8,6 @@ from dataclasses import asdict, replace
 import pytest
 
 from benchmark.assets import family
-from benchmark.signoff.calibration import calibrate
 from benchmark.signoff.client import Client, FamilyStatus
 from benchmark.signoff.conditions import ERRS
 from benchmark.signoff.judge import Judge, run_on_desk
@@ -114,16 +113,3 @@ def test_each_exception_of_a_group_is_named_and_paid_for(bench: Bench) -> None:
     reply = reviewer.reply(question, bench.truth, None, None)
     assert (reply.choice, reply.exceptions) == (labels[0], {HullPlace(name, other): labels[1]})
     assert reviewer.ledger.total == pytest.approx(price_group(len(hulls), 1) + STROKE)
-
-
-def test_probabilities_that_are_met_are_calibrated_and_order_what_they_can() -> None:
-    fair = [(share, k < 100 * share) for share in (0.2, 0.9) for k in range(100)]
-    found = calibrate(fair)
-    assert found.error == pytest.approx(0.0)
-    assert found.brier == pytest.approx((0.16 + 0.09) / 2)
-    assert found.brier < found.constant
-    assert 0.5 < found.order < 1.0
-    assert found.named == 200  # of 90 wrong ones only 80 are among the first 100
-    assert found.precision == pytest.approx(0.45)
-    assert calibrate([(0.5, True)] * 40).error == pytest.approx(0.5)
-    assert calibrate([(0.1, False)] * 10 + [(0.99, True)] * 90).named == 10

@@ -8,13 +8,11 @@ import numpy as np
 import pytest
 
 from benchmark.assets import CATEGORIES, MERGED, SEPARATE, SETS, SETTINGS, samples
-from benchmark.assets.__main__ import main as make
 from benchmark.assets.decomposition import are_different
 from benchmark.assets.generation import COUNT, category, kinds
-from benchmark.assets.storage import DATA, read
 from benchmark.evaluation.purity import count_impure
 from benchmark.tasks import DIFFICULTIES, EditResult, Task, task, tasks
-from meshforge.geometry import Floats, is_closed, is_convex
+from meshforge.geometry import is_closed, is_convex
 from meshforge.language import Attach, BaseExtractor, Diff, Each, Extractor, Geo, Intersect, Union, size_of
 
 TASKS = tasks()
@@ -84,32 +82,6 @@ def test_a_fifth_of_the_hulls_of_a_merged_set_span_parts_and_hardly_any_separate
 ) -> None:
     assert count_impure(CATEGORIES, group, calibration).share >= 20
     assert count_impure(CATEGORIES, "separate", calibration).share < 2
-
-
-@pytest.mark.parametrize(
-    ("name", "number", "also"), [("knife", 17, ()), ("lamp", 1, ("--settings", "union", "welded"))]
-)
-def test_the_data_are_small_and_made_by_the_command(tmp_path, monkeypatch, name, number, also) -> None:  # type: ignore[no-untyped-def]
-    """All of an asset that is drawn again, and the merged meshes of another, its separate ones kept."""
-    assert sum(path.stat().st_size for path in DATA.iterdir()) < 25e6
-    monkeypatch.setattr("sys.argv", ["make", name, "--out", str(tmp_path), "--only", str(number), *also])
-    make()
-    made = read(tmp_path, name)
-    kept = [row for row in samples(name, settings=SETTINGS) if row.asset.name == f"{name}_{number:02}"]
-    assert [row.name for row in made] == [row.name for row in kept]
-    assert {row.asset.attempt for row in made} == {int(not also)}
-    for one, other in zip(made, kept, strict=True):
-        assert one.shares == other.shares
-        assert all(
-            np.array_equal(_in_order(a.vertices), _in_order(b.vertices))
-            for a, b in zip(one.mesh.hulls, other.mesh.hulls, strict=True)
-        )
-
-
-def _in_order(vertices: Floats) -> Floats:
-    """The vertices in an order of their own: in which one they come says nothing of a hull."""
-    found: Floats = vertices[np.lexsort(vertices.T)]
-    return found
 
 
 def test_there_are_three_tasks_a_category() -> None:

@@ -12,16 +12,14 @@ import pytest
 
 from meshforge.batch import (
     IN_PROCESS,
-    CheckTask,
     Failed,
     apply,
-    check_assets,
     expand,
     make_jobs,
     read_stamp,
 )
 from meshforge.checks import CheckOptions, check, examine_mesh
-from meshforge.common import PluginError, ProgramError, UsageError, plugins
+from meshforge.common import PluginError, plugins
 from meshforge.formats import load, read
 from meshforge.language import All, Each, Program, Rule
 from meshforge.project import Project
@@ -255,16 +253,6 @@ RAISES = ["raise KeyError('x')", "sys.exit(3)", "return None"]
 
 
 @pytest.mark.parametrize("body", RAISES)
-def test_an_asset_fails_when_a_format_raises(run: Run, install: Install, body: str) -> None:
-    package = install("formats", "cube", format_code(body))
-    Path("a.cube").write_text("")
-    cube, table = check_assets(make_jobs(expand(["a.cube", "table.obj"])), CheckTask(CheckOptions()), IN_PROCESS)
-    assert cube and cube.error and table and not table.has_failed
-    assert f"a.cube: the format .cube of the package {package} " in cube.error
-    assert "fault of MeshForge" not in cube.error
-
-
-@pytest.mark.parametrize("body", RAISES)
 def test_an_asset_fails_when_an_action_raises(run: Run, install: Install, body: str) -> None:
     package = install("actions", "Spoil", action_code(body))
     jobs, program = make_jobs(expand(["table.obj"])), Program.parse("All => Spoil\n")
@@ -312,15 +300,6 @@ def test_a_check_that_fails_is_an_error_among_the_findings(run: Run, install: In
 
 
 # Besides
-
-
-def test_a_name_that_no_plug_in_has_is_an_error_that_lists_those_there_are(install: Install) -> None:
-    install("actions", "Spoil", action_code("return GroupEdit()"))
-    install("checks", "odd", broken.HEAD + broken.CHECK.format(body="return []"), package="mf-checks")
-    with pytest.raises(ProgramError, match="Did you mean Spoil"):
-        parse_action("Spoill")
-    with pytest.raises(UsageError, match="Did you mean 'odd'"):
-        CheckOptions.of(["oddd"])
 
 
 def test_outputs_are_made_again_after_an_update_of_the_plug_in(run: Run, install: Install) -> None:

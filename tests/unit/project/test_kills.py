@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -13,7 +14,7 @@ from meshforge.project import Project, demonstrations
 from meshforge.synthesis import Answer, LabelFix, Step
 from tests.unit.batch.families import tree
 from tests.unit.deaths import deaths, needs_fork
-from tests.unit.project.tables import FIRST, THIRD, applied, fresh
+from tests.unit.project.tables import FIRST, SECOND, THIRD, applied
 
 REPAIR = LabelFix(FIRST, "crumb", "misc", "leg")
 CHANGES: dict[str, Callable[[Project], object]] = {
@@ -63,37 +64,21 @@ def test_a_killed_repair_can_be_done_again_and_taken_back(tmp_path: Path) -> Non
     assert not project.feedback().answers_and_fixes
 
 
-def test_answers_at_one_time_are_all_kept(tmp_path: Path) -> None:
+def run_at_one_time(works: Iterable[Callable[[], object]]) -> None:
+    threads = [threading.Thread(target=work) for work in works]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+
+
+def test_what_several_write_at_one_time_is_all_kept(tmp_path: Path) -> None:
     project = applied(tmp_path)
     given = [Answer(rule, asset, None) for rule in (1, 2) for asset in project.assets()]
-    threads = [threading.Thread(target=lambda one=one: Project.open(project.folder).add_answer(one)) for one in given]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
+    run_at_one_time([partial(Project.open(project.folder).add_answer, one) for one in given])
     assert [line.answer for line in project.feedback().answers.values()] == given
-
-
-def test_writers_at_one_time_lose_nothing(tmp_path: Path) -> None:
-    project = fresh(tmp_path)
-    project.set_vocabulary(["top", "leg"])
     names = [hull.name for hull in project.mesh(FIRST).hulls]
-    threads = [
-        threading.Thread(target=lambda name=name: Project.open(project.folder).set_labels(FIRST, {name: "leg"}))
-        for name in names
-    ]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
+    run_at_one_time([partial(Project.open(project.folder).set_labels, FIRST, {name: "leg"}) for name in names])
     assert {hull.name: hull.label for hull in project.mesh(FIRST).hulls} == dict.fromkeys(names, "leg")
-
-
-def test_edits_by_hand_at_one_time_are_all_kept(tmp_path: Path) -> None:
-    project = applied(tmp_path)
-    threads = [threading.Thread(target=lambda: project.correct(FIRST, ["top"], Merge())) for _ in range(3)]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
-    assert len(project.manual_edits(FIRST)) == 3
+    run_at_one_time([partial(project.correct, SECOND, ["top"], Merge())] * 3)
+    assert len(project.manual_edits(SECOND)) == 3

@@ -22,7 +22,7 @@ from meshforge.project import (
 )
 from meshforge.symbolic import Label, read_labels
 from tests.unit.batch.families import tree
-from tests.unit.project.stools import PARTS, boxes, coarse, write_stool
+from tests.unit.project.stools import PARTS, boxes, coarse, create_stools, write_stool
 
 
 @pytest.fixture(scope="module")
@@ -31,16 +31,10 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("stools")
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("MESHFORGE_CACHE", str(folder / "cache"))
-        for name, width in (("a", 0.2), ("b", 0.22)):
-            parts = boxes(width, 0.4)
-            write_stool(folder / "assets", name, parts, parts)
+        project = create_stools(folder, {"a": (0.2, 0.4), "b": (0.22, 0.4)}, spanning="")
         for name, width in (("c", 0.18), ("d", 0.21)):
             parts = boxes(width, 0.4)
             write_stool(folder / "new", name, parts, coarse(parts))
-        project = Project.create(folder / "p", [folder / "assets"], vocabulary=("seat", "leg"))
-        for name in ("a.urdf", "b.urdf"):
-            names = [hull.name for hull in project.mesh(name).hulls]
-            project.set_labels(name, dict(zip(names, PARTS, strict=True)))
         list(project.rebuild_spanning(how=RebuildSettings(0.7), execution=IN_PROCESS))
     return folder
 

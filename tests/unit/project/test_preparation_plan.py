@@ -10,7 +10,7 @@ from meshforge.common import ProjectError
 from meshforge.geometry import VhacdSettings
 from meshforge.project import Project, forget_plan, read_preparation_plan
 from meshforge.project.preparation_plan import extend_plan, find_new_assets
-from tests.unit.project.stools import boxes, write_stool
+from tests.unit.project.stools import boxes, create_stools, write_stool
 
 QUICK = VhacdSettings(resolution=1000)
 
@@ -19,10 +19,7 @@ QUICK = VhacdSettings(resolution=1000)
 def project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Project:
     """Two stools of hulls."""
     monkeypatch.setenv("MESHFORGE_CACHE", str(tmp_path / "cache"))
-    for name, width in (("a", 0.2), ("b", 0.22)):
-        parts = boxes(width, 0.4)
-        write_stool(tmp_path / "assets", name, parts, parts)
-    return Project.create(tmp_path / "p", [tmp_path / "assets/*.urdf"], vocabulary=("seat", "leg"))
+    return create_stools(tmp_path, {"a": (0.2, 0.4), "b": (0.22, 0.4)}, spanning="ab")
 
 
 def write_record(project: Project, asset: str, *steps: dict[str, object]) -> None:
@@ -64,7 +61,7 @@ def test_no_decomposition_is_planned_where_assets_differ(project: Project) -> No
     write_record(project, "b.urdf", settings(resolution=2000))
     plan = read_preparation_plan(project)
     assert plan.decompose == () and plan.unclear is not None
-    assert "vhacd resolution=1000: a.urdf; vhacd resolution=2000: b.urdf" in plan.unclear
+    assert "in 2 ways, so new ones are not decomposed (a.urdf; b.urdf)" in plan.unclear
 
 
 def test_options_of_another_version_are_not_guessed(project: Project) -> None:

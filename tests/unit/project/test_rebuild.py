@@ -16,7 +16,7 @@ from meshforge.labels import spans
 from meshforge.project import PreparationResult, Project, RebuildSettings
 from meshforge.project.preparation_plan import find_new_assets
 from meshforge.symbolic import Label, LabelSource
-from tests.unit.project.stools import PARTS, boxes, coarse, write_stool
+from tests.unit.project.stools import PARTS, boxes, create_stools, write_stool
 
 SURE = 0.7  # two labelled assets do not make it surer
 
@@ -24,13 +24,7 @@ SURE = 0.7  # two labelled assets do not make it surer
 @pytest.fixture(scope="module")
 def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("stools")
-    for name, width, height in (("a", 0.2, 0.4), ("b", 0.22, 0.45), ("c", 0.18, 0.38)):
-        parts = boxes(width, height)
-        write_stool(folder / "assets", name, parts, parts if name != "c" else coarse(parts))
-    project = Project.create(folder / "p", [folder / "assets/*.urdf"], vocabulary=("seat", "leg"))
-    for name in ("a.urdf", "b.urdf"):
-        names = [hull.name for hull in project.mesh(name).hulls]
-        project.set_labels(name, dict(zip(names, PARTS, strict=True)))
+    create_stools(folder, {"a": (0.2, 0.4), "b": (0.22, 0.45), "c": (0.18, 0.38)}, spanning="c")
     return folder
 
 

@@ -10,8 +10,7 @@ from meshforge.cli.review_pictures import draw_question
 from meshforge.project import Project
 from meshforge.signoff import OrientationQuestion, ReviewReply
 from meshforge.signoff.question import NO, YES
-from tests.program_parts import parse_orient
-from tests.unit.project.replying import find_question, look
+from tests.unit.project.replying import look
 from tests.unit.project.turned_racks import racks_on_their_side
 
 
@@ -22,22 +21,6 @@ def project(tmp_path: Path) -> Project:
 
 def asked(project: Project) -> list[OrientationQuestion]:
     return [one for one in look(project).assessment.questions if isinstance(one, OrientationQuestion)]
-
-
-def test_yes_turns_the_assets(project: Project) -> None:
-    (question,) = asked(project)
-    project.reply(question, ReviewReply(question.id, YES))
-    assert project.orientation == parse_orient("orient +Z: Is(leg) -> Is(panel)")
-    assert asked(project) == []
-
-
-def test_no_leaves_them_and_is_not_asked_again_on_another_asset(project: Project) -> None:
-    (question,) = asked(project)
-    project.reply(question, ReviewReply(question.id, NO))
-    result = find_question(look(project), "result", question.asset)
-    project.reply(result, ReviewReply(result.id, "not-solved"))
-    assert project.orientation is None
-    assert asked(project) == []
 
 
 def test_each_choice_has_a_picture_of_the_asset(project: Project) -> None:

@@ -33,13 +33,3 @@ def test_what_a_user_added_beside_all_files_stays(tmp_path: Path) -> None:
     (tmp_path / "notes.txt").write_text("mine")
     assert write_family(TABLES, tmp_path) == 0
     assert (tmp_path / "notes.txt").read_text() == "mine"
-
-
-def test_links_that_lead_nowhere_and_folders_in_place_of_files_are_refused(tmp_path: Path) -> None:
-    (tmp_path / "links").mkdir()
-    (tmp_path / "links" / "table_01.obj").symlink_to(tmp_path / "gone.obj")
-    (tmp_path / "folders" / "table_01.obj").mkdir(parents=True)
-    for folder in ("links", "folders"):
-        with pytest.raises(UsageError, match=r"something else: table_01\.obj"):
-            write_family(TABLES, tmp_path / folder)
-    assert not (tmp_path / "gone.obj").exists()

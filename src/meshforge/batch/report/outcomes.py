@@ -72,8 +72,11 @@ def compare_outcomes(
             continue
         checked, notes = None, outcome.notes
         if measures:
-            checked, problem = _split_checks(next(found))
-            notes = (*notes, *problem)
+            result = next(found)
+            if isinstance(result, WorkerFailure):
+                notes = (*notes, f"the checks did not come to an end: {result.why}")
+            else:
+                checked = result
         else:
             was, pose = to_canonical_frame(was, program.orient, program.contact)
             now = replace(now, hulls=tuple(hull.move(pose) for hull in now.hulls))
@@ -86,12 +89,6 @@ def _describe(line: RuleEffect) -> str | None:
     """The note on what a rule did, with the names that are gone."""
     gone = f"names that are gone: {join_names(line.gone, 5)}" if line.gone else None
     return "; ".join(filter(None, [line.note, gone])) or None
-
-
-def _split_checks(found: Examination | WorkerFailure) -> tuple[Examination | None, tuple[str, ...]]:
-    if isinstance(found, WorkerFailure):
-        return None, (f"the checks did not come to an end: {found.why}",)
-    return found, ()
 
 
 def _examine(work: tuple[Path, SymbolicMesh, CheckOptions, SymbolicMesh | None]) -> Examination:
