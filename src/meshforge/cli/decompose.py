@@ -17,6 +17,7 @@ from meshforge.geometry import DecomposeSettings
 
 _PICTURE = "advice.png"
 _PICTURES = (".png", ".jpg", ".jpeg")
+_OF_POINTS = ("classes", "align")
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,6 +40,21 @@ class DecomposeArguments:
     option: options.EngineOptions = None
     max_vertices: options.MaxVertices = None
     by: options.By = "whole"
+    labels: Annotated[
+        Path | None,
+        typer.Option(
+            "--labels",
+            help="With --by labels or --advise: the file of segmented points, if not the one beside the mesh.",
+            show_default=False,
+        ),
+    ] = None
+    classes: Annotated[
+        str,
+        typer.Option(
+            "--classes", help="The names of classes 0, 1, ... of segmented points: a,b,c.", show_default=False
+        ),
+    ] = ""
+    align: options.Align = None
     advise: Annotated[
         bool,
         typer.Option(
@@ -57,9 +73,13 @@ class DecomposeArguments:
 def decompose(given: DecomposeArguments) -> None:
     """Decompose a mesh into convex hulls by CoACD or V-HACD; the same input gives the same hulls."""
     settings = options.parse_engine_settings(given.method, given.option, given.max_vertices)
+    if given.by != "labels" and not given.advise:
+        options.refuse_options(given.context, ("labels", *_OF_POINTS), "--by labels")
     if given.advise:
         options.refuse_with(given.context, ("by",), "--advise, which tries both")
         options.refuse_hull(given.method, "--advise")
+        if given.labels is None:
+            options.refuse_options(given.context, _OF_POINTS, "--labels FILE")
         _advise(given, settings)
         return
     options.refuse_options(given.context, ("json",), "--advise")
@@ -70,6 +90,7 @@ def decompose(given: DecomposeArguments) -> None:
             given.mesh,
             settings,
             by=given.by,
+            labels=_segmentation_of(given),
             hollow=given.hollow,
             timeout=given.timeout,
             cache=given.cache,
@@ -90,6 +111,7 @@ def _advise(given: DecomposeArguments, settings: DecomposeSettings) -> None:
             given.mesh,
             settings,
             hollow=given.hollow,
+            labels=_segmentation_of(given),
             timeout=given.timeout,
             cache=given.cache,
             progress=shown.show,
@@ -104,6 +126,15 @@ def _advise(given: DecomposeArguments, settings: DecomposeSettings) -> None:
         picture.parent.mkdir(parents=True, exist_ok=True)
         write_picture(picture, advice.draw())
         remark(f"wrote {picture}")
+
+
+def _segmentation_of(given: DecomposeArguments) -> formats.SegmentationFile | None:
+    """The file that says what the parts are; None where no parts by labels are asked for, or no file is beside the
+    mesh, which is an error then."""
+    beside = formats.points_beside(formats.labels_beside(given.mesh)) if given.by == "labels" else None
+    path = given.labels or beside
+    classes = tuple(options.split_words(given.classes))
+    return formats.SegmentationFile(path, classes, given.align or "check") if path else None
 
 
 def _picture_path(out: Path | None, overwrite: bool) -> Path | None:

@@ -172,11 +172,11 @@ def _to_parameter(field: Field[Any], hint: Any) -> Parameter:
 
 
 By = Annotated[
-    Literal["whole", "parts"],
+    Literal["whole", "parts", "labels"],
     typer.Option(
         "--by",
         help="Decompose a mesh at once, or each of its parts by itself, so that no hull crosses from one to another: "
-        "its groups, nodes and materials.",
+        "its groups, nodes and materials, or what the labels of points beside it (MESH.points.npz) say.",
     ),
 ]
 

@@ -18,7 +18,7 @@ from meshforge.common.plugins import Targets, make_target
 from meshforge.formats.base import Format, ReadOptions, SpecObject, StageObject
 from meshforge.formats.meshfile.surface import FARTHEST
 from meshforge.formats.plugin_format import guard_format
-from meshforge.formats.segmentation import is_segmentation
+from meshforge.formats.segmentation.reader import is_segmentation
 
 if TYPE_CHECKING:
     from meshforge.formats.engine_names.conventions import MarkName

@@ -14,7 +14,7 @@ import numpy as np
 from meshforge import geometry
 from meshforge.checks import measure_kept_space
 from meshforge.common import pluralize
-from meshforge.formats import DecomposeBy, decompose, read_surface
+from meshforge.formats import DecomposeBy, SegmentationFile, decompose, label_surface, read_surface
 from meshforge.geometry import CoacdSettings, DecomposeSettings, Ints, Polytope, VhacdSettings
 from meshforge.symbolic import Surface, SymbolicMesh
 
@@ -90,6 +90,7 @@ def advise_decomposition(
     settings: DecomposeSettings | None = None,
     *,
     hollow: bool = False,
+    labels: SegmentationFile | None = None,
     timeout: float | None = None,
     cache: bool = True,
     progress: Callable[[str], None] = lambda _: None,
@@ -97,11 +98,16 @@ def advise_decomposition(
     """Return what three thresholds of CoACD, or most counts of V-HACD, make of a mesh file, as a whole and by known
     parts.
 
-    settings: all else about the engine; timeout [s]: of each decomposition. Raises AssetError, GeometryError.
+    settings: all else about the engine; labels: segmented points that say what the parts are, None for those
+    that the file names; timeout [s]: of each decomposition. Raises AssetError, GeometryError.
     """
-    _, surface = read_surface(mesh)
+    path, surface = read_surface(mesh)
+    notes: list[str] = []
+    if labels:
+        surface = label_surface(path, surface, labels, notes.append)
     regions, judged = find_regions(surface)
-    ways: list[DecomposeBy] = ["whole", "parts"] if surface.parts and surface.parts.is_divided else ["whole"]
+    by_parts: DecomposeBy = "labels" if labels else "parts"
+    ways: list[DecomposeBy] = ["whole", by_parts] if surface.parts and surface.parts.is_divided else ["whole"]
     results = []
     rows = list(itertools.product(ways, _list_settings(settings or CoacdSettings())))
     for number, (by, (title, own)) in enumerate(rows, 1):
@@ -111,14 +117,14 @@ def advise_decomposition(
         def more(text: str, head: str = head) -> None:
             progress(f"{head}: {text}")
 
-        made = decompose(mesh, own, by=by, hollow=hollow, timeout=timeout, cache=cache, progress=more)
+        made = decompose(mesh, own, by=by, labels=labels, hollow=hollow, timeout=timeout, cache=cache, progress=more)
         hulls = [hull.shape for hull in made.hulls if isinstance(hull.shape, Polytope)]
         spanning = None if regions is None else 0  # by parts, each hull is made of the surface of one
         if regions is not None and by == "whole":
             spanning = int(find_spanning(surface, regions, hulls).sum())
         results.append(DecompositionCandidate(title, by, made, spanning, measure_kept_space(surface, hulls)))
     up: Literal["Y", "Z"] = "Y" if Path(mesh).suffix.lower() in (".glb", ".gltf") else "Z"
-    return DecompositionAdvice(judged, tuple(results), up)
+    return DecompositionAdvice("; ".join([judged, *notes]), tuple(results), up)
 
 
 def _list_settings(settings: DecomposeSettings) -> list[tuple[str, DecomposeSettings]]:

@@ -9,6 +9,7 @@ import sys
 from importlib.metadata import version
 from pathlib import Path
 
+import numpy as np
 import pytest
 from PIL import Image
 
@@ -209,6 +210,12 @@ def test_advice_does_not_judge_one_solid_without_parts(run: Run) -> None:
         ((), "nothing says what to write"),
         (("-o", "h.obj", "--json"), "--json says nothing without --advise"),
         (("--advise", "--by", "parts"), "--by does not go with --advise"),
+        (("--advise", "--classes", "a,b"), "--classes says nothing without --labels FILE"),
+        (("-o", "h.obj", "--labels", "row.points.npz"), "--labels says nothing without --by labels"),
+        (("-o", "h.obj", "--by", "parts", "--align", "box"), "--align says nothing without --by labels"),
+        (("-o", "h.obj", "--by", "labels"), "no labels of points lie beside it"),
+        (("-o", "h.obj", "--by", "labels", "--labels", "gone.npz"), "gone.npz: cannot be read"),
+        (("-o", "h.obj", "--by", "labels", "--labels", "row.obj"), ".obj is no kind of segmented points"),
         (("--advise", "-o", "h.obj"), "writes a picture, no hulls"),
     ],
 )
@@ -216,6 +223,24 @@ def test_options_of_decompose_that_do_not_fit_are_refused(run: Run, words: tuple
     told = run("decompose", "row.obj", *words)
     assert told.code == 2 and problem in told.err
     assert not Path("h.obj").exists()
+
+
+@pytest.mark.slow
+def test_hulls_by_labels_of_points_are_called_by_their_classes(run: Run) -> None:
+    Path("bar.obj").write_text(CUBE.format(*range(1, 9), name="bar", x=0, x1=3))
+    half = np.arange(3000) / 1000
+    sides = [np.column_stack([half, half * 7 % 1, np.full(3000, z)]) for z in (0.0, 1.0)]
+    points = np.concatenate([*sides, *(side[:, [0, 2, 1]] for side in sides)])
+    np.savez("said.npz", points=points * 2, labels=(points[:, 0] > 1.5).astype(int))
+    words = ("decompose", "bar.obj", "-o", "hulls.obj", "--by", "labels", "--labels", "said.npz", *QUICK_VOXELS)
+    told = run(*words)
+    assert told.code == 2 and "They would fit with --align box." in told.err
+    told = run(*words, "--align", "box", "--classes", "left,right")
+    assert told.code == 0, told.err
+    assert "are mostly of another part" in told.err, "triangles as long as the bar"
+    assert {hull["name"][:4] for hull in run("info", "hulls.obj", "--json").json["hulls"]} <= {"left", "righ"}
+    told = run("decompose", "bar.obj", "--advise", "--labels", "said.npz", "--align", "box", *QUICK_VOXELS)
+    assert told.code == 0 and "span parts: " in told.out
 
 
 def test_decompose_lists_the_options_when_one_is_unknown(run: Run) -> None:

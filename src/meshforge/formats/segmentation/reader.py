@@ -1,5 +1,5 @@
 """Points with a class each, as segmentations (Find3D) and datasets (PartNet) give them: where their files lie beside an
-asset, what they hold, and how they come into its frame."""
+asset, and what they hold."""
 
 from __future__ import annotations
 
@@ -8,25 +8,19 @@ import zipfile
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from meshforge.common import AssetError, pluralize
-from meshforge.geometry import Aabb, Floats, Ints
+from meshforge.geometry import Floats, Ints
 
 POINTS_SUFFIXES = (".ply", ".npz", ".npy")
 """The suffixes of segmented points; the last, which other segmentations write, is found so that it is refused."""
 POINTS_MARK = ".points"
 """What their names end with before the suffix: `table.points.npz`."""
 
-Up = Literal["y", "z"]
-AlignMode = Literal["check", "box", "off"]
-"""How points come into the frame of an asset: as they are if they fit, turned upright, scaled evenly and moved so that
-the boxes fit, or as they are in any case."""
-_TO_Z = np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]])  # points as rows, Y up, to those with Z up
-_SLACK = 0.05  # of the diagonal of an asset: how far its box and that of its points may be apart at any side
 _POINTS = ("points", "xyz", "coord", "coords", "pts", "vertices")
 _LABELS = ("label", "labels", "scalar_label", "part_id", "segment", "seg", "semantic", "class", "pred")
 _LARGEST = 2**31
@@ -149,45 +143,3 @@ def _to_whole_numbers(array: npt.NDArray[Any], where: str) -> Ints:
 
 def _describe_shape(array: npt.NDArray[Any]) -> str:
     return f"{' x '.join(map(str, array.shape)) or 'no'} values of type {array.dtype}"
-
-
-def align_points(points: Floats, boxes: Sequence[Aabb], align: AlignMode, where: str, up: Up | None = None) -> Floats:
-    """Return points (n, 3) in the frame of an asset; boxes: of its hulls, and of what it shows; where: their file; up:
-    the axis of the asset that points up: where that is Y, points that do not fit have Z up, else Y.
-
-    Raises AssetError where the box of the points fits none of them, with what would make it fit.
-    """
-    if align == "off" or _box_distance(points, boxes) <= _SLACK:
-        return points
-    fitted = [found for turn in (np.eye(3), _TO_Z.T if up == "y" else _TO_Z) for found in _fit(points @ turn, boxes)]
-    best = min(fitted, key=lambda found: _box_distance(found, boxes), default=points)
-    fits = _box_distance(best, boxes) <= _SLACK
-    if fits and align == "box":
-        return best
-    raise AssetError(
-        f"its points do not lie where the asset does: they are in a box {_describe_box(Aabb.of_points(points))}, "
-        f"the hulls in a box {_describe_box(boxes[0])}",
-        where=where,
-        remedy="They would fit with --align box." if fits else "Export them in the frame of the asset, in metres.",
-    )
-
-
-def _fit(points: Floats, boxes: Sequence[Aabb]) -> list[Floats]:
-    """Points scaled and moved to the diagonal and the middle of each box."""
-    own = Aabb.of_points(points)
-    if not own.diagonal > 0:
-        return []
-    return [(points - own.center) * (box.diagonal / own.diagonal) + box.center for box in boxes]
-
-
-def _box_distance(points: Floats, boxes: Sequence[Aabb]) -> float:
-    """How far the box of points is from the nearest of some, as a share of its diagonal."""
-    own = Aabb.of_points(points)
-    return min(
-        float(max(np.abs(own.min - box.min).max(), np.abs(own.max - box.max).max())) / box.diagonal for box in boxes
-    )
-
-
-def _describe_box(box: Aabb) -> str:
-    size, middle = (" ".join(f"{x:.3g}" for x in values) for values in (box.size, box.center))
-    return f"of {size} m around {middle}"

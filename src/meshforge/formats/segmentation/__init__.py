@@ -1,0 +1,1 @@
+"""Points that another tool gave classes, and the names of these classes."""
