@@ -73,7 +73,6 @@ def forget_plugins() -> None:
     """Look for plug-ins anew, as after a package was installed."""
     plugins._adopted.clear()
     plugins._find.cache_clear()
-    plugins._read_mentions.cache_clear()
 
 
 def format_code(body: str) -> str:
@@ -408,11 +407,11 @@ def test_outputs_are_made_again_after_an_update_of_the_plug_in(run: Run, install
 def test_nothing_is_looked_for_where_only_built_in_names_are_used(
     run: Run, install: Install, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def refuse() -> frozenset[str]:
+    def refuse(kind: str) -> tuple[plugins.Plugin, ...]:
         raise AssertionError("plug-ins were looked for")
 
     forget_plugins()
-    monkeypatch.setattr("meshforge.common.plugins._read_mentions", refuse)
+    monkeypatch.setattr("meshforge.common.plugins._find", refuse)
     Path("p.mf").write_text("Is(leg) => Merge\n")
     assert run("info", "table.obj").code == 0
     assert run("fmt", "p.mf").code == 0

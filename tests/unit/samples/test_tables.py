@@ -10,25 +10,13 @@ import pytest
 
 from meshforge.formats import load, read
 from meshforge.language import (
-    DIRECTIONS,
-    All,
-    Attach,
-    BaseExtractor,
-    Diff,
-    Extractor,
-    Geo,
-    Intersect,
-    Is,
     Program,
     RunResult,
     Template,
-    Union,
     orient_mesh,
-    select_mask,
-    size_of,
 )
 from meshforge.samples import TABLES
-from meshforge.symbolic import Asset, SymbolicMesh, mask_of
+from meshforge.symbolic import Asset, SymbolicMesh
 from script.samples.__main__ import make_table, write_common
 from script.samples.family import FAMILY
 from script.samples.part import LABELS
@@ -108,61 +96,6 @@ def test_it_comes_to_stand_upright_and_square(name: str) -> None:
     yaw = np.degrees(np.arctan2(turn[1, 0], turn[0, 0]))
     assert tilt < 0.35
     assert abs((yaw + 45) % 90 - 45) < 0.1
-
-
-@pytest.mark.parametrize("name", NAMES)
-def test_the_edited_top_is_as_high_and_as_wide_as_the_top_was(name: str) -> None:
-    back = recipe(name).pose.inverse()
-    (box,) = (hull for hull in result(name).mesh.hulls if hull.name in result(name).trace[1].made)
-    made = box.move(back).aabb
-    parts = [part for part in recipe(name).parts if part.label == "panel"]
-    bounds = np.array([part.solid.bounding_box() for part in parts])
-    top = bounds[bounds[:, 5] > bounds[:, 5].max() - 0.1]
-    assert made.max == pytest.approx(top[:, 3:].max(axis=0), abs=0.006)
-    assert made.min == pytest.approx(top[:, :3].min(axis=0), abs=0.006)
-
-
-@pytest.mark.parametrize("name", NAMES)
-def test_drawers_stay_clear_of_the_top_the_legs_and_each_other(name: str) -> None:
-    edited = result(name).mesh
-    for i, j in edited.contacts:
-        labels = {edited.hulls[i].label, edited.hulls[j].label}
-        assert labels not in ({"drawer", "panel"}, {"drawer", "leg"}), (edited.hulls[i].name, edited.hulls[j].name)
-
-
-def small_extractors() -> list[Extractor]:
-    """Every extractor of at most three nodes over the family's labels."""
-    base: list[BaseExtractor] = [All(), *(Is(label) for label in LABELS)]
-    pairs = [(a, b) for a in base for b in base]
-    return [
-        *base,
-        *(Geo(a, d) for a in base for d in DIRECTIONS),
-        *(Attach(a, b) for a, b in pairs),
-        *(kind(a, b) for kind in (Union, Intersect, Diff) for a, b in pairs if a != b),
-    ]
-
-
-def test_the_two_demonstrated_tables_leave_no_other_extractor_as_small() -> None:
-    shown = ("table_03", "table_08")
-    replays = [program().replay(mesh(name), templates()) for name in shown]
-    for number, rule in enumerate(program().rules):
-        picked = [result(name).trace[number].selected for name in shown]
-        current = [next(replay).mesh for replay in replays]
-        wanted = [mask_of(m.index[n] for n in names) for names, m in zip(picked, current, strict=True)]
-        known = size_of(rule.extractor)
-        fitting = [
-            e
-            for e in small_extractors()
-            if size_of(e) <= known and [select_mask(e, m, 0.05) for m in current] == wanted
-        ]
-        assert fitting == [rule.extractor]
-
-
-def test_the_template_is_an_open_tray_in_the_unit_cube() -> None:
-    (tray,) = templates().values()
-    assert len(tray.shapes) == 5
-    assert np.array([tray.aabb.min, tray.aabb.max]).tolist() == [[0, 0, 0], [1, 1, 1]]
-    assert sum(shape.volume for shape in tray.shapes) == pytest.approx(1 - 0.88 * 0.88 * 0.94)
 
 
 @pytest.mark.long
