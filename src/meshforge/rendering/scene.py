@@ -67,16 +67,13 @@ def _revolve(profile: Floats, sides: int, pose: Pose, scales: Floats) -> RenderM
     """The surface that a profile (k, 4) sweeps about Z, scaled along the axes, then posed."""
     turn = np.arange(sides) * (2 * np.pi / sides)
     circle = np.column_stack([np.cos(turn), np.sin(turn)])
-    points, normals = (_sweep(profile[:, k : k + 2], circle) for k in (0, 2))
+    points, normals = np.empty((2, len(profile), sides, 3))
+    for swept, rings in ((points, profile[:, :2]), (normals, profile[:, 2:])):  # each ring a radius and a height
+        swept[..., :2], swept[..., 2] = rings[:, None, :1] * circle, rings[:, 1:]
+    points, normals = points.reshape(-1, 3), normals.reshape(-1, 3)
     normals = normals / scales @ pose.rotation.T
     normals /= np.linalg.norm(normals, axis=1, keepdims=True)
     return RenderMesh(pose.apply(points * scales), _ring_faces(profile, sides), normals)
-
-
-def _sweep(rings: Floats, circle: Floats) -> Floats:
-    """Points (k * sides, 3) of rings (k, 2), each a radius and a height."""
-    flat = rings[:, None, :1] * circle[None]
-    return np.concatenate([flat, np.broadcast_to(rings[:, None, 1:], (*flat.shape[:2], 1))], axis=2).reshape(-1, 3)
 
 
 def _ring_faces(profile: Floats, sides: int) -> Ints:
