@@ -1,8 +1,7 @@
 """Physics engines: what each takes of hulls, and what it makes of the rest."""
 
 from meshforge.engines.limits import Engine, Finding, Limit, Severity, check_limits, make_limit
-from meshforge.engines.notes import note_limits
-from meshforge.engines.table import ENGINES, find_engine
+from meshforge.engines.table import ENGINES, find_engine, note_limits
 
 __all__ = [
     "ENGINES",
