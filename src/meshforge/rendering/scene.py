@@ -10,7 +10,7 @@ from typing import Any, assert_never
 import numpy as np
 
 from meshforge.common import MeshForgeError
-from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Floats, Ints, Polytope, Pose, Shape, Sphere
+from meshforge.geometry import Capsule, Cylinder, Ellipsoid, Floats, Ints, Pose, Shape, Sphere
 from meshforge.rendering.camera import Camera, Floats32
 from meshforge.symbolic import Surface
 
@@ -48,9 +48,7 @@ def to_render_mesh(shape: Shape | Surface, sides: int = 96) -> RenderMesh:
             middle, straight = len(dome) // 2 + 1, np.array([0.0, shape.half_length / shape.radius, 0.0, 0.0])
             profile = np.concatenate([dome[:middle] - straight, dome[middle - 1 :] + straight])
             return _revolve(profile, sides, shape.pose, np.full(3, shape.radius))
-        case Box() | Polytope() | Surface():
-            return RenderMesh(shape.vertices, shape.faces)
-        case Shape():
+        case Shape() | Surface():
             return RenderMesh(shape.vertices, shape.faces)
         case _:
             assert_never(shape)
