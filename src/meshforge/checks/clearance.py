@@ -11,6 +11,7 @@ import numpy as np
 from meshforge.checks import grid as voxels
 from meshforge.checks.base import NO_VISUAL_MESH, CheckFindings, CheckSubject, Measure, MeasureCheck
 from meshforge.checks.grid import Grid, Mask, flood_from_outside, grid_around, voxelize_hulls, voxelize_surface
+from meshforge.checks.surface_samples import join_corners
 from meshforge.common import join_names
 from meshforge.engines import Finding
 from meshforge.geometry import Aabb, Floats, Shape, convex_hull, is_sheet
@@ -130,7 +131,7 @@ def measure_clearance(
     Space counts as reachable where a path of free cells leads to it from outside: an opening narrower than about two
     cells counts as closed.
     """
-    corners = np.zeros((0, 3, 3)) if before else visual_corners(mesh)
+    corners = join_corners(() if before or not mesh.asset else mesh.asset.visuals)
     if (not len(corners) and not before) or not mesh.hulls:
         return None
     boxes = [h.aabb for m in (mesh, before) if m for h in m.hulls]
@@ -158,14 +159,6 @@ def measure_kept_space(surface: Surface, shapes: Sequence[Shape]) -> float | Non
         return None
     closed = whole & ~flood_from_outside(voxelize_hulls(grid, shapes))
     return 1.0 - np.count_nonzero(voxels.find_pockets(closed)[0]) / np.count_nonzero(whole)
-
-
-def visual_corners(mesh: SymbolicMesh) -> Floats:
-    """Return the triangles (m, 3, 3) of all that the asset of a mesh shows; those that are not finite are left out."""
-    surfaces = [s for s in mesh.asset.visuals if len(s.faces)] if mesh.asset else []
-    corners = np.concatenate([s.vertices[s.faces] for s in surfaces]) if surfaces else np.zeros((0, 3, 3))
-    finite: Floats = corners[np.isfinite(corners).all(axis=(1, 2))]
-    return finite
 
 
 def _measure(mesh: SymbolicMesh, before: SymbolicMesh | None, corners: Floats, grid: Grid) -> Clearance:

@@ -11,7 +11,7 @@ import numpy as np
 from meshforge.checks.base import NO_VISUAL_MESH, CheckFindings, CheckSubject, Measure, MeasureCheck
 from meshforge.checks.grid import Grid, Mask, flood_from_outside, grid_around, voxelize_surface
 from meshforge.checks.legality import find_oddities
-from meshforge.checks.surface_samples import SurfaceIndex
+from meshforge.checks.surface_samples import SurfaceIndex, join_corners
 from meshforge.common import join_names
 from meshforge.engines import Finding
 from meshforge.geometry import Aabb, Floats, Ints, planes_of
@@ -184,21 +184,15 @@ def _pair_by_body(
 ) -> tuple[list[tuple[tuple[Hull, ...], Floats]], tuple[str, ...]]:
     """The hulls of each body with the triangles that it shows; and the bodies that show nothing."""
     if any(surface.body is None for surface in surfaces):
-        return [(tuple(hulls), _corners(surfaces))] if hulls else [], ()
+        return [(tuple(hulls), join_corners(surfaces))] if hulls else [], ()
     pairs, silent = [], []
     for body in dict.fromkeys(hull.body for hull in hulls):
-        corners = _corners([s for s in surfaces if s.body == body])
+        corners = join_corners([s for s in surfaces if s.body == body])
         if len(corners):
             pairs.append((tuple(h for h in hulls if h.body == body), corners))
         else:
             silent.append(body)
     return pairs, tuple(silent)
-
-
-def _corners(surfaces: Sequence[Surface]) -> Floats:
-    found = np.concatenate([s.vertices[s.faces] for s in surfaces]) if surfaces else np.zeros((0, 3, 3))
-    finite: Floats = found[np.isfinite(found).all(axis=(1, 2))]
-    return finite
 
 
 def _build_group(hulls: tuple[Hull, ...], corners: Floats, cell: float | None) -> FitGroup:

@@ -24,6 +24,7 @@ _PAD = 2
 _SPACING = 0.44  # of points on a surface, in cells: so each point has one within half a cell, and nothing slips through
 _AT_ONCE = 2_000_000  # columns times planes
 _LEVEL = 1e-12
+_LEAST_POCKET = 27  # cells
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -118,10 +119,10 @@ def flood_from_outside(taken: Mask) -> Mask:
     return np.asarray(parts == parts[0, 0, 0])
 
 
-def find_pockets(mask: Mask, least: int = 27) -> tuple[Ints, int]:
+def find_pockets(mask: Mask) -> tuple[Ints, int]:
     """Return connected groups of cells, numbered from 1 in order of size, the largest first, and how many there are.
 
-    Layers of one or two cells, in which rounding to cells shows, belong to none; nor do groups of fewer than `least`.
+    Layers of one or two cells, in which rounding to cells shows, belong to none; nor do groups of fewer than 27.
     """
     from scipy.ndimage import binary_dilation, binary_opening, generate_binary_structure, label  # lazy: 0.3 s
 
@@ -129,7 +130,7 @@ def find_pockets(mask: Mask, least: int = 27) -> tuple[Ints, int]:
     parts, count = label(binary_dilation(binary_opening(mask, cross), cross) & mask, cross)
     sizes = np.bincount(parts.ravel(), minlength=count + 1)
     sizes[0] = 0
-    order = np.argsort(-sizes, kind="stable")[: int((sizes >= least).sum())]
+    order = np.argsort(-sizes, kind="stable")[: int((sizes >= _LEAST_POCKET).sum())]
     number = np.zeros(count + 1, np.int64)
     number[order] = np.arange(1, len(order) + 1)
     return number[parts], len(order)

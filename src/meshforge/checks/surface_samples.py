@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from meshforge.geometry import Floats, Ints, nearest_on_triangles
+from meshforge.symbolic import Surface
 
 MOST_POINTS = 30_000_000
 """Points at most by default, over all chunks; a spacing that would give more is made wider."""
@@ -77,6 +78,13 @@ def _turn_to_longest(corners: Floats) -> Floats:
     order = (first[:, None] + np.arange(3)) % 3
     turned: Floats = corners[np.arange(len(corners))[:, None], order]
     return turned
+
+
+def join_corners(surfaces: Sequence[Surface]) -> Floats:
+    """Return the triangles (m, 3, 3) of some surfaces; those that are not finite are left out."""
+    corners = np.concatenate([np.zeros((0, 3, 3)), *(s.vertices[s.faces] for s in surfaces if len(s.faces))])
+    finite: Floats = corners[np.isfinite(corners).all(axis=(1, 2))]
+    return finite
 
 
 class SurfaceIndex:

@@ -1,119 +1,25 @@
 """What every package needs and what knows nothing of meshes: errors, atomic files, words for messages."""
 
-from meshforge.common.extras import import_extra, require_mujoco
-from meshforge.common.files import (
-    DISK_ERRORS,
-    FileState,
-    FileStates,
-    confine_reads,
-    do_at_once,
-    expand_glob,
-    file_digest,
-    file_state,
-    file_states,
-    find_drafts,
-    is_beyond_reach,
-    is_file,
-    is_link_cycle,
-    plain_path,
-    quote_path,
-    relative_name,
-    replace_atomically,
-    write_all_atomically,
-    write_atomically,
-)
-from meshforge.common.messages import (
-    AssetError,
-    CollisionLossError,
-    DemonstrationError,
-    GeometryError,
-    HullNotFoundError,
-    MeshForgeError,
-    PluginError,
-    ProgramError,
-    ProjectError,
-    StoppedError,
-    UsageError,
-    describe_error,
-    escape_name,
-    escape_text,
-    format_share,
-    is_text,
-    join_and,
-    join_names,
-    nearest_name,
-    pluralize,
-    suggest_among,
-    suggest_match,
-    suggest_name,
-    to_text,
-)
-from meshforge.common.plugins import (
-    PLUGIN_KINDS,
-    Plugin,
-    PluginKind,
-    Registry,
-    adopt_plugins,
-    blame,
-    collect_plugins,
-    find_plugins,
-)
-from meshforge.common.validation import describe_invalid_field, first_validation_error
+from __future__ import annotations
 
-__all__ = [
-    "DISK_ERRORS",
-    "PLUGIN_KINDS",
-    "AssetError",
-    "CollisionLossError",
-    "DemonstrationError",
-    "FileState",
-    "FileStates",
-    "GeometryError",
-    "HullNotFoundError",
-    "MeshForgeError",
-    "Plugin",
-    "PluginError",
-    "PluginKind",
-    "ProgramError",
-    "ProjectError",
-    "Registry",
-    "StoppedError",
-    "UsageError",
-    "adopt_plugins",
-    "blame",
-    "collect_plugins",
-    "confine_reads",
-    "describe_error",
-    "describe_invalid_field",
-    "do_at_once",
-    "escape_name",
-    "escape_text",
-    "expand_glob",
-    "file_digest",
-    "file_state",
-    "file_states",
-    "find_drafts",
-    "find_plugins",
-    "first_validation_error",
-    "format_share",
-    "import_extra",
-    "is_beyond_reach",
-    "is_file",
-    "is_link_cycle",
-    "is_text",
-    "join_and",
-    "join_names",
-    "nearest_name",
-    "plain_path",
-    "pluralize",
-    "quote_path",
-    "relative_name",
-    "replace_atomically",
-    "require_mujoco",
-    "suggest_among",
-    "suggest_match",
-    "suggest_name",
-    "to_text",
-    "write_all_atomically",
-    "write_atomically",
-]
+from meshforge.common.exports import export_lazily
+
+__getattr__, __all__ = export_lazily(
+    __name__,
+    {
+        "extras": "import_extra require_mujoco",
+        "files": (
+            "DISK_ERRORS FileState FileStates confine_reads do_at_once expand_glob file_digest file_state "
+            "file_states find_drafts is_beyond_reach is_file is_link_cycle plain_path quote_path relative_name "
+            "replace_atomically write_all_atomically write_atomically"
+        ),
+        "messages": (
+            "AssetError CollisionLossError DemonstrationError GeometryError HullNotFoundError MeshForgeError "
+            "PluginError ProgramError ProjectError StoppedError UsageError describe_error escape_name escape_text "
+            "format_share is_text join_and join_names nearest_name pluralize suggest_among suggest_match "
+            "suggest_name to_text"
+        ),
+        "plugins": "PLUGIN_KINDS Plugin PluginKind Registry adopt_plugins blame collect_plugins find_plugins",
+        "validation": "describe_invalid_field first_validation_error",
+    },
+)

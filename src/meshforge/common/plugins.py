@@ -3,8 +3,6 @@ and named in every error that they cause."""
 
 from __future__ import annotations
 
-import os
-import sys
 from collections.abc import Callable, Collection, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
@@ -24,12 +22,6 @@ _WORDS = {
     "checks": "check ",
 }
 _GROUP = "meshforge."
-_ENTRY_POINTS = {
-    "dist-info": "entry_points.txt",
-    "egg-info": "entry_points.txt",
-    "egg": "EGG-INFO/entry_points.txt",
-}
-"""Where packages name their entry points, by the suffix of their folders."""
 
 T = TypeVar("T")
 
@@ -113,9 +105,7 @@ def adopt_plugins(known: Mapping[PluginKind, tuple[Plugin, ...]]) -> None:
 
 @cache
 def _find(kind: PluginKind) -> tuple[Plugin, ...]:
-    if f"[{_GROUP}{kind}]" not in _read_mentions():
-        return ()
-    from importlib.metadata import entry_points  # lazy: it takes 0.02 s, and most people have no plug-in
+    from importlib.metadata import entry_points  # lazy: it takes 0.02 s, and only names that are not built in need it
 
     found = {
         Plugin(kind, point.name, point.dist.name, point.dist.version, point.value.partition("[")[0].strip())
@@ -123,33 +113,6 @@ def _find(kind: PluginKind) -> tuple[Plugin, ...]:
         if point.dist
     }
     return tuple(sorted(found, key=lambda one: (one.name, one.package)))
-
-
-@cache
-def _read_mentions() -> frozenset[str]:
-    """The groups of plug-ins that entry points of any package name, read ten times as fast as by importlib.metadata.
-
-    A path that is no folder, such as a zip file, may hold all of them.
-    """
-    groups = {f"[{_GROUP}{kind}]" for kind in PLUGIN_KINDS}
-    found = set[str]()
-    for base in dict.fromkeys(sys.path):
-        if os.path.isfile(base):  # noqa: PTH113 (of a hundred packages, pathlib takes most of the time)
-            return frozenset(groups)
-        with suppress(OSError):
-            for name in os.listdir(base or "."):  # noqa: PTH208 (as above)
-                if place := _ENTRY_POINTS.get(name.rpartition(".")[2]):
-                    text = _read_text(f"{base or '.'}/{name}/{place}")
-                    found |= {group for group in groups if group in text} if _GROUP in text else set()
-    return frozenset(found)
-
-
-def _read_text(path: str) -> str:
-    try:
-        with open(path, encoding="utf-8", errors="replace") as stream:  # noqa: PTH123 (as above)
-            return stream.read()
-    except OSError:
-        return ""
 
 
 class Registry(Mapping[str, T], Generic[T]):

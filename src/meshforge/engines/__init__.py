@@ -1,17 +1,13 @@
 """Physics engines: what each takes of hulls, and what it makes of the rest."""
 
-from meshforge.engines.limits import Engine, Finding, Limit, Severity, check_limits, make_limit
-from meshforge.engines.notes import note_limits
-from meshforge.engines.table import ENGINES, find_engine
+from __future__ import annotations
 
-__all__ = [
-    "ENGINES",
-    "Engine",
-    "Finding",
-    "Limit",
-    "Severity",
-    "check_limits",
-    "find_engine",
-    "make_limit",
-    "note_limits",
-]
+from meshforge.common.exports import export_lazily
+
+__getattr__, __all__ = export_lazily(
+    __name__,
+    {
+        "limits": "Engine Finding Limit Severity check_limits make_limit",
+        "table": "ENGINES find_engine note_limits",
+    },
+)

@@ -17,8 +17,8 @@ import numpy as np
 
 from meshforge.common import GeometryError
 from meshforge.geometry.arrays import Floats, Ints
-from meshforge.geometry.round_shapes import Capsule, Cylinder, Ellipsoid, Sphere
-from meshforge.geometry.shape import Box, Polytope, Shape
+from meshforge.geometry.round_shapes import place_primitive
+from meshforge.geometry.shape import Polytope, Shape
 from meshforge.geometry.solids import cut
 
 _TOLERANCE = 1e-10  # coal's default, 1e-6, is its error on curved shapes; below 1e-11 its iteration begins to stray
@@ -65,20 +65,8 @@ def _place(shape: Shape, origin: Floats, unit: float) -> CoalObject:
         mesh.addTriangles(shape.faces)
         mesh.buildConvexRepresentation(False)
         return mesh.convex, coal.Transform3s()
-    match shape:
-        case Box():
-            made = coal.Box(*(2 * shape.half / unit))
-        case Sphere():
-            made = coal.Sphere(shape.radius / unit)
-        case Cylinder():
-            made = coal.Cylinder(shape.radius / unit, 2 * shape.half_length / unit)
-        case Capsule():
-            made = coal.Capsule(shape.radius / unit, 2 * shape.half_length / unit)
-        case Ellipsoid():
-            made = coal.Ellipsoid(*(shape.radii / unit))
-        case _:
-            raise TypeError(f"no distance for shapes of kind {shape.kind}")
-    return made, coal.Transform3s(shape.pose.rotation, (shape.pose.translation - origin) / unit)
+    made, rotation, translation = place_primitive(coal, shape, origin, unit)
+    return made, coal.Transform3s(rotation, translation)
 
 
 def split_shape(shape: Shape) -> list[Shape]:

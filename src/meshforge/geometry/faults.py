@@ -11,22 +11,17 @@ from meshforge.geometry.shape import Polytope, Shape
 from meshforge.geometry.surface import is_closed, is_convex, is_convex_hull, is_outward
 
 HullFault = Literal["finite", "solid", "flat", "closed", "volume", "convex", "outward"]
-CONVEXITY = 1e-6
-"""The tolerance of files, relative to the size of a hull; single precision leaves 1e-7."""
+_CONVEXITY = 1e-6  # of files: single precision leaves 1e-7
 
 
-def find_fault(shape: Shape, convexity: float = CONVEXITY) -> HullFault | None:
+@np.errstate(all="ignore")
+def find_fault(shape: Shape, convexity: float = _CONVEXITY) -> HullFault | None:
     """Return what a shape lacks to be a hull, the first of several, from which the others follow; None for a hull.
 
     finite: coordinates and volume are finite numbers; solid: it has four vertices; flat: it spans no volume; closed:
     its surface is not; volume: it is not positive; convex: it is not; outward: some face looks inwards.
     convexity: how far a vertex may lie outside of a face's plane, relative to the size.
     """
-    with np.errstate(all="ignore"):
-        return _find_fault(shape, convexity)
-
-
-def _find_fault(shape: Shape, convexity: float) -> HullFault | None:
     vertices = shape.vertices
     if not (np.isfinite(vertices).all() and np.isfinite(shape.volume)):
         return "finite"

@@ -15,8 +15,8 @@ import fcl
 import numpy as np
 
 from meshforge.geometry.arrays import Floats
-from meshforge.geometry.round_shapes import Capsule, Cylinder, Ellipsoid, Sphere
-from meshforge.geometry.shape import Box, Polytope, Shape
+from meshforge.geometry.round_shapes import place_primitive
+from meshforge.geometry.shape import Polytope, Shape
 
 
 def split_shape(shape: Shape) -> list[Shape]:
@@ -42,17 +42,5 @@ def _place(shape: Shape, origin: Floats, unit: float) -> Any:
     if isinstance(shape, Polytope):
         faces = np.column_stack([np.full(len(shape.faces), 3), shape.faces]).astype(np.int32)
         return fcl.CollisionObject(fcl.Convex((shape.vertices - origin) / unit, len(faces), faces.ravel()))
-    match shape:
-        case Box():
-            made = fcl.Box(*(2 * shape.half / unit))
-        case Sphere():
-            made = fcl.Sphere(shape.radius / unit)
-        case Cylinder():
-            made = fcl.Cylinder(shape.radius / unit, 2 * shape.half_length / unit)
-        case Capsule():
-            made = fcl.Capsule(shape.radius / unit, 2 * shape.half_length / unit)
-        case Ellipsoid():
-            made = fcl.Ellipsoid(*(shape.radii / unit))
-        case _:
-            raise TypeError(f"no distance for shapes of kind {shape.kind}")
-    return fcl.CollisionObject(made, fcl.Transform(shape.pose.rotation, (shape.pose.translation - origin) / unit))
+    made, rotation, translation = place_primitive(fcl, shape, origin, unit)
+    return fcl.CollisionObject(made, fcl.Transform(rotation, translation))

@@ -3,7 +3,7 @@ moved inwards."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any
 
@@ -31,7 +31,7 @@ def inscribe(primitive: str, hull: Polytope, axis: int | None = None) -> Primiti
     direction of the smallest primitive around them, as a box always does; the first of these whose volume is largest.
     """
     planes = _InnerPlanes(hull)
-    found = [_INSCRIBED[primitive](planes, frame) for frame in _list_frames(primitive, hull, axis)]
+    found = [_inscribe(primitive, planes, frame) for frame in _list_frames(primitive, hull, axis)]
     most = max(shape.volume for shape in found)
     return next(shape for shape in found if shape.volume >= most * (1 - _SAME_VOLUME))
 
@@ -53,7 +53,7 @@ def shrink(shape: Shape, distance: float, name: str) -> Shape:
         case Ellipsoid():
             sizes = {"radii": shape.radii}
     planes = None if sizes else _InnerPlanes(shape.tessellate())
-    least = _inscribe_sphere(planes, np.eye(3)).radius if planes else min(np.min(size) for size in sizes.values())
+    least = planes.inscribe_ball()[1] if planes else min(np.min(size) for size in sizes.values())
     if distance >= least * (1 - SAME_LENGTH):
         raise GeometryError(
             f"hull {name!r} vanishes when its surface moves inwards by {distance:g} m: {least:.3g} m is the most",
@@ -80,8 +80,8 @@ class _InnerPlanes:
         """The pose at a centre (3,) in these coordinates whose axes are the rows of a frame (3, 3)."""
         return Pose(frame.T, self.middle + self.size * center)
 
-    def maximize(self, reaches: Floats, terms: Floats) -> Floats:
-        """The centre (3,) and sizes (k,) of the largest shape inside, by an interior-point method (Boyd and
+    def maximize(self, reaches: Floats, terms: Floats) -> tuple[Floats, Floats]:
+        """The centre (3,) and sizes (k,) [m] of the largest shape inside, by an interior-point method (Boyd and
         Vandenberghe, Convex Optimization, 11.3).
 
         reaches: (m, k), how far each size reaches towards each plane; terms: (j, k), the logarithm of the volume is the
@@ -113,15 +113,19 @@ class _InnerPlanes:
                     part /= 2
                 x = x + part * step if part > 1e-10 else x
             weight *= 10
-        return x
+        return x[:3], self.size * x[3:]
+
+    def inscribe_ball(self) -> tuple[Floats, float]:
+        """The centre (3,) and radius [m] of the largest ball inside."""
+        center, (radius,) = self.maximize(np.ones((len(self.normals), 1)), np.ones((1, 1)))
+        return center, float(radius)
 
     def move_inwards(self, distance: float, name: str) -> Polytope:
         """What the planes enclose, each moved inwards by a distance [m] that leaves something."""
         from scipy.spatial import HalfspaceIntersection  # lazy: slow to import
 
-        center = _inscribe_sphere(self, np.eye(3)).pose.translation
         rows = np.column_stack([self.normals, distance / self.size - self.offsets])
-        corners = HalfspaceIntersection(rows, (center - self.middle) / self.size).intersections
+        corners = HalfspaceIntersection(rows, self.inscribe_ball()[0]).intersections
         return convex_hull(self.middle + self.size * corners, name=name)
 
 
@@ -138,34 +142,24 @@ def _list_frames(primitive: str, hull: Polytope, axis: int | None) -> Iterable[F
     return [frame_of_axis(row) for row in (*np.eye(3)[::-1], *principal, around.pose.rotation[:, 2])]
 
 
-def _inscribe_sphere(planes: _InnerPlanes, frame: Floats) -> Sphere:
-    x = planes.maximize(np.ones((len(planes.normals), 1)), np.ones((1, 1)))
-    return Sphere(planes.place(x[:3], frame), planes.size * float(x[3]))
-
-
-def _inscribe_box(planes: _InnerPlanes, frame: Floats) -> Box:
-    x = planes.maximize(np.abs(planes.normals @ frame.T), np.eye(3))
-    return Box(planes.place(x[:3], frame), planes.size * x[3:])
-
-
-def _inscribe_cylinder(planes: _InnerPlanes, frame: Floats) -> Cylinder:
+def _inscribe(primitive: str, planes: _InnerPlanes, frame: Floats) -> PrimitiveShape:
+    """The largest primitive in planes, along the rows of a frame (3, 3), a cylinder or a capsule along the last."""
     along = np.abs(planes.normals @ frame[2])
-    across = np.sqrt((1 - along**2).clip(0.0))
-    x = planes.maximize(np.column_stack([across, along]), np.array([[1.0, 0.0], [1.0, 0.0], [0.0, 1.0]]))
-    return Cylinder(planes.place(x[:3], frame), planes.size * float(x[3]), planes.size * float(x[4]))
-
-
-def _inscribe_capsule(planes: _InnerPlanes, frame: Floats) -> Capsule | Sphere:
-    along = np.abs(planes.normals @ frame[2])
-    terms = np.array([[1.0, 0.0], [1.0, 0.0], [4 / 3, 2.0]])
-    x = planes.maximize(np.column_stack([np.ones(len(along)), along]), terms)
-    place, radius, half = planes.place(x[:3], frame), planes.size * float(x[3]), planes.size * float(x[4])
-    return Capsule(place, radius, half) if half > 1e-6 * radius else Sphere(place, radius)
-
-
-_INSCRIBED: Mapping[str, Callable[[_InnerPlanes, Floats], PrimitiveShape]] = {
-    "box": _inscribe_box,
-    "cylinder": _inscribe_cylinder,
-    "capsule": _inscribe_capsule,
-    "sphere": _inscribe_sphere,
-}
+    match primitive:
+        case "box":
+            center, half = planes.maximize(np.abs(planes.normals @ frame.T), np.eye(3))
+            return Box(planes.place(center, frame), half)
+        case "cylinder":
+            across = np.sqrt((1 - along**2).clip(0.0))
+            reaches, terms = np.column_stack([across, along]), np.array([[1.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
+        case "capsule":
+            reaches = np.column_stack([np.ones(len(along)), along])
+            terms = np.array([[1.0, 0.0], [1.0, 0.0], [4 / 3, 2.0]])
+        case _:
+            center, radius = planes.inscribe_ball()
+            return Sphere(planes.place(center, frame), radius)
+    center, sizes = planes.maximize(reaches, terms)
+    place, radius, half_length = planes.place(center, frame), float(sizes[0]), float(sizes[1])
+    if primitive == "cylinder":
+        return Cylinder(place, radius, half_length)
+    return Capsule(place, radius, half_length) if half_length > 1e-6 * radius else Sphere(place, radius)

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cache
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
 from meshforge.geometry.arrays import Aabb, Floats, Ints, freeze_floats, freeze_ints
 from meshforge.geometry.pose import Pose
-from meshforge.geometry.shape import Polytope, PrimitiveShape, Shape, split_scaled_rotation
+from meshforge.geometry.shape import Box, Polytope, PrimitiveShape, Shape, split_scaled_rotation
 
 _RING_POINTS = 8  # a multiple of four, so that a ring reaches +-X and +-Y
 _CYLINDER_SIDES = 32
@@ -145,6 +145,25 @@ class Capsule(PrimitiveShape):
     def scale(self, pose: Pose, scales: Floats) -> Shape | None:
         mean = float(scales.mean())
         return Capsule(pose, self.radius * mean, self.half_length * mean) if _are_equal(scales, scales) else None
+
+
+def place_primitive(library: Any, shape: Shape, origin: Floats, unit: float) -> tuple[Any, Any, Floats]:
+    """Return a primitive as one of a library for distances, its rotation (3, 3) and place (3,), in coordinates
+    x -> (x - origin) / unit; coal and FCL call them alike."""
+    match shape:
+        case Box():
+            made = library.Box(*(2 * shape.half / unit))
+        case Sphere():
+            made = library.Sphere(shape.radius / unit)
+        case Cylinder():
+            made = library.Cylinder(shape.radius / unit, 2 * shape.half_length / unit)
+        case Capsule():
+            made = library.Capsule(shape.radius / unit, 2 * shape.half_length / unit)
+        case Ellipsoid():
+            made = library.Ellipsoid(*(shape.radii / unit))
+        case _:
+            raise TypeError(f"no distance for shapes of kind {shape.kind}")
+    return made, shape.pose.rotation, (shape.pose.translation - origin) / unit
 
 
 def _are_equal(some: Floats, scales: Floats) -> bool:

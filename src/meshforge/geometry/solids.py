@@ -139,7 +139,13 @@ def _second_moment(shape: Shape) -> Floats:
         case Cylinder():
             return _rotate(shape.pose.rotation, _moment_of_rod(shape.radius, shape.half_length))
         case Capsule():
-            return _rotate(shape.pose.rotation, _moment_of_capsule(shape.radius, shape.half_length))
+            radius, half = (
+                shape.radius,
+                shape.half_length,
+            )  # a cylinder, and halves of a ball 3/8 of the radius above it
+            ends = np.array([radius**2 / 5, radius**2 / 5, half**2 + 3 / 4 * half * radius + radius**2 / 5])
+            share = half / (half + 2 / 3 * radius)  # of the volume, that of the cylinder
+            return _rotate(shape.pose.rotation, share * _moment_of_rod(radius, half) + (1 - share) * ends)
     return _moment_of_polytope(shape.tessellate(), shape.centroid)
 
 
@@ -149,13 +155,6 @@ def _rotate(rotation: Floats, squares: Floats) -> Floats:
 
 def _moment_of_rod(radius: float, half: float) -> Floats:
     return np.array([radius**2 / 4, radius**2 / 4, half**2 / 3])
-
-
-def _moment_of_capsule(radius: float, half: float) -> Floats:
-    """The moments of a cylinder and the halves of a ball on its ends, their centroids 3/8 of the radius above these."""
-    ends = np.array([radius**2 / 5, radius**2 / 5, half**2 + 3 / 4 * half * radius + radius**2 / 5])
-    share = half / (half + 2 / 3 * radius)  # of the volume, that of the cylinder
-    return np.asarray(share * _moment_of_rod(radius, half) + (1 - share) * ends)
 
 
 def _moment_of_polytope(polytope: Polytope, middle: Floats) -> Floats:

@@ -1,7 +1,10 @@
 """Looking at one asset, given as a mesh or as a file: checks, pictures, and the difference that an edit made."""
 
-from meshforge.inspection.decomposition import advise_decomposition
-from meshforge.inspection.difference import Difference, diff
-from meshforge.inspection.look import check, render
+from __future__ import annotations
 
-__all__ = ["Difference", "advise_decomposition", "check", "diff", "render"]
+from meshforge.common.exports import export_lazily
+
+__getattr__, __all__ = export_lazily(
+    __name__,
+    {"decomposition": "advise_decomposition", "difference": "Difference diff", "look": "check render"},
+)

@@ -102,17 +102,16 @@ class Camera:
         return right, self.middle[1] - (rows - (height - 1) / 2) * self.scale
 
 
-def aim_camera(view: View, up: Up, size: tuple[int, int], points: Floats, margin: float = _MARGIN) -> Camera:
+def aim_camera(view: View, up: Up, size: tuple[int, int], points: Floats) -> Camera:
     """Return the camera of a named view that fills a picture of size (width, height) with points (n, 3).
 
-    The points are in a frame where their middle is near the origin and their diagonal near one. margin: the free border
-    on every side, as a share of the picture.
+    The points are in a frame where their middle is near the origin and their diagonal near one.
     """
     axes = axes_of(view, up)
     eye = axes[2] * _DISTANCE if view.startswith("iso") else None
     plane = Camera(axes, eye, np.zeros(2), 1.0, size).project(points)
     low, high = plane.min(axis=0), plane.max(axis=0)
-    room = np.array(size) * (1 - 2 * margin)
+    room = np.array(size) * (1 - 2 * _MARGIN)
     scale = float(np.max((high - low) / room)) or 1.0 / min(size)
     return Camera(axes, eye, (low + high) / 2, scale, size)
 

@@ -64,12 +64,11 @@ class Canvas:
             mixed = np.concatenate([pixels[..., :3] / np.maximum(alpha, 1e-4), alpha], axis=2)
         self.image.paste(Image.fromarray(np.rint(np.clip(mixed, 0, 1) * 255).astype(np.uint8), self.image.mode), at)
 
-    def outline_items(self, items: Ints, colors: Mapping[int, str], at: tuple[int, int] = (0, 0)) -> None:
-        """Draw a line, white and then of its colour `#rrggbb`, about each of some items seen at (left, top)."""
+    def outline_items(self, items: Ints, colors: Mapping[int, str]) -> None:
+        """Draw a line, white and then of its colour `#rrggbb`, about each of some items of the picture."""
         from PIL import Image  # lazy: 0.01 s, only pictures need it
         from scipy.ndimage import distance_transform_edt  # lazy: 0.3 s, only pictures need it
 
-        box = (*at, at[0] + items.shape[1], at[1] + items.shape[0])
         wide = max(2.0, 3 * annotation.text_scale(self.size))
         for color in dict.fromkeys(colors.values()):
             inside = np.isin(items, [item for item, own in colors.items() if own == color])
@@ -78,7 +77,7 @@ class Canvas:
             away = distance_transform_edt(~inside)
             for reach, ink in ((1.6 * wide, "#FFFFFF"), (wide, color)):
                 share = np.clip(reach + 0.5 - away, 0, 1) * (away > 0)
-                self.image.paste(ink, box, Image.fromarray(np.rint(share * 255).astype(np.uint8)))
+                self.image.paste(ink, (0, 0), Image.fromarray(np.rint(share * 255).astype(np.uint8)))
 
     def write_message(self, text: str, box: tuple[int, int, int, int]) -> None:
         """Write a text into the middle of a box."""
@@ -154,10 +153,10 @@ def encode_png(image: Image) -> bytes:
     return stream.getvalue()
 
 
-def encode_webp(image: Image, quality: int = 82) -> bytes:
+def encode_webp(image: Image) -> bytes:
     """Return the picture as a small WebP file, transparency kept."""
     stream = BytesIO()
-    image.save(stream, "WEBP", quality=quality, alpha_quality=90, method=2)
+    image.save(stream, "WEBP", quality=82, alpha_quality=90, method=2)
     return stream.getvalue()
 
 

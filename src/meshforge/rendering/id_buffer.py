@@ -3,7 +3,7 @@ hulls can be seen, from a side where little hides them, else through what hides 
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from typing import TypeVar
 
 import numpy as np
@@ -12,10 +12,9 @@ import numpy.typing as npt
 from meshforge.geometry import Aabb, Floats, Ints, Pose
 from meshforge.rendering.annotation import count_pixels
 from meshforge.rendering.camera import Camera, Floats32, View, aim_camera
-from meshforge.rendering.light import shade
-from meshforge.rendering.paint import BORDER, CREASE, SILHOUETTE, trace_lines
+from meshforge.rendering.paint import shade_surface, trace_lines
 from meshforge.rendering.picture import points_to_frame, render_meshes_of
-from meshforge.rendering.raycast import DrawLayer, RayHits, ViewFrame, cast_layer, up_vector
+from meshforge.rendering.raycast import DrawLayer, ViewFrame, cast_layer, up_vector
 from meshforge.rendering.scene import RenderMesh, to_render_mesh
 from meshforge.symbolic import SymbolicMesh
 
@@ -30,7 +29,7 @@ _SIDES: tuple[View, ...] = (
 """From the usual side to those from which one seldom looks; the first that is good enough is taken."""
 _FIRST_SIZE = (160, 120)  # of the pictures in which that is found out
 _ENOUGH = 0.35  # of a hull, that is to be seen
-_DARKER = {CREASE: 0.16, BORDER: 0.62, SILHOUETTE: 0.62}  # by how much lines take light away
+_KEPT = np.array([1.0, 0.84, 0.38, 0.38], np.float32)  # of the light, by no line, a crease, a border, a silhouette
 
 
 def render_thumbnail(
@@ -56,22 +55,15 @@ def render_thumbnail(
     frame = ViewFrame(Aabb.of_points(points), up_vector("Z"))
     fine = 2 if size[0] * size[1] > _LARGE else 3
     close = aim_camera(view, "Z", size, frame.to_unit(points)).supersample(fine)
-    hits = cast_layer(DrawLayer([*hulls, *others], np.zeros((0, 3))), frame, close)
-    item, light = hits.item, _measure_light(hits, frame, close)
-    if through:
-        item, light = _look_through(item, light, sorted(through), hulls, frame, close, fine)
+    item, light = _see([*hulls, *others], frame, close)
+    if through:  # in every other pixel, as on a chessboard, where others hide them
+        places = sorted(through)
+        behind, bright = _see([hulls[k] for k in places], frame, close)
+        rows, columns = np.indices(item.shape) // fine
+        seen = (behind >= 0) & ~np.isin(item, places) & ((rows + columns) % 2 == 0)
+        item = np.where(seen, np.array([*places, -1])[behind], item)
+        light = np.where(seen, bright, light)
     return _encode(_fine_pixels(item, fine), _fine_pixels(light, fine), len(hulls))
-
-
-def _look_through(
-    item: Ints, light: Floats32, places: list[int], hulls: list[RenderMesh], frame: ViewFrame, camera: Camera, fine: int
-) -> tuple[Ints, Floats32]:
-    """Items and light (h, w) with some hulls shown in every other pixel, as on a chessboard, where others hide them."""
-    behind = cast_layer(DrawLayer([hulls[k] for k in places], np.zeros((0, 3))), frame, camera)
-    rows, columns = np.indices(item.shape) // fine
-    shown = (behind.item >= 0) & ~np.isin(item, places) & ((rows + columns) % 2 == 0)
-    own = np.array([*places, -1])[behind.item]
-    return np.where(shown, own, item), np.where(shown, _measure_light(behind, frame, camera), light)
 
 
 def _turn_render_mesh(one: RenderMesh, pose: Pose) -> RenderMesh:
@@ -80,26 +72,15 @@ def _turn_render_mesh(one: RenderMesh, pose: Pose) -> RenderMesh:
     return RenderMesh(pose.apply(one.vertices), one.faces, normals)
 
 
-def _measure_light(hits: RayHits, frame: ViewFrame, camera: Camera) -> Floats32:
-    scene = hits.scene
+def _see(hulls: Sequence[RenderMesh], frame: ViewFrame, camera: Camera) -> tuple[Ints, Floats32]:
+    """Which of some things each pixel (h, w) shows, -1 for none, and how bright it is."""
+    layer = DrawLayer(hulls, np.full((len(hulls), 3), _GREY))
+    hits = cast_layer(layer, frame, camera)
     light = np.zeros(hits.item.shape, np.float32)
     rows, columns = np.nonzero(hits.item >= 0)
-    triangle = hits.triangle[rows, columns]
-    light[rows, columns] = _brightness_of(scene.normals, frame, camera)[triangle]
-    bent = np.nonzero(scene.is_round[triangle])[0]
-    if len(bent):
-        points = hits.points(camera, rows[bent], columns[bent])
-        light[rows[bent], columns[bent]] = _brightness_of(scene.smooth_normals(triangle[bent], points), frame, camera)
-    keep = np.ones(max(_DARKER) + 1, np.float32)
-    for strength, share in _DARKER.items():
-        keep[strength] = 1 - share
-    return light * keep[trace_lines(hits, 2)]
-
-
-def _brightness_of(normals: Floats, frame: ViewFrame, camera: Camera) -> Floats32:
-    grey = shade(np.full((len(normals), 3), _GREY), normals, camera, frame.upright)[:, 0]
-    light: Floats32 = np.minimum(grey / np.float32(_FULL), np.float32(1))
-    return light
+    grey = shade_surface(layer, hits, frame, camera, rows, columns)[:, 0]
+    light[rows, columns] = np.minimum(grey / np.float32(_FULL), np.float32(1))
+    return hits.item, light * _KEPT[trace_lines(hits, 2)]
 
 
 def _fine_pixels(pixels: npt.NDArray[Number], fine: int) -> npt.NDArray[Number]:

@@ -87,7 +87,7 @@ def paint(layers: Sequence[DrawLayer], frame: ViewFrame, camera: Camera, fine: i
     pixels = np.zeros((*openness.shape, 4), np.float32)
     pixels[..., 3] = (1 - openness) * np.float32(_SHADOW)
     rows, columns = _pixels_where(solid.item >= 0)
-    color = _shade_surface(layers[0], solid, frame, close, rows, columns)
+    color = shade_surface(layers[0], solid, frame, close, rows, columns)
     color *= (1 - _CORNER * (1 - openness[rows, columns]))[:, None]
     color += (1 - color) * (0.55 * _is_between_stripes(layers[0], solid)[rows, columns])[:, None]
     pixels[rows, columns, :3], pixels[rows, columns, 3] = color, 1.0
@@ -116,7 +116,7 @@ def _paint_shell(
     only_lines = np.isin(solid.item, sorted(layer.drawn_over))
     share[only_lines] = 0.0
     rows, columns = _pixels_where(share > 0)
-    _blend(pixels, rows, columns, _shade_surface(layer, hits, frame, camera, rows, columns), share[rows, columns])
+    _blend(pixels, rows, columns, shade_surface(layer, hits, frame, camera, rows, columns), share[rows, columns])
     drawn = trace_lines(hits, width)
     rows, columns = _pixels_where((drawn > 0) & (hits.item >= 0))
     color = 0.7 * layer.colors.astype(np.float32)[hits.item[rows, columns]]
@@ -124,10 +124,10 @@ def _paint_shell(
     _blend(pixels, rows, columns, color, _STRENGTH[drawn[rows, columns]] * strong)
 
 
-def _shade_surface(
+def shade_surface(
     layer: DrawLayer, hits: RayHits, frame: ViewFrame, camera: Camera, rows: Ints, columns: Ints
 ) -> Floats32:
-    """The lit colours (n, 3) of what some pixels show; flat triangles are lit once, round ones at every pixel."""
+    """Return the lit colours (n, 3) of what pixels show; flat triangles are lit once, round ones at every pixel."""
     scene = hits.scene
     triangle = hits.triangle[rows, columns]
     if layer.tint is not None:

@@ -64,7 +64,11 @@ def render(
     non_convex = tuple(o.surface for o in mesh.asset.non_convex if o.surface) if mesh.asset else ()
     what = build_subject(mesh, coloring, non_convex if ghost is None else ghost, highlight or frozenset(), up)
     if caption is None and legend:
-        caption = _describe_count(mesh, highlight)
+        caption = pluralize(len(mesh.hulls), "hull")
+        if highlight is not None:
+            caption = f"{sum(h.name in highlight for h in mesh.hulls)} of {caption} selected"
+        elif mesh.asset and mesh.asset.non_convex:
+            caption += f", {pluralize(len(mesh.asset.non_convex), 'piece')} that cannot be edited"
     canvas = Canvas(size, background, title, caption, coloring if legend else HullColors(coloring.colors))
     drawn = []
     for view, box in zip(views, _split_room(canvas.room, len(views)), strict=True):
@@ -114,14 +118,6 @@ def _check_arguments(views: Sequence[str], color_by: str, size: tuple[int, int])
     if size[0] not in PICTURE_SIZES or size[1] not in PICTURE_SIZES:
         remedy = f"Sides go from {PICTURE_SIZES.start} to {PICTURE_SIZES.stop - 1}."
         raise UsageError(f"a picture cannot be {size[0]} by {size[1]} pixels", remedy=remedy)
-
-
-def _describe_count(mesh: SymbolicMesh, highlight: frozenset[str] | None) -> str:
-    count = pluralize(len(mesh.hulls), "hull")
-    if highlight is not None:
-        return f"{sum(h.name in highlight for h in mesh.hulls)} of {count} selected"
-    non_convex = len(mesh.asset.non_convex) if mesh.asset else 0
-    return f"{count}, {pluralize(non_convex, 'piece')} that cannot be edited" if non_convex else count
 
 
 def _split_room(room: tuple[int, int, int, int], count: int) -> list[tuple[int, int, int, int]]:

@@ -75,19 +75,14 @@ def _place_inside(
     for height, (wide, high) in sizes.items():
         left, top = round(middle.column - wide / 2), round(middle.row - high / 2)
         box = (left, top, left + round(wide), top + round(high))
-        if _fits(items, item, box) and not find_box_overlaps(np.array([box]), taken, _GAP).any():
+        is_inside = left >= 0 and top >= 0 and box[2] <= items.shape[1] and box[3] <= items.shape[0]
+        if not is_inside or find_box_overlaps(np.array([box]), taken, _GAP).any():
+            continue
+        below = items[top : box[3], left : box[2]]
+        own, others = (below == item).mean(), ((below >= 0) & (below != item)).mean()
+        if own >= _OWN and others <= _OTHERS:
             return NumberPlace(item, box, height)
     return None
-
-
-def _fits(items: Ints, item: int, box: tuple[int, int, int, int]) -> bool:
-    """Whether a box lies in the picture and on its own hull well enough, and hardly on others."""
-    left, top, right, bottom = box
-    if left < 0 or top < 0 or right > items.shape[1] or bottom > items.shape[0]:
-        return False
-    below = items[top:bottom, left:right]
-    own, others = (below == item).mean(), ((below >= 0) & (below != item)).mean()
-    return bool(own >= _OWN and others <= _OTHERS)
 
 
 class _FreeSpace:
@@ -164,10 +159,8 @@ def draw_texts(
         if place.spot:
             x, y, dot = place.spot[0] + right, place.spot[1] + down, max(3, place.height // 7)
             draw.ellipse((x - dot, y - dot, x + dot, y + dot), INK, "white", 1)
-            box, edge = (
-                (left + right, above + down, beyond + right, below + down),
-                hexadecimal(colors[place.item] * 0.8),
-            )
+            box = left + right, above + down, beyond + right, below + down
+            edge = hexadecimal(colors[place.item] * 0.8)
             draw.rounded_rectangle(box, place.height // 4, "white", edge, 2)
             draw.text(middle, text, INK, type_, "mm")
         else:

@@ -10,7 +10,7 @@ from typing import Any, assert_never
 import numpy as np
 
 from meshforge.common import MeshForgeError
-from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Floats, Ints, Polytope, Pose, Shape, Sphere
+from meshforge.geometry import Capsule, Cylinder, Ellipsoid, Floats, Ints, Pose, Shape, Sphere
 from meshforge.rendering.camera import Camera, Floats32
 from meshforge.symbolic import Surface
 
@@ -48,9 +48,7 @@ def to_render_mesh(shape: Shape | Surface, sides: int = 96) -> RenderMesh:
             middle, straight = len(dome) // 2 + 1, np.array([0.0, shape.half_length / shape.radius, 0.0, 0.0])
             profile = np.concatenate([dome[:middle] - straight, dome[middle - 1 :] + straight])
             return _revolve(profile, sides, shape.pose, np.full(3, shape.radius))
-        case Box() | Polytope() | Surface():
-            return RenderMesh(shape.vertices, shape.faces)
-        case Shape():
+        case Shape() | Surface():
             return RenderMesh(shape.vertices, shape.faces)
         case _:
             assert_never(shape)
@@ -67,16 +65,13 @@ def _revolve(profile: Floats, sides: int, pose: Pose, scales: Floats) -> RenderM
     """The surface that a profile (k, 4) sweeps about Z, scaled along the axes, then posed."""
     turn = np.arange(sides) * (2 * np.pi / sides)
     circle = np.column_stack([np.cos(turn), np.sin(turn)])
-    points, normals = (_sweep(profile[:, k : k + 2], circle) for k in (0, 2))
+    points, normals = np.empty((2, len(profile), sides, 3))
+    for swept, rings in ((points, profile[:, :2]), (normals, profile[:, 2:])):  # each ring a radius and a height
+        swept[..., :2], swept[..., 2] = rings[:, None, :1] * circle, rings[:, 1:]
+    points, normals = points.reshape(-1, 3), normals.reshape(-1, 3)
     normals = normals / scales @ pose.rotation.T
     normals /= np.linalg.norm(normals, axis=1, keepdims=True)
     return RenderMesh(pose.apply(points * scales), _ring_faces(profile, sides), normals)
-
-
-def _sweep(rings: Floats, circle: Floats) -> Floats:
-    """Points (k * sides, 3) of rings (k, 2), each a radius and a height."""
-    flat = rings[:, None, :1] * circle[None]
-    return np.concatenate([flat, np.broadcast_to(rings[:, None, 1:], (*flat.shape[:2], 1))], axis=2).reshape(-1, 3)
 
 
 def _ring_faces(profile: Floats, sides: int) -> Ints:

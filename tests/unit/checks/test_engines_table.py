@@ -34,12 +34,6 @@ def test_the_page_shows_each_limit_with_its_source(engine: Engine) -> None:
     assert table == rows(engine)
 
 
-@pytest.mark.parametrize("engine", ENGINES.values(), ids=ENGINES.keys())
-def test_every_number_has_a_source(engine: Engine) -> None:
-    assert all(limit.source and limit.problem for limit in engine.limits)
-    assert engine.primitives_source and (engine.hulls is None or engine.hulls_source)
-
-
 def test_the_page_names_the_engines_that_each_format_is_written_for() -> None:
     text = PAGE.read_text("utf-8")
     read_by_engines = [known for known in list_formats() if known.engines and known.writable]

@@ -71,7 +71,6 @@ def forget_plugins() -> None:
     """Look for plug-ins anew, as after a package was installed."""
     plugins._adopted.clear()
     plugins._find.cache_clear()
-    plugins._read_mentions.cache_clear()
 
 
 def format_code(body: str) -> str:

@@ -17,8 +17,8 @@ from meshforge.geometry import Box, Floats, Ints, Pose, Sphere, convex_hull
 from meshforge.rendering import LabelingPicture, draw_labeling_pictures, encode_png
 from meshforge.rendering.camera import Camera
 from meshforge.rendering.labeling.picture import LabelingCanvas
-from meshforge.rendering.labeling.subject import Arrangement, LabelingSubject
-from meshforge.rendering.labeling.viewpoints import VIEW_PREFERENCES, VIEW_WORDS
+from meshforge.rendering.labeling.series import VIEW_PREFERENCES
+from meshforge.rendering.labeling.subject import VIEW_WORDS, Arrangement, LabelingSubject
 from meshforge.rendering.placement import LEAST_PIXELS
 from meshforge.symbolic import Asset, Document, NonConvexPiece, Surface, SymbolicMesh
 from tests.corpus_path import corpus

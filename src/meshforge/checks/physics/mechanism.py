@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from meshforge.common import join_names
-from meshforge.engines import Finding
+from meshforge.engines import Finding, Severity
 from meshforge.geometry import Aabb, Pose, inertia
 from meshforge.symbolic import Hull, Inertial, Joint, SymbolicMesh
 
@@ -135,36 +135,19 @@ _REMEDIES = {
 }
 
 
-@dataclass(frozen=True, slots=True)
-class _MassProblem:
-    rule: str
-    body: str
-    problem: str
-
-
 def check_masses(mesh: SymbolicMesh) -> Iterator[Finding]:
     """Yield what is odd about the masses in the asset of a mesh: a finding for each rule, with its bodies."""
-    mass_problems = list(_find_problems(mesh))
-    for rule, remedy in _REMEDIES.items():
-        problems = [
-            f"body {problem_of_mass.body!r}: {problem_of_mass.problem}"
-            for problem_of_mass in mass_problems
-            if problem_of_mass.rule == rule
-        ]
-        if problems:
-            yield Finding(
-                f"physics-{rule}", "error" if rule == "mass" else "warning", (), join_names(problems, 3), remedy
-            )
-
-
-def _find_problems(mesh: SymbolicMesh) -> Iterator[_MassProblem]:
+    found: dict[str, list[str]] = {rule: [] for rule in _REMEDIES}
     for inertial in mesh.asset.mechanism.inertials if mesh.asset else ():
         hulls = [hull for hull in mesh.hulls if hull.body == inertial.body]
         problem = find_inertial_problem(inertial)
-        if problem:
-            yield _MassProblem("mass", inertial.body, problem)
-        elif hulls:
-            yield from _compare_with_hulls(inertial, hulls)
+        problems = [("mass", problem)] if problem else _compare_with_hulls(inertial, hulls) if hulls else ()
+        for rule, text in problems:
+            found[rule].append(f"body {inertial.body!r}: {text}")
+    for rule, texts in found.items():
+        if texts:
+            severity: Severity = "error" if rule == "mass" else "warning"
+            yield Finding(f"physics-{rule}", severity, (), join_names(texts, 3), _REMEDIES[rule])
 
 
 def find_inertial_problem(inertial: Inertial) -> str | None:
@@ -181,21 +164,19 @@ def find_inertial_problem(inertial: Inertial) -> str | None:
     return None
 
 
-def _compare_with_hulls(inertial: Inertial, hulls: list[Hull]) -> Iterator[_MassProblem]:
+def _compare_with_hulls(inertial: Inertial, hulls: list[Hull]) -> Iterator[tuple[str, str]]:
+    """Rules that an inertial breaks beside its hulls, and how."""
     shapes = [hull.shape for hull in hulls]
     volume = sum(shape.volume for shape in shapes)
     density = inertial.mass / volume
     if not LIGHTEST <= density <= HEAVIEST:
-        problem = f"{inertial.mass:.3g} kg on hulls of {1000 * volume:.3g} l are {density:.3g} kg/m³"
-        yield _MassProblem("density", inertial.body, problem)
+        yield "density", f"{inertial.mass:.3g} kg on hulls of {1000 * volume:.3g} l are {density:.3g} kg/m³"
     box = Aabb.union(shape.aabb for shape in shapes)
     beyond = float(np.maximum(box.min - inertial.centre, inertial.centre - box.max).max())
     if beyond > _OUTSIDE * box.diagonal:
-        problem = f"its centre of mass lies {beyond:.3g} m outside of the box of its hulls"
-        yield _MassProblem("centre", inertial.body, problem)
+        yield "centre", f"its centre of mass lies {beyond:.3g} m outside of the box of its hulls"
     _, solid = inertia(shapes, inertial.mass)
     ratio = np.linalg.eigvalsh(inertial.inertia) / np.linalg.eigvalsh(solid)
     worst = float(ratio[np.abs(np.log(ratio)).argmax()])
     if not 1 / OFF <= worst <= OFF:
-        problem = f"its inertia is {worst:.3g} times that of its hulls at that mass"
-        yield _MassProblem("inertia", inertial.body, problem)
+        yield "inertia", f"its inertia is {worst:.3g} times that of its hulls at that mass"

@@ -77,7 +77,7 @@ class Physics(Measure):
     @property
     def findings(self) -> tuple[Finding, ...]:
         """What is odd, the masses first."""
-        return (*self.mass_problems, *_report_refusal(self.refused), *_report_overlaps(self), *_report_unrest(self))
+        return (*self.mass_problems, *_report_start(self), *_report_unrest(self))
 
     def to_json(self) -> dict[str, Any]:
         """Return the behaviour as JSON-able data; lengths in metres, speeds in metres a second, angles in degrees."""
@@ -163,15 +163,13 @@ def _simulate_rest(mesh: SymbolicMesh, tree: JointTree) -> Rest | None:
     return Rest(jitter, fastest, moved, tilt, sunk, mass)
 
 
-def _report_refusal(refused: str | None) -> Iterator[Finding]:
-    if refused and "blew up" in refused:
+def _report_start(found: Physics) -> Iterator[Finding]:
+    """What is wrong before anything moves."""
+    if found.refused and "blew up" in found.refused:
         message = "it does not come to rest: the simulation blew up"
         yield Finding("physics-unstable", "error", (), message, "Look at overlaps of bodies, masses and thin hulls.")
-    elif refused and "refuses" in refused:
-        yield Finding("physics-refused", "error", (), refused, "Fix what the message names.")
-
-
-def _report_overlaps(found: Physics) -> Iterator[Finding]:
+    elif found.refused and "refuses" in found.refused:
+        yield Finding("physics-refused", "error", (), found.refused, "Fix what the message names.")
     deep = [overlap for overlap in found.overlaps if overlap.depth > DEEP * found.scale and not overlap.excluded]
     if not deep:
         return

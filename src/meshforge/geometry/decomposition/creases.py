@@ -62,18 +62,14 @@ def find_creases(vertices: Floats, faces: Ints) -> Creases:
     points = np.array([row[0] for row in rows]).reshape(-1, _SAMPLES, 3)
     normals = np.array([row[2] for row in rows]).reshape(-1, 3)
     loops = np.array([row[3] for row in rows], dtype=np.bool_)
-    planes = _number_planes(points.mean(axis=1), normals, loops, _DEEP / 2 * diagonal)
-    return Creases(points, np.array([row[1] for row in rows]), normals, loops, planes, diagonal)
-
-
-def _number_planes(middles: Floats, normals: Floats, loops: Bools, near: float) -> Ints:
-    """The number (p,) of the plane of each crease about a middle (p, 3) across a normal (p, 3); patches whose middles
-    are at most `near` [m] from each other's planes share one."""
+    middles = points.mean(axis=1)
     away = np.abs(np.einsum("ijk,jk->ij", middles[:, None] - middles[None], normals))
-    same = (np.maximum(away, away.T) <= near) & (np.abs(normals @ normals.T) >= _LEVEL) & ~(loops | loops[:, None])
-    one, other = np.nonzero(same)
-    found: Ints = connectivity.component_roots(one, other, len(middles))
-    return found
+    near = (
+        np.maximum(away, away.T) <= _DEEP / 2 * diagonal
+    )  # patches whose middles are in each other's planes share one
+    one, other = np.nonzero(near & (np.abs(normals @ normals.T) >= _LEVEL) & ~(loops | loops[:, None]))
+    planes = connectivity.component_roots(one, other, len(middles))
+    return Creases(points, np.array([row[1] for row in rows]), normals, loops, planes, diagonal)
 
 
 def drop_degenerate(vertices: Floats, faces: Ints) -> Ints:
@@ -160,7 +156,10 @@ def _choose(piece: Polytope, creases: Creases, interior: Interior) -> tuple[Poly
     if volume <= _CRUMB * piece.volume:
         return None
     deep = _DEEP * creases.diagonal
-    inside = _is_inside(creases.points.reshape(-1, 3), piece, deep / 4).reshape(creases.points.shape[:2])
+    points, low, high = creases.points.reshape(-1, 3), piece.aabb.min - deep / 4, piece.aabb.max + deep / 4
+    found = np.asarray(((points >= low) & (points <= high)).all(axis=1))
+    found[found] = heights_above(points[found], piece) <= deep / 4
+    inside = found.reshape(creases.points.shape[:2])
     within = inside.mean(axis=1) * creases.sizes
     total = np.bincount(creases.planes, weights=within)
     covers = list[tuple[float, int]]()
@@ -220,11 +219,3 @@ def _leaves_compact(below: Polytope, above: Polytope, interior: Interior) -> boo
     if volumes[little] >= _LITTLE * sum(volumes):
         return True
     return _measure_hulls([(below, above)[little]], interior) <= _LOOSE * volumes[little]
-
-
-def _is_inside(points: Floats, piece: Polytope, margin: float) -> Bools:
-    """Whether each of some points (n, 3) is in a piece, or at most `margin` [m] outside."""
-    low, high = piece.aabb.min - margin, piece.aabb.max + margin
-    found = np.asarray(((points >= low) & (points <= high)).all(axis=1))
-    found[np.flatnonzero(found)] = heights_above(points[found], piece) <= margin
-    return found

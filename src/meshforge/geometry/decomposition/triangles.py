@@ -60,16 +60,12 @@ def clean_triangles(vertices: Any, faces: Any) -> TriangleMesh:
     welded, index = np.unique(points[triangles].reshape(-1, 3) + 0.0, axis=0, return_inverse=True)
     welded_faces = index.reshape(-1, 3)
     kept = np.diff(np.sort(welded_faces, axis=1), axis=1).min(axis=1) > 0
-    _refuse_flat(welded, bool(kept.any()))
-    _, uses = np.unique(edges_of(welded_faces[kept])[0], axis=0, return_counts=True)
-    return TriangleMesh(welded, welded_faces[kept].astype(np.int64), int((uses == 1).sum()))
-
-
-def _refuse_flat(points: Floats, any_triangle: bool) -> None:
-    extents = np.linalg.svd(points - points.mean(axis=0), compute_uv=False)
-    if not any_triangle or len(extents) < 3 or extents[2] <= _FLAT * extents[0]:
+    extents = np.linalg.svd(welded - welded.mean(axis=0), compute_uv=False)
+    if not kept.any() or len(extents) < 3 or extents[2] <= _FLAT * extents[0]:
         remedy = "Give it a thickness; for a single flat piece, a convex hull with a thickness is enough."
         raise GeometryError("the mesh is flat: it spans no volume", remedy=remedy)
+    _, uses = np.unique(edges_of(welded_faces[kept])[0], axis=0, return_counts=True)
+    return TriangleMesh(welded, welded_faces[kept].astype(np.int64), int((uses == 1).sum()))
 
 
 def cap_holes(mesh: TriangleMesh, rough: float = 0.0) -> tuple[TriangleMesh, int]:
@@ -86,17 +82,14 @@ def cap_holes(mesh: TriangleMesh, rough: float = 0.0) -> tuple[TriangleMesh, int
     faces = np.concatenate([mesh.faces, *[_make_cap(mesh.vertices, [loops[k] for k in group]) for group in groups]])
     if is_closed(faces):
         return TriangleMesh(mesh.vertices, faces, 0), len(loops)
-    fans = _make_fans(mesh, loops) if rough > 0 else mesh
-    return fans, len(loops) if not fans.open_edges else 0
-
-
-def _make_fans(mesh: TriangleMesh, loops: list[Ints]) -> TriangleMesh:
-    """The mesh with triangles from each edge of its rims to the middle of the rim; as it is where that does not do."""
-    middles = [mesh.vertices[loop].mean(axis=0) for loop in loops]
-    tips = [np.full(len(loop), len(mesh.vertices) + k) for k, loop in enumerate(loops)]
-    fans = [np.column_stack([loop, np.roll(loop, -1), tip]) for loop, tip in zip(loops, tips, strict=True)]
-    faces = np.concatenate([mesh.faces, *fans])
-    return TriangleMesh(np.concatenate([mesh.vertices, middles]), faces, 0) if is_closed(faces) else mesh
+    if rough > 0:
+        middles = [mesh.vertices[loop].mean(axis=0) for loop in loops]
+        tips = [np.full(len(loop), len(mesh.vertices) + k) for k, loop in enumerate(loops)]
+        fans = [np.column_stack([loop, np.roll(loop, -1), tip]) for loop, tip in zip(loops, tips, strict=True)]
+        faces = np.concatenate([mesh.faces, *fans])
+        if is_closed(faces):
+            return TriangleMesh(np.concatenate([mesh.vertices, middles]), faces, 0), len(loops)
+    return mesh, 0
 
 
 def volume_inside(vertices: Any, faces: Any) -> float | None:
@@ -169,14 +162,10 @@ def _make_cap(vertices: Floats, loops: list[Ints]) -> Ints:
     rim = np.concatenate(loops)
     center, axes = _plane_of(vertices[rim])
     outlines = [(vertices[loop] - center) @ axes[:2].T for loop in loops]
-    if sum(map(_area_with_sign, outlines)) < 0:  # seen from behind: mirrored, they run as the library wants them
+    areas = [x @ np.roll(y, -1) - y @ np.roll(x, -1) for x, y in (outline.T for outline in outlines)]
+    if sum(areas) < 0:  # seen from behind: mirrored, they run as the library wants them
         outlines = [outline * [1.0, -1.0] for outline in outlines]
     return rim[np.asarray(manifold3d.triangulate(outlines), dtype=np.int64).reshape(-1, 3)]
-
-
-def _area_with_sign(outline: Floats) -> float:
-    x, y = outline.T
-    return float(x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2
 
 
 def is_sheet(vertices: Any) -> bool:

@@ -10,11 +10,19 @@ from meshforge.common import UsageError, suggest_name
 from meshforge.geometry import Aabb, Floats
 from meshforge.rendering.camera import Up, View
 from meshforge.rendering.labeling.picture import LabelingCanvas, LabelingPicture
-from meshforge.rendering.labeling.subject import PREVIEW_SIZE, Arrangement, LabelingSubject
-from meshforge.rendering.labeling.viewpoints import VIEW_PREFERENCES, choose_views, measure_quality
+from meshforge.rendering.labeling.subject import PREVIEW_SIZE, VIEW_WORDS, Arrangement, LabelingSubject
 from meshforge.rendering.picture import up_axis
 from meshforge.rendering.placement import LEAST_PIXELS
 from meshforge.symbolic import SymbolicMesh
+
+VIEW_PREFERENCES: Mapping[View, float] = {view: 1.0 - 0.015 * k for k, view in enumerate(VIEW_WORDS)}
+"""How much each view is liked: one from below must show clearly more to be preferred."""
+FIRST_VIEWS: tuple[View, ...] = ("front-right-above", "front-left-above", "back-left-above", "back-right-above")
+"""The views that tell best what a thing is, one of which is always drawn."""
+_WELL = 1 / 250  # the share of a picture from which on a hull is seen as well as it needs to be
+
+_AGAIN = 0.25  # what a second good view of a hull is worth
+_WORTHLESS = 0.05  # a view that adds less than this a hull is not drawn
 
 LABELING_SIZES = range(256, 4097)
 _PREVIEW_PIXELS = 2.5  # pixels of a preview: fewer tell little
@@ -91,7 +99,9 @@ class _PictureSeries:
         return self._pictures
 
     def _measure(self, arrangement: Arrangement, view: View) -> Floats:
-        return measure_quality(arrangement.preview(view, self._aspect), self._least)
+        """How well each hull is seen (n,), from 0 to 1, by its share of a picture; not at all below the least."""
+        shares = arrangement.preview(view, self._aspect)
+        return np.where(shares >= self._least, 0.2 + 0.8 * np.sqrt(np.minimum(shares / _WELL, 1)), 0.0)
 
     def _draw_best(self, choices: Iterable[tuple[Arrangement, float]], left: Sequence[int]) -> LabelingPicture:
         """The picture of the arrangement, and from the view, that shows hulls best that are left."""
@@ -147,3 +157,24 @@ def _group_near(subject: LabelingSubject, left: Sequence[int]) -> tuple[int, ...
         gaps = np.maximum(low[:, None] - high[None, found], low[None, found] - high[:, None]).max(axis=2)
         fresh = ~found & (gaps.min(axis=1) < _NEAR * subject.diagonal)
     return tuple(k for k, one in zip(left, found, strict=True) if one)
+
+
+def choose_views(quality: Mapping[View, Floats], most: int) -> list[View]:
+    """Return at most so many views, the most telling first; quality: how well each shows each hull (n,), from 0 to
+    1."""
+    taken: list[View] = []
+    while len(taken) < min(most, len(quality)):
+        before = _value_of(taken, quality)
+        gains = {view: _value_of([*taken, view], quality) - before for view in quality if view not in taken}
+        best = max(gains if taken else FIRST_VIEWS, key=lambda view: gains[view] * VIEW_PREFERENCES[view])
+        if taken and gains[best] <= _WORTHLESS * len(quality[best]):
+            break
+        taken.append(best)
+    return taken
+
+
+def _value_of(views: Sequence[View], quality: Mapping[View, Floats]) -> float:
+    if not views:
+        return 0.0
+    ranked = np.sort([quality[view] for view in views], axis=0)[::-1]
+    return float(ranked[0].sum() + _AGAIN * ranked[1:2].sum())

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -10,14 +10,30 @@ import numpy as np
 
 from meshforge.geometry import Aabb, Floats, Ints
 from meshforge.rendering.annotation import count_pixels
-from meshforge.rendering.camera import Camera, Up, View, aim_camera
+from meshforge.rendering.camera import Camera, Up, View, aim_camera, axes_of
 from meshforge.rendering.colors import PALE, pick_distinct_colors, rgb
-from meshforge.rendering.labeling.viewpoints import VIEW_WORDS, outermost_points
 from meshforge.rendering.picture import points_to_frame
 from meshforge.rendering.raycast import RayHits, ViewFrame, cast_rays, up_vector
 from meshforge.rendering.scene import RayScene, RenderMesh, build_scene, prepare_for_rays, to_render_mesh
 from meshforge.symbolic import SymbolicMesh
 
+VIEW_WORDS: Mapping[View, str] = {
+    "front-right-above": "from the front right, above",
+    "front-left-above": "from the front left, above",
+    "front": "front",
+    "back-left-above": "from the back left, above",
+    "back-right-above": "from the back right, above",
+    "top": "top",
+    "right": "right",
+    "left": "left",
+    "back": "back",
+    "bottom": "bottom",
+    "front-left-below": "from the front left, below",
+    "front-right-below": "from the front right, below",
+    "back-left-below": "from the back left, below",
+    "back-right-below": "from the back right, below",
+}
+"""What each view is called; those that people know things best by come first."""
 NEUTRAL = rgb("#C9C4BB")
 """The material of hulls that are drawn plain, and of a visual mesh that has no colour."""
 _LIGHTEST = 0.86  # lighter colours would be lit to plain white
@@ -73,7 +89,10 @@ class LabelingSubject:
     @cached_property
     def points(self) -> Floats:
         """The outermost points (n, 3) [m] that a picture of the whole mesh holds, from any view."""
-        return outermost_points(points_to_frame(self.render_meshes, [*self.visuals[0], *self.non_convex]), self.up)
+        points = points_to_frame(self.render_meshes, [*self.visuals[0], *self.non_convex])
+        along = np.concatenate([axes_of(view, self.up)[:2] for view in VIEW_WORDS]) @ points.T
+        kept: Floats = points[np.unique(np.concatenate([along.argmin(axis=1), along.argmax(axis=1)]))]
+        return kept
 
     def points_of(self, hulls: Sequence[int]) -> Floats:
         """Return the corners (n, 3) [m] of some hulls."""
