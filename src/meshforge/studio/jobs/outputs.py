@@ -47,12 +47,12 @@ def start_apply(session: Session, request: ApplyJob) -> Job:
         new, unclear = prepare_new(session, progress, assets, rebuild=request.rebuild)
         notes = {asset: one.describe() for asset, one in new.items()}
         failed = [one.failure for one in new.values() if one.failure]
-        for outcome in failed:
-            summary.add(outcome)
-            progress.add_line(_apply_line(outcome, notes))
-        lost = {outcome.asset for outcome in failed}
+        for failure in failed:
+            summary.add(failure)
+            progress.add_line(_apply_line(failure, notes))
+        lost = {failure.asset for failure in failed}
         program, jobs, templates = project.work([asset for asset in assets if asset not in lost])
-        jobs = [replace(job, notes=notes.get(job.id, ())) for job in jobs]
+        jobs = tuple(replace(job, notes=notes.get(job.id, ())) for job in jobs)
         with progress.stage(len(jobs), "applying the program") as advance:
             execution = batch.ExecutionOptions(stop=progress.is_stopped, progress=advance)
             for outcome in batch.apply(program, jobs, project.layout.edited, templates=templates, execution=execution):
