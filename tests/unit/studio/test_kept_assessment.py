@@ -144,7 +144,7 @@ def test_where_it_cannot_be_kept_it_is_shown_all_the_same(
 
     project = applied(tmp_path)
     learn(project, flag)
-    monkeypatch.setattr("meshforge.studio.learning.process.keep_assessment", fill_up)
+    monkeypatch.setattr("meshforge.project.FamilyAssessment.keep", fill_up)
     assess(project, flag)
     assert files_of(project) == [None, None]
 
