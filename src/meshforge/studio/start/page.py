@@ -39,7 +39,7 @@ class StartPage:
 
     def begin(self) -> None:
         """Get ready for people, as no project is open."""
-        folders.warm_up(self._workers)
+        self._workers.start(folders.is_project, self._state)  # so that the first look is quick
 
     @property
     def view(self) -> wire.StartView:
@@ -51,7 +51,7 @@ class StartPage:
                 wire.FamilyOffer(name=one.name, about=one.about, project=str(folders.suggest_project(one.name)))
                 for one in FAMILIES
             ),
-            places=tuple(map(str, folders.default_places())),
+            places=tuple(dict.fromkeys(map(str, (Path.cwd(), Path.home())))),
         )
 
     @property
