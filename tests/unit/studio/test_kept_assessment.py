@@ -26,7 +26,7 @@ from meshforge.studio.learning import process
 from meshforge.studio.learning.queue import CancelFlag
 from meshforge.studio.session.file_sync import FileSync
 from meshforge.synthesis import Step
-from tests.unit.project.tables import FIRST, SECOND, STEPS, THIRD, applied, learned
+from tests.unit.project.tables import FIRST, SECOND, STEPS, THIRD, applied
 
 
 @pytest.fixture
@@ -86,14 +86,6 @@ def test_what_was_assessed_is_known_to_the_status_and_signs_off_what_is_written(
     assert files_of(project) == before
     project.review(THRESHOLD, execution=IN_PROCESS)
     assert files_of(project) == before
-
-
-def test_what_is_not_written_is_sure_and_not_signed_off(tmp_path: Path, flag: CancelFlag) -> None:
-    project = learned(tmp_path)
-    list(project.apply([SECOND], execution=IN_PROCESS))
-    judged(project)
-    learn_and_assess(project, flag)
-    assert [one.sign_off for one in project.status().assets] == ["sure", "signed off", "sure"]
 
 
 def found_since(project: Project) -> tuple[str, ...]:
