@@ -878,7 +878,7 @@ export interface FindingView {
   hull: string | null;
 }
 /**
- * An edit is on disk. said: what was done, in words; nothing: whether there was nothing to do.
+ * An edit is on disk. message: what was done, in words; nothing: whether there was nothing to do.
  */
 export interface EditReceipt {
   message: string;
