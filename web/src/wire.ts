@@ -535,10 +535,10 @@ export interface AssessmentChanged {
   assessing: boolean;
 }
 /**
- * A family as the last learning run left it. bar: the probability from which on an asset is signed off; signed_off,
- * held, excluded: how many assets; unseen: those of the family that nobody looked at, as there are too many, or they
- * cannot be read; assets: the others in the family's order, empty while there is no program; question: null where
- * nothing is left to ask.
+ * A family as the last learning run left it. threshold: the probability from which on an asset is signed off;
+ * signed_off, need_review, excluded: how many assets; unseen: those of the family that nobody looked at, as there are
+ * too many, or they cannot be read; assets: the others in the family's order, empty while there is no program;
+ * question: null where nothing is left to ask.
  */
 export interface AssessmentView {
   threshold: number;
@@ -550,8 +550,8 @@ export interface AssessmentView {
   question: ReviewQuestionView | null;
 }
 /**
- * One asset. probability: that its edit is right; doubts: the weightiest first; state: whether it is signed off,
- * held below the bar, or excluded; told: whether a person demonstrated or accepted it.
+ * One asset. probability: that its edit is right; reasons: the weightiest first; state: whether it is signed off,
+ * needs review, or is excluded; reviewed: whether a person demonstrated or accepted it.
  */
 export interface ConfidenceView {
   asset: string;
@@ -708,7 +708,7 @@ export interface CandidateView {
  * place in the vocabulary or -1 for none; unsure: positions of hulls whose label is not sure; given: how many labels
  * a person or a file gave.
  * after: how many hulls the output has; after_labels: like `labels`, empty where they are not known; stale: what
- * changed since the output was made; excluded: why it is given up; corrections: how many edits by hand.
+ * changed since the output was made; excluded: why it is given up; manual_edits: how many edits by hand.
  * sources: how many pieces and bodies have no hulls and can be decomposed; prepared: what was done before the program.
  * picture, edited_picture: the digest that the address of the thumbnail takes, null where there is none yet.
  * check: the digest of the output and of its inputs, null where there is no output; faults: what checks found, null
@@ -878,7 +878,7 @@ export interface FindingView {
   hull: string | null;
 }
 /**
- * An edit is on disk. said: what was done, in words; nothing: whether there was nothing to do.
+ * An edit is on disk. message: what was done, in words; nothing: whether there was nothing to do.
  */
 export interface EditReceipt {
   message: string;
@@ -1050,8 +1050,8 @@ export interface HistoryState {
   redoable: number;
 }
 /**
- * What the last edit did, if it changed the labels of all assets. way: its kind; settled: how many labels it made
- * sure.
+ * What the last edit did, if it changed the labels of all assets. way: its kind; newly_sure: how many
+ * labels it made sure.
  */
 export interface LabelUpdate {
   way: "propagate" | "label-files" | "label-names" | "label-vlm";
@@ -1100,7 +1100,7 @@ export interface Operator {
 }
 /**
  * The outcome of a learning run. number: counts the runs; program: its text, null where there is none; looked_at:
- * how many assets the run looked at; settled: whether the program is unambiguous; repairs: how many labels
+ * how many assets the run looked at; unambiguous: whether the program is unambiguous; repairs: how many labels
  * are probably wrong.
  *
  * error: a message in place of an outcome. why, advice, nearest: for a rule without an extractor. stale: ids of

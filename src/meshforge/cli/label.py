@@ -13,8 +13,7 @@ from meshforge.batch import ExecutionOptions
 from meshforge.cli import options
 from meshforge.cli.console import progress
 from meshforge.cli.label_by_hand import label_by_hand
-from meshforge.cli.label_changes import print_changes, print_proposals
-from meshforge.cli.label_report import LabelPrinter
+from meshforge.cli.label_report import LabelPrinter, print_changes, print_proposals
 from meshforge.cli.label_vlm import label_with_vlm, print_forecast
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import UsageError, first_validation_error

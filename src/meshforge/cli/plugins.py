@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import typer
 
 from meshforge.checks import CHECKS
-from meshforge.cli import options
 from meshforge.cli.console import print_table
+from meshforge.cli.options import Json
 from meshforge.cli.terminal import print_json
 from meshforge.common import PLUGIN_KINDS, Plugin, PluginKind, Registry, find_plugins
 from meshforge.formats import FORMATS_BY_SUFFIX
@@ -25,22 +24,14 @@ _REGISTRIES: dict[PluginKind, Registry[Any]] = {
 }
 
 
-@dataclass(frozen=True, slots=True)
-class PluginsArguments:
-    """What is typed after `meshforge plugins`."""
-
-    json: options.Json = False
-
-
-@options.takes(PluginsArguments)
-def plugins(given: PluginsArguments) -> None:
+def plugins(json: Json = False) -> None:
     """List the plug-ins that are installed: kind, name, package, version, and whether each loads.
 
     Exit code 1 when one does not; the reason is beside it.
     """
     found = [plugin for kind in PLUGIN_KINDS for plugin in find_plugins(kind)]
     rows = [(plugin, _REGISTRIES[plugin.kind].find_problem(plugin)) for plugin in found]
-    if given.json:
+    if json:
         print_json([_to_row(plugin, problem) for plugin, problem in rows])
     elif rows:
         cells = [(one.kind, one.name, one.package, one.version, problem or "yes") for one, problem in rows]

@@ -13,7 +13,9 @@ __getattr__, __all__ = export_lazily(
         "new_asset_result": "NewAssetResult assess_new_assets describe_new",
         "new_assets": "NewAsset NewAssetOptions list_new prepare_new_assets",
         "overview": "compute_status find_offers",
-        "preparation_plan": "REBUILD_DEFAULTS RebuildSettings forget_plan read_piece_engine read_preparation_plan",
+        "preparation_plan": (
+            "REBUILD_DEFAULTS DecompositionPlan RebuildSettings forget_plan read_piece_engine read_preparation_plan"
+        ),
         "prepare": "PreparationResult",
         "project": "Project",
         "rebuild": "MADE_ANEW",

@@ -15,6 +15,7 @@ from meshforge.project.new_assets import prepare_new_assets as prepare_new_asset
 from meshforge.project.overview import compute_status as compute_status
 from meshforge.project.overview import find_offers as find_offers
 from meshforge.project.preparation_plan import REBUILD_DEFAULTS as REBUILD_DEFAULTS
+from meshforge.project.preparation_plan import DecompositionPlan as DecompositionPlan
 from meshforge.project.preparation_plan import RebuildSettings as RebuildSettings
 from meshforge.project.preparation_plan import forget_plan as forget_plan
 from meshforge.project.preparation_plan import read_piece_engine as read_piece_engine

@@ -25,9 +25,9 @@ class DecompositionPlan:
     """One decomposition: its settings, and the further arguments of `batch.decompose_asset`."""
 
     settings: DecomposeSettings
-    only: tuple[str, ...]
-    hollow: bool
-    by: DecomposeBy
+    only: tuple[str, ...] = ()
+    hollow: bool = False
+    by: DecomposeBy = "whole"
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,19 +15,12 @@ class TooLargeError(UsageError):
     """An upload is larger than the limit."""
 
 
+_STATUSES = {ConflictError: 409, NotHereError: 404, TooLargeError: 413, MeshForgeError: 400}
+
+
 def status_of(error: Exception) -> int:
     """Return the HTTP status of an error."""
-    match error:
-        case ConflictError():
-            return 409
-        case NotHereError():
-            return 404
-        case TooLargeError():
-            return 413
-        case MeshForgeError():
-            return 400
-        case _:
-            return 500
+    return next((status for kind, status in _STATUSES.items() if isinstance(error, kind)), 500)
 
 
 def problem_of(error: Exception) -> Problem:

@@ -18,6 +18,7 @@ from meshforge.project import Project
 from meshforge.rendering import LengthUnit, encode_png
 from meshforge.studio.errors import NotHereError
 from meshforge.studio.output_measures import MeasureTask, check_key, measure, read_pair
+from meshforge.studio.thumbnails import remove_oldest
 from meshforge.studio.wire.asset import CheckPart, CheckPicture, CheckResult, Fault
 from meshforge.studio.workers import WORK_TIMEOUT, Workers, future_of, project_of_one
 
@@ -35,7 +36,7 @@ class OutputChecks:
     def __init__(self, folder: Path, workers: Workers) -> None:
         self._cache, self._workers = ResultCache(folder), workers
         self._faults: dict[str, tuple[Fault, ...]] = {}
-        self._cache.remove_oldest()
+        remove_oldest(folder, MOST_RESULTS)
 
     def check_part(self, project: Project, asset: str, part: CheckPart) -> Future[CheckResult]:
         """Return one part of what is measured of an asset's output. Raises ProjectError where there is no output."""
@@ -186,9 +187,3 @@ class ResultCache:
     def picture_path(self, key: str, name: str) -> Path:
         """Return where a picture is kept."""
         return self.folder / f"{key}.{name}.png"
-
-    def remove_oldest(self) -> None:
-        """Remove the oldest results, so that not too many stay."""
-        files = sorted(self.folder.glob("*.*"), key=lambda path: path.stat().st_mtime_ns)
-        for path in files[:-MOST_RESULTS]:
-            path.unlink(missing_ok=True)

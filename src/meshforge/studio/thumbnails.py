@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from concurrent.futures import CancelledError, Future
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from threading import Lock
@@ -25,15 +24,8 @@ MOST_THUMBNAILS = 4000
 """Pictures that stay when a studio is opened; the oldest go."""
 
 
-@dataclass(frozen=True, slots=True)
-class _DrawTask:
-    """The work of a worker. project: with this asset alone; digest: of what is to be drawn; target: where it goes."""
-
-    project: Project
-    asset: str
-    of: ThumbnailOf
-    digest: str
-    target: Path
+_Work = tuple[Project, str, ThumbnailOf, str, Path]
+"""The arguments of `_draw`."""
 
 
 class Thumbnails:
@@ -42,9 +34,9 @@ class Thumbnails:
     def __init__(self, folder: Path, workers: Workers) -> None:
         self._folder, self._workers = folder, workers
         self._lock = Lock()
-        self._waiting: dict[str, tuple[_DrawTask, Future[bytes]]] = {}
+        self._waiting: dict[str, tuple[_Work, Future[bytes]]] = {}
         self._drawing: dict[str, Future[bytes]] = {}
-        _remove_oldest(folder)
+        remove_oldest(folder, MOST_THUMBNAILS)
 
     def get(self, project: Project, asset: str, of: ThumbnailOf, digest: str) -> Future[bytes]:
         """Return the thumbnail of an asset, or of its output, as a PNG file; digest: that of its card.
@@ -54,7 +46,7 @@ class Thumbnails:
         kept = self._folder / f"{digest}.png"
         if kept.is_file():
             return future_of(kept.read_bytes())
-        wanted = _DrawTask(project_of_one(project, asset), asset, of, digest, kept)
+        wanted = project_of_one(project, asset), asset, of, digest, kept
         with self._lock:
             if digest in self._drawing:
                 return self._drawing[digest]
@@ -70,7 +62,7 @@ class Thumbnails:
             digest, (work, future) = self._waiting.popitem()
             self._drawing[digest] = future
         try:
-            self._workers.start(_draw, work).add_done_callback(partial(self._end, digest, future))
+            self._workers.start(_draw, *work).add_done_callback(partial(self._end, digest, future))
         except MeshForgeError as error:  # the studio is being closed
             self._finish(digest)
             future.set_exception(error)
@@ -90,24 +82,26 @@ class Thumbnails:
             del self._drawing[digest]
 
 
-def _draw(work: _DrawTask) -> bytes:
-    project, source = work.project, work.project.mesh(work.asset)
+def _draw(project: Project, asset: str, of: ThumbnailOf, wanted: str, target: Path) -> bytes:
+    """Draw what has a digest, and keep it as a file. project: with this asset alone."""
+    source = project.mesh(asset)
     digests = {hull.name: digest(hull.shape) for hull in source.hulls}
     labels = [hull.annotation for hull in source.hulls]
     present = picture_digest(geometry_digest(digests), labels, project.settings.orient)
     shown = source
-    if work.of == "output":
-        stamp = read_stamp(project.layout.edited, work.asset)
+    if of == "output":
+        stamp = read_stamp(project.layout.edited, asset)
         present = output_picture_digest(present, output_digest(stamp) or "")
-        shown = load(project.layout.edited / stamp.out) if stamp and present == work.digest else source
-    if present != work.digest:
-        raise NotHereError("there is no such picture any more", where=work.asset, remedy="Ask for the present one.")
+        shown = load(project.layout.edited / stamp.out) if stamp and present == wanted else source
+    if present != wanted:
+        raise NotHereError("there is no such picture any more", where=asset, remedy="Ask for the present one.")
     data = draw_thumbnail(shown, compute_upright(project, source)[0])
-    write_atomically(work.target, data)
+    write_atomically(target, data)
     return data
 
 
-def _remove_oldest(folder: Path) -> None:
-    pictures = sorted(folder.glob("*.png"), key=lambda path: path.stat().st_mtime_ns)
-    for path in pictures[:-MOST_THUMBNAILS]:
+def remove_oldest(folder: Path, most: int) -> None:
+    """Remove the oldest files of a folder, of which so many stay."""
+    files = sorted(folder.glob("*.*"), key=lambda path: path.stat().st_mtime_ns)
+    for path in files[:-most]:
         path.unlink(missing_ok=True)

@@ -234,13 +234,6 @@ def test_files_beside_new_assets_come_before_names_and_likeness(named: Run) -> N
     assert {hull.label for hull in load("out/c.urdf").hulls} == {"seat", "leg"}
 
 
-def test_an_asset_that_came_later_is_labelled_likewise_in_the_project(named: Run) -> None:
-    add_to_project()
-    told = named("apply", "p", "--workers", "1", "--no-rebuild")
-    assert "note: 4 labels by names" in told.out
-    assert {one.source for one in Project.open("p").labels("c.urdf").labels.values()} == {"name"}
-
-
 def test_a_project_of_before_sources_were_kept_has_those_of_its_labels(named: Run) -> None:
     SOURCES.unlink()
     with Path("p/meshforge.toml").open("a") as settings:

@@ -249,22 +249,6 @@ def test_decompose_lists_the_options_when_one_is_unknown(run: Run) -> None:
     assert "threshold=0.05" in told.err
 
 
-def test_convert_within_a_format_writes_the_same_bytes(run: Run) -> None:
-    assert run("convert", "row.obj", "copy.obj").code == 0
-    assert Path("copy.obj").read_bytes() == Path("row.obj").read_bytes()
-
-
-@pytest.mark.parametrize("out", ["row.urdf", "row.xml", "row.glb", "row.gltf", "row.stl", "row.ply", "row"])
-def test_convert_to_another_format_keeps_the_hulls_and_their_labels(run: Run, out: str) -> None:
-    assert run("convert", "row.obj", f"made/{out}").code == 0
-    before, after = (run("info", name, "--json").json["hulls"] for name in ("row.obj", f"made/{out}"))
-    found = {round(hull["aabb"]["min"][0]): hull for hull in after}
-    for hull in before:
-        now = found[round(hull["aabb"]["min"][0])]
-        assert now["volume"] == pytest.approx(hull["volume"])
-        assert now["label"] == hull["label"]
-
-
 def test_convert_reports_what_is_held_and_lost_as_json(run: Run) -> None:
     Path("t.urdf").write_text(
         '<robot name="t"><link name="a"><collision name="pin"><geometry><sphere radius="1"/></geometry></collision>'
@@ -448,17 +432,6 @@ def test_the_loop_of_a_project_from_the_command_line(run: Run) -> None:
     assert run("status", "rows", "--json").json["assets"][0]["output"] == "edited"
     assert run("demonstrate", "rows", "row.obj", "--clear").code == 0
     assert run("demonstrate", "rows", "row.obj").out == ""
-
-
-def test_synthesize_that_finds_nothing_tells_why_and_the_nearest(run: Run) -> None:
-    _double_the_far_cube()
-    run("new", "rows", "row.obj", "--vocabulary", "leg,panel")
-    run("demonstrate", "rows", "row.obj", "far => Delete")
-    told = run("synthesize", "rows")
-    assert told.code == 1
-    assert told.out.startswith("no program found")
-    assert "selects too much: again" in told.out or "leaves out:       far" in told.out
-    assert not Path("rows/program.mf").exists()
 
 
 def _double_the_far_cube() -> None:

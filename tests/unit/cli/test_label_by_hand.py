@@ -129,7 +129,10 @@ def test_without_a_vocabulary_the_error_says_how_to_set_it(run: Run) -> None:
     assert run("label", "p", FIRST, "top=top").err.splitlines()[1] == f"  {said}"
 
 
-@pytest.mark.parametrize("typed", [FIRST, f"assets/{FIRST}", "t0.obj", "t0", "a/t0", f"elsewhere/{FIRST}", "b"])
+@pytest.mark.parametrize(
+    "typed",
+    [FIRST, f"assets/{FIRST}", "t0.obj", "t0", "a/t0", f"elsewhere/{FIRST}", "b", "b/t0.obj", "far/t0", "/x/t0.obj"],
+)
 def test_an_asset_is_known_by_its_file_and_by_what_no_other_has_of_its_id(run: Run, typed: str) -> None:
     assert run("label", "p", typed, "top=top").out.startswith("b/t1.obj: " if typed == "b" else f"{FIRST}: ")
     assert run("demonstrate", "p", typed, "top => Delete").out == "1. top => Delete\n"
@@ -138,6 +141,8 @@ def test_an_asset_is_known_by_its_file_and_by_what_no_other_has_of_its_id(run: R
 def test_an_asset_that_is_not_clear_is_asked_for_by_name(run: Run, tmp_path: Path) -> None:
     twice = run("label", "p", "t1.obj", "top=top").err
     assert twice == f"error: {tmp_path}/p: 't1.obj' may be any of 2 assets\n  Say which: a/t1.obj, b/t1.obj.\n"
+    nearest = run("label", "p", "b/far/t1.obj", "top=top").err
+    assert nearest.endswith("'b/far/t1.obj' may be any of 2 assets\n  Say which: b/t1.obj, a/t1.obj.\n")
     near = run("label", "p", "far/away/from/here/tt0.obj", "top=top").err
     assert near == f"error: {tmp_path}/p: there is no asset 'far/away/from/here/tt0.obj'\n  Did you mean '{FIRST}'?\n"
     write_table(tmp_path / "t0.obj")
@@ -174,14 +179,3 @@ def test_a_label_that_no_asset_has_is_named_with_the_nearest(run: Run, tmp_path:
     assert not Path("p/demonstrations").exists()
     Project.open("p").set_vocabulary(())  # then it is what the steps and the hulls say
     assert run("demonstrate", "p", FIRST, "top => Merge as tpo").code == 0
-
-
-@pytest.mark.parametrize("typed", ["b/t0.obj", "far/t0", "assets/x/t0.obj", "/nowhere/t0.obj"])
-def test_a_path_that_is_not_there_is_taken_by_its_file_name(run: Run, typed: str) -> None:
-    assert run("label", "p", typed, "top=top").out.startswith(f"{FIRST}: ")
-    assert set(labels_of()) == {"top"}
-
-
-def test_of_several_assets_of_a_file_name_the_nearest_path_is_offered_first(run: Run, tmp_path: Path) -> None:
-    refused = run("label", "p", "b/far/t1.obj", "top=top").err
-    assert refused.endswith("'b/far/t1.obj' may be any of 2 assets\n  Say which: b/t1.obj, a/t1.obj.\n")

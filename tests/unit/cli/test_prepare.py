@@ -121,15 +121,6 @@ def test_cut_along_a_plane_and_back(run: Run, project: str) -> None:
     assert told.code == 1 and "failed: row.obj: nothing was done to it" in told.out
 
 
-def test_all_is_taken_back_at_once(run: Run, project: str) -> None:
-    run("prepare", project, *VOXELS)
-    run("cut", project, "row.obj", "geom0#1", "--at", "2,0,0", "--across", "1,0,0")
-    told = run("prepare", project, "--remove")
-    assert told.out.count("taken back") == 2
-    assert not Path("p/prepared/row.obj").exists()
-    assert run("prepare", project, "--remove").out == ""
-
-
 @pytest.mark.slow
 def test_names_that_no_piece_or_body_has_are_told(run: Run, project: str) -> None:
     told = run("prepare", project, *VOXELS, "--only", "nothing*")

@@ -8,7 +8,7 @@ import pytest
 
 from meshforge.batch import IN_PROCESS
 from meshforge.geometry import CoacdSettings, VhacdSettings
-from meshforge.project import Project
+from meshforge.project import DecompositionPlan, Project
 from meshforge.studio.jobs.preparation import choose_decomposition
 from meshforge.studio.wire.jobs import DecomposeJob
 from tests.unit.project.stools import write_bare_stool
@@ -22,12 +22,12 @@ def test_later_assets_are_decomposed_as_the_others_unless_these_differ_or_a_pers
     for name in "abc":
         write_bare_stool(tmp_path / "assets", name)
     project = Project.create(tmp_path / "p", [tmp_path / "assets"])
-    assert choose_decomposition(project, ASKED) == (CoacdSettings(), {"hollow": False, "by": "whole"})
+    assert choose_decomposition(project, ASKED) == DecompositionPlan(CoacdSettings())
     settings = CoacdSettings(threshold=0.2)
     (done,) = project.decompose(["a.urdf"], settings, hollow=True, by="parts", execution=IN_PROCESS)
     assert len(done.hulls) == 5
-    assert choose_decomposition(project, ASKED) == (settings, {"hollow": True, "by": "parts"})
+    assert choose_decomposition(project, ASKED) == DecompositionPlan(settings, hollow=True, by="parts")
     chosen = ASKED.model_copy(update={"method": "vhacd"})
-    assert choose_decomposition(project, chosen) == (VhacdSettings(), {"hollow": False, "by": "whole"})
+    assert choose_decomposition(project, chosen) == DecompositionPlan(VhacdSettings())
     list(project.decompose(["c.urdf"], CoacdSettings(threshold=0.3), by="parts", execution=IN_PROCESS))
-    assert choose_decomposition(project, ASKED)[0] == CoacdSettings()
+    assert choose_decomposition(project, ASKED) == DecompositionPlan(CoacdSettings())

@@ -26,7 +26,7 @@ from meshforge.studio.learning import process
 from meshforge.studio.learning.queue import CancelFlag
 from meshforge.studio.session.file_sync import FileSync
 from meshforge.synthesis import Step
-from tests.unit.project.tables import FIRST, SECOND, STEPS, THIRD, applied, learned
+from tests.unit.project.tables import FIRST, SECOND, STEPS, THIRD, applied
 
 
 @pytest.fixture
@@ -88,14 +88,6 @@ def test_what_was_assessed_is_known_to_the_status_and_signs_off_what_is_written(
     assert files_of(project) == before
 
 
-def test_what_is_not_written_is_sure_and_not_signed_off(tmp_path: Path, flag: CancelFlag) -> None:
-    project = learned(tmp_path)
-    list(project.apply([SECOND], execution=IN_PROCESS))
-    judged(project)
-    learn_and_assess(project, flag)
-    assert [one.sign_off for one in project.status().assets] == ["sure", "signed off", "sure"]
-
-
 def found_since(project: Project) -> tuple[str, ...]:
     """What was found of the third asset since it was signed off, which it still is."""
     third = next(one for one in project.status().assets if one.id == THIRD)
@@ -144,7 +136,7 @@ def test_where_it_cannot_be_kept_it_is_shown_all_the_same(
 
     project = applied(tmp_path)
     learn(project, flag)
-    monkeypatch.setattr("meshforge.studio.learning.process.keep_assessment", fill_up)
+    monkeypatch.setattr("meshforge.project.FamilyAssessment.keep", fill_up)
     assess(project, flag)
     assert files_of(project) == [None, None]
 

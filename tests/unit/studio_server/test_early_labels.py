@@ -32,18 +32,22 @@ def group(label: str | None) -> LabelHulls:
     return LabelHulls(label=label, hulls={"a": ("two",), "b": ("one", "three"), "c": ("one",)})
 
 
-def test_labels_are_on_the_cards_before_they_are_written() -> None:
+@pytest.mark.parametrize(
+    ("label", "labels", "unsure"),
+    [
+        ("panel", [(0, 1), (1,), ()], (0,)),
+        (None, [(0, -1), (-1,), ()], (0,)),
+        ("door", [(0, 0), (-1,), ()], (0, 1)),  # outside of the vocabulary
+    ],
+)
+def test_labels_are_on_the_cards_before_they_are_written(
+    label: str | None, labels: list[tuple[int, ...]], unsure: tuple[int, ...]
+) -> None:
     shown = pages()
-    with EarlyLabels(shown, lambda: NAMES).show(group("panel")):
+    with EarlyLabels(shown, lambda: NAMES).show(group(label)):
         within = shown.cards
-    assert [card.labels for card in within] == [(0, 1), (1,), ()]
-    assert within[0].unsure == (0,) and shown.cards == within
-
-
-def test_a_label_is_taken_away() -> None:
-    shown = pages()
-    with EarlyLabels(shown, lambda: NAMES).show(group(None)):
-        assert [card.labels for card in shown.cards] == [(0, -1), (-1,), ()]
+    assert [card.labels for card in within] == labels
+    assert within[0].unsure == unsure and shown.cards == within
 
 
 def test_an_edit_that_is_refused_leaves_the_cards_as_they_were() -> None:
@@ -51,9 +55,3 @@ def test_an_edit_that_is_refused_leaves_the_cards_as_they_were() -> None:
     with pytest.raises(OSError), EarlyLabels(shown, lambda: NAMES).show(group("panel")):
         raise OSError
     assert shown.cards == CARDS
-
-
-def test_a_label_outside_of_the_vocabulary_is_not_shown() -> None:
-    shown = pages()
-    with EarlyLabels(shown, lambda: NAMES).show(group("door")):
-        assert [card.labels for card in shown.cards] == [(0, 0), (-1,), ()]

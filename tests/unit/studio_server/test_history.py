@@ -45,16 +45,6 @@ def test_undo_and_redo_walk_through_the_very_states_that_were(moves: Sequence[Wr
             assert (history.state.undoable, history.state.redoable) == (at, len(states) - 1 - at)
 
 
-def test_an_edit_that_changes_no_byte_is_no_entry_and_keeps_what_can_be_redone(tmp_path: Path) -> None:
-    project = bare(tmp_path)
-    history = History.open(project.folder)
-    make_edit(history, project, Write(files={"a": "1"}))
-    make_edit(history, project, Write(files={"a": "2"}))
-    history.undo()
-    assert make_edit(history, project, Write(files={"a": "1"})) is None
-    assert history.state.redo == "wrote a"
-
-
 def test_a_failed_edit_leaves_nothing_behind(tmp_path: Path) -> None:
     project = bare(tmp_path)
     history = History.open(project.folder)

@@ -1,7 +1,6 @@
 // The landmarks of the orientation: which pairs there are after a click.
 import type { AxisLandmarks, OrientView } from "../wire";
 
-type Axis = AxisLandmarks["axis"];
 type Pairs = Pick<OrientView, "snap" | "pairs">;
 
 /** The orientation with a pair for a direction; it takes the place of one along the same axis, or else of the last of two. */
@@ -16,7 +15,7 @@ export function withoutPair({ snap, pairs }: Pairs, at: number): Pairs {
 }
 
 /** The landmarks that two clicked hulls stand for, or why they cannot be landmarks. */
-export function pairFromClicks(axis: Axis, start: string | null, end: string | null): AxisLandmarks | string {
+export function pairFromClicks(axis: AxisLandmarks["axis"], start: string | null, end: string | null): AxisLandmarks | string {
   if (start === null || end === null) return "A hull without a label cannot be a landmark: label it first.";
   if (start === end) return `Both hulls are labelled ${start}: landmarks have two different labels.`;
   return { axis, start, end };

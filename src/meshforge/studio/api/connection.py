@@ -5,7 +5,6 @@ WebSocket on which a page gets all events.
 from __future__ import annotations
 
 from asyncio import FIRST_COMPLETED, create_task, get_running_loop, wait
-from dataclasses import dataclass
 from secrets import compare_digest
 from typing import Annotated, Any
 from urllib.parse import urlsplit
@@ -34,12 +33,6 @@ CHANGED = 4000
 _REOPEN = "Open the address that `meshforge studio` has printed."
 
 
-@dataclass(frozen=True, slots=True)
-class _Refusal:
-    status: int
-    problem: Problem
-
-
 class Guard:
     """Lets requests pass that come from a page of this studio, and gives every answer its safety headers."""
 
@@ -64,24 +57,23 @@ class Guard:
             await send(message)
 
         if refusal:
-            response = JSONResponse(refusal.problem.model_dump(mode="json"), refusal.status)
-            await response(scope, receive, send_with_headers)
+            await refusal(scope, receive, send_with_headers)
         else:
             await self._app(scope, receive, send_with_headers)
 
-    def _find_refusal(self, request: HTTPConnection) -> _Refusal | None:
+    def _find_refusal(self, request: HTTPConnection) -> Response | None:
         """Why a request is refused. A foreign name in `Host` means that a foreign page has rebound its name to us."""
         host = request.headers.get("host", "")
         if _host_name(f"//{host}") not in LOOPBACK:
-            return _Refusal(403, Problem(message="the studio answers on this machine only", remedy=_REOPEN))
+            return _refuse(403, "the studio answers on this machine only", remedy=_REOPEN)
         origin = request.headers.get("origin")
         if origin is not None and origin != f"http://{host}":
-            return _Refusal(403, Problem(message="another site asked for this", where=origin, remedy=_REOPEN))
+            return _refuse(403, "another site asked for this", where=origin, remedy=_REOPEN)
         path = request.url.path
         if path != "/ws" and not path.startswith(("/api/", "/ws/")):
             return None
         if not self._has_token(request):
-            return _Refusal(401, Problem(message="this page has no valid token for the studio", remedy=_REOPEN))
+            return _refuse(401, "this page has no valid token for the studio", remedy=_REOPEN)
         return _check_length(request) if request.scope.get("method") == "POST" else None
 
     def _has_token(self, request: HTTPConnection) -> bool:
@@ -95,12 +87,16 @@ class Guard:
         return compare_digest(token.encode(), self._token)
 
 
-def _check_length(request: HTTPConnection) -> _Refusal | None:
+def _refuse(status: int, message: str, where: str | None = None, remedy: str | None = None) -> Response:
+    return JSONResponse(Problem(message=message, where=where, remedy=remedy).model_dump(mode="json"), status)
+
+
+def _check_length(request: HTTPConnection) -> Response | None:
     length = request.headers.get("content-length", "")
     if not length.isdigit():
-        return _Refusal(411, Problem(message="this request does not say how long it is"))
+        return _refuse(411, "this request does not say how long it is")
     if int(length) > MOST_BYTES:
-        return _Refusal(413, Problem(message=f"this request is longer than {MOST_BYTES >> 20} MB"))
+        return _refuse(413, f"this request is longer than {MOST_BYTES >> 20} MB")
     return None
 
 

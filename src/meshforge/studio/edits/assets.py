@@ -43,12 +43,10 @@ class LabelFromFiles(Edit):
 
     kind: Literal["label-files"] = "label-files"
     touches = (Layout.settings, Layout.labels, Layout.label_sources)
+    title = "labels taken over from files"
 
     def apply(self, project: Project) -> None:
         project.label("file")
-
-    def describe(self, project: Project) -> str:
-        return "labels taken over from files"
 
 
 class LabelFromNames(Edit):
@@ -56,12 +54,10 @@ class LabelFromNames(Edit):
 
     kind: Literal["label-names"] = "label-names"
     touches = (Layout.labels, Layout.label_sources)
+    title = "labels taken from names"
 
     def apply(self, project: Project) -> None:
         project.label("names")
-
-    def describe(self, project: Project) -> str:
-        return "labels taken from names"
 
 
 class SetVocabulary(Edit):
@@ -83,14 +79,12 @@ class RenameLabel(Edit):
 
     kind: Literal["rename-label"] = "rename-label"
     touches = tuple(file for file in list_files() if file.words)
+    title = "{old} renamed {new}"
     old: str
     new: str
 
     def apply(self, project: Project) -> None:
         project.rename_label(self.old, self.new)
-
-    def describe(self, project: Project) -> str:
-        return f"{self.old} renamed {self.new}"
 
 
 Vector = tuple[float, float, float]
@@ -105,6 +99,7 @@ class CutHull(_PreparationEdit):
     """Cut a hull along a plane through `at` [m] across `across`, in the frame that the asset comes in."""
 
     kind: Literal["cut"] = "cut"
+    title = "{hull} of {asset} cut in two"
     hull: str
     at: Vector
     across: Vector
@@ -112,20 +107,15 @@ class CutHull(_PreparationEdit):
     def apply(self, project: Project) -> None:
         project.cut(self.asset, self.hull, self.at, self.across)
 
-    def describe(self, project: Project) -> str:
-        return f"{self.hull} of {self.asset} cut in two"
-
 
 class Unprepare(_PreparationEdit):
     """Take back the last thing that was done to an asset before the program."""
 
     kind: Literal["unprepare"] = "unprepare"
+    title = "last preparation of {asset} taken back"
 
     def apply(self, project: Project) -> None:
         project.unprepare(self.asset)
-
-    def describe(self, project: Project) -> str:
-        return f"last preparation of {self.asset} taken back"
 
 
 class ReviewAssets(Edit):
@@ -192,17 +182,16 @@ class DropManualEdits(_ManualEditBase):
     """Take all edits by hand away from an asset, so that it is what the program makes of it."""
 
     kind: Literal["drop-manual-edits"] = "drop-manual-edits"
+    title = "edits by hand of {asset} taken away"
 
     def apply(self, project: Project) -> None:
         project.write_manual_edits(self.asset, ())
-
-    def describe(self, project: Project) -> str:
-        return f"edits by hand of {self.asset} taken away"
 
 
 class AddTemplate(Edit):
     """Keep an uploaded file as a template. file: where it lies."""
 
+    title = "template {name} added"
     name: str
     file: str
 
@@ -211,9 +200,6 @@ class AddTemplate(Edit):
 
     def list_paths(self, project: Project) -> tuple[Path, ...]:
         return (project.layout.own_templates / self.name,)
-
-    def describe(self, project: Project) -> str:
-        return f"template {self.name} added"
 
 
 class RemoveAssets(Edit):

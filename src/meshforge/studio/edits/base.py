@@ -20,18 +20,19 @@ class Edit(Wire):
     """One change that a person makes to a project, as the page sends it and the history keeps it.
 
     touches: the files that `apply` may change: where the edit is of one `asset`, those of that asset, else of all; undo
-    puts back what was in them.
+    puts back what was in them. title: what it does, with its fields in braces, where `describe` says no more.
     """
 
     touches: ClassVar[tuple[ProjectFile, ...]] = ()
+    title: ClassVar[str] = ""
 
     @abstractmethod
     def apply(self, project: Project) -> None:
         """Make the change; on disk when this returns. Raises MeshForgeError, with nothing changed."""
 
-    @abstractmethod
     def describe(self, project: Project) -> str:
         """Return what it does, in a few words: `label 3 hulls of table_04 as leg`."""
+        return self.title.format_map(dict(self))
 
     def list_paths(self, project: Project) -> tuple[Path, ...]:
         """Return the files and folders that `apply` may change."""

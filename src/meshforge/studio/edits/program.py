@@ -79,27 +79,23 @@ class MoveRule(_RuleEdit):
     """Put a rule at another place, in all demonstrations; rules count from 1."""
 
     kind: Literal["move-rule"] = "move-rule"
+    title = "rule {rule} is now rule {to}"
     rule: int
     to: int
 
     def apply(self, project: Project) -> None:
         project.move_rule(self.rule, self.to)
 
-    def describe(self, project: Project) -> str:
-        return f"rule {self.rule} is now rule {self.to}"
-
 
 class DeleteRule(_RuleEdit):
     """Take a rule away, with its steps in all demonstrations."""
 
     kind: Literal["delete-rule"] = "delete-rule"
+    title = "rule {rule} taken away"
     rule: int
 
     def apply(self, project: Project) -> None:
         project.delete_rule(self.rule)
-
-    def describe(self, project: Project) -> str:
-        return f"rule {self.rule} taken away"
 
 
 class SetOrientation(base.Edit):
@@ -145,6 +141,7 @@ class AnswerForRule(base.Edit):
 
     kind: Literal["answer"] = "answer"
     touches = (Layout.events,)
+    title = "rule {rule} on {asset} answered"
     rule: int
     asset: str
     select: tuple[str, ...]
@@ -152,22 +149,17 @@ class AnswerForRule(base.Edit):
     def apply(self, project: Project) -> None:
         project.add_answer(Answer(self.rule, self.asset, self.select))
 
-    def describe(self, project: Project) -> str:
-        return f"rule {self.rule} on {self.asset} answered"
-
 
 class TakeBack(base.Edit):
     """Take back an answer or a repair by its id."""
 
     kind: Literal["take-back"] = "take-back"
     touches = (Layout.events, Layout.labels)
+    title = "{id} taken back"
     id: str
 
     def apply(self, project: Project) -> None:
         project.take_back(self.id)
-
-    def describe(self, project: Project) -> str:
-        return f"{self.id} taken back"
 
 
 class WriteProgram(base.Edit):
@@ -175,6 +167,7 @@ class WriteProgram(base.Edit):
 
     kind: Literal["program"] = "program"
     touches = tuple(file for file in list_files() if file.learned)
+    title = "program changed by hand"
     text: str
     version: str
 
@@ -187,19 +180,14 @@ class WriteProgram(base.Edit):
             )
         project.accept(Program.parse(self.text))
 
-    def describe(self, project: Project) -> str:
-        return "program changed by hand"
-
 
 class TakeLearned(base.Edit):
     """Give up the program that was written by hand, so that the learned one takes its place."""
 
     touches = tuple(file for file in list_files() if file.learned)
+    title = "the learned program taken in place of the one by hand"
 
     def apply(self, project: Project) -> None:
         layout = project.layout
         for path in (layout.program, layout.learned):
             path.unlink(missing_ok=True)
-
-    def describe(self, project: Project) -> str:
-        return "the learned program taken in place of the one by hand"

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
 from functools import cached_property
 from pathlib import Path
 from typing import Literal, assert_never
@@ -36,7 +35,7 @@ class ReplyToQuestion(Edit):
     """
 
     kind: Literal["reply"] = "reply"
-    touches = (Layout.events,)
+    touches = (Layout.events, Layout.settings)
     question: ReviewQuestionView
     choice: str | None = None
     exceptions: tuple[HullLabel, ...] = ()
@@ -48,7 +47,10 @@ class ReplyToQuestion(Edit):
         project.reply(self._asked, self._reply)
 
     def list_paths(self, project: Project) -> tuple[Path, ...]:
-        return (*super().list_paths(project), *self._list_more_paths(project))
+        layout, assets = project.layout, self.list_labels()
+        everywhere = bool(assets) and has_agreed_labels(project)
+        labels = [Layout.labels.path(project.folder)] if everywhere else map(layout.labels, assets)
+        return (*super().list_paths(project), layout.demonstration(self._asked.asset), *labels)
 
     def list_labels(self) -> LabelsByAsset:
         labels: dict[str, dict[str, str | None]] = {}
@@ -114,26 +116,3 @@ class ReplyToQuestion(Edit):
         if isinstance(self._asked, signoff.MistakeQuestion | signoff.OrientationQuestion):
             return self.choice is None or self.choice == NO
         return self.choice is None and not self._labels and not isinstance(self._asked, signoff.CandidateQuestion)
-
-    def _list_more_paths(self, project: Project) -> Iterator[Path]:
-        if self._is_put_off:
-            return
-        layout = project.layout
-        match self._asked:
-            case signoff.MistakeQuestion() if not self._labels:
-                yield layout.demonstration(self._asked.asset)
-            case (
-                signoff.GroupQuestion()
-                | signoff.RepairQuestion()
-                | signoff.ResultQuestion()
-                | signoff.MistakeQuestion()
-            ):
-                assets = self.list_labels()
-                everywhere = bool(assets) and has_agreed_labels(project)
-                yield from [Layout.labels.path(project.folder)] if everywhere else map(layout.labels, assets)
-            case signoff.OrientationQuestion():
-                yield layout.settings
-            case signoff.CandidateQuestion() | signoff.DemonstrationQuestion():
-                return
-            case other:
-                assert_never(other)

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager
-from typing import Literal, TypedDict
+from typing import Literal
 from uuid import uuid4
 
 from meshforge.batch import ExecutionOptions, record_digest
 from meshforge.common import MeshForgeError, ProjectError, format_share, join_names, pluralize, relative_name
-from meshforge.formats import DecomposeBy
-from meshforge.geometry import CoacdSettings, DecomposeSettings, VhacdSettings
+from meshforge.geometry import CoacdSettings, VhacdSettings
 from meshforge.labels import LabelOutcome, LabelResult, VlmForecast, VlmLabeler, VlmResult, check_vlm_settings
 from meshforge.project import (
     MADE_ANEW,
     REBUILD_DEFAULTS,
+    DecompositionPlan,
     PreparationResult,
     Project,
     RebuildSettings,
@@ -28,26 +28,20 @@ from meshforge.studio.wire.jobs import AskJob, DecomposeJob, ForecastJob, Job, J
 from meshforge.symbolic import GIVEN_SOURCES
 
 
-class DecomposeOptions(TypedDict):
-    """Arguments of `Project.decompose`."""
-
-    hollow: bool
-    by: DecomposeBy
-
-
 def start_decompose(session: Session, request: DecomposeJob) -> Job:
     """Start to decompose whatever some assets have no hulls for; each asset is one edit, all are undone at once."""
     project = session.project
     session.check_assets(*request.assets)
     assets, group = tuple(dict.fromkeys(request.assets)), uuid4().hex
-    settings, options = choose_decomposition(project, request)
+    plan = choose_decomposition(project, request)
 
     def work(progress: JobProgress) -> str:
         made = 0
         results = project.decompose(
             assets,
-            settings,
-            **options,
+            plan.settings,
+            hollow=plan.hollow,
+            by=plan.by,
             execution=ExecutionOptions(stop=progress.is_stopped, progress=progress.advance),
             write_block=lambda asset: session.record_preparation(f"{asset} decomposed", asset, group),
         )
@@ -59,16 +53,13 @@ def start_decompose(session: Session, request: DecomposeJob) -> Job:
     return session.jobs.start("decompose", f"Decomposing {pluralize(len(assets), 'asset')}", len(assets), work)
 
 
-def choose_decomposition(project: Project, request: DecomposeJob) -> tuple[DecomposeSettings, DecomposeOptions]:
-    """Return the settings of a decomposition, and how pieces are taken.
-
-    Where nothing is asked for, those of the project's other assets, so that it stays clear how new ones are decomposed.
-    """
+def choose_decomposition(project: Project, request: DecomposeJob) -> DecompositionPlan:
+    """Return how assets are decomposed: where nothing is asked for, as the project's other ones, so that it stays clear
+    how new ones are."""
     plan = read_preparation_plan(project).decompose if request.method is None else ()
     if len(plan) == 1 and not plan[0].only:
-        return plan[0].settings, {"hollow": plan[0].hollow, "by": plan[0].by}
-    settings = VhacdSettings() if request.method == "vhacd" else CoacdSettings()
-    return settings, {"hollow": False, "by": request.by}
+        return plan[0]
+    return DecompositionPlan(VhacdSettings() if request.method == "vhacd" else CoacdSettings(), by=request.by)
 
 
 def _decompose_line(result: PreparationResult) -> JobLine:

@@ -11,15 +11,22 @@ from pathlib import Path
 
 from meshforge.common import MeshForgeError, StoppedError
 from meshforge.language import Program, parse_extractor
-from meshforge.project import AssessmentBasis, Project, digest_inputs, select_assets
+from meshforge.project import (
+    AssessmentBasis,
+    Project,
+    assess_family,
+    digest_inputs,
+    program_by_hand,
+    sees_whole_family,
+    select_assets,
+)
+from meshforge.signoff import THRESHOLD
 from meshforge.store import MeshCache
 from meshforge.studio.learning.queue import CancelToken
 from meshforge.studio.learning.results import (
     ProgramWithTemplates,
     RuleSelector,
-    assess_project,
     build_outcome_view,
-    keep_assessment,
     measure_reach,
     view_assessment,
 )
@@ -68,7 +75,8 @@ def assess(folder: Path, token: CancelToken, number: int) -> AssessmentView | No
     """Return how sure the edits are that a learning run came to, None where that was interrupted, or was not the last
     one.
 
-    It is kept, as a review is, where nothing changed since that run. None too where nothing is demonstrated yet.
+    It is kept, as a review is, where nothing changed since that run and it looked at all assets. None too where nothing
+    is demonstrated yet.
     """
     memory, project = _memory_of(folder), Project.open(folder)
     last = memory.last
@@ -76,12 +84,16 @@ def assess(folder: Path, token: CancelToken, number: int) -> AssessmentView | No
         return None
     basis = AssessmentBasis.take(project)
     meshes = dict(memory.family.read_meshes(project, select_assets(project), token.stop))
-    made = assess_project(project, meshes, last.outcome, basis, token.stop)
+    by_hand, kept = program_by_hand(project), project.assessment()
+    program, threshold = by_hand or last.outcome, kept.threshold if kept else THRESHOLD
+    made = assess_family(project, meshes, program, basis, threshold, by_hand=by_hand is not None, stop=token.stop)
     if made is None:
         return None
-    if last.holds(meshes, basis.inputs_digest):
+    is_whole = made.program is not None and sees_whole_family(project)
+    if is_whole and last.holds(meshes, basis.inputs_digest):
         with suppress(MeshForgeError, OSError):  # pages show it all the same
-            keep_assessment(project, made)
+            if made.keep(project):
+                project.renew_sign_offs(keep_persons=True)
     unseen = len(project.assets()) - len(meshes)
     return view_assessment(made.found, made.state, made.program is not None, unseen)
 

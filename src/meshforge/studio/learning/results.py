@@ -3,7 +3,7 @@ select on each asset."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from weakref import WeakKeyDictionary
@@ -12,15 +12,7 @@ from meshforge import synthesis
 from meshforge.batch import template_digests
 from meshforge.common import MeshForgeError
 from meshforge.language import EXTREMITY, Extractor, Program, Template, explain, parse_extractor, select_mask
-from meshforge.project import (
-    AssessmentBasis,
-    FamilyAssessment,
-    Project,
-    assess_family,
-    program_by_hand,
-    sees_whole_family,
-)
-from meshforge.signoff import THRESHOLD, Assessment, ReviewChoice, ReviewQuestion, ReviewState
+from meshforge.signoff import Assessment, ReviewChoice, ReviewQuestion, ReviewState
 from meshforge.studio.queries.programs import rule_views
 from meshforge.studio.wire import family
 from meshforge.studio.wire import program as wire
@@ -47,30 +39,6 @@ def build_outcome_view(number: int, outcome: synthesis.LearningOutcome, looked_a
         sample=() if outcome.unambiguous else outcome.sample,
         overruled=outcome.overruled,
     )
-
-
-def assess_project(
-    project: Project,
-    meshes: Mapping[str, SymbolicMesh],
-    outcome: synthesis.LearningOutcome | None,
-    basis: AssessmentBasis,
-    stop: Callable[[], bool] = lambda: False,
-) -> FamilyAssessment | None:
-    """Return how sure the edits of a project are under its program, None where that was interrupted.
-
-    meshes: those that were learned from; outcome: what that came to, which does not matter where a person wrote the
-    program; basis: taken before the meshes were read.
-    """
-    by_hand, last = program_by_hand(project), project.assessment()
-    threshold = last.threshold if last else THRESHOLD
-    return assess_family(project, meshes, by_hand or outcome, basis, threshold, by_hand=by_hand is not None, stop=stop)
-
-
-def keep_assessment(project: Project, made: FamilyAssessment) -> None:
-    """Keep it as a review does, and renew sign-offs; nothing where there is no program, or where the studio looks at
-    some assets only."""
-    if made.program is not None and sees_whole_family(project) and made.keep(project):
-        project.renew_sign_offs(keep_persons=True)
 
 
 def view_assessment(

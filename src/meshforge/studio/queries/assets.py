@@ -46,10 +46,7 @@ def build_asset_view(project: Project, asset: str, mesh: SymbolicMesh) -> AssetV
         asset=asset,
         bodies=tuple(body.name for body in source.bodies),
         hulls=hull_views(mesh),
-        non_convex=tuple(
-            NonConvexView(name=o.name, body=o.body, reason=o.reason, surface=o.surface is not None)
-            for o in source.non_convex
-        ),
+        non_convex=tuple(map(NonConvexView.model_validate, source.non_convex)),
         has_visual=_has_visual(source),
         contacts=contact_names(seen),
         near_misses=tuple(

@@ -143,9 +143,6 @@ def contact_names(mesh: SymbolicMesh) -> tuple[tuple[str, str], ...]:
     return tuple((mesh.hulls[i].name, mesh.hulls[j].name) for i, j in sorted(mesh.contacts))
 
 
-ResultOf = Literal["program", "output"]
-
-
 def preview_steps(project: Project, asset: str, mesh: SymbolicMesh, steps: int) -> bytes:
     """Return the packet of an asset after its first steps; mesh: the asset as it comes.
 
@@ -190,7 +187,9 @@ def _describe_problems(replay: Replay) -> str | None:
     return "; ".join(result.error for result in replay.trace if result.error) or None
 
 
-def preview_result(project: Project, asset: str, mesh: SymbolicMesh, of: ResultOf, program: Program | None) -> bytes:
+def preview_result(
+    project: Project, asset: str, mesh: SymbolicMesh, of: Literal["program", "output"], program: Program | None
+) -> bytes:
     """Return the packet of an edited asset. mesh: the asset as it comes; program: what is run, None changes nothing.
 
     Raises MeshForgeError where the program cannot run on it, or where there is no output.

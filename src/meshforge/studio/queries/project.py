@@ -51,6 +51,7 @@ def add_session(
     """Return what the next step depends on, with what this session knows; it learns by itself, so no program is
     outdated."""
     rows = {row.asset: row for row in assessment.assets} if assessment else {}
+    near = (outcome.nearest.rule, outcome.nearest.asset) if outcome and outcome.nearest else None
     return replace(
         family,
         assets=[_add_confidence(asset, rows.get(asset.id)) for asset in family.assets],
@@ -58,14 +59,9 @@ def add_session(
         outdated=False,
         problem=problem,
         question=_find_question(assessment),
-        last_run=_last_run(outcome) if outcome else None,
+        last_run=LastRun(outcome.status, outcome.repairs, near, outcome.sample) if outcome else None,
         propagation=propagation,
     )
-
-
-def _last_run(outcome: OutcomeView) -> LastRun:
-    near = (outcome.nearest.rule, outcome.nearest.asset) if outcome.nearest else None
-    return LastRun(outcome.status, outcome.repairs, near, outcome.sample)
 
 
 def _add_confidence(asset: AssetStatus, row: ConfidenceView | None) -> AssetStatus:

@@ -49,16 +49,18 @@ class FileSync:
         names = frozenset(names)
         self._note_stamps(names)
         changes = changes_of(self.project, names)
-        if "feedback" in changes.effects:
-            changes = self._add_feedback(changes)
-        effects = changes.effects
+        assets, effects = changes.assets, changes.effects
+        if "feedback" in effects:
+            about, learns = self._take_feedback()
+            assets |= about & self.project.found.ids.keys()
+            effects |= {"questions", "learning"} if learns else {"questions"}
         if "settings" in effects:
             self.reopen()
         is_other = self.show_program() if effects & {"settings", "program"} else False
         if "learning" in effects:  # before the rest, as it takes longest
             self._learning.restart()
-        self._pages.announce_assets(sorted(changes.assets), bool(changes.shapes))
-        self._queue.add(changes.assets, later="settings" in effects)
+        self._pages.announce_assets(sorted(assets), bool(changes.shapes))
+        self._queue.add(assets, later="settings" in effects)
         if is_other and "learning" not in effects:
             self._learning.measure_reach()
         if "questions" in effects and "learning" not in effects:
@@ -103,8 +105,8 @@ class FileSync:
         kept = {name: at for name, at in self._stamps.items() if name not in names}
         self._stamps = kept | dict(_stamp_files((self.project.folder / name for name in names), self.project.folder))
 
-    def _add_feedback(self, changes: FileChanges) -> FileChanges:
-        """The same with what people said since: what is learned from it, and of which assets; else, what is asked."""
+    def _take_feedback(self) -> tuple[set[str], bool]:
+        """The assets of which people said something since, and whether there is anything to be learned from it."""
         before, now = self._announced, _read_feedback(self.project)
         self._announced = now
         about = {
@@ -115,10 +117,7 @@ class FileSync:
         about |= before.exclusions.keys() ^ now.exclusions.keys()
         if self.project.assets() != self._family:
             self.reopen()
-        learns = bool(about) or before.answers_and_fixes != now.answers_and_fixes
-        assets = changes.assets | (about & self.project.found.ids.keys())
-        changes = replace(changes, assets=assets)
-        return changes.with_effects("questions", "learning") if learns else changes.with_effects("questions")
+        return about, bool(about) or before.answers_and_fixes != now.answers_and_fixes
 
 
 def _read_feedback(project: Project) -> Feedback:
@@ -143,9 +142,6 @@ class FileChanges:
     assets: frozenset[str] = frozenset()
     shapes: frozenset[str] = frozenset()
     effects: frozenset[Effect] = frozenset()
-
-    def with_effects(self, *effects: Effect) -> FileChanges:
-        return replace(self, effects=self.effects | set(effects))
 
 
 def changes_of(project: Project, names: Iterable[str]) -> FileChanges:

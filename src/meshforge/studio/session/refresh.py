@@ -28,12 +28,6 @@ _FEWEST, _PORTIONS = 8, 20
 _REPORT_SECONDS = 0.2
 
 
-def initial_view(project: Project) -> ProjectView:
-    """Return the project before its assets are read. Raises ProjectError for a file of the project that cannot be
-    read."""
-    return build_project_view(project, NextStep("wait", "The assets are being read."), None, ())
-
-
 class Refresher:
     """Makes cards and the view of the project, and shows how far the first reading is.
 

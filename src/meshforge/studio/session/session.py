@@ -14,7 +14,7 @@ from meshforge.batch import read_prepared, stamp_path
 from meshforge.common import ProjectError, UsageError, relative_name
 from meshforge.labels import OfferCache
 from meshforge.language import Program
-from meshforge.project import Project
+from meshforge.project import NextStep, Project
 from meshforge.store import History, HistoryEntry, Layout, MeshCache, list_files
 from meshforge.studio.edits.base import Edit, make_edit
 from meshforge.studio.edits.program import TakeLearned
@@ -24,9 +24,10 @@ from meshforge.studio.learning.scheduler import LearningScheduler
 from meshforge.studio.output_checks import OutputChecks
 from meshforge.studio.pages import PageHub, PageState
 from meshforge.studio.queries.programs import read_program_view
+from meshforge.studio.queries.project import build_project_view
 from meshforge.studio.session.file_sync import FileSync, FileWatcher
 from meshforge.studio.session.job_runner import JobRunner
-from meshforge.studio.session.refresh import Refresher, initial_view
+from meshforge.studio.session.refresh import Refresher
 from meshforge.studio.similar_hulls import SimilarHulls
 from meshforge.studio.thumbnails import Thumbnails
 from meshforge.studio.transfers import Downloads, Uploads
@@ -66,7 +67,7 @@ class Session:
         self.history = History.open(project.folder, lambda: _list_learned_files(project))
         self.label_changes = LabelChanges(self.history)
         self.hub = PageHub()
-        view = initial_view(project)
+        view = build_project_view(project, NextStep("wait", "The assets are being read."), None, ())
         self.pages = PageState(
             self.hub, view, self.history.state, version("meshforge"), tour=options.tour, leave=options.folder is None
         )

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import shutil
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from secrets import token_hex
 
@@ -82,19 +82,15 @@ def clean_up(state: Path) -> None:
 @contextmanager
 def _hold_journal(state: Path) -> Iterator[Path]:
     """The journal, which one studio at a time may use."""
-    busy = "another studio is making a project now"
-    with _explain_busy(busy), hold_lock(state / "building.lock", str(state), wait=2.0):
+    with ExitStack() as stack:
+        try:
+            stack.enter_context(hold_lock(state / "building.lock", str(state), wait=2.0))
+        except MeshForgeError as error:
+            if "another meshforge" not in error.problem:
+                raise
+            remedy = "Wait until it is done, then try again."
+            raise ProjectError("another studio is making a project now", remedy=remedy) from None
         yield state / "building.json"
-
-
-@contextmanager
-def _explain_busy(problem: str) -> Iterator[None]:
-    try:
-        yield
-    except MeshForgeError as error:
-        if "another meshforge" not in error.problem:
-            raise
-        raise ProjectError(problem, remedy="Wait until it is done, then try again.") from None
 
 
 def remove_remains(journal: Path) -> None:

@@ -12,7 +12,7 @@ from pathlib import Path
 from time import monotonic
 
 from meshforge.batch import SETTINGS, expand, find_sources
-from meshforge.common import MeshForgeError, StoppedError, UsageError, describe_error, is_file, plain_path
+from meshforge.common import MeshForgeError, StoppedError, UsageError, describe_error, is_file, plain_path, pluralize
 from meshforge.formats import all_suffixes, read
 from meshforge.studio.wire.start import AssetsFound, FolderEntry, FolderView
 from meshforge.studio.workers import Workers, wait_for
@@ -98,12 +98,6 @@ def _is_folder(entry: os.DirEntry[str]) -> bool:
         return False
 
 
-def default_places() -> tuple[Path, ...]:
-    """Return where a person begins to look for assets: the folder that the studio was started in, and the home
-    folder."""
-    return tuple(dict.fromkeys((Path.cwd(), Path.home())))
-
-
 def suggest_project(name: str) -> Path:
     """Return a folder that is not there yet, for a new project of that name: where the studio was started, or else in
     the home folder where that cannot be written."""
@@ -177,15 +171,6 @@ def _wait_until(future: Future[_Look], until: float | None) -> _Look:
         return _Look(problem=error.message)
 
 
-def warm_up(workers: Workers) -> None:
-    """Start the processes that look at assets, so that the first look is quick."""
-    workers.start(_is_ready)
-
-
-def _is_ready() -> bool:
-    return True
-
-
 def _look(path: Path) -> _Look:
     try:
         sources = [source for source in find_sources(read(path)) if not source.is_hopeless]
@@ -199,9 +184,8 @@ def _look(path: Path) -> _Look:
 def _describe_kinds(paths: Sequence[Path]) -> str:
     """How many there are of which format: `12 URDF, 1 folder of pieces`."""
     counts = Counter(path.suffix.lower().lstrip(".").upper() if path.is_file() else "" for path in paths)
-    words = (f"{count:,} {kind}" if kind else _describe_folders(count) for kind, count in counts.most_common())
+    words = (
+        f"{count:,} {kind}" if kind else pluralize(count, "folder of pieces", "folders of pieces")
+        for kind, count in counts.most_common()
+    )
     return ", ".join(words)
-
-
-def _describe_folders(count: int) -> str:
-    return "1 folder of pieces" if count == 1 else f"{count:,} folders of pieces"

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Iterable
 from contextlib import ExitStack, suppress
 from importlib.metadata import version
 from pathlib import Path
@@ -39,7 +38,7 @@ class StartPage:
 
     def begin(self) -> None:
         """Get ready for people, as no project is open."""
-        folders.warm_up(self._workers)
+        self._workers.start(folders.is_project, self._state)  # so that the first look is quick
 
     @property
     def view(self) -> wire.StartView:
@@ -51,7 +50,7 @@ class StartPage:
                 wire.FamilyOffer(name=one.name, about=one.about, project=str(folders.suggest_project(one.name)))
                 for one in FAMILIES
             ),
-            places=tuple(map(str, folders.default_places())),
+            places=tuple(dict.fromkeys(map(str, (Path.cwd(), Path.home())))),
         )
 
     @property
@@ -157,14 +156,10 @@ def _take_folder(stack: ExitStack, home: Path) -> Path:
     key = uuid4().hex
     stack.enter_context(hold_lock(home / f"{key}.lock", str(home)))
     stack.callback((home / f"{key}.lock").unlink, missing_ok=True)
-    _remove_stale(home.glob("*.lock"), key)
-    return home / key
-
-
-def _remove_stale(locks: Iterable[Path], own: str) -> None:
-    for lock in locks:
+    for lock in home.glob("*.lock"):
         with suppress(MeshForgeError, OSError):  # its studio runs
-            if lock.stem != own:
+            if lock.stem != key:
                 with hold_lock(lock, str(lock), wait=0):
                     shutil.rmtree(lock.with_suffix(""), ignore_errors=True)
                     lock.unlink(missing_ok=True)
+    return home / key

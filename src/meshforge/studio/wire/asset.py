@@ -44,7 +44,7 @@ class NonConvexView(Wire):
     name: str
     body: str
     reason: str
-    surface: bool = False
+    surface: Annotated[bool, BeforeValidator(bool)] = False
 
 
 class NearMiss(Wire):

@@ -23,7 +23,7 @@ class Card(Wire):
     place in the vocabulary or -1 for none; unsure: positions of hulls whose label is not sure; given: how many labels
     a person or a file gave.
     after: how many hulls the output has; after_labels: like `labels`, empty where they are not known; stale: what
-    changed since the output was made; excluded: why it is given up; corrections: how many edits by hand.
+    changed since the output was made; excluded: why it is given up; manual_edits: how many edits by hand.
     sources: how many pieces and bodies have no hulls and can be decomposed; prepared: what was done before the program.
     picture, edited_picture: the digest that the address of the thumbnail takes, null where there is none yet.
     check: the digest of the output and of its inputs, null where there is no output; faults: what checks found, null
@@ -135,8 +135,8 @@ class ProjectView(Wire):
 
 
 class ConfidenceView(Wire):
-    """One asset. probability: that its edit is right; doubts: the weightiest first; state: whether it is signed off,
-    held below the bar, or excluded; told: whether a person demonstrated or accepted it."""
+    """One asset. probability: that its edit is right; reasons: the weightiest first; state: whether it is signed off,
+    needs review, or is excluded; reviewed: whether a person demonstrated or accepted it."""
 
     asset: str
     probability: float
@@ -179,10 +179,10 @@ class ReviewQuestionView(Wire):
 
 
 class AssessmentView(Wire):
-    """A family as the last learning run left it. bar: the probability from which on an asset is signed off; signed_off,
-    held, excluded: how many assets; unseen: those of the family that nobody looked at, as there are too many, or they
-    cannot be read; assets: the others in the family's order, empty while there is no program; question: null where
-    nothing is left to ask."""
+    """A family as the last learning run left it. threshold: the probability from which on an asset is signed off;
+    signed_off, need_review, excluded: how many assets; unseen: those of the family that nobody looked at, as there are
+    too many, or they cannot be read; assets: the others in the family's order, empty while there is no program;
+    question: null where nothing is left to ask."""
 
     threshold: float
     signed_off: int = 0

@@ -131,8 +131,8 @@ class AssetLabelUpdate(Wire):
 
 
 class LabelUpdate(Wire):
-    """What the last edit did, if it changed the labels of all assets. way: its kind; settled: how many labels it made
-    sure."""
+    """What the last edit did, if it changed the labels of all assets. way: its kind; newly_sure: how many
+    labels it made sure."""
 
     way: LabelEditKind
     assets: tuple[AssetLabelUpdate, ...]

@@ -112,7 +112,7 @@ class NearestView(Wire):
 
 class OutcomeView(Wire):
     """The outcome of a learning run. number: counts the runs; program: its text, null where there is none; looked_at:
-    how many assets the run looked at; settled: whether the program is unambiguous; repairs: how many labels
+    how many assets the run looked at; unambiguous: whether the program is unambiguous; repairs: how many labels
     are probably wrong.
 
     error: a message in place of an outcome. why, advice, nearest: for a rule without an extractor. stale: ids of

@@ -72,7 +72,7 @@ class UploadReceipt(Wire):
 
 
 class EditReceipt(Wire):
-    """An edit is on disk. said: what was done, in words; nothing: whether there was nothing to do."""
+    """An edit is on disk. message: what was done, in words; nothing: whether there was nothing to do."""
 
     message: str
     nothing: bool = False

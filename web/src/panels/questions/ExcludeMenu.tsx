@@ -8,9 +8,7 @@ const LINES = [
   ["not-solved", "Not solved: counted, and not written"],
 ] as const;
 
-type ExcludeId = (typeof LINES)[number][0];
-
-export function ExcludeMenu({ onPick }: { onPick: (id: ExcludeId) => void }) {
+export function ExcludeMenu({ onPick }: { onPick: (id: (typeof LINES)[number][0]) => void }) {
   return (
     <Menu
       trigger={
