@@ -12,20 +12,10 @@ from meshforge.language import EXTREMITY, Leaf
 from meshforge.synthesis.questions import LabelFix
 
 Layers = Literal["S", "S+T", "S+G", "S+T+G"]
-
-
 LAYERS: tuple[Layers, ...] = get_args(Layers)
-
-
 Strategy = Literal["default", "paper"]
-
-
 STRATEGIES: tuple[Strategy, ...] = get_args(Strategy)
-
-
 Clock = Callable[[], float]
-
-
 """Seconds from any fixed moment."""
 
 
