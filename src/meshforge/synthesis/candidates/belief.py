@@ -20,6 +20,7 @@ import numpy.typing as npt
 from meshforge.geometry import Floats
 from meshforge.language import Diff, Extractor, Leaf
 from meshforge.symbolic import bits_of, descriptors
+from meshforge.synthesis.search.bank import unpack_bits
 from meshforge.synthesis.search.observation_table import ObservationTable
 from meshforge.synthesis.search.terms import Compound, Term
 
@@ -123,7 +124,7 @@ def measure_evidence(
         return tuple(NO_EVIDENCE for _ in candidates)
     places = np.array([group for groups in field.groups[shown:] for group in groups], dtype=np.int64)
     ends = np.concatenate([[0], np.cumsum(counts)])
-    chosen = _unpack(candidates, field.width)[:, places]
+    chosen = unpack_bits(candidates, field.width)[:, places]
     many = _sum_by_mesh(chosen.astype(float), ends)
     strange = _sum_by_mesh(chosen * _strangeness(field, selections), ends)
     active = many > 0
@@ -148,12 +149,6 @@ def _strangeness(field: ObservationTable, selections: Sequence[int]) -> Floats:
     known = {hulls[place].label for place in shown}
     unknown = np.array([hull.label not in known for hull in hulls[first:]])
     return np.where(unknown, np.maximum(far, STRANGE_LABEL), far) ** 2
-
-
-def _unpack(candidates: Sequence[int], width: int) -> npt.NDArray[np.bool_]:
-    size = (width + 7) // 8
-    packed = np.frombuffer(b"".join(row.to_bytes(size, "little") for row in candidates), np.uint8)
-    return np.unpackbits(packed.reshape(len(candidates), size), axis=1, count=width, bitorder="little").astype(np.bool_)
 
 
 def _sum_by_mesh(values: Floats, ends: npt.NDArray[np.int64]) -> Floats:

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from meshforge.language import Diff, Intersect, Union
+from meshforge.language import Bools, Diff, Intersect, Union, to_bits
 from meshforge.synthesis.options import Shortcuts, TimeBudget
 from meshforge.synthesis.search.terms import Key, SetOperator, Term, combine, first_term, operator_key
 
@@ -164,13 +164,17 @@ def positions(mask: int) -> Iterator[int]:
         mask ^= low
 
 
+def unpack_bits(rows: Sequence[int], width: int) -> Bools:
+    """Return which of `width` bits each row has: (rows, width)."""
+    size = (width + 7) // 8
+    packed = np.frombuffer(b"".join(row.to_bytes(size, "little") for row in rows), np.uint8).reshape(len(rows), size)
+    return np.unpackbits(packed, axis=1, count=width, bitorder="little").astype(np.bool_)
+
+
 def _transpose(rows: Sequence[int], width: int) -> list[int]:
     if not rows:
         return [0] * width
-    size = (width + 7) // 8
-    packed = np.frombuffer(b"".join(row.to_bytes(size, "little") for row in rows), np.uint8).reshape(len(rows), size)
-    table = np.unpackbits(packed, axis=1, count=width, bitorder="little")
-    return [int.from_bytes(column.tobytes(), "little") for column in np.packbits(table.T, axis=1, bitorder="little")]
+    return [to_bits(column) for column in unpack_bits(rows, width).T]
 
 
 class Goal(NamedTuple):  # a tuple, as HalfTerm is: a search makes tens of thousands
