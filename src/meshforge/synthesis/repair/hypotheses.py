@@ -119,28 +119,23 @@ def _candidates_on_level(
     rows, found = level.columns.every, list[RelabelingRows]()
     for variants in by_example:
         budget.check()
-        hits = [(variant.relabeling, _find_rows(level, variant, rows)) for variant in variants]
+        hits = [
+            (one.relabeling, level.columns.rows_without(one.avoid, level.columns.rows_with(one.need, rows)))
+            for one in variants
+        ]
         rows &= reduce(or_, (hit for _, hit in hits), 0)
         found.append([(relabeling, hit) for relabeling, hit in hits if hit])
     costs = {row: key_cost(level.terms[row].key) for row in positions(rows)}
     for hits in found:
-        _add_cheapest(costs, hits, rows)
+        left = rows
+        for relabeling, hit in hits:  # the cheapest first
+            for row in positions(hit & left):
+                costs[row] += relabeling.cost
+            left &= ~hit
     for row in sorted(row for row, cost in costs.items() if cost <= within):
         term = level.terms[row]
         ways = tuple(tuple(relabeling for relabeling, hit in hits if hit >> row & 1) for hits in found)
         yield Candidate(term.extractor, term.key, ways)
-
-
-def _add_cheapest(costs: dict[int, float], hits: RelabelingRows, rows: int) -> None:
-    for relabeling, hit in hits:
-        for row in positions(hit & rows):
-            costs[row] += relabeling.cost
-        rows &= ~hit
-
-
-def _find_rows(level: Level, variant: Variant, among: int) -> int:
-    """The rows of a level's terms that select on a variant exactly what was shown."""
-    return level.columns.rows_without(variant.avoid, level.columns.rows_with(variant.need, among))
 
 
 def search_larger(

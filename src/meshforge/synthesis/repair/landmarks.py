@@ -83,7 +83,7 @@ class LandmarkFixSearch:
         self._rules = task.rules[: len(learned) + failed]
         self._places = {label: place for place, label in enumerate(task.frame.labels)}
         costs = [self._cost(one) for one in learned]
-        self._sizes = (*map(size_of, learned), *(() if not failed else (0,)))
+        self._sizes = (*map(size_of, learned), *([0] * failed))
         self._now = sum(costs) + failed * hypotheses.NO_EXTRACTOR_COST + spent
         plain = 2 * hypotheses.NODE_COST + hypotheses.UNCERTAINTY_COST
         self._least = sum(min(cost, plain) for cost in costs) + failed * hypotheses.NODE_COST

@@ -110,9 +110,14 @@ class Variant:
 
 def build_hull_table(examples: Sequence[Example], ways: Sequence[Sequence[Relabeling]], extremity: float) -> HullTable:
     """Return the hulls of each example under each of its relabelings, in one row."""
-    rows = [(example, one) for example, some in zip(examples, ways, strict=True) for one in some]
-    labels = [label for example, one in rows for label in _labels_under(example, one)]
-    return HullTable([example.mesh for example, _ in rows], labels, extremity)
+    meshes, labels = [], list[str | None]()
+    for example, some in zip(examples, ways, strict=True):
+        own = [hull.label for hull in example.mesh.hulls]
+        for one in some:
+            changes = dict(one.changes)
+            meshes.append(example.mesh)
+            labels += [changes.get(index, label) for index, label in enumerate(own)]
+    return HullTable(meshes, labels, extremity)
 
 
 class Variants:
@@ -158,10 +163,3 @@ def _to_variant(example: Example, relabeling: Relabeling, groups: Sequence[int])
     shown = example.selection
     need = mask_of(group for hull, group in enumerate(groups) if shown >> hull & 1)
     return Variant(relabeling, need, mask_of(group for hull, group in enumerate(groups) if not shown >> hull & 1))
-
-
-def _labels_under(example: Example, relabeling: Relabeling) -> list[str | None]:
-    labels = [hull.label for hull in example.mesh.hulls]
-    for index, to in relabeling.changes:
-        labels[index] = to
-    return labels
