@@ -29,8 +29,7 @@ class UprightReference:
         self._speaking = np.unique(table.owner[self.hulls])
 
     def may_turn(self, mesh: int) -> bool:
-        """Return whether it can be told how a mesh stands: of a few that speak of themselves nobody knows which one
-        lies."""
+        """Return whether it can be told how a mesh stands: of a few with labels nobody knows which one lies."""
         return mesh not in self._speaking or len(self._speaking) > _FEW
 
     def apart(self, mesh: int, sides: Sequence[Floats], columns: slice) -> list[float]:

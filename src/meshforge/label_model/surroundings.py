@@ -1,5 +1,4 @@
-"""What is around a hull, however the decomposition cut it: the shape of the whole as seen from points inside the
-hull."""
+"""The shape of the whole as seen from points inside a hull, however the decomposition cut it."""
 
 from __future__ import annotations
 

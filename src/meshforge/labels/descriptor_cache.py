@@ -54,8 +54,7 @@ class _Work:
             np.savez(file, **kept)
 
     def recall(self, what: str, *names: str) -> list[NDArray[Any]] | None:
-        """Return the arrays of some names; None where none are kept, they were made from something else, or are
-        damaged."""
+        """Return the arrays of some names; None where there are none, of something else, or damaged."""
         try:
             with np.load(BytesIO(self._place(what).read_bytes()), allow_pickle=False) as kept:
                 return [kept[name] for name in names] if str(kept[_KEY]) == self.key else None

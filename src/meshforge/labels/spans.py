@@ -25,8 +25,7 @@ _SHOWN = 0.1  # of what a hull stands for: labels of smaller shares are not name
 
 @dataclass(frozen=True, eq=False, slots=True)
 class HullSpan:
-    """A hull of an asset that may span parts. chance: of that; shares: of each label in what it stands for, the largest
-    first."""
+    """A hull that may span parts. chance: of that; shares: of each label in what it stands for, the largest first."""
 
     hull: str
     body: str
@@ -173,8 +172,7 @@ def _find_pieces(engine: PieceEngine, path: Path) -> tuple[SurfacePieces, list[s
 
 
 def decompose_surfaces(source: Asset, engine: PieceEngine = "coacd") -> tuple[SurfacePieces, list[str]]:
-    """Return the fine pieces of the surfaces of an asset by body, as it was read; and notes on what it shows that
-    cannot be read."""
+    """Return the fine pieces of the surfaces of an asset by body; and notes on what it shows that cannot be read."""
     found = dict[str, Sequence[FinePiece]]()
     for body, surface in batch.find_surfaces(source).items():
         try:

@@ -80,8 +80,7 @@ def orient_mesh(mesh: SymbolicMesh, orient: Orient | None) -> tuple[SymbolicMesh
 
 
 def find_rotation(mesh: SymbolicMesh, orient: Orient, labels: Sequence[str | None] | None = None) -> Floats:
-    """Return the rotation (3, 3) by which `orient_mesh` turns a mesh; raises likewise. labels: of the hulls, instead of
-    those that they have."""
+    """Return the rotation (3, 3) of `orient_mesh`; labels: in place of those that hulls have."""
     return geometry.snap_rotation(_measure_rotation(mesh, orient, labels))
 
 

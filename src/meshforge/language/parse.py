@@ -1,5 +1,4 @@
-"""Program text to parse trees, comments and nodes. What a grammar cannot check is checked here; every error has its
-line, its column and a caret."""
+"""Program text to nodes; what a grammar cannot check is checked here, with line, column and caret."""
 
 from __future__ import annotations
 

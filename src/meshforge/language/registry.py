@@ -1,5 +1,4 @@
-"""Actions and leaf extractors by name, those of plug-ins among them; how these go to another process, where their
-package may be missing."""
+"""Actions and leaf extractors by name; and how those of plug-ins go to another process."""
 
 from __future__ import annotations
 

@@ -1,5 +1,4 @@
-"""How edits of a family differ, in figures that need neither labels nor a program: volume, extents, hulls, free space;
-and those that stand out."""
+"""How edits of a family differ in volume, extents, hulls and free space; and those that stand out."""
 
 from __future__ import annotations
 

@@ -1,5 +1,4 @@
-"""All that a program is learned from, and its demonstrations replayed: the mesh as each rule meets it, after all rules
-before it."""
+"""All that a program is learned from, and its demonstrations replayed: the mesh as each rule meets it."""
 
 from __future__ import annotations
 

@@ -75,8 +75,7 @@ def compute_beliefs(
 
 
 def choose_candidate(terms: Sequence[Term], shares: Sequence[float]) -> int:
-    """Return the place of the reading that the program takes: a smallest one, unless a larger is far more
-    believable."""
+    """Return the place of the reading to take: a smallest one, unless a larger is far more believable."""
     smallest = min(term.size for term in terms)
     best = max(range(len(terms)), key=lambda k: (shares[k], -k))
     first = max((k for k in range(len(terms)) if terms[k].size == smallest), key=lambda k: (shares[k], -k))

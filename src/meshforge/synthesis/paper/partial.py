@@ -137,8 +137,7 @@ class ExampleMasks:
                 assert_never(extractor)
 
     def differences(self, extractor: language.Extractor) -> int:
-        """Return the hulls that an extractor selects though they were not shown, or the other way round, as a bit
-        set."""
+        """Return the hulls (a bit set) that an extractor selects though they were not shown, or leaves out."""
         return self.select(extractor) ^ self.target
 
     def relabel(self, changes: Iterable[LabelChange]) -> LabelMasks:

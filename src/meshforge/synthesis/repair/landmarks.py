@@ -90,8 +90,7 @@ class LandmarkFixSearch:
         self._failed = failed
 
     def run(self) -> tuple[Repair, ...]:
-        """Return the corrections that make the rules clearly more believable, none where they stand well. Raises
-        OutOfTime."""
+        """Return the corrections that make the rules clearly more believable, if any. Raises OutOfTime."""
         tried = [found for changes in self._combine(self._find_changes()) if (found := self._try(changes))]
         if not tried:
             return ()
@@ -204,8 +203,7 @@ class LandmarkFixSearch:
 
 
 def proposal_cost(labels: LabelBeliefs, task: LearningTask, repairs: Sequence[Repair]) -> float:
-    """Return what it costs to believe in corrections that were found otherwise [nats]; of meshes that have no odds,
-    none."""
+    """Return what it costs to believe in corrections that were found otherwise [nats], where there are odds."""
     meshes = {name: demo.mesh for name, demo in name_demonstrations(task.demos)}
     known = [one.fix for one in repairs if one.fix.asset in meshes]
     costs = [labels.cost(one.asset, meshes[one.asset].hull_of(one.hull), one.to) for one in known]

@@ -1,5 +1,4 @@
-"""The ways in which labels may be wrong, the most believable first, and what leaf extractors select under all of
-them."""
+"""The ways in which labels may be wrong, most believable first, and what leaves select under each."""
 
 from __future__ import annotations
 
@@ -146,8 +145,7 @@ class Variants:
             self.by_example.append([variant for variant in variants if not variant.need & variant.avoid])
 
     def relabelings_for(self, extractor: Extractor | None) -> list[list[Relabeling]]:
-        """Return of each example the relabelings on which an extractor selects what was shown; on all of them for
-        None."""
+        """Return of each example the relabelings on which an extractor selects what was shown; all for None."""
         found = None if extractor is None else self._groups.term(extractor).bits
         return [
             [

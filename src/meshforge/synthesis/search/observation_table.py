@@ -1,5 +1,4 @@
-"""What every leaf extractor selects on many meshes side by side: hulls that no leaf tells apart are one group, one
-bit."""
+"""What every leaf selects on many meshes; hulls that no leaf tells apart are one group, one bit."""
 
 from __future__ import annotations
 
