@@ -192,8 +192,8 @@ class FileLabeler(Labeler):
         if not files:
             remedy = "Put a labels file beside each asset, or name a folder of them that mirrors the assets."
             raise ProjectError("there is no labels file for any asset", where=str(store.folder), remedy=remedy)
-        told = (word for file in files.values() for word in _read_words(file, self.options))
-        words = family.vocabulary or tuple(dict.fromkeys(told))
+        named = (word for file in files.values() for word in _read_words(file, self.options))
+        words = family.vocabulary or tuple(dict.fromkeys(named))
         patterns = name_patterns(store.folder, store.settings, words, self.options.meanings)
         assets = _read_label_files(store, files, self.options, words, patterns, family.execution)
         return LabelProposal(assets, vocabulary=words)
