@@ -10,17 +10,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
 from meshforge.common import PluginError, ProgramError
+from meshforge.language import arguments
 from meshforge.language.actions.base import Action, ActionArgument
-from meshforge.language.arguments import (
-    ArgumentType,
-    DirectionArgument,
-    FileArgument,
-    LabelArgument,
-    Operation,
-    OptionArgument,
-    TokenKind,
-    join_alternatives,
-)
 from meshforge.language.extractors.base import SET_OPERATORS, BaseArgument, BaseExtractor, Extractor, Leaf
 from meshforge.language.orient import LandmarkPair, Orient
 from meshforge.language.print import CommentLines, Comments, Rule
@@ -45,14 +36,19 @@ if TYPE_CHECKING:  # lark is loaded where a program is parsed
     from lark import Lark, Token
 
 _SET_OPERATORS = {kind.__name__.lower(): kind for kind in SET_OPERATORS}
-_TOKEN_KINDS: dict[str, TokenKind] = {"NAME": "word", "STRING": "text", "NUMBER": "number", "DIRECTION": "direction"}
+_TOKEN_KINDS: dict[str, arguments.TokenKind] = {
+    "NAME": "word",
+    "STRING": "text",
+    "NUMBER": "number",
+    "DIRECTION": "direction",
+}
 _TEXT_OR_COMMENT = re.compile(r'"(?:[^"\\\n]|\\.)*"|#(?P<comment>[^\n]*)')
 
 
 def parse_extractor(text: str, name: str = "extractor") -> Extractor:
     """Return the extractor in a text; any label is known. Raises ProgramError at `name:line:column`."""
     source = ProgramText(text.strip(), name)
-    return build_extractor(TreeReader(source), _only_child(parse_tree(source, "only_extractor")))
+    return build_extractor(TreeReader(source), subtrees_of(parse_tree(source, "only_extractor"))[0])
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -135,11 +131,6 @@ def _find_plugin_leaf(source: ProgramText, offset: int, accepted: Set[str]) -> t
     return kind if is_known else None
 
 
-def _only_child(tree: Node) -> Node:
-    (child,) = subtrees_of(tree)
-    return child
-
-
 def attach_comments(text: str, lines: Sequence[int]) -> tuple[list[Comments], CommentLines]:
     """Return the comments of the statements on some lines (from 1, rising), and those after the last one.
 
@@ -193,15 +184,17 @@ def _build_leaf(text: TreeReader, tree: Node) -> Leaf:
     return text.locate_errors(name, lambda: make_operation(kind, values))
 
 
-def _build_leaf_argument(text: TreeReader, kind: type[Leaf], argument: ArgumentType, part: Node | Token) -> Any:
+def _build_leaf_argument(
+    text: TreeReader, kind: type[Leaf], argument: arguments.ArgumentType, part: Node | Token
+) -> Any:
     match argument:
-        case LabelArgument():
+        case arguments.LabelArgument():
             assert not isinstance(part, str)
             return text.read_label(part)
         case BaseArgument():
             assert not isinstance(part, str)
             return _build_leaf(text, part)
-        case DirectionArgument():
+        case arguments.DirectionArgument():
             assert isinstance(part, str)
             return _build_direction(text, part)
         case _:
@@ -303,7 +296,7 @@ def _build_option(
     is_named, (word, value) = named is not None, named.children if named else (_bare_token(part), part)
     takes, taken = list(kind.arguments().items())[kind.min_arguments() :], None
     for field, argument in takes:
-        needs_value = isinstance(argument, OptionArgument)
+        needs_value = isinstance(argument, arguments.OptionArgument)
         if word in argument.choices and needs_value != is_named:
             problem = f"{word} {'lacks its value' if needs_value else 'takes no value'}"
             raise text.error_at(part, problem, f"Write {argument.usage if needs_value else word}.")
@@ -315,14 +308,14 @@ def _build_option(
             return field, found
         taken = argument if found is not None else taken
     if taken:
-        several = f"{kind.__name__} takes one of {join_alternatives(taken.choices)} only"
+        several = f"{kind.__name__} takes one of {arguments.join_alternatives(taken.choices)} only"
         problem = several if len(taken.choices) > 1 else f"{word} is given twice"
         raise text.error_at(part, problem, "Leave one of them out.")
     raise _unknown_option(text, kind, part, [argument for _, argument in takes])
 
 
 def _unknown_option(
-    text: TreeReader, kind: type[Action], part: Node | Token, takes: Sequence[ArgumentType]
+    text: TreeReader, kind: type[Action], part: Node | Token, takes: Sequence[arguments.ArgumentType]
 ) -> ProgramError:
     thing = quote_code(text.source.piece_at(start_of(part)))
     if not takes:
@@ -330,18 +323,20 @@ def _unknown_option(
     words = [word for argument in takes for word in argument.choices or (argument.usage,)]
     like = likely_word(thing.strip("`"), words)
     remedy = f"{f'Did you mean {like}? ' if like else ''}Write {kind.usage()}."
-    return text.error_at(part, f"{kind.__name__} takes {join_alternatives(words)} here, not {thing}", remedy)
+    return text.error_at(part, f"{kind.__name__} takes {arguments.join_alternatives(words)} here, not {thing}", remedy)
 
 
 def _unknown_action(text: TreeReader, name: Token) -> ProgramError:
-    known = f"Actions are {join_alternatives(ACTIONS)}."
+    known = f"Actions are {arguments.join_alternatives(ACTIONS)}."
     if name in list_operators():
         return text.error_at(name, f"{name} selects hulls, it is no action", known)
     like = likely_word(name, ACTIONS)
     return text.error_at(name, f"unknown action {quote_code(name)}", f"Did you mean {like}? {known}" if like else known)
 
 
-def _build_argument(text: TreeReader, kind: type[Operation], argument: ArgumentType, given: Node | Token) -> Any:
+def _build_argument(
+    text: TreeReader, kind: type[arguments.Operation], argument: arguments.ArgumentType, given: Node | Token
+) -> Any:
     if isinstance(argument, ActionArgument) and not isinstance(given, str):
         return build_action(text, given)
     value = _read_argument(text, argument, given)
@@ -350,7 +345,7 @@ def _build_argument(text: TreeReader, kind: type[Operation], argument: ArgumentT
     return value
 
 
-def _read_argument(text: TreeReader, argument: ArgumentType, given: Node | Token) -> Any | None:
+def _read_argument(text: TreeReader, argument: arguments.ArgumentType, given: Node | Token) -> Any | None:
     token = _bare_token(given)
     if token is None:
         return None
@@ -366,12 +361,14 @@ def _bare_token(given: Node | Token) -> Token | None:
     return tokens_of(given)[0] if subtrees_of(given) == [] and len(tokens_of(given)) == 1 else None
 
 
-def _misfit_error(text: TreeReader, kind: type[Operation], argument: ArgumentType, given: Node | Token) -> ProgramError:
+def _misfit_error(
+    text: TreeReader, kind: type[arguments.Operation], argument: arguments.ArgumentType, given: Node | Token
+) -> ProgramError:
     thing = text.source.piece_at(start_of(given))
     remedy = f"Write {kind.usage()}."
     like = likely_word(thing.strip('"'), argument.choices)
     if like:
         remedy = f"Did you mean {like}? {remedy}"
-    elif isinstance(argument, FileArgument) and "\\" in thing:
+    elif isinstance(argument, arguments.FileArgument) and "\\" in thing:
         remedy = "Write / between the folders of a path."
     return text.error_at(given, f"{kind.__name__} takes {argument.wants} here, not {quote_code(thing)}", remedy)

@@ -18,9 +18,15 @@ from meshforge.synthesis.options import Options, TimeBudget
 from meshforge.synthesis.paper.search import HitWithFixes
 from meshforge.synthesis.questions import LabelFix, Repair
 from meshforge.synthesis.repair import hypotheses as candidate_search
-from meshforge.synthesis.repair.hypotheses import NO_EXTRACTOR_COST, Candidate, key_cost, total_chance
+from meshforge.synthesis.repair.hypotheses import (
+    NO_EXTRACTOR_COST,
+    Candidate,
+    describe_effect,
+    explain_fix,
+    key_cost,
+    total_chance,
+)
 from meshforge.synthesis.repair.landmarks import LandmarkFixSearch, proposal_cost
-from meshforge.synthesis.repair.reasons import describe_effect, explain_fix
 from meshforge.synthesis.repair.relabelings import Variants, enumerate_relabelings
 from meshforge.synthesis.search.smallest import Hit, Miss
 from meshforge.synthesis.search.terms import order_key

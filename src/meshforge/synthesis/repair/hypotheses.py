@@ -1,5 +1,5 @@
 """Extractors that select what was shown on some relabeling of each mesh: all small ones, and larger ones by the
-search.
+search; and why a label is proposed to be corrected, in words.
 
 What believing costs is in nats, in one place. Tuned on families of box furniture; judged by `script/bench
 repairs` on families that nothing was tuned on, with their figures in `benchmark/results/learning.md`: nearly all
@@ -16,7 +16,9 @@ from heapq import heappop, heappush
 from math import fsum, log
 from operator import or_
 
-from meshforge.language import Extractor
+from meshforge.label_model import LabelOdds, is_human
+from meshforge.language import Extractor, show
+from meshforge.symbolic import Hull
 from meshforge.synthesis.demonstration import Example
 from meshforge.synthesis.options import Options, TimeBudget
 from meshforge.synthesis.repair.relabelings import Relabeling, Variant, Variants, relabel
@@ -54,6 +56,8 @@ MIN_BELIEF = 0.75
 
 MIN_BELIEF_WITHOUT_EXACT = 0.3
 """Where there is no exact extractor, nothing else is left, so less is enough."""
+
+_LOW_CONFIDENCE = 0.8  # a confidence below is worth mentioning
 
 MAX_BELIEF_AGAINST_PERSON = 0.5
 """A correction of a person's label is never believed more."""
@@ -192,3 +196,37 @@ def _is_compatible(chosen: Sequence[Variant]) -> bool:
     for variant in chosen:
         need, avoid = need | variant.need, avoid | variant.avoid
     return not need & avoid
+
+
+def explain_fix(odds: LabelOdds, to: str, extractor: Extractor, alone: bool) -> str:
+    """Return one sentence on the label itself, and what its correction makes possible.
+
+    alone: whether it is the only correction.
+    """
+    evidence = "; ".join([*list_evidence(odds, to), describe_effect(extractor, alone)])
+    return evidence[0].upper() + evidence[1:]
+
+
+def list_evidence(odds: LabelOdds, to: str) -> list[str]:
+    """Return what speaks against a label and for another one."""
+    similar, hull = odds.similar, odds.hull
+    agreeing, of = similar.count(to), len(similar)
+    reasons = []
+    if agreeing > similar.count(hull.label or ""):
+        reasons.append(f"{agreeing} of the {of} most similar hulls are labelled {to}")
+    return [*reasons, *_label_reasons(hull)]
+
+
+def _label_reasons(hull: Hull) -> list[str]:
+    if hull.annotation is None:
+        return ["it has no label"]
+    if is_human(hull):
+        return [f"a person labelled it {hull.annotation.name}"]
+    if hull.annotation.confidence < _LOW_CONFIDENCE:
+        return [f"{hull.annotation.name} has a confidence of {hull.annotation.confidence:.2f} only"]
+    return []
+
+
+def describe_effect(extractor: Extractor, alone: bool) -> str:
+    """Return what corrections make possible. alone: whether there is only one."""
+    return f"with {'it' if alone else 'all corrections'}, {show(extractor)} selects what was shown"

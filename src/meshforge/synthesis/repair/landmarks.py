@@ -24,8 +24,7 @@ from meshforge.synthesis.options import TimeBudget
 from meshforge.synthesis.orientation.attempts import OrientationSearch
 from meshforge.synthesis.questions import LabelFix, Repair
 from meshforge.synthesis.repair import hypotheses
-from meshforge.synthesis.repair.hypotheses import key_cost
-from meshforge.synthesis.repair.reasons import list_evidence
+from meshforge.synthesis.repair.hypotheses import key_cost, list_evidence
 from meshforge.synthesis.search.terms import order_key
 from meshforge.synthesis.task import LearningTask, correct_demonstrations
 
