@@ -68,12 +68,11 @@ class _Collector:
     """Puts consistent terms together: one operand from the bank, the other by the goal that is left for it."""
 
     def __init__(self, search: Search) -> None:
-        shortcuts = search.options.shortcuts
         self._need, self._shown = search.need, (1 << search.width) - 1
         decisive = mask_of(search.decisive)
         self._goal = Goal(search.need & decisive, decisive & ~search.need)
         self._budget, self._left = search.budget, search.options.effort
-        self._stored = max(shortcuts.stored, 1)
+        self._stored = max(search.options.stored, 1)
         self._bank = Bank(search.field.terms, search.field.width, search.budget)
         self._known: dict[tuple[Goal, int], tuple[Term, ...]] = {}
 
