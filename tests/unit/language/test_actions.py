@@ -33,10 +33,6 @@ def bounds(scene: SymbolicMesh, name: str) -> list[list[float]]:
     return [aabb.min.round(9).tolist(), aabb.max.round(9).tolist()]
 
 
-def legs() -> list[str]:
-    return [hull.name for hull in table().hulls if hull.label == "leg"]
-
-
 def test_delete_removes_the_hulls_and_nothing_else() -> None:
     scene = table()
     after = applied(scene, Delete(), "top", "splinter").mesh
@@ -59,12 +55,6 @@ def test_of_equally_large_hulls_the_first_counts() -> None:
     assert applied(scene, Merge()).made == ("b~1",)
 
 
-def test_each_merge_makes_one_hull_a_component() -> None:
-    result = applied(table(), Each(Merge()), *legs())
-    assert result.made == ("leg0_high~1", "leg1_high~1", "leg2_high~1", "leg3_high~1")
-    assert bounds(result.mesh, "leg3_high~1") == [[1.9, 0.9, 0], [2, 1, 1]]
-
-
 def test_merge_without_each_makes_one_hull_a_body() -> None:
     scene = mesh(
         hull("a", box([0, 0, 0], [1, 1, 1]), body="base"),
@@ -84,12 +74,6 @@ def test_each_never_joins_hulls_of_two_bodies() -> None:
         hull("c", box([2, 0, 0], [3, 1, 1]), body="base"),
     )
     assert applied(scene, Each(Merge())).mesh is scene
-
-
-def test_merging_one_hull_leaves_it_as_it_is() -> None:
-    scene = mesh(hull("ball", Sphere(Pose.identity(), 1.0), "knob"))
-    result = applied(scene, Merge())
-    assert result.mesh is scene and result.made == ()
 
 
 def test_merging_one_hull_under_a_label_relabels_it() -> None:
