@@ -8,7 +8,6 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import exp, log, prod
-from types import MappingProxyType
 
 from meshforge.label_model import LabelBeliefs, is_human
 from meshforge.language import Extractor, size_of
@@ -120,8 +119,6 @@ SMALL_SIZE = 5
 MAX_RELABELINGS = 1500
 """Relabelings that are looked at, of all examples; single corrections always are."""
 
-_NONE_SPENT: Mapping[str, int] = MappingProxyType({})
-
 ChangeAt = tuple[int, LabelChange]
 """A change on one of the examples."""
 
@@ -156,9 +153,9 @@ class FixSearch:
         labels: LabelBeliefs,
         options: Options,
         budget: TimeBudget,
-        exact: Extractor | None = None,
-        spent: Mapping[str, int] = _NONE_SPENT,
-        rejected: Collection[LabelFix] = (),
+        exact: Extractor | None,
+        spent: Mapping[str, int],
+        rejected: Collection[LabelFix],
     ) -> None:
         self._examples = tuple(example for example in examples if example.mesh.hulls)
         self._vocabulary, self._labels, self._options, self._budget = vocabulary, labels, options, budget
