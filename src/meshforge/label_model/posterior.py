@@ -53,9 +53,11 @@ class FamilyPosterior:
 
         Labels of a rebuild follow from one inference over the family: where it errs, they agree in their error.
         """
-        if not self.seen.rebuilt.any():
+        rebuilt = self.seen.rebuilt
+        if not rebuilt.any():
             return self
-        others = infer_chances(self.table, self.seen.without_rebuilt())[0]
+        without = replace(self.seen, codes=np.where(rebuilt, NO_LABEL, self.seen.codes))
+        others = infer_chances(self.table, without)[0]
         return replace(self, chances=_bound_rebuilt(self.seen, self.chances, others))
 
     def weigh(self, evidence: Floats) -> FamilyPosterior:

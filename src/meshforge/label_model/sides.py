@@ -8,7 +8,7 @@ import numpy as np
 
 from meshforge.geometry import Floats
 from meshforge.label_model.describe import SHAPE_COLUMNS
-from meshforge.label_model.table import NO_LABEL, FamilyTable, Observations
+from meshforge.label_model.table import NO_LABEL, ColumnScale, FamilyTable, Observations
 from meshforge.label_model.ties import EQUAL, greatest_first, pick_evenly
 
 _CLOSE = 2  # of the sides of a mesh that are looked at closely, those under which the hulls themselves are most like
@@ -60,7 +60,8 @@ def find_doubtful_sides(
 
     sides: `ShapeDescriptor.sides` of the mesh of that number.
     """
-    reference, scale = UprightReference(table, seen), table.scale.of_columns(SHAPE_COLUMNS)
+    reference = UprightReference(table, seen)
+    scale = ColumnScale(table.scale.middle[SHAPE_COLUMNS], table.scale.spread[SHAPE_COLUMNS])
     if not len(reference.hulls):
         return
     for mesh, span in table.spans.items():

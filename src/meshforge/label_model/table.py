@@ -52,10 +52,6 @@ class ColumnScale:
         middle = np.concatenate([np.median(columns, axis=0) for columns in some])
         return ColumnScale(middle, np.maximum(rows.std(axis=0), _LEAST_SPREAD))
 
-    def of_columns(self, columns: slice) -> ColumnScale:
-        """Return that of some columns."""
-        return ColumnScale(self.middle[columns], self.spread[columns])
-
     def __call__(self, rows: Floats) -> Floats:
         """Rows about the middle in units of the spread, far values drawn in."""
         found: Floats = rows - self.middle
@@ -165,10 +161,6 @@ class Observations:
         """Whether what is said follows from the rebuild of a body (n,)."""
         found: Bools = self.known & (self.sources == LABEL_SOURCES.index("rebuild"))
         return found
-
-    def without_rebuilt(self) -> Observations:
-        """Return the same, where nothing is said of hulls of rebuilt bodies."""
-        return replace(self, codes=np.where(self.rebuilt, NO_LABEL, self.codes))
 
 
 def evidence_of(label: Label | None) -> Label | None:

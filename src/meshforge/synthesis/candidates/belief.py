@@ -62,7 +62,9 @@ def compute_beliefs(
     """
     share, leaves, none = assets / (assets + FEW), dict[Extractor, float](), [0] * len(terms)
     nats = [
-        count_nats(term, shown, leaves)
+        NODE * term.size
+        + _prior_nats(term, leaves)
+        + UNTRIED * count_untested(term, shown)
         + UNNEEDED * idle
         + share * (IDLE * facts.idle + STRANGE * min(facts.strange, STRANGEST))
         + other
@@ -80,12 +82,6 @@ def choose_candidate(terms: Sequence[Term], shares: Sequence[float]) -> int:
     best = max(range(len(terms)), key=lambda k: (shares[k], -k))
     first = max((k for k in range(len(terms)) if terms[k].size == smallest), key=lambda k: (shares[k], -k))
     return best if shares[best] >= LARGER * shares[first] else first
-
-
-def count_nats(term: Term, shown: int, known: dict[Extractor, float] | None = None) -> float:
-    """Return how little a term is believed for what it says alone [nats]; shown: the groups of demonstrated hulls."""
-    reason = _prior_nats(term, {} if known is None else known)
-    return NODE * term.size + reason + UNTRIED * count_untested(term, shown)
 
 
 def _prior_nats(term: Term, known: dict[Extractor, float]) -> float:

@@ -249,7 +249,9 @@ class QuestionValue:
         self._kinds = np.array(columns, dtype=np.int64).reshape(-1, len(beliefs)).T
         self._beliefs = np.array(beliefs)
         self.differs = (self._kinds[:, None] != self._kinds[None]).mean(axis=2) if columns else None
-        self._costs = None if self.differs is None else _wrong_costs(self.differs)
+        self._costs: Floats | None = None  # of having one reading where another is meant, in demonstrations
+        if self.differs is not None:
+            self._costs = np.where(self.differs > 0, 1 + UNSEEN_COST * (1 - self.differs) ** SAMPLE_SEEN, 0.0)
 
     @property
     def harm(self) -> float:
@@ -287,11 +289,6 @@ class QuestionValue:
         ours, *others = choices_by_belief
         choices = sorted([ours, *sorted(others)[: MAX_CHOICES - 1]])
         return QuestionSplit(asset, tuple(head for _, head in choices), left, spared)
-
-
-def _wrong_costs(differs: Floats) -> Floats:
-    """What it costs to have one reading where another is meant, in demonstrations; differs: shares of assets."""
-    return np.where(differs > 0, 1 + UNSEEN_COST * (1 - differs) ** SAMPLE_SEEN, 0.0)
 
 
 def _number(column: Sequence[object]) -> list[int]:
