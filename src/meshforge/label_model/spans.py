@@ -59,9 +59,7 @@ class SpanModel:
         self._regions = model_family([asset.regions for asset in assets])
 
     def infer(
-        self,
-        labels: Sequence[Label | None],
-        piece_labels: Sequence[Label | None] | None = None,
+        self, labels: Sequence[Label | None], piece_labels: Sequence[Label | None] | None = None
     ) -> SpanPosterior:
         """Return what labels say: of the hulls of all meshes in order, None for an unlabelled one; piece_labels: of all
         pieces in order, where they are known."""

@@ -150,8 +150,7 @@ def _describe_place(whole: WholeShape, points: Floats) -> Floats:
     middle = float(whole.weights @ whole.seen[:, 2])
     height = points[:, 2]
     return np.stack(
-        [(height - whole.foot) / whole.tall, out / whole.wide, out / whole.size, (height - middle) / whole.size],
-        axis=1,
+        [(height - whole.foot) / whole.tall, out / whole.wide, out / whole.size, (height - middle) / whole.size], axis=1
     )
 
 

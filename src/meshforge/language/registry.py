@@ -34,12 +34,7 @@ class OperationRegistry(Registry[type[T]]):
     """
 
     def __init__(
-        self,
-        kind: PluginKind,
-        base: type[T],
-        built_in: Iterable[type[T]],
-        missing: type[T],
-        rebuild: Rebuild,
+        self, kind: PluginKind, base: type[T], built_in: Iterable[type[T]], missing: type[T], rebuild: Rebuild
     ) -> None:
         super().__init__(kind, {one.__name__: one for one in built_in}, self._adopt_kind, RESERVED)
         self._base, self._missing, self._rebuild = base, missing, rebuild

@@ -7,16 +7,7 @@ import pytest
 
 from meshforge.common import ProgramError
 from meshforge.geometry import Box, Cylinder, Ellipsoid, Floats, Pose, Sphere, convex_hull
-from meshforge.language import (
-    PRIMITIVES,
-    Action,
-    Add,
-    Delete,
-    Each,
-    Merge,
-    Replace,
-    Scale,
-)
+from meshforge.language import PRIMITIVES, Action, Add, Delete, Each, Merge, Replace, Scale
 from meshforge.symbolic import SymbolicMesh
 from tests.unit.language.scenes import Applied, apply_action, box, hull, mesh, table, wedge
 
@@ -137,10 +128,7 @@ def test_a_tight_fit_follows_a_slanted_leg(primitive: str) -> None:
 
 @pytest.mark.parametrize("primitive", ["cylinder", "capsule", "sphere"])
 def test_native_shapes_are_made_one_a_body(primitive: str) -> None:
-    scene = mesh(
-        hull("a", box([0, 0, 0], [1, 2, 4]), body="base"),
-        hull("b", box([1, 0, 0], [2, 2, 4]), body="door"),
-    )
+    scene = mesh(hull("a", box([0, 0, 0], [1, 2, 4]), body="base"), hull("b", box([1, 0, 0], [2, 2, 4]), body="door"))
     result = applied(scene, Replace(primitive, "native"))
     assert [(h.name, h.body, h.shape.kind) for h in result.mesh.hulls] == [
         ("a~1", "base", primitive), ("b~1", "door", primitive),

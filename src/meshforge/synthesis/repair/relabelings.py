@@ -63,11 +63,7 @@ def relabel(example: Example, changes: Sequence[LabelChange]) -> Example:
 
 
 def _single_changes(
-    example: Example,
-    vocabulary: Sequence[str],
-    labels: LabelBeliefs,
-    rejected: Collection[LabelFix],
-    within: float,
+    example: Example, vocabulary: Sequence[str], labels: LabelBeliefs, rejected: Collection[LabelFix], within: float
 ) -> list[Relabeling]:
     found = []
     rejected_labels = {(one.hull, one.was) for one in rejected if one.asset == example.name}
