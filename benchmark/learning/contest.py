@@ -85,9 +85,8 @@ class Contest:
         case = self.case
         known, rest = ({name_of(k): case.meshes[k] for k in some} for some in (case.shown, case.rest()))
         labels = LabelBeliefs(known, rest, case.vocabulary)
-        return FixSearch(
-            case.examples(), case.vocabulary, labels, Options(), TimeBudget(Options().budget), exact=exact
-        ).run()
+        budget = TimeBudget(Options().budget)
+        return FixSearch(case.examples(), case.vocabulary, labels, Options(), budget, exact, {}, ()).run()
 
     def _paper(self, repair: bool) -> Extractor | None:
         """With repair on it asks about every label it would correct, and the answer is no: all are right."""

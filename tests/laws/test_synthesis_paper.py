@@ -8,18 +8,11 @@ from itertools import combinations, product
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from meshforge.language import (
-    Extractor,
-    labels_of,
-    select_mask,
-    size_of,
-)
+from meshforge.language import Extractor, labels_of, select_mask, size_of
 from meshforge.symbolic import Label, SymbolicMesh, bits_of
 from meshforge.synthesis.demonstration import Example
 from meshforge.synthesis.options import LAYERS, Layers, Options, TimeBudget
-from meshforge.synthesis.paper.partial import (
-    ExampleMasks,
-)
+from meshforge.synthesis.paper.partial import ExampleMasks
 from meshforge.synthesis.paper.search import Abduction, HitWithFixes, PaperSearch
 from meshforge.synthesis.questions import LabelFix
 from meshforge.synthesis.search.smallest import Hit, Miss, Search

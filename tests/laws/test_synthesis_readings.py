@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 import pytest
 from hypothesis import assume, given
@@ -13,7 +12,7 @@ from meshforge.language import Extractor, select_mask, size_of
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis.candidates.rank import ConsistentTerms, RankedCandidates, enumerate_consistent
 from meshforge.synthesis.demonstration import Example
-from meshforge.synthesis.options import Options, Shortcuts, TimeBudget
+from meshforge.synthesis.options import Options, TimeBudget
 from meshforge.synthesis.search.smallest import Hit, Search
 from tests.examples import examples
 from tests.strategies import extractors, grid_boxes, meshes
@@ -21,14 +20,7 @@ from tests.synthesis_naive import naive_behaviours
 
 LABELS = ("a", "b", "c")
 TWO = LABELS[:2]
-ON = Shortcuts()
-OTHERWISE = {
-    "group": replace(ON, group=False),
-    "merge": replace(ON, merge=False),
-    "stored": replace(ON, stored=1),
-    "few": replace(ON, few=2),
-    "all at once": replace(ON, few=0),
-}
+OTHERWISE = {"stored": Options(stored=1), "few": Options(few=2), "all at once": Options(few=0)}
 batches = st.lists(meshes(grid_boxes(), vocabulary=LABELS), min_size=2, max_size=4)
 shown_on = st.integers(1, 2)
 
@@ -85,12 +77,12 @@ def test_every_reading_selects_what_was_shown_and_what_it_says(
 @pytest.mark.parametrize("switched", OTHERWISE)
 @examples(25)
 @given(batch=batches, shown=shown_on, hidden=extractors(TWO, max_leaves=2))
-def test_every_shortcut_can_be_switched_off_and_the_readings_stay(
+def test_the_readings_do_not_depend_on_what_is_kept_and_what_the_search_begins_with(
     switched: str, batch: list[SymbolicMesh], shown: int, hidden: Extractor
 ) -> None:
     search, answer = searched(batch, shown, hidden, TWO, Options())
     above = max(0, min(3, 6 - size_of(answer)))
-    other, again = searched(batch, shown, hidden, TWO, Options(shortcuts=OTHERWISE[switched]))
+    other, again = searched(batch, shown, hidden, TWO, OTHERWISE[switched])
     assert again == answer
     assert behaviours(other, enumerate_consistent(other, again, above)) == behaviours(
         search, enumerate_consistent(search, answer, above)

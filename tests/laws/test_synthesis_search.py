@@ -1,4 +1,4 @@
-"""The search gives the answer of a search that tries everything, whichever shortcuts it takes."""
+"""The search gives the answer of a search that tries everything, whatever it keeps and begins with."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from meshforge.language import Extractor, select_mask
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis.demonstration import Example
-from meshforge.synthesis.options import Options, Shortcuts, TimeBudget
+from meshforge.synthesis.options import Options, TimeBudget
 from meshforge.synthesis.search.smallest import Hit, Miss, Search
 from meshforge.synthesis.search.terms import Key, order_key
 from tests.examples import examples
@@ -21,16 +21,12 @@ from tests.synthesis_naive import naive_search
 
 LABELS = ("a", "b", "c")
 TWO = LABELS[:2]
-ON = Shortcuts()
-OFF = {
-    "merge": replace(ON, merge=False),
-    "group": replace(ON, group=False),
-    "complete": replace(ON, complete=False),
-    "help": replace(ON, help=False),
-    "stored": replace(ON, stored=0),
-    "few": replace(ON, few=0),
-    "fewer": replace(ON, few=2),
-    "all": Shortcuts(merge=False, group=False, complete=False, help=False, stored=0, few=0),
+OPTIONS = {
+    "as it ships": Options(),
+    "only goals": Options(stored=0),
+    "all hulls at once": Options(few=0),
+    "few hulls": Options(few=2),
+    "only goals, few hulls": Options(stored=0, few=2),
 }
 batches = st.lists(meshes(grid_boxes(), vocabulary=LABELS), min_size=1, max_size=3)
 
@@ -42,9 +38,9 @@ def examples_of(batch: Sequence[SymbolicMesh], extractor: Extractor) -> list[Exa
 
 
 def found(
-    examples: Sequence[Example], max_size: int, shortcuts: Shortcuts = ON, labels: Sequence[str] = TWO
+    examples: Sequence[Example], max_size: int, options: Options | None = None, labels: Sequence[str] = TWO
 ) -> Extractor | None:
-    answer = Search(examples, labels, TimeBudget(600), Options(max_size=max_size, shortcuts=shortcuts)).run()
+    answer = Search(examples, labels, TimeBudget(600), replace(options or Options(), max_size=max_size)).run()
     assert isinstance(answer, Hit | Miss)
     return answer.extractor if isinstance(answer, Hit) else None
 
@@ -54,10 +50,11 @@ def key(extractor: Extractor | None) -> Key | None:
     return order_key(extractor, {label: place for place, label in enumerate(LABELS)}) if extractor else None
 
 
-@examples(150)
-@given(batches, extractors(TWO) | st.integers(0, 2**24 - 1))
+@pytest.mark.parametrize("options", OPTIONS.values(), ids=OPTIONS)
+@examples(60)
+@given(batch=batches, shown=extractors(TWO) | st.integers(0, 2**24 - 1))
 def test_the_answer_is_that_of_a_search_that_tries_everything(
-    batch: list[SymbolicMesh], shown: Extractor | int
+    options: Options, batch: list[SymbolicMesh], shown: Extractor | int
 ) -> None:
     """Whether an extractor or anything at all was shown."""
     if isinstance(shown, int):
@@ -66,18 +63,7 @@ def test_the_answer_is_that_of_a_search_that_tries_everything(
         examples = [Example(str(k), mesh, mask) for k, (mesh, mask) in enumerate(zip(batch, selected, strict=True))]
     else:
         examples = examples_of(batch, shown)
-    assert key(found(examples, max_size=6)) == key(naive_search(examples, TWO, max_size=6))
-
-
-@pytest.mark.parametrize("switched", OFF)
-@examples(40)
-@given(batch=batches, hidden=extractors(TWO))
-def test_every_shortcut_can_be_switched_off_and_the_answer_stays(
-    switched: str, batch: list[SymbolicMesh], hidden: Extractor
-) -> None:
-    examples = examples_of(batch, hidden)
-    size = 7 if OFF[switched].merge else 5
-    assert found(examples, size) == found(examples, size, OFF[switched])
+    assert key(found(examples, 6, options)) == key(naive_search(examples, TWO, max_size=6))
 
 
 @examples(100)

@@ -23,8 +23,7 @@ SurfacePieces = Mapping[str, Sequence[FinePiece]]
 
 
 def piece_mesh(pieces: SurfacePieces, mesh: SymbolicMesh) -> SymbolicMesh:
-    """Return the fine pieces of an asset as a mesh that lies as its own does; the parent of each is its region, after
-    the solid that this is of."""
+    """Return the fine pieces of an asset as a mesh; the parent of each is its region, after the solid of that."""
     hulls = (
         Hull(f"{body}/{k}", body, piece.shape, parent=f"{body}/{piece.solid}/{piece.region}")
         for body, own in pieces.items()
@@ -100,8 +99,7 @@ class AssetPieces:
         return found
 
     def collect_labels(self, labels: Sequence[Label | None]) -> list[Label | None]:
-        """Return what labels of pieces say about each region: the label of more than half of it, believed by that
-        share."""
+        """Return what labels of pieces say about each region: the label of more than half of it, with that share."""
         found = list[Label | None]()
         for number in range(len(self.regions.hulls)):
             own = self.region_of == number
@@ -115,8 +113,7 @@ class AssetPieces:
         return found
 
     def take_labels(self, labels: Sequence[Label | None]) -> list[Label | None]:
-        """Return what labels of hulls say about each piece: that of the hull that most of it lies in, not quite
-        believed."""
+        """Return what labels of hulls say about each piece, not quite believed: that of the hull with most of it."""
         best = self.common.argmax(axis=0) if len(labels) else np.zeros(len(self.pieces.hulls), np.int64)
         found = list[Label | None]()
         for piece, hull in zip(self.pieces.hulls, best.tolist(), strict=True):

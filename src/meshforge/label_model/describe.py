@@ -268,8 +268,7 @@ _described: dict[bytes, ShapeDescriptor] = {}
 
 
 def digest_mesh(mesh: SymbolicMesh) -> bytes:
-    """Return a digest that is equal for meshes that are described alike: the same hulls, contact distance and upright
-    axis."""
+    """Return a digest that is equal for meshes that are described alike, whatever their labels."""
     found = blake2b(digest_size=16)
     found.update(f"{mesh.asset.up if mesh.asset else ''} {mesh.contact_distance!r}".encode())
     for hull in mesh.hulls:

@@ -85,8 +85,7 @@ class Lookalikes:
 
 
 def take_nearest(hulls: Places, apart: Floats, count: int) -> tuple[Places, Floats]:
-    """Return of candidates (n, m) the nearest (n, count), equally near ones in their order; padded where there are
-    fewer."""
+    """Return of candidates (n, m) the nearest (n, count), equally near ones in order; padded where there are fewer."""
     missing = count - hulls.shape[1]
     if missing > 0:
         hulls = np.pad(hulls, ((0, 0), (0, missing)))

@@ -53,14 +53,15 @@ class FamilyPosterior:
 
         Labels of a rebuild follow from one inference over the family: where it errs, they agree in their error.
         """
-        if not self.seen.rebuilt.any():
+        rebuilt = self.seen.rebuilt
+        if not rebuilt.any():
             return self
-        others = infer_chances(self.table, self.seen.without_rebuilt())[0]
+        without = replace(self.seen, codes=np.where(rebuilt, NO_LABEL, self.seen.codes))
+        others = infer_chances(self.table, without)[0]
         return replace(self, chances=_bound_rebuilt(self.seen, self.chances, others))
 
     def weigh(self, evidence: Floats) -> FamilyPosterior:
-        """Return the same with more evidence (n, labels) [nats] on the labels of hulls, which counts for look-alikes
-        too."""
+        """Return the same with more evidence (n, labels) [nats] on labels, which counts for look-alikes too."""
         chances, by_others = infer_chances(self.table, self.seen, evidence=evidence)
         return replace(self, chances=chances, by_others=by_others)
 
@@ -124,8 +125,7 @@ class FamilyPosterior:
         return Label(self.seen.labels[best], round(chance, _DIGITS), "consensus", given)
 
     def find_alike_labels(self) -> tuple[tuple[str, str], ...]:
-        """Return pairs of labels that may be two names of one part: others take hulls of one for the other, and hardly
-        any mesh has both."""
+        """Return pairs of labels on hulls that look alike, of which hardly any mesh has both: two names of one part?"""
         codes, has = self.seen.codes, self._presence
         taken = np.zeros((has.shape[1], has.shape[1]))
         for code in range(len(taken)):
@@ -138,8 +138,7 @@ class FamilyPosterior:
         )
 
     def next_to_label(self, count: int = 1) -> list[int]:
-        """Return the meshes to label next, the best first; those whose hulls all have given labels are not among
-        them."""
+        """Return the meshes to label next, the best first; none whose hulls all have given labels."""
         from scipy.spatial.distance import cdist  # lazy: 0.5 s, half of all imports
 
         table, seen = self.table, self.seen

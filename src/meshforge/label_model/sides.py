@@ -8,7 +8,7 @@ import numpy as np
 
 from meshforge.geometry import Floats
 from meshforge.label_model.describe import SHAPE_COLUMNS
-from meshforge.label_model.table import NO_LABEL, FamilyTable, Observations
+from meshforge.label_model.table import NO_LABEL, ColumnScale, FamilyTable, Observations
 from meshforge.label_model.ties import EQUAL, greatest_first, pick_evenly
 
 _CLOSE = 2  # of the sides of a mesh that are looked at closely, those under which the hulls themselves are most like
@@ -29,8 +29,7 @@ class UprightReference:
         self._speaking = np.unique(table.owner[self.hulls])
 
     def may_turn(self, mesh: int) -> bool:
-        """Return whether it can be told how a mesh stands: of a few that speak of themselves nobody knows which one
-        lies."""
+        """Return whether it can be told how a mesh stands: of a few with labels nobody knows which one lies."""
         return mesh not in self._speaking or len(self._speaking) > _FEW
 
     def apart(self, mesh: int, sides: Sequence[Floats], columns: slice) -> list[float]:
@@ -61,7 +60,8 @@ def find_doubtful_sides(
 
     sides: `ShapeDescriptor.sides` of the mesh of that number.
     """
-    reference, scale = UprightReference(table, seen), table.scale.of_columns(SHAPE_COLUMNS)
+    reference = UprightReference(table, seen)
+    scale = ColumnScale(table.scale.middle[SHAPE_COLUMNS], table.scale.spread[SHAPE_COLUMNS])
     if not len(reference.hulls):
         return
     for mesh, span in table.spans.items():

@@ -32,8 +32,7 @@ _IN_COMMON = 0.5  # exponent of what regions of a solid say against one label of
 
 @cache
 def span_weights() -> Floats:
-    """Return the weights of the evidence (2,): of one, and of the logit of how often a hull spans parts where labels
-    are drawn."""
+    """Return the weights (2,): of one, and of the logit of how often a hull spans parts where labels are drawn."""
     read = json.loads(files("meshforge.label_model").joinpath(WEIGHTS_FILE).read_text("utf-8"))
     found = np.array(read["weights"], dtype=float)
     found.flags.writeable = False
@@ -60,9 +59,7 @@ class SpanModel:
         self._regions = model_family([asset.regions for asset in assets])
 
     def infer(
-        self,
-        labels: Sequence[Label | None],
-        piece_labels: Sequence[Label | None] | None = None,
+        self, labels: Sequence[Label | None], piece_labels: Sequence[Label | None] | None = None
     ) -> SpanPosterior:
         """Return what labels say: of the hulls of all meshes in order, None for an unlabelled one; piece_labels: of all
         pieces in order, where they are known."""
@@ -131,8 +128,7 @@ class SpanPosterior:
         return found
 
     def shares_of(self, mesh: int) -> Floats:
-        """Return the expected share of each label in each hull (hulls, labels); zeros for one that stands for
-        nothing."""
+        """Return the expected share of each label in each hull (hulls, labels); zeros where it stands for nothing."""
         common = self.assets[mesh].common
         return scale_rows(common @ self.chances[mesh], common.sum(axis=1))
 
@@ -215,8 +211,7 @@ def weigh_solids(asset: AssetPieces, chances: Floats, whole: float) -> Floats:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Draw:
-    """What labels are drawn from: those of pieces by_region, by_solid (pieces, labels), and how likely each solid
-    (solids,) is one part."""
+    """Labels of pieces by_region, by_solid (pieces, labels), and how likely each solid (solids,) is one part."""
 
     by_region: Floats
     by_solid: Floats

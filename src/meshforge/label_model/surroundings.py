@@ -1,5 +1,4 @@
-"""What is around a hull, however the decomposition cut it: the shape of the whole as seen from points inside the
-hull."""
+"""The shape of the whole as seen from points inside a hull, however the decomposition cut it."""
 
 from __future__ import annotations
 
@@ -155,8 +154,7 @@ def _describe_place(whole: WholeShape, points: Floats) -> Floats:
     middle = float(whole.weights @ whole.seen[:, 2])
     height = points[:, 2]
     return np.stack(
-        [(height - whole.foot) / whole.tall, out / whole.wide, out / whole.size, (height - middle) / whole.size],
-        axis=1,
+        [(height - whole.foot) / whole.tall, out / whole.wide, out / whole.size, (height - middle) / whole.size], axis=1
     )
 
 

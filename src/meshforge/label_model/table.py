@@ -29,8 +29,7 @@ _MOST_SPREADS = 3.0  # spreads from the median beyond which nothing is farther
 
 @cache
 def metric_weights() -> Floats:
-    """Return the weights (columns,) of the distance between two rows, which is the weighted sum of their
-    differences."""
+    """Return the weights (columns,) of the distance between rows: the weighted sum of their differences."""
     read = json.loads(files("meshforge.label_model").joinpath(METRIC_FILE).read_text("utf-8"))
     found = np.array(read["weights"], dtype=float)
     found.flags.writeable = False
@@ -52,10 +51,6 @@ class ColumnScale:
         some = (rows[:, start : start + _AT_ONCE] for start in range(0, rows.shape[1], _AT_ONCE))
         middle = np.concatenate([np.median(columns, axis=0) for columns in some])
         return ColumnScale(middle, np.maximum(rows.std(axis=0), _LEAST_SPREAD))
-
-    def of_columns(self, columns: slice) -> ColumnScale:
-        """Return that of some columns."""
-        return ColumnScale(self.middle[columns], self.spread[columns])
 
     def __call__(self, rows: Floats) -> Floats:
         """Rows about the middle in units of the spread, far values drawn in."""
@@ -80,8 +75,7 @@ class FamilyTable:
 
     @staticmethod
     def of(described: Sequence[tuple[Floats, Ints]], metric: Floats | None = None) -> FamilyTable:
-        """Return described: `rows` and `touching` of the descriptor of each mesh; metric: None for the one that
-        ships."""
+        """Return the table of `rows` and `touching` of each mesh; metric: None for the one that ships."""
         rows = np.concatenate([np.zeros((0, ROW_WIDTH)), *(own for own, _ in described)])
         sizes = np.array([len(own) for own, _ in described], dtype=np.int64)
         pairs = (touching + start for (_, touching), start in zip(described, np.cumsum(sizes) - sizes, strict=True))
@@ -107,8 +101,7 @@ class FamilyTable:
         return LookalikeSearch(self.rows, self.metric, self.owner)
 
     def find_lookalikes(self, seen: Observations) -> Lookalikes:
-        """Return the nearest hulls of each; where there are too many meshes, those with given labels are looked at,
-        too."""
+        """Return the nearest hulls of each; of too many meshes, those with given labels are looked at."""
         which = seen.given if seen.given.any() else seen.known
         return self._search.find(np.unique(self.owner[which]).tolist())
 
@@ -169,10 +162,6 @@ class Observations:
         found: Bools = self.known & (self.sources == LABEL_SOURCES.index("rebuild"))
         return found
 
-    def without_rebuilt(self) -> Observations:
-        """Return the same, where nothing is said of hulls of rebuilt bodies."""
-        return replace(self, codes=np.where(self.rebuilt, NO_LABEL, self.codes))
-
 
 def evidence_of(label: Label | None) -> Label | None:
     """Return what a label says that was not inferred from other labels: that which it replaced, where it was."""
@@ -188,8 +177,7 @@ def evidence_beside_rebuilt(label: Label | None) -> Label | None:
 
 
 def reference_label(label: Label | None) -> str | None:
-    """Return the label that others may be taken from: one that a person gave, or that came in a file and is not
-    unsure."""
+    """Return the label that others may be taken from: a person's, or one of a file that is not unsure."""
     if label is None or label.source not in GIVEN_SOURCES:
         return None
     return label.name if label.source in HUMAN_SOURCES or label.confidence >= UNSURE else None

@@ -1,5 +1,4 @@
-"""The labels of a project: from people, names, files, a few labelled assets or a model; a person's label is never
-overwritten by a machine."""
+"""The labels of a project; a person's label is never overwritten by a machine."""
 
 from __future__ import annotations
 

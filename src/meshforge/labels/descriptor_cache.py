@@ -23,28 +23,11 @@ from meshforge.label_model import MeshDescriber, ShapeDescriptor, remember_descr
 from meshforge.store import AssetFacts, Store, iterate_asset_index
 from meshforge.symbolic import EPSILON, SymbolicMesh
 
-Arrays = Mapping[str, NDArray[Any]]
 _KEY = "made_from"
 
 _FEW = 10  # meshes that are described sooner than worker processes have started
 
 _REMEDY = "Propagate the labels again."
-
-
-def write_arrays(path: Path, key: str, arrays: Arrays) -> None:
-    """Keep arrays that were made from what `key` is the digest of; not synced to disk, for they can be made again."""
-    with replace_atomically(path) as draft, draft.open("wb") as file:
-        kept: dict[str, Any] = {_KEY: np.array(key), **arrays}
-        np.savez(file, **kept)
-
-
-def read_arrays(path: Path, key: str, *names: str) -> list[NDArray[Any]] | None:
-    """Return the arrays of some names; None where none are kept, they were made from something else, or are damaged."""
-    try:
-        with np.load(BytesIO(path.read_bytes()), allow_pickle=False) as kept:
-            return [kept[name] for name in names] if str(kept[_KEY]) == key else None
-    except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile, zlib.error):
-        return None
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +47,21 @@ class _Work:
     id: str
     sides: tuple[int, ...] = ()
 
-    def place(self, what: str) -> Path:
+    def keep(self, what: str, **arrays: NDArray[Any]) -> None:
+        """Keep what was made; not synced to disk, for it can be made again."""
+        kept: dict[str, Any] = {_KEY: np.array(self.key), **arrays}
+        with replace_atomically(self._place(what)) as draft, draft.open("wb") as file:
+            np.savez(file, **kept)
+
+    def recall(self, what: str, *names: str) -> list[NDArray[Any]] | None:
+        """Return the arrays of some names; None where there are none, of something else, or damaged."""
+        try:
+            with np.load(BytesIO(self._place(what).read_bytes()), allow_pickle=False) as kept:
+                return [kept[name] for name in names] if str(kept[_KEY]) == self.key else None
+        except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile, zlib.error):
+            return None
+
+    def _place(self, what: str) -> Path:
         return self.folder / what / f"{self.id}.npz"
 
 
@@ -103,12 +100,12 @@ class DescriptorCache:
 
     def read_rows(self, asset: str) -> tuple[Floats, Ints] | None:
         """Return the `rows` and `touching` of the asset's `ShapeDescriptor`; None where it is not described yet."""
-        found = _read_kept(self._work[asset], "seen", "rows", "touching")
+        found = self._work[asset].recall("seen", "rows", "touching")
         return (found[0], found[1]) if found else None
 
     def read_sides(self, asset: str) -> Floats:
         """Return the `sides` of the `ShapeDescriptor` of an asset that was described."""
-        if found := _read_kept(self._work[asset], "seen", "sides"):
+        if found := self._work[asset].recall("seen", "sides"):
             return found[0]
         raise AssetError("how it is described is gone", where=str(self._work[asset].path), remedy=_REMEDY)
 
@@ -138,16 +135,11 @@ def recall_descriptors(store: Store, meshes: Mapping[str, SymbolicMesh], executi
             remember_descriptor(meshes[asset], ShapeDescriptor(*kept, cache.read_sides(asset)))
 
 
-def _read_kept(work: _Work, what: str, *names: str) -> list[NDArray[Any]] | None:
-    return read_arrays(work.place(what), work.key, *names)
-
-
 def _describe(work: _Work) -> str | None:
     """Describe an asset and keep that; why that cannot be done."""
     try:
         descriptor = MeshDescriber(_read_mesh(work)).describe()
-        arrays = {"rows": descriptor.rows, "touching": descriptor.touching, "sides": descriptor.sides}
-        write_arrays(work.place("seen"), work.key, arrays)
+        work.keep("seen", rows=descriptor.rows, touching=descriptor.touching, sides=descriptor.sides)
     except Exception as error:  # one asset never stops the others
         return describe_error(error, str(work.path))
     return None
@@ -156,14 +148,14 @@ def _describe(work: _Work) -> str | None:
 def _describe_sides(work: _Work) -> list[Floats] | str:
     """The rows of an asset on some of its sides, which are kept, too; or why there are none."""
     try:
-        known = {side: _read_kept(work, f"side{side}", "rows") for side in work.sides}
+        known = {side: work.recall(f"side{side}", "rows") for side in work.sides}
         describer = None if all(known.values()) else MeshDescriber(_read_mesh(work))
         found = list[Floats]()
         for side, kept in known.items():
             if kept is None:
                 assert describer
                 kept = [describer.describe_side(side)]
-                write_arrays(work.place(f"side{side}"), work.key, {"rows": kept[0]})
+                work.keep(f"side{side}", rows=kept[0])
             found += kept
         return found
     except Exception as error:  # one asset never stops the others

@@ -1,5 +1,4 @@
-"""All hulls of a project compared, and what labels of some say about the others: described in worker processes, to be
-stopped at any time."""
+"""All hulls of a project compared, and what labels of some say about the others, in worker processes."""
 
 from __future__ import annotations
 

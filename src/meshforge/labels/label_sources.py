@@ -40,8 +40,7 @@ class LabelSourcesFile(JsonFile):
 
 
 def keep_label_source(store: Store, outcomes: Iterable[LabelOutcome], labeler: Labeler) -> None:
-    """Keep by what hulls were labelled, if any were, where new assets can be labelled by that; patterns add to those
-    that were given before."""
+    """Keep by what hulls were labelled, if new assets can be labelled by that; patterns add to those before."""
     line = _line_of(store, labeler)
     if line is None or not any(one.taken or one.same or one.kept for one in outcomes):
         return

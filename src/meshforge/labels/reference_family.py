@@ -58,13 +58,10 @@ class ReferenceFamily:
     def infer_labels(self, mesh: SymbolicMesh) -> dict[str, Label]:
         """Return the likeliest label of each hull of an asset that has none, by its name, with its probability."""
         meshes = [mesh, *self.meshes.values()]
-        found = model_family(meshes).infer([self._speak(hull.annotation) for own in meshes for hull in own.hulls])
+        known = (evidence_beside_rebuilt(hull.annotation) for own in meshes for hull in own.hulls)
+        found = model_family(meshes).infer([label if label and label.name in self.words else None for label in known])
         rows = zip(mesh.hulls, found.labels(0), strict=True)
         return {hull.name: label for hull, label in rows if label and not hull.annotation}
-
-    def _speak(self, label: Label | None) -> Label | None:
-        known = evidence_beside_rebuilt(label)
-        return known if known and known.name in self.words else None
 
 
 def read_reference_family(

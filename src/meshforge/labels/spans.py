@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
 
 import numpy as np
@@ -25,8 +25,7 @@ _SHOWN = 0.1  # of what a hull stands for: labels of smaller shares are not name
 
 @dataclass(frozen=True, eq=False, slots=True)
 class HullSpan:
-    """A hull of an asset that may span parts. chance: of that; shares: of each label in what it stands for, the largest
-    first."""
+    """A hull that may span parts. chance: of that; shares: of each label in what it stands for, the largest first."""
 
     hull: str
     body: str
@@ -144,14 +143,6 @@ def _diagonal(points: Sequence[Floats]) -> float:
     return float(np.linalg.norm(np.ptp(np.concatenate(points), axis=0)))
 
 
-@dataclass(frozen=True, slots=True)
-class _Work:
-    """One asset whose surface is decomposed finely; engine: which makes the pieces."""
-
-    path: Path
-    engine: PieceEngine
-
-
 def find_pieces(
     store: Store,
     meshes: Mapping[str, SymbolicMesh],
@@ -160,11 +151,11 @@ def find_pieces(
     engine: PieceEngine = "coacd",
 ) -> tuple[dict[str, FinePieces], dict[str, str]]:
     """Return the fine pieces of the surfaces of assets, by id, and why those of others are not known."""
-    work = [_Work(store.path(asset), engine) for asset in meshes]
+    work = [store.path(asset) for asset in meshes]
     pieces, lost = dict[str, FinePieces](), dict[str, str]()
     with stage(len(work), "decomposing finely") as advance:
         options = batch.ExecutionOptions(execution.workers, execution.timeout, progress=advance, stop=execution.stop)
-        for asset, found in zip(meshes, batch.run_isolated(_find_pieces, work, options), strict=True):
+        for asset, found in zip(meshes, batch.run_isolated(partial(_find_pieces, engine), work, options), strict=True):
             if isinstance(found, batch.WorkerFailure | str):
                 lost[asset] = found if isinstance(found, str) else found.why
             else:
@@ -172,17 +163,16 @@ def find_pieces(
     return pieces, lost
 
 
-def _find_pieces(work: _Work) -> tuple[SurfacePieces, list[str]] | str:
+def _find_pieces(engine: PieceEngine, path: Path) -> tuple[SurfacePieces, list[str]] | str:
     """The fine pieces of an asset by body, with notes, or why there are none."""
     try:
-        return decompose_surfaces(read(work.path), work.engine)
+        return decompose_surfaces(read(path), engine)
     except Exception as error:  # one asset never stops the others
-        return describe_error(error, str(work.path))
+        return describe_error(error, str(path))
 
 
 def decompose_surfaces(source: Asset, engine: PieceEngine = "coacd") -> tuple[SurfacePieces, list[str]]:
-    """Return the fine pieces of the surfaces of an asset by body, as it was read; and notes on what it shows that
-    cannot be read."""
+    """Return the fine pieces of the surfaces of an asset by body; and notes on what it shows that cannot be read."""
     found = dict[str, Sequence[FinePiece]]()
     for body, surface in batch.find_surfaces(source).items():
         try:

@@ -72,8 +72,7 @@ def tally_labels(store: Store, progress: Callable[[], None] | None = None) -> Ta
 
 
 def describe_label_plan(store: Store) -> str:
-    """Return a sentence on how many assets there are of what, how many have labels, and how many of these a
-    person's."""
+    """Return a sentence on how many assets there are, how many have labels, and how many of these a person's."""
     layout, found = store.layout, store.found
     places = {asset: layout.labels(asset) for asset in found.ids}
     jobs = [

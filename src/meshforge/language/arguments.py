@@ -33,8 +33,7 @@ class ArgumentType(ABC):
 
     @abstractmethod
     def read(self, kind: TokenKind, text: str) -> Any | None:
-        """Return the value of a piece of program text (a quoted text without its quotes), None where it does not
-        fit."""
+        """Return the value of a piece of program text (without quotes), None where it does not fit."""
 
     @abstractmethod
     def fits(self, value: Any) -> bool:
@@ -75,8 +74,7 @@ class WordArgument(ArgumentType):
 
 
 class DirectionArgument(WordArgument):
-    """A direction. Up and down sort first: an orientation settles them, while the turn about the upright axis is often
-    a convention."""
+    """A direction. Up and down sort first: the turn about the upright axis is often a convention."""
 
     symbol = "DIRECTION"
 

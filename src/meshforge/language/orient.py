@@ -38,6 +38,9 @@ class LandmarkPair:
         for base in (self.start, self.end):
             BaseArgument().check(LandmarkPair, "base", base)
 
+    def __str__(self) -> str:
+        return f"{self.axis}: {self.start} -> {self.end}"
+
 
 @dataclass(frozen=True, slots=True)
 class Orient:
@@ -53,6 +56,9 @@ class Orient:
         if len({axis[1] for axis in axes}) != len(axes):
             problem = f"orient names the axis {axes[0][1]} twice"
             raise ProgramError(problem, remedy="Give the second pair another axis than the first.")
+
+    def __str__(self) -> str:
+        return f"orient {'snap ' if self.snap else ''}{', '.join(map(str, self.pairs))}"
 
     @property
     def names_z(self) -> bool:
@@ -80,8 +86,7 @@ def orient_mesh(mesh: SymbolicMesh, orient: Orient | None) -> tuple[SymbolicMesh
 
 
 def find_rotation(mesh: SymbolicMesh, orient: Orient, labels: Sequence[str | None] | None = None) -> Floats:
-    """Return the rotation (3, 3) by which `orient_mesh` turns a mesh; raises likewise. labels: of the hulls, instead of
-    those that they have."""
+    """Return the rotation (3, 3) of `orient_mesh`; labels: in place of those that hulls have."""
     return geometry.snap_rotation(_measure_rotation(mesh, orient, labels))
 
 

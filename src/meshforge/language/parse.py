@@ -1,5 +1,4 @@
-"""Program text to parse trees, comments and nodes. What a grammar cannot check is checked here; every error has its
-line, its column and a caret."""
+"""Program text to nodes; what a grammar cannot check is checked here, with line, column and caret."""
 
 from __future__ import annotations
 
@@ -12,18 +11,31 @@ from typing import TYPE_CHECKING, Any, cast
 
 from meshforge.common import PluginError, ProgramError
 from meshforge.language import arguments
-from meshforge.language import text as program_text
 from meshforge.language.actions.base import Action, ActionArgument
-from meshforge.language.extractors import base
+from meshforge.language.extractors.base import SET_OPERATORS, BaseArgument, BaseExtractor, Extractor, Leaf
 from meshforge.language.orient import LandmarkPair, Orient
 from meshforge.language.print import CommentLines, Comments, Rule
 from meshforge.language.registry import ACTIONS, EXTRACTORS, make_operation
+from meshforge.language.text import (
+    Node,
+    ProgramText,
+    TreeReader,
+    leaves_among,
+    likely_word,
+    list_operators,
+    quote_code,
+    start_of,
+    subtrees_of,
+    syntax_error,
+    text_of_leaf,
+    tokens_of,
+)
 from meshforge.language.words import Direction, check_direction, check_threshold
 
 if TYPE_CHECKING:  # lark is loaded where a program is parsed
     from lark import Lark, Token
 
-_SET_OPERATORS = {kind.__name__.lower(): kind for kind in base.SET_OPERATORS}
+_SET_OPERATORS = {kind.__name__.lower(): kind for kind in SET_OPERATORS}
 _TOKEN_KINDS: dict[str, arguments.TokenKind] = {
     "NAME": "word",
     "STRING": "text",
@@ -33,10 +45,10 @@ _TOKEN_KINDS: dict[str, arguments.TokenKind] = {
 _TEXT_OR_COMMENT = re.compile(r'"(?:[^"\\\n]|\\.)*"|#(?P<comment>[^\n]*)')
 
 
-def parse_extractor(text: str, name: str = "extractor") -> base.Extractor:
+def parse_extractor(text: str, name: str = "extractor") -> Extractor:
     """Return the extractor in a text; any label is known. Raises ProgramError at `name:line:column`."""
-    source = program_text.ProgramText(text.strip(), name)
-    return build_extractor(program_text.TreeReader(source), _only_child(parse_tree(source, "only_extractor")))
+    source = ProgramText(text.strip(), name)
+    return build_extractor(TreeReader(source), subtrees_of(parse_tree(source, "only_extractor"))[0])
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -48,14 +60,14 @@ class _Grammar:
 
 
 @cache
-def _grammar(kinds: tuple[type[base.Leaf], ...]) -> _Grammar:
+def _grammar(kinds: tuple[type[Leaf], ...]) -> _Grammar:
     from lark import Lark  # lazy: most runs parse no program
 
     rules = {True: list[str](), False: list[str]()}
     lines, words = list[str](), dict[str, str]()
     for k, kind in enumerate(kinds):
-        rules[issubclass(kind, base.BaseExtractor)].append(f"leaf_{k}")
-        words[f"LEAF_{k}"] = program_text.text_of_leaf(kind.__name__)
+        rules[issubclass(kind, BaseExtractor)].append(f"leaf_{k}")
+        words[f"LEAF_{k}"] = text_of_leaf(kind.__name__)
         lines += [f"leaf_{k}: LEAF_{k} {_arguments_rule(kind)}", rf"LEAF_{k}: /{kind.__name__}\b/"]
     lines += [f"_base: {' | '.join(rules[True])}", f"_leaf: {' | '.join(rules[False])}"]
     text = Path(__file__).with_name("grammar.lark").read_text(encoding="utf-8")
@@ -69,7 +81,7 @@ def _grammar(kinds: tuple[type[base.Leaf], ...]) -> _Grammar:
     return _Grammar(parser, words)
 
 
-def _arguments_rule(kind: type[base.Leaf]) -> str:
+def _arguments_rule(kind: type[Leaf]) -> str:
     """The arguments in brackets; those that may be left out are the last, and make nested options."""
     rule, needed = "", kind.min_arguments()
     for place, argument in reversed(list(enumerate(kind.arguments().values()))):
@@ -80,9 +92,7 @@ def _arguments_rule(kind: type[base.Leaf]) -> str:
     return "" if not rule else brackets if needed else f"[{brackets}]"
 
 
-def parse_tree(
-    source: program_text.ProgramText, start: str, plugins: tuple[type[base.Leaf], ...] = ()
-) -> program_text.Node:
+def parse_tree(source: ProgramText, start: str, plugins: tuple[type[Leaf], ...] = ()) -> Node:
     """Return the parse tree of a text; plugins: leaves of plug-ins that it uses, found as it is read.
 
     Raises ProgramError where it has none, PluginError for a leaf that cannot be loaded.
@@ -95,7 +105,7 @@ def parse_tree(
     try:
         for token in parsing.iter_parse():
             before = str(token)
-        return cast(program_text.Node, parsing.feed_token(Token("$END", "")))
+        return cast(Node, parsing.feed_token(Token("$END", "")))
     except UnexpectedInput as error:
         at_end = isinstance(error, UnexpectedToken) and error.token.type == "$END"
         assert isinstance(error, UnexpectedCharacters | UnexpectedToken)
@@ -104,30 +114,21 @@ def parse_tree(
         accepted = {grammar.words.get(name, name) for name in names}
         found = _find_plugin_leaf(source, offset, accepted)
         if found is None:
-            raise program_text.syntax_error(source, offset, accepted, before) from None
+            raise syntax_error(source, offset, accepted, before) from None
     return parse_tree(source, start, (*plugins, found))
 
 
-def _find_plugin_leaf(source: program_text.ProgramText, offset: int, accepted: Set[str]) -> type[base.Leaf] | None:
+def _find_plugin_leaf(source: ProgramText, offset: int, accepted: Set[str]) -> type[Leaf] | None:
     """The leaf of a plug-in that stands at an offset where the grammar knows none. Raises PluginError."""
     word = source.piece_at(offset)
-    if (
-        not program_text.leaves_among(accepted)
-        or program_text.text_of_leaf(word) in accepted
-        or word not in EXTRACTORS.plugin_names
-    ):
+    if not leaves_among(accepted) or text_of_leaf(word) in accepted or word not in EXTRACTORS.plugin_names:
         return None
     try:
         kind = EXTRACTORS[word]
     except PluginError as error:
         raise source.error_at(offset, error.problem, error.remedy) from None
-    is_known = issubclass(kind, base.BaseExtractor) or "_UNION" in accepted
+    is_known = issubclass(kind, BaseExtractor) or "_UNION" in accepted
     return kind if is_known else None
-
-
-def _only_child(tree: program_text.Node) -> program_text.Node:
-    (child,) = program_text.subtrees_of(tree)
-    return child
 
 
 def attach_comments(text: str, lines: Sequence[int]) -> tuple[list[Comments], CommentLines]:
@@ -159,23 +160,23 @@ def _squeeze_blanks(lines: Iterable[str | None], *, first: bool) -> CommentLines
     return tuple(out)
 
 
-def build_rule(text: program_text.TreeReader, tree: program_text.Node, comments: Comments) -> Rule:
+def build_rule(text: TreeReader, tree: Node, comments: Comments) -> Rule:
     """Return the rule of a `rule` node."""
-    extractor, action, *label = program_text.subtrees_of(tree)
+    extractor, action, *label = subtrees_of(tree)
     parts = build_extractor(text, extractor), build_action(text, action), text.read_label(label[0]) if label else None
     return text.locate_errors(label[0] if label else tree, lambda: Rule(*parts, comments))
 
 
-def build_extractor(text: program_text.TreeReader, tree: program_text.Node) -> base.Extractor:
+def build_extractor(text: TreeReader, tree: Node) -> Extractor:
     """Return the extractor of a node of the grammar's `_extractor`."""
     kind = _SET_OPERATORS.get(tree.data)
     if kind:
-        left, right = program_text.subtrees_of(tree)
+        left, right = subtrees_of(tree)
         return kind(build_extractor(text, left), build_extractor(text, right))
     return _build_leaf(text, tree)
 
 
-def _build_leaf(text: program_text.TreeReader, tree: program_text.Node) -> base.Leaf:
+def _build_leaf(text: TreeReader, tree: Node) -> Leaf:
     name, *parts = (part for part in tree.children if part is not None)
     kind = EXTRACTORS[str(name)]
     rows = zip(kind.arguments().items(), parts, strict=False)
@@ -184,16 +185,13 @@ def _build_leaf(text: program_text.TreeReader, tree: program_text.Node) -> base.
 
 
 def _build_leaf_argument(
-    text: program_text.TreeReader,
-    kind: type[base.Leaf],
-    argument: arguments.ArgumentType,
-    part: program_text.Node | Token,
+    text: TreeReader, kind: type[Leaf], argument: arguments.ArgumentType, part: Node | Token
 ) -> Any:
     match argument:
         case arguments.LabelArgument():
             assert not isinstance(part, str)
             return text.read_label(part)
-        case base.BaseArgument():
+        case BaseArgument():
             assert not isinstance(part, str)
             return _build_leaf(text, part)
         case arguments.DirectionArgument():
@@ -203,35 +201,33 @@ def _build_leaf_argument(
             return _build_argument(text, kind, argument, part)
 
 
-def build_orient(text: program_text.TreeReader, tree: program_text.Node) -> Orient:
+def build_orient(text: TreeReader, tree: Node) -> Orient:
     """Return the directive of an `orient` node; an error is about the pair that is one too many or turns back."""
-    nodes = program_text.subtrees_of(tree)
+    nodes = subtrees_of(tree)
     pairs = tuple(_build_pair(text, node) for node in nodes)
     wrong = nodes[min(2, len(nodes) - 1)]
-    return text.locate_errors(wrong, lambda: Orient(pairs, snap=len(program_text.tokens_of(tree)) > 0))
+    return text.locate_errors(wrong, lambda: Orient(pairs, snap=len(tokens_of(tree)) > 0))
 
 
-def _build_pair(text: program_text.TreeReader, tree: program_text.Node) -> LandmarkPair:
-    start, end = program_text.subtrees_of(tree)
+def _build_pair(text: TreeReader, tree: Node) -> LandmarkPair:
+    start, end = subtrees_of(tree)
     bases = [_build_leaf(text, node) for node in (start, end)]
-    return LandmarkPair(
-        _build_direction(text, program_text.tokens_of(tree)[0]), cast(Any, bases[0]), cast(Any, bases[1])
-    )
+    return LandmarkPair(_build_direction(text, tokens_of(tree)[0]), cast(Any, bases[0]), cast(Any, bases[1]))
 
 
-def _build_direction(text: program_text.TreeReader, token: Token) -> Direction:
+def _build_direction(text: TreeReader, token: Token) -> Direction:
     try:
         check_direction(token)
     except ProgramError as error:
-        like = program_text.likely_word(token[1:], ["+X", "+Y", "+Z"])
+        like = likely_word(token[1:], ["+X", "+Y", "+Z"])
         hint = f"Did you mean {token[0]}{like[1]}? " if like else ""
         raise text.error_at(token, f"unknown direction `{token}`", f"{hint}{error.remedy}") from None
     return cast(Direction, str(token))
 
 
-def collect_headers(text: program_text.TreeReader, statements: list[program_text.Node]) -> dict[str, program_text.Node]:
+def collect_headers(text: TreeReader, statements: list[Node]) -> dict[str, Node]:
     """Return the header statements by their kind. Raises ProgramError for one that is given twice."""
-    headers: dict[str, program_text.Node] = {}
+    headers: dict[str, Node] = {}
     for node in statements:
         if node.data in headers:
             line = headers[node.data].meta.line
@@ -240,10 +236,10 @@ def collect_headers(text: program_text.TreeReader, statements: list[program_text
     return headers
 
 
-def build_labels(text: program_text.TreeReader, tree: program_text.Node) -> tuple[str, ...]:
+def build_labels(text: TreeReader, tree: Node) -> tuple[str, ...]:
     """Return the labels that a `labels` header declares. Raises ProgramError for one that is declared twice."""
     labels: list[str] = []
-    for node in program_text.subtrees_of(tree):
+    for node in subtrees_of(tree):
         label = text.read_label(node)
         if label in labels:
             raise text.error_at(node, f"the label {label!r} is declared twice", "Leave one of them out.")
@@ -251,18 +247,18 @@ def build_labels(text: program_text.TreeReader, tree: program_text.Node) -> tupl
     return tuple(labels)
 
 
-def build_threshold(text: program_text.TreeReader, tree: program_text.Node | None) -> float | None:
+def build_threshold(text: TreeReader, tree: Node | None) -> float | None:
     """Return the number of a threshold header; None where the header is missing."""
     if tree is None:
         return None
-    (token,) = program_text.tokens_of(tree)
+    (token,) = tokens_of(tree)
     text.locate_errors(token, lambda: check_threshold(tree.data, float(token)))
     return float(token)
 
 
-def build_action(text: program_text.TreeReader, tree: program_text.Node) -> Action:
+def build_action(text: TreeReader, tree: Node) -> Action:
     """Return the action of an `action` node. Raises ProgramError at its name or at the argument that does not fit."""
-    (name,) = program_text.tokens_of(tree)[:1]
+    (name,) = tokens_of(tree)[:1]
     parts = [part for part in tree.children[1:] if part is not None]
     kind = text.locate_errors(name, lambda: ACTIONS.get(name))
     if kind is None:
@@ -282,19 +278,17 @@ def build_action(text: program_text.TreeReader, tree: program_text.Node) -> Acti
     return made
 
 
-def _refuse_planned(
-    text: program_text.TreeReader, kind: type[Action], parts: Iterable[program_text.Node | Token]
-) -> None:
+def _refuse_planned(text: TreeReader, kind: type[Action], parts: Iterable[Node | Token]) -> None:
     """Raise ProgramError for an option of the language that this version does not run."""
     for part in parts:
-        word = text.source.piece_at(program_text.start_of(part))
+        word = text.source.piece_at(start_of(part))
         if word in kind.planned:
-            problem = f"this version does not run the option {program_text.quote_code(word)} of {kind.__name__}"
+            problem = f"this version does not run the option {quote_code(word)} of {kind.__name__}"
             raise text.error_at(part, problem, "Leave it out.")
 
 
 def _build_option(
-    text: program_text.TreeReader, kind: type[Action], given: Mapping[str, Any], part: program_text.Node | Token
+    text: TreeReader, kind: type[Action], given: Mapping[str, Any], part: Node | Token
 ) -> tuple[str, Any]:
     """The field and the value of an argument that may be left out. Raises ProgramError for one that the action does
     not take, takes once only, or takes in another form."""
@@ -321,35 +315,27 @@ def _build_option(
 
 
 def _unknown_option(
-    text: program_text.TreeReader,
-    kind: type[Action],
-    part: program_text.Node | Token,
-    takes: Sequence[arguments.ArgumentType],
+    text: TreeReader, kind: type[Action], part: Node | Token, takes: Sequence[arguments.ArgumentType]
 ) -> ProgramError:
-    thing = program_text.quote_code(text.source.piece_at(program_text.start_of(part)))
+    thing = quote_code(text.source.piece_at(start_of(part)))
     if not takes:
         return text.error_at(part, f"{kind.__name__} takes no further argument, not {thing}", f"Write {kind.usage()}.")
     words = [word for argument in takes for word in argument.choices or (argument.usage,)]
-    like = program_text.likely_word(thing.strip("`"), words)
+    like = likely_word(thing.strip("`"), words)
     remedy = f"{f'Did you mean {like}? ' if like else ''}Write {kind.usage()}."
     return text.error_at(part, f"{kind.__name__} takes {arguments.join_alternatives(words)} here, not {thing}", remedy)
 
 
-def _unknown_action(text: program_text.TreeReader, name: Token) -> ProgramError:
+def _unknown_action(text: TreeReader, name: Token) -> ProgramError:
     known = f"Actions are {arguments.join_alternatives(ACTIONS)}."
-    if name in program_text.list_operators():
+    if name in list_operators():
         return text.error_at(name, f"{name} selects hulls, it is no action", known)
-    like = program_text.likely_word(name, ACTIONS)
-    return text.error_at(
-        name, f"unknown action {program_text.quote_code(name)}", f"Did you mean {like}? {known}" if like else known
-    )
+    like = likely_word(name, ACTIONS)
+    return text.error_at(name, f"unknown action {quote_code(name)}", f"Did you mean {like}? {known}" if like else known)
 
 
 def _build_argument(
-    text: program_text.TreeReader,
-    kind: type[arguments.Operation],
-    argument: arguments.ArgumentType,
-    given: program_text.Node | Token,
+    text: TreeReader, kind: type[arguments.Operation], argument: arguments.ArgumentType, given: Node | Token
 ) -> Any:
     if isinstance(argument, ActionArgument) and not isinstance(given, str):
         return build_action(text, given)
@@ -359,41 +345,30 @@ def _build_argument(
     return value
 
 
-def _read_argument(
-    text: program_text.TreeReader, argument: arguments.ArgumentType, given: program_text.Node | Token
-) -> Any | None:
+def _read_argument(text: TreeReader, argument: arguments.ArgumentType, given: Node | Token) -> Any | None:
     token = _bare_token(given)
     if token is None:
         return None
     return argument.read(_TOKEN_KINDS[token.type], text.unquote(token) if token.type == "STRING" else str(token))
 
 
-def _bare_token(given: program_text.Node | Token) -> Token | None:
+def _bare_token(given: Node | Token) -> Token | None:
     """The piece of text that an argument is; None where it has arguments of its own."""
     if isinstance(given, str):
         return given
     if given.data == "option":
         return None
-    return (
-        program_text.tokens_of(given)[0]
-        if program_text.subtrees_of(given) == [] and len(program_text.tokens_of(given)) == 1
-        else None
-    )
+    return tokens_of(given)[0] if subtrees_of(given) == [] and len(tokens_of(given)) == 1 else None
 
 
 def _misfit_error(
-    text: program_text.TreeReader,
-    kind: type[arguments.Operation],
-    argument: arguments.ArgumentType,
-    given: program_text.Node | Token,
+    text: TreeReader, kind: type[arguments.Operation], argument: arguments.ArgumentType, given: Node | Token
 ) -> ProgramError:
-    thing = text.source.piece_at(program_text.start_of(given))
+    thing = text.source.piece_at(start_of(given))
     remedy = f"Write {kind.usage()}."
-    like = program_text.likely_word(thing.strip('"'), argument.choices)
+    like = likely_word(thing.strip('"'), argument.choices)
     if like:
         remedy = f"Did you mean {like}? {remedy}"
     elif isinstance(argument, arguments.FileArgument) and "\\" in thing:
         remedy = "Write / between the folders of a path."
-    return text.error_at(
-        given, f"{kind.__name__} takes {argument.wants} here, not {program_text.quote_code(thing)}", remedy
-    )
+    return text.error_at(given, f"{kind.__name__} takes {argument.wants} here, not {quote_code(thing)}", remedy)

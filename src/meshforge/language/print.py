@@ -9,7 +9,6 @@ from typing import assert_never
 from meshforge.common import ProgramError, blame
 from meshforge.language.actions.base import Action
 from meshforge.language.actions.basic import Each
-from meshforge.language.arguments import Operation
 from meshforge.language.extractors.base import Diff, Extractor, Intersect, Leaf, Union
 from meshforge.language.orient import LandmarkPair, Orient
 from meshforge.language.words import check_label, quote_label, show_label
@@ -46,7 +45,7 @@ class Rule:
             raise ProgramError(f"{self.action} makes no hull that could take the label {self.label!r}")
 
     def __str__(self) -> str:
-        return show(self)
+        return show_rule(self, 0)
 
 
 SyntaxNode = Extractor | Action | LandmarkPair | Orient | Rule
@@ -54,23 +53,13 @@ SyntaxNode = Extractor | Action | LandmarkPair | Orient | Rule
 
 def show(node: SyntaxNode) -> str:
     """Return a node as program text."""
-    match node:
-        case Operation() | Union() | Intersect() | Diff():
-            return str(node)
-        case LandmarkPair(axis, start, end):
-            return f"{axis}: {show(start)} -> {show(end)}"
-        case Orient(pairs, snap):
-            return f"orient {'snap ' if snap else ''}{', '.join(map(show, pairs))}"
-        case Rule():
-            return show_rule(node, 0)
-        case _:
-            assert_never(node)
+    return str(node)
 
 
 def show_rule(rule: Rule, width: int) -> str:
     """Return a rule on one line, its arrow behind `width` characters at least."""
     label = f" as {show_label(rule.label)}" if rule.label is not None else ""
-    return f"{show(rule.extractor):<{width}} => {rule.action}{label}"
+    return f"{rule.extractor!s:<{width}} => {rule.action}{label}"
 
 
 def explain(node: Rule | Orient | Extractor) -> str:

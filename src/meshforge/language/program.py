@@ -1,5 +1,4 @@
-"""Programs: a vocabulary, an orientation and rules; parsed from text, printed as text, run on a mesh, a label
-renamed in them."""
+"""Programs: a vocabulary, an orientation and rules; parsed, printed, run, a label renamed in them."""
 
 from __future__ import annotations
 

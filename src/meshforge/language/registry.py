@@ -1,5 +1,4 @@
-"""Actions and leaf extractors by name, those of plug-ins among them; how these go to another process, where their
-package may be missing."""
+"""Actions and leaf extractors by name; and how those of plug-ins go to another process."""
 
 from __future__ import annotations
 
@@ -24,26 +23,17 @@ from meshforge.language.words import RESERVED
 
 _WORD = re.compile(r"[^\W\d]\w*")
 T = TypeVar("T", bound=Operation)
-Rebuild = Callable[[Plugin, str, bytes], Operation]
 
 
 class OperationRegistry(Registry[type[T]]):
     """The operations of one kind by name.
 
-    base: what their classes are derived from; missing: the class that stands for one whose package is missing;
-    rebuild: `self.rebuild` as a function of a module, which pickles can name.
+    base: what their classes are derived from; missing: the class that stands for one whose package is missing.
     """
 
-    def __init__(
-        self,
-        kind: PluginKind,
-        base: type[T],
-        built_in: Iterable[type[T]],
-        missing: type[T],
-        rebuild: Rebuild,
-    ) -> None:
+    def __init__(self, kind: PluginKind, base: type[T], built_in: Iterable[type[T]], missing: type[T]) -> None:
         super().__init__(kind, {one.__name__: one for one in built_in}, self._adopt_kind, RESERVED)
-        self._base, self._missing, self._rebuild = base, missing, rebuild
+        self._base, self.missing = base, missing
 
     def require(self, name: str) -> type[T]:
         """Return the class of a name. Raises UsageError where there is none, PluginError where it cannot be loaded."""
@@ -74,21 +64,11 @@ class OperationRegistry(Registry[type[T]]):
         bare = [one.name for one in fields(kind) if not isinstance(one.metadata.get("argument"), ArgumentType)]
         return f'its field {bare[0]} lacks metadata={{"argument": ...}}, the kind of argument' if bare else None
 
-    def _reduce(self, made: T) -> tuple[Rebuild, tuple[Plugin, str, bytes]]:
+    def _reduce(self, made: T) -> tuple[Callable[..., Operation], tuple[str, Plugin, str, bytes]]:
         """An operation for another process: its values are unpickled there only once its class is found."""
         assert made.plugin
         values = {name: getattr(made, name) for name in made.arguments()}
-        return self._rebuild, (made.plugin, str(made), pickle.dumps(values))
-
-    def rebuild(self, plugin: Plugin, text: str, values: bytes) -> Operation:
-        """Return an operation that another process sent."""
-        try:
-            kind = self.load(plugin)
-            with blame(plugin):
-                return make_operation(kind, pickle.loads(values))
-        except PluginError as error:
-            assert issubclass(self._missing, MissingOperation)
-            return self._missing(plugin, text, error)
+        return _rebuild, (self.kind, made.plugin, str(made), pickle.dumps(values))
 
 
 def make_operation(kind: type[T], values: Mapping[str, Any]) -> T:
@@ -97,12 +77,17 @@ def make_operation(kind: type[T], values: Mapping[str, Any]) -> T:
         return kind(**values)
 
 
-def _rebuild_action(plugin: Plugin, text: str, values: bytes) -> Operation:
-    return ACTIONS.rebuild(plugin, text, values)
-
-
-def _rebuild_leaf(plugin: Plugin, text: str, values: bytes) -> Operation:
-    return EXTRACTORS.rebuild(plugin, text, values)
+def _rebuild(kind: str, plugin: Plugin, text: str, values: bytes) -> Operation:
+    """An operation that another process sent."""
+    registry: OperationRegistry[Any] = ACTIONS if kind == ACTIONS.kind else EXTRACTORS
+    try:
+        found = registry.load(plugin)
+        with blame(plugin):
+            made: Operation = make_operation(found, pickle.loads(values))
+            return made
+    except PluginError as error:
+        assert issubclass(registry.missing, MissingOperation)
+        return registry.missing(plugin, text, error)
 
 
 ACTIONS: OperationRegistry[Action] = OperationRegistry(
@@ -110,12 +95,10 @@ ACTIONS: OperationRegistry[Action] = OperationRegistry(
     Action,  # type: ignore[type-abstract]  # it is the base, and never made
     (Delete, Replace, Add, Merge, Scale, Shrink, Each),
     MissingAction,
-    _rebuild_action,
 )
 EXTRACTORS: OperationRegistry[Leaf] = OperationRegistry(
     "extractors",
     Leaf,  # type: ignore[type-abstract]  # as above
     (All, Is, Attach, Geo),
     MissingExtractor,
-    _rebuild_leaf,
 )

@@ -79,8 +79,7 @@ class Replay:
         selections: Mapping[int, Collection[str]] | None = None,
         memo: Memo = make_anew,
     ) -> Replay:
-        """Return a mesh before its first edit, see `to_canonical_frame`. Raises ProgramError where it cannot be
-        turned."""
+        """Return a mesh before its first edit. Raises ProgramError where it cannot be turned."""
         try:
             start, pose = to_canonical_frame(mesh, orient, contact, memo)
         except MeshForgeError as error:
@@ -111,8 +110,7 @@ class Replay:
         return mask_of(self.mesh.index[name] for name in names)
 
     def select(self, rule: Rule, extremity: float | None = None) -> int:
-        """Return the bit set of the hulls that the next rule selects: those that are given for its number, if any
-        are."""
+        """Return the bit set of what the next rule selects, or is given to select."""
         if self.is_given:
             return self.mask_of(self.selections[self.number])
         return select_mask(rule.extractor, self.mesh, EXTREMITY if extremity is None else extremity)
@@ -176,8 +174,7 @@ def _to_canonical_frame(
 
 
 def from_canonical_frame(incoming: SymbolicMesh, staged: SymbolicMesh, pose: geometry.Pose) -> SymbolicMesh:
-    """Return an edited mesh back in the frame it came in; pose: oriented_T_incoming. The inverse of
-    `to_canonical_frame`."""
+    """Return an edited mesh in the frame it came in, the inverse of `to_canonical_frame`."""
     back = pose.inverse()
     turned = not np.array_equal(pose.rotation, np.eye(3))
     hulls = tuple(_restore_hull(incoming, hull, back if turned else None) for hull in staged.hulls)

@@ -50,8 +50,7 @@ class ProgramText:
         return before.count("\n") + 1, offset - (before.rfind("\n") + 1) + 1
 
     def error_at(self, offset: int, problem: str, remedy: str | None = None, width: int | None = None) -> ProgramError:
-        """Return the error at an offset, with the line and `width` carets below it (the length of what stands
-        there)."""
+        """Return the error at an offset, with its line and carets below it; width: None for the piece there."""
         line, column = self.position_of(offset)
         text = self.text.split("\n")[line - 1].replace("\t", " ").rstrip("\r")
         carets = "^" * max(1, len(self.piece_at(offset)) if width is None else width)

@@ -133,11 +133,9 @@ class Assessment:
     @property
     def need_review(self) -> tuple[str, ...]:
         """The assets that need a person's review, the least probable first."""
+        rows = sorted((one.probability, name) for name, one in self.assets.items())
         done = {*self.signed_off, *self.excluded}
-        return tuple(sorted((name for name in self.assets if name not in done), key=self._probability_of))
-
-    def _probability_of(self, name: str) -> tuple[float, str]:
-        return self.assets[name].probability, name
+        return tuple(name for _, name in rows if name not in done)
 
     @property
     def is_done(self) -> bool:

@@ -76,10 +76,10 @@ def combine(features: Floats, weights: Floats) -> Floats:
 class AssetEvidence:
     """What speaks for one edit.
 
-    readings: the probability that each rule means there what it does; labels: that no other labels would change the
-    edit; foreign: whether it has labels that no demonstration shows; unlike: how much farther than usual its strangest
-    hull is from all hulls of other assets of which something is said; alarms: how many there are; program: the
-    probability that the program is not wrong nearly everywhere.
+    candidates: the probability that each rule means there what it does; labels: that no other labels would change the
+    edit; unseen_labels: whether it has labels that no demonstration shows; outlier_score: how much farther than usual
+    its strangest hull is from all hulls of other assets of which something is said; alarms: how many there are;
+    program: the probability that the program is not wrong nearly everywhere.
     """
 
     candidates: float
@@ -107,7 +107,7 @@ class AssetEvidence:
         times the share of the doubt [nats] that is gone. What decides an edit is a conjunction: the last doubt of many
         alone makes it right, and yet each has to go.
 
-        readings, labels, program: by which these probabilities grow, as factors.
+        candidates, labels, program: by which these probabilities grow, as factors.
         """
         reason = -_log_of(self.candidates) - _log_of(self.labels) - _log_of(self.program)
         gone = math.log(candidates * labels * program)

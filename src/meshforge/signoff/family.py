@@ -40,8 +40,7 @@ _OUTLIER_FROM = 1.5  # what is so much farther than usual, as a logarithm, is un
 
 @dataclass(frozen=True, eq=False)
 class FamilyRun:
-    """A program on all assets of a family. mistakes: what a person probably did not mean to show; alarms: sentences by
-    asset."""
+    """A program on a family. mistakes: what was probably not meant to be shown; alarms: sentences by asset."""
 
     state: ReviewState
     program: Program
@@ -212,8 +211,7 @@ class FamilyRun:
         return found
 
     def select(self, known: RuleCandidates, candidate: int, place: int) -> int:
-        """Return what a reading of a rule selects on the asset at a place, as a bit set; nothing where it is not
-        reached."""
+        """Return what a reading of a rule selects on an asset, as a bit set; nothing where it is not reached."""
         delta = EXTREMITY if self.program.extremity is None else self.program.extremity
         return select_by(self.runs[place], known.rule, known.extractors[candidate], delta) or 0
 

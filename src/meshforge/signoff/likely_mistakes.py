@@ -1,5 +1,4 @@
-"""Slips in demonstrations, answers and verdicts: hulls that were probably left out, or selected, by mistake, and the
-question about them."""
+"""Likely mistakes in demonstrations, answers and verdicts, and the question about them."""
 
 from __future__ import annotations
 
@@ -26,8 +25,7 @@ _FITS_BARELY = 0.5  # the probability of a slip where no program fits what was s
 
 @dataclass(frozen=True, eq=False, slots=True)
 class RuleMistake:
-    """A mistake in what was shown of a rule, or said. differs: whether the rule would do something else on each
-    asset."""
+    """A mistake in what was shown or said of a rule. differs: whether the rule would change on each asset."""
 
     rule: int
     mistake: LikelyMistake
@@ -149,8 +147,7 @@ def _liken_to_shown(state: ReviewState, found: RuleMistake) -> str | None:
 
 
 def offer_label(state: ReviewState, posterior: FamilyPosterior, question: MistakeQuestion) -> MistakeQuestion:
-    """Return the same question with one more choice: that the label of its hull is wrong, where another one is likely
-    by what is said of other hulls."""
+    """Return the same question with one more choice: that its hull has another label, where one is likely."""
     if len(question.hulls) != 1 or not posterior.seen.labels:
         return question
     asset, hull = question.hulls[0]

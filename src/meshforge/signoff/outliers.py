@@ -1,5 +1,4 @@
-"""How edits of a family differ, in figures that need neither labels nor a program: volume, extents, hulls, free space;
-and those that stand out."""
+"""How edits of a family differ in volume, extents, hulls and free space; and those that stand out."""
 
 from __future__ import annotations
 
@@ -178,9 +177,8 @@ def find_alarms(
     found: dict[str, list[Alarm]] = {name: list(_find_absolute(one, block)) for name, one in measures.items()}
     known = [one for name, one in measures.items() if not found[name]]
     for figure in _FIGURES:
-        if usual := _find_usual(figure, known):
-            for name, one in measures.items():
-                found[name] += _compare(figure, one, usual)
+        for name, alarm in _compare(figure, measures, known):
+            found[name].append(alarm)
     return {name: tuple(sorted(alarms, key=lambda alarm: -alarm.excess)) for name, alarms in found.items() if alarms}
 
 
@@ -198,44 +196,31 @@ def _find_absolute(one: EditMeasures, block: float) -> Iterator[Alarm]:
         yield Alarm("block", f"nearly one solid block: {one.filled:.0%} of the free space is filled", float("inf"))
 
 
-@dataclass(frozen=True, slots=True)
-class _Usual:
-    """What edits of a family have in common; spread: one robust deviation; low, high: of those that are no outliers."""
-
-    middle: float
-    spread: float
-    low: float
-    high: float
-
-
-def _find_usual(figure: _Figure, edits: Sequence[EditMeasures]) -> _Usual | None:
-    """The middle and the spread of the half that lies closest together (Rousseeuw 1984), None for small families.
+def _compare(
+    figure: _Figure, measures: Mapping[str, EditMeasures], known: Sequence[EditMeasures]
+) -> Iterator[tuple[str, Alarm]]:
+    """The edits that are far from the middle of the half of those known that lies closest together (Rousseeuw 1984);
+    none in small families.
 
     Median and median deviation would be drawn towards outliers where these are many, and all on one side.
     """
-    values = np.sort([value for one in edits if (value := figure.read(one)) is not None])
+    values = np.sort([value for one in known if (value := figure.read(one)) is not None])
     if len(values) < LEAST_FAMILY:
-        return None
+        return
     half = len(values) // 2 + 1
     widths = values[half - 1 :] - values[: len(values) - half + 1]
     at = int(widths.argmin())
     middle = float(values[at] + values[at + half - 1]) / 2
     spread = max(_DEVIATION * float(widths[at]) / 2, figure.floor)
     usual = values[np.abs(values - middle) < _LIMIT * spread]
-    return _Usual(middle, spread, float(usual.min()), float(usual.max()))
-
-
-def _compare(figure: _Figure, one: EditMeasures, usual: _Usual) -> Iterator[Alarm]:
-    value = figure.read(one)
-    excess = 0.0 if value is None else abs(value - usual.middle) / usual.spread
-    if value is not None and excess >= _LIMIT:
-        low, high = figure.show(usual.low), figure.show(usual.high)
-        family = low if low == high else f"{low} to {high}"
-        yield Alarm(figure.kind, f"{figure.text.format(figure.show(value))}, the family {family}", excess)
-
-
-def _log_volume(one: EditMeasures) -> float | None:
-    return _log_ratio(one.volume_before, one.volume_after)
+    low, high = figure.show(float(usual.min())), figure.show(float(usual.max()))
+    family = low if low == high else f"{low} to {high}"
+    for name, one in measures.items():
+        value = figure.read(one)
+        excess = 0.0 if value is None else abs(value - middle) / spread
+        if value is not None and excess >= _LIMIT:
+            text = f"{figure.text.format(figure.show(value))}, the family {family}"
+            yield name, Alarm(figure.kind, text, excess)
 
 
 def _log_extent(one: EditMeasures) -> float | None:
@@ -244,31 +229,31 @@ def _log_extent(one: EditMeasures) -> float | None:
     return max(known, key=lambda ratio: (abs(ratio), ratio)) if known and one.hulls_after else None
 
 
-def _log_hulls(one: EditMeasures) -> float | None:
-    return log((one.hulls_after + 1) / (one.hulls_before + 1))
-
-
 def _log_ratio(before: float, after: float) -> float | None:
     return log(max(after / before, _LEAST_SHARE)) if before > 0 else None
-
-
-def _fill_share(one: EditMeasures) -> float | None:
-    return one.filled if one.free >= _LEAST_FREE else None
 
 
 def _show_change(ratio: float) -> str:
     return f"{round(100 * expm1(ratio)) or 0:+d}%"
 
 
-def _show_share(share: float) -> str:
-    return f"{share:.0%}"
-
-
 # Floors and the limit were chosen on the calibration families of the benchmark: 0.5% of right edits have an alarm.
 _FIGURES = (
-    _Figure("volume", "volume {}", 0.1, _log_volume, _show_change),
+    _Figure("volume", "volume {}", 0.1, lambda one: _log_ratio(one.volume_before, one.volume_after), _show_change),
     _Figure("extent", "extents {}", 0.16, _log_extent, _show_change),
-    _Figure("hulls", "number of hulls {}", 0.25, _log_hulls, _show_change),
-    _Figure("filled", "{} of the free space is filled", 0.07, _fill_share, _show_share),
-    _Figure("freed", "{} of the covered space is free", 0.05, lambda one: one.freed, _show_share),
+    _Figure(
+        "hulls",
+        "number of hulls {}",
+        0.25,
+        lambda one: log((one.hulls_after + 1) / (one.hulls_before + 1)),
+        _show_change,
+    ),
+    _Figure(
+        "filled",
+        "{} of the free space is filled",
+        0.07,
+        lambda one: one.filled if one.free >= _LEAST_FREE else None,
+        "{:.0%}".format,
+    ),
+    _Figure("freed", "{} of the covered space is free", 0.05, lambda one: one.freed, "{:.0%}".format),
 )

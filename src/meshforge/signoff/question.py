@@ -158,8 +158,7 @@ _KINDS: Mapping[str, type[ReviewQuestion]] = {one.kind: one for one in (*get_arg
 
 
 def question_of(asked: Mapping[str, Any]) -> ReviewQuestion | None:
-    """Return the question that somebody was asked, None where only an earlier version asks such; asked: as `to_json`
-    writes it."""
+    """Return the question that was asked; asked: as `to_json` writes it; None for a kind that is gone."""
     kind = _KINDS.get(asked["kind"])
     if kind is None:
         return None

@@ -1,5 +1,4 @@
-"""Which asset to turn to next: to demonstrate first, to ask about, to demonstrate next, or to look at before
-accepting."""
+"""Which asset to demonstrate first, to ask about, to demonstrate next, or to look at before accepting."""
 
 from __future__ import annotations
 

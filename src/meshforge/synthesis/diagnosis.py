@@ -16,7 +16,9 @@ _MAX_SENTENCES = 4
 def give_advice(miss: NearestExtractor, examples: Sequence[Example], answered: Sequence[str] = ()) -> tuple[str, ...]:
     """Return what a person can look at, the likeliest first; answered: the meshes that an answer is about."""
     example = next(example for example in examples if example.name == miss.asset)
-    lines = [*_advise_on_missing_labels(miss, example), *_advise_on_near_contacts(miss, example)]
+    bare = [name for name in [*miss.missing, *miss.extra] if example.mesh.hull_of(name).label is None]
+    lines = [f"{_describe_hulls(bare, example)} {'has' if len(bare) == 1 else 'have'} no label"] if bare else []
+    lines += _advise_on_near_contacts(miss, example)
     if answered:
         one = len(answered) == 1
         lines.append(
@@ -33,12 +35,6 @@ def give_advice(miss: NearestExtractor, examples: Sequence[Example], answered: S
     if sum(bool(other.selection) for other in examples) > 1:
         lines.append("if what was shown follows different rules, make two steps of it")
     return tuple(dict.fromkeys(lines))[:_MAX_SENTENCES]
-
-
-def _advise_on_missing_labels(miss: NearestExtractor, example: Example) -> Iterator[str]:
-    bare = [name for name in [*miss.missing, *miss.extra] if example.mesh.hull_of(name).label is None]
-    if bare:
-        yield f"{_describe_hulls(bare, example)} {'has' if len(bare) == 1 else 'have'} no label"
 
 
 def _advise_on_unknown_labels(example: Example, names: Sequence[str], left_out: bool) -> Iterator[str]:

@@ -31,7 +31,7 @@ def synthesize(
 ) -> LearningOutcome:
     """Return the program that does on every demonstration what was shown, and whatever else these leave open.
 
-    batch: the meshes it is meant for, by name or by their files' paths; vocabulary: labels it may ask for, by default
+    family: the meshes it is meant for, by name or by their files' paths; vocabulary: labels it may ask for, by default
     all on the meshes. templates: by the paths that actions name.
     confirm: is asked about each label that is probably wrong; without it the outcome proposes the repairs.
     answers: what a person said to earlier questions.

@@ -3,17 +3,18 @@ every demonstration before it is returned."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
 from typing import TypedDict, assert_never
 
 from meshforge.common import MeshForgeError
-from meshforge.language import Orient, Program, Rule
+from meshforge.language import Orient, Program, Rule, Template
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import outcome
 from meshforge.synthesis.asset_selection import find_open_rule, select_sample, suggest_demonstration
 from meshforge.synthesis.candidates.rank import RankedCandidates, enumerate_consistent
-from meshforge.synthesis.demonstration import Example, RuleSpec
+from meshforge.synthesis.demonstration import Demonstration, Example, RuleSpec, name_demonstrations
 from meshforge.synthesis.diagnosis import give_advice
 from meshforge.synthesis.options import OutOfTime, TimeBudget
 from meshforge.synthesis.orientation.alternatives import find_more_believable
@@ -26,9 +27,8 @@ from meshforge.synthesis.orientation.suggest import (
 from meshforge.synthesis.paper.search import HitWithFixes, PaperSearch
 from meshforge.synthesis.questions import Answer, LabelFix, OpenRule, Repair
 from meshforge.synthesis.repair.explain import RepairCollector, make_confirmer
-from meshforge.synthesis.rule_outcome import RuleOutcome, list_candidates, to_nearest, verify
 from meshforge.synthesis.search.smallest import Hit, Miss, Search, SearchEffort, Unfinished
-from meshforge.synthesis.task import LearningTask, ReplaySet, correct_demonstrations
+from meshforge.synthesis.task import LearningTask, ReplaySet, correct_demonstrations, memoize
 
 PLAIN_SIZE = 7
 """Nodes up to which an extractor is plain enough to speak for an orientation that is suggested."""
@@ -42,13 +42,40 @@ class _OutcomeFields(TypedDict):
     stale: tuple[Answer, ...]
 
 
+@dataclass(frozen=True, slots=True)
+class _RuleOutcome:
+    """One rule, its readings, and the names of the meshes in their field."""
+
+    rule: Rule
+    candidates: RankedCandidates
+    names: tuple[str, ...]
+
+    @property
+    def size(self) -> int:
+        """Nodes of the extractor."""
+        return self.candidates.terms[0].size
+
+    def select(self) -> dict[str, frozenset[str]]:
+        """Return the names of the hulls that the rule selects on each mesh of the field."""
+        field, bits = self.candidates.field, self.candidates.terms[0].bits
+        rows = zip(self.names, field.meshes, strict=True)
+        return {name: frozenset(mesh.names_of(field.on(bits, place))) for place, (name, mesh) in enumerate(rows)}
+
+    def list_candidates(self, rule: int) -> Iterator[outcome.CandidateProgram]:
+        """Yield the readings, the most believable first; rule: its number."""
+        ranked = self.candidates
+        for place, (term, belief) in enumerate(zip(ranked.terms, ranked.beliefs, strict=True)):
+            differs = tuple(self.names[k] for k in ranked.differences(place))
+            yield outcome.CandidateProgram(f"{rule}.{place + 1}", rule, term.extractor, belief, differs)
+
+
 class LearningRun:
     """Learns the rules of a task one after the other, as far as it gets."""
 
     def __init__(self, task: LearningTask, budget: TimeBudget, confirm: Callable[[Repair], bool] | None = None) -> None:
         self._task, self._budget, self._confirm = task, budget, confirm
         self._replays = ReplaySet(task)
-        self._learned: list[RuleOutcome] = []
+        self._learned: list[_RuleOutcome] = []
         self._tried: list[SearchEffort] = []
         self._open_rule: OpenRule | None = None
         self._searching = 0.0
@@ -99,7 +126,7 @@ class LearningRun:
                 case Miss():
                     return self._fail(spec, found, examples)
                 case Unfinished():
-                    nearest = to_nearest(spec.number, found.nearest) if found.nearest else None
+                    nearest = outcome.Nearest.of(spec.number, found.nearest) if found.nearest else None
                     return outcome.TimedOut(nearest=nearest, **self._common_fields())
                 case tuple():
                     self._replays.correct(found)
@@ -147,7 +174,7 @@ class LearningRun:
 
     def _accept(self, spec: RuleSpec, ranked: RankedCandidates, names: tuple[str, ...]) -> None:
         rule = Rule(ranked.extractor, spec.action, spec.label)
-        self._learned.append(RuleOutcome(rule, ranked, names))
+        self._learned.append(_RuleOutcome(rule, ranked, names))
         if not self._open_rule:
             declined = {a.asset for a in self._task.answers if a.rule == spec.number and a.select is None}
             self._open_rule = find_open_rule(spec.number, ranked, names, self._repairs.trust, declined)
@@ -155,7 +182,7 @@ class LearningRun:
 
     def _finish(self) -> outcome.LearningOutcome:
         task, program = self._task, self._program()
-        verify(program, task.demos, task.templates)
+        _verify(program, task.demos, task.templates)
         known = [(learned.candidates, learned.names) for learned in self._learned]
         hint, sample = suggest_demonstration(known), select_sample(known, self._repairs.trust)
         suggested, common = self._suggest_alternative(), self._common_fields()
@@ -169,7 +196,7 @@ class LearningRun:
         )
 
     def _fail(self, spec: RuleSpec, miss: Miss, examples: Sequence[Example]) -> outcome.LearningOutcome:
-        nearest, repairs = to_nearest(spec.number, miss.nearest), self._repairs.repairs
+        nearest, repairs = outcome.Nearest.of(spec.number, miss.nearest), self._repairs.repairs
         if repairs:
             return outcome.NeedsRepair(repairs=repairs, nearest=nearest, **self._common_fields())
         return outcome.NoProgram(
@@ -230,9 +257,35 @@ class LearningRun:
             "candidates": tuple(
                 candidate
                 for number, learned in enumerate(self._learned, 1)
-                for candidate in list_candidates(number, learned.candidates, learned.names)
+                for candidate in learned.list_candidates(number)
             ),
             "tried": tuple(self._tried),
             "seconds": {"search": self._searching, "replay": self._budget.elapsed - self._searching},
             "stale": self._replays.stale,
         }
+
+
+def _verify(program: Program, demos: Sequence[Demonstration], templates: Mapping[str, Template]) -> None:
+    """Raise AssertionError, an error of ours, where the program selects something else than was shown.
+
+    Raises ProgramError where it cannot run: it asks for labels, and a demonstrated mesh has none.
+    """
+    made_of = tuple(templates[name].digest for name in program.templates if name in templates)
+    for name, demo in name_demonstrations(demos):
+        key = ("verified", str(program), made_of, demo.steps)
+        memoize(demo.mesh, key, bool, partial(_check_demonstration, program, demo, templates, name))
+
+
+def _check_demonstration(program: Program, demo: Demonstration, templates: Mapping[str, Template], name: str) -> bool:
+    try:
+        trace = program.run(demo.mesh, templates, memo=memoize).trace
+    except MeshForgeError as error:
+        raise error.at(name) from None
+    for done in trace:
+        step = demo.step(done.rule)
+        if step and step.select != frozenset(done.selected):
+            raise AssertionError(
+                f"the learned rule {done.rule} selects {sorted(done.selected)} on {name}, "
+                f"not {sorted(step.select or ())} as was shown"
+            )
+    return True

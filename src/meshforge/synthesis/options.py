@@ -12,42 +12,11 @@ from meshforge.language import EXTREMITY, Leaf
 from meshforge.synthesis.questions import LabelFix
 
 Layers = Literal["S", "S+T", "S+G", "S+T+G"]
-
-
 LAYERS: tuple[Layers, ...] = get_args(Layers)
-
-
 Strategy = Literal["default", "paper"]
-
-
 STRATEGIES: tuple[Strategy, ...] = get_args(Strategy)
-
-
 Clock = Callable[[], float]
-
-
 """Seconds from any fixed moment."""
-
-
-@dataclass(frozen=True, slots=True)
-class Shortcuts:
-    """Ways of doing less for the same answer; each can be switched off, to see that the answer stays the same.
-
-    merge: of the extractors that select the same, only the first in the order is built upon.
-    group: hulls that no extractor can tell apart count as one.
-    complete: the missing operand of a set operator is looked up by what it must hold and avoid.
-    help: an operand that brings its goal no nearer is passed over.
-    stored: up to this size every selection is kept in an index, beyond only goals are followed.
-    few: the search begins with this many of the demonstrated groups of hulls; those that refute its answer join
-    (0: all at once).
-    """
-
-    merge: bool = True
-    group: bool = True
-    complete: bool = True
-    help: bool = True
-    stored: int = 5
-    few: int = 48
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,6 +28,9 @@ class Options:
     repair: whether wrong labels are looked for; eta: corrections a mesh, over all rules, at most.
     max_size: in syntax nodes; budget: for the whole program [s].
     above: readings have up to so many nodes more than the smallest; effort: how many operands they may take to find.
+    stored: up to this size every selection is kept in an index, beyond only goals are followed.
+    few: the search begins with this many of the demonstrated groups of hulls; those that refute its answer join
+    (0: all at once).
     contact, extremity: thresholds that the program is to set.
     suggest_orientation: whether landmarks that would help are looked for where no program fits.
     rejected: corrections that a person refused, so the labels stand.
@@ -75,7 +47,8 @@ class Options:
     budget: float = 120.0
     above: int = 4
     effort: int = 100_000
-    shortcuts: Shortcuts = Shortcuts()
+    stored: int = 5
+    few: int = 48
     contact: float | None = None
     extremity: float | None = None
     suggest_orientation: bool = True

@@ -9,7 +9,7 @@ from typing import Any, ClassVar, Literal
 from meshforge.language import Extractor, Program, Rule, show, size_of
 from meshforge.synthesis.orientation.suggest import OrientationSuggestion
 from meshforge.synthesis.questions import Answer, Hint, OpenRule, Repair
-from meshforge.synthesis.search.smallest import SearchEffort
+from meshforge.synthesis.search.smallest import NearestExtractor, SearchEffort
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,6 +44,10 @@ class Nearest:
     asset: str
     extra: tuple[str, ...]
     missing: tuple[str, ...]
+
+    @staticmethod
+    def of(rule: int, miss: NearestExtractor) -> Nearest:
+        return Nearest(rule, miss.extractor, miss.asset, miss.extra, miss.missing)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -125,26 +129,24 @@ LearningOutcome = Found | Ambiguous | NeedsRepair | NoProgram | TimedOut
 
 def outcome_to_json(outcome: LearningOutcome) -> dict[str, Any]:
     """Return the outcome as `synthesize --json` prints it."""
+    hint, one = outcome.hint, outcome.open_rule
+    asked = one and {"rule": one.rule, "asset": one.asset, "selections": [sorted(some) for some in one.selections]}
     return {
         "status": outcome.status,
         "program": str(outcome.program) if outcome.program else None,
         "unambiguous": outcome.unambiguous,
         "candidates": [_candidate_json(candidate) for candidate in outcome.candidates],
         "repairs": [_repair_json(repair) for repair in outcome.repairs],
-        "open_rule": _open_rule_json(outcome.open_rule) if outcome.open_rule else None,
+        "open_rule": asked,
         "nearest": _nearest_json(outcome.nearest) if outcome.nearest else None,
-        "demonstrate_next": {"asset": outcome.hint.asset, "why": outcome.hint.why} if outcome.hint else None,
+        "demonstrate_next": hint and {"asset": hint.asset, "why": hint.why},
         "look_at": list(outcome.sample),
         "overruled": list(outcome.overruled),
         "stale_answers": [{"rule": answer.rule, "asset": answer.asset} for answer in outcome.stale],
-        **_failure_json(outcome),
+        **({"why": outcome.why, "advice": list(outcome.advice)} if isinstance(outcome, NoProgram) else {}),
         **_suggestion_json(outcome.suggested),
         "seconds": dict(outcome.seconds),
     }
-
-
-def _failure_json(outcome: LearningOutcome) -> dict[str, Any]:
-    return {"why": outcome.why, "advice": list(outcome.advice)} if isinstance(outcome, NoProgram) else {}
 
 
 def _suggestion_json(suggested: OrientationSuggestion | None) -> dict[str, Any]:
@@ -186,10 +188,6 @@ def _repair_json(repair: Repair) -> dict[str, Any]:
     }
 
 
-def _open_rule_json(one: OpenRule) -> dict[str, Any]:
-    return {"rule": one.rule, "asset": one.asset, "selections": [sorted(select) for select in one.selections]}
-
-
 def _nearest_json(nearest: Nearest) -> dict[str, Any]:
     return {
         "rule": nearest.rule,
@@ -198,8 +196,3 @@ def _nearest_json(nearest: Nearest) -> dict[str, Any]:
         "extra": list(nearest.extra),
         "missing": list(nearest.missing),
     }
-
-
-def candidate_id(rule: int, place: int) -> str:
-    """Return the id of a reading by its place among those of its rule, from 0."""
-    return f"{rule}.{place + 1}"

@@ -1,5 +1,4 @@
-"""All that a program is learned from, and its demonstrations replayed: the mesh as each rule meets it, after all rules
-before it."""
+"""All that a program is learned from, and its demonstrations replayed: the mesh as each rule meets it."""
 
 from __future__ import annotations
 
@@ -47,13 +46,10 @@ def name_family(batch: Iterable[SymbolicMesh] | Family, demos: Sequence[Demonstr
     By default the name is the file's path.
     """
     shown, meshes = dict(name_demonstrations(demos)), {id(demo.mesh) for demo in demos}
-    rows = batch if isinstance(batch, Mapping) else dict(_pair_with_names(batch))
+    if not isinstance(batch, Mapping):
+        batch = {str(one.asset.path) if one.asset else f"mesh {number}": one for number, one in enumerate(batch, 1)}
+    rows = batch
     return {name: rows[name] for name in sorted(rows) if name not in shown and id(rows[name]) not in meshes}
-
-
-def _pair_with_names(batch: Iterable[SymbolicMesh]) -> Iterable[tuple[str, SymbolicMesh]]:
-    for number, mesh in enumerate(batch, 1):
-        yield str(mesh.asset.path) if mesh.asset else f"mesh {number}", mesh
 
 
 def apply_fixes(mesh: SymbolicMesh, name: str, fixes: Iterable[LabelFix]) -> SymbolicMesh:

@@ -69,22 +69,6 @@ def test_again_changes_nothing_and_what_sources_said_comes_back_byte_for_byte(tm
     assert [report.unlabelled for report in restored.outcomes] == [0, 0, 1, 0, 0, 0]
 
 
-def test_propagated_labels_can_be_taken_back_too_with_what_they_replaced(tmp_path: Path) -> None:
-    project = family(tmp_path)
-    project.set_labels("t0.obj", RIGHT)
-    project.set_labels("t1.obj", {"top": "misc"}, source="vlm", confidence=0.1)
-    before = tree(project.folder / "labels")
-    project.label("propagate")
-    assert project.labels("t1.obj").labels["top"].given == Label("misc", 0.1, "vlm")
-    once = tree(project.folder / "labels")
-    project.label("propagate")
-    assert tree(project.folder / "labels") == once
-    project.label("consensus")
-    assert project.labels("t1.obj").labels["top"].given == Label("misc", 0.1, "vlm")
-    project.label("sources")
-    assert tree(project.folder / "labels") == before
-
-
 def test_people_who_labelled_every_hull_are_left_alone(tmp_path: Path) -> None:
     project = family(tmp_path)
     for asset in project.assets():

@@ -7,16 +7,7 @@ import pytest
 
 from meshforge.common import ProgramError
 from meshforge.geometry import Box, Cylinder, Ellipsoid, Floats, Pose, Sphere, convex_hull
-from meshforge.language import (
-    PRIMITIVES,
-    Action,
-    Add,
-    Delete,
-    Each,
-    Merge,
-    Replace,
-    Scale,
-)
+from meshforge.language import PRIMITIVES, Action, Add, Delete, Each, Merge, Replace, Scale
 from meshforge.symbolic import SymbolicMesh
 from tests.unit.language.scenes import Applied, apply_action, box, hull, mesh, table, wedge
 
@@ -31,10 +22,6 @@ def applied(scene: SymbolicMesh, action: Action, *names: str, label: str | None 
 def bounds(scene: SymbolicMesh, name: str) -> list[list[float]]:
     aabb = scene.hull_of(name).aabb
     return [aabb.min.round(9).tolist(), aabb.max.round(9).tolist()]
-
-
-def legs() -> list[str]:
-    return [hull.name for hull in table().hulls if hull.label == "leg"]
 
 
 def test_delete_removes_the_hulls_and_nothing_else() -> None:
@@ -59,12 +46,6 @@ def test_of_equally_large_hulls_the_first_counts() -> None:
     assert applied(scene, Merge()).made == ("b~1",)
 
 
-def test_each_merge_makes_one_hull_a_component() -> None:
-    result = applied(table(), Each(Merge()), *legs())
-    assert result.made == ("leg0_high~1", "leg1_high~1", "leg2_high~1", "leg3_high~1")
-    assert bounds(result.mesh, "leg3_high~1") == [[1.9, 0.9, 0], [2, 1, 1]]
-
-
 def test_merge_without_each_makes_one_hull_a_body() -> None:
     scene = mesh(
         hull("a", box([0, 0, 0], [1, 1, 1]), body="base"),
@@ -84,12 +65,6 @@ def test_each_never_joins_hulls_of_two_bodies() -> None:
         hull("c", box([2, 0, 0], [3, 1, 1]), body="base"),
     )
     assert applied(scene, Each(Merge())).mesh is scene
-
-
-def test_merging_one_hull_leaves_it_as_it_is() -> None:
-    scene = mesh(hull("ball", Sphere(Pose.identity(), 1.0), "knob"))
-    result = applied(scene, Merge())
-    assert result.mesh is scene and result.made == ()
 
 
 def test_merging_one_hull_under_a_label_relabels_it() -> None:
@@ -153,10 +128,7 @@ def test_a_tight_fit_follows_a_slanted_leg(primitive: str) -> None:
 
 @pytest.mark.parametrize("primitive", ["cylinder", "capsule", "sphere"])
 def test_native_shapes_are_made_one_a_body(primitive: str) -> None:
-    scene = mesh(
-        hull("a", box([0, 0, 0], [1, 2, 4]), body="base"),
-        hull("b", box([1, 0, 0], [2, 2, 4]), body="door"),
-    )
+    scene = mesh(hull("a", box([0, 0, 0], [1, 2, 4]), body="base"), hull("b", box([1, 0, 0], [2, 2, 4]), body="door"))
     result = applied(scene, Replace(primitive, "native"))
     assert [(h.name, h.body, h.shape.kind) for h in result.mesh.hulls] == [
         ("a~1", "base", primitive), ("b~1", "door", primitive),

@@ -60,10 +60,6 @@ def test_what_leaves_nothing_or_fills_all_stands_out_on_every_table(text: str, k
     assert all(kinds(alarms) == {kind} for alarms in found.values())
 
 
-def test_no_family_has_no_alarms() -> None:
-    assert find_alarms({}) == {}
-
-
 @pytest.mark.parametrize("size", [1, 2, 3])
 def test_small_families_have_only_alarms_that_need_no_family(size: int) -> None:
     large = replace(USUAL, volume_after=0.9)

@@ -11,7 +11,7 @@ from meshforge.label_model import model_family
 from meshforge.language import Delete
 from meshforge.signoff import ReviewState
 from meshforge.signoff.confidence import AssetEvidence, read_calibration
-from meshforge.signoff.family import FamilyRun, alternative_shares, cluster
+from meshforge.signoff.family import FamilyRun, alternative_shares
 from meshforge.signoff.likely_mistakes import ask_about_mistake, offer_label
 from meshforge.signoff.review import review_family
 from meshforge.synthesis import Ambiguous, Demonstration, Found, LabelFix, NeedsRepair, Repair, Step
@@ -82,14 +82,6 @@ def test_look_alikes_of_an_asset_count_once() -> None:
     product = exp(sum(log(1 - share) for share in shares.values()))
     assert product < trial.labels_right(place) <= 1 - max(shares.values())
     assert trial.labels_right(place, shares.keys()) == 1.0
-
-
-def test_a_cluster_is_of_hulls_that_look_like_its_first_one() -> None:
-    trial = try_state(ReviewState(tables(), FRAME, demos=shown(tables(), "t0")))
-    names = sorted(legs_of("t0"))
-    rows = trial.rows_of(0, [*names, "top"] if "top" in trial.state.meshes["t0"].index else names)
-    assert cluster(rows)[0] == 0
-    assert cluster(rows[:0]) == []
 
 
 def test_credit_is_linear_in_the_doubt_that_goes() -> None:

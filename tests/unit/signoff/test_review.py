@@ -153,13 +153,6 @@ def test_a_result_that_was_called_wrong_is_held_and_improbable_while_it_stays() 
     assert other.assets["t5"].probability > 0.5
 
 
-def test_a_result_that_was_corrected_is_signed_off_by_a_person() -> None:
-    meshes = tables()
-    state = ReviewState(meshes, FRAME, demos=shown(meshes, "t0"), corrected=frozenset({"t5"}))
-    found = review(replace(state, meant={"t5": (legs_of("t5"),)}))
-    assert "t5" in found.looked_at and "t5" in found.signed_off
-
-
 def test_the_queue_ends_whatever_is_said() -> None:
     meshes = tables(leg2_low="panel", top_0="misc")
     state, asked = ReviewState(meshes, FRAME, demos=shown(meshes, "t0")), list[str]()
@@ -253,19 +246,6 @@ def test_nobody_is_asked_whether_a_result_is_right_that_cannot_be() -> None:
     assert bare[0].text.startswith("The program cannot run on bare: no labels, though the program asks for some. ")
     others = {choice.id for one in asked if one.asset != "bare" for choice in one.choices}
     assert others == {RIGHT, WRONG, *EXCLUDE}
-
-
-def test_the_same_family_gives_the_same() -> None:
-    meshes = tables(leg2_low="panel")
-    state = ReviewState(meshes, FRAME, demos=shown(meshes, "t0"))
-    assert review(state) == review(state)
-
-
-def test_a_family_of_one_is_reviewed() -> None:
-    meshes = tables(1)
-    found = review(ReviewState(meshes, FRAME, demos=shown(meshes, "t0")))
-    assert found.is_done
-    assert found.question is None
 
 
 def test_an_empty_family_is_done() -> None:

@@ -67,19 +67,6 @@ def test_a_hull_that_is_too_much_is_asked_about_in_words_of_its_own() -> None:
     assert meant_by(question) == legs_of("t0") - {FORGOTTEN}
 
 
-@pytest.mark.slow
-def test_what_was_meant_as_shown_is_not_asked_about_again() -> None:
-    _, state = show_without(FORGOTTEN)
-    question = ask_about_mistake(state)
-    assert question is not None
-    assert ask_about_mistake(snooze(state, question)) is None
-
-
-def test_a_simple_demonstration_has_no_slip() -> None:
-    _, state = show_without()
-    assert ask_about_mistake(state) is None
-
-
 def test_a_program_that_nobody_demonstrated_has_no_slips() -> None:
     meshes = tables()
     parts = Union(Is("leg"), Union(Geo(Is("drawer"), "-Z"), Attach(Is("handle"), Is("drawer"))))

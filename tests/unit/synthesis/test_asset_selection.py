@@ -76,12 +76,7 @@ def test_where_readings_differ_the_asset_that_tells_most_is_best_demonstrated() 
 
 
 def test_what_all_rules_gain_counts_together() -> None:
-    meshes = {
-        "plain": cupboard(),
-        "door": cupboard(True),
-        "feet": cupboard(False, 2),
-        "both": cupboard(True, 2),
-    }
+    meshes = {"plain": cupboard(), "door": cupboard(True), "feet": cupboard(False, 2), "both": cupboard(True, 2)}
     outcome = learned(meshes, ["plain"], "Is(handle) => Delete\nDiff(All, Is(drawer)) => Delete\n")
     assert outcome.hint == Hint("both", ALIKE)
 

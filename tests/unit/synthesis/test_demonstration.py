@@ -63,11 +63,6 @@ def test_actions_that_differ_are_refused_with_both_demonstrations_named() -> Non
     assert "rule 1 does Delete in t1, but Replace(box) in t2" in text
 
 
-def test_labels_of_what_is_made_that_differ_are_refused() -> None:
-    text = message_of(shown(pair(1), Merge(), "t1"), shown(pair(1), Merge(), "t2", label="panel"))
-    assert "rule 1 does Merge in t1, but Merge as panel in t2" in text
-
-
 def test_actions_count_only_where_the_step_is_shown() -> None:
     silent = Demonstration(boxes(("top", "panel", (0, 0, 0), (1, 1, 1))), [Step(1, [], Delete())])
     outcome = synthesize([shown(pair(1), Each(Merge()), "t1"), silent])
@@ -88,12 +83,6 @@ def test_merge_agrees_with_each_merge_where_it_is_done_on_one_component() -> Non
 def test_merge_of_two_parts_contradicts_each_merge() -> None:
     text = message_of(shown(pair(1), Each(Merge()), "t1"), shown(pair(1), Merge(), "t2"))
     assert "rule 1 does Merge in t2 on 2 parts that do not touch, but Each(Merge) in t1" in text
-
-
-def test_merge_everywhere_stays_merge() -> None:
-    outcome = synthesize([shown(pair(0), Merge(), "t1"), shown(pair(0), Merge(), "t2")])
-    assert isinstance(outcome, Found)
-    assert outcome.program.rules[0].action == Merge()
 
 
 def test_an_unknown_hull_is_refused_with_the_nearest_name() -> None:

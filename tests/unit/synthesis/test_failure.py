@@ -129,13 +129,3 @@ def test_an_outcome_without_a_program_carries_the_advice_and_names_answers_of_th
         "a label of its own for one of them would tell them apart"
     )
     assert "an answer was given for x: it can be taken back" in outcome.advice
-
-
-def test_a_hull_without_label_and_one_of_two_like_ones_are_pointed_at() -> None:
-    demo = Demonstration(ROW.with_labels({"b": None}), [Step(1, {"a", "b"}, Delete())], "row")
-    outcome = synthesize([demo], options=Options(repair=False, max_size=1))
-    assert isinstance(outcome, NoProgram)
-    assert outcome.advice == (
-        "'b' of row has no label",
-        "if only a part of 'b' is meant, cut the hull (meshforge cut)",
-    )

@@ -22,7 +22,7 @@ from meshforge.language import (
 from meshforge.symbolic import SymbolicMesh
 from meshforge.synthesis import Demonstration, Found, Options, Step, synthesize
 from meshforge.synthesis.demonstration import collect_rule_specs
-from meshforge.synthesis.options import OutOfTime, TimeBudget
+from meshforge.synthesis.options import TimeBudget
 from meshforge.synthesis.orientation.attempts import MeshTurner
 from meshforge.synthesis.orientation.suggest import Directives, OrientationSuggestion, suggest_orientation
 from meshforge.synthesis.task import LearningTask
@@ -239,15 +239,6 @@ def test_an_open_step_is_filled_in_by_the_rule_of_the_frame() -> None:
     found = suggested(*demos, Demonstration(meshes[2], [Step(1, None, Delete()), Step(2, {"board_1"}, Delete())]))
     assert directive(found) == UP
     assert found and found.sizes == (2, 2)
-
-
-def test_without_directions_no_frame_is_better_than_another() -> None:
-    assert suggested(*tops(TOPS), options=Options(layers="S+T")) is None
-
-
-def test_the_budget_ends_the_search() -> None:
-    with pytest.raises(OutOfTime):
-        suggest_orientation(task(tops(TOPS)), TimeBudget(0.0))
 
 
 @pytest.mark.parametrize("text", [UP, UP.replace("orient", "orient snap"), "orient +X: All -> Is(drawer)"])

@@ -9,13 +9,7 @@ from tests.synthesis_boxes import table, turned
 
 LABELS = ("panel", "leg", "handle", "drawer", "misc")
 UP = Orient((LandmarkPair("+Z", Is("leg"), Is("panel")),), snap=True)
-ACTIONS: tuple[Action, ...] = (
-    Delete(),
-    Replace("box"),
-    Each(Merge()),
-    Each(Replace("box")),
-    Delete(),
-)
+ACTIONS: tuple[Action, ...] = (Delete(), Replace("box"), Each(Merge()), Each(Replace("box")), Delete())
 
 
 def shown_on(mesh: SymbolicMesh, name: str) -> Demonstration:

@@ -41,8 +41,7 @@ def meaning_of(name: str, vocabulary: Sequence[str], patterns: Sequence[NamePatt
 
 
 def to_file_labels(found_names: Mapping[str, tuple[str, Meaning, float]], vocabulary: Sequence[str]) -> FileLabels:
-    """Return the labels that are said of hulls; said: by hull, its name in the file, what that means, and a
-    confidence."""
+    """Return the labels that are said of hulls; by hull, its name in the file, what that means, and a confidence."""
     labels, unknown = dict[str, Label](), Counter[str]()
     for hull, (name, meaning, confidence) in found_names.items():
         if meaning is None:

@@ -3,7 +3,7 @@ labels file, segmented points, or PartNet's semantics of links."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Generator, Iterable, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -88,18 +88,10 @@ class LabelFileOptions:
 
 
 @dataclass(frozen=True, slots=True)
-class LabelFileContent:
-    """What a file says of an asset. hulls: digests by name, in order; error: why the asset or its file is not read."""
-
-    hulls: Mapping[str, str] = field(default_factory=dict)
-    given: FileLabels = field(default_factory=FileLabels)
-    error: str | None = None
-
-
-@dataclass(frozen=True, slots=True)
 class _Work:
-    """An asset, the folder of its preparation, and a file that only its mesh makes sense of."""
+    """An asset, where it is, the folder of its preparation, and a file that only its mesh makes sense of."""
 
+    asset: str
     path: Path
     preparation: Path
     file: Path
@@ -108,19 +100,18 @@ class _Work:
     patterns: tuple[NamePattern, ...]
 
 
-def read_label_files(
+def _read_label_files(
     store: Store,
     files: Mapping[str, Path],
     options: LabelFileOptions,
-    vocabulary: Sequence[str],
-    patterns: Sequence[NamePattern],
+    vocabulary: tuple[str, ...],
+    patterns: tuple[NamePattern, ...],
     execution: ExecutionOptions,
-) -> Iterator[tuple[str, LabelFileContent]]:
-    """Yield what the file of each asset says, in their order, as soon as it is known; read in worker processes."""
-    plain = {asset for asset, file in files.items() if kind_of(file) == "labels file"}
-    layout, words, known = store.layout, tuple(vocabulary), tuple(patterns)
+) -> Generator[AssetLabels, None, None]:
+    """What the file of each asset says, in their order, as soon as it is known; read in worker processes."""
+    plain, layout = {asset for asset, file in files.items() if kind_of(file) == "labels file"}, store.layout
     work = [
-        _Work(store.path(asset), layout.preparation(asset), file, options, words, known)
+        _Work(asset, store.path(asset), layout.preparation(asset), file, options, vocabulary, patterns)
         for asset, file in files.items()
         if asset not in plain
     ]
@@ -130,21 +121,26 @@ def read_label_files(
     ):
         for asset, file in files.items():
             if asset in plain:
-                yield asset, _read_by_facts(next(facts)[1], file)
+                yield _read_by_facts(asset, next(facts)[1], file)
             else:
-                content = next(others)
-                if isinstance(content, WorkerFailure):
-                    content = LabelFileContent(error=f"{store.path(asset)}: {content.why}")
-                yield asset, content
+                found = next(others)
+                if isinstance(found, WorkerFailure):
+                    found = AssetLabels(asset, error=f"{store.path(asset)}: {found.why}")
+                yield found
 
 
-def _read_by_facts(facts: AssetFacts, file: Path) -> LabelFileContent:
+def _read_by_facts(asset: str, facts: AssetFacts, file: Path) -> AssetLabels:
     if facts.error:
-        return LabelFileContent(error=facts.error)
+        return AssetLabels(asset, error=facts.error)
     try:
-        return LabelFileContent(facts.hulls, _take_labels_file(file, facts.hulls))
+        return _to_labels(asset, facts.hulls, _take_labels_file(file, facts.hulls), file)
     except MeshForgeError as error:
-        return LabelFileContent(facts.hulls, error=error.message)
+        return AssetLabels(asset, facts.hulls, error=error.message)
+
+
+def _to_labels(asset: str, hulls: Mapping[str, str], given: FileLabels, file: Path) -> AssetLabels:
+    reasons = {hull: (kind_of(file), given.names.get(hull) or file.name) for hull in given.labels}
+    return AssetLabels(asset, hulls, given.labels, reasons, given.problems)
 
 
 def _take_labels_file(file: Path, hulls: Mapping[str, str]) -> FileLabels:
@@ -154,13 +150,13 @@ def _take_labels_file(file: Path, hulls: Mapping[str, str]) -> FileLabels:
     return FileLabels({name: labels_file.labels[name] for name in homes.gone} | present)
 
 
-def _read_by_mesh(work: _Work) -> LabelFileContent:
+def _read_by_mesh(work: _Work) -> AssetLabels:
     try:
         mesh = SymbolicMesh.of(read_prepared(work.path, work.preparation))
         given = read_label_file(mesh, work.file, work.options, work.vocabulary, work.patterns)
-        return LabelFileContent(hull_digests(mesh), given)
+        return _to_labels(work.asset, hull_digests(mesh), given, work.file)
     except Exception as error:  # one asset never stops the others
-        return LabelFileContent(error=describe_error(error, str(work.path)))
+        return AssetLabels(work.asset, error=describe_error(error, str(work.path)))
 
 
 def read_label_file(
@@ -196,23 +192,14 @@ class FileLabeler(Labeler):
         if not files:
             remedy = "Put a labels file beside each asset, or name a folder of them that mirrors the assets."
             raise ProjectError("there is no labels file for any asset", where=str(store.folder), remedy=remedy)
-        words = family.vocabulary or _read_vocabulary(files, self.options)
+        named = (word for file in files.values() for word in _read_words(file, self.options))
+        words = family.vocabulary or tuple(dict.fromkeys(named))
         patterns = name_patterns(store.folder, store.settings, words, self.options.meanings)
-        contents = read_label_files(store, files, self.options, words, patterns, family.execution)
-        return LabelProposal((_to_labels(*one, files) for one in contents), vocabulary=words)
+        assets = _read_label_files(store, files, self.options, words, patterns, family.execution)
+        return LabelProposal(assets, vocabulary=words)
 
     def can_replace(self, current: Label | None, given: Label | None) -> bool:
         return given is not None
-
-
-def _to_labels(asset: str, content: LabelFileContent, files: Mapping[str, Path]) -> AssetLabels:
-    file, names = files[asset], content.given.names
-    reasons = {hull: (kind_of(file), names.get(hull) or file.name) for hull in content.given.labels}
-    return AssetLabels(asset, content.hulls, content.given.labels, reasons, content.given.problems, content.error)
-
-
-def _read_vocabulary(files: Mapping[str, Path], options: LabelFileOptions) -> tuple[str, ...]:
-    return tuple(dict.fromkeys(word for file in files.values() for word in _read_words(file, options)))
 
 
 def _read_words(file: Path, options: LabelFileOptions) -> Iterable[str]:

@@ -111,8 +111,7 @@ def _find_majority(classes: Ints, trust: float) -> tuple[int, float] | None:
 
 
 def _distances_outside(hull: Shape, points: Floats) -> Floats:
-    """How far (n,) points (n, 3) are outside the planes of a hull [m]: below zero within, at edges somewhat less than
-    from the hull."""
+    """How far (n,) points (n, 3) are outside the planes of a hull [m], below zero within; at edges somewhat less."""
     corners = hull.vertices[hull.faces]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     lengths = np.linalg.norm(normals, axis=1)

@@ -71,8 +71,7 @@ def _normalize(word: str) -> str:
 
 
 def _entries(text: str) -> Iterator[tuple[int, str]]:
-    """The numbers with their words in the last list of hulls, since a model may think aloud before it; an entry that
-    is cut off is left out."""
+    """The numbers with their words in the last list of hulls: before it a model may think aloud."""
     _, _, last = text.rpartition('"hulls"')
     for part in _OBJECT.findall(last):
         try:

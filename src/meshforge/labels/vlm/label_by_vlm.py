@@ -1,5 +1,4 @@
-"""Labels for the hulls of a project from a model, each asset written as soon as it is answered; and a forecast of
-what that sends and costs."""
+"""Labels from a model, each asset written as soon as it is answered; and a forecast of what that costs."""
 
 from __future__ import annotations
 

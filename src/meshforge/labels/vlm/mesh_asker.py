@@ -63,21 +63,17 @@ class OpenAnswers:
     def result(self) -> VlmAnswers:
         """Return what the model said, when all of it is there."""
         responses = [response.result() for response in self.responses]
+        failed = tuple(dict.fromkeys(one.failed for one in responses if one.failed))
+        missing = "it was not asked about" if failed else "no picture shows it"
         labels, left = dict[str, Label](), dict[str, str]()
         for hull in self.names:
             votes = [one.votes[hull] for one in responses if hull in one.votes]
             if found := decide_label(votes, self.vocabulary):
                 labels[hull] = Label(*found, "vlm")
             else:
-                left[hull] = "the model does not know" if votes else _explain_gap(hull, responses)
-        failed = tuple(dict.fromkeys(response.failed for response in responses if response.failed))
-        return VlmAnswers(labels, left, failed, tuple(digest for response in responses for digest in response.asked))
-
-
-def _explain_gap(hull: str, responses: Sequence[_Response]) -> str:
-    failed = any(response.failed for response in responses)
-    missing = "it was not asked about" if failed else "no picture shows it"
-    return next((one.open[hull] for one in responses if hull in one.open), missing)
+                unknown = ["the model does not know"] if votes else []
+                left[hull] = next(iter((*unknown, *(one.open[hull] for one in responses if hull in one.open))), missing)
+        return VlmAnswers(labels, left, failed, tuple(digest for one in responses for digest in one.asked))
 
 
 class MeshAsker:

@@ -130,11 +130,8 @@ def example_messages(mesh: SymbolicMesh, config: PromptConfig) -> tuple[Message,
         return ()
     shots = draw_labeling_pictures(mesh, hulls=labelled, most=min(2, mode.pictures), size=mode.size)
     hulls = _number_hulls(mesh, labelled, shots)
-    rows = ", ".join(
-        f'{{"number": {number}, "label": {_quote(mesh.hull_of(hull).label or config.unknown)}}}'
-        for number, hull in hulls.items()
-    )
-    return _question_message(shots, 0, hulls), Message.assistant(f'{{"hulls": [{rows}]}}')
+    rows = [{"number": number, "label": mesh.hull_of(hull).label or config.unknown} for number, hull in hulls.items()]
+    return _question_message(shots, 0, hulls), Message.assistant(json.dumps({"hulls": rows}, ensure_ascii=False))
 
 
 def _number_hulls(mesh: SymbolicMesh, hulls: Sequence[str], shots: Sequence[LabelingPicture]) -> dict[int, str]:
@@ -143,11 +140,8 @@ def _number_hulls(mesh: SymbolicMesh, hulls: Sequence[str], shots: Sequence[Labe
 
 def retry_message(numbers: Sequence[int], unrecognised: Sequence[str]) -> Message:
     """Return the words that ask once more for what an answer left open; odd: words in it that are no labels."""
-    why = (
-        f" ({', '.join(map(_quote, unrecognised))} {'is no label' if len(unrecognised) == 1 else 'are no labels'})"
-        if unrecognised
-        else ""
-    )
+    words = ", ".join(json.dumps(word, ensure_ascii=False) for word in unrecognised)
+    why = f" ({words} {'is no label' if len(unrecognised) == 1 else 'are no labels'})" if unrecognised else ""
     return Message.user(_AGAIN.format(why=why, numbers=", ".join(map(str, numbers))))
 
 
@@ -165,10 +159,6 @@ def _answer_schema(config: PromptConfig, repeat: int) -> dict[str, Any]:
 
 def _to_line(text: str) -> str:
     return " ".join(text.split()).rstrip(".")
-
-
-def _quote(text: str) -> str:
-    return json.dumps(text, ensure_ascii=False)
 
 
 @dataclass(frozen=True, slots=True)

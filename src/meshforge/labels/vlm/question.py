@@ -1,5 +1,4 @@
-"""A question to a model, the request that puts it, the answer to it, and the folder that keeps question and answer, so
-that none is paid for twice."""
+"""A question to a model, its request and its answer, and the folder that keeps both: none is paid for twice."""
 
 from __future__ import annotations
 

@@ -47,7 +47,8 @@ class Add(Action):
     def edit(self, group: HullGroup) -> GroupEdit:
         template = group.template(self.template)
         axis, sign = "XYZ".index(self.direction[1]), 1.0 if self.direction[0] == "+" else -1.0
-        factor = 1.0 if self.keep else _fit_factor(template.aabb, group.bounds, axis)
+        across = [k for k in range(3) if k != axis]
+        factor = 1.0 if self.keep else float((group.bounds.size[across] / template.aabb.size[across]).min())
         offset = _flush_offset(template.aabb, group.bounds, axis, sign, factor)
         shapes = tuple(shape.transform(np.eye(3) * factor, offset) for shape in template.shapes)
         return GroupEdit.insert(shapes, group, removes=False)
@@ -55,12 +56,6 @@ class Add(Action):
     def phrase(self, whose: str) -> str:
         size = "in its own size" if self.keep else "as large as fits"
         return f"given “{self.template}” at {whose} {self.direction} side, {size}"
-
-
-def _fit_factor(part: Aabb, bounds: Aabb, axis: int) -> float:
-    """The factor that makes `part` as large as fits the side of `bounds` across `axis`."""
-    across = [k for k in range(3) if k != axis]
-    return float((bounds.size[across] / part.size[across]).min())
 
 
 def _flush_offset(part: Aabb, bounds: Aabb, axis: int, sign: float, factor: float) -> Floats:

@@ -59,14 +59,11 @@ class Replace(Action):
         takes = ("longest",) if self.templates else _OPTIONS[self.geometry]
         given = [word for word in (self.fit, self.axis, "radius" if self.radius else None) if word]
         if wrong := next((word for word in given if word not in takes), None):
-            return f"Replace({self._shown_geometry}) takes {arguments.join_alternatives(takes)}, not {wrong}"
+            shown = self.arguments()["geometry"].show(self.geometry)
+            return f"Replace({shown}) takes {arguments.join_alternatives(takes)}, not {wrong}"
         if self.axis and self.fit == "tight":
             return f"{self.axis} does not go with tight, which finds its own direction"
         return f"radius does not go with {self.fit}, which finds its own" if self.radius and self.fit else None
-
-    @property
-    def _shown_geometry(self) -> str:
-        return self.arguments()["geometry"].show(self.geometry)
 
     @property
     def templates(self) -> tuple[str, ...]:

@@ -50,8 +50,7 @@ class Candidates:
 
 
 class Leaf(_Selector, Operation, ABC):
-    """An extractor without set operators. One that takes base extractors refines the first of them: it selects hulls
-    of that one only."""
+    """An extractor without set operators; with base extractors it selects hulls of the first only."""
 
     __slots__ = ()
     layer: ClassVar[Literal["S", "T", "G"]] = "S"

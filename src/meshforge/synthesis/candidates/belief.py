@@ -20,6 +20,7 @@ import numpy.typing as npt
 from meshforge.geometry import Floats
 from meshforge.language import Diff, Extractor, Leaf
 from meshforge.symbolic import bits_of, descriptors
+from meshforge.synthesis.search.bank import unpack_bits
 from meshforge.synthesis.search.observation_table import ObservationTable
 from meshforge.synthesis.search.terms import Compound, Term
 
@@ -61,7 +62,9 @@ def compute_beliefs(
     """
     share, leaves, none = assets / (assets + FEW), dict[Extractor, float](), [0] * len(terms)
     nats = [
-        count_nats(term, shown, leaves)
+        NODE * term.size
+        + _prior_nats(term, leaves)
+        + UNTRIED * count_untested(term, shown)
         + UNNEEDED * idle
         + share * (IDLE * facts.idle + STRANGE * min(facts.strange, STRANGEST))
         + other
@@ -74,18 +77,11 @@ def compute_beliefs(
 
 
 def choose_candidate(terms: Sequence[Term], shares: Sequence[float]) -> int:
-    """Return the place of the reading that the program takes: a smallest one, unless a larger is far more
-    believable."""
+    """Return the place of the reading to take: a smallest one, unless a larger is far more believable."""
     smallest = min(term.size for term in terms)
     best = max(range(len(terms)), key=lambda k: (shares[k], -k))
     first = max((k for k in range(len(terms)) if terms[k].size == smallest), key=lambda k: (shares[k], -k))
     return best if shares[best] >= LARGER * shares[first] else first
-
-
-def count_nats(term: Term, shown: int, known: dict[Extractor, float] | None = None) -> float:
-    """Return how little a term is believed for what it says alone [nats]; shown: the groups of demonstrated hulls."""
-    reason = _prior_nats(term, {} if known is None else known)
-    return NODE * term.size + reason + UNTRIED * count_untested(term, shown)
 
 
 def _prior_nats(term: Term, known: dict[Extractor, float]) -> float:
@@ -123,7 +119,7 @@ def measure_evidence(
         return tuple(NO_EVIDENCE for _ in candidates)
     places = np.array([group for groups in field.groups[shown:] for group in groups], dtype=np.int64)
     ends = np.concatenate([[0], np.cumsum(counts)])
-    chosen = _unpack(candidates, field.width)[:, places]
+    chosen = unpack_bits(candidates, field.width)[:, places]
     many = _sum_by_mesh(chosen.astype(float), ends)
     strange = _sum_by_mesh(chosen * _strangeness(field, selections), ends)
     active = many > 0
@@ -148,12 +144,6 @@ def _strangeness(field: ObservationTable, selections: Sequence[int]) -> Floats:
     known = {hulls[place].label for place in shown}
     unknown = np.array([hull.label not in known for hull in hulls[first:]])
     return np.where(unknown, np.maximum(far, STRANGE_LABEL), far) ** 2
-
-
-def _unpack(candidates: Sequence[int], width: int) -> npt.NDArray[np.bool_]:
-    size = (width + 7) // 8
-    packed = np.frombuffer(b"".join(row.to_bytes(size, "little") for row in candidates), np.uint8)
-    return np.unpackbits(packed.reshape(len(candidates), size), axis=1, count=width, bitorder="little").astype(np.bool_)
 
 
 def _sum_by_mesh(values: Floats, ends: npt.NDArray[np.int64]) -> Floats:

@@ -68,12 +68,11 @@ class _Collector:
     """Puts consistent terms together: one operand from the bank, the other by the goal that is left for it."""
 
     def __init__(self, search: Search) -> None:
-        shortcuts = search.options.shortcuts
         self._need, self._shown = search.need, (1 << search.width) - 1
         decisive = mask_of(search.decisive)
         self._goal = Goal(search.need & decisive, decisive & ~search.need)
         self._budget, self._left = search.budget, search.options.effort
-        self._stored = max(shortcuts.stored, 1)
+        self._stored = max(search.options.stored, 1)
         self._bank = Bank(search.field.terms, search.field.width, search.budget)
         self._known: dict[tuple[Goal, int], tuple[Term, ...]] = {}
 
@@ -250,7 +249,9 @@ class QuestionValue:
         self._kinds = np.array(columns, dtype=np.int64).reshape(-1, len(beliefs)).T
         self._beliefs = np.array(beliefs)
         self.differs = (self._kinds[:, None] != self._kinds[None]).mean(axis=2) if columns else None
-        self._costs = None if self.differs is None else _wrong_costs(self.differs)
+        self._costs: Floats | None = None  # of having one reading where another is meant, in demonstrations
+        if self.differs is not None:
+            self._costs = np.where(self.differs > 0, 1 + UNSEEN_COST * (1 - self.differs) ** SAMPLE_SEEN, 0.0)
 
     @property
     def harm(self) -> float:
@@ -288,11 +289,6 @@ class QuestionValue:
         ours, *others = choices_by_belief
         choices = sorted([ours, *sorted(others)[: MAX_CHOICES - 1]])
         return QuestionSplit(asset, tuple(head for _, head in choices), left, spared)
-
-
-def _wrong_costs(differs: Floats) -> Floats:
-    """What it costs to have one reading where another is meant, in demonstrations; differs: shares of assets."""
-    return np.where(differs > 0, 1 + UNSEEN_COST * (1 - differs) ** SAMPLE_SEEN, 0.0)
 
 
 def _number(column: Sequence[object]) -> list[int]:

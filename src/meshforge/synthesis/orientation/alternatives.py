@@ -85,8 +85,7 @@ class FrameCosts:
         self.askew = UNSUPPORTED - language.UPRIGHT if acted and reach and acted[0] < reach[-1] else 0.0
 
     def count(self, supported: Collection[str], askew: bool) -> float:
-        """Return the cost where landmarks lie along some axes; askew: whether actions went by axes that mean
-        nothing."""
+        """Return the cost where landmarks lie along some axes; askew: whether actions went by axes without meaning."""
         return sum(cost_extractor(one, supported) for one in self._extractors) + (self.askew if askew else 0.0)
 
 

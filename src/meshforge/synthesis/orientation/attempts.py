@@ -48,8 +48,7 @@ class OrientationSearch:
         self._none_up_to: dict[frozenset[Signature], int] = {}
 
     def attempt(self, orient: language.Orient) -> FrameAttempt | None:
-        """Return learning in the frame of a directive, as far as it came; None where it fails on a demonstrated
-        mesh."""
+        """Return learning in the frame of a directive, as far as it came; None where a mesh cannot be turned so."""
         if orient not in self._by_orient:
             self._budget.check()
             self._by_orient[orient] = self._begin(orient)

@@ -41,8 +41,7 @@ class Landmarks:
         return self.bases.index(base)
 
     def directions(self, start: BaseExtractor, end: BaseExtractor) -> Floats:
-        """Return from the centre of one landmark to that of another on each mesh (n, 3) [m]; NaN where one is
-        missing."""
+        """Return from one landmark's centre to another's on each mesh (n, 3) [m]; NaN where one is missing."""
         return self._centres[:, self.place(end)] - self._centres[:, self.place(start)]
 
     def apart(self, start: BaseExtractor, end: BaseExtractor) -> Bools:
@@ -51,8 +50,7 @@ class Landmarks:
         return far
 
     def holds(self, orient: Orient) -> Bools:
-        """Return on which meshes the landmarks of a directive are apart, those of a second pair across the first
-        (n,)."""
+        """Return on which meshes (n,) the landmarks of a directive are apart, a second pair across the first."""
         first = orient.pairs[0]
         satisfied = self.apart(first.start, first.end)
         for second in orient.pairs[1:]:

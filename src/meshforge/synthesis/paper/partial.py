@@ -9,11 +9,10 @@ from dataclasses import dataclass
 from functools import cache, partial
 from typing import TypeAlias, assert_never
 
-import numpy as np
-
 from meshforge import language
 from meshforge.synthesis.demonstration import Example, LabelChange
 from meshforge.synthesis.options import Layers
+from meshforge.synthesis.search.bank import unpack_bits
 
 _ATTACH = language.Attach(language.All(), language.All())  # whose bases are given as what they select
 
@@ -116,7 +115,7 @@ class ExampleMasks:
 
         @cache
         def refine(leaf: language.Leaf, *bases: int) -> int:
-            return language.to_bits(leaf.mask(hulls, *(_to_bools(bits, len(hulls)) for bits in bases)))
+            return language.to_bits(leaf.mask(hulls, *unpack_bits(bases, len(hulls))))
 
         self.refine = refine
 
@@ -138,8 +137,7 @@ class ExampleMasks:
                 assert_never(extractor)
 
     def differences(self, extractor: language.Extractor) -> int:
-        """Return the hulls that an extractor selects though they were not shown, or the other way round, as a bit
-        set."""
+        """Return the hulls (a bit set) that an extractor selects though they were not shown, or leaves out."""
         return self.select(extractor) ^ self.target
 
     def relabel(self, changes: Iterable[LabelChange]) -> LabelMasks:
@@ -151,11 +149,6 @@ class ExampleMasks:
                 labels[was] &= ~(1 << index)
             labels[to] = labels.get(to, 0) | 1 << index
         return labels
-
-
-def _to_bools(bits: int, count: int) -> language.Bools:
-    packed = np.frombuffer(bits.to_bytes((count + 7) // 8, "little"), np.uint8)
-    return np.unpackbits(packed, count=count, bitorder="little").astype(np.bool_)
 
 
 def is_feasible(part: Partial, demo: ExampleMasks) -> bool:

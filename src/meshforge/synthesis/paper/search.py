@@ -99,8 +99,7 @@ class PaperSearch:
         return HitWithFixes(extractor, fixes, self._tried)
 
     def _are_confirmed(self, fixes: Sequence[LabelFix]) -> bool:
-        """Whether all are right; without a person those that were not rejected are. Nothing is asked about a repair of
-        which one is known to be wrong."""
+        """Whether all are right, asked one by one; without a person those that were not rejected are."""
         if not all(self._answers.get(fix, True) for fix in fixes):
             return False
         for fix in fixes if self._confirm else ():

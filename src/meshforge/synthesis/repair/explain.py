@@ -4,11 +4,10 @@ repairs that a run proposes, joined over its rules."""
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import exp, log, prod
-from types import MappingProxyType
 
 from meshforge.label_model import LabelBeliefs, is_human
 from meshforge.language import Extractor, size_of
@@ -18,9 +17,15 @@ from meshforge.synthesis.options import Options, TimeBudget
 from meshforge.synthesis.paper.search import HitWithFixes
 from meshforge.synthesis.questions import LabelFix, Repair
 from meshforge.synthesis.repair import hypotheses as candidate_search
-from meshforge.synthesis.repair.hypotheses import NO_EXTRACTOR_COST, Candidate, key_cost, total_chance
+from meshforge.synthesis.repair.hypotheses import (
+    NO_EXTRACTOR_COST,
+    Candidate,
+    describe_effect,
+    explain_fix,
+    key_cost,
+    total_chance,
+)
 from meshforge.synthesis.repair.landmarks import LandmarkFixSearch, proposal_cost
-from meshforge.synthesis.repair.reasons import describe_effect, explain_fix
 from meshforge.synthesis.repair.relabelings import Variants, enumerate_relabelings
 from meshforge.synthesis.search.smallest import Hit, Miss
 from meshforge.synthesis.search.terms import order_key
@@ -114,8 +119,6 @@ SMALL_SIZE = 5
 MAX_RELABELINGS = 1500
 """Relabelings that are looked at, of all examples; single corrections always are."""
 
-_NONE_SPENT: Mapping[str, int] = MappingProxyType({})
-
 ChangeAt = tuple[int, LabelChange]
 """A change on one of the examples."""
 
@@ -150,9 +153,9 @@ class FixSearch:
         labels: LabelBeliefs,
         options: Options,
         budget: TimeBudget,
-        exact: Extractor | None = None,
-        spent: Mapping[str, int] = _NONE_SPENT,
-        rejected: Collection[LabelFix] = (),
+        exact: Extractor | None,
+        spent: Mapping[str, int],
+        rejected: Collection[LabelFix],
     ) -> None:
         self._examples = tuple(example for example in examples if example.mesh.hulls)
         self._vocabulary, self._labels, self._options, self._budget = vocabulary, labels, options, budget
@@ -166,11 +169,12 @@ class FixSearch:
         variants = self._build_variants()
         if variants is None or not all(variants.by_example):
             return None
-        hypotheses = self._find_candidates(variants)
+        found = self._find_candidates(variants)
         # what it costs that the exact extractor, or none at all, is right, on whichever relabelings it matches
         rival = self._exact_cost - sum(log(total_chance(some)) for some in variants.relabelings_for(self._exact))
-        beliefs = compute_change_beliefs(hypotheses, rival)
-        chosen = self._choose(rank_candidates(hypotheses), beliefs)
+        beliefs = compute_change_beliefs(found, rival)
+        ranked = sorted((one for one in found if not one.exact), key=lambda one: (round(one.score, 9), one.key))
+        chosen = self._choose(ranked, beliefs)
         return self._to_explanation(chosen, beliefs) if chosen else None
 
     @cached_property
@@ -179,41 +183,34 @@ class FixSearch:
         places = {label: place for place, label in enumerate(self._vocabulary)}
         return key_cost(order_key(self._exact, places)) if self._exact else NO_EXTRACTOR_COST
 
-    @property
-    def _limit(self) -> int:
-        return min(self._options.max_size, size_of(self._exact) - 1 if self._exact else self._options.max_size)
-
     def _build_variants(self) -> Variants | None:
         within = self._exact_cost - candidate_search.NODE_COST
         room = MAX_RELABELINGS // max(1, len(self._examples))
         ways = [
-            enumerate_relabelings(
-                example, self._vocabulary, self._labels, self._count_allowed(example), self._rejected, within, room
-            )
+            enumerate_relabelings(example, self._vocabulary, self._labels, allowed, self._rejected, within, room)
             for example in self._examples
+            for allowed in [  # of a mesh without labels none is corrected: any would do as well
+                self._options.eta - self._spent.get(example.name, 0) if any(h.label for h in example.mesh.hulls) else 0
+            ]
         ]
         if not any(len(some) > 1 for some in ways):
             return None
         return Variants(self._examples, ways, self._vocabulary, self._options)
 
-    def _count_allowed(self, example: Example) -> int:
-        """Corrections that the mesh has left; none where it has no label at all, as any would do as well."""
-        if not any(hull.label for hull in example.mesh.hulls):
-            return 0
-        return self._options.eta - self._spent.get(example.name, 0)
-
     def _find_candidates(self, variants: Variants) -> list[Candidate]:
-        above = min(SMALL_SIZE, self._limit)
+        limit = min(self._options.max_size, size_of(self._exact) - 1) if self._exact else self._options.max_size
+        above = min(SMALL_SIZE, limit)
         found = list(candidate_search.search_small(variants, above, self._exact_cost, self._budget))
         within = min([self._exact_cost, *(one.cost + candidate_search.RIVAL_MARGIN for one in found)])
-        options = replace(self._options, max_size=self._limit)
+        options = replace(self._options, max_size=limit)
         found += candidate_search.search_larger(
             self._examples, variants, self._vocabulary, options, above, within, self._budget
         )
         return found
 
     def _choose(self, hypotheses: Sequence[Candidate], beliefs: Mapping[ChangeAt, float]) -> Candidate | None:
-        """The first candidate, of those about as good as the best, whose corrections are all believed."""
+        """The first candidate, of those about as good as the best, whose corrections are all believed; hypotheses:
+        those with corrections, the most believable first."""
         least = candidate_search.MIN_BELIEF if self._exact else candidate_search.MIN_BELIEF_WITHOUT_EXACT
         for candidate in hypotheses:
             if candidate.score > hypotheses[0].score + candidate_search.RIVAL_MARGIN:
@@ -236,11 +233,6 @@ class FixSearch:
         rows.sort(key=lambda row: (row[0].asset, row[0].hull))
         fixes, believed, whys = zip(*rows, strict=True)
         return Explanation(chosen.extractor, fixes, believed, whys, chosen.cost)
-
-
-def rank_candidates(hypotheses: Iterable[Candidate]) -> list[Candidate]:
-    """Return the candidates with corrections, the most believable first; of equally believable ones in their order."""
-    return sorted((one for one in hypotheses if not one.exact), key=lambda one: (round(one.score, 9), one.key))
 
 
 def changes_of(candidate: Candidate) -> tuple[ChangeAt, ...]:

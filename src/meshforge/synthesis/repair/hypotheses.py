@@ -1,5 +1,5 @@
 """Extractors that select what was shown on some relabeling of each mesh: all small ones, and larger ones by the
-search.
+search; and why a label is proposed to be corrected, in words.
 
 What believing costs is in nats, in one place. Tuned on families of box furniture; judged by `script/bench
 repairs` on families that nothing was tuned on, with their figures in `benchmark/results/learning.md`: nearly all
@@ -16,7 +16,9 @@ from heapq import heappop, heappush
 from math import fsum, log
 from operator import or_
 
-from meshforge.language import Extractor
+from meshforge.label_model import LabelOdds, is_human
+from meshforge.language import Extractor, show
+from meshforge.symbolic import Hull
 from meshforge.synthesis.demonstration import Example
 from meshforge.synthesis.options import Options, TimeBudget
 from meshforge.synthesis.repair.relabelings import Relabeling, Variant, Variants, relabel
@@ -54,6 +56,8 @@ MIN_BELIEF = 0.75
 
 MIN_BELIEF_WITHOUT_EXACT = 0.3
 """Where there is no exact extractor, nothing else is left, so less is enough."""
+
+_LOW_CONFIDENCE = 0.8  # a confidence below is worth mentioning
 
 MAX_BELIEF_AGAINST_PERSON = 0.5
 """A correction of a person's label is never believed more."""
@@ -119,28 +123,23 @@ def _candidates_on_level(
     rows, found = level.columns.every, list[RelabelingRows]()
     for variants in by_example:
         budget.check()
-        hits = [(variant.relabeling, _find_rows(level, variant, rows)) for variant in variants]
+        hits = [
+            (one.relabeling, level.columns.rows_without(one.avoid, level.columns.rows_with(one.need, rows)))
+            for one in variants
+        ]
         rows &= reduce(or_, (hit for _, hit in hits), 0)
         found.append([(relabeling, hit) for relabeling, hit in hits if hit])
     costs = {row: key_cost(level.terms[row].key) for row in positions(rows)}
     for hits in found:
-        _add_cheapest(costs, hits, rows)
+        left = rows
+        for relabeling, hit in hits:  # the cheapest first
+            for row in positions(hit & left):
+                costs[row] += relabeling.cost
+            left &= ~hit
     for row in sorted(row for row, cost in costs.items() if cost <= within):
         term = level.terms[row]
         ways = tuple(tuple(relabeling for relabeling, hit in hits if hit >> row & 1) for hits in found)
         yield Candidate(term.extractor, term.key, ways)
-
-
-def _add_cheapest(costs: dict[int, float], hits: RelabelingRows, rows: int) -> None:
-    for relabeling, hit in hits:
-        for row in positions(hit & rows):
-            costs[row] += relabeling.cost
-        rows &= ~hit
-
-
-def _find_rows(level: Level, variant: Variant, among: int) -> int:
-    """The rows of a level's terms that select on a variant exactly what was shown."""
-    return level.columns.rows_without(variant.avoid, level.columns.rows_with(variant.need, among))
 
 
 def search_larger(
@@ -197,3 +196,37 @@ def _is_compatible(chosen: Sequence[Variant]) -> bool:
     for variant in chosen:
         need, avoid = need | variant.need, avoid | variant.avoid
     return not need & avoid
+
+
+def explain_fix(odds: LabelOdds, to: str, extractor: Extractor, alone: bool) -> str:
+    """Return one sentence on the label itself, and what its correction makes possible.
+
+    alone: whether it is the only correction.
+    """
+    evidence = "; ".join([*list_evidence(odds, to), describe_effect(extractor, alone)])
+    return evidence[0].upper() + evidence[1:]
+
+
+def list_evidence(odds: LabelOdds, to: str) -> list[str]:
+    """Return what speaks against a label and for another one."""
+    similar, hull = odds.similar, odds.hull
+    agreeing, of = similar.count(to), len(similar)
+    reasons = []
+    if agreeing > similar.count(hull.label or ""):
+        reasons.append(f"{agreeing} of the {of} most similar hulls are labelled {to}")
+    return [*reasons, *_label_reasons(hull)]
+
+
+def _label_reasons(hull: Hull) -> list[str]:
+    if hull.annotation is None:
+        return ["it has no label"]
+    if is_human(hull):
+        return [f"a person labelled it {hull.annotation.name}"]
+    if hull.annotation.confidence < _LOW_CONFIDENCE:
+        return [f"{hull.annotation.name} has a confidence of {hull.annotation.confidence:.2f} only"]
+    return []
+
+
+def describe_effect(extractor: Extractor, alone: bool) -> str:
+    """Return what corrections make possible. alone: whether there is only one."""
+    return f"with {'it' if alone else 'all corrections'}, {show(extractor)} selects what was shown"

@@ -24,8 +24,7 @@ from meshforge.synthesis.options import TimeBudget
 from meshforge.synthesis.orientation.attempts import OrientationSearch
 from meshforge.synthesis.questions import LabelFix, Repair
 from meshforge.synthesis.repair import hypotheses
-from meshforge.synthesis.repair.hypotheses import key_cost
-from meshforge.synthesis.repair.reasons import list_evidence
+from meshforge.synthesis.repair.hypotheses import key_cost, list_evidence
 from meshforge.synthesis.search.terms import order_key
 from meshforge.synthesis.task import LearningTask, correct_demonstrations
 
@@ -83,15 +82,14 @@ class LandmarkFixSearch:
         self._rules = task.rules[: len(learned) + failed]
         self._places = {label: place for place, label in enumerate(task.frame.labels)}
         costs = [self._cost(one) for one in learned]
-        self._sizes = (*map(size_of, learned), *(() if not failed else (0,)))
+        self._sizes = (*map(size_of, learned), *([0] * failed))
         self._now = sum(costs) + failed * hypotheses.NO_EXTRACTOR_COST + spent
         plain = 2 * hypotheses.NODE_COST + hypotheses.UNCERTAINTY_COST
         self._least = sum(min(cost, plain) for cost in costs) + failed * hypotheses.NODE_COST
         self._failed = failed
 
     def run(self) -> tuple[Repair, ...]:
-        """Return the corrections that make the rules clearly more believable, none where they stand well. Raises
-        OutOfTime."""
+        """Return the corrections that make the rules clearly more believable, if any. Raises OutOfTime."""
         tried = [found for changes in self._combine(self._find_changes()) if (found := self._try(changes))]
         if not tried:
             return ()
@@ -204,8 +202,7 @@ class LandmarkFixSearch:
 
 
 def proposal_cost(labels: LabelBeliefs, task: LearningTask, repairs: Sequence[Repair]) -> float:
-    """Return what it costs to believe in corrections that were found otherwise [nats]; of meshes that have no odds,
-    none."""
+    """Return what it costs to believe in corrections that were found otherwise [nats], where there are odds."""
     meshes = {name: demo.mesh for name, demo in name_demonstrations(task.demos)}
     known = [one.fix for one in repairs if one.fix.asset in meshes]
     costs = [labels.cost(one.asset, meshes[one.asset].hull_of(one.hull), one.to) for one in known]

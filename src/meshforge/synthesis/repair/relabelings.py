@@ -1,5 +1,4 @@
-"""The ways in which labels may be wrong, the most believable first, and what leaf extractors select under all of
-them."""
+"""The ways in which labels may be wrong, most believable first, and what leaves select under each."""
 
 from __future__ import annotations
 
@@ -64,11 +63,7 @@ def relabel(example: Example, changes: Sequence[LabelChange]) -> Example:
 
 
 def _single_changes(
-    example: Example,
-    vocabulary: Sequence[str],
-    labels: LabelBeliefs,
-    rejected: Collection[LabelFix],
-    within: float,
+    example: Example, vocabulary: Sequence[str], labels: LabelBeliefs, rejected: Collection[LabelFix], within: float
 ) -> list[Relabeling]:
     found = []
     rejected_labels = {(one.hull, one.was) for one in rejected if one.asset == example.name}
@@ -110,9 +105,14 @@ class Variant:
 
 def build_hull_table(examples: Sequence[Example], ways: Sequence[Sequence[Relabeling]], extremity: float) -> HullTable:
     """Return the hulls of each example under each of its relabelings, in one row."""
-    rows = [(example, one) for example, some in zip(examples, ways, strict=True) for one in some]
-    labels = [label for example, one in rows for label in _labels_under(example, one)]
-    return HullTable([example.mesh for example, _ in rows], labels, extremity)
+    meshes, labels = [], list[str | None]()
+    for example, some in zip(examples, ways, strict=True):
+        own = [hull.label for hull in example.mesh.hulls]
+        for one in some:
+            changes = dict(one.changes)
+            meshes.append(example.mesh)
+            labels += [changes.get(index, label) for index, label in enumerate(own)]
+    return HullTable(meshes, labels, extremity)
 
 
 class Variants:
@@ -141,8 +141,7 @@ class Variants:
             self.by_example.append([variant for variant in variants if not variant.need & variant.avoid])
 
     def relabelings_for(self, extractor: Extractor | None) -> list[list[Relabeling]]:
-        """Return of each example the relabelings on which an extractor selects what was shown; on all of them for
-        None."""
+        """Return of each example the relabelings on which an extractor selects what was shown; all for None."""
         found = None if extractor is None else self._groups.term(extractor).bits
         return [
             [
@@ -158,10 +157,3 @@ def _to_variant(example: Example, relabeling: Relabeling, groups: Sequence[int])
     shown = example.selection
     need = mask_of(group for hull, group in enumerate(groups) if shown >> hull & 1)
     return Variant(relabeling, need, mask_of(group for hull, group in enumerate(groups) if not shown >> hull & 1))
-
-
-def _labels_under(example: Example, relabeling: Relabeling) -> list[str | None]:
-    labels = [hull.label for hull in example.mesh.hulls]
-    for index, to in relabeling.changes:
-        labels[index] = to
-    return labels

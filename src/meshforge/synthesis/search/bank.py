@@ -12,8 +12,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from meshforge.language import Diff, Intersect, Union
-from meshforge.synthesis.options import Shortcuts, TimeBudget
+from meshforge.language import Bools, Diff, Intersect, Union, to_bits
+from meshforge.synthesis.options import TimeBudget
 from meshforge.synthesis.search.terms import Key, SetOperator, Term, combine, first_term, operator_key
 
 _REMEMBERED = 10_000  # answers of an index, so that a search that takes long does not take the memory
@@ -40,14 +40,12 @@ class Bank:
     """Terms by size, made when asked for; of the terms that select the same only the first in the order is kept.
 
     What selects nothing is not kept: a smallest extractor of something has no such part.
-    merge: False keeps every term instead (to test that the answer is the same).
     """
 
-    def __init__(self, leaves: Sequence[Term], width: int, budget: TimeBudget, merge: bool = True) -> None:
+    def __init__(self, leaves: Sequence[Term], width: int, budget: TimeBudget) -> None:
         self._leaves = leaves
         self._width = width
         self._budget = budget
-        self._merge = merge
         self._levels: list[Level] = []
         self._known: set[int] = {0}
 
@@ -67,9 +65,6 @@ class Bank:
         return self._levels[size - 1]
 
     def _grow(self, size: int) -> Level:
-        if not self._merge:
-            every = [combine(operator, x, y) for _, (_, operator, x, y) in self._drafts(size)]
-            return Level([*self.leaves(size), *every], self._width)
         terms = {leaf.bits: leaf for leaf in sorted(self.leaves(size), key=lambda leaf: leaf.key, reverse=True)}
         for bits, (key, operator, x, y) in self._first_drafts(size).items():
             if bits not in terms or key < terms[bits].key:
@@ -87,7 +82,7 @@ class Bank:
 
     def _drafts(self, size: int) -> Iterator[tuple[int, Draft]]:
         """Every set operator over two smaller terms that selects something new, with what it selects."""
-        known = self._known if self._merge else frozenset[int]()
+        known = self._known
         for small in range(1, (size - 1) // 2 + 1):
             large = self.level(size - 1 - small).terms
             for x in self.level(small).terms:
@@ -164,13 +159,17 @@ def positions(mask: int) -> Iterator[int]:
         mask ^= low
 
 
+def unpack_bits(rows: Sequence[int], width: int) -> Bools:
+    """Return which of `width` bits each row has: (rows, width)."""
+    size = (width + 7) // 8
+    packed = np.frombuffer(b"".join(row.to_bytes(size, "little") for row in rows), np.uint8).reshape(len(rows), size)
+    return np.unpackbits(packed, axis=1, count=width, bitorder="little").astype(np.bool_)
+
+
 def _transpose(rows: Sequence[int], width: int) -> list[int]:
     if not rows:
         return [0] * width
-    size = (width + 7) // 8
-    packed = np.frombuffer(b"".join(row.to_bytes(size, "little") for row in rows), np.uint8).reshape(len(rows), size)
-    table = np.unpackbits(packed, axis=1, count=width, bitorder="little")
-    return [int.from_bytes(column.tobytes(), "little") for column in np.packbits(table.T, axis=1, bitorder="little")]
+    return [to_bits(column) for column in unpack_bits(rows, width).T]
 
 
 class Goal(NamedTuple):  # a tuple, as HalfTerm is: a search makes tens of thousands
@@ -209,26 +208,23 @@ class HalfTerm(NamedTuple):
 class Completion:
     """Finds the first term of exactly one size that meets a goal, given that no smaller term meets it.
 
-    goals: how many goals of missing operands it has looked at.
+    stored: the size up to which operands are looked up in the bank; goals: how many goals of missing operands it has
+    looked at.
     """
 
-    def __init__(self, bank: Bank, budget: TimeBudget, shortcuts: Shortcuts) -> None:
-        self._bank = bank
-        self._budget = budget
-        self._shortcuts = shortcuts
+    def __init__(self, bank: Bank, budget: TimeBudget, stored: int) -> None:
+        self._bank, self._budget, self._stored = bank, budget, stored
         self._known: dict[tuple[Goal, int], Term | None] = {}
         self.goals = 0
 
     def find_first(self, goal: Goal, size: int) -> Term | None:
         """Return the first term of that size that meets the goal. Raises OutOfTime."""
-        if not self._shortcuts.complete:
-            return _first_term_for(self._bank.level(size), goal)
         leaves = [leaf for leaf in self._bank.leaves(size) if satisfies(leaf.bits, goal)]
         return first_term([*leaves, *self._compounds(goal, size)])
 
     def _find_operand(self, goal: Goal, size: int) -> Term | None:
         self.goals += 1
-        if size <= self._shortcuts.stored:
+        if size <= self._stored:
             return _first_term_for(self._bank.level(size), goal)
         if (goal, size) not in self._known:
             self._known[goal, size] = self.find_first(goal, size)
@@ -238,7 +234,7 @@ class Completion:
         """Of each set operator whose smaller operand is known, the first that meets the goal."""
         for small in range(1, (size - 1) // 2 + 1):
             self._budget.check()
-            for half in half_terms_for(self._bank.level(small), goal, self._shortcuts.help):
+            for half in half_terms_for(self._bank.level(small), goal, helpful=True):
                 other = self._find_operand(half.rest, size - 1 - small)
                 if other:
                     yield half.complete(other)

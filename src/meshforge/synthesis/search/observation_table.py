@@ -1,5 +1,4 @@
-"""What every leaf extractor selects on many meshes side by side: hulls that no leaf tells apart are one group, one
-bit."""
+"""What every leaf selects on many meshes; hulls that no leaf tells apart are one group, one bit."""
 
 from __future__ import annotations
 
@@ -22,8 +21,7 @@ class ObservationTable:
 
     Groups are numbered by their first hull, so those of the first meshes come first. An extractor selects a group
     wholly or not at all, whatever its size, on all meshes alike; so there are far fewer bits than hulls.
-    vocabulary: labels in the order in which they are preferred; group: False makes every hull a group of its own;
-    more: leaves besides the built-in ones.
+    vocabulary: labels in the order in which they are preferred; more: leaves besides the built-in ones.
     """
 
     def __init__(
@@ -32,13 +30,12 @@ class ObservationTable:
         vocabulary: Sequence[str],
         layers: Layers = "S+T+G",
         extremity: float = language.EXTREMITY,
-        group: bool = True,
         more: tuple[Leaf, ...] = (),
     ) -> None:
         self.meshes = tuple(meshes)
         hulls = HullTable(meshes, extremity=extremity)
         leaves = (*enumerate_leaves(tuple(vocabulary), layers), *more)
-        self._groups = HullGroups(hulls, leaves, vocabulary, group)
+        self._groups = HullGroups(hulls, leaves, vocabulary)
         spans = list(pairwise(hulls.starts.tolist()))
         self.groups = [self._groups.of[low:high] for low, high in spans]
         self._signatures = [self._groups.signatures[low:high] for low, high in spans]
@@ -89,26 +86,24 @@ class HullGroups:
     """The groups of the hulls in a row, numbered by their first hull.
 
     signatures: of each hull, which leaves select it; of: the group of each hull; width: how many groups there are.
-    vocabulary: labels in the order in which they are preferred; group: False makes every hull a group of its own.
+    vocabulary: labels in the order in which they are preferred.
     """
 
-    def __init__(self, hulls: HullTable, leaves: Sequence[Leaf], vocabulary: Sequence[str], group: bool = True) -> None:
+    def __init__(self, hulls: HullTable, leaves: Sequence[Leaf], vocabulary: Sequence[str]) -> None:
         table = select_all(leaves, hulls)
         self.signatures = [column.tobytes() for column in np.packbits(table.T, axis=1)]
-        numbers: dict[object, int] = {}
-        firsts: list[int] = []
-        keys: Sequence[object] = self.signatures if group else range(len(self.signatures))
-        self.of: list[int] = []
-        for place, key in enumerate(keys):
-            if key not in numbers:
-                numbers[key] = len(numbers)
-                firsts.append(place)
-            self.of.append(numbers[key])
+        firsts = dict[bytes, int]()
+        for place, signature in enumerate(self.signatures):
+            firsts.setdefault(signature, place)
+        numbers = {signature: number for number, signature in enumerate(firsts)}
+        self.of = [numbers[signature] for signature in self.signatures]
         self.width = len(firsts)
         places = {label: place for place, label in enumerate(vocabulary)}
         self.terms = [
             Term(int.from_bytes(row.tobytes(), "little"), leaf_key(leaf, places), leaf)
-            for leaf, row in zip(leaves, np.packbits(table[:, firsts], axis=1, bitorder="little"), strict=True)
+            for leaf, row in zip(
+                leaves, np.packbits(table[:, [*firsts.values()]], axis=1, bitorder="little"), strict=True
+            )
         ]
 
     def term(self, extractor: language.Extractor) -> Term:

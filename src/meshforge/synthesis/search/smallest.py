@@ -80,9 +80,7 @@ class Search:
         self.examples, self.options, self.budget = tuple(examples), options, budget
         self.selections = tuple(example.selection for example in examples)
         meshes = [*(example.mesh for example in examples), *batch]
-        self.field = ObservationTable(
-            meshes, vocabulary, options.layers, options.geo_extremity, options.shortcuts.group, options.leaves
-        )
+        self.field = ObservationTable(meshes, vocabulary, options.layers, options.geo_extremity, options.leaves)
         self.width = self.field.width_of(len(examples))
         self.need = self.field.groups_in(self.selections)
         self._exhausted = self._kept = self._goals = 0
@@ -103,7 +101,7 @@ class Search:
     @cached_property
     def decisive(self) -> tuple[int, ...]:
         """The groups of demonstrated hulls that the search begins with: as many selected as not, if there are many."""
-        few, every = self.options.shortcuts.few, range(self.width)
+        few, every = self.options.few, range(self.width)
         if not few or self.width <= few:
             return tuple(every)
         shown = [group for group in every if self.need >> group & 1][: few // 2]
@@ -115,7 +113,7 @@ class Search:
 
         Raises OutOfTime.
         """
-        if self.options.shortcuts.group and self.field.find_conflict(self.selections):
+        if self.field.find_conflict(self.selections):
             return None
         while True:
             extractor = self._find_smallest()
@@ -127,11 +125,11 @@ class Search:
             self.decisive = tuple(sorted({*self.decisive, *list(positions(wrong))[:_MAX_COUNTEREXAMPLES]}))
 
     def _find_smallest(self) -> Extractor | None:
-        groups, shortcuts = self.decisive, self.options.shortcuts
+        groups = self.decisive
         whole = groups == tuple(range(self.width))
         terms = [Term(_pack(t.bits, groups, whole), t.key, t.form) for t in self.field.terms]
-        bank = Bank(terms, len(groups), self.budget, shortcuts.merge)
-        completion = Completion(bank, self.budget, shortcuts)
+        bank = Bank(terms, len(groups), self.budget)
+        completion = Completion(bank, self.budget, self.options.stored)
         need = _pack(self.need, groups, whole)
         goal = Goal(need, ((1 << len(groups)) - 1) & ~need)
         try:

@@ -29,12 +29,7 @@ def client(
     server: Server, folder: Path | None = None, *, max_cost: float | None = None, stop: Any = None, **how: Any
 ) -> Client:
     """A client that does not wait long; how: fields of its settings."""
-    told: dict[str, Any] = {
-        "model": server.model,
-        "key_env": VARIABLE,
-        "timeout": 5.0,
-        "retries": 4,
-    } | how
+    told: dict[str, Any] = {"model": server.model, "key_env": VARIABLE, "timeout": 5.0, "retries": 4} | how
     endpoint = Endpoint(VlmSettings(base_url=server.base_url, **told))
     return Client(endpoint, folder, max_cost=max_cost, stop=stop or (lambda: False))
 

@@ -102,10 +102,7 @@ def test_a_cut_answer_never_says_another_label(said: dict[int, str], share: floa
 def test_votes_that_agree_make_a_label_surer() -> None:
     found = [decide_label([("leg", 1.0)] * count, PARTS) for count in (1, 2, 5)]
     assert found == [("leg", 0.7143), ("leg", 0.8333), ("leg", 0.9259)]
-    assert decide_label([("leg", 1.0), ("leg", 1.0), ("panel", 1.0)], PARTS) == (
-        "leg",
-        0.5882,
-    )
+    assert decide_label([("leg", 1.0), ("leg", 1.0), ("panel", 1.0)], PARTS) == ("leg", 0.5882)
 
 
 def test_a_hull_that_was_hardly_seen_is_unsure() -> None:
