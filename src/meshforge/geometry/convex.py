@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from math import sqrt
+from typing import Any
 
 import manifold3d
 import numpy as np
@@ -16,6 +18,9 @@ FLATNESS = 1e-4
 """Degenerate input is thickened to this share of the reference diagonal."""
 _RANK = 1e-6  # extents below this share of the largest count as none: single precision leaves 1e-7 of noise
 _CONVEXITY = 1e-8  # verified in coordinates where the hull is one long, wide and high
+_CLEAR = 1e-9  # a determinant by the trace, cubed, that is far above rounding
+_MOST_INCIDENCES = 100_000  # vertices times faces of which a table is made
+_ROWS, _COLUMNS = np.triu_indices(3)  # of the entries of a symmetric matrix
 _SLIVERS = (1e-7, 1e-6, 1e-5, 1e-4)  # altitudes of triangles given up in turn; the first is manifold's own precision
 _FARTHEST, _SMALLEST = 1e50, 1e-100  # [m] beyond, volumes are no floating point numbers any more
 
@@ -37,22 +42,59 @@ def convex_hull(points: Floats, *, name: str = "points", thicken: float | None =
         raise GeometryError("a convex hull needs points, there are none", where=name)
     if not (np.abs(points) < _FARTHEST).all():
         raise GeometryError("a coordinate is not a finite number", where=name, remedy="Fix the file's vertices.")
-    center, axes, extents = principal_extents(points)
-    flat = extents <= max(_least_extent(points, extents), (thicken or 0.0) * 0.5)
-    if flat.any() and not thicken:
-        problem = f"its points span no volume (extents {', '.join(f'{e:.3g}' for e in extents)} m)"
-        raise GeometryError(problem, where=name, remedy="Give the piece a thickness, or delete it.")
-    for axis in axes[flat]:
-        level, rise = points - np.outer((points - center) @ axis, axis), axis * ((thicken or 0.0) / 2)
-        points = np.concatenate([level - rise, level + rise])
+    if not _is_surely_thick(points, thicken or 0.0):
+        points = _thicken(points, name, thicken or 0.0)
     made = _make_verified_hull(points, name)
     while len(made.vertices) < len(points):  # until nothing more goes: the hull of a hull is that hull
         points, made = made.vertices, _make_verified_hull(made.vertices, name)
     return made
 
 
+def _thicken(points: Floats, name: str, thickness: float) -> Floats:
+    """Points (n, 3), those that span no volume doubled along the axes that they lack."""
+    center, axes, extents = principal_extents(points)
+    flat = extents <= max(_least_extent(points, extents), thickness * 0.5)
+    if flat.any() and not thickness:
+        problem = f"its points span no volume (extents {', '.join(f'{e:.3g}' for e in extents)} m)"
+        raise GeometryError(problem, where=name, remedy="Give the piece a thickness, or delete it.")
+    for axis in axes[flat]:
+        level, rise = points - np.outer((points - center) @ axis, axis), axis * (thickness / 2)
+        points = np.concatenate([level - rise, level + rise])
+    return points
+
+
+def _is_surely_thick(points: Floats, thickness: float) -> bool:
+    """Whether points (n, 3) are so far from flat, and from half a thickness [m], that no extent need be measured.
+
+    Along any axis points reach as far as the root of their mean square, or farther.
+    """
+    sides = np.ptp(points, axis=0)
+    around = (points - points.mean(axis=0)) / max(float(sides.max()), _SMALLEST)
+    (xx, xy, xz), (_, yy, yz), (_, _, zz) = (around.T @ around).tolist()
+    eigenvalue = _bound_eigenvalue(xx, xy, xz, yy, yz, zz)
+    if not eigenvalue > 0.0:
+        return False
+    least = sqrt(eigenvalue / len(points)) * float(sides.max())
+    extents = np.array([least, 2 * float(sides.max())])
+    return 0.5 * least > max(_least_extent(points, extents), 0.5 * thickness)
+
+
+def _bound_eigenvalue(xx: Any, xy: Any, xz: Any, yy: Any, yz: Any, zz: Any) -> Any:
+    """What the eigenvalues of symmetric matrices are no smaller than, by numbers or arrays of their entries.
+
+    -inf where the determinant is within rounding of zero: of three eigenvalues that are not negative, the two larger
+    ones multiply to no more than the square of half the trace.
+    """
+    trace = xx + yy + zz
+    determinant = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz)
+    bound = 4 * determinant / np.maximum(trace * trace, np.finfo(float).tiny)
+    return np.where(determinant > _CLEAR * trace**3, bound, -np.inf)
+
+
 def spans_volume(points: Floats) -> bool:
     """Return whether points (n, 3) span a volume: `convex_hull` takes them without thickening."""
+    if _is_surely_thick(points, 0.0):
+        return True
     extents = principal_extents(points)[2]
     return bool((extents > _least_extent(points, extents)).all())
 
@@ -157,6 +199,12 @@ def _find_flat_vertices(vertices: Floats, faces: Ints, angle: float) -> list[int
     a, b, c = (vertices[faces[:, k]] for k in range(3))
     normals = cross(b - a, c - a)
     normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    if len(vertices) * len(faces) <= _MOST_INCIDENCES:
+        at_vertex = np.zeros((len(vertices), len(faces)))
+        at_vertex[faces, np.arange(len(faces))[:, None]] = 1.0
+        entries = at_vertex @ (normals[:, _ROWS] * normals[:, _COLUMNS])
+        if (_bound_eigenvalue(*entries.T) > angle * angle).all():
+            return []
     spread = np.zeros((len(vertices), 3, 3))
     np.add.at(spread, faces.ravel(), np.repeat(normals[:, :, None] * normals[:, None, :], 3, axis=0))
     return [int(k) for k in np.flatnonzero(np.linalg.eigvalsh(spread)[:, 0] < angle * angle)]
