@@ -9,17 +9,7 @@ from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 
-from meshforge.batch import (
-    ApplyTask,
-    ManualEdit,
-    OutputInputs,
-    RuleSelection,
-    program_digest,
-    read_stamp,
-    replay_manual_edits,
-    selections_of,
-    template_digests,
-)
+from meshforge import batch
 from meshforge.common import MeshForgeError
 from meshforge.language import Program
 from meshforge.project import run
@@ -40,7 +30,7 @@ def read_family_state(
     lost: Mapping[str, str],
     program: Program | None,
     by_hand: bool,
-    inputs: Mapping[str, OutputInputs],
+    inputs: Mapping[str, batch.OutputInputs],
 ) -> ReviewState:
     """Return all that is known. Raises MeshForgeError for files of the project that cannot be read.
 
@@ -89,11 +79,11 @@ def _read_frame(store: Store, meshes: Mapping[str, SymbolicMesh], program: Progr
 
 
 def _stands(
-    store: Store, verdict: VerdictEvent, program: Program | None, mesh: SymbolicMesh, now: OutputInputs | None
+    store: Store, verdict: VerdictEvent, program: Program | None, mesh: SymbolicMesh, now: batch.OutputInputs | None
 ) -> bool:
     """Whether the output that a person accepted is there, and the program does what it did: selects the same, or
     made that very output."""
-    stamp = read_stamp(store.layout.edited, verdict.asset)
+    stamp = batch.read_stamp(store.layout.edited, verdict.asset)
     if verdict.output != output_digest(stamp):
         return False
     if verdict.seen and not verdict.meant:
@@ -105,9 +95,9 @@ def _is_wrong_as_shown(demo: Demonstration, last: VerdictEvent) -> bool:
     return last.verdict == "wrong" and not last.meant and shows(demo.steps, last.seen)
 
 
-def _fit(rows: Mapping[str, Sequence[RuleSelection]], program: Program | None) -> dict[str, Selections]:
+def _fit(rows: Mapping[str, Sequence[batch.RuleSelection]], program: Program | None) -> dict[str, Selections]:
     """What rules select, by asset, where they are rules of the program."""
-    fitting = {asset: selections_of(some, program) for asset, some in rows.items()} if program else {}
+    fitting = {asset: batch.selections_of(some, program) for asset, some in rows.items()} if program else {}
     return {asset: tuple(found[rule] for rule in sorted(found)) for asset, found in fitting.items() if found}
 
 
@@ -115,7 +105,7 @@ def measure_results(
     store: Store,
     program: Program,
     meshes: Mapping[str, SymbolicMesh],
-    inputs: Mapping[str, OutputInputs],
+    inputs: Mapping[str, batch.OutputInputs],
     stop: Callable[[], bool] | None = None,
 ) -> dict[str, EditMeasures]:
     """Return the measures of the results of a program, by asset; of some only once `stop` says so.
@@ -124,7 +114,7 @@ def measure_results(
     review, is not measured again while it is up to date; an asset on which the program cannot run has no result.
     """
     task, last, feedback = run.build_task(store, program), store.assessment(), store.feedback()
-    digest, lines = program_digest(program), last.assets if last else {}
+    digest, lines = batch.program_digest(program), last.assets if last else {}
     found = dict[str, EditMeasures]()
     for asset, mesh in meshes.items():
         if stop and stop():
@@ -134,24 +124,27 @@ def measure_results(
             found[asset] = known
             continue
         manual_edits, meant = store.manual_edits(asset), run.find_selections(feedback, asset)
-        key = (digest, str(template_digests(task.templates)), *map(str, (*manual_edits, *meant)))
+        key = (digest, str(batch.template_digests(task.templates)), *map(str, (*manual_edits, *meant)))
         make = partial(_measure, task, mesh, manual_edits, meant)
         with suppress(MeshForgeError):
             found[asset] = memoize(mesh, ("measures", *key), EditMeasures, make)
     return found
 
 
-def _recall(store: Store, asset: str, now: OutputInputs, line: ConfidenceLine | None) -> EditMeasures | None:
+def _recall(store: Store, asset: str, now: batch.OutputInputs, line: ConfidenceLine | None) -> EditMeasures | None:
     """The measures of an output or of the last review, None where neither is as this program would make it now."""
-    stamp = read_stamp(store.layout.edited, asset)
+    stamp = batch.read_stamp(store.layout.edited, asset)
     if stamp and stamp.measures and is_written(stamp, now):
         return stamp.measures
     return line.measures if line and line.rests_on == now else None
 
 
 def _measure(
-    task: ApplyTask, mesh: SymbolicMesh, manual_edits: Sequence[ManualEdit], meant: Sequence[RuleSelection]
+    task: batch.ApplyTask,
+    mesh: SymbolicMesh,
+    manual_edits: Sequence[batch.ManualEdit],
+    meant: Sequence[batch.RuleSelection],
 ) -> EditMeasures:
     program, templates = task.program, task.templates
-    after = program.run(mesh, templates, selections=selections_of(meant, program), memo=memoize).mesh
-    return measure_edit(mesh, replay_manual_edits(manual_edits, mesh, after, program, templates)[0])
+    after = program.run(mesh, templates, selections=batch.selections_of(meant, program), memo=memoize).mesh
+    return measure_edit(mesh, batch.replay_manual_edits(manual_edits, mesh, after, program, templates)[0])

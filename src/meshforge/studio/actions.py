@@ -13,18 +13,9 @@ from meshforge.batch import action_text
 from meshforge.common import MeshForgeError, ProjectError
 from meshforge.language import Action, ArgumentType
 from meshforge.store import parse_action_text
-from meshforge.studio.wire.program import (
-    ActionCall,
-    ActionForm,
-    ActionView,
-    Argument,
-    ArgumentKind,
-    ArgumentValue,
-    Operator,
-    Value,
-)
+from meshforge.studio.wire import program as wire
 
-_KINDS: Mapping[type[ArgumentType], tuple[ArgumentKind, Value]] = {
+_KINDS: Mapping[type[ArgumentType], tuple[wire.ArgumentKind, wire.Value]] = {
     language.WordArgument: ("words", ""),
     language.DirectionArgument: ("words", ""),
     language.FlagArgument: ("flag", True),
@@ -40,52 +31,52 @@ _KINDS: Mapping[type[ArgumentType], tuple[ArgumentKind, Value]] = {
 }
 """What the page calls each kind of argument, and a value of it; of words, the first is one."""
 
-Choice = tuple[Value | None, Value]
+Choice = tuple[wire.Value | None, wire.Value]
 """A value of an argument, after what the page calls it: itself, or None for any that is none of the choices."""
 
 
-def list_action_forms() -> tuple[ActionForm, ...]:
+def list_action_forms() -> tuple[wire.ActionForm, ...]:
     """Return a form for each action, those of plug-ins among them; `Each` is a switch of all."""
     forms = (_try_form(kind) for kind in language.ACTIONS.loadable().values() if kind is not language.Each)
     return tuple(form for form in forms if form)
 
 
-def list_operator_views() -> tuple[Operator, ...]:
+def list_operator_views() -> tuple[wire.Operator, ...]:
     """Return the leaves of extractors, of plug-ins those whose arguments the page knows, and the set operators."""
     kinds = (kind for kind in language.EXTRACTORS.loadable().values() if _has_fields(kind))
     return (*map(_view_leaf, kinds), *map(_view_set_operator, language.SET_OPERATORS))
 
 
-def _view_leaf(kind: type[language.Leaf]) -> Operator:
+def _view_leaf(kind: type[language.Leaf]) -> wire.Operator:
     kinds, texts = kind.arguments(), {one.name: one.metadata for one in fields(cast(Any, kind))}
     needed = list(kinds)[: kind.min_arguments()]
     operands = [_field(name, argument, name in needed, texts[name]) for name, argument in kinds.items()]
     return _view_operator(kind.__name__, kind.summary(), operands, issubclass(kind, language.BaseExtractor))
 
 
-def _view_set_operator(kind: type[language.Union | language.Intersect | language.Diff]) -> Operator:
+def _view_set_operator(kind: type[language.Union | language.Intersect | language.Diff]) -> wire.Operator:
     sides = [
-        Argument(name=name, kind="extractor", title=name.capitalize(), wants="an extractor", words={})
+        wire.Argument(name=name, kind="extractor", title=name.capitalize(), wants="an extractor", words={})
         for name in ("left", "right")
     ]
     return _view_operator(kind.__name__, (kind.__doc__ or "").splitlines()[0], sides)
 
 
-def _view_operator(name: str, summary: str, operands: Sequence[Argument], base: bool = False) -> Operator:
+def _view_operator(name: str, summary: str, operands: Sequence[wire.Argument], base: bool = False) -> wire.Operator:
     names = ", ".join(one.name for one in operands)
     usage = f"{name}({names})" if names else name
-    return Operator(name=name, usage=usage, summary=summary, base=base, arguments=tuple(operands))
+    return wire.Operator(name=name, usage=usage, summary=summary, base=base, arguments=tuple(operands))
 
 
 def _has_fields(kind: type[language.Operation]) -> bool:
     return all(type(argument) in _KINDS for argument in kind.arguments().values())
 
 
-def view_action(action: Action, label: str | None) -> ActionView:
+def view_action(action: Action, label: str | None) -> wire.ActionView:
     """Return an action, and the label that it gives, as the page shows it."""
     inner = action.action if isinstance(action, language.Each) else action
     kinds = inner.arguments()
-    return ActionView(
+    return wire.ActionView(
         name=type(inner).__name__,
         arguments={
             name: value if type(kinds[name]) in _KINDS else kinds[name].show(value)
@@ -99,7 +90,7 @@ def view_action(action: Action, label: str | None) -> ActionView:
     )
 
 
-def read_action(call: ActionCall, where: str) -> tuple[Action, str | None]:
+def read_action(call: wire.ActionCall, where: str) -> tuple[Action, str | None]:
     """Return the action that the page sends, and the label that it gives. Raises ProjectError, about `where`, for
     none."""
     given = {name: value for name, value in call.arguments.items() if value not in ("", False)}
@@ -108,7 +99,7 @@ def read_action(call: ActionCall, where: str) -> tuple[Action, str | None]:
     return parse_action_text(f"{text} as {language.show_label(call.label)}" if call.label else text, where)
 
 
-def _show_arguments(name: str, given: Mapping[str, Value], where: str) -> list[str]:
+def _show_arguments(name: str, given: Mapping[str, wire.Value], where: str) -> list[str]:
     kind = language.ACTIONS.get(name)
     kinds = kind.arguments() if kind else {}
     for one, value in given.items():
@@ -123,7 +114,7 @@ def _show_arguments(name: str, given: Mapping[str, Value], where: str) -> list[s
     ]
 
 
-def _try_form(kind: type[Action]) -> ActionForm | None:
+def _try_form(kind: type[Action]) -> wire.ActionForm | None:
     """The form of an action; None for one of a plug-in that the page has no fields for, or that cannot be made."""
     kinds, texts = kind.arguments(), {one.name: one.metadata for one in fields(cast(Any, kind))}
     if not _has_fields(kind):
@@ -132,7 +123,7 @@ def _try_form(kind: type[Action]) -> ActionForm | None:
     example = _try_make(kind, {name: _list_values(kinds[name])[0][1] for name in required})
     if example is None:
         return None
-    return ActionForm(
+    return wire.ActionForm(
         name=kind.__name__,
         title=kind.title(),
         summary=kind.summary(),
@@ -145,9 +136,9 @@ def _try_form(kind: type[Action]) -> ActionForm | None:
     )
 
 
-def _field(name: str, argument: ArgumentType, required: bool, texts: Mapping[str, Any]) -> Argument:
+def _field(name: str, argument: ArgumentType, required: bool, texts: Mapping[str, Any]) -> wire.Argument:
     kind = _KINDS[type(argument)][0]
-    return Argument(
+    return wire.Argument(
         name=name,
         kind=kind,
         title=texts.get("title", name.capitalize()),
@@ -178,17 +169,17 @@ def _list_values(argument: ArgumentType) -> list[Choice]:
 
 def _find_clashes(
     kind: type[Action], kinds: Mapping[str, ArgumentType], required: Sequence[str]
-) -> Iterator[tuple[ArgumentValue, ArgumentValue]]:
+) -> Iterator[tuple[wire.ArgumentValue, wire.ArgumentValue]]:
     """Pairs of values that no action of this kind has together, as making it with them shows."""
     values = {name: _list_values(argument) for name, argument in kinds.items()}
     for one, other in combinations(kinds, 2):
         rest = {name: values[name] for name in required if name not in (one, other)}
         for (word, value), (other_word, other_value) in product(values[one], values[other]):
             if not _goes_together(kind, {one: value, other: other_value}, rest):
-                yield ArgumentValue(name=one, value=word), ArgumentValue(name=other, value=other_word)
+                yield wire.ArgumentValue(name=one, value=word), wire.ArgumentValue(name=other, value=other_word)
 
 
-def _goes_together(kind: type[Action], pair: Mapping[str, Value], rest: Mapping[str, list[Choice]]) -> bool:
+def _goes_together(kind: type[Action], pair: Mapping[str, wire.Value], rest: Mapping[str, list[Choice]]) -> bool:
     """Whether two values go together with some values of the other required arguments."""
     others = product(*([value for _, value in values] for values in rest.values()))
     return any(_try_make(kind, {**pair, **dict(zip(rest, more, strict=True))}) for more in others)

@@ -9,16 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from meshforge.common import AssetError, is_file, plain_path, require_mujoco
-from meshforge.formats.base import (
-    BODY_FEATURES,
-    Format,
-    Mass,
-    Output,
-    ReadOptions,
-    SpecObject,
-    feature_of_others,
-    list_others,
-)
+from meshforge.formats import base
 from meshforge.formats.libraries import make_folder, mujoco
 from meshforge.formats.mjcf.document import MjcfDocument, read_tree
 from meshforge.symbolic import Asset, Feature, FeatureKind
@@ -35,7 +26,7 @@ _CONTACT = ("contype", "conaffinity", "condim", "friction", "solref", "solimp", 
 _DYNAMICS = ("stiffness", "springref", "springdamper", "springlength", "armature")
 
 
-class MjcfFormat(Format):
+class MjcfFormat(base.Format):
     """MuJoCo's own format for models."""
 
     name = "mjcf"
@@ -44,7 +35,7 @@ class MjcfFormat(Format):
     is_description = True
     title = "MJCF"
     up = "z"
-    holds = BODY_FEATURES | {
+    holds = base.BODY_FEATURES | {
         *(FeatureKind.CAPSULES, FeatureKind.ELLIPSOIDS, FeatureKind.PLANES, FeatureKind.NON_CONVEX),
         *(FeatureKind.JOINTS, FeatureKind.BALL_JOINTS, FeatureKind.MIMICS),
     }
@@ -53,13 +44,13 @@ class MjcfFormat(Format):
         root = _ROOT.match(head.decode("utf-8", "replace").replace("\0", ""))
         return root is None or root[1].lower() == "mujoco"
 
-    def read(self, path: Path, options: ReadOptions) -> Asset:
+    def read(self, path: Path, options: base.ReadOptions) -> Asset:
         require_mujoco("an MJCF", str(path))
         from meshforge.formats.mjcf import read  # lazy: only MJCF needs it
 
         return read.read_mjcf(path)
 
-    def write(self, asset: Asset, name: str, mass: Mass = "keep") -> Output:
+    def write(self, asset: Asset, name: str, mass: base.Mass = "keep") -> base.Output:
         if not isinstance(asset.document, MjcfDocument):
             raise AssetError("this asset was not read from an MJCF", where=str(asset.path))
         require_mujoco("an MJCF", str(asset.path))
@@ -67,7 +58,7 @@ class MjcfFormat(Format):
 
         return edit.write_mjcf(asset, asset.document, name, mass)
 
-    def create(self, asset: Asset, name: str) -> Output:
+    def create(self, asset: Asset, name: str) -> base.Output:
         from meshforge.formats.mjcf import create  # lazy: only MJCF needs it
 
         return create.create_mjcf(asset, name)
@@ -86,7 +77,7 @@ class MjcfFormat(Format):
 def _features_of(document: MjcfDocument) -> Iterator[Feature]:
     """The features of an MJCF that its asset does not have; those that classes set count once."""
     root = document.tree.root
-    others = [*list_others(root, _TAKEN, _LEAVES)]
+    others = [*base.list_others(root, _TAKEN, _LEAVES)]
     constraints = [child for node in root.each("equality") for child in node.children]
     coupled = [c.attributes.get("joint1") for c in constraints if c.is_coupling]
     others += [f"equality {c.tag}" for c in constraints if not c.is_coupling]
@@ -94,7 +85,7 @@ def _features_of(document: MjcfDocument) -> Iterator[Feature]:
     for kind, tag, keys in (("contact setting", "geom", _CONTACT), ("spring or armature", "joint", _DYNAMICS)):
         others += [kind for node in root.walk() if node.tag == tag and any(key in node.attributes for key in keys)]
     others += ["comment"] * sum(source.raw.count(b"<!--") for source in document.sources)
-    yield feature_of_others(others)
+    yield base.feature_of_others(others)
 
 
 def read_text(text: str) -> Asset:
@@ -105,7 +96,7 @@ def read_text(text: str) -> Asset:
     return read_mjcf(path, {path: text.encode()})
 
 
-def read_spec(spec: SpecObject) -> Asset:
+def read_spec(spec: base.SpecObject) -> Asset:
     """Return the asset in a spec, as its XML says it.
 
     References count from the folder that the spec was read from. Files that it holds in memory are put into a folder
@@ -143,7 +134,7 @@ def _gather_files(main: Path, text: bytes, files_of_spec: dict[str, bytes]) -> I
             yield path, files_of_spec[key] if key is not None else path.read_bytes()
 
 
-def build_spec(output: Output) -> Any:
+def build_spec(output: base.Output) -> Any:
     """Return the spec of an output, which holds all of its files. Raises AssetError where MuJoCo refuses it."""
     files = {name: path.read_bytes() for name, path in output.copies.items()} | output.made
     files = {os.path.normpath(name): data for name, data in files.items()}

@@ -8,18 +8,6 @@ from collections.abc import Iterable
 
 from meshforge import language
 from meshforge.common import MeshForgeError, ProgramError
-from meshforge.language import (
-    EXTREMITY,
-    Extractor,
-    Orient,
-    Program,
-    Replay,
-    Rule,
-    explain,
-    parse_extractor,
-    select_mask,
-    show,
-)
 from meshforge.project import Project
 from meshforge.studio.actions import list_action_forms, list_operator_views, view_action
 from meshforge.studio.edits.base import program_version
@@ -39,7 +27,7 @@ def read_program_view(project: Project) -> wire.ProgramView:
     path, state = project.layout.program, project.program_state()
     text = path.read_text(encoding="utf-8", errors="replace")
     try:
-        program = Program.read(path)
+        program = language.Program.read(path)
     except ProgramError as error:
         return wire.ProgramView(text=text, version=version, by_hand=True, error=error.message)
     return wire.ProgramView(
@@ -56,22 +44,23 @@ def read_program_view(project: Project) -> wire.ProgramView:
 def check_text(text: str) -> wire.ProgramCheck:
     """Return whether a text is a program, and what it says."""
     try:
-        program = Program.parse(text)
+        program = language.Program.parse(text)
     except MeshForgeError as error:
         return wire.ProgramCheck(mark=mark_error(error))
     return wire.ProgramCheck(rules=rule_views(program), orient_sentence=orient_sentence(program.orient))
 
 
-def rule_views(program: Program) -> tuple[wire.RuleView, ...]:
+def rule_views(program: language.Program) -> tuple[wire.RuleView, ...]:
     """Return the rules of a program in words."""
     return tuple(
-        wire.RuleView(rule=k, text=show(rule), sentence=explain(rule)) for k, rule in enumerate(program.rules, 1)
+        wire.RuleView(rule=k, text=language.show(rule), sentence=language.explain(rule))
+        for k, rule in enumerate(program.rules, 1)
     )
 
 
-def orient_sentence(orient: Orient | None) -> str:
+def orient_sentence(orient: language.Orient | None) -> str:
     """Return an orientation in words, empty for none."""
-    return explain(orient) if orient else ""
+    return language.explain(orient) if orient else ""
 
 
 def mark_error(error: MeshForgeError, line: int = 0, column: int = 0) -> wire.Mark:
@@ -95,7 +84,7 @@ def build_language_view() -> wire.LanguageView:
 
 
 def select_hulls(
-    project: Project, asset: str, mesh: SymbolicMesh, request: SelectRequest, program: Program | None = None
+    project: Project, asset: str, mesh: SymbolicMesh, request: SelectRequest, program: language.Program | None = None
 ) -> wire.SelectionView:
     """Return what an extractor selects on an asset after some of its steps, or what is wrong with its text.
 
@@ -104,26 +93,26 @@ def select_hulls(
     """
     text = request.extractor
     try:
-        extractor = parse_extractor(text)
+        extractor = language.parse_extractor(text)
     except ProgramError as error:  # its place counts from the first character that is no space
         return wire.SelectionView(mark=mark_error(error, *_end_of(text[: len(text) - len(text.lstrip())])))
     if request.rule is None:
         now = replay_steps(project, asset, mesh, request.steps).mesh
     else:
-        plan = program or Program(orient=project.orientation)
+        plan = program or language.Program(orient=project.orientation)
         now = project.mesh_before_rule(asset, request.rule, plan, {asset: mesh})
     known = [*project.vocabulary, *(hull.label for hull in now.hulls if hull.label)]
     if unknown := _mark_unknown_label(extractor, text, known):
         return wire.SelectionView(mark=unknown)
-    mask = select_mask(extractor, now, project.settings.thresholds.extremity or EXTREMITY)
-    return wire.SelectionView(select=now.names_of(mask), sentence=explain(extractor))
+    mask = language.select_mask(extractor, now, project.settings.thresholds.extremity or language.EXTREMITY)
+    return wire.SelectionView(select=now.names_of(mask), sentence=language.explain(extractor))
 
 
 def _end_of(text: str) -> tuple[int, int]:
     return text.count("\n"), len(text) - (text.rfind("\n") + 1)
 
 
-def _mark_unknown_label(extractor: Extractor, text: str, known: Iterable[str]) -> wire.Mark | None:
+def _mark_unknown_label(extractor: language.Extractor, text: str, known: Iterable[str]) -> wire.Mark | None:
     """The place of a label that neither the vocabulary nor any hull has; None where all are known, or none is."""
     known = tuple(dict.fromkeys(known))
     for label in language.labels_of(extractor) if known else ():
@@ -136,7 +125,9 @@ def _mark_unknown_label(extractor: Extractor, text: str, known: Iterable[str]) -
     return None
 
 
-def guess_selections(project: Project, asset: str, mesh: SymbolicMesh, program: Program) -> tuple[wire.Guess, ...]:
+def guess_selections(
+    project: Project, asset: str, mesh: SymbolicMesh, program: language.Program
+) -> tuple[wire.Guess, ...]:
     """Return a guess for each rule of a program; mesh: the asset as it comes.
 
     A rule that was demonstrated on the asset, or left out there, does that before the next one is guessed. Raises
@@ -146,7 +137,7 @@ def guess_selections(project: Project, asset: str, mesh: SymbolicMesh, program: 
     guesses = []
     for number, rule in enumerate(program.rules, 1):
         error: str | None = None
-        mask = select_mask(rule.extractor, replay.mesh, program.extremity or EXTREMITY)
+        mask = language.select_mask(rule.extractor, replay.mesh, program.extremity or language.EXTREMITY)
         names = replay.mesh.names_of(mask)
         try:
             templates = project.templates(rule.action.templates)
@@ -155,22 +146,24 @@ def guess_selections(project: Project, asset: str, mesh: SymbolicMesh, program: 
             error = problem.message
             replay = replay.skip(error)
         action = view_action(rule.action, rule.label)
-        guesses.append(wire.Guess(rule=number, action=action, select=names, sentence=explain(rule), error=error))
+        guesses.append(
+            wire.Guess(rule=number, action=action, select=names, sentence=language.explain(rule), error=error)
+        )
     return tuple(guesses)
 
 
-def replay_steps(project: Project, asset: str, mesh: SymbolicMesh, steps: int | None = None) -> Replay:
+def replay_steps(project: Project, asset: str, mesh: SymbolicMesh, steps: int | None = None) -> language.Replay:
     """Return an asset after its first steps, all by default; a step that fails is skipped, and its trace has the error.
 
     A step without a selection does what the rule of its number does in the present program, as in learning, or nothing
     without such a rule. Raises ProgramError where the orientation does not turn the asset.
     """
     contact = project.settings.thresholds.contact
-    replay = Replay.begin(mesh, project.orientation, contact, name=asset, memo=memoize)
+    replay = language.Replay.begin(mesh, project.orientation, contact, name=asset, memo=memoize)
     try:
-        program = project.program() or Program()
+        program = project.program() or language.Program()
     except ProgramError:
-        program = Program()
+        program = language.Program()
     for step in project.steps(asset)[:steps]:
         try:
             replay = _apply_step(project, replay, step, program)
@@ -179,7 +172,7 @@ def replay_steps(project: Project, asset: str, mesh: SymbolicMesh, steps: int | 
     return replay
 
 
-def _apply_step(project: Project, replay: Replay, step: Step, program: Program) -> Replay:
+def _apply_step(project: Project, replay: language.Replay, step: Step, program: language.Program) -> language.Replay:
     action, label = step.action, step.label
     if step.select is not None:
         mask = replay.mask_of(step.select)
@@ -191,6 +184,6 @@ def _apply_step(project: Project, replay: Replay, step: Step, program: Program) 
     return replay.apply(mask, action, label, project.templates(action.templates))
 
 
-def _rule_of(program: Program, step: Step) -> Rule | None:
+def _rule_of(program: language.Program, step: Step) -> language.Rule | None:
     rules = program.rules[step.rule - 1 : step.rule]
     return next((r for r in rules if (strip_each(r.action), r.label) == (strip_each(step.action), step.label)), None)

@@ -22,19 +22,8 @@ from meshforge.project import (
 from meshforge.rendering import label_color
 from meshforge.studio.actions import view_action
 from meshforge.studio.queries.assets import output_picture_digest, picture_digest
+from meshforge.studio.wire import family as wire
 from meshforge.studio.wire.asset import Fault
-from meshforge.studio.wire.family import (
-    AnswerView,
-    AssessmentView,
-    AxisLandmarks,
-    Card,
-    ConfidenceView,
-    NewAssetsView,
-    OrientView,
-    ProjectView,
-    RuleLine,
-    VocabularyLabel,
-)
 from meshforge.studio.wire.jobs import Model
 from meshforge.studio.wire.program import OutcomeView, ProgramView
 from meshforge.synthesis import Step
@@ -44,7 +33,7 @@ def add_session(
     family: FamilyState,
     program: ProgramView,
     outcome: OutcomeView | None,
-    assessment: AssessmentView | None,
+    assessment: wire.AssessmentView | None,
     propagation: PropagationState | None,
     problem: str | None,
 ) -> FamilyState:
@@ -64,14 +53,14 @@ def add_session(
     )
 
 
-def _add_confidence(asset: AssetStatus, row: ConfidenceView | None) -> AssetStatus:
+def _add_confidence(asset: AssetStatus, row: wire.ConfidenceView | None) -> AssetStatus:
     if row is None or asset.review == "accepted":
         return asset
     states: Mapping[str, SignOffState] = {"signed": "sure", "needs review": "needs review", "excluded": "excluded"}
     return replace(asset, sign_off=states[row.state], probability=row.probability)
 
 
-def _find_question(assessment: AssessmentView | None) -> OpenQuestion | None:
+def _find_question(assessment: wire.AssessmentView | None) -> OpenQuestion | None:
     """The question that is worth most, as long as some results need review."""
     asked = assessment.question if assessment and assessment.need_review else None
     if asked is None:
@@ -85,11 +74,11 @@ def build_project_view(
     problem: str | None,
     lost: tuple[str, ...],
     propagated: PropagationState | None = None,
-    new: NewAssetsView | None = None,
-) -> ProjectView:
+    new: wire.NewAssetsView | None = None,
+) -> wire.ProjectView:
     """Return the project as the page shows it. problem, lost, propagated, new: see the fields of `ProjectView`."""
     settings = project.settings
-    return ProjectView(
+    return wire.ProjectView(
         name=settings.name,
         folder=str(project.folder),
         vocabulary=vocabulary_view(settings.vocabulary),
@@ -108,29 +97,30 @@ def build_project_view(
     )
 
 
-def _view_orientation(text: str, orient: Orient | None) -> OrientView:
+def _view_orientation(text: str, orient: Orient | None) -> wire.OrientView:
     if orient is None:
-        return OrientView(text=text)
+        return wire.OrientView(text=text)
     pairs = (
-        AxisLandmarks(axis=pair.axis, start=_label_of(pair.start), end=_label_of(pair.end)) for pair in orient.pairs
+        wire.AxisLandmarks(axis=pair.axis, start=_label_of(pair.start), end=_label_of(pair.end))
+        for pair in orient.pairs
     )
-    return OrientView(text=text, sentence=explain(orient), snap=orient.snap, pairs=tuple(pairs))
+    return wire.OrientView(text=text, sentence=explain(orient), snap=orient.snap, pairs=tuple(pairs))
 
 
 def _label_of(extractor: BaseExtractor) -> str | None:
     return extractor.label if isinstance(extractor, Is) else None
 
 
-def _rule_lines(project: Project) -> tuple[RuleLine, ...]:
+def _rule_lines(project: Project) -> tuple[wire.RuleLine, ...]:
     shown = set(project.layout.demonstration.ids)
     steps = [(asset, step) for asset in project.assets() if asset in shown for step in project.steps(asset)]
     count = max((step.rule for _, step in steps), default=0)
     return tuple(_rule_line(k, [row for row in steps if row[1].rule == k]) for k in range(1, count + 1))
 
 
-def _rule_line(rule: int, steps: Sequence[tuple[str, Step]]) -> RuleLine:
+def _rule_line(rule: int, steps: Sequence[tuple[str, Step]]) -> wire.RuleLine:
     first = min(steps, key=lambda row: not row[1].select)[1]  # of equals the one that comes first
-    return RuleLine(
+    return wire.RuleLine(
         rule=rule,
         action=view_action(first.action, first.label),
         shown=tuple(asset for asset, step in steps if step.select),
@@ -138,12 +128,12 @@ def _rule_line(rule: int, steps: Sequence[tuple[str, Step]]) -> RuleLine:
     )
 
 
-def vocabulary_view(words: Sequence[str]) -> tuple[VocabularyLabel, ...]:
+def vocabulary_view(words: Sequence[str]) -> tuple[wire.VocabularyLabel, ...]:
     """Return the labels of the vocabulary, each with its color."""
-    return tuple(VocabularyLabel(name=w, text=show_label(w), color=label_color(k)) for k, w in enumerate(words))
+    return tuple(wire.VocabularyLabel(name=w, text=show_label(w), color=label_color(k)) for k, w in enumerate(words))
 
 
-def _list_feedback(project: Project) -> Iterator[AnswerView]:
+def _list_feedback(project: Project) -> Iterator[wire.AnswerView]:
     answers = project.feedback()
     for answer in answers.answers.values():
         if answer.select is None:
@@ -151,11 +141,13 @@ def _list_feedback(project: Project) -> Iterator[AnswerView]:
         else:
             what = pluralize(len(answer.select), "hull") if answer.select else "nothing"
         text = f"rule {answer.rule} on {answer.asset} selects {what}"
-        yield AnswerView(id=answer.id, kind="answer", asset=answer.asset, text=text)
+        yield wire.AnswerView(id=answer.id, kind="answer", asset=answer.asset, text=text)
     for line in answers.fixes.values():
         is_or_not = f"is {line.to}, not {line.was or 'without a label'}" if line.accepted else f"is not {line.to}"
         text = f"{line.hull} of {line.asset} {is_or_not}"
-        yield AnswerView(id=line.id, kind="confirmed" if line.accepted else "rejected", asset=line.asset, text=text)
+        yield wire.AnswerView(
+            id=line.id, kind="confirmed" if line.accepted else "rejected", asset=line.asset, text=text
+        )
 
 
 _SHARED = (
@@ -171,13 +163,13 @@ def build_card(
     orient: str,
     check: str | None = None,
     faults: tuple[Fault, ...] | None = None,
-) -> Card:
+) -> wire.Card:
     """Return the card of an asset; orient: the orientation's text, in whose frame it is drawn; check, faults: see
     `Card`."""
     places = {label: k for k, label in enumerate(vocabulary)}
     picture = None if status.hulls is None else picture_digest(status.geometry, status.labels, orient)
     output = status.output_digest
-    return Card(
+    return wire.Card(
         asset=status.id,
         labels=tuple(places.get(label.name, -1) if label else -1 for label in status.labels),
         after_labels=tuple(places.get(label, -1) if label else -1 for label in status.after_labels),
