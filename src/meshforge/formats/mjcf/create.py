@@ -10,10 +10,9 @@ from pathlib import Path
 import numpy as np
 
 from meshforge.common import join_names, pluralize
-from meshforge.formats import collision_pieces, conversion, kinematic_tree, mesh_output, visuals
+from meshforge.formats import collision_pieces, conversion, kinematic_tree, mesh_output, visuals, xml
 from meshforge.formats.base import Loss, Output
 from meshforge.formats.mjcf import document, elements, references
-from meshforge.formats.xml import format_numbers, tag
 from meshforge.geometry import Aabb, Floats, Ints, Pose, convex_hull
 from meshforge.symbolic import Asset, FeatureKind, Geom, NonConvexPiece, Surface
 
@@ -64,7 +63,7 @@ class _Creator:
 
     def build_output(self) -> Output:
         body = list(self._body_lines())
-        head = [tag("mujoco", {"model": self.stem}, closed=False), b"  " + tag("compiler", {"angle": "radian"})]
+        head = [xml.tag("mujoco", {"model": self.stem}, closed=False), b"  " + xml.tag("compiler", {"angle": "radian"})]
         defaults = _DEFAULTS if self.geoms.shown else []
         meshes = [b"    " + element for element in self.geoms.meshes]
         assets = [b"  <asset>", *meshes, b"  </asset>"] if meshes else []
@@ -93,7 +92,7 @@ class _Creator:
             body, depth = entry
             lead, place = b"  " * depth, self._place_of(body)
             pose = self.poses[place].inverse() @ self.poses[body] if place else self.poses[body]  # place_T_body
-            yield lead + tag("body", {"name": self.bodies[body], **elements.pose_attributes(pose)}, closed=False)
+            yield lead + xml.tag("body", {"name": self.bodies[body], **elements.pose_attributes(pose)}, closed=False)
             yield from self._element_lines(body, lead + b"  ")
             waiting.append(lead + b"</body>")
             waiting += [(child, depth + 1) for child in reversed(below.get(body, []))]
@@ -104,8 +103,8 @@ class _Creator:
             return
         yield b"  <equality>"
         for joint, coupling in self.couplings.by_joint.items():
-            numbers = format_numbers([*coupling.coefficients, *[0.0] * (5 - len(coupling.coefficients))])
-            yield b"    " + tag("joint", {"joint1": joint, "joint2": coupling.joint, "polycoef": numbers})
+            numbers = xml.format_numbers([*coupling.coefficients, *[0.0] * (5 - len(coupling.coefficients))])
+            yield b"    " + xml.tag("joint", {"joint1": joint, "joint2": coupling.joint, "polycoef": numbers})
         yield b"  </equality>"
 
     def _place_of(self, body: str) -> str:
@@ -190,7 +189,7 @@ class _GeomTexts:
     def make_hull(self, geom: Geom) -> bytes:
         shape = geom.shape.move(self.poses[geom.body].inverse())
         if isinstance(shape, elements.MjcfShape):
-            return tag("geom", {**self._head_of(geom.name), **elements.geom_attributes(shape)})
+            return xml.tag("geom", {**self._head_of(geom.name), **elements.geom_attributes(shape)})
         place = _place_mesh(shape.aabb)
         own = shape.move(place.inverse()).tessellate()
         inertia = {"inertia": "shell"} if own.volume < _TINY else {}
@@ -205,7 +204,7 @@ class _GeomTexts:
 
     def make_plane(self, piece: NonConvexPiece, plane: Pose) -> bytes:
         place = elements.pose_attributes(self.poses[piece.body].inverse() @ plane)
-        return tag("geom", {**self._name_attribute(piece.name), "type": "plane", "size": "0 0 1", **place})
+        return xml.tag("geom", {**self._name_attribute(piece.name), "type": "plane", "size": "0 0 1", **place})
 
     def make_visuals(self, body: str) -> Iterator[bytes]:
         for own, visual in self.shown:
@@ -217,11 +216,11 @@ class _GeomTexts:
                 assert isinstance(seen.what, str)  # a file is made for every shape that is not native
                 key = seen.what, tuple(seen.scale.tolist())
                 if key not in self._mesh_of_visual:
-                    scaled = {} if np.array_equal(seen.scale, np.ones(3)) else {"scale": format_numbers(seen.scale)}
+                    scaled = {} if np.array_equal(seen.scale, np.ones(3)) else {"scale": xml.format_numbers(seen.scale)}
                     self._mesh_of_visual[key] = self._add_mesh(seen.what, {**scaled, "inertia": "shell"})
                 attributes = elements.mesh_geom_attributes(self._mesh_of_visual[key], seen.pose)
-            color = {"rgba": format_numbers(seen.rgba)} if seen.rgba else {}
-            yield tag("geom", {"class": "visual", **attributes, **color})
+            color = {"rgba": xml.format_numbers(seen.rgba)} if seen.rgba else {}
+            yield xml.tag("geom", {"class": "visual", **attributes, **color})
 
     def _head_of(self, piece: str) -> dict[str, str]:
         return self._name_attribute(piece) | ({"class": "collision"} if self.shown else {})
@@ -231,12 +230,12 @@ class _GeomTexts:
 
     def _make_mesh(self, piece: str, vertices: Floats, faces: Ints, place: Pose, inertia: dict[str, str]) -> bytes:
         mesh = self._add_mesh(self.files.add(piece, "", vertices, faces), inertia)
-        return tag("geom", {**self._head_of(piece), **elements.mesh_geom_attributes(mesh, place)})
+        return xml.tag("geom", {**self._head_of(piece), **elements.mesh_geom_attributes(mesh, place)})
 
     def _add_mesh(self, file: str, attributes: dict[str, str]) -> str:
         name = posixpath.splitext(posixpath.basename(file))[0].removeprefix(f"{self.files.stem}--")
         name = kinematic_tree.claim_name(name, self._mesh_names)
-        self.meshes.append(tag("mesh", {"name": name, "file": file, **attributes}))
+        self.meshes.append(xml.tag("mesh", {"name": name, "file": file, **attributes}))
         return name
 
 

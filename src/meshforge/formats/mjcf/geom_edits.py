@@ -6,11 +6,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from meshforge.common import AssetError, nearest_name
-from meshforge.formats import collision_pieces, element_edits
+from meshforge.formats import collision_pieces, element_edits, xml
 from meshforge.formats.mjcf.document import MjcfNode, MjcfTree, geom_names
 from meshforge.formats.mjcf.model import MjcfModel
 from meshforge.formats.mjcf.new_geoms import NewGeoms
-from meshforge.formats.xml import Splice
 from meshforge.symbolic import Asset, Geom
 
 _ROUNDS = 4  # a name that one geom gets may change those that others read back under
@@ -84,7 +83,7 @@ class GeomEdits:
             return None
         return self.before.flat.node_at(self.before.spec_bodies[self.before.body_names.index(body)].info)
 
-    def build_splices(self, source: int) -> Iterator[Splice]:
+    def build_splices(self, source: int) -> Iterator[xml.Splice]:
         """Yield the edits of one of the files."""
         data = self.tree.sources[source].text.data
         for element in self.elements:

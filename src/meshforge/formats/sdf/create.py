@@ -9,8 +9,7 @@ import numpy as np
 from meshforge.common import join_names, pluralize
 from meshforge.formats import element_edits, kinematic_tree, link_output, mesh_output, xml
 from meshforge.formats.base import Loss, Output
-from meshforge.formats.sdf import edit
-from meshforge.formats.sdf.document import CONFIG, VISUAL_SUFFIXES
+from meshforge.formats.sdf import document, edit
 from meshforge.formats.sdf.frames import WORLD
 from meshforge.geometry import Pose
 from meshforge.symbolic import Asset, FeatureKind, NonConvexPiece, Surface
@@ -33,7 +32,7 @@ class _Creator(link_output.LinkCreator):
     title = "SDF"
     kinds = ("fixed", "revolute", "prismatic", "ball", "floating")
     has_world = True
-    visual_suffixes = VISUAL_SUFFIXES
+    visual_suffixes = document.VISUAL_SUFFIXES
     lead = b"      "
 
     def __init__(self, asset: Asset, name: str) -> None:
@@ -63,7 +62,8 @@ class _Creator(link_output.LinkCreator):
         if self.name == _MAIN:
             listed = xml.tag("sdf", {"version": version}, closed=False) + xml.escape(self.name) + b"</sdf>"
             config = xml.nest("model", edit.leaf("name", self.model), listed)
-            made[CONFIG] = b"\n".join([b'<?xml version="1.0"?>', *config, b""])  # it makes the folder a Gazebo model
+            # it makes the folder a Gazebo model
+            made[document.CONFIG] = b"\n".join([b'<?xml version="1.0"?>', *config, b""])
         return Output(main, made, self.visuals.copies, self._collect_notes(), names, self.collect_losses())
 
     def name_links(self, bare: set[str]) -> dict[str, str]:

@@ -14,8 +14,7 @@ from meshforge.common import AssetError, join_names
 from meshforge.formats import element_edits, kinematic_tree, link_reader, mesh_output, xml
 from meshforge.formats.base import Mass, Output
 from meshforge.formats.references import add_copy, note_absolute, reference_of
-from meshforge.formats.sdf import document, models
-from meshforge.formats.sdf.frames import is_computed
+from meshforge.formats.sdf import document, frames, models
 from meshforge.geometry import Box, Capsule, Cylinder, Ellipsoid, Floats, Pose, Shape, Sphere
 from meshforge.symbolic import Asset, Coupling, Geom, Inertial
 
@@ -230,7 +229,7 @@ def _refuse_computed_masses(plan: element_edits.ElementEdits, where: str) -> Non
     edited |= {output.body for _, outputs in plan.places for output in outputs if not output.is_untouched}
     for body in sorted(edited | plan.ends.keys()):
         inertial = plan.links[body].first("inertial")
-        if inertial is not None and is_computed(inertial):
+        if inertial is not None and frames.is_computed(inertial):
             raise AssetError(
                 f"Gazebo computes the mass of link {body!r} of its collisions, which change: it is not known here",
                 where=where,

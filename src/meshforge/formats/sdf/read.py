@@ -9,8 +9,7 @@ from pathlib import Path
 from meshforge.common import GeometryError, join_names, plain_path, pluralize
 from meshforge.formats import base, collision_pieces, link_reader, references
 from meshforge.formats.meshfile.surface import RawSurface, join_surfaces
-from meshforge.formats.sdf import document, frames, models
-from meshforge.formats.sdf.mechanism import read_joints, read_masses
+from meshforge.formats.sdf import document, frames, mechanism, models
 from meshforge.formats.xml import Element, parse_numbers
 from meshforge.geometry import Floats, Pose, hull_mesh
 from meshforge.symbolic import Asset, Body, FileNote, Mechanism, Rgba
@@ -37,7 +36,7 @@ def read_sdf(path: Path, options: base.ReadOptions) -> Asset:
     collisions = reader.read_collisions(links.values())
     elements = [element for _, element in collisions.found]
     numbers = {body: link.scope.source.number for body, link in links.items()}
-    joints, notes = read_joints(tree)
+    joints, notes = mechanism.read_joints(tree)
     world = [Body(frames.WORLD, Pose.identity())] if any(joint.parent == frames.WORLD for joint in joints) else []
     files, missing = _find_files(tree.sources)
     return Asset(
@@ -58,7 +57,7 @@ def read_sdf(path: Path, options: base.ReadOptions) -> Asset:
         files=files,
         missing=missing,
         notes=(*tree.notes, *notes, *_collect_notes(tree, elements)),
-        mechanism=Mechanism(tuple(joints), tuple(read_masses(tree))),
+        mechanism=Mechanism(tuple(joints), tuple(mechanism.read_masses(tree))),
     )
 
 

@@ -6,11 +6,9 @@ from dataclasses import replace
 from pathlib import Path
 
 from meshforge.common import join_names, pluralize
-from meshforge.formats import collision_pieces, conversion, element_edits, kinematic_tree, link_output, mesh_output
+from meshforge.formats import collision_pieces, conversion, element_edits, kinematic_tree, link_output, mesh_output, xml
 from meshforge.formats.base import Loss, Output
-from meshforge.formats.urdf import edit
-from meshforge.formats.urdf.document import VISUAL_SUFFIXES
-from meshforge.formats.xml import nest, tag
+from meshforge.formats.urdf import document, edit
 from meshforge.geometry import Capsule
 from meshforge.symbolic import Asset, FeatureKind, Surface
 
@@ -32,7 +30,7 @@ class _Creator(link_output.LinkCreator):
     native = edit.UrdfShape
     title = "URDF"
     kinds = ("fixed", "revolute", "prismatic", "floating")
-    visual_suffixes = VISUAL_SUFFIXES
+    visual_suffixes = document.VISUAL_SUFFIXES
     lead = b"    "
 
     def build_output(self) -> Output:
@@ -41,7 +39,7 @@ class _Creator(link_output.LinkCreator):
         inside = [line for link in self.chain.frames for line in self._link_lines(link)]
         for joint in self.chain.joints:
             inside += edit.joint_lines(joint, self.couplings.by_joint.get(joint.name))
-        main = b"\n".join([b'<?xml version="1.0"?>', *nest("robot", *inside, name=files.stem), b""])
+        main = b"\n".join([b'<?xml version="1.0"?>', *xml.nest("robot", *inside, name=files.stem), b""])
         lost = self.collect_losses()
         return Output(main, dict(files.made), self.visuals.copies, self._collect_notes(), names, lost)
 
@@ -54,7 +52,7 @@ class _Creator(link_output.LinkCreator):
         inside = edit.inertial_lines(inertial, frame) if inertial else []
         inside += [line for visual in self.shown[link] for line in edit.visual_lines(visual)]
         inside += [output.to_bytes(b"") for output in self.outputs[link]]
-        return nest("link", *inside, name=link) if inside else [tag("link", {"name": link})]
+        return xml.nest("link", *inside, name=link) if inside else [xml.tag("link", {"name": link})]
 
     def _collect_notes(self) -> tuple[str, ...]:
         notes = [*self.chain.notes, *self.couplings.notes]
