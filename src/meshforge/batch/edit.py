@@ -11,6 +11,7 @@ from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from meshforge import formats
 from meshforge.batch import outputs, provenance
 from meshforge.batch.discovery import STATE
 from meshforge.batch.execution import execute
@@ -22,14 +23,6 @@ from meshforge.batch.preparation.decompose import replace_concave
 from meshforge.batch.preparation.storage import prepare_from_folder
 from meshforge.batch.workers import EXECUTION_DEFAULTS, ExecutionOptions, WorkerFailure
 from meshforge.common import AssetError, UsageError, describe_error, join_names
-from meshforge.formats import (
-    MarkName,
-    format_for,
-    format_of,
-    format_with_names,
-    read,
-    resolve_asset_path,
-)
 from meshforge.geometry import proximity  # noqa: F401  # coal is there when workers are forked
 from meshforge.language import Program, RuleTrace, Template
 from meshforge.signoff import measure_edit
@@ -81,7 +74,7 @@ def _run_task(jobs: tuple[AssetJob, ...], task: ApplyTask, execution: ExecutionO
 def _check_arguments(jobs: tuple[AssetJob, ...], task: ApplyTask) -> None:
     options = task.options
     if options.names and options.to:
-        format_with_names(format_for(Path(f"asset{options.to}"), ""), options.names)
+        formats.format_with_names(formats.format_for(Path(f"asset{options.to}"), ""), options.names)
     seen: dict[str, Path] = {}
     for job in jobs:
         if job.id in seen:
@@ -95,14 +88,14 @@ def _check_arguments(jobs: tuple[AssetJob, ...], task: ApplyTask) -> None:
             )
 
 
-def _refuse_names(job: AssetJob, names: MarkName) -> None:
+def _refuse_names(job: AssetJob, names: formats.MarkName) -> None:
     """Raise UsageError where collision cannot be marked so in the format of an asset."""
     try:
-        known = format_of(resolve_asset_path(job.path))
+        known = formats.format_of(formats.resolve_asset_path(job.path))
     except AssetError:
         return  # that asset fails by itself
     try:
-        format_with_names(known, names)
+        formats.format_with_names(known, names)
     except UsageError as error:
         raise error.at(str(job.path)) from None
 
@@ -114,7 +107,7 @@ def edit_asset(task: ApplyTask, job: AssetJob) -> outputs.WorkerResult:
         skipped = _find_up_to_date(task, job)
         if skipped:
             return skipped
-        asset = read(job.path)
+        asset = formats.read(job.path)
         inputs = inputs_of(task, job, provenance.asset_digests(job.path, asset.files, job.base))
         ready = prepare_from_folder(asset, job.preparation) if job.preparation else asset
         ready = replace_concave(ready, task.options.concave)

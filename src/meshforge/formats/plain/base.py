@@ -21,17 +21,7 @@ from meshforge.common import AssetError, GeometryError
 from meshforge.formats import collision_pieces, mesh_reader, references
 from meshforge.formats.base import Format, Mass, Output, ReadOptions, note_renames
 from meshforge.formats.meshfile.surface import Soup, parts_of_groups
-from meshforge.formats.plain.parts import (
-    AS_HULLS,
-    MeshPart,
-    PlainDocument,
-    collect_parts,
-    corners_of,
-    name_file_pieces,
-    natural_key,
-    owners_of,
-    to_parts,
-)
+from meshforge.formats.plain import parts as mesh_parts
 from meshforge.geometry import Floats, Piece, Pose, distinct, split_pieces
 from meshforge.symbolic import Asset, Body, Document, FeatureKind, Geom, Mentions, NonConvexPiece, Surface
 
@@ -46,10 +36,10 @@ class MeshFileEdit:
     explicit: every piece that stays is to be named in the file, as far as the format can, lest names change.
     """
 
-    document: PlainDocument
+    document: mesh_parts.PlainDocument
     path: Path
     gone: frozenset[str]
-    parts: tuple[MeshPart, ...]
+    parts: tuple[mesh_parts.MeshPart, ...]
     explicit: bool = False
 
     @property
@@ -60,7 +50,7 @@ class MeshFileEdit:
     @property
     def owners(self) -> list[str]:
         """The owner that each triangle of the edited file should have."""
-        return list(itertools.compress(self.document.owners, self.stays)) + owners_of(self.parts)
+        return list(itertools.compress(self.document.owners, self.stays)) + mesh_parts.owners_of(self.parts)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -79,7 +69,7 @@ class PlainFormat(Format):
     """A format of mesh files without structure."""
 
     holds: ClassVar[frozenset[FeatureKind]] = frozenset({FeatureKind.NON_CONVEX})
-    instead: ClassVar[Mapping[FeatureKind, str]] = AS_HULLS
+    instead: ClassVar[Mapping[FeatureKind, str]] = mesh_parts.AS_HULLS
 
     @abstractmethod
     def parse_soup(self, data: bytes, path: Path) -> Soup:
@@ -90,7 +80,7 @@ class PlainFormat(Format):
         """Return the bytes of the edited file, triangles that stay first and in order. Raises AssetError."""
 
     @abstractmethod
-    def format_parts(self, parts: Sequence[MeshPart]) -> bytes:
+    def format_parts(self, parts: Sequence[mesh_parts.MeshPart]) -> bytes:
         """Return the bytes of a new file of these parts."""
 
     def read(self, path: Path, options: ReadOptions) -> Asset:
@@ -98,7 +88,7 @@ class PlainFormat(Format):
         files = tuple(dict.fromkeys(references.find_companions(path).values()))
         return replace(build_asset(path, self.name, soup, found), document=document, files=files)
 
-    def parse(self, data: bytes, path: Path) -> tuple[PlainDocument, list[Piece], Soup]:
+    def parse(self, data: bytes, path: Path) -> tuple[mesh_parts.PlainDocument, list[Piece], Soup]:
         """Return the document of a file's bytes, its pieces and triangles. Raises AssetError naming the path."""
         soup = self.parse_soup(data, path)
         try:
@@ -108,12 +98,12 @@ class PlainFormat(Format):
         owner = np.zeros(len(soup.faces), dtype=np.int64)
         for k, piece in enumerate(found):
             owner[piece.face_indices] = k
-        names = tuple(name_file_pieces(found, soup.names))
-        return PlainDocument(data, names, owner, len(np.unique(soup.group))), found, soup
+        names = tuple(mesh_parts.name_file_pieces(found, soup.names))
+        return mesh_parts.PlainDocument(data, names, owner, len(np.unique(soup.group))), found, soup
 
     def write(self, asset: Asset, name: str, mass: Mass = "keep") -> Output:
         document = asset.document
-        if not isinstance(document, PlainDocument):
+        if not isinstance(document, mesh_parts.PlainDocument):
             raise self._creation_error(asset)
         non_convex = {piece.name for piece in asset.non_convex}
         kept = {geom.name for geom in asset.geoms if geom.parent is None} & set(document.names)
@@ -122,16 +112,16 @@ class PlainFormat(Format):
         beside = references.find_companions(asset.path)
         if not gone and not new:
             return Output(document.data, copies=beside)
-        parts, notes = to_parts(new)
+        parts, notes = mesh_parts.to_parts(new)
         edit = MeshFileEdit(document, asset.path, gone, parts)
         data, names = self._edit_file(edit, {*kept, *(geom.name for geom in new)})
         return Output(data, copies=beside, notes=(*notes, *note_renames(names)), names=names)
 
     def create(self, asset: Asset, name: str) -> Output:
-        parts = collect_parts(asset)
+        parts = mesh_parts.collect_parts(asset)
         data = self.format_parts(parts)
         hulls = {geom.name for geom in asset.geoms}
-        wanted = TargetTriangles(owners_of(parts), corners_of(parts))
+        wanted = TargetTriangles(mesh_parts.owners_of(parts), mesh_parts.corners_of(parts))
         return Output(data, names=self._check_output(data, Path(name), wanted, hulls, asset.path))
 
     def _edit_file(self, edit: MeshFileEdit, hulls: Collection[str]) -> tuple[bytes, dict[str, str]]:
@@ -141,7 +131,7 @@ class PlainFormat(Format):
         data = self.apply_edit(edit)
         soup = self.parse_soup(edit.document.data, edit.path)
         kept = soup.vertices[soup.faces[edit.stays]]
-        wanted = TargetTriangles(edit.owners, np.concatenate([kept, corners_of(edit.parts)]), len(kept))
+        wanted = TargetTriangles(edit.owners, np.concatenate([kept, mesh_parts.corners_of(edit.parts)]), len(kept))
         names = self._check_output(data, edit.path, wanted, hulls, edit.path)
         if names:
             data = self.apply_edit(replace(edit, explicit=True))
@@ -165,7 +155,7 @@ class PlainFormat(Format):
         for name, piece in zip(wanted.owners, document.owners, strict=True):
             back.setdefault(name, set()).add(piece)
         shared = Counter(piece for pieces in back.values() for piece in pieces)
-        for name in sorted(hulls, key=natural_key):
+        for name in sorted(hulls, key=mesh_parts.natural_key):
             holders = back.get(name, set())
             if len(holders) != 1 or any(shared[piece] > 1 or piece not in convex for piece in holders):
                 problem = f"the hull {name} cannot be told apart from others in this file"
@@ -188,7 +178,7 @@ def _refuse_moved(soup: Soup, wanted: TargetTriangles, where: str) -> None:
 
 def build_asset(path: Path, kind: str, soup: Soup, found: Sequence[Piece]) -> Asset:
     """Return the asset of the pieces of triangles, without a document; kind: the name of its format."""
-    names = name_file_pieces(found, soup.names)
+    names = mesh_parts.name_file_pieces(found, soup.names)
     named = [(name, piece, _mentions_of(soup, piece)) for name, piece in zip(names, found, strict=True)]
     own = [[name for name, piece, _ in named if piece.group == group] for group in range(len(soup.names))]
     elements = [collision_pieces.element_of(names) if names else "" for names in own]

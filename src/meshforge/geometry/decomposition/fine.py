@@ -18,17 +18,9 @@ import numpy as np
 from meshforge.common import GeometryError
 from meshforge.geometry.arrays import Floats, Ints
 from meshforge.geometry.convex import FLATNESS, convex_hull, principal_extents
-from meshforge.geometry.decomposition import regions
+from meshforge.geometry.decomposition import engines, regions
 from meshforge.geometry.decomposition.by_parts import scale_settings
 from meshforge.geometry.decomposition.creases import Creases, cut_at_creases, find_creases
-from meshforge.geometry.decomposition.engines import (
-    CoacdSettings,
-    DecomposeSettings,
-    EngineJob,
-    VhacdSettings,
-    unpack_arrays,
-    unpack_pieces,
-)
 from meshforge.geometry.decomposition.run import (
     cache_key,
     decompose,
@@ -43,10 +35,13 @@ from meshforge.geometry.interior import Interior
 from meshforge.geometry.shape import Polytope, volume_and_centroid
 from meshforge.geometry.solids import volume_of_union
 
-FINE = CoacdSettings(threshold=0.05, resolution=500, mcts_iterations=20, mcts_nodes=10, mcts_max_depth=2)
+FINE = engines.CoacdSettings(threshold=0.05, resolution=500, mcts_iterations=20, mcts_nodes=10, mcts_max_depth=2)
 """CoACD's settings for fine pieces: those of its authors, but for a shorter search, for time."""
 PieceEngine = Literal["coacd", "vhacd"]
-FINE_SETTINGS: Mapping[PieceEngine, DecomposeSettings] = {"coacd": FINE, "vhacd": VhacdSettings(resolution=100_000)}
+FINE_SETTINGS: Mapping[PieceEngine, engines.DecomposeSettings] = {
+    "coacd": FINE,
+    "vhacd": engines.VhacdSettings(resolution=100_000),
+}
 """The settings for fine pieces of each engine; V-HACD's are those of its authors, with fewer voxels, for time."""
 _VERSION = 4  # of what is made of an engine's pieces; another one after any change, so that the cache forgets
 _CONVEX = 0.995  # of the volume of its convex hull: such a solid is one piece
@@ -83,8 +78,8 @@ def _pack(pieces: Sequence[regions.FinePiece]) -> bytes:
 
 
 def _unpack(content: bytes) -> tuple[regions.FinePiece, ...]:
-    (numbers,) = unpack_arrays(content, "numbers")
-    rows = zip(unpack_pieces(content), numbers.tolist(), strict=True)
+    (numbers,) = engines.unpack_arrays(content, "numbers")
+    rows = zip(engines.unpack_pieces(content), numbers.tolist(), strict=True)
     return tuple(regions.FinePiece(Polytope(*piece), region, solid) for piece, (region, solid) in rows)
 
 
@@ -94,7 +89,7 @@ class _Solid:
 
     vertices: Floats
     faces: Ints
-    settings: DecomposeSettings | None
+    settings: engines.DecomposeSettings | None
     is_open: bool = False
 
 
@@ -103,7 +98,7 @@ _Result = list[Polytope] | GeometryError
 
 
 def _decompose_mesh(
-    mesh: TriangleMesh, settings: DecomposeSettings, cache: Path | None
+    mesh: TriangleMesh, settings: engines.DecomposeSettings, cache: Path | None
 ) -> tuple[list[Polytope], list[GeometryError]]:
     """The pieces of a mesh, of each solid region by region, so that none reaches over a concave edge between two; of
     the solid as a whole where those do not make it up. Also why an engine failed on any."""
@@ -126,7 +121,7 @@ def _decompose_mesh(
     return pieces, failed
 
 
-def _list_solids(mesh: TriangleMesh, settings: DecomposeSettings) -> list[_Solid]:
+def _list_solids(mesh: TriangleMesh, settings: engines.DecomposeSettings) -> list[_Solid]:
     """The solids of a mesh, small ones and all but the largest of many as one piece each."""
     solids = [mesh.faces[own] for own in regions.find_solids(mesh.vertices, mesh.faces)]
     sizes = [float(np.linalg.norm(np.ptp(mesh.vertices[solid], axis=(0, 1)))) for solid in solids]
@@ -177,7 +172,7 @@ def _cut_pieces(pieces: Sequence[Polytope], creases: Creases, interior: Interior
 def _decompose_groups(groups: Sequence[Sequence[_Solid]], cache: Path | None) -> list[list[_Result]]:
     """The pieces of each solid of each group; engines take all that need one together."""
     solids = list(chain(*groups))
-    found, asked = dict[int, _Result](), dict[int, EngineJob]()
+    found, asked = dict[int, _Result](), dict[int, engines.EngineJob]()
     for place, solid in enumerate(solids):
         try:
             known = _find_pieces(solid, cache)
