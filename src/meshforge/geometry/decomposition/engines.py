@@ -6,6 +6,7 @@ from __future__ import annotations
 import contextlib
 import io
 import json
+import math
 import os
 import re
 import subprocess
@@ -209,11 +210,11 @@ def _supervise(command: list[str], log: Path, control: EngineControl, started: f
     progress = log.with_name("progress.txt")
     with progress.open("wb") as lines, log.open("wb") as errors:
         process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=lines, stderr=errors, env=environment)
-    shown = 0
+    shown, end = 0, math.inf if control.timeout is None else started + control.timeout
     try:
         while True:
             with contextlib.suppress(subprocess.TimeoutExpired):
-                process.wait(_TICK)
+                process.wait(min(_TICK, max(0.0, end - time.monotonic())))
             rounds = _ROUND.findall(progress.read_text(errors="replace"))  # of CoACD's log; V-HACD is silent
             for number, waiting in rounds[shown:]:
                 control.progress(f"round {int(number) + 1}: {waiting} parts still to be split")
@@ -222,7 +223,7 @@ def _supervise(command: list[str], log: Path, control: EngineControl, started: f
                 return process.returncode
             if control.cancel():
                 raise DecompositionCancelledError("the decomposition was stopped")
-            if control.timeout is not None and time.monotonic() - started > control.timeout:
+            if time.monotonic() > end:
                 problem = f"no decomposition within {control.timeout:g} s"
                 raise GeometryError(problem, remedy="Allow more time, or set a coarser threshold.")
     finally:
