@@ -80,7 +80,7 @@ def decompose_by_parts(
         name = joined.names[part]
         title = f"part {number} of {len(shares)}, {name}"
         control.progress(title)
-        left = None if end is None else max(end - time.monotonic(), 0.1)
+        left = None if end is None else max(end - time.monotonic(), 0.0)
         limited = engines.EngineControl(partial(report, title), control.cancel, left)
         add = partial(add_note, name)
         run = partial(decompose, settings=own, close=close, cache=cache, note=add, control=limited)
