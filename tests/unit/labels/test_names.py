@@ -125,13 +125,13 @@ def test_the_word_of_a_label_says_it(label: str, before: str, after: str) -> Non
     for word in (label, label.upper(), label.title(), f"{label}s"):
         found = match_label(f"{before}{word}{after}", VOCABULARY)
         assert found is not None
-        assert (found.label, found.confidence, found.exact) == (label, EXACT, True)
+        assert (found.label, found.confidence, found.how) == (label, EXACT, "word")
 
 
 @given(st.text("abcdefghijklmnopqrstuvwxyz", min_size=1, max_size=12))
 def test_common_words_stand_for_themselves_and_guesses_are_unsure(word: str) -> None:
     found = match_label(word, VOCABULARY)
-    if found and not found.exact and not is_synonym(word, found.label):
+    if found and found.how != "word" and not is_synonym(word, found.label):
         assert word not in common() | fillers()
         assert word[0] == found.label[0]
         assert found.confidence < EXACT
@@ -140,7 +140,9 @@ def test_common_words_stand_for_themselves_and_guesses_are_unsure(word: str) -> 
 @given(st.sampled_from(sorted(common())))
 def test_no_common_word_is_taken_for_another(word: str) -> None:
     found = match_label(word, VOCABULARY)
-    is_exact = found is not None and found.exact and is_same(split_joined_word(word, VOCABULARY)[-1], found.label)
+    is_exact = (
+        found is not None and found.how == "word" and is_same(split_joined_word(word, VOCABULARY)[-1], found.label)
+    )
     assert found is None or is_exact or is_synonym(word, found.label)
 
 
@@ -172,7 +174,7 @@ def test_another_word_for_a_part_is_read_and_never_as_surely(
 ) -> None:
     found = match_label(name, vocabulary)
     assert (found and found.label) == label
-    assert found is None or found.exact or found.confidence <= SURE
+    assert found is None or found.how == "word" or found.confidence <= SURE
 
 
 def test_synonyms_are_words_and_none_of_places() -> None:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cache, lru_cache
 from importlib.resources import files
 from itertools import pairwise
+from typing import Literal
 
 Words = tuple[str, ...]
 
@@ -15,6 +16,8 @@ _LEAST_PART = 3  # letters of a word that is joined with others
 EXACT = 0.7
 """How sure a label is whose word is in a name: names are given by people, though not for this."""
 _VOWELLESS, _TYPO, _SYNONYM, _GUESS = 0.6, 0.55, 0.5, 0.45
+WordKind = Literal["word", "synonym", "likeness"]
+_KINDS: dict[float, WordKind] = {EXACT: "word", _SYNONYM: "synonym"}
 _VOWELS = frozenset("aeiou")
 _LEAST_LETTERS = 3  # letters of a shortened word, and of a label that may be shortened one more
 _LONG = 6  # letters of a word in which any one letter may be wrong; in shorter ones that makes other words
@@ -173,11 +176,11 @@ _DIGITS = 2
 
 @dataclass(frozen=True, slots=True)
 class LabelInName:
-    """A label, how sure it is, and whether its very words are in the name."""
+    """A label, how sure it is, and whether its very words are in the name, other words for it, or nearly these."""
 
     label: str
     confidence: float
-    exact: bool
+    how: WordKind
 
 
 @dataclass(frozen=True, slots=True)
@@ -221,7 +224,8 @@ def _match_words(spoken: Words, vocabulary: tuple[str, ...]) -> LabelInName | No
     sure = chosen.sure - (_LESS if len({one.label for one in found}) > 1 else 0.0)
     before = words[: chosen.start] if chosen.start in at_places else ()
     is_open = any(start >= last for start in at_places) or not _are_all((*before, *words[last:]), fillers())
-    return LabelInName(chosen.label, round(min(sure, UNSURE) if is_open else sure, _DIGITS), chosen.sure == EXACT)
+    how = _KINDS.get(chosen.sure, "likeness")
+    return LabelInName(chosen.label, round(min(sure, UNSURE) if is_open else sure, _DIGITS), how)
 
 
 def _put_thing_last(words: Words) -> Words:
