@@ -86,7 +86,7 @@ def _write_turntable(given: RenderArguments, path: Path) -> None:
     with progress(None, "drawing"):
         rendering.write_gif(
             path,
-            [image for (image,) in rendering.draw_turn([mesh], rendering.list_turns(), size=size, color_by=color_by)],
+            rendering.draw_turn(mesh, rendering.list_turns(), size=size, color_by=color_by),
         )
     remark(f"wrote {escape_name(str(path))}")
 

@@ -28,6 +28,7 @@ from meshforge.labels.registry import AssetLabeler as AssetLabeler
 from meshforge.labels.registry import make_labeler as make_labeler
 from meshforge.labels.spans import HullSpan as HullSpan
 from meshforge.labels.spans import SpanReport as SpanReport
+from meshforge.labels.summary import NameContradiction as NameContradiction
 from meshforge.labels.summary import SourceTally as SourceTally
 from meshforge.labels.summary import Tally as Tally
 from meshforge.labels.summary import describe_label_plan as describe_label_plan

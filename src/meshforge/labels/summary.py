@@ -4,15 +4,16 @@ hand, for messages that propose it."""
 from __future__ import annotations
 
 import shlex
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from meshforge import rendering
 from meshforge.batch import AssetJob, describe_jobs
 from meshforge.common import AssetError, MeshForgeError, quote_path
-from meshforge.store import Store, iterate_asset_index
-from meshforge.symbolic import HUMAN_SOURCES, LABEL_SOURCES, match_labels
+from meshforge.labels.names.label_by_names import NamePattern, match_names, name_patterns, names_of_facts
+from meshforge.store import AssetFacts, Store, iterate_asset_index
+from meshforge.symbolic import HUMAN_SOURCES, LABEL_SOURCES, Label, match_labels
 
 SURE = 0.9
 """Labels as certain as this are sure; those below `UNSURE` are not."""
@@ -33,7 +34,7 @@ class Tally:
     """All hulls of the assets that can be read. shares: of the sources that have labels here, in their order.
 
     doubtful: the assets with hulls that have no label or an unsure one, and how many, most first; unreadable: those
-    that cannot be read, or whose labels cannot, and why.
+    that cannot be read, or whose labels cannot, and why; contradictions: labels that a name speaks against.
     """
 
     hulls: int
@@ -41,6 +42,19 @@ class Tally:
     shares: tuple[SourceTally, ...]
     doubtful: tuple[tuple[str, int], ...]
     unreadable: tuple[tuple[str, str], ...] = ()
+    contradictions: tuple[NameContradiction, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class NameContradiction:
+    """A label that no person and no file gave, and the other label whose very word, or a pattern of which, is in a name
+    of the hull."""
+
+    asset: str
+    hull: str
+    label: str
+    name: str
+    means: str
 
 
 def tally_labels(store: Store, progress: Callable[[], None] | None = None) -> Tally:
@@ -49,15 +63,20 @@ def tally_labels(store: Store, progress: Callable[[], None] | None = None) -> Ta
     hulls = unlabelled = 0
     doubtful: dict[str, int] = {}
     unreadable: dict[str, str] = {}
+    contradictions: list[NameContradiction] = []
+    words, settings = store.vocabulary, store.settings
+    patterns = name_patterns(store.folder, settings, words)
     for asset, facts in iterate_asset_index(store.found, store.layout, progress=progress):
         if facts.error:
             unreadable[asset] = facts.error
             continue
         try:
-            labels = match_labels(store.labels(asset), facts.hulls).labels.values()
+            by_hull = match_labels(store.labels(asset), facts.hulls).labels
         except MeshForgeError as error:
             unreadable[asset] = error.message
             continue
+        labels = by_hull.values()
+        contradictions += _find_contradictions(asset, facts, by_hull, words, patterns)
         levels = [(label.confidence < SURE) + (label.confidence < rendering.UNSURE) for label in labels]
         for label, level in zip(labels, levels, strict=True):
             counts[label.source][level] += 1
@@ -67,8 +86,34 @@ def tally_labels(store: Store, progress: Callable[[], None] | None = None) -> Ta
     shares = tuple(SourceTally(source, *levels) for source, levels in counts.items() if any(levels))
     order = sorted((asset for asset, count in doubtful.items() if count), key=lambda asset: -doubtful[asset])
     return Tally(
-        hulls, unlabelled, shares, tuple((asset, doubtful[asset]) for asset in order), tuple(unreadable.items())
+        hulls,
+        unlabelled,
+        shares,
+        tuple((asset, doubtful[asset]) for asset in order),
+        tuple(unreadable.items()),
+        tuple(contradictions),
     )
+
+
+def _find_contradictions(
+    asset: str,
+    facts: AssetFacts,
+    labels: Mapping[str, Label],
+    vocabulary: Sequence[str],
+    patterns: Sequence[NamePattern],
+) -> Iterator[NameContradiction]:
+    inferred = {hull: label for hull, label in labels.items() if label.source not in (*HUMAN_SOURCES, "file")}
+    for names in names_of_facts(facts):
+        label = inferred.get(names.hull)
+        one = match_names(names, vocabulary, patterns) if label else None
+        if (
+            label
+            and one
+            and one.label not in (None, label.name)
+            and one.how in ("word", "pattern")
+            and not one.is_unsure
+        ):
+            yield NameContradiction(asset, names.hull, label.name, one.name, one.label or "")
 
 
 def describe_label_plan(store: Store) -> str:

@@ -8,13 +8,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from meshforge.common import UsageError
-from meshforge.geometry import Aabb, Floats
+from meshforge.geometry import Aabb
 from meshforge.rendering.camera import aim_orbit
 from meshforge.rendering.canvas import Canvas, write_file
 from meshforge.rendering.colors import ColorBy, HullColors, color_hulls
 from meshforge.rendering.comparison import joint_bounds
 from meshforge.rendering.paint import paint
-from meshforge.rendering.picture import Subject, build_subject
+from meshforge.rendering.picture import build_subject
 from meshforge.rendering.raycast import ViewFrame, up_vector
 from meshforge.symbolic import SymbolicMesh
 
@@ -31,37 +31,18 @@ _COLORS = 255
 _SAMPLES = 4  # pictures of a turn that its colours are chosen from
 
 
-def draw_turn(
-    meshes: Sequence[SymbolicMesh],
-    turns: Sequence[float],
-    *,
-    size: tuple[int, int],
-    color_by: ColorBy,
-    vocabulary: Sequence[str] = (),
-) -> list[tuple[Image, ...]]:
-    """Return for each turn a picture of each mesh, all of `size` and seen by one camera; a hull keeps its colour.
-
-    turns: 0 is the view `iso`, 1 is once round. meshes: one, or several states of one asset, the first says which axis
-    points up. vocabulary: the order in which labels take their colours.
-    """
-    bounds, subjects, known = joint_bounds(*meshes), list[Subject](), dict[str, Floats]()
-    for mesh in meshes:
-        coloring = color_hulls(mesh, color_by, vocabulary, known)
-        known |= {hull.name: color for hull, color in zip(mesh.hulls, coloring.colors, strict=True)}
-        subjects.append(build_subject(mesh, coloring))
-    bounds = bounds or Aabb([-1, -1, -1], [1, 1, 1])
-    frame = ViewFrame(bounds, up_vector(subjects[0].up))
-    cameras = aim_orbit(turns, subjects[0].up, size, frame.to_unit(bounds.corners))
+def draw_turn(mesh: SymbolicMesh, turns: Sequence[float], *, size: tuple[int, int], color_by: ColorBy) -> list[Image]:
+    """Return a picture of a mesh for each turn, all of `size`; 0 is the view `iso`, 1 is once round."""
+    subject = build_subject(mesh, color_hulls(mesh, color_by))
+    bounds = joint_bounds(mesh) or Aabb([-1, -1, -1], [1, 1, 1])
+    frame = ViewFrame(bounds, up_vector(subject.up))
     pictures = []
-    for camera in cameras:
-        row = []
-        for subject in subjects:
-            canvas = Canvas(size, _BACKGROUND, None, None, HullColors(subject.layers[0].colors))
-            canvas.paste_drawing(paint(subject.layers, frame, camera, _FINE)[0], (0, 0))
-            if not subject.layers[0].render_meshes:
-                canvas.write_message("no hulls", canvas.room)
-            row.append(canvas.image)
-        pictures.append(tuple(row))
+    for camera in aim_orbit(turns, subject.up, size, frame.to_unit(bounds.corners)):
+        canvas = Canvas(size, _BACKGROUND, None, None, HullColors(subject.layers[0].colors))
+        canvas.paste_drawing(paint(subject.layers, frame, camera, _FINE)[0], (0, 0))
+        if not subject.layers[0].render_meshes:
+            canvas.write_message("no hulls", canvas.room)
+        pictures.append(canvas.image)
     return pictures
 
 

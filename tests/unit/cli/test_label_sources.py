@@ -32,13 +32,14 @@ def told(text: str) -> str:
 
 
 NAMES = """\
-label    from           names            hulls   assets   confidence
-────────────────────────────────────────────────────────────────────
-drawer   visual         drawer_front-5       2        2   0.70
-handle   visual         handle-7             2        2   0.70
-frame    visual         frame_side-1         2        2   0.70
-(none)   nothing said   geom1, geom0         6        2
-6 labels would be taken; 6 hulls left without one. Nothing was written."""
+label    from                names            hulls   assets   confidence
+─────────────────────────────────────────────────────────────────────────
+drawer   visual              drawer_front-5       2        2   0.70
+handle   visual              handle-7             2        2   0.70
+handle   visual by synonym   knob-3               2        2   0.50
+frame    visual              frame_side-1         2        2   0.70
+(none)   nothing said        geom0, geom1         4        2
+8 labels would be taken; 4 hulls left without one. Nothing was written."""
 PATTERNS = """\
 label    from                names                    hulls   assets   confidence
 ─────────────────────────────────────────────────────────────────────────────────
@@ -100,7 +101,7 @@ def test_json_says_the_same(run: Run) -> None:
         "high": 0.7,
         "unsure": False,
     }
-    assert [row["hulls"] for row in shown["leave"]] == [6]
+    assert [row["hulls"] for row in shown["leave"]] == [4]
     assert shown["keep"] == 0 and shown["problems"] == []
     files = json.loads(run("label", "p", "--dry-run", "--json").out)
     assert len(files["problems"]) == 2 and {row["kind"] for row in files["take"]} == {"semantics"}

@@ -14,9 +14,11 @@ from meshforge.labels.names.words import (
     common,
     fillers,
     is_same,
+    is_synonym,
     match_label,
     places,
     split_joined_word,
+    synonyms,
     words_of,
 )
 
@@ -123,13 +125,13 @@ def test_the_word_of_a_label_says_it(label: str, before: str, after: str) -> Non
     for word in (label, label.upper(), label.title(), f"{label}s"):
         found = match_label(f"{before}{word}{after}", VOCABULARY)
         assert found is not None
-        assert (found.label, found.confidence, found.exact) == (label, EXACT, True)
+        assert (found.label, found.confidence, found.how) == (label, EXACT, "word")
 
 
 @given(st.text("abcdefghijklmnopqrstuvwxyz", min_size=1, max_size=12))
 def test_common_words_stand_for_themselves_and_guesses_are_unsure(word: str) -> None:
     found = match_label(word, VOCABULARY)
-    if found and not found.exact:
+    if found and found.how != "word" and not is_synonym(word, found.label):
         assert word not in common() | fillers()
         assert word[0] == found.label[0]
         assert found.confidence < EXACT
@@ -138,7 +140,10 @@ def test_common_words_stand_for_themselves_and_guesses_are_unsure(word: str) -> 
 @given(st.sampled_from(sorted(common())))
 def test_no_common_word_is_taken_for_another(word: str) -> None:
     found = match_label(word, VOCABULARY)
-    assert found is None or (found.exact and is_same(split_joined_word(word, VOCABULARY)[-1], found.label))
+    is_exact = (
+        found is not None and found.how == "word" and is_same(split_joined_word(word, VOCABULARY)[-1], found.label)
+    )
+    assert found is None or is_exact or is_synonym(word, found.label)
 
 
 @given(
@@ -146,6 +151,37 @@ def test_no_common_word_is_taken_for_another(word: str) -> None:
 )
 def test_the_order_of_the_vocabulary_does_not_matter(vocabulary: list[str], name: str) -> None:
     assert match_label(name, vocabulary) == match_label(name, vocabulary[::-1])
+
+
+@pytest.mark.parametrize(
+    ("name", "vocabulary", "label"),
+    [
+        ("knob_1", ("drawer", "handle"), "handle"),
+        ("table_slab", ("panel", "leg"), "panel"),
+        ("stretchers", ("rail", "seat"), None),
+        ("rung_2", ("stretcher", "seat"), "stretcher"),
+        ("door_knob", ("door", "handle"), "handle"),
+        ("tabletop", ("panel", "leg"), "panel"),
+        ("tabletop", ("top", "panel"), "top"),
+        ("drawer_top", ("drawer", "panel"), "drawer"),  # a place says which drawer
+        ("knob", ("handle", "dial"), None),  # it may be either
+        ("knob", ("handle", "knob"), "knob"),
+        ("lamp", ("bulb", "shade"), None),  # the whole thing
+    ],
+)
+def test_another_word_for_a_part_is_read_and_never_as_surely(
+    name: str, vocabulary: tuple[str, ...], label: str | None
+) -> None:
+    found = match_label(name, vocabulary)
+    assert (found and found.label) == label
+    assert found is None or found.how == "word" or found.confidence <= SURE
+
+
+def test_synonyms_are_words_and_none_of_places() -> None:
+    for word, others in synonyms().items():
+        assert word not in others
+        assert all(one == one.lower() and one.isalpha() for one in (word, *others))
+        assert not others & fillers()
 
 
 def test_the_lists_of_words_hold_no_word_twice_over() -> None:

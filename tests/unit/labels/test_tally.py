@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from meshforge.labels import SourceTally
+from meshforge.labels import NameContradiction, SourceTally
 from meshforge.project import Project
 from tests.unit.batch.families import table_boxes
 from tests.unit.labels.test_label_by_propagation import family
@@ -28,3 +28,10 @@ def test_an_empty_project_of_labels_has_nothing_but_bare_hulls(tmp_path: Path) -
     found = family(tmp_path, 1).tally_labels()
     assert found.shares == ()
     assert found.unlabelled == found.hulls == len(NAMES)
+
+
+def test_labels_that_names_speak_against_are_listed_but_not_those_of_people(tmp_path: Path) -> None:
+    project = family(tmp_path, 2)
+    project.set_labels("t0.obj", {"top": "leg"})
+    project.set_labels("t1.obj", {"top": "leg", "crumb": "misc"}, source="vlm", confidence=0.9)
+    assert project.tally_labels().contradictions == (NameContradiction("t1.obj", "top", "leg", "top", "top"),)

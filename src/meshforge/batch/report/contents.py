@@ -23,14 +23,14 @@ if TYPE_CHECKING:
     from PIL.Image import Image
 
 
-EditStatus = Literal["edited", "unchanged", "written", "skipped", "not written", "failed"]
+EditStatus = Literal["edited", "unchanged", "skipped", "not written", "failed"]
 """What a program or a conversion made of an asset; not written: nothing, since its edit is not sure enough."""
 CheckStatus = Literal["clean", "warnings", "errors", "failed"]
 """What checks found of one; failed: it could not be checked, or not be written."""
 LabelStatus = Literal["labelled", "doubtful", "problems"]
 """How the labels of one are: of all hulls, lacking or unsure for some, or not all to be taken."""
 ReportStatus = EditStatus | CheckStatus | LabelStatus
-ORDINARY: frozenset[ReportStatus] = frozenset({"edited", "written", "clean", "labelled"})
+ORDINARY: frozenset[ReportStatus] = frozenset({"edited", "clean", "labelled"})
 """What is expected of an asset, so that its card does not say it."""
 BROKEN: frozenset[ReportStatus] = frozenset({"failed", "errors", "problems"})
 REMARKABLE = BROKEN | {"warnings", "doubtful"}
@@ -137,9 +137,9 @@ class RunFigures:
         return sum(self.counts.values())
 
     @staticmethod
-    def of_run(summary: RunSummary, words: Mapping[ReportStatus, ReportStatus] | None = None) -> RunFigures:
-        """Return those of a program's run, or of a conversion; words: other ones for what became of assets."""
-        counts: dict[ReportStatus, int] = {(words or {}).get(word, word): n for word, n in summary.counts.items()}
+    def of_run(summary: RunSummary) -> RunFigures:
+        """Return those of a program's run."""
+        counts: dict[ReportStatus, int] = dict(summary.counts.items())
         counts |= {"not written": len(summary.need_review)} if summary.need_review else {}
         return RunFigures(counts, _hull_figures(summary.before, summary.after))
 
@@ -210,13 +210,11 @@ CHECK_PICTURE_SIZE = (420, 315)
 class PictureOptions:
     """How pictures are drawn.
 
-    vocabulary: the order in which labels take their colours; by_label: whether hulls have those, else each its own;
-    changes: whether to draw what became of each hull.
+    vocabulary: the order in which labels take their colours; by_label: whether hulls have those, else each its own.
     """
 
     vocabulary: tuple[str, ...]
     by_label: bool
-    changes: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -253,9 +251,7 @@ def draw_asset(asset: ReportAsset, options: PictureOptions) -> AssetPictures | N
         )
         return AssetPictures(_to_data_url(image), has_blame=blamed is not None, checks=checks)
     pair = compare(before, after, color_by=color_by, size=PICTURE_SIZE, vocabulary=options.vocabulary, background=None)
-    changes = None
-    if options.changes:
-        changes = _to_data_url(draw_difference(before, after, size=PICTURE_SIZE, background=None))
+    changes = _to_data_url(draw_difference(before, after, size=PICTURE_SIZE, background=None))
     return AssetPictures(_to_data_url(pair[0]), _to_data_url(pair[1]), changes, checks=checks)
 
 

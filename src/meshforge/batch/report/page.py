@@ -25,7 +25,6 @@ MOST_PICTURED = 120
 STATUSES: tuple[contents.ReportStatus, ...] = (
     "edited",
     "unchanged",
-    "written",
     "skipped",
     "not written",
     "labelled",
@@ -72,13 +71,12 @@ class ReportHeader:
 class ReportOptions:
     """What a report shows of its assets.
 
-    vocabulary: where it is about labels, those that hulls can have; changes: whether with pictures of what became of
-    each hull, by its name; pictured: how many assets get pictures, demonstrated and failed ones first; progress: called
-    for each asset; execution: where pictures are drawn, by default here, one after the other.
+    vocabulary: where it is about labels, those that hulls can have; pictured: how many assets get pictures,
+    demonstrated and failed ones first; progress: called for each asset; execution: where pictures are drawn, by default
+    here, one after the other.
     """
 
     vocabulary: Sequence[str] = ()
-    changes: bool = True
     pictured: int = MOST_PICTURED
     progress: Callable[[], None] | None = None
     execution: ExecutionOptions = IN_PROCESS
@@ -109,7 +107,7 @@ def write_report(
     known = tuple(options.vocabulary) or (program.labels if program else ())
     labels = (*known, *sorted({hull.label for mesh in meshes for hull in mesh.hulls if hull.label} - set(known)))
     labelled = bool(options.vocabulary) or any(hull.label for mesh in meshes for hull in mesh.hulls)
-    colors, pictures = label_colors(labels), contents.PictureOptions(labels, labelled, options.changes)
+    colors, pictures = label_colors(labels), contents.PictureOptions(labels, labelled)
     order = sorted(range(len(assets)), key=lambda k: not (assets[k].demonstrated or assets[k].needs_review))
     chosen = frozenset(order[: options.pictured])
     cards: list[tuple[contents.ReportAsset, contents.AssetPictures | None]] = []

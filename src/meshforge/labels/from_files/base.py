@@ -37,7 +37,7 @@ def meaning_of(name: str, vocabulary: Sequence[str], patterns: Sequence[NamePatt
     if name in vocabulary:
         return name, 1.0
     one = match_label(name, vocabulary)
-    return (one.label, one.confidence) if one and one.exact else None
+    return (one.label, one.confidence) if one and one.how == "word" else None
 
 
 def to_file_labels(found_names: Mapping[str, tuple[str, Meaning, float]], vocabulary: Sequence[str]) -> FileLabels:

@@ -17,7 +17,7 @@ from meshforge.labels.names.words import UNSURE, match_label
 from meshforge.store import AssetFacts, Settings
 from meshforge.symbolic import Label, Mentions, SymbolicMesh
 
-MatchKind = Literal["pattern", "word", "likeness"]
+MatchKind = Literal["pattern", "word", "synonym", "likeness"]
 
 NAMELESS = "body"
 """What formats without bodies call the only one."""
@@ -96,6 +96,11 @@ class NameMatch:
     name: str
     how: MatchKind
 
+    @property
+    def is_unsure(self) -> bool:
+        """Whether the name may as well mean another thing."""
+        return self.confidence < _SURE
+
 
 def match_names(names: HullNames, vocabulary: Sequence[str], patterns: Sequence[NamePattern] = ()) -> NameMatch | None:
     """Return what the names of a hull say, None where they say nothing.
@@ -125,7 +130,7 @@ def _match_each_name(names: HullNames, vocabulary: Sequence[str]) -> Iterator[Na
     for kind, name in names.all_names():
         if one := match_label(name, vocabulary):
             confidence = round(one.confidence - _LESS.get(kind, 0.0), _DIGITS)
-            yield NameMatch(one.label, confidence, kind, name, "word" if one.exact else "likeness")
+            yield NameMatch(one.label, confidence, kind, name, one.how)
 
 
 PatternPairs = Sequence[tuple[str, str]]
@@ -189,7 +194,9 @@ def _label_assets(family: LabelFamily, patterns: Sequence[NamePattern]) -> Gener
 def _reason_of(names: HullNames, one: NameMatch | None) -> LabelReason:
     if one is None:
         return NO_REASON, names.own
-    return one.kind + {"pattern": " by pattern", "likeness": " nearly", "word": ""}[one.how], one.name
+    return one.kind + {"pattern": " by pattern", "likeness": " nearly", "synonym": " by synonym", "word": ""}[
+        one.how
+    ], one.name
 
 
 def to_label(one: NameMatch) -> Label | None:

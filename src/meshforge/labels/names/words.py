@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cache, lru_cache
 from importlib.resources import files
 from itertools import pairwise
+from typing import Literal
 
 Words = tuple[str, ...]
 
@@ -14,7 +15,9 @@ _LEAST_PART = 3  # letters of a word that is joined with others
 
 EXACT = 0.7
 """How sure a label is whose word is in a name: names are given by people, though not for this."""
-_VOWELLESS, _TYPO, _GUESS = 0.6, 0.55, 0.45
+_VOWELLESS, _TYPO, _SYNONYM, _GUESS = 0.6, 0.55, 0.5, 0.45
+WordKind = Literal["word", "synonym", "likeness"]
+_KINDS: dict[float, WordKind] = {EXACT: "word", _SYNONYM: "synonym"}
 _VOWELS = frozenset("aeiou")
 _LEAST_LETTERS = 3  # letters of a shortened word, and of a label that may be shortened one more
 _LONG = 6  # letters of a word in which any one letter may be wrong; in shorter ones that makes other words
@@ -72,8 +75,19 @@ def places() -> frozenset[str]:
 
 
 @cache
+def synonyms() -> dict[str, frozenset[str]]:
+    """Return the other words that files use for a part, by its word: a `handle` may be called a knob."""
+    lines = (line.split() for line in _read_file("synonyms.txt").splitlines())
+    return {word: frozenset(others) for word, *others in lines}
+
+
 def _read_words(file: str) -> frozenset[str]:
-    return frozenset(files("meshforge.labels.names").joinpath(file).read_text(encoding="utf-8").split())
+    return frozenset(_read_file(file).split())
+
+
+@cache
+def _read_file(name: str) -> str:
+    return files("meshforge.labels.names").joinpath(name).read_text(encoding="utf-8")
 
 
 def split_joined_word(word: str, more: Collection[str]) -> Words:
@@ -98,6 +112,8 @@ def word_similarity(word: str, meant: str) -> float:
     """Return how surely one word stands for another, 0 where it does not. Common words stand for themselves alone."""
     if is_same(word, meant):
         return EXACT
+    if is_synonym(word, meant):
+        return _SYNONYM
     if (
         is_one_of(word, dictionary())
         or len(word) < _LEAST_LETTERS
@@ -110,6 +126,11 @@ def word_similarity(word: str, meant: str) -> float:
     if _is_typo(word, meant):
         return _TYPO
     return _GUESS if _is_short_for(word, meant) or _is_misspelt(word, meant) else 0.0
+
+
+def is_synonym(word: str, meant: str) -> bool:
+    """Return whether a word is another one for a part; words that tell which one as often as what are none."""
+    return not is_one_of(word, fillers()) and any(is_one_of(word, synonyms().get(form, ())) for form in forms(meant))
 
 
 def _consonants_of(word: str) -> str:
@@ -155,11 +176,11 @@ _DIGITS = 2
 
 @dataclass(frozen=True, slots=True)
 class LabelInName:
-    """A label, how sure it is, and whether its very words are in the name."""
+    """A label, how sure it is, and whether its very words are in the name, other words for it, or nearly these."""
 
     label: str
     confidence: float
-    exact: bool
+    how: WordKind
 
 
 @dataclass(frozen=True, slots=True)
@@ -189,7 +210,8 @@ def match_label(name: str, vocabulary: Sequence[str]) -> LabelInName | None:
 def _match_words(spoken: Words, vocabulary: tuple[str, ...]) -> LabelInName | None:
     known = {label: words_of(label) for label in vocabulary}
     parts = {word for own in known.values() for word in own}
-    words = tuple(part for word in _put_thing_last(spoken) for part in _split_word(word, parts))
+    others = {other for word in parts for form in forms(word) for other in synonyms().get(form, ())} - fillers()
+    words = tuple(part for word in _put_thing_last(spoken) for part in _split_word(word, parts, parts | others))
     found = [mention for label, wanted in known.items() for mention in _find_mentions(words, label, wanted)]
     found = [one for one in found if not any(_outdoes(other, one) for other in found)]
     things = [one for one in found if not _are_all(known[one.label], fillers())] or found
@@ -202,7 +224,8 @@ def _match_words(spoken: Words, vocabulary: tuple[str, ...]) -> LabelInName | No
     sure = chosen.sure - (_LESS if len({one.label for one in found}) > 1 else 0.0)
     before = words[: chosen.start] if chosen.start in at_places else ()
     is_open = any(start >= last for start in at_places) or not _are_all((*before, *words[last:]), fillers())
-    return LabelInName(chosen.label, round(min(sure, UNSURE) if is_open else sure, _DIGITS), chosen.sure == EXACT)
+    how = _KINDS.get(chosen.sure, "likeness")
+    return LabelInName(chosen.label, round(min(sure, UNSURE) if is_open else sure, _DIGITS), how)
 
 
 def _put_thing_last(words: Words) -> Words:
@@ -211,12 +234,15 @@ def _put_thing_last(words: Words) -> Words:
     return words if turn is None else (*words[turn + 1 :], *words[:turn])
 
 
-def _split_word(word: str, known: Collection[str]) -> Words:
-    """A word of a name, taken apart if it is joined and the thing that it ends with is of a label."""
-    if is_one_of(word, known):
+def _split_word(word: str, own: Collection[str], known: Collection[str]) -> Words:
+    """A word of a name, taken apart if it is joined and the thing that it ends with is of a label, or a synonym of one.
+
+    own: the words of labels, of which none is taken apart; known: these and their synonyms.
+    """
+    if is_one_of(word, own):
         return (word,)
-    parts = split_joined_word(word, known)
-    things = [part for part in parts if part not in fillers() or part in known]
+    parts = split_joined_word(word, own)
+    things = [part for part in parts if part not in fillers() or part in own]
     if not things or not is_one_of(things[-1], known):
         return (word,)
     return tuple(part for part in parts if is_one_of(part, known))
