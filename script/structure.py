@@ -15,6 +15,10 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
+import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+
 from script.callers import find_uncalled
 from script.stubs import read_offers
 
@@ -147,32 +151,15 @@ def import_graph(modules: dict[str, Module]) -> dict[str, set[str]]:
 
 
 def find_cycles(graph: dict[str, set[str]]) -> list[list[str]]:
-    """Strongly connected components of two or more modules (Tarjan's algorithm)."""
-    index: dict[str, int] = {}
-    low: dict[str, int] = {}
-    stack: list[str] = []
-    cycles = []
-
-    def visit(node: str) -> None:
-        index[node] = low[node] = len(index)
-        stack.append(node)
-        for other in sorted(graph[node]):
-            if other not in index:
-                visit(other)
-                low[node] = min(low[node], low[other])
-            elif other in stack:
-                low[node] = min(low[node], index[other])
-        if low[node] == index[node]:
-            component = stack[stack.index(node) :]
-            del stack[stack.index(node) :]
-            if len(component) > 1:
-                cycles.append(sorted(component))
-
-    sys.setrecursionlimit(10_000)
-    for node in sorted(graph):
-        if node not in index:
-            visit(node)
-    return cycles
+    """Modules that import each other in a circle, one list for each circle (strongly connected components)."""
+    nodes = sorted(graph)
+    place = {name: k for k, name in enumerate(nodes)}
+    links = [(place[name], place[other]) for name in nodes for other in sorted(graph[name])]
+    rows, columns = zip(*links, strict=True) if links else ((), ())
+    matrix = coo_array((np.ones(len(links)), (rows, columns)), (len(nodes), len(nodes)))
+    count, component = connected_components(matrix, connection="strong")
+    circles = [[name for name, own in zip(nodes, component, strict=True) if own == k] for k in range(count)]
+    return sorted(circle for circle in circles if len(circle) > 1)
 
 
 def is_participle(name: str) -> bool:
