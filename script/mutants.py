@@ -3,7 +3,8 @@
 `python -m script.mutants reach FOLDER` runs all tests once in a copy of the checkout that records which of them reach
 the places of `tests/mutants/places.json`, and `python -m script.mutants judge FOLDER` makes each change in a copy of
 its own, and runs the tests that reach it, the cheapest first, until one fails. What is done stays in FOLDER.
-`tests/mutants/before.json` has the test that noticed each before tests were cut, null where none did.
+`tests/mutants/before.json` has the test that noticed each before tests were cut, null where none did, `after.json` that
+which noticed it after.
 """
 
 from __future__ import annotations
