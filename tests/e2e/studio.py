@@ -69,7 +69,9 @@ class Studio:
         """What a page is told on connecting, once the assets are read and the outcome is over."""
         return self.until(
             lambda hello: (
-                all(card["hulls"] is not None or card["error"] for card in hello["cards"]) and not hello["learning"]
+                all(card["hulls"] is not None or card["error"] for card in hello["cards"])
+                and hello["project"]["next"]["text"] != "The assets are being read."
+                and not hello["learning"]
             )
         )
 
