@@ -91,7 +91,7 @@ class NewAssets:
     changes: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
 
     @staticmethod
-    def aside(made: Iterable[tuple[NewAsset, NewAssetResult]]) -> NewAssets:
+    def collect(made: Iterable[tuple[NewAsset, NewAssetResult]]) -> NewAssets:
         """Return those whose preparation and labels are kept beside the project."""
         rows = {work.id: (work, result) for work, result in made}
         changes = {id: {"labels": work.labels, "preparation": work.preparation} for id, (work, _) in rows.items()}
@@ -262,7 +262,7 @@ def _prepare_given(
     ours = {job.path: job for job in project.jobs({known[job.path] for job in given if job.path in known})}
     jobs = [replace(ours[job.path], id=job.id, base=job.base) if job.path in ours else job for job in given]
     new = [NewAsset(job.id, job.path, plan, job.labels) for job in given if job.path not in ours]
-    found = NewAssets.aside(prepare_new_assets(project, new, folder, _with_stage(options)))
+    found = NewAssets.collect(prepare_new_assets(project, new, folder, _with_stage(options)))
     return found.update(jobs), found
 
 
@@ -278,7 +278,7 @@ def _prepare_later(project: Project, folder: Path | None, options: NewAssetOptio
     options = replace(_with_stage(options), guess=program is None or bool(program.labels_asked))
     if folder is None:
         return NewAssets({result.asset: result for result in project.prepare_new(options)})
-    return NewAssets.aside(prepare_new_assets(project, new, folder, options))
+    return NewAssets.collect(prepare_new_assets(project, new, folder, options))
 
 
 def _with_stage(options: NewAssetOptions) -> NewAssetOptions:

@@ -5,12 +5,13 @@ from __future__ import annotations
 
 import shlex
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
 from meshforge import rendering
 from meshforge.batch import AssetJob, describe_jobs
-from meshforge.common import AssetError, MeshForgeError, quote_path
+from meshforge.common import AssetError, MeshForgeError, UsageError, quote_path
 from meshforge.labels.names.label_by_names import NamePattern, match_names, name_patterns, names_of_facts
 from meshforge.store import AssetFacts, Store, iterate_asset_index
 from meshforge.symbolic import HUMAN_SOURCES, LABEL_SOURCES, Label, match_labels
@@ -64,8 +65,9 @@ def tally_labels(store: Store, progress: Callable[[], None] | None = None) -> Ta
     doubtful: dict[str, int] = {}
     unreadable: dict[str, str] = {}
     contradictions: list[NameContradiction] = []
-    words, settings = store.vocabulary, store.settings
-    patterns = name_patterns(store.folder, settings, words)
+    words, patterns = store.vocabulary, tuple[NamePattern, ...]()
+    with suppress(UsageError):  # of a pattern that is wrong, which `label --with names` names
+        patterns = name_patterns(store.folder, store.settings, words)
     for asset, facts in iterate_asset_index(store.found, store.layout, progress=progress):
         if facts.error:
             unreadable[asset] = facts.error
@@ -106,13 +108,8 @@ def _find_contradictions(
     for names in names_of_facts(facts):
         label = inferred.get(names.hull)
         one = match_names(names, vocabulary, patterns) if label else None
-        if (
-            label
-            and one
-            and one.label not in (None, label.name)
-            and one.how in ("word", "pattern")
-            and not one.is_unsure
-        ):
+        is_said = one is not None and one.how in ("word", "pattern") and not one.is_unsure
+        if label and one and is_said and one.label not in (None, label.name):
             yield NameContradiction(asset, names.hull, label.name, one.name, one.label or "")
 
 

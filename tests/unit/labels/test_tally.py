@@ -35,3 +35,10 @@ def test_labels_that_names_speak_against_are_listed_but_not_those_of_people(tmp_
     project.set_labels("t0.obj", {"top": "leg"})
     project.set_labels("t1.obj", {"top": "leg", "crumb": "misc"}, source="vlm", confidence=0.9)
     assert project.tally_labels().contradictions == (NameContradiction("t1.obj", "top", "leg", "top", "top"),)
+
+
+def test_a_wrong_pattern_of_the_settings_hinders_no_count(tmp_path: Path) -> None:
+    family(tmp_path, 1)
+    with (tmp_path / "p/meshforge.toml").open("a") as settings:
+        settings.write('\n[names]\n"*top*" = "nothing of the vocabulary"\n')
+    assert Project.open(tmp_path / "p").tally_labels().hulls == len(NAMES)
