@@ -108,8 +108,8 @@ def _find_contradictions(
     for names in names_of_facts(facts):
         label = inferred.get(names.hull)
         one = match_names(names, vocabulary, patterns) if label else None
-        is_said = one is not None and one.how in ("word", "pattern") and not one.is_unsure
-        if label and one and is_said and one.label not in (None, label.name):
+        is_certain = one is not None and one.how in ("word", "pattern") and not one.is_unsure
+        if label and one and is_certain and one.label not in (None, label.name):
             yield NameContradiction(asset, names.hull, label.name, one.name, one.label or "")
 
 
