@@ -1012,7 +1012,6 @@ export interface NextStep {
     | "decompose"
     | "label-files"
     | "label-names"
-    | "vocabulary"
     | "label"
     | "propagate"
     | "check-labels"

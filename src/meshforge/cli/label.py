@@ -12,7 +12,7 @@ from pydantic import ValidationError
 from meshforge.batch import ExecutionOptions
 from meshforge.cli import options
 from meshforge.cli.console import progress
-from meshforge.cli.label_by_hand import label_by_hand
+from meshforge.cli.label_by_hand import label_by_hand, rename_labels
 from meshforge.cli.label_report import LabelPrinter, print_changes, print_proposals
 from meshforge.cli.label_vlm import label_with_vlm, print_forecast
 from meshforge.cli.terminal import print_json, remark
@@ -76,6 +76,15 @@ class LabelArguments:
     labels: Annotated[
         Path | None,
         typer.Option("--labels", help="A file with labels, or a folder that mirrors the assets; default: beside each."),
+    ] = None
+    rename: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--rename",
+            metavar="LABEL=NAME",
+            help="Give a label another name, wherever the project has it; or a class its name: part_a=leg.",
+            show_default=False,
+        ),
     ] = None
     vocabulary: Annotated[str, typer.Option("--vocabulary", help="Set the labels that hulls can have: a,b,c.")] = ""
     model: Annotated[str | None, typer.Option("--model", help="The model that --with vlm asks.")] = None
@@ -168,6 +177,9 @@ def label(given: LabelArguments) -> None:
         if given.source != "vlm":
             return
     project = Project.open(given.project)
+    if given.rename:
+        rename_labels(project, given.rename)
+        return
     if given.asset is not None:
         for name, option in options.list_typed(given.context):
             if name not in _BY_HAND:

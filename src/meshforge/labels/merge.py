@@ -135,7 +135,7 @@ def infer_over(current: Label | None, given: Label) -> Label:
 def _problem(name: str, label: Label | None, hulls: Collection[str], vocabulary: Sequence[str]) -> str | None:
     if name not in hulls:
         return f"there is no hull {name!r}{suggest_match(name, hulls)}"
-    if label and label.name not in vocabulary:
+    if label and label.name not in vocabulary and not symbolic.is_class_name(label.name):
         return f"{name}: the label {label.name!r} is not in the vocabulary{suggest_match(label.name, vocabulary)}"
     return None
 

@@ -14,7 +14,7 @@ from meshforge.label_model.describe import describe_mesh
 from meshforge.labels.labeler import Stage
 from meshforge.labels.spans import FinePieces, SpanReport, decompose_surfaces, find_pieces, is_given
 from meshforge.store import Store
-from meshforge.symbolic import HUMAN_SOURCES, Asset, Label, LabelFile, SymbolicMesh
+from meshforge.symbolic import CERTAIN_SOURCES, Asset, Label, LabelFile, SymbolicMesh
 
 MOST_COMPARED = 32
 """Labelled assets that a new one is compared with: those with labels of people first, evenly chosen of more."""
@@ -78,7 +78,9 @@ def read_reference_family(
     engine: which makes the fine pieces of surfaces; without: assets that do not count; spans: whether their surfaces
     are needed. Raises AssetError where a labels file cannot be read.
     """
-    chosen = choose_labelled({asset: store.labels(asset) for asset in store.assets() if asset not in set(without)})
+    chosen = choose_labelled(
+        {asset: store.labels_and_classes(asset) for asset in store.assets() if asset not in set(without)}
+    )
     meshes = {
         asset: mesh
         for asset, mesh in store.meshes_by_id(chosen)
@@ -109,7 +111,7 @@ def choose_labelled(files: Mapping[str, LabelFile], most: int = MOST_COMPARED) -
         asset: [label for own in file.labels.values() if (label := evidence_beside_rebuilt(own))]
         for asset, file in files.items()
     }
-    by_people = [asset for asset, labels in observed.items() if any(one.source in HUMAN_SOURCES for one in labels)]
+    by_people = [asset for asset, labels in observed.items() if any(one.source in CERTAIN_SOURCES for one in labels)]
     others = [asset for asset, labels in observed.items() if labels and asset not in set(by_people)]
     chosen = {*pick_evenly(by_people, most)}
     chosen |= {*pick_evenly(others, most - len(chosen))}
