@@ -128,7 +128,9 @@ def is_protected(current: Label | None, given: Label) -> bool:
 def infer_over(current: Label | None, given: Label) -> Label:
     """Return a given label; one that was inferred with the evidence on its hull before that."""
     return (
-        replace(given, given=label_model.evidence_of(current)) if given.source in symbolic.INFERRED_SOURCES else given
+        replace(given, given=given.given or label_model.evidence_of(current))
+        if given.source in symbolic.INFERRED_SOURCES
+        else given
     )
 
 

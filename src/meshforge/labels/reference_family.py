@@ -14,7 +14,7 @@ from meshforge.label_model.describe import describe_mesh
 from meshforge.labels.labeler import Stage
 from meshforge.labels.spans import FinePieces, SpanReport, decompose_surfaces, find_pieces, is_given
 from meshforge.store import Store
-from meshforge.symbolic import CERTAIN_SOURCES, Asset, Label, LabelFile, SymbolicMesh
+from meshforge.symbolic import CERTAIN_SOURCES, Asset, Label, LabelFile, SymbolicMesh, is_class_name
 
 MOST_COMPARED = 32
 """Labelled assets that a new one is compared with: those with labels of people first, evenly chosen of more."""
@@ -56,12 +56,14 @@ class ReferenceFamily:
         return replace(self, meshes=meshes, pieces={n: one for n, one in self.pieces.items() if n != asset})
 
     def infer_labels(self, mesh: SymbolicMesh) -> dict[str, Label]:
-        """Return the likeliest label of each hull of an asset that has none, by its name, with its probability."""
+        """Return the likeliest label of each hull of an asset that has none, by its name, with its probability; where
+        parts have no names, its class."""
         meshes = [mesh, *self.meshes.values()]
         known = (evidence_beside_rebuilt(hull.annotation) for own in meshes for hull in own.hulls)
-        found = model_family(meshes).infer([label if label and label.name in self.words else None for label in known])
-        rows = zip(mesh.hulls, found.labels(0), strict=True)
-        return {hull.name: label for hull, label in rows if label and not hull.annotation}
+        heard = [one if one and (one.name in self.words or is_class_name(one.name)) else None for one in known]
+        rows = zip(mesh.hulls, model_family(meshes).infer(heard).labels(0), strict=True)
+        guesses = {hull.name: label for hull, label in rows if label and not hull.annotation}
+        return {n: replace(one, source="class") if is_class_name(one.name) else one for n, one in guesses.items()}
 
 
 def read_reference_family(

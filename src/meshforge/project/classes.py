@@ -53,7 +53,7 @@ def infer_classes(
 def keep_classes(store: Store, before: Mapping[str, SymbolicMesh], after: Mapping[str, SymbolicMesh]) -> None:
     """Write the classes of meshes, by asset, where they are others than before."""
     kept = set(store.layout.classes.ids)
-    changed = {asset: _format(mesh) for asset, mesh in after.items() if mesh is not before[asset]}
+    changed = {asset: format_classes(mesh) for asset, mesh in after.items() if mesh is not before[asset]}
     texts = changed | dict.fromkeys(asset for asset in kept & after.keys() if not _classes_of(after[asset]))
     if texts:
         with store.lock():
@@ -159,7 +159,8 @@ def _classes_of(mesh: SymbolicMesh) -> dict[str, Label]:
     return {name: label for name, label in mesh.labels.items() if label.source in CLASS_SOURCES}
 
 
-def _format(mesh: SymbolicMesh) -> str | None:
+def format_classes(mesh: SymbolicMesh) -> str | None:
+    """Return the text of the file of classes of a mesh, None where it has none."""
     classes = _classes_of(mesh)
     digests = {name: digest(mesh.hull_of(name).shape) for name in classes}
     return symbolic.format_labels(LabelFile((), classes, digests)) if classes else None

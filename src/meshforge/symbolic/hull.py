@@ -11,12 +11,12 @@ from meshforge.geometry import Aabb, Floats, Ints, Pose, Shape
 
 # fmt: off
 LabelSource = Literal[
-    "vlm", "propagated", "consensus", "rebuild", "name", "file", "user", "repair", "edit", "plugin", "step", "class",
+    "vlm", "propagated", "rebuild", "name", "file", "user", "repair", "edit", "plugin", "step", "class",
 ]
 # fmt: on
 LABEL_SOURCES: tuple[str, ...] = get_args(LabelSource)
 HUMAN_SOURCES = frozenset({"user", "repair"})
-INFERRED_SOURCES = frozenset({"propagated", "consensus", "class"})
+INFERRED_SOURCES = frozenset({"propagated", "class"})
 """Sources of labels that follow from those of other hulls."""
 GIVEN_SOURCES = HUMAN_SOURCES | {"file"}
 """Sources of labels that are not guessed: a person, or a file that somebody made."""

@@ -46,7 +46,9 @@ def test_a_hull_of_no_step_is_known_to_be_no_part_and_shown_without_a_label(tmp_
     assert top.annotation and (top.annotation.name, top.label) == (NO_PART, None)
     assert project.tally_labels().unlabelled == 0
     first = project.mesh(FIRST).hulls
-    assert {hull.source for hull in first} == {"step"} and {hull.source for hull in project.mesh(THIRD).hulls} == {"class"}
+    assert {hull.source for hull in first} == {"step"} and {hull.source for hull in project.mesh(THIRD).hulls} == {
+        "class"
+    }
 
 
 def test_a_class_gets_a_name_and_gives_it_back(tmp_path: Path) -> None:
