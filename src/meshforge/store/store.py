@@ -78,6 +78,13 @@ class Store:
     def orientation(self) -> language.Orient | None:
         return settings_file.orientation(self.settings, self.folder)
 
+    @property
+    def words(self) -> tuple[str, ...]:
+        """The vocabulary, and the classes of hulls that were demonstrated."""
+        files = (read_labels_file(self.layout.classes(asset)) for asset in self.demonstration_ids())
+        classes = {word for file in files for word in file.vocabulary}
+        return (*self.vocabulary, *sorted(classes - set(self.vocabulary)))
+
     def set_vocabulary(self, labels: Sequence[str]) -> None:
         """Set the labels that hulls can have. Raises ProgramError for one that no program could write, UsageError for a
         name that stands for hulls of steps."""

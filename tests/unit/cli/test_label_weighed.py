@@ -12,8 +12,8 @@ from meshforge.project import Project
 from tests.unit.batch.families import tree
 from tests.unit.cli.in_process import Run, runner
 from tests.unit.cli.test_label_sources import told
-from tests.unit.labels.test_weighed_labels import RIGHT, guessed
 from tests.unit.labels.test_label_by_propagation import family
+from tests.unit.labels.test_weighed_labels import RIGHT, guessed
 
 
 @pytest.fixture
