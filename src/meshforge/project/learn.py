@@ -10,7 +10,8 @@ from dataclasses import dataclass, replace
 from meshforge import batch, language, symbolic, synthesis
 from meshforge import labels as labelling
 from meshforge.common import MeshForgeError, ProgramError, ProjectError, file_digest, write_atomically
-from meshforge.project import classes, demonstrations
+from meshforge.labels import classes
+from meshforge.project import demonstrations
 from meshforge.project.evidence import list_accepted, list_rejections, list_wrong, soften, sort_answers
 from meshforge.store import ProgramRecord, Settings, Store
 
