@@ -45,7 +45,6 @@ def model(inside: str, before: str = "") -> str:
 
 
 def asset(folder: Path, inside: str, before: str = "") -> Asset:
-    """The asset of such a model."""
     return read(put(folder, {"main.xml": model(inside, before)}))
 
 

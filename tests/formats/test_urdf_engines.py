@@ -99,7 +99,7 @@ def test_mujoco_finds_each_hull_of_an_edited_file_in_its_place_and_the_masses_as
     for field in MASSES:
         np.testing.assert_array_equal(getattr(after, field), getattr(before, field), err_msg=field)
     assert after.ngeom == len(edit.geoms) + len(edit.non_convex)
-    assert assert_mujoco_agrees(path, read(path)) > 0
+    assert_mujoco_agrees(path)
 
 
 @pytest.mark.parametrize("asset", ["sample", FLAT[0], FLAT[4], FLAT[10], PACKAGES[0], PACKAGES[2]], indirect=True)

@@ -17,7 +17,6 @@ ODD = "<i>&.obj"
 
 @pytest.fixture
 def run(run: Run) -> Run:
-    """Runs the command line beside a folder of a filled cup, a table and a damaged file."""
     Path("mixed").mkdir()
     write_tables(Path("tables"), 1)
     Path("mixed/good.obj").write_text(Path("tables/table0/model.obj").read_text())

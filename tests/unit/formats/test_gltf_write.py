@@ -117,7 +117,6 @@ def test_other_pieces_go_to_nodes_of_their_own_below_with_materials_and_attribut
 
 
 def with_a_line(scene: SceneFile, soup: Soup) -> int:
-    """A mesh of a surface and a line."""
     line = {"attributes": {"POSITION": scene.accessor(np.array([[0, 0, 0], [9, 9, 9]], "<f4"))}, "mode": 1}
     return scene.mesh(soup, line)
 
