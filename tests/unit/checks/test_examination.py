@@ -10,7 +10,7 @@ from meshforge.checks import CheckOptions, draw_examination, examine_mesh
 from meshforge.geometry import Box
 from meshforge.language import Program
 from tests.cups import BOTTOM, WALLS, WHOLE, cup
-from tests.unit.cli.in_process import Run, runner
+from tests.unit.cli.in_process import Run
 
 ALL = CheckOptions.of(["mujoco", "fit", "clearance", "physics"])
 
@@ -30,12 +30,11 @@ def urdf(filled: bool) -> str:
 
 
 @pytest.fixture
-def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Run:
-    monkeypatch.chdir(tmp_path)
+def run(run: Run) -> Run:
     for folder, filled in (("before", False), ("after", True)):
         Path(folder).mkdir()
         Path(folder, "cup.urdf").write_text(urdf(filled))
-    return runner(monkeypatch, capsys)
+    return run
 
 
 def test_all_that_is_asked_for_comes_with_its_findings() -> None:

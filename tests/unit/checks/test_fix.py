@@ -10,7 +10,7 @@ from meshforge.checks import check, fix
 from meshforge.engines import find_engine
 from meshforge.geometry import Aabb, Box, Polytope, Pose, Shape, convex_hull, polygon_sizes
 from meshforge.symbolic import Hull, Label, SymbolicMesh
-from tests.unit.cli.in_process import Run, runner
+from tests.unit.cli.in_process import Run
 
 
 def ball(vertices: int, radius: float = 0.1) -> Polytope:
@@ -86,13 +86,12 @@ def test_a_mesh_within_the_limits_stays_the_same_object() -> None:
 
 
 @pytest.fixture
-def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Run:
-    monkeypatch.chdir(tmp_path)
+def run(run: Run) -> Run:
     hull = ball(300)
     rows = [f"v {x} {y} {z}" for x, y, z in hull.vertices.tolist()] + [f"f {a} {b} {c}" for a, b, c in hull.faces + 1]
     Path("in").mkdir()
     Path("in/ball.obj").write_text("\n".join(["o ball", *rows, ""]))
-    return runner(monkeypatch, capsys)
+    return run
 
 
 @pytest.mark.slow

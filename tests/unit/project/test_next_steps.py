@@ -10,7 +10,7 @@ import pytest
 
 from meshforge.project import Project, Status
 from tests.unit.batch.families import label_of, table_boxes, write_table
-from tests.unit.cli.in_process import Run, runner
+from tests.unit.cli.in_process import Run
 from tests.unit.project.shelves import ambiguous
 from tests.unit.project.tables import FIRST, SECOND, THIRD, applied, demonstrated, fresh, labelled, learned
 
@@ -25,12 +25,6 @@ ANGLE = "\n".join(
     ]
 )
 """A closed piece that is not convex."""
-
-
-@pytest.fixture
-def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Run:
-    monkeypatch.chdir(tmp_path)
-    return runner(monkeypatch, capsys)
 
 
 def of(project: Project) -> Status:
