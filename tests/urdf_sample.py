@@ -9,6 +9,8 @@ from meshforge.formats.base import Output, ReadOptions
 from meshforge.formats.urdf.format import UrdfFormat
 from meshforge.geometry import Aabb, Box, Shape
 from meshforge.symbolic import Asset, Geom
+from tests.mesh_files import obj
+from tests.soups import angle
 
 Corner = tuple[float, float, float]
 
@@ -80,14 +82,7 @@ def boxes_obj(*corners: tuple[Corner, Corner]) -> str:
 
 def corner_obj() -> str:
     """An OBJ of one L-shaped prism: connected, closed, not convex."""
-    outline = [(1, 1), (1, 3), (0, 3), (0, 0), (3, 0), (3, 1)]
-    lines = [f"v {x} {y} {z}" for z in (0, 1) for x, y in outline]
-    for k in range(1, 5):  # the caps as fans about the inner corner
-        lines += [f"f 1 {k + 2} {k + 1}", f"f 7 {k + 7} {k + 8}"]
-    for k in range(6):
-        n = (k + 1) % 6
-        lines += [f"f {k + 1} {n + 1} {n + 7}", f"f {k + 1} {n + 7} {k + 7}"]
-    return "\n".join(lines) + "\n"
+    return obj(angle()).decode()
 
 
 THREE = boxes_obj(((0, 0, 0), (1, 1, 1)), ((3, 0, 0), (4, 1, 2)), ((0, 3, 0), (1, 4, 1.5)))
