@@ -14,7 +14,7 @@ from meshforge.formats import list_formats, load, save
 from meshforge.geometry import Aabb, Box, convex_hull
 from meshforge.language import Program
 from meshforge.symbolic import Hull, Label, SymbolicMesh, write_labels
-from tests.unit.cli.in_process import Run, runner
+from tests.unit.cli.in_process import Run
 
 SUFFIXES = {"mjcf": ".xml", "urdf": ".urdf", "sdf": ".sdf", "usd": ".usda"}
 ENGINES_OF = {known.name: known.engines for known in list_formats() if known.name in SUFFIXES}
@@ -69,11 +69,7 @@ def test_each_hull_that_an_engine_of_the_format_refuses_or_lacks_is_in_a_note(
                 assert finding.remedy.split(" that ")[0] in about[0]
 
 
-def test_a_conversion_notes_what_the_engine_of_its_format_refuses(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    run: Run = runner(monkeypatch, capsys)
+def test_a_conversion_notes_what_the_engine_of_its_format_refuses(run: Run) -> None:
     save(ball(300), "ball.obj")
     said = "PhysX on the CPU: ball (300): more than 255 vertices; PhysX makes a coarser hull of it. Reduce it"
     assert f"note: {said}" in run("convert", "ball.obj", "ball.usda").err
