@@ -103,9 +103,3 @@ def _cloud(kind: str, count: int, rng: np.random.Generator) -> Floats:
             return np.repeat(scattered, 4, axis=0) + rng.normal(size=(4 * count, 3)) * 1e-11
         case _:
             return scattered
-
-
-def separation(a: Shape, b: Shape, direction: Floats) -> float:
-    """How far apart two shapes are along a direction; a lower bound of their distance."""
-    unit = direction / np.linalg.norm(direction)
-    return float(unit @ (b.support(-unit) - a.support(unit)))

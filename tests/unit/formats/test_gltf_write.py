@@ -13,8 +13,6 @@ from tests.gltf_files import SceneFile, Tree, chunk, glb_of, tree_of
 from tests.gltf_validation import errors
 from tests.soups import Soup, angle, box, together
 
-HALF = float(np.sqrt(0.5))
-
 
 def table() -> SceneFile:
     """A top and legs in one mesh each, a material, and things that no edit touches."""

@@ -18,7 +18,6 @@ from tests.synthesis_boxes import table
 LABELS = ("panel", "leg", "drawer", "handle", "misc")
 EXACT = Options(repair=False)
 CONTACT = Options(repair=False, layers="S+T", max_size=3)
-TABLES = (table(), table(drawers=3, litter=2), table(legs=5, knob=0.9))
 
 
 def masked(mesh: SymbolicMesh, *names: str) -> int:
