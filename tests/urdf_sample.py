@@ -10,7 +10,7 @@ from meshforge.formats.urdf.format import UrdfFormat
 from meshforge.geometry import Aabb, Box, Shape
 from meshforge.symbolic import Asset, Geom
 from tests.mesh_files import obj
-from tests.soups import angle
+from tests.soups import angle, merge_solids
 
 Corner = tuple[float, float, float]
 
@@ -71,13 +71,7 @@ HULLS = ["base/geom0", "base/posts#0", "base/posts#1", "base/posts#2", "base/geo
 
 def boxes_obj(*corners: tuple[Corner, Corner]) -> str:
     """An OBJ of boxes from corner to corner, without groups."""
-    lines, start = [], 1
-    for low, high in corners:
-        surface = Box.of_bounds(Aabb(low, high)).tessellate()
-        lines += [f"v {x!r} {y!r} {z!r}" for x, y, z in surface.vertices.tolist()]
-        lines += ["f " + " ".join(str(k + start) for k in face) for face in surface.faces.tolist()]
-        start += len(surface.vertices)
-    return "\n".join(lines) + "\n"
+    return obj(merge_solids(Box.of_bounds(Aabb(low, high)).tessellate() for low, high in corners)).decode()
 
 
 def corner_obj() -> str:
