@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from pathlib import Path
 
 from meshforge.formats.base import Output, ReadOptions
 from meshforge.formats.urdf.format import UrdfFormat
-from meshforge.geometry import Aabb, Box, Shape
+from meshforge.geometry import Aabb, Box, Floats, Pose, Shape, Sphere
 from meshforge.symbolic import Asset, Geom
 from tests.mesh_files import obj
 from tests.soups import angle, merge_solids
@@ -130,6 +131,21 @@ def made(asset: Asset, parent: str, shape: Shape, number: int = 1) -> Geom:
     """A made hull that inherits from a hull of the asset."""
     body = next(g.body for g in asset.geoms if g.name == parent)
     return Geom(f"{parent}~{number}", body, shape, parent)
+
+
+def exchange_hulls(asset: Asset, *kinds: Callable[[Pose, Floats], Shape]) -> Asset:
+    """The asset without its first hull and every third after it; turned shapes of the kinds in place of the first."""
+    gone = asset.geoms[::3]
+    kept = without(asset, *(geom.name for geom in gone))
+    turned, new = Pose.from_rpy([0, 0, 0], [0.3, -0.5, 1.1]).rotation, []
+    for k, geom in enumerate(gone[: 2 * len(kinds)]):
+        shape = kinds[k % len(kinds)](Pose(turned, geom.shape.aabb.center), geom.shape.aabb.size / 2)
+        new.append(made(asset, geom.name, shape))
+    return kept.with_geoms([*kept.geoms, *new])
+
+
+def ball_within(pose: Pose, half: Floats) -> Sphere:
+    return Sphere(pose, float(half.min()))
 
 
 def robot(*inside: str) -> str:

@@ -13,9 +13,8 @@ import pytest
 from meshforge.formats import read, save
 from meshforge.formats.visuals import VisualSurfaces
 from meshforge.symbolic import Asset, Joint
-from tests.conversion_samples import SAMPLES, block, doors, foreign, inertial
+from tests.conversion_samples import block, doors, foreign, inertial
 from tests.corpus_path import corpus
-from tests.mjcf_engines import assert_as_in_mujoco
 from tests.urdf_engines import assert_mujoco_agrees, bullet, yourdf
 
 HINGE, SLIDE, FREE = 3, 2, 0  # mjtJoint
@@ -68,18 +67,6 @@ def unfused(path: Path) -> Path:
     copy = path.with_name(f"unfused-{path.name}")
     copy.write_bytes(path.read_bytes().replace(b"</robot>", head))
     return copy
-
-
-@pytest.mark.parametrize("sample", SAMPLES)
-def test_mujoco_has_the_geoms_of_a_made_mjcf_where_the_hulls_are(sample: str, tmp_path: Path) -> None:
-    path = save(SAMPLES[sample](), tmp_path / "m.xml").path
-    after = read(path)
-    assert_as_in_mujoco(after, path)
-    model, _ = at_rest(path)
-    colliding = (model.geom_contype != 0) | (model.geom_conaffinity != 0)
-    planes = sum(piece.plane is not None for piece in after.non_convex)
-    surfaces = sum(piece.surface is not None for piece in SAMPLES[sample]().non_convex)
-    assert int(colliding.sum()) == len(SAMPLES[sample]().geoms) + planes + surfaces
 
 
 def test_a_made_mjcf_has_the_joints_and_masses_of_the_urdf_as_mujoco_reads_it(tmp_path: Path) -> None:

@@ -11,15 +11,14 @@ import numpy as np
 import pytest
 
 from meshforge.formats import read, save
-from meshforge.geometry import Box, Pose, Sphere
+from meshforge.geometry import Box
 from meshforge.symbolic import PRIMITIVE_FEATURES, Asset
 from tests.asset_bounds import bounds_of
-from tests.conversion_samples import crowd, doors, primitives
 from tests.corpus_case import ROOT
 from tests.corpus_path import corpus
 from tests.loads.comparing import differences, shapes_of
 from tests.loads.readers import READERS
-from tests.urdf_sample import made, without
+from tests.urdf_sample import ball_within, exchange_hulls
 
 CORPUS = [
     "tables_desks/osrf-gazebo_models/table/model.sdf",
@@ -35,18 +34,6 @@ CORPUS = [
 FRAMES = ["nested", "placement_frame", "pose_quaternion", "pose_in_degrees", "pose_empty"]
 BULLET = [name for name in CORPUS if not name.startswith(("scenes_robots", "doors_cabinets/drake"))]
 """Those that PyBullet reads: it wants every inertia, and takes no joint with a pose of its own."""
-
-
-def edited(asset: Asset) -> Asset:
-    """Without the first hull and every third after it; a box and a ball in place of these."""
-    gone = asset.geoms[::3]
-    kept = without(asset, *(geom.name for geom in gone))
-    turn = Pose.from_rpy([0, 0, 0], [0.3, -0.5, 1.1]).rotation
-    new = []
-    for k, geom in enumerate(gone[:4]):
-        pose, half = Pose(turn, geom.shape.aabb.center), geom.shape.aabb.size / 2
-        new.append(made(asset, geom.name, Sphere(pose, float(half.min())) if k % 2 else Box(pose, half)))
-    return kept.with_geoms([*kept.geoms, *new])
 
 
 def bullet(path: Path) -> dict[str, Any]:
@@ -80,7 +67,7 @@ def assert_drake_agrees(asset: Asset, path: Path) -> int:
 @pytest.mark.parametrize("name", BULLET)
 def test_pybullet_has_as_many_shapes_within_the_same_bounds(name: str, tmp_path: Path) -> None:
     asset = read(corpus(*name.split("/")))
-    saved = save(edited(asset), tmp_path / "model.sdf")
+    saved = save(exchange_hulls(asset, Box, ball_within), tmp_path / "model.sdf")
     before, after = bullet(asset.path), bullet(saved.path)
     for one, seen in ((asset, before), (read(saved.path), after)):
         assert seen["shapes"] == len(one.geoms)
@@ -92,7 +79,7 @@ def test_pybullet_has_as_many_shapes_within_the_same_bounds(name: str, tmp_path:
 @pytest.mark.parametrize("name", CORPUS)
 def test_drake_has_each_shape_in_its_place_before_an_edit_and_after(name: str, tmp_path: Path) -> None:
     asset = read(corpus(*name.split("/")))
-    edit = edited(asset)
+    edit = exchange_hulls(asset, Box, ball_within)
     saved = save(edit, tmp_path / asset.path.parent.name / "model.sdf")
     for one, path in ((asset, asset.path), (edit, saved.path)):
         assert assert_drake_agrees(one, path) == len(one.geoms)
@@ -137,9 +124,3 @@ def test_drake_has_included_models_in_their_places(tmp_path: Path) -> None:
     path = tmp_path / "top.sdf"
     path.write_text(f'<sdf version="1.9"><model name="m">{"".join(inside)}</model></sdf>')
     assert assert_drake_agrees(read(path), path) == 6
-
-
-@pytest.mark.parametrize("sample", [doors, crowd, primitives], ids=lambda make: make.__name__)
-def test_drake_reads_made_files(sample: type, tmp_path: Path) -> None:
-    asset: Asset = sample()
-    assert assert_drake_agrees(asset, save(asset, tmp_path / "model.sdf").path) == len(asset.geoms)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from pathlib import Path
 
 FACES = ((1, 4, 3, 2), (5, 6, 7, 8), (1, 2, 6, 5), (2, 3, 7, 6), (3, 4, 8, 7), (4, 1, 5, 8))
@@ -17,7 +18,7 @@ Is(leg) => Each(Merge)
 """
 
 
-def obj(boxes: dict[str, tuple[Corner, Corner]]) -> str:
+def obj(boxes: Mapping[str, tuple[Corner, Corner]]) -> str:
     """An OBJ text of named boxes, each given by its lowest and highest corner."""
     lines = []
     for k, (name, ((x0, y0, z0), (x1, y1, z1))) in enumerate(boxes.items()):
