@@ -6,10 +6,12 @@ import os
 import signal
 import tempfile
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
 
-from tests.unit.cli.in_process import Run, runner
+if TYPE_CHECKING:
+    from tests.unit.cli.in_process import Run
 
 pytest_plugins = ["tests.slow_tests"]
 
@@ -30,5 +32,7 @@ os.environ["MESHFORGE_PROGRESS_AFTER"] = "1e6"
 @pytest.fixture
 def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Run:
     """Runs a command here, in the test's own folder; who needs something there has a fixture of this name, too."""
+    from tests.unit.cli.in_process import runner  # which loads modules that read the settings above
+
     monkeypatch.chdir(tmp_path)
     return runner(monkeypatch, capsys)
