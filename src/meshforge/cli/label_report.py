@@ -31,6 +31,7 @@ _SOURCE_WORDS = {
     "file": "files",
     "name": "names",
     "propagated": "propagation",
+    "like": "another family",
     "consensus": "consensus",
     "rebuild": "rebuilt bodies",
     "vlm": "a model",

@@ -6,6 +6,8 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
+import numpy as np
+
 from meshforge import label_model, symbolic
 from meshforge.batch import ExecutionOptions, WorkerFailure, raise_if_stopped, run_isolated
 from meshforge.common import AssetError, MeshForgeError, ProjectError
@@ -21,12 +23,22 @@ HullLabels = Mapping[str, Label]
 """Labels by hull."""
 
 
+@dataclass(frozen=True, eq=False, slots=True)
+class DescribedAsset:
+    """An asset of another family: `rows` and `touching` of its `ShapeDescriptor`, and the label of each hull."""
+
+    rows: Floats
+    touching: Ints
+    labels: tuple[Label | None, ...]
+
+
 @dataclass(frozen=True, eq=False)
 class FamilyComparison:
     """What labels say about the hulls of all assets.
 
     hulls: digests by name, in order, of each asset that could be read; current: their labels; lost: why others are not
-    compared; assets: those that were described, in order; said: what speaks of each of their hulls.
+    compared; assets: those that were described, in order; observed: what speaks of each of their hulls, then of those
+    of other families.
     """
 
     hulls: Mapping[str, Mapping[str, str]]
@@ -39,7 +51,8 @@ class FamilyComparison:
     @cached_property
     def next(self) -> str | None:
         """The asset that would help most if it were labelled; None: all are."""
-        return next((self.assets[place] for place in self.found.next_to_label()), None)
+        own = range(len(self.assets))
+        return next((self.assets[place] for place in self.found.next_to_label() if place in own), None)
 
     def share_out(self, labels: Sequence[Label | None]) -> Iterator[tuple[str, dict[str, Label]]]:
         """Yield each asset that is not lost, with its share of labels of all hulls."""
@@ -50,10 +63,13 @@ class FamilyComparison:
                 yield asset, {name: infer_over(current.get(name), label) for name, label in rows if label}
 
 
-def compare_assets(family: LabelFamily, speak: Callable[[Label | None], Label | None]) -> FamilyComparison:
+def compare_assets(
+    family: LabelFamily, speak: Callable[[Label | None], Label | None], beside: Sequence[DescribedAsset] = ()
+) -> FamilyComparison:
     """Compare the hulls of all assets that can be read.
 
-    speak: what the label of a hull, or none, says to others; words outside of the vocabulary say nothing.
+    speak: what the label of a hull, or none, says to others; words outside of the vocabulary say nothing. beside:
+    assets of other families, all whose labels speak.
     Raises ProjectError: no vocabulary, or nothing is said at all.
     """
     store, vocabulary = family.store, family.vocabulary
@@ -74,10 +90,12 @@ def compare_assets(family: LabelFamily, speak: Callable[[Label | None], Label | 
     describer = _Describer(family, {asset: facts[asset] for asset in current}, lost)
     del facts
     described = describer.describe(list(current))
-    assets, table = tuple(described), label_model.FamilyTable.of([*described.values()])
+    others = ((one.rows, one.touching) for one in beside)
+    assets, table = tuple(described), label_model.FamilyTable.of([*described.values(), *others])
     del described
     spoken = (speak(current[asset].get(name)) for asset in assets for name in hulls[asset])
     observed = tuple(label if label and label.name in vocabulary else None for label in spoken)
+    observed += tuple(label for one in beside for label in one.labels)
     seen = label_model.Observations.of(observed)
     table = describer.set_upright(assets, table, seen)
     compared = FamilyComparison(
@@ -117,9 +135,9 @@ class _Describer:
     def set_upright(
         self, assets: Sequence[str], table: label_model.FamilyTable, observed: label_model.Observations
     ) -> label_model.FamilyTable:
-        doubtful = dict[str, tuple[int, tuple[int, ...]]]()
+        doubtful, own = dict[str, tuple[int, tuple[int, ...]]](), len(assets)
         for place, sides in label_model.find_doubtful_sides(
-            table, observed, lambda k: self._cache.read_sides(assets[k])
+            table, observed, lambda k: self._cache.read_sides(assets[k]) if k < own else np.zeros((0, 1, 1))
         ):
             raise_if_stopped(self._stop)
             if sides:

@@ -14,6 +14,7 @@ from meshforge.labels.from_files.label_by_files import (
     label_file_beside,
     read_label_file,
 )
+from meshforge.labels.label_by_like import LikeLabeler
 from meshforge.labels.labeler import Labeler
 from meshforge.labels.merge import LabelOutcome, can_fill_gap, can_replace_less_certain, merge_labels
 from meshforge.labels.names.label_by_names import NameLabeler, match_names, name_patterns, names_of_mesh, to_label
@@ -41,6 +42,8 @@ class LabelSourcesFile(JsonFile):
 
 def keep_label_source(store: Store, outcomes: Iterable[LabelOutcome], labeler: Labeler) -> None:
     """Keep by what hulls were labelled, if new assets can be labelled by that; patterns add to those before."""
+    if isinstance(labeler, LikeLabeler):
+        labeler.keep(store)
     line = _line_of(store, labeler)
     if line is None or not any(one.taken or one.same or one.kept for one in outcomes):
         return

@@ -197,8 +197,8 @@ class LabelWriter:
 
 
 def can_fill_gap(current: Label | None, given: Label | None) -> bool:
-    """Return only hulls without a label get one."""
-    return current is None
+    """Return only hulls without a label get one, or with one that was taken from another family."""
+    return current is None or current.source == "like"
 
 
 def can_replace_less_certain(current: Label | None, given: Label) -> bool:
@@ -208,6 +208,8 @@ def can_replace_less_certain(current: Label | None, given: Label) -> bool:
     """
     if current is None or current.source == given.source:
         return True
+    if current.source == "like" and given.source in symbolic.INFERRED_SOURCES:
+        return True  # what follows from labels here says more than another family
     return current.source not in symbolic.GIVEN_SOURCES | {"rebuild"} and current.confidence < given.confidence
 
 

@@ -8,7 +8,9 @@ from typing import Any, Literal, get_args
 from meshforge.common import import_extra
 from meshforge.geometry import Aabb, Floats, Ints, Pose, Shape
 
-LabelSource = Literal["vlm", "propagated", "consensus", "rebuild", "name", "file", "user", "repair", "edit", "plugin"]
+LabelSource = Literal[
+    "vlm", "like", "propagated", "consensus", "rebuild", "name", "file", "user", "repair", "edit", "plugin"
+]
 LABEL_SOURCES: tuple[str, ...] = get_args(LabelSource)
 HUMAN_SOURCES = frozenset({"user", "repair"})
 INFERRED_SOURCES = frozenset({"propagated", "consensus"})

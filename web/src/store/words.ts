@@ -36,6 +36,7 @@ const SOURCES: Readonly<Record<string, string>> = {
   user: "by you",
   repair: "by you",
   propagated: "propagated",
+  like: "like another family",
   consensus: "by consensus",
   split: "from a split",
   vlm: "by a model",
