@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import typer
 from pydantic import ValidationError
@@ -87,22 +85,11 @@ class LabelArguments:
     vocabulary: Annotated[str, typer.Option("--vocabulary", help="Set the labels that hulls can have: a,b,c.")] = ""
     like: Annotated[
         str | None,
-        typer.Option(
-            "--like",
-            metavar="PROJECT|sample:NAME",
-            help="Take labels from the labelled assets of another project, or of a family that ships: sample:cups. The "
-            "project keeps what it needs of these; --with like takes them again.",
-            show_default=False,
-        ),
+        typer.Option("--like", metavar="PROJECT|sample:NAME", help="Take labels of another project or bundled family."),
     ] = None
     words: Annotated[
         list[str] | None,
-        typer.Option(
-            "--map",
-            metavar="THERE=HERE",
-            help="The label here for a label of --like, with none for none: front=door. May be given several times.",
-            show_default=False,
-        ),
+        typer.Option("--map", metavar="THERE=HERE", help="The label here for one of --like: front=door; repeatable."),
     ] = None
     model: Annotated[str | None, typer.Option("--model", help="The model that --with vlm asks.")] = None
     base_url: Annotated[str | None, typer.Option("--base-url", help="Where it is, for example .../v1.")] = None
@@ -212,9 +199,7 @@ def label(given: LabelArguments) -> None:
     if given.dry_run and isinstance(labeler, VlmLabeler):
         print_forecast(project, labeler, words, execution, json=given.json)
     elif given.dry_run:
-        with _print_mismatch(json=given.json):
-            found = project.label(labeler, vocabulary=words, dry_run=True, execution=execution, stage=progress)
-        _print_notes(found)
+        found = _run(project, labeler, json=given.json, vocabulary=words, dry_run=True, execution=execution)
         print_proposals(found.proposals, json=given.json)
     else:
         if words is not None:
@@ -230,9 +215,7 @@ def label(given: LabelArguments) -> None:
 def _label(project: Project, labeler: Labeler, execution: ExecutionOptions, printer: LabelPrinter) -> None:
     if len(project.assets()) > 1:
         remark(project.plan_labels())
-    with _print_mismatch(json=printer.json):
-        result = project.label(labeler, execution=execution, stage=progress, report=printer.print)
-    _print_notes(result)
+    result = _run(project, labeler, json=printer.json, execution=execution, report=printer.print)
     printer.summarize()
     if not printer.json:
         print_changes(project, labeler, result)
@@ -241,18 +224,15 @@ def _label(project: Project, labeler: Labeler, execution: ExecutionOptions, prin
         print_json({"changes": [asdict(change) for change in result.changes]} | more, compact=True)
 
 
-def _print_notes(result: LabelResult) -> None:
-    for note in result.notes:
-        remark(escape_name(note))
-
-
-@contextmanager
-def _print_mismatch(*, json: bool) -> Iterator[None]:
-    """Print which families are nearest as JSON, too, where the family that was named is of another kind."""
+def _run(project: Project, labeler: Labeler, *, json: bool, **options: Any) -> LabelResult:
+    """Label a project, and print what is to be known of it; of another kind than it should be, which are nearest."""
     try:
-        yield
+        result = project.label(labeler, stage=progress, **options)
     except LikeMismatchError as error:
         if json:
-            nearest = [{"family": name, "like": share} for name, share in error.kinds]
-            print_json({"refused": error.problem, "nearest": nearest, "pictures": error.pictures}, compact=True)
+            nearest = [{"family": name, "share": share} for name, share in error.kinds]
+            print_json({"refused": error.problem, "nearest": nearest, "remedy": error.remedy}, compact=True)
         raise
+    for note in result.notes:
+        remark(escape_name(note))
+    return result

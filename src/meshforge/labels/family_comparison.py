@@ -21,15 +21,8 @@ from meshforge.symbolic import Label
 
 HullLabels = Mapping[str, Label]
 """Labels by hull."""
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class DescribedAsset:
-    """An asset of another family: `rows` and `touching` of its `ShapeDescriptor`, and the label of each hull."""
-
-    rows: Floats
-    touching: Ints
-    labels: tuple[Label | None, ...]
+DescribedAsset = tuple[Floats, Ints, Sequence[Label | None]]
+"""An asset of another family: `rows` and `touching` of its `ShapeDescriptor`, and the label of each hull."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,12 +83,12 @@ def compare_assets(
     describer = _Describer(family, {asset: facts[asset] for asset in current}, lost)
     del facts
     described = describer.describe(list(current))
-    others = ((one.rows, one.touching) for one in beside)
-    assets, table = tuple(described), label_model.FamilyTable.of([*described.values(), *others])
-    del described
+    every = [*described.values(), *((rows, touching) for rows, touching, _ in beside)]
+    assets, table = tuple(described), label_model.FamilyTable.of(every)
+    del described, every
     spoken = (speak(current[asset].get(name)) for asset in assets for name in hulls[asset])
     observed = tuple(label if label and label.name in vocabulary else None for label in spoken)
-    observed += tuple(label for one in beside for label in one.labels)
+    observed += tuple(label for _, _, labels in beside for label in labels)
     seen = label_model.Observations.of(observed)
     table = describer.set_upright(assets, table, seen)
     compared = FamilyComparison(

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from meshforge.common import relative_name
+from meshforge.common import relative_name, write_atomically
 from meshforge.labels.from_files.label_by_files import (
     FileLabeler,
     LabelFileOptions,
@@ -42,8 +42,9 @@ class LabelSourcesFile(JsonFile):
 
 def keep_label_source(store: Store, outcomes: Iterable[LabelOutcome], labeler: Labeler) -> None:
     """Keep by what hulls were labelled, if new assets can be labelled by that; patterns add to those before."""
-    if isinstance(labeler, LikeLabeler):
-        labeler.keep(store)
+    if isinstance(labeler, LikeLabeler) and labeler.fresh:
+        with store.lock():
+            write_atomically(store.layout.like(labeler.fresh[0]), labeler.fresh[1].format())
     line = _line_of(store, labeler)
     if line is None or not any(one.taken or one.same or one.kept for one in outcomes):
         return

@@ -78,7 +78,8 @@ def _rewrite_files(store: Store, old: str, new: str) -> Iterator[tuple[Path, str
         yield layout.label_sources, after
     for name, reference in read_like_references(store).items():
         if old in reference.words.values():
-            yield layout.like(name), reference.rename(old, new).format()
+            names = {there: new if here == old else here for there, here in reference.words.items()}
+            yield layout.like(name), reference.model_copy(update={"words": names}).format()
     events = files.load_events(layout)
     now = [_rename_in_event(event, layout.events, old, new) for event in events]
     if now != list(events):
