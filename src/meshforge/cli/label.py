@@ -230,7 +230,7 @@ def _run(project: Project, labeler: Labeler, *, json: bool, **options: Any) -> L
         result = project.label(labeler, stage=progress, **options)
     except LikeMismatchError as error:
         if json:
-            nearest = [{"family": name, "share": share} for name, share in error.kinds]
+            nearest = [{"family": name, "distance": distance} for name, distance in error.kinds]
             print_json({"refused": error.problem, "nearest": nearest, "remedy": error.remedy}, compact=True)
         raise
     for note in result.notes:

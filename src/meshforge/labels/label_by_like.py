@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-from meshforge.common import UsageError, join_and, join_names, pluralize, quote_path
+from meshforge.common import UsageError, join_and, join_names, quote_path
 from meshforge.geometry import Floats, Ints
 from meshforge.label_model import reference_label
 from meshforge.label_model.similar import OTHER_STEPS, OWN_STEPS
@@ -45,8 +45,8 @@ _DIGITS = 3
 
 
 class LikeMismatchError(UsageError):
-    """Most hulls are like nothing in the family that was named. kinds: families that ship, the nearest first, and what
-    share of the hulls is like something there."""
+    """A family of another kind was named. kinds: families that ship, the nearest first, and how far half of the hulls
+    are from theirs."""
 
     kinds: tuple[tuple[str, float], ...] = ()
 
@@ -121,34 +121,32 @@ class _LikeComparison:
         }
 
     def check_kind(self, name: str) -> None:
-        """Raise LikeMismatchError where most hulls are like nothing in the family of a name."""
+        """Raise LikeMismatchError where most hulls are farther from the family of a name than it spreads itself."""
         (apart, bound), store = self._apart[name], self.family.store
-        far = int((apart > bound).sum())
-        if 2 * far <= len(apart):
+        if not len(apart) or np.median(apart) * _WIDER <= bound:
             return
         kinds = self._rank_kinds()
         pictures = (
             f"meshforge render {shlex.quote(self.compared.assets[0])} --project {quote_path(store.folder)} -o own.png",
             f"meshforge render {quote_path(find_sample(kinds[0][0])[1][0].path)} -o {kinds[0][0]}.png",
         )
-        near = join_and([f"{kind} ({share:.0%} of the hulls are like one there)" for kind, share in kinds[:3]])
         error = LikeMismatchError(
-            f"{far:,} of {pluralize(len(apart), 'hull')} are like nothing in {name}: it is of another kind",
+            f"most hulls are farther from those of {name} than these are from each other: it is of another kind",
             where=str(store.folder),
-            remedy=f"The nearest families that ship: {near}. Compare: {' && '.join(pictures)}",
+            remedy=f"Of the families that ship, the nearest are {join_and([kind for kind, _ in kinds[:3]])}, in this "
+            f"order. Compare: {' && '.join(pictures)}",
         )
         error.kinds = kinds
         raise error
 
     def _rank_kinds(self) -> tuple[tuple[str, float], ...]:
         table, found = self.compared.found.table, dict[str, float]()
+        own = table.rows[: self._own : self._own // _TRIED + 1]
         for kind in (one.name for one in FAMILIES):
             assets, _ = describe_files(find_sample(kind)[1], self.family)
             rows = table.scale(np.array([row for asset in assets for row in asset.rows])) * table.metric
-            owner = np.repeat(np.arange(len(assets)), [len(asset.rows) for asset in assets])
-            _, apart = _find_nearest(table.rows[: self._own : self._own // _TRIED + 1], rows, table.metric)
-            found[kind] = float((apart <= _measure_bound(rows, owner)).mean())
-        return tuple(sorted(found.items(), key=lambda item: -item[1]))
+            found[kind] = round(float(np.median(_find_nearest(own, rows, table.metric)[1])), 2)
+        return tuple(sorted(found.items(), key=lambda item: item[1]))
 
     def label_assets(self) -> Generator[AssetLabels, None, None]:
         """Yield the labels of each asset of the project."""

@@ -64,11 +64,10 @@ class LikeReference(JsonFile):
     def describe_assets(self, name: str, vocabulary: Sequence[str]) -> list[DescribedAsset]:
         """Return its assets with the labels that they have here; one that has none here is `LABEL of NAME`."""
         here = {word: own if own in vocabulary else f"{word} of {name}" for word, own in self.words.items()}
-        labels = (
-            [Label(here[word], 1.0, "file") if word in here else None for word in one.labels] for one in self.assets
-        )
+        known = {word: Label(label, 1.0, "file") for word, label in here.items()}
         touching = (np.array(one.touching, dtype=np.int64).reshape(-1, 2) for one in self.assets)
-        return [*zip((np.array(one.rows) for one in self.assets), touching, labels, strict=True)]
+        rows = zip(self.assets, touching, strict=True)
+        return [(np.array(one.rows), pairs, [known.get(word or "") for word in one.labels]) for one, pairs in rows]
 
 
 def _digest_assets(assets: Iterable[LikeAsset]) -> str:
@@ -115,9 +114,8 @@ def read_family(source: str, family: LabelFamily, given: Mapping[str, str]) -> t
 def _find_project(source: str, store: Store) -> tuple[tuple[str, ...], Sequence[AssetFiles]]:
     folder = Path(source).absolute()
     if not (folder / batch.SETTINGS).is_file():
-        remedy = suggest_among(
-            source, [f"{SAMPLE}{one.name}" for one in FAMILIES], "Name a project's folder, or one of"
-        )
+        names = [f"{SAMPLE}{one.name}" for one in FAMILIES]
+        remedy = suggest_among(source, names, "Name a project's folder, or one of")
         raise UsageError("this is no project whose labels could be taken", where=str(folder), remedy=remedy)
     if folder.resolve() == store.folder.resolve():
         remedy = "--with propagate takes labels from the project's own assets."
@@ -156,6 +154,8 @@ def _describe_asset(files: AssetFiles) -> LikeAsset | str:
         mesh = files.read_mesh()
         found = MeshDescriber(mesh).describe()
         labels = tuple(hull.label if _can_teach(hull.annotation) else None for hull in mesh.hulls)
+        if not any(labels):
+            return f"{files.path}: no hull has a label that others could be taken from"
         return LikeAsset(rows=np.round(found.rows, _DIGITS).tolist(), touching=found.touching.tolist(), labels=labels)
     except Exception as error:  # one asset never stops the others
         return describe_error(error, str(files.path))

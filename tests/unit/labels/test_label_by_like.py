@@ -1,0 +1,254 @@
+"""Labels of another project, or of a family that ships."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from meshforge.common import MeshForgeError, ProjectError, UsageError
+from meshforge.labels import LikeLabeler, LikeMismatchError, make_labeler
+from meshforge.labels.like_reference import read_like_references
+from meshforge.labels.summary import SURE
+from meshforge.project import Project, learn
+from meshforge.samples import TABLES
+from meshforge.symbolic import Label
+from tests.unit.batch.families import label_of, obj, table_boxes, write_table
+from tests.unit.cli.in_process import runner
+
+NAMES = tuple(table_boxes())
+TRUE = {name: label_of(name) for name in NAMES}
+
+
+def family(
+    folder: Path, count: int = 3, *, low: float = 0.8, labelled: int = 0, vocabulary: tuple[str, ...] = ()
+) -> Project:
+    """Tables of different heights, of which a person labelled some."""
+    for k in range(count):
+        write_table(folder / f"assets/t{k}.obj", height=low + 0.3 * k, labels=False)
+    project = Project.create(
+        folder / "p", [folder / "assets"], vocabulary=vocabulary or (("top", "leg", "misc") if labelled else ())
+    )
+    for k in range(labelled):
+        project.set_labels(f"t{k}.obj", TRUE)
+    return project
+
+
+@pytest.fixture
+def other(tmp_path: Path) -> Project:
+    """Another project, of labelled tables."""
+    return family(tmp_path / "other", 4, labelled=4)
+
+
+def labels_of(project: Project) -> dict[str, str]:
+    return {f"{a} {hull}": label.name for a in project.assets() for hull, label in project.labels(a).labels.items()}
+
+
+def test_hulls_get_the_labels_of_another_project_and_none_is_sure(tmp_path: Path, other: Project) -> None:
+    project = family(tmp_path / "own", low=0.95)
+    before = learn.digest_learning_inputs(project)
+    dry = project.label(LikeLabeler(other.folder), dry_run=True)
+    assert {row.label for row in dry.proposals.rows} == {*TRUE.values()}
+    assert not project.vocabulary and not project.layout.like("p").exists()
+    project.label(LikeLabeler(other.folder))
+    assert project.vocabulary == ("top", "leg", "misc")
+    for asset in project.assets():
+        labels = project.labels(asset).labels
+        assert {name: label.name for name, label in labels.items()} == TRUE
+        assert {label.source for label in labels.values()} == {"like"}
+        assert max(label.confidence for label in labels.values()) < SURE
+    assert "vertices" not in project.layout.like("p").read_text()
+    assert project.layout.like.ids == ("p",) and project.layout.labels.ids == project.assets()
+    project.layout.like("p").unlink()
+    unlabelled = learn.digest_learning_inputs(project)
+    assert before != unlabelled  # labels count
+    project.label(LikeLabeler(other.folder))
+    assert learn.digest_learning_inputs(project) == unlabelled  # what is kept does not
+
+
+def test_what_is_kept_labels_again_without_the_other_project(tmp_path: Path, other: Project) -> None:
+    project = family(tmp_path / "own", low=0.95)
+    project.label(LikeLabeler(other.folder))
+    kept = project.layout.like("p").read_text()
+    shutil.rmtree(other.folder.parent)
+    project.set_labels("t0.obj", dict.fromkeys(NAMES))
+    project.label("like")
+    assert len(labels_of(project)) == 3 * len(NAMES)
+    assert project.layout.like("p").read_text() == kept
+    with pytest.raises(UsageError, match="this is no project whose labels"):
+        project.label(LikeLabeler(other.folder))
+
+
+def test_the_same_again_takes_what_changed_there(tmp_path: Path, other: Project) -> None:
+    project = family(tmp_path / "own", low=0.95)
+    project.label(LikeLabeler(other.folder))
+    for asset in other.assets():
+        other.set_labels(asset, {"top": "misc", "crumb": None})
+    project.label(LikeLabeler(other.folder))
+    assert {label for name, label in labels_of(project).items() if name.endswith("top")} == {"misc"}
+
+
+def test_what_is_said_here_counts_more(tmp_path: Path, other: Project) -> None:
+    project = family(tmp_path / "own", low=0.95)
+    project.label(LikeLabeler(other.folder))
+    project.set_labels("t0.obj", {**TRUE, "crumb": "top"})
+    project.label(LikeLabeler(other.folder))
+    assert project.labels("t0.obj").labels["crumb"] == Label("top")
+    labels = project.labels("t1.obj").labels
+    assert labels["left_low"].confidence >= SURE
+    assert labels["crumb"].confidence < SURE or labels["crumb"].name == "top"
+    project.label("propagate")
+    labels = project.labels("t1.obj").labels
+    assert {label.source for label in labels.values()} == {"propagated"} and labels["crumb"].name == "top"
+    assert labels["top"].given == Label("top", labels["top"].given.confidence if labels["top"].given else 0, "like")
+
+
+def test_a_label_of_a_name_or_a_file_takes_its_place_and_not_the_other_way_round(
+    tmp_path: Path, other: Project
+) -> None:
+    project = family(tmp_path / "own", low=0.95)
+    project.label(LikeLabeler(other.folder))
+    project.label("names")
+    write_table(tmp_path / "own/assets/t1.obj", height=1.25)
+    project.label("file")
+    project.label("like")
+    assert project.labels("t0.obj").labels["top"].source == "name"
+    assert {label.source for label in project.labels("t1.obj").labels.values()} == {"file"}
+
+
+def test_a_hull_like_nothing_there_stays_open_and_loses_what_it_was_given(tmp_path: Path, other: Project) -> None:
+    project = family(tmp_path / "own", low=0.95)
+    rod = {f"rod{k}": ((3 + 0.1 * k, -9, 7), (3.01 + 0.1 * k, 12, 7.01)) for k in range(2)}
+    (tmp_path / "own/assets/t2.obj").write_text(obj({**table_boxes(1.5), **rod}))
+    project.set_vocabulary(("top", "leg", "misc"))
+    project.set_labels("t2.obj", {"rod0": "leg"}, source="like", confidence=0.7)
+    outcome = project.label(LikeLabeler(other.folder)).outcomes[2]
+    assert outcome.open["rod0"] == outcome.open["rod1"] == "like nothing in p"
+    assert "rod0" not in project.labels("t2.obj").labels
+
+
+def test_words_that_differ_are_taken_by_their_synonyms_or_as_they_are_mapped(tmp_path: Path, other: Project) -> None:
+    project = family(tmp_path / "own", low=0.95, vocabulary=("tabletop", "post", "drawer"))
+    found = project.label(LikeLabeler(other.folder))
+    assert found.notes == (
+        "top of p is taken as tabletop",
+        "leg of p is taken as post",
+        "hulls like misc of p stay open; --map misc=LABEL says what they are",
+    )
+    assert found.outcomes[0].open == {"crumb": "like misc of p"}
+    assert {*labels_of(project).values()} == {"tabletop", "post"}
+    project.rename_label("post", "foot")
+    assert read_like_references(project)["p"].words == {"top": "tabletop", "leg": "foot", "misc": ""}
+    project.label("like")
+    assert {*labels_of(project).values()} == {"tabletop", "foot"}
+    project.label(LikeLabeler(other.folder, {"misc": "drawer", "leg": ""}))
+    assert {*labels_of(project).values()} == {"tabletop", "drawer"}
+
+
+@pytest.mark.parametrize(
+    ("words", "vocabulary", "problem"),
+    [
+        ({"legs": "leg"}, ("leg",), r"p has no label 'legs'\n  Did you mean 'leg'"),
+        ({"leg": "post"}, ("posts", "top"), r"'post' is not in the vocabulary\n  Did you mean 'posts'"),
+        ({}, ("wing", "fuselage"), r"no label of p means one of the vocabulary: top, leg, misc\n  .*--map top=LABEL"),
+    ],
+)
+def test_words_that_neither_has_are_named(
+    tmp_path: Path, other: Project, words: dict[str, str], vocabulary: tuple[str, ...], problem: str
+) -> None:
+    project = family(tmp_path / "own", vocabulary=vocabulary)
+    with pytest.raises(UsageError, match=problem):
+        project.label(LikeLabeler(other.folder, words))
+
+
+def _truncate(other: Project) -> None:
+    path = other.layout.labels("t1.obj")
+    path.write_text(path.read_text()[:60])
+
+
+def _unlabel(other: Project) -> None:
+    for asset in other.assets():
+        other.set_labels(asset, dict.fromkeys(NAMES))
+        other.set_labels(asset, {"top": "top"}, source="vlm", confidence=0.4)
+        other.set_labels(asset, {"crumb": "misc"}, source="like", confidence=0.95)
+
+
+@pytest.mark.parametrize(
+    ("spoil", "problem"),
+    [
+        (_unlabel, "no hull has a label that others could be taken from\n  Label some there first"),
+        (_truncate, r"t1\.obj\.json:.*the labels are no JSON"),
+        (lambda other: shutil.move(other.folder, other.folder.with_name("q")), "this is no project whose labels"),
+        (
+            lambda other: [path.write_text("v 0 0 0\nf 1") for path in other.folder.parent.glob("assets/*.obj")],
+            "t0.obj",
+        ),
+    ],
+)
+def test_another_project_that_cannot_be_used_is_named(
+    tmp_path: Path, other: Project, spoil: Callable[[Project], object], problem: str
+) -> None:
+    project = family(tmp_path / "own")
+    spoil(other)
+    with pytest.raises(MeshForgeError, match=problem):
+        project.label(LikeLabeler(other.folder))
+    assert not project.layout.like("p").exists() and not labels_of(project)
+
+
+def test_a_wrong_name_the_project_itself_and_no_name_are_refused(tmp_path: Path) -> None:
+    project = family(tmp_path / "own", labelled=1)
+    with pytest.raises(UsageError, match="there is no family 'cusp'\n  Did you mean 'cups'"):
+        project.label(LikeLabeler("sample:cusp"))
+    with pytest.raises(UsageError, match="this is the project itself"):
+        project.label(LikeLabeler(project.folder / "../p"))
+    with pytest.raises(UsageError, match="nothing says whose labels to take"):
+        project.label(make_labeler("like"))
+
+
+@pytest.mark.parametrize(
+    "spoil", [lambda text: text[:99], lambda text: text.replace('["top","leg"', '["leg","leg"'), lambda _: "{}"]
+)
+def test_a_file_of_another_family_that_is_damaged_is_named(
+    tmp_path: Path, other: Project, spoil: Callable[[str], str]
+) -> None:
+    project = family(tmp_path / "own", low=0.95)
+    project.label(LikeLabeler(other.folder))
+    path = project.layout.like("p")
+    path.write_text(spoil(path.read_text()))
+    with pytest.raises(ProjectError, match=r"like.p\.json(.|\n)*Remove it, and take the labels with --like once more"):
+        project.label("like")
+
+
+def test_hulls_that_are_all_alike_get_a_label(tmp_path: Path) -> None:
+    for place in ("other", "own"):
+        for k in range(2):
+            path = tmp_path / place / f"assets/c{k}.obj"
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(obj({f"c{n}": ((3.0 * n, 0, 0), (3.0 * n + 1, 1, 1)) for n in range(3)}))
+    other = Project.create(tmp_path / "other/p", [tmp_path / "other/assets"], vocabulary=("cube",))
+    other.set_labels("c0.obj", {"c0": "cube", "c1": "cube", "c2": "cube"})
+    own = Project.create(tmp_path / "own/p", [tmp_path / "own/assets"])
+    own.label(LikeLabeler(other.folder))
+    assert [*labels_of(own).values()] == ["cube"] * 6
+
+
+def test_another_kind_is_refused_with_the_nearest_ones(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for name in ("table_01", "table_02"):
+        (tmp_path / f"{name}.obj").write_bytes((TABLES / f"{name}.obj").read_bytes())
+    Project.create(tmp_path / "p", [tmp_path / "*.obj"])
+    monkeypatch.chdir(tmp_path)
+    run = runner(monkeypatch, capsys)
+    done = run("label", "p", "--like", "sample:bottles", "--json")
+    assert done.code == 2
+    assert "most hulls are farther from those of bottles than these are from each other" in done.err
+    assert "meshforge render table_01.obj --project" in done.err
+    assert json.loads(done.out)["nearest"][0] == {"family": "tables", "distance": 0.0}
+    assert not Project.open(tmp_path / "p").layout.like.ids
+    assert "--like is for --with like" in run("label", "p", "--like", "sample:cups", "--with", "names").err
+    with pytest.raises(LikeMismatchError):
+        Project.open(tmp_path / "p").label(LikeLabeler("sample:bottles"))
