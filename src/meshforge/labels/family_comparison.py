@@ -6,8 +6,6 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-import numpy as np
-
 from meshforge import label_model, symbolic
 from meshforge.batch import ExecutionOptions, WorkerFailure, raise_if_stopped, run_isolated
 from meshforge.common import AssetError, MeshForgeError, ProjectError
@@ -130,7 +128,7 @@ class _Describer:
     ) -> label_model.FamilyTable:
         doubtful, own = dict[str, tuple[int, tuple[int, ...]]](), len(assets)
         for place, sides in label_model.find_doubtful_sides(
-            table, observed, lambda k: self._cache.read_sides(assets[k]) if k < own else np.zeros((0, 1, 1))
+            table, observed, lambda k: self._cache.read_sides(assets[k]) if k < own else table.rows[:0, None]
         ):
             raise_if_stopped(self._stop)
             if sides:

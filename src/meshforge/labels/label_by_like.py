@@ -3,8 +3,6 @@ where it is like nothing there."""
 
 from __future__ import annotations
 
-import os
-import shlex
 from collections.abc import Generator, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
@@ -16,16 +14,9 @@ import numpy as np
 from meshforge.common import UsageError, join_and, join_names, quote_path
 from meshforge.geometry import Floats, Ints
 from meshforge.label_model import reference_label
-from meshforge.label_model.similar import OTHER_STEPS, OWN_STEPS
 from meshforge.labels.family_comparison import FamilyComparison, compare_assets
 from meshforge.labels.labeler import AssetLabels, Labeler, LabelFamily, LabelProposal
-from meshforge.labels.like_reference import (
-    LikeReference,
-    describe_files,
-    find_sample,
-    read_family,
-    read_like_references,
-)
+from meshforge.labels.like_reference import LikeReference, describe_files, find_sample, read_family, read_references
 from meshforge.labels.merge import can_fill_gap
 from meshforge.samples import FAMILIES
 from meshforge.symbolic import Label
@@ -34,6 +25,7 @@ _WITHIN, _WIDER = 0.95, 1.2
 """The bound is that of so many hulls of a family to those of its other assets, and so many times as far: assets of one
 kind that others made differ more. On bundled and generated families of one kind 0.77 to 0.96 of the hulls get a label
 then whose part the other family has. All its labels have one bound, since few have enough hulls of each."""
+_ALIKE = 5.0, 10.0  # within which hulls look alike in any case, of one asset and of others: `OWN_STEPS`, `OTHER_STEPS`
 _CLEAR = 0.6  # how probable a label must be; below, nearly as much speaks for another one
 _MOST_LIKELY = 0.89  # how sure a label of another family is at most
 _CERTAIN = 0.95
@@ -65,11 +57,10 @@ class LikeLabeler(Labeler):
 
     def __init__(self, source: str | Path | None = None, words: Mapping[str, str] | None = None) -> None:
         self.source, self.words = str(source) if source else None, dict(words or {})
-        self.fresh: tuple[str, LikeReference] | None = None
-        """The other family, by its name here, as it was read last: for the project to keep."""
+        self.fresh: tuple[str, LikeReference] | None = None  # the other family as it was read, for the project to keep
 
     def propose(self, family: LabelFamily) -> LabelProposal:
-        known, notes = read_like_references(family.store), list[str]()
+        known, notes = read_references(family.store), list[str]()
         if self.source:
             name, reference, notes = read_family(self.source, family, self.words)
             self.fresh, known = (name, reference), known | {name: reference}
@@ -126,15 +117,14 @@ class _LikeComparison:
         if not len(apart) or np.median(apart) * _WIDER <= bound:
             return
         kinds = self._rank_kinds()
-        pictures = (
-            f"meshforge render {shlex.quote(self.compared.assets[0])} --project {quote_path(store.folder)} -o own.png",
-            f"meshforge render {quote_path(find_sample(kinds[0][0])[1][0].path)} -o {kinds[0][0]}.png",
-        )
+        project, asset = quote_path(store.folder), quote_path(Path(self.compared.assets[0]))
+        sample = quote_path(find_sample(kinds[0][0])[1][0].path)
+        pictures = f"meshforge render {asset} --project {project} -o own.png && meshforge render {sample} -o sample.png"
         error = LikeMismatchError(
             f"most hulls are farther from those of {name} than these are from each other: it is of another kind",
             where=str(store.folder),
             remedy=f"Of the families that ship, the nearest are {join_and([kind for kind, _ in kinds[:3]])}, in this "
-            f"order. Compare: {' && '.join(pictures)}",
+            f"order. Compare: {pictures}",
         )
         error.kinds = kinds
         raise error
@@ -198,15 +188,14 @@ def _find_nearest(rows: Floats, others: Floats, metric: Floats) -> tuple[Ints, F
         gaps = cdist(rows[start : start + _AT_ONCE] * metric, others, "cityblock")
         return gaps.argmin(axis=1), gaps.min(axis=1)
 
-    with ThreadPoolExecutor(os.cpu_count()) as pool:
+    with ThreadPoolExecutor() as pool:
         found = [*pool.map(compare, range(0, len(rows), _AT_ONCE)), (np.zeros(0, np.int64), np.zeros(0))]
     return np.concatenate([places for places, _ in found]), np.concatenate([gaps for _, gaps in found])
 
 
 def _measure_bound(rows: Floats, owner: Ints) -> float:
     """How far a hull may be from the nearest of a family; of one asset alone, as far as hulls that look alike are."""
-    from scipy.spatial.distance import cdist  # lazy: as above
-
-    nearest = np.where(owner[:, None] == owner[None], np.inf, cdist(rows, rows, "cityblock")).min(axis=1)
-    nearest = nearest[np.isfinite(nearest)]
-    return _WIDER * (max(float(np.quantile(nearest, _WITHIN)), OWN_STEPS[0]) if len(nearest) else OTHER_STEPS[1])
+    if len(assets := np.unique(owner)) < 2:
+        return _WIDER * _ALIKE[1]
+    nearest = [_find_nearest(rows[owner == one], rows[owner != one], np.ones(1))[1] for one in assets.tolist()]
+    return _WIDER * max(float(np.quantile(np.concatenate(nearest), _WITHIN)), _ALIKE[0])

@@ -10,17 +10,8 @@ from pathlib import Path
 
 import numpy as np
 
-from meshforge import batch
-from meshforge.common import (
-    AssetError,
-    ProjectError,
-    UsageError,
-    describe_error,
-    join_names,
-    relative_name,
-    suggest_among,
-)
-from meshforge.label_model import MeshDescriber, reference_label
+from meshforge import batch, common, label_model, samples
+from meshforge.common import UsageError, suggest_among
 from meshforge.label_model.describe import ROW_WIDTH
 from meshforge.labels.family_comparison import DescribedAsset
 from meshforge.labels.from_files.label_by_files import label_file_beside
@@ -28,8 +19,7 @@ from meshforge.labels.labeler import LabelFamily
 from meshforge.labels.names.words import match_label
 from meshforge.labels.reference_family import pick_evenly
 from meshforge.labels.summary import SURE
-from meshforge.samples import FAMILIES, family_of
-from meshforge.store import AssetFiles, JsonFile, Store, read_json
+from meshforge.store import AssetFiles, JsonFile, Store
 from meshforge.symbolic import Label
 
 SAMPLE = "sample:"
@@ -74,28 +64,28 @@ def _digest_assets(assets: Iterable[LikeAsset]) -> str:
     return batch.text_digest("\n".join(one.model_dump_json() for one in assets))
 
 
-def read_like_references(store: Store) -> dict[str, LikeReference]:
+def read_references(store: Store) -> dict[str, LikeReference]:
     """Return what a project keeps of other families, by name. Raises ProjectError for a file that is none of these."""
-    found = dict[str, LikeReference | None]()
+    found = dict[str, LikeReference]()
     for name in store.layout.like.ids:
-        path, problem = store.layout.like(name), "it was changed by hand, or is of another version"
+        path = store.layout.like(name)
         try:
-            kept = found[name] = read_json(path, LikeReference)
-        except ProjectError as error:
-            kept, problem = None, error.problem
-        widths = {len(row) for one in kept.assets for row in one.rows} if kept else {0}
-        if widths != {ROW_WIDTH} or (kept and kept.digest != _digest_assets(kept.assets)):
-            remedy = "Remove it, and take the labels with --like once more."
-            raise ProjectError(problem, where=str(path), remedy=remedy)
-    return {name: kept for name, kept in found.items() if kept}
+            kept = found[name] = LikeReference.model_validate_json(path.read_bytes())
+            is_whole = kept.digest == _digest_assets(kept.assets) and {*map(len, kept.assets[0].rows)} == {ROW_WIDTH}
+        except (OSError, ValueError, IndexError):
+            is_whole = False
+        if not is_whole:
+            problem = "it is no family as this version keeps it, or was changed by hand"
+            raise common.ProjectError(
+                problem, where=str(path), remedy="Remove it, and take the labels with --like once more."
+            )
+    return found
 
 
 def read_family(source: str, family: LabelFamily, given: Mapping[str, str]) -> tuple[str, LikeReference, list[str]]:
     """Return what a project is to keep of a labelled family, by what name, and what the user is to know of it.
 
-    source: a project's folder, or `sample:` and the name of a family that ships; family: that is to be labelled; given:
-    the label here for a label there, empty for none. Raises UsageError: no such family, the project itself, or words
-    that neither has; AssetError: a labels file is damaged, or no asset can be read; ProjectError: nothing is labelled.
+    The arguments are those of `LikeLabeler`, and the family that is to be labelled. Raises as it does.
     """
     is_sample, folder = source.startswith(SAMPLE), Path(source).absolute()
     vocabulary, files = find_sample(source.removeprefix(SAMPLE)) if is_sample else _find_project(source, family.store)
@@ -106,15 +96,17 @@ def read_family(source: str, family: LabelFamily, given: Mapping[str, str]) -> t
     words = _map_words(name, labels, family.vocabulary, given)
     notes += [f"{word} of {name} is taken as {here}" for word, here in words.items() if here not in ("", word)]
     if none := [word for word, here in words.items() if not here]:
-        notes.append(f"hulls like {join_names(none)} of {name} stay open; --map {none[0]}=LABEL says what they are")
-    source = source if is_sample else relative_name(folder, family.store.folder)
+        notes.append(
+            f"hulls like {common.join_names(none)} of {name} stay open; --map {none[0]}=LABEL says what they are"
+        )
+    source = source if is_sample else common.relative_name(folder, family.store.folder)
     return name, LikeReference(source=source, words=words, digest=_digest_assets(assets), assets=tuple(assets)), notes
 
 
 def _find_project(source: str, store: Store) -> tuple[tuple[str, ...], Sequence[AssetFiles]]:
     folder = Path(source).absolute()
     if not (folder / batch.SETTINGS).is_file():
-        names = [f"{SAMPLE}{one.name}" for one in FAMILIES]
+        names = [f"{SAMPLE}{one.name}" for one in samples.FAMILIES]
         remedy = suggest_among(source, names, "Name a project's folder, or one of")
         raise UsageError("this is no project whose labels could be taken", where=str(folder), remedy=remedy)
     if folder.resolve() == store.folder.resolve():
@@ -124,13 +116,15 @@ def _find_project(source: str, store: Store) -> tuple[tuple[str, ...], Sequence[
     chosen = [asset for asset in other.assets() if any(map(_can_teach, other.labels(asset).labels.values()))]
     if not chosen:
         remedy = "Label some there first; labels that are not sure, or like another family, do not count."
-        raise ProjectError("no hull has a label that others could be taken from", where=str(folder), remedy=remedy)
+        raise common.ProjectError(
+            "no hull has a label that others could be taken from", where=str(folder), remedy=remedy
+        )
     return other.vocabulary, other.asset_files(pick_evenly(chosen, _ASSETS))
 
 
 def find_sample(name: str) -> tuple[tuple[str, ...], Sequence[AssetFiles]]:
     """Return the vocabulary and the files of a family that ships. Raises UsageError, naming the nearest."""
-    family = family_of(name)
+    family = samples.family_of(name)
     labels = {path: label_file_beside(path) for path in sorted(family.folder.glob(family.pattern))}
     return family.vocabulary, [AssetFiles(path, path / "none", file, None) for path, file in labels.items() if file]
 
@@ -141,10 +135,14 @@ def describe_files(files: Sequence[AssetFiles], family: LabelFamily) -> tuple[li
     with family.stage(len(files), "reading the other family") as advance:
         results = [*batch.execute(_describe_asset, files, replace(family.execution, progress=advance))]
     assets = [one for one in results if isinstance(one, LikeAsset)]
-    others = [(one, own.path) for one, own in zip(results, files, strict=True) if not isinstance(one, LikeAsset)]
-    lost = [f"{path}: {one.why}" if isinstance(one, batch.WorkerFailure) else one for one, path in others]
+    lost = [one for one in results if isinstance(one, str)]
+    lost += [
+        f"{own.path}: {one.why}"
+        for own, one in zip(files, results, strict=True)
+        if isinstance(one, batch.WorkerFailure)
+    ]
     if not assets:
-        raise AssetError(lost[0])
+        raise common.AssetError(lost[0])
     hulls = sum(len(one.rows) for one in assets)
     return [*pick_evenly(assets, max(1, len(assets) * _HULLS // max(hulls, _HULLS)))], lost
 
@@ -152,19 +150,23 @@ def describe_files(files: Sequence[AssetFiles], family: LabelFamily) -> tuple[li
 def _describe_asset(files: AssetFiles) -> LikeAsset | str:
     try:
         mesh = files.read_mesh()
-        found = MeshDescriber(mesh).describe()
+        found = label_model.MeshDescriber(mesh).describe()
         labels = tuple(hull.label if _can_teach(hull.annotation) else None for hull in mesh.hulls)
         if not any(labels):
             return f"{files.path}: no hull has a label that others could be taken from"
         return LikeAsset(rows=np.round(found.rows, _DIGITS).tolist(), touching=found.touching.tolist(), labels=labels)
     except Exception as error:  # one asset never stops the others
-        return describe_error(error, str(files.path))
+        return common.describe_error(error, str(files.path))
 
 
 def _can_teach(label: Label | None) -> bool:
     """Whether hulls of other families can be labelled by a label: one that a person or a file gave, or a sure one that
     is not itself from another family."""
-    return label is not None and label.source != "like" and bool(reference_label(label) or label.confidence >= SURE)
+    return (
+        label is not None
+        and label.source != "like"
+        and bool(label_model.reference_label(label) or label.confidence >= SURE)
+    )
 
 
 def _map_words(name: str, labels: Sequence[str], vocabulary: Sequence[str], given: Mapping[str, str]) -> dict[str, str]:
@@ -178,7 +180,7 @@ def _map_words(name: str, labels: Sequence[str], vocabulary: Sequence[str], give
     taken |= given
     if not any(taken.values()):
         remedy = f"Say which is which: --map {labels[0]}=LABEL. The vocabulary is: {', '.join(vocabulary)}."
-        raise UsageError(f"no label of {name} means one of the vocabulary: {join_names(labels)}", remedy=remedy)
+        raise UsageError(f"no label of {name} means one of the vocabulary: {common.join_names(labels)}", remedy=remedy)
     return taken
 
 

@@ -11,7 +11,7 @@ import pytest
 
 from meshforge.common import MeshForgeError, ProjectError, UsageError
 from meshforge.labels import LikeLabeler, LikeMismatchError, make_labeler
-from meshforge.labels.like_reference import read_like_references
+from meshforge.labels.like_reference import read_references
 from meshforge.labels.summary import SURE
 from meshforge.project import Project, learn
 from meshforge.samples import TABLES
@@ -141,7 +141,7 @@ def test_words_that_differ_are_taken_by_their_synonyms_or_as_they_are_mapped(tmp
     assert found.outcomes[0].open == {"crumb": "like misc of p"}
     assert {*labels_of(project).values()} == {"tabletop", "post"}
     project.rename_label("post", "foot")
-    assert read_like_references(project)["p"].words == {"top": "tabletop", "leg": "foot", "misc": ""}
+    assert read_references(project)["p"].words == {"top": "tabletop", "leg": "foot", "misc": ""}
     project.label("like")
     assert {*labels_of(project).values()} == {"tabletop", "foot"}
     project.label(LikeLabeler(other.folder, {"misc": "drawer", "leg": ""}))
