@@ -63,8 +63,10 @@ class LikeLabeler(Labeler):
         known, notes = read_references(family.store), list[str]()
         if self.source:
             name, reference, notes = read_family(self.source, family, self.words)
-            self.fresh, known = (name, reference), known | {name: reference}
-        if not known:
+            if name in known and known[name].source != reference.source:
+                notes.append(f"{name} was {known[name].source} before")
+            self.fresh, known = (name, reference), dict(sorted((known | {name: reference}).items()))
+        if not known or (self.words and not self.source):
             remedy = "Name a project's folder, or a family that ships: --like sample:cups"
             raise UsageError("nothing says whose labels to take", where=str(family.store.folder), remedy=remedy)
         words = (word for one in known.values() for word in one.words.values() if word)

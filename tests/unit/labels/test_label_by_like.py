@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from meshforge.common import MeshForgeError, ProjectError, UsageError
-from meshforge.labels import LikeLabeler, LikeMismatchError, make_labeler
+from meshforge.labels import LikeLabeler, LikeMismatchError
 from meshforge.labels.like_reference import read_references
 from meshforge.labels.summary import SURE
 from meshforge.project import Project, learn
@@ -23,55 +23,54 @@ NAMES = tuple(table_boxes())
 TRUE = {name: label_of(name) for name in NAMES}
 
 
-def family(
-    folder: Path, count: int = 3, *, low: float = 0.8, labelled: int = 0, vocabulary: tuple[str, ...] = ()
-) -> Project:
-    """Tables of different heights, of which a person labelled some."""
-    for k in range(count):
+def family(folder: Path, low: float, vocabulary: tuple[str, ...] = ()) -> Project:
+    """Three tables of different heights."""
+    for k in range(3):
         write_table(folder / f"assets/t{k}.obj", height=low + 0.3 * k, labels=False)
-    project = Project.create(
-        folder / "p", [folder / "assets"], vocabulary=vocabulary or (("top", "leg", "misc") if labelled else ())
-    )
-    for k in range(labelled):
-        project.set_labels(f"t{k}.obj", TRUE)
-    return project
+    return Project.create(folder / "p", [folder / "assets"], vocabulary=vocabulary)
 
 
 @pytest.fixture
 def other(tmp_path: Path) -> Project:
-    """Another project, of labelled tables."""
-    return family(tmp_path / "other", 4, labelled=4)
+    """Another project, of tables that a person labelled."""
+    project = family(tmp_path / "other", 0.8, ("top", "leg", "misc"))
+    project.set_labels_of(dict.fromkeys(project.assets(), TRUE))
+    return project
+
+
+@pytest.fixture
+def project(tmp_path: Path, other: Project) -> Project:
+    """Tables with the labels of the other project."""
+    project = family(tmp_path / "own", 0.95)
+    project.label(LikeLabeler(other.folder))
+    return project
 
 
 def labels_of(project: Project) -> dict[str, str]:
     return {f"{a} {hull}": label.name for a in project.assets() for hull, label in project.labels(a).labels.items()}
 
 
-def test_hulls_get_the_labels_of_another_project_and_none_is_sure(tmp_path: Path, other: Project) -> None:
-    project = family(tmp_path / "own", low=0.95)
-    before = learn.digest_learning_inputs(project)
-    dry = project.label(LikeLabeler(other.folder), dry_run=True)
-    assert {row.label for row in dry.proposals.rows} == {*TRUE.values()}
-    assert not project.vocabulary and not project.layout.like("p").exists()
-    project.label(LikeLabeler(other.folder))
+def test_hulls_get_the_labels_of_another_project_and_none_is_sure(tmp_path: Path, project: Project) -> None:
     assert project.vocabulary == ("top", "leg", "misc")
     for asset in project.assets():
         labels = project.labels(asset).labels
         assert {name: label.name for name, label in labels.items()} == TRUE
         assert {label.source for label in labels.values()} == {"like"}
         assert max(label.confidence for label in labels.values()) < SURE
-    assert "vertices" not in project.layout.like("p").read_text()
     assert project.layout.like.ids == ("p",) and project.layout.labels.ids == project.assets()
+    inputs = learn.digest_learning_inputs(project)
     project.layout.like("p").unlink()
-    unlabelled = learn.digest_learning_inputs(project)
-    assert before != unlabelled  # labels count
-    project.label(LikeLabeler(other.folder))
-    assert learn.digest_learning_inputs(project) == unlabelled  # what is kept does not
+    assert learn.digest_learning_inputs(project) == inputs
 
 
-def test_what_is_kept_labels_again_without_the_other_project(tmp_path: Path, other: Project) -> None:
-    project = family(tmp_path / "own", low=0.95)
-    project.label(LikeLabeler(other.folder))
+def test_a_dry_run_writes_nothing(tmp_path: Path, other: Project) -> None:
+    project = family(tmp_path / "own", 0.95)
+    dry = project.label(LikeLabeler(other.folder), dry_run=True)
+    assert {row.label for row in dry.proposals.rows} == {*TRUE.values()}
+    assert not project.vocabulary and not project.layout.like.ids and not labels_of(project)
+
+
+def test_what_is_kept_labels_again_without_the_other_project(project: Project, other: Project) -> None:
     kept = project.layout.like("p").read_text()
     shutil.rmtree(other.folder.parent)
     project.set_labels("t0.obj", dict.fromkeys(NAMES))
@@ -82,18 +81,14 @@ def test_what_is_kept_labels_again_without_the_other_project(tmp_path: Path, oth
         project.label(LikeLabeler(other.folder))
 
 
-def test_the_same_again_takes_what_changed_there(tmp_path: Path, other: Project) -> None:
-    project = family(tmp_path / "own", low=0.95)
-    project.label(LikeLabeler(other.folder))
+def test_the_same_again_takes_what_changed_there(project: Project, other: Project) -> None:
     for asset in other.assets():
         other.set_labels(asset, {"top": "misc", "crumb": None})
     project.label(LikeLabeler(other.folder))
     assert {label for name, label in labels_of(project).items() if name.endswith("top")} == {"misc"}
 
 
-def test_what_is_said_here_counts_more(tmp_path: Path, other: Project) -> None:
-    project = family(tmp_path / "own", low=0.95)
-    project.label(LikeLabeler(other.folder))
+def test_what_is_said_here_counts_more(project: Project, other: Project) -> None:
     project.set_labels("t0.obj", {**TRUE, "crumb": "top"})
     project.label(LikeLabeler(other.folder))
     assert project.labels("t0.obj").labels["crumb"] == Label("top")
@@ -107,10 +102,8 @@ def test_what_is_said_here_counts_more(tmp_path: Path, other: Project) -> None:
 
 
 def test_a_label_of_a_name_or_a_file_takes_its_place_and_not_the_other_way_round(
-    tmp_path: Path, other: Project
+    tmp_path: Path, project: Project
 ) -> None:
-    project = family(tmp_path / "own", low=0.95)
-    project.label(LikeLabeler(other.folder))
     project.label("names")
     write_table(tmp_path / "own/assets/t1.obj", height=1.25)
     project.label("file")
@@ -119,19 +112,17 @@ def test_a_label_of_a_name_or_a_file_takes_its_place_and_not_the_other_way_round
     assert {label.source for label in project.labels("t1.obj").labels.values()} == {"file"}
 
 
-def test_a_hull_like_nothing_there_stays_open_and_loses_what_it_was_given(tmp_path: Path, other: Project) -> None:
-    project = family(tmp_path / "own", low=0.95)
+def test_a_hull_like_nothing_there_stays_open_and_loses_what_it_was_given(tmp_path: Path, project: Project) -> None:
     rod = {f"rod{k}": ((3 + 0.1 * k, -9, 7), (3.01 + 0.1 * k, 12, 7.01)) for k in range(2)}
     (tmp_path / "own/assets/t2.obj").write_text(obj({**table_boxes(1.5), **rod}))
-    project.set_vocabulary(("top", "leg", "misc"))
     project.set_labels("t2.obj", {"rod0": "leg"}, source="like", confidence=0.7)
-    outcome = project.label(LikeLabeler(other.folder)).outcomes[2]
+    outcome = project.label("like").outcomes[2]
     assert outcome.open["rod0"] == outcome.open["rod1"] == "like nothing in p"
     assert "rod0" not in project.labels("t2.obj").labels
 
 
 def test_words_that_differ_are_taken_by_their_synonyms_or_as_they_are_mapped(tmp_path: Path, other: Project) -> None:
-    project = family(tmp_path / "own", low=0.95, vocabulary=("tabletop", "post", "drawer"))
+    project = family(tmp_path / "own", 0.95, ("tabletop", "post", "drawer"))
     found = project.label(LikeLabeler(other.folder))
     assert found.notes == (
         "top of p is taken as tabletop",
@@ -159,7 +150,7 @@ def test_words_that_differ_are_taken_by_their_synonyms_or_as_they_are_mapped(tmp
 def test_words_that_neither_has_are_named(
     tmp_path: Path, other: Project, words: dict[str, str], vocabulary: tuple[str, ...], problem: str
 ) -> None:
-    project = family(tmp_path / "own", vocabulary=vocabulary)
+    project = family(tmp_path / "own", 0.95, vocabulary)
     with pytest.raises(UsageError, match=problem):
         project.label(LikeLabeler(other.folder, words))
 
@@ -191,7 +182,7 @@ def _unlabel(other: Project) -> None:
 def test_another_project_that_cannot_be_used_is_named(
     tmp_path: Path, other: Project, spoil: Callable[[Project], object], problem: str
 ) -> None:
-    project = family(tmp_path / "own")
+    project = family(tmp_path / "own", 0.95)
     spoil(other)
     with pytest.raises(MeshForgeError, match=problem):
         project.label(LikeLabeler(other.folder))
@@ -199,23 +190,19 @@ def test_another_project_that_cannot_be_used_is_named(
 
 
 def test_a_wrong_name_the_project_itself_and_no_name_are_refused(tmp_path: Path) -> None:
-    project = family(tmp_path / "own", labelled=1)
+    project = family(tmp_path / "own", 0.95)
     with pytest.raises(UsageError, match="there is no family 'cusp'\n  Did you mean 'cups'"):
         project.label(LikeLabeler("sample:cusp"))
     with pytest.raises(UsageError, match="this is the project itself"):
         project.label(LikeLabeler(project.folder / "../p"))
     with pytest.raises(UsageError, match="nothing says whose labels to take"):
-        project.label(make_labeler("like"))
+        project.label("like")
 
 
 @pytest.mark.parametrize(
     "spoil", [lambda text: text[:99], lambda text: text.replace('["top","leg"', '["leg","leg"'), lambda _: "{}"]
 )
-def test_a_file_of_another_family_that_is_damaged_is_named(
-    tmp_path: Path, other: Project, spoil: Callable[[str], str]
-) -> None:
-    project = family(tmp_path / "own", low=0.95)
-    project.label(LikeLabeler(other.folder))
+def test_a_file_of_another_family_that_is_damaged_is_named(project: Project, spoil: Callable[[str], str]) -> None:
     path = project.layout.like("p")
     path.write_text(spoil(path.read_text()))
     with pytest.raises(ProjectError, match=r"like.p\.json(.|\n)*Remove it, and take the labels with --like once more"):
@@ -251,4 +238,4 @@ def test_another_kind_is_refused_with_the_nearest_ones(
     assert not Project.open(tmp_path / "p").layout.like.ids
     assert "--like is for --with like" in run("label", "p", "--like", "sample:cups", "--with", "names").err
     with pytest.raises(LikeMismatchError):
-        Project.open(tmp_path / "p").label(LikeLabeler("sample:bottles"))
+        Project.open(tmp_path / "p").label(LikeLabeler("sample:bottles"), dry_run=True)
