@@ -13,7 +13,7 @@ import numpy as np
 
 from meshforge.common import UsageError, join_and, join_names, quote_path
 from meshforge.geometry import Floats, Ints
-from meshforge.label_model import reference_label
+from meshforge.label_model import MOST_LIKELY, reference_label
 from meshforge.labels.family_comparison import FamilyComparison, compare_assets
 from meshforge.labels.labeler import AssetLabels, Labeler, LabelFamily, LabelProposal
 from meshforge.labels.like_reference import LikeReference, describe_files, find_sample, read_family, read_references
@@ -27,7 +27,6 @@ one kind that others made differ more: of generated cups, chairs and tables like
 hulls whose part is known are right then (at 1.2: 0.92, 0.77, 0.95). Few families have enough hulls for one a label."""
 _ALIKE = 5.0, 10.0  # within which hulls look alike in any case, of one asset and of others: `OWN_STEPS`, `OTHER_STEPS`
 _CLEAR = 0.6  # how probable a label must be; below, nearly as much speaks for another one
-_MOST_LIKELY = 0.89  # how sure a label of another family is at most
 _CERTAIN = 0.95
 """How probable it must be to be sure after all, where the nearest hull that a person labelled here has it, too, and is
 no farther than without `_WIDER`: with one asset labelled by hand 0.99 of such labels were right, on seven families."""
@@ -177,7 +176,7 @@ class _LikeComparison:
             elif chance[hull] < _CLEAR:
                 found.append((None, f"as like {word} as {words[order[hull, 1]]}"))
             else:
-                sure = float(chance[hull] if confirmed[hull] else min(chance[hull], _MOST_LIKELY))
+                sure = float(chance[hull] if confirmed[hull] else min(chance[hull], MOST_LIKELY))
                 found.append((Label(word, round(sure, _DIGITS), "like"), f"like {names}"))
         return found
 

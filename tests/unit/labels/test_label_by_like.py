@@ -9,8 +9,9 @@ from pathlib import Path
 
 import pytest
 
+from meshforge.batch import IN_PROCESS
 from meshforge.common import MeshForgeError, ProjectError, UsageError
-from meshforge.labels import LikeLabeler, LikeMismatchError
+from meshforge.labels import LikeLabeler, LikeMismatchError, ignore_stage, like_reference, read_reference_family
 from meshforge.labels.like_reference import read_references
 from meshforge.labels.summary import SURE
 from meshforge.project import Project, learn
@@ -61,6 +62,26 @@ def test_hulls_get_the_labels_of_another_project_and_none_is_sure(tmp_path: Path
     inputs = learn.digest_learning_inputs(project)
     project.layout.like("p").unlink()
     assert learn.digest_learning_inputs(project) == inputs
+
+
+def test_what_follows_from_it_is_not_sure_either(project: Project) -> None:
+    project.set_labels("t0.obj", dict.fromkeys(NAMES))
+    family = read_reference_family(project, IN_PROCESS, ignore_stage, spans=False)
+    assert family and max(label.confidence for label in family.infer_labels(project.mesh("t0.obj")).values()) < SURE
+    project.label("consensus")
+    labels = project.labels("t0.obj").labels.values()
+    assert {label.source for label in labels} == {"consensus"} and max(label.confidence for label in labels) < SURE
+
+
+def test_of_too_many_hulls_some_assets_are_kept_and_one_that_cannot_be_read_is_named(
+    tmp_path: Path, other: Project, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(like_reference, "_HULLS", 2 * len(NAMES))
+    project = family(tmp_path / "own", 0.95)
+    assert not project.label(LikeLabeler(other.folder)).notes
+    assert len(read_references(project)["p"].assets) == 2
+    (tmp_path / "other/assets/t0.obj").write_text("v 0 0 0\nf 1")
+    assert "t0.obj" in project.label(LikeLabeler(other.folder)).notes[0]
 
 
 def test_a_dry_run_writes_nothing(tmp_path: Path, other: Project) -> None:
