@@ -62,8 +62,11 @@ class LikeLabeler(Labeler):
         known, notes = read_references(family.store), list[str]()
         if self.source:
             name, reference, notes = read_family(self.source, family, self.words)
-            if name in known and known[name].source != reference.source:
-                notes.append(f"{name} was {known[name].source} before")
+            for one, kept in known.items():
+                if one != name:
+                    notes.append(f"{one} counts, too; to leave it out, remove {family.store.layout.like(one)}")
+                elif kept.source != reference.source:
+                    notes.append(f"{one} was {kept.source} before")
             self.fresh, known = (name, reference), dict(sorted((known | {name: reference}).items()))
         if not known or (self.words and not self.source):
             remedy = "Name a project's folder, or a family that ships: --like sample:cups"
