@@ -12,13 +12,14 @@ from pydantic import ValidationError
 from meshforge.batch import ExecutionOptions
 from meshforge.cli import options
 from meshforge.cli.console import progress
-from meshforge.cli.label_by_hand import label_by_hand
+from meshforge.cli.label_by_hand import label_by_hand, rename_labels
 from meshforge.cli.label_report import LabelPrinter, print_changes, print_proposals
 from meshforge.cli.label_vlm import label_with_vlm, print_forecast
 from meshforge.cli.terminal import print_json, remark
 from meshforge.common import UsageError, escape_name, first_validation_error
 from meshforge.labels import (
     LABELERS,
+    AllLabeler,
     FileLabeler,
     Labeler,
     LabelFileOptions,
@@ -35,10 +36,10 @@ from meshforge.store import VlmSettings
 
 _BY_HAND = ("project", "asset", "hulls", "vocabulary", "json")
 _ONLY_FOR = {
-    "labels": ("file",),
-    "classes": ("file",),
-    "align": ("file",),
-    "pattern": ("names", "file"),
+    "labels": ("file", "all"),
+    "classes": ("file", "all"),
+    "align": ("file", "all"),
+    "pattern": ("names", "file", "all"),
     "model": ("vlm",),
     "base_url": ("vlm",),
     "mode": ("vlm",),
@@ -75,12 +76,21 @@ class LabelArguments:
             metavar=f"[{'|'.join(LABELERS.built_in)}|PLUGIN]",
             help="Where labels come from: "
             + "; ".join(f"{name}: {kind.about}" for name, kind in LABELERS.built_in.items())
-            + "; or the name of a plug-in's labeller.",
+            + "; or the name of a plug-in's labeller. Without it: all.",
         ),
-    ] = "file"
+    ] = "all"
     labels: Annotated[
         Path | None,
         typer.Option("--labels", help="A file with labels, or a folder that mirrors the assets; default: beside each."),
+    ] = None
+    rename: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--rename",
+            metavar="LABEL=NAME",
+            help="Give a label another name, wherever the project has it; or a class its name: part_a=leg.",
+            show_default=False,
+        ),
     ] = None
     vocabulary: Annotated[str, typer.Option("--vocabulary", help="Set the labels that hulls can have: a,b,c.")] = ""
     like: Annotated[
@@ -148,9 +158,10 @@ class LabelArguments:
             return LikeLabeler(self.like, words)
         if isinstance(labeler, NameLabeler):
             return NameLabeler(meanings)
-        if isinstance(labeler, FileLabeler):
+        if isinstance(labeler, FileLabeler | AllLabeler):
             classes = tuple(word.strip() for word in self.classes.split(",")) if self.classes else ()
-            return FileLabeler(self.labels, LabelFileOptions(meanings, classes, self.align or "check"))
+            files = FileLabeler(self.labels, LabelFileOptions(meanings, classes, self.align or "check"))
+            return files if isinstance(labeler, FileLabeler) else AllLabeler(files, NameLabeler(meanings))
         if isinstance(labeler, VlmLabeler):
             return VlmLabeler(self._read_vlm_settings(project), (self.base_url,) if self.base_url else ())
         return labeler
@@ -176,7 +187,8 @@ def _parse_meaning(option: str, text: str, example: str) -> tuple[str, str]:
 def label(given: LabelArguments) -> None:
     """Give labels to hulls; what a person labelled is never overwritten by a machine.
 
-    With ASSET and HULLS=LABEL you label by hand (the studio can undo it), else labels come from what --with says.
+    With ASSET and HULLS=LABEL you label by hand (the studio can undo it). Else labels come from all that is there, or
+    from what --with says: files, names, what people said, and hulls that look alike, weighed together.
     Labels are written asset by asset; a run that was stopped or killed goes on where it was: the same command again.
     Exit code 1 when some labels could not be taken, or an asset could not be read (each named); the others are done.
     """
@@ -187,6 +199,9 @@ def label(given: LabelArguments) -> None:
         if given.source != "vlm":
             return
     project = Project.open(given.project)
+    if given.rename:
+        rename_labels(project, given.rename)
+        return
     if given.asset is not None:
         for name, option in options.list_typed(given.context):
             if name not in _BY_HAND:
@@ -220,7 +235,7 @@ def _label(project: Project, labeler: Labeler, execution: ExecutionOptions, prin
     if not printer.json:
         print_changes(project, labeler, result)
     elif labeler.replaces:
-        more = {"alike": result.alike, "next": result.next} if labeler.name == "consensus" else {}
+        more = {"alike": result.alike, "next": result.next} if labeler.name in ("all", "propagate") else {}
         print_json({"changes": [asdict(change) for change in result.changes]} | more, compact=True)
 
 

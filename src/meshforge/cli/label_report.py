@@ -32,7 +32,8 @@ _SOURCE_WORDS = {
     "name": "names",
     "propagated": "propagation",
     "like": "another family",
-    "consensus": "consensus",
+    "step": "steps shown",
+    "class": "likeness to steps shown",
     "rebuild": "rebuilt bodies",
     "vlm": "a model",
     "edit": "edits",
@@ -205,9 +206,11 @@ def print_changes(project: Project, labeler: Labeler, result: LabelResult) -> No
     """Print which labels were replaced, which may be two names of one part, and what to label next."""
     if labeler.replaces:
         _print_replaced(result)
+    if result.note:
+        typer.echo(f"{result.note} Label a hull that is something else, too.")
     for one, other in result.alike:
         words = ",".join(word for word in project.vocabulary if word != other)
-        command = f"meshforge label {project.folder} --with consensus --vocabulary {words}"
+        command = f"meshforge label {project.folder} --with propagate --vocabulary {words}"
         typer.echo(
             f"{one} and {other} are on hulls that look alike, and hardly an asset has both. "
             f"If they are one part, leave one of them out: {command}"

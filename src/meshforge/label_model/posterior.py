@@ -117,10 +117,11 @@ class FamilyPosterior:
 
     @cached_property
     def _is_fixed(self) -> Bools:
-        """Whether what was said of each hull stays whatever others say (n,): a person's label; and of those in files
-        one that a single mesh has, since hulls of other meshes cannot speak for it."""
+        """Whether what was said of each hull stays whatever others say (n,): a person's label; that of a rebuilt hull,
+        of which the surface says more than the shape; and of those in files one that a single mesh has, since hulls of
+        other meshes cannot speak for it."""
         alone = self._presence.sum(axis=0) == 1
-        fixed_hulls: Bools = self.seen.fixed | (self.seen.given & alone[self.seen.codes])
+        fixed_hulls: Bools = self.seen.fixed | self.seen.rebuilt | (self.seen.given & alone[self.seen.codes])
         return fixed_hulls
 
     def _agree_on(self, hull: int, best: int, observed: Label | None) -> Label | None:
@@ -131,7 +132,7 @@ class FamilyPosterior:
         chance = float(self.chances[hull, best])
         if code != NO_LABEL and math.log(chance / max(float(self.chances[hull, code]), 1e-12)) < self.margin:
             return given or observed
-        return Label(self.seen.labels[best], round(min(chance, float(self._most[best])), _DIGITS), "consensus", given)
+        return Label(self.seen.labels[best], round(min(chance, float(self._most[best])), _DIGITS), "propagated", given)
 
     def find_alike_labels(self) -> tuple[tuple[str, str], ...]:
         """Return pairs of labels on hulls that look alike, of which hardly any mesh has both: two names of one part?"""

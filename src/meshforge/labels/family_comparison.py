@@ -8,7 +8,7 @@ from functools import cached_property
 
 from meshforge import label_model, symbolic
 from meshforge.batch import ExecutionOptions, WorkerFailure, raise_if_stopped, run_isolated
-from meshforge.common import AssetError, MeshForgeError, ProjectError
+from meshforge.common import AssetError, MeshForgeError, ProjectError, quote_path
 from meshforge.geometry import Floats, Ints
 from meshforge.labels.descriptor_cache import DescriptorCache
 from meshforge.labels.labeler import LabelFamily
@@ -55,12 +55,12 @@ class FamilyComparison:
 
 
 def compare_assets(
-    family: LabelFamily, speak: Callable[[Label | None], Label | None], beside: Sequence[DescribedAsset] = ()
+    family: LabelFamily, speak: Callable[[str, HullLabels], HullLabels], beside: Sequence[DescribedAsset] = ()
 ) -> FamilyComparison:
     """Compare the hulls of all assets that can be read.
 
-    speak: what the label of a hull, or none, says to others; words outside of the vocabulary say nothing. beside:
-    assets of other families, all whose labels speak.
+    speak: what speaks for hulls of an asset, given it and the labels that they have; words outside of the vocabulary
+    say nothing. beside: assets of other families, all whose labels speak.
     Raises ProjectError: no vocabulary, or nothing is said at all.
     """
     store, vocabulary = family.store, family.vocabulary
@@ -75,7 +75,8 @@ def compare_assets(
             )
         except AssetError as error:
             lost[asset] = error.message
-    if any(current.values()):
+    evidence = {asset: speak(asset, labels) for asset, labels in current.items()}
+    if any(evidence.values()):
         family.require_vocabulary()
     hulls = {asset: facts[asset].hulls for asset in current}
     describer = _Describer(family, {asset: facts[asset] for asset in current}, lost)
@@ -84,8 +85,9 @@ def compare_assets(
     every = [*described.values(), *((rows, touching) for rows, touching, _ in beside)]
     assets, table = tuple(described), label_model.FamilyTable.of(every)
     del described, every
-    spoken = (speak(current[asset].get(name)) for asset in assets for name in hulls[asset])
-    observed = tuple(label if label and label.name in vocabulary else None for label in spoken)
+    words = {*vocabulary, symbolic.NO_PART}
+    spoken = (evidence[asset].get(name) for asset in assets for name in hulls[asset])
+    observed = tuple(label if label and label.name in words else None for label in spoken)
     observed += tuple(label for _, _, labels in beside for label in labels)
     seen = label_model.Observations.of(observed)
     table = describer.set_upright(assets, table, seen)
@@ -97,6 +99,9 @@ def compare_assets(
         if best:
             command = label_command(store.folder, best, next(iter(hulls[best])), vocabulary)
             remedy = f"Label the hulls of one asset first, best {best}. In the studio, or: {command}"
+            remedy += (
+                f"\n  Or show the steps, without names: meshforge demonstrate {quote_path(store.folder)} ASSET STEPS..."
+            )
         raise ProjectError("there is no label that others could be taken from", where=str(store.folder), remedy=remedy)
     return compared
 

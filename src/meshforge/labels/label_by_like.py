@@ -14,7 +14,7 @@ import numpy as np
 from meshforge.common import UsageError, join_and, join_names, quote_path
 from meshforge.geometry import Floats, Ints
 from meshforge.label_model import MOST_LIKELY, reference_label
-from meshforge.labels.family_comparison import FamilyComparison, compare_assets
+from meshforge.labels.family_comparison import FamilyComparison, HullLabels, compare_assets
 from meshforge.labels.labeler import AssetLabels, Labeler, LabelFamily, LabelProposal
 from meshforge.labels.like_reference import LikeReference, describe_files, find_sample, read_family, read_references
 from meshforge.labels.merge import can_fill_gap
@@ -75,7 +75,7 @@ class LikeLabeler(Labeler):
         family = replace(family, vocabulary=family.vocabulary or tuple(dict.fromkeys(words)))
         described = {name: one.describe_assets(name, family.vocabulary) for name, one in known.items()}
         beside = [asset for assets in described.values() for asset in assets]
-        compared = compare_assets(family, lambda label: label if reference_label(label) else None, beside)
+        compared = compare_assets(family, lambda _, current: _choose_given(current), beside)
         found = _LikeComparison(family, compared, tuple(name for name in described for _ in described[name]))
         if self.fresh:
             found.check_kind(self.fresh[0])
@@ -182,6 +182,10 @@ class _LikeComparison:
                 sure = float(chance[hull] if confirmed[hull] else min(chance[hull], MOST_LIKELY))
                 found.append((Label(word, round(sure, _DIGITS), "like"), f"like {names}"))
         return found
+
+
+def _choose_given(current: HullLabels) -> HullLabels:
+    return {hull: label for hull, label in current.items() if reference_label(label)}
 
 
 def _find_nearest(rows: Floats, others: Floats, metric: Floats) -> tuple[Ints, Floats]:

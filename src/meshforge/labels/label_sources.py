@@ -14,6 +14,7 @@ from meshforge.labels.from_files.label_by_files import (
     label_file_beside,
     read_label_file,
 )
+from meshforge.labels.label_by_inference import AllLabeler
 from meshforge.labels.label_by_like import LikeLabeler
 from meshforge.labels.labeler import Labeler
 from meshforge.labels.merge import LabelOutcome, can_fill_gap, can_replace_less_certain, merge_labels
@@ -45,15 +46,17 @@ def keep_label_source(store: Store, outcomes: Iterable[LabelOutcome], labeler: L
     if isinstance(labeler, LikeLabeler) and labeler.fresh:
         with store.lock():
             write_atomically(store.layout.like(labeler.fresh[0]), labeler.fresh[1].format())
-    line = _line_of(store, labeler)
-    if line is None or not any(one.taken or one.same or one.kept for one in outcomes):
+    some = (labeler.files, labeler.names) if isinstance(labeler, AllLabeler) else (labeler,)
+    new = [line for one in some if (line := _line_of(store, one))]
+    if not new or not any(one.taken or one.same or one.kept for one in outcomes):
         return
     with store.lock():
         kept = read_json(store.layout.label_sources, LabelSourcesFile) or LabelSourcesFile()
         lines = {one.source: one for one in kept.lines}
-        known = dict(lines[line.source].options.meanings) if line.source in lines else {}
-        how = replace(line.options, meanings=tuple((known | dict(line.options.meanings)).items()))
-        lines[line.source] = line.model_copy(update={"options": how})
+        for line in new:
+            known = dict(lines[line.source].options.meanings) if line.source in lines else {}
+            how = replace(line.options, meanings=tuple((known | dict(line.options.meanings)).items()))
+            lines[line.source] = line.model_copy(update={"options": how})
         write_json(store.layout.label_sources, LabelSourcesFile(lines=tuple(lines.values())))
 
 

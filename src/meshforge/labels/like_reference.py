@@ -20,7 +20,7 @@ from meshforge.labels.names.words import match_label
 from meshforge.labels.reference_family import pick_evenly
 from meshforge.labels.summary import SURE
 from meshforge.store import AssetFiles, JsonFile, Store
-from meshforge.symbolic import Label
+from meshforge.symbolic import CLASS_SOURCES, Label
 
 SAMPLE = "sample:"
 """What a family that ships with MeshForge begins with, where a project's folder could stand."""
@@ -126,7 +126,8 @@ def find_sample(name: str) -> tuple[tuple[str, ...], Sequence[AssetFiles]]:
     """Return the vocabulary and the files of a family that ships. Raises UsageError, naming the nearest."""
     family = samples.family_of(name)
     labels = {path: label_file_beside(path) for path in sorted(family.folder.glob(family.pattern))}
-    return family.vocabulary, [AssetFiles(path, path / "none", file, None) for path, file in labels.items() if file]
+    none = family.folder / "none"
+    return family.vocabulary, [AssetFiles(path, none, file, none, None) for path, file in labels.items() if file]
 
 
 def describe_files(files: Sequence[AssetFiles], family: LabelFamily) -> tuple[list[LikeAsset], list[str]]:
@@ -161,12 +162,10 @@ def _describe_asset(files: AssetFiles) -> LikeAsset | str:
 
 def _can_teach(label: Label | None) -> bool:
     """Whether hulls of other families can be labelled by a label: one that a person or a file gave, or a sure one that
-    is not itself from another family."""
-    return (
-        label is not None
-        and label.source != "like"
-        and bool(label_model.reference_label(label) or label.confidence >= SURE)
-    )
+    is no class and not itself from another family."""
+    if label is None or label.source in CLASS_SOURCES | {"like"}:
+        return False
+    return label_model.reference_label(label) is not None or label.confidence >= SURE
 
 
 def _map_words(name: str, labels: Sequence[str], vocabulary: Sequence[str], given: Mapping[str, str]) -> dict[str, str]:

@@ -10,6 +10,7 @@ from meshforge import batch, label_model, symbolic, synthesis
 from meshforge.project import demonstrations
 from meshforge.project.run import find_accepted_results
 from meshforge.store import Feedback, Store
+from meshforge.symbolic import NO_PART
 
 TEACHES = 0.8
 """A result that was corrected is learned from where the labels of the hulls that differ are right with this
@@ -57,7 +58,7 @@ def list_wrong(
             differing = frozenset[str]().union(*({*was.select} ^ {*now.select} for was, now in pairs))
             rows = zip(mesh.hulls, posterior.chances_of(place), strict=True)
             share = math.prod(
-                float(row[columns[hull.label]]) if hull.label in columns else 0.0
+                float(row[columns[hull.label or NO_PART]]) if (hull.label or NO_PART) in columns else 0.0
                 for hull, row in rows
                 if hull.name in differing or not differing
             )

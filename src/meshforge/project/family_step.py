@@ -19,7 +19,7 @@ def choose_next_step(state: FamilyState) -> NextStep:
     """Return the first thing that is missing."""
     return (
         _decompose(state)
-        or (None if state.is_begun else _label_first(state) or _complete_labels(state) or _demonstrate(state))
+        or (None if state.is_begun else _begin(state))
         or _explain_last_run(state)
         or _fix_program(state)
         or _learn(state)
@@ -39,6 +39,18 @@ def _decompose(state: FamilyState) -> NextStep | None:
     return _step(state, "decompose", text, "prepare --decompose coacd", bare[0].id)
 
 
+def _begin(state: FamilyState) -> NextStep:
+    if not state.vocabulary and not any(asset.labelled for asset in state.assets):
+        return _take_files(state, state.assets) or _find_readable(state) or _demonstrate(state)
+    return _label_first(state) or _complete_labels(state) or _demonstrate(state)
+
+
+def _find_readable(state: FamilyState) -> NextStep | None:
+    if any(asset.names for asset in state.assets):
+        return None
+    return _step(state, "wait", "No asset has hulls that can be read: fix what the remarks name.")
+
+
 def _label_first(state: FamilyState) -> NextStep | None:
     """Take labels that are there already, where no hull has one yet; else those of an asset of usual size by hand."""
     if any(asset.labelled for asset in state.assets):
@@ -48,13 +60,16 @@ def _label_first(state: FamilyState) -> NextStep | None:
     if named := state.find_offers().named:
         text = f"The names of {pluralize(named, 'hull')} contain a label: take their labels."
         return _step(state, "label-names", text, "label --with names")
+    if step := _find_readable(state):
+        return step
+    usual = _usual(state)
+    return _label_by_hand(state, usual, f"No hull has a label yet: label those of {usual.id}.")
+
+
+def _usual(state: FamilyState) -> AssetStatus:
+    """The first asset with as many hulls as most have."""
     sizes = sorted(len(asset.names) for asset in state.assets if asset.names)
-    if not sizes:
-        return _step(state, "wait", "No asset has hulls that can be read: fix what the remarks name.")
-    usual = next(asset for asset in state.assets if len(asset.names) == sizes[(len(sizes) - 1) // 2])
-    kind: StepKind = "label" if state.vocabulary else "vocabulary"
-    first = "" if state.vocabulary else "name what hulls can be, and "
-    return _label_by_hand(state, usual, f"No hull has a label yet: {first}label those of {usual.id}.", kind)
+    return next(asset for asset in state.assets if len(asset.names) == sizes[(len(sizes) - 1) // 2])
 
 
 def _take_files(state: FamilyState, bare: Sequence[AssetStatus]) -> NextStep | None:
@@ -63,10 +78,10 @@ def _take_files(state: FamilyState, bare: Sequence[AssetStatus]) -> NextStep | N
     return _step(state, "label-files", text, "label --with file") if files else None
 
 
-def _label_by_hand(state: FamilyState, asset: AssetStatus, text: str, kind: StepKind = "label") -> NextStep:
+def _label_by_hand(state: FamilyState, asset: AssetStatus, text: str) -> NextStep:
     hull = next(name for name, label in zip(asset.names, asset.labels, strict=True) if label is None)
     command = label_command(state.folder, asset.id, hull, state.vocabulary)
-    return NextStep(kind, text, asset.id, command, _explain_names(state, asset.id))
+    return NextStep("label", text, asset.id, command, _explain_names(state, asset.id))
 
 
 def _explain_names(state: FamilyState, asset: str) -> str:
@@ -125,8 +140,8 @@ def _check_labels(state: FamilyState) -> NextStep | None:
 
 def _demonstrate(state: FamilyState) -> NextStep:
     labelled = [asset.id for asset in state.assets if asset.labelled]
-    best = state.suggest_first(labelled)
-    example = best or next(iter(labelled or [asset.id for asset in state.assets]))
+    best = state.suggest_first(labelled) or (_usual(state).id if not labelled else None)
+    example = best or labelled[0]
     text = f"Show the steps of the edit on an asset or two{f', best first on {best}' if best else ''}."
     note = _explain_names(state, example)
     return _step(

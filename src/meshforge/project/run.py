@@ -33,6 +33,7 @@ def build_jobs(store: Store, only: Collection[str] | None = None) -> tuple[batch
             store.manual_edits(asset),
             layout.preparation(asset) if (layout.preparation(asset) / batch.RECORD_FILE).exists() else None,
             find_selections(feedback, asset),
+            classes=layout.classes(asset) if layout.classes(asset).exists() else None,
         )
         for asset, path in (store.found if only is None else store.every).choose(only).items()
     )

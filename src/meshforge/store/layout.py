@@ -122,6 +122,7 @@ class Layout:
 
     settings = OneFile(SETTINGS, _effects("settings", "learning"), words=True)
     labels = AssetFile("labels/{asset}.json", _effects("card", "learning"), hulls=True, words=True)
+    classes = AssetFile("classes/{asset}.json", _effects("card"), hulls=True, words=True, learned=True)
     label_sources = OneFile("label_sources.json", words=True)
     like = AssetFile("labels/like/{name}.json", words=True)
     demonstration = AssetFile("demonstrations/{asset}.json", _effects("card", "learning"), hulls=True, words=True)

@@ -52,7 +52,7 @@ FOUND = {"has_program": True, "last_run": LastRun("found")}
 
 def test_the_steps_follow_one_another() -> None:
     assert choose(asset(labels="", sources=1)).kind == "decompose"
-    assert choose(BARE, vocabulary=()).kind == "vocabulary"
+    assert choose(BARE, vocabulary=()).kind == "demonstrate"
     assert choose(BARE).kind == choose(BEGUN).kind == "label"
     assert choose(LABELLED).kind == "demonstrate"
     assert choose(SHOWN).kind == "learn"

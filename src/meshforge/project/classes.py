@@ -1,0 +1,166 @@
+"""Classes of hulls, where nobody named parts: a hull's class is the set of the steps that took it, and its likes are of
+the same class. A class is a label with a made name (`part_a`: the hulls of step 1), kept beside the labels."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+
+from meshforge import language, symbolic, synthesis
+from meshforge.geometry import digest
+from meshforge.label_model import evidence_of, model_family
+from meshforge.store import Store
+from meshforge.symbolic import CLASS_SOURCES, Hull, Label, LabelFile, SymbolicMesh, is_class_name, name_class
+
+Rules = frozenset[int]
+"""The numbers of the rules that take a hull; none: it is none of the parts."""
+KnownRules = Mapping[str, Mapping[str, Rules]]
+"""Of hulls of which a person showed or said which rules take them: these, by asset and hull."""
+
+
+def infer_classes(
+    meshes: Mapping[str, SymbolicMesh],
+    demos: Mapping[str, synthesis.Demonstration],
+    answers: Iterable[synthesis.Answer],
+    templates: Mapping[str, language.Template],
+) -> dict[str, SymbolicMesh]:
+    """Return the meshes with the classes of hulls that have no label, without any where the steps need none; one whose
+    classes stay is the same object.
+
+    demos: by asset; answers: what a person said since of the hulls that rules select.
+    """
+    bare = {name: _remove_classes(mesh) for name, mesh in meshes.items()}
+    known = _collect_rules(bare, demos, answers, templates)
+    if not _needs_classes(bare, known, any(bare[name] is not mesh for name, mesh in meshes.items())):
+        return bare
+    observed = {
+        asset: {hull: Label(name_class(one), 1.0, "step") for hull, one in rules.items()}
+        for asset, rules in known.items()
+    }
+    annotations = [
+        observed.get(asset, {}).get(hull.name) or evidence_of(hull.annotation)
+        for asset, mesh in bare.items()
+        for hull in mesh.hulls
+    ]
+    found = model_family(list(bare.values())).infer(annotations)
+    classed = dict[str, SymbolicMesh]()
+    for place, (asset, mesh) in enumerate(bare.items()):
+        labels = _choose_labels(mesh, observed.get(asset, {}), found.labels(place, "class"))
+        same = labels == _classes_of(meshes[asset])
+        classed[asset] = meshes[asset] if same else mesh.with_labels(labels)
+    return classed
+
+
+def keep_classes(store: Store, before: Mapping[str, SymbolicMesh], after: Mapping[str, SymbolicMesh]) -> None:
+    """Write the classes of meshes, by asset, where they are others than before."""
+    kept = set(store.layout.classes.ids)
+    changed = {asset: format_classes(mesh) for asset, mesh in after.items() if mesh is not before[asset]}
+    texts = changed | dict.fromkeys(asset for asset in kept & after.keys() if not _classes_of(after[asset]))
+    if texts:
+        with store.lock():
+            store.write_classes(texts)
+
+
+def class_names(meshes: Iterable[SymbolicMesh]) -> tuple[str, ...]:
+    """Return the names of the classes that are on some meshes, sorted."""
+    return tuple(sorted({h.label for mesh in meshes for h in mesh.hulls if h.label and is_class_name(h.label)}))
+
+
+def _remove_classes(mesh: SymbolicMesh) -> SymbolicMesh:
+    classes = [hull.name for hull in mesh.hulls if hull.source in CLASS_SOURCES]
+    return mesh.with_labels(dict.fromkeys(classes)) if classes else mesh
+
+
+def _needs_classes(meshes: Mapping[str, SymbolicMesh], known: KnownRules, is_begun: bool) -> bool:
+    """Whether a step takes a hull without a label; or one did, and no asset tells yet what all its hulls are."""
+    bare = ((meshes[asset].hull_of(hull), rules) for asset, one in known.items() for hull, rules in one.items())
+    if any(rules and _has_no_name(hull) for hull, rules in bare):
+        return True
+    return is_begun and not any(
+        mesh.hulls and all(evidence_of(hull.annotation) and not _has_no_name(hull) for hull in mesh.hulls)
+        for mesh in meshes.values()
+    )
+
+
+def _collect_rules(
+    meshes: Mapping[str, SymbolicMesh],
+    demos: Mapping[str, synthesis.Demonstration],
+    answers: Iterable[synthesis.Answer],
+    templates: Mapping[str, language.Template],
+) -> dict[str, dict[str, Rules]]:
+    """The rules of the hulls that have no label of an asset of which every rule is known."""
+    count = max((len(demo.steps) for demo in demos.values()), default=0)
+    found = {
+        asset: _rules_of_demonstration(demo, meshes[asset], count, templates)
+        for asset, demo in demos.items()
+        if asset in meshes
+    }
+    answered = dict[str, dict[int, frozenset[str]]]()
+    for answer in answers:
+        if answer.select is not None and answer.price is None and answer.asset in meshes and answer.asset not in found:
+            answered.setdefault(answer.asset, {})[answer.rule] = answer.select
+    for asset, selections in answered.items():
+        mesh = meshes[asset]
+        is_whole = len(selections) == count and all(names <= mesh.index.keys() for names in selections.values())
+        if is_whole:
+            taken = _invert(selections)
+            found[asset] = {hull.name: taken.get(hull.name, Rules()) for hull in mesh.hulls if _has_no_name(hull)}
+    return found
+
+
+def _rules_of_demonstration(
+    demo: synthesis.Demonstration, mesh: SymbolicMesh, count: int, templates: Mapping[str, language.Template]
+) -> dict[str, Rules]:
+    """Of the hulls without a label, the rules that take them, or what is made of them as long as that has no label.
+
+    Where the demonstration leaves a rule open, only those of hulls that a step takes.
+    """
+    selections = dict[int, frozenset[str]]()
+    replay = language.Replay.begin(mesh, name=demo.name or "", memo=synthesis.memoize)
+    origins = {hull.name: frozenset([hull.name]) for hull in mesh.hulls}
+    for step in demo.steps:
+        if step.select is None:
+            replay = replay.skip()
+            continue
+        unnamed = [name for name in step.select if _has_no_name(replay.mesh.hull_of(name))]
+        selections[step.rule] = frozenset(old for name in unnamed for old in origins.get(name, ()))
+        replay = replay.apply(replay.mask_of(step.select), step.action, step.label, templates)
+        trace = replay.trace[-1]
+        for made, sources in zip(trace.made, trace.sources, strict=True):
+            origins[made] = frozenset(old for name in sources for old in origins.get(name, ()))
+    taken = _invert(selections)
+    is_whole = len(demo.steps) == count and not any(step.open for step in demo.steps)
+    return {
+        hull.name: taken.get(hull.name, Rules())
+        for hull in mesh.hulls
+        if _has_no_name(hull) and (is_whole or hull.name in taken)
+    }
+
+
+def _has_no_name(hull: Hull) -> bool:
+    """Whether nobody named the part that a hull is of."""
+    return hull.annotation is None or is_class_name(hull.annotation.name)
+
+
+def _invert(selections: Mapping[int, frozenset[str]]) -> dict[str, Rules]:
+    names = {name for some in selections.values() for name in some}
+    return {name: Rules(rule for rule, some in selections.items() if name in some) for name in names}
+
+
+def _choose_labels(
+    mesh: SymbolicMesh, observed: Mapping[str, Label], inferred: Sequence[Label | None]
+) -> dict[str, Label]:
+    """The classes of the hulls without a label: what was shown, else the likeliest where that is a class."""
+    rows = zip(mesh.hulls, inferred, strict=True)
+    guesses = {hull.name: one for hull, one in rows if not hull.annotation and one and is_class_name(one.name)}
+    return {**guesses, **observed}
+
+
+def _classes_of(mesh: SymbolicMesh) -> dict[str, Label]:
+    return {name: label for name, label in mesh.labels.items() if label.source in CLASS_SOURCES}
+
+
+def format_classes(mesh: SymbolicMesh) -> str | None:
+    """Return the text of the file of classes of a mesh, None where it has none."""
+    classes = _classes_of(mesh)
+    digests = {name: digest(mesh.hull_of(name).shape) for name in classes}
+    return symbolic.format_labels(LabelFile((), classes, digests)) if classes else None
