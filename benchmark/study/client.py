@@ -65,7 +65,7 @@ class TaskClient:
 
     def take_labels(self) -> None:
         """Take the labels that all sources together speak for, where any hull has one."""
-        if any(mesh.labels for mesh in self.read_meshes().values()):
+        if self.project.vocabulary and any(mesh.labels for mesh in self.read_meshes().values()):
             self.project.label("propagate")
 
     # What a person sees

@@ -14,7 +14,7 @@ __getattr__, __all__ = export_lazily(
         "labeler": "AssetLabels Labeler LabelFamily LabelProposal ignore_stage",
         "merge": "LabelOutcome NewHullLabels label_new_hulls set_labels set_labels_of",
         "names.label_by_names": "NameLabeler",
-        "offers": "LabelOffers OfferCache",
+        "offers": "LabelOffers OfferCache propose_class_names",
         "reference_family": "ReferenceFamily pick_evenly read_reference_family",
         "registry": "LABELERS AssetLabeler make_labeler",
         "spans": "HullSpan SpanReport",

@@ -23,6 +23,7 @@ from meshforge.labels.merge import set_labels_of as set_labels_of
 from meshforge.labels.names.label_by_names import NameLabeler as NameLabeler
 from meshforge.labels.offers import LabelOffers as LabelOffers
 from meshforge.labels.offers import OfferCache as OfferCache
+from meshforge.labels.offers import propose_class_names as propose_class_names
 from meshforge.labels.reference_family import ReferenceFamily as ReferenceFamily
 from meshforge.labels.reference_family import pick_evenly as pick_evenly
 from meshforge.labels.reference_family import read_reference_family as read_reference_family

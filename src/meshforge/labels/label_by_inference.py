@@ -7,14 +7,15 @@ from collections.abc import Callable, Generator, Mapping, Sequence
 from contextlib import closing
 from dataclasses import replace
 
-from meshforge import label_model, symbolic
+from meshforge import label_model, symbolic, synthesis
 from meshforge.common import AssetError
+from meshforge.labels.classes import find_step_labels
 from meshforge.labels.family_comparison import FamilyComparison, HullLabels, compare_assets
 from meshforge.labels.from_files.label_by_files import FileLabeler, find_label_files
 from meshforge.labels.labeler import AssetLabels, Labeler, LabelFamily, LabelProposal, LabelReason
 from meshforge.labels.names.label_by_names import NameLabeler
-from meshforge.store import Store
-from meshforge.symbolic import GIVEN_SOURCES, NO_PART, Label, match_labels
+from meshforge.store import AssetFacts, Store
+from meshforge.symbolic import NO_PART, Label, match_labels
 
 _READ_AGAIN = frozenset({"name", "file"})
 """Sources that are asked anew each time, so that what they said before does not count."""
@@ -34,8 +35,8 @@ class PropagationLabeler(Labeler):
     replaces = True
 
     def propose(self, family: LabelFamily) -> LabelProposal:
-        none = _find_no_parts(family.store)
-        return _infer(family, lambda asset, current: {**none.get(asset, {}), **_evidence_on(current)}, {})
+        steps = _find_step_labels(family)
+        return _infer(family, lambda asset, current: {**steps.get(asset, {}), **_evidence_on(current)}, {})
 
     def can_replace(self, current: Label | None, given: Label | None) -> bool:
         """Return whether what the label was inferred from is still the evidence on its hull."""
@@ -69,18 +70,18 @@ class AllLabeler(Labeler):
         reasons: dict[str, Mapping[str, LabelReason]] = {one.asset: one.reasons for one in by_names}
         reasons |= {one.asset: {**reasons.get(one.asset, {}), **one.reasons} for one in found}
         given = _merge(by_names, found)
-        none = _find_no_parts(family.store)
+        steps = _find_step_labels(family)
 
         def speak(asset: str, current: HullLabels) -> HullLabels:
             kept = {hull: one for hull, one in _evidence_on(current).items() if one.source not in _READ_AGAIN}
             people = {hull: one for hull, one in kept.items() if one.source in symbolic.HUMAN_SOURCES}
-            return {**none.get(asset, {}), **kept, **given.get(asset, {}), **people}
+            return {**steps.get(asset, {}), **kept, **given.get(asset, {}), **people}
 
         inferred = _infer(family, speak, reasons)
         return replace(inferred, assets=_add_problems(inferred.assets, problems), vocabulary=words)
 
     def can_replace(self, current: Label | None, given: Label | None) -> bool:
-        return given is not None
+        return True
 
 
 def _collect(proposal: LabelProposal) -> list[AssetLabels]:
@@ -109,24 +110,24 @@ def _evidence_on(current: HullLabels) -> HullLabels:
     return {hull: known for hull, label in current.items() if (known := label_model.evidence_of(label))}
 
 
-def _find_no_parts(store: Store) -> dict[str, HullLabels]:
-    """The hulls that no step of a demonstration takes, while no asset tells what all its hulls are: nothing but these
-    says that a hull may be none of the parts that have names."""
-    if not (assets := store.layout.classes.ids):
+def _find_step_labels(family: LabelFamily) -> dict[str, dict[str, Label]]:
+    """The classes of hulls without a label on demonstrated assets, while no asset tells what all its hulls are: nothing
+    but these says that a hull may be none of the parts that have names."""
+    store = family.store
+    shown = dict(store.meshes_by_id(store.demonstration_ids()))
+    if not shown or any(_is_named(store, asset, facts) for asset, facts in family.iterate_facts()):
         return {}
-    if any(all(one.source in GIVEN_SOURCES for one in labels.values()) for labels in _whole_labels(store)):
-        return {}
-    files = ((asset, store.labels_and_classes(asset)) for asset in assets if asset in store.found.ids)
-    return {asset: {n: one for n, one in file.labels.items() if one.source == "step"} for asset, file in files}
+    demos = {asset: synthesis.Demonstration(mesh, store.steps(asset), asset) for asset, mesh in shown.items()}
+    names = dict.fromkeys(name for demo in demos.values() for step in demo.steps for name in step.action.templates)
+    return find_step_labels(shown, demos, (), store.templates(names))
 
 
-def _whole_labels(store: Store) -> Generator[HullLabels, None, None]:
-    """The labels of the assets all of whose hulls have one."""
-    for asset in store.assets():
-        classed = store.labels_and_classes(asset).labels
-        labels = store.labels(asset).labels
-        if labels and labels.keys() == classed.keys():
-            yield labels
+def _is_named(store: Store, asset: str, facts: AssetFacts) -> bool:
+    try:
+        labels = match_labels(store.labels(asset), facts.hulls).labels
+    except AssetError:  # said where it is compared
+        return False
+    return bool(facts.hulls) and facts.hulls.keys() == _evidence_on(labels).keys()
 
 
 def _infer(
@@ -158,8 +159,14 @@ def _share_labels(
             yield AssetLabels(asset, error=compared.lost[asset])
             continue
         current, known = compared.current[asset], reasons.get(asset, {})
-        given = {hull: label for hull, label in shares[asset].items() if not symbolic.is_class_name(label.name)}
-        why = {hull: _reason_of(current.get(hull), label, known.get(hull), hull) for hull, label in given.items()}
+        given: dict[str, Label | None] = {}
+        for hull, label in shares[asset].items():
+            if not symbolic.is_class_name(label.name):
+                given[hull] = label
+            elif hull in current and not label_model.evidence_of(current[hull]):  # it got the name of another part
+                given[hull] = None
+        rows = ((hull, label) for hull, label in given.items() if label)
+        why = {hull: _reason_of(current.get(hull), label, known.get(hull), hull) for hull, label in rows}
         yield AssetLabels(asset, compared.hulls[asset], given, why)
 
 

@@ -71,6 +71,12 @@ def list_wrong(
     return found
 
 
+def list_corrected(feedback: Feedback, demos: Mapping[str, synthesis.Demonstration]) -> list[synthesis.Answer]:
+    """Return what a person said that rules should have selected on results that were wrong."""
+    last = {asset: some[-1] for asset, some in feedback.verdicts.items() if asset not in demos}
+    return [answer for asset, one in last.items() if one.meant for answer in _number(demos, asset, one.meant)]
+
+
 def soften(answers: Iterable[synthesis.Answer], price: float = UNSURE_PRICE) -> list[synthesis.Answer]:
     """Return the same answers, which no reading has to keep to; what is unsure stays so."""
     return [

@@ -10,8 +10,9 @@ from dataclasses import dataclass, replace
 from meshforge import batch, language, symbolic, synthesis
 from meshforge import labels as labelling
 from meshforge.common import MeshForgeError, ProgramError, ProjectError, file_digest, write_atomically
-from meshforge.project import classes, demonstrations
-from meshforge.project.evidence import list_accepted, list_rejections, list_wrong, soften, sort_answers
+from meshforge.labels import classes
+from meshforge.project import demonstrations
+from meshforge.project.evidence import list_accepted, list_corrected, list_rejections, list_wrong, soften, sort_answers
 from meshforge.store import ProgramRecord, Settings, Store
 
 MOST_ASSETS = 400
@@ -186,8 +187,9 @@ def update_classes(
     demos = {asset: synthesis.Demonstration(meshes[asset], store.steps(asset), asset) for asset in shown}
     if not demos and (program := store.program()) and {*program.labels_asked} & {*classes.class_names(meshes.values())}:
         return dict(meshes)
-    fitting, _ = sort_answers(store.feedback(), demos)
-    answers = [*list_accepted(store, demos, fitting), *fitting]
+    feedback = store.feedback()
+    fitting, _ = sort_answers(feedback, demos)
+    answers = [*list_accepted(store, demos, fitting), *list_corrected(feedback, demos), *fitting]
     names = dict.fromkeys(name for demo in demos.values() for step in demo.steps for name in step.action.templates)
     found = classes.infer_classes(meshes, demos, answers, store.templates(names))
     if keep:

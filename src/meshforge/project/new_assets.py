@@ -19,10 +19,10 @@ from meshforge.common import MeshForgeError, describe_error
 from meshforge.formats import read
 from meshforge.geometry import cache_folder
 from meshforge.labels import ReferenceFamily, ignore_stage, read_reference_family
+from meshforge.labels.classes import format_classes
 from meshforge.labels.label_sources import FamilyLabelSources
 from meshforge.labels.labeler import Stage
 from meshforge.labels.merge import LabelWriter, can_fill_gap
-from meshforge.project.classes import format_classes
 from meshforge.project.new_asset_result import NewAssetResult
 from meshforge.project.preparation_plan import PreparationPlan, RebuildSettings, extend_plan, find_new_assets
 from meshforge.project.prepare import exchange_preparation

@@ -10,27 +10,12 @@ import pytest
 
 from meshforge.project import Project, Status
 from tests.unit.batch.families import label_of, table_boxes, write_table
-from tests.unit.cli.in_process import Run, runner
+from tests.unit.cli.in_process import Run
 from tests.unit.project.shelves import ambiguous
 from tests.unit.project.tables import FIRST, SECOND, THIRD, applied, demonstrated, fresh, labelled, learned
+from tests.urdf_sample import corner_obj
 
 LABELS = {name: label_of(name) for name in table_boxes()}
-CORNERS = ((0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2))
-FLOOR = ((0, 1, 2), (0, 2, 3), (0, 3, 5), (3, 4, 5))
-SIDES = [f"f {k + 1} {(k + 1) % 6 + 1} {(k + 1) % 6 + 7} {k + 7}" for k in range(6)]
-ANGLE = "\n".join(
-    [
-        *("o angle", *(f"v {x} {y} {z}" for z in (0, 1) for x, y in CORNERS), *SIDES),
-        *(f"f {c + 1} {b + 1} {a + 1}\nf {a + 7} {b + 7} {c + 7}" for a, b, c in FLOOR),
-    ]
-)
-"""A closed piece that is not convex."""
-
-
-@pytest.fixture
-def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> Run:
-    monkeypatch.chdir(tmp_path)
-    return runner(monkeypatch, capsys)
 
 
 def of(project: Project) -> Status:
@@ -84,7 +69,7 @@ def changed_asset(folder: Path) -> Project:
 def without_hulls(folder: Path) -> Project:
     """A piece that is not convex and has to be decomposed."""
     (folder / "assets").mkdir(parents=True)
-    (folder / "assets/angle.obj").write_text(ANGLE)
+    (folder / "assets/angle.obj").write_text(corner_obj())
     return Project.create(folder / "tables", [folder / "assets"], vocabulary=["top"])
 
 

@@ -3,13 +3,24 @@ the same class. A class is a label with a made name (`part_a`: the hulls of step
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 
 from meshforge import language, symbolic, synthesis
 from meshforge.geometry import digest
 from meshforge.label_model import evidence_of, model_family
 from meshforge.store import Store
-from meshforge.symbolic import CLASS_SOURCES, Hull, Label, LabelFile, SymbolicMesh, is_class_name, name_class
+from meshforge.symbolic import (
+    CLASS_SOURCES,
+    HUMAN_SOURCES,
+    INFERRED_SOURCES,
+    NO_PART,
+    Hull,
+    Label,
+    LabelFile,
+    SymbolicMesh,
+    is_class_name,
+    name_class,
+)
 
 Rules = frozenset[int]
 """The numbers of the rules that take a hull; none: it is none of the parts."""
@@ -28,14 +39,10 @@ def infer_classes(
 
     demos: by asset; answers: what a person said since of the hulls that rules select.
     """
-    bare = {name: _remove_classes(mesh) for name, mesh in meshes.items()}
-    known = _collect_rules(bare, demos, answers, templates)
-    if not _needs_classes(bare, known, any(bare[name] is not mesh for name, mesh in meshes.items())):
+    bare = {name: _remove(mesh, CLASS_SOURCES) for name, mesh in meshes.items()}
+    observed = find_step_labels(bare, demos, answers, templates)
+    if not observed:
         return bare
-    observed = {
-        asset: {hull: Label(name_class(one), 1.0, "step") for hull, one in rules.items()}
-        for asset, rules in known.items()
-    }
     annotations = [
         observed.get(asset, {}).get(hull.name) or evidence_of(hull.annotation)
         for asset, mesh in bare.items()
@@ -48,6 +55,34 @@ def infer_classes(
         same = labels == _classes_of(meshes[asset])
         classed[asset] = meshes[asset] if same else mesh.with_labels(labels)
     return classed
+
+
+def find_step_labels(
+    meshes: Mapping[str, SymbolicMesh],
+    demos: Mapping[str, synthesis.Demonstration],
+    answers: Iterable[synthesis.Answer],
+    templates: Mapping[str, language.Template],
+) -> dict[str, dict[str, Label]]:
+    """Return the classes that follow from steps of hulls without a name, by asset and hull; nothing where each step
+    takes hulls with names, and some asset tells what all its hulls are.
+
+    Where a person named hulls of an asset, the others are none of these parts. Where nobody did, a hull that the same
+    steps take as some with a name may be that part, and nothing is said of it.
+    meshes: those of demonstrated assets at least. While no asset tells what all its hulls are, labels that were
+    inferred are no names.
+    """
+    is_complete = any(map(_is_named, meshes.values()))
+    bare = meshes if is_complete else {n: _remove(mesh, INFERRED_SOURCES) for n, mesh in meshes.items()}
+    known = _collect_rules(bare, demos, answers, templates)
+    rows = [(asset, bare[asset].hull_of(hull), rules) for asset, one in known.items() for hull, rules in one.items()]
+    covered = {rules for _, hull, rules in rows if not _has_no_name(hull)}
+    by_people = {asset for asset, hull, _ in rows if hull.source in HUMAN_SOURCES and not _has_no_name(hull)}
+    found = dict[str, dict[str, Label]]()
+    for asset, hull, rules in rows:
+        if _has_no_name(hull) and (asset in by_people or rules not in covered):
+            found.setdefault(asset, {})[hull.name] = Label(name_class(rules), 1.0, "step")
+    takes = any(label.name != NO_PART for one in found.values() for label in one.values())
+    return found if takes or not is_complete else {}
 
 
 def keep_classes(store: Store, before: Mapping[str, SymbolicMesh], after: Mapping[str, SymbolicMesh]) -> None:
@@ -65,20 +100,14 @@ def class_names(meshes: Iterable[SymbolicMesh]) -> tuple[str, ...]:
     return tuple(sorted({h.label for mesh in meshes for h in mesh.hulls if h.label and is_class_name(h.label)}))
 
 
-def _remove_classes(mesh: SymbolicMesh) -> SymbolicMesh:
-    classes = [hull.name for hull in mesh.hulls if hull.source in CLASS_SOURCES]
-    return mesh.with_labels(dict.fromkeys(classes)) if classes else mesh
+def _remove(mesh: SymbolicMesh, sources: Collection[str]) -> SymbolicMesh:
+    gone = [hull.name for hull in mesh.hulls if hull.source in sources]
+    return mesh.with_labels(dict.fromkeys(gone)) if gone else mesh
 
 
-def _needs_classes(meshes: Mapping[str, SymbolicMesh], known: KnownRules, is_begun: bool) -> bool:
-    """Whether a step takes a hull without a label; or one did, and no asset tells yet what all its hulls are."""
-    bare = ((meshes[asset].hull_of(hull), rules) for asset, one in known.items() for hull, rules in one.items())
-    if any(rules and _has_no_name(hull) for hull, rules in bare):
-        return True
-    return is_begun and not any(
-        mesh.hulls and all(evidence_of(hull.annotation) and not _has_no_name(hull) for hull in mesh.hulls)
-        for mesh in meshes.values()
-    )
+def _is_named(mesh: SymbolicMesh) -> bool:
+    """Whether people, files or names said of all hulls what they are."""
+    return bool(mesh.hulls) and all(evidence_of(hull.annotation) and not _has_no_name(hull) for hull in mesh.hulls)
 
 
 def _collect_rules(
@@ -87,7 +116,7 @@ def _collect_rules(
     answers: Iterable[synthesis.Answer],
     templates: Mapping[str, language.Template],
 ) -> dict[str, dict[str, Rules]]:
-    """The rules of the hulls that have no label of an asset of which every rule is known."""
+    """The rules that take each hull, of assets of which that is known."""
     count = max((len(demo.steps) for demo in demos.values()), default=0)
     found = {
         asset: _rules_of_demonstration(demo, meshes[asset], count, templates)
@@ -100,17 +129,16 @@ def _collect_rules(
             answered.setdefault(answer.asset, {})[answer.rule] = answer.select
     for asset, selections in answered.items():
         mesh = meshes[asset]
-        is_whole = len(selections) == count and all(names <= mesh.index.keys() for names in selections.values())
-        if is_whole:
+        if len(selections) == count and all(names <= mesh.index.keys() for names in selections.values()):
             taken = _invert(selections)
-            found[asset] = {hull.name: taken.get(hull.name, Rules()) for hull in mesh.hulls if _has_no_name(hull)}
+            found[asset] = {hull.name: taken.get(hull.name, Rules()) for hull in mesh.hulls}
     return found
 
 
 def _rules_of_demonstration(
     demo: synthesis.Demonstration, mesh: SymbolicMesh, count: int, templates: Mapping[str, language.Template]
 ) -> dict[str, Rules]:
-    """Of the hulls without a label, the rules that take them, or what is made of them as long as that has no label.
+    """The rules that take each hull, or what is made of it as long as no step gives that a label.
 
     Where the demonstration leaves a rule open, only those of hulls that a step takes.
     """
@@ -121,19 +149,14 @@ def _rules_of_demonstration(
         if step.select is None:
             replay = replay.skip()
             continue
-        unnamed = [name for name in step.select if _has_no_name(replay.mesh.hull_of(name))]
-        selections[step.rule] = frozenset(old for name in unnamed for old in origins.get(name, ()))
+        selections[step.rule] = frozenset(old for name in step.select for old in origins.get(name, ()))
         replay = replay.apply(replay.mask_of(step.select), step.action, step.label, templates)
         trace = replay.trace[-1]
         for made, sources in zip(trace.made, trace.sources, strict=True):
-            origins[made] = frozenset(old for name in sources for old in origins.get(name, ()))
+            origins[made] = frozenset(old for one in sources for old in origins.get(one, ()) if not step.label)
     taken = _invert(selections)
     is_whole = len(demo.steps) == count and not any(step.open for step in demo.steps)
-    return {
-        hull.name: taken.get(hull.name, Rules())
-        for hull in mesh.hulls
-        if _has_no_name(hull) and (is_whole or hull.name in taken)
-    }
+    return {hull.name: taken.get(hull.name, Rules()) for hull in mesh.hulls if is_whole or hull.name in taken}
 
 
 def _has_no_name(hull: Hull) -> bool:
