@@ -210,8 +210,6 @@ def can_replace_less_certain(current: Label | None, given: Label) -> bool:
     """
     if current is None or current.source == given.source:
         return True
-    if current.source == "like" and given.source in symbolic.INFERRED_SOURCES:
-        return True  # what follows from labels here says more than another family
     return current.source not in symbolic.GIVEN_SOURCES | {"rebuild"} and current.confidence < given.confidence
 
 

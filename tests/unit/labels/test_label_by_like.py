@@ -73,22 +73,18 @@ def test_what_follows_from_it_is_not_sure_either(project: Project) -> None:
     assert {label.source for label in labels} == {"propagated"} and max(label.confidence for label in labels) < SURE
 
 
-def test_of_too_many_hulls_some_assets_are_kept_and_one_that_cannot_be_read_is_named(
+def test_a_dry_run_keeps_nothing_of_too_many_hulls_some_and_an_asset_that_cannot_be_read_is_named(
     tmp_path: Path, other: Project, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(like_reference, "_HULLS", 2 * len(NAMES))
     project = family(tmp_path / "own", 0.95)
+    dry = project.label(LikeLabeler(other.folder), dry_run=True)
+    assert {row.label for row in dry.proposals.rows} == {*TRUE.values()}
+    assert not project.vocabulary and not project.layout.like.ids and not labels_of(project)
     assert not project.label(LikeLabeler(other.folder)).notes
     assert len(read_references(project)["p"].assets) == 2
     (tmp_path / "other/assets/t0.obj").write_text("v 0 0 0\nf 1")
     assert "t0.obj" in project.label(LikeLabeler(other.folder)).notes[0]
-
-
-def test_a_dry_run_writes_nothing(tmp_path: Path, other: Project) -> None:
-    project = family(tmp_path / "own", 0.95)
-    dry = project.label(LikeLabeler(other.folder), dry_run=True)
-    assert {row.label for row in dry.proposals.rows} == {*TRUE.values()}
-    assert not project.vocabulary and not project.layout.like.ids and not labels_of(project)
 
 
 def test_what_is_kept_labels_again_without_the_other_project(project: Project, other: Project) -> None:
@@ -159,20 +155,15 @@ def test_words_that_differ_are_taken_by_their_synonyms_or_as_they_are_mapped(tmp
     assert {*labels_of(project).values()} == {"tabletop", "drawer"}
 
 
-@pytest.mark.parametrize(
-    ("words", "vocabulary", "problem"),
-    [
-        ({"legs": "leg"}, ("leg",), r"p has no label 'legs'\n  Did you mean 'leg'"),
-        ({"leg": "post"}, ("posts", "top"), r"'post' is not in the vocabulary\n  Did you mean 'posts'"),
-        ({}, ("wing", "fuselage"), r"no label of p means one of the vocabulary: top, leg, misc\n  .*--map top=LABEL"),
-    ],
-)
-def test_words_that_neither_has_are_named(
-    tmp_path: Path, other: Project, words: dict[str, str], vocabulary: tuple[str, ...], problem: str
-) -> None:
-    project = family(tmp_path / "own", 0.95, vocabulary)
-    with pytest.raises(UsageError, match=problem):
-        project.label(LikeLabeler(other.folder, words))
+def test_words_that_neither_has_are_named(tmp_path: Path, other: Project) -> None:
+    project = family(tmp_path / "own", 0.95, ("leg", "posts"))
+    with pytest.raises(UsageError, match=r"p has no label 'legs'\n  Did you mean 'leg'"):
+        project.label(LikeLabeler(other.folder, {"legs": "leg"}))
+    with pytest.raises(UsageError, match=r"'post' is not in the vocabulary\n  Did you mean 'posts'"):
+        project.label(LikeLabeler(other.folder, {"leg": "post"}))
+    project.set_vocabulary(("wing", "fuselage"))
+    with pytest.raises(UsageError, match=r"no label of p means one of the vocabulary: top, leg, misc\n  .*--map top=L"):
+        project.label(LikeLabeler(other.folder))
 
 
 def _truncate(other: Project) -> None:
@@ -219,14 +210,15 @@ def test_a_wrong_name_the_project_itself_and_no_name_are_refused(tmp_path: Path)
         project.label("like")
 
 
-@pytest.mark.parametrize(
-    "spoil", [lambda text: text[:99], lambda text: text.replace('["top","leg"', '["leg","leg"'), lambda _: "{}"]
-)
-def test_a_file_of_another_family_that_is_damaged_is_named(project: Project, spoil: Callable[[str], str]) -> None:
+def test_a_file_of_another_family_that_is_damaged_is_named(project: Project) -> None:
     path = project.layout.like("p")
-    path.write_text(spoil(path.read_text()))
-    with pytest.raises(ProjectError, match=r"like.p\.json(.|\n)*Remove it, and take the labels with --like once more"):
-        project.label("like")
+    whole = path.read_text()
+    for damaged in (whole[:99], whole.replace('["top","leg"', '["leg","leg"'), "{}"):
+        path.write_text(damaged)
+        with pytest.raises(
+            ProjectError, match=r"like.p\.json(.|\n)*Remove it, and take the labels with --like once more"
+        ):
+            project.label("like")
 
 
 def test_hulls_that_are_all_alike_get_a_label(tmp_path: Path) -> None:
