@@ -31,6 +31,7 @@ _SOURCE_WORDS = {
     "file": "files",
     "name": "names",
     "propagated": "propagation",
+    "like": "another family",
     "step": "steps shown",
     "class": "likeness to steps shown",
     "rebuild": "rebuilt bodies",

@@ -8,6 +8,8 @@ from meshforge.labels.label_family import Proposal as Proposal
 from meshforge.labels.label_family import Proposals as Proposals
 from meshforge.labels.label_family import label_project as label_project
 from meshforge.labels.label_by_inference import AllLabeler as AllLabeler
+from meshforge.labels.label_by_like import LikeLabeler as LikeLabeler
+from meshforge.labels.label_by_like import LikeMismatchError as LikeMismatchError
 from meshforge.labels.labeler import AssetLabels as AssetLabels
 from meshforge.labels.labeler import Labeler as Labeler
 from meshforge.labels.labeler import LabelFamily as LabelFamily

@@ -57,7 +57,7 @@ class LabelProposal:
 
     assets: computed while they are iterated; next: the asset that would help most if it were labelled; alike: pairs of
     labels that may be two names of one part; vocabulary: that of the labels, for a project that has none; note: why
-    nothing is inferred, where that is so.
+    nothing is inferred, where that is so; notes: what else the user is to know, a sentence each.
     """
 
     assets: Generator[AssetLabels, None, None]
@@ -65,6 +65,7 @@ class LabelProposal:
     alike: tuple[tuple[str, str], ...] = ()
     vocabulary: tuple[str, ...] = ()
     note: str = ""
+    notes: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -199,8 +199,8 @@ class LabelWriter:
 
 
 def can_fill_gap(current: Label | None, given: Label | None) -> bool:
-    """Return only hulls without a label get one."""
-    return current is None
+    """Return only hulls without a label get one, or with one that was taken from another family."""
+    return current is None or current.source == "like"
 
 
 def can_replace_less_certain(current: Label | None, given: Label) -> bool:
