@@ -7,6 +7,7 @@ from meshforge.common.exports import export_lazily
 __getattr__, __all__ = export_lazily(
     __name__,
     {
+        "classes": "complete_classes",
         "from_files.label_by_files": "FileLabeler LabelFileOptions label_file_beside",
         "label_family": "LabelChange LabelResult Proposal Proposals label_project",
         "label_by_inference": "AllLabeler",

@@ -1,4 +1,5 @@
 # Written by `python -m script.stubs`.
+from meshforge.labels.classes import complete_classes as complete_classes
 from meshforge.labels.from_files.label_by_files import FileLabeler as FileLabeler
 from meshforge.labels.from_files.label_by_files import LabelFileOptions as LabelFileOptions
 from meshforge.labels.from_files.label_by_files import label_file_beside as label_file_beside

@@ -196,8 +196,8 @@ def _label_new_assets(state: FamilyState) -> NextStep | None:
     if not state.asks_labels or not bare:
         return None
     why = f"{_count_assets(bare, 'has', 'have')} no label"
-    if not state.vocabulary:
-        return _step(state, "learn", f"{why}: learn again, so that steps say what hulls are there.", "synthesize")
+    if not state.vocabulary:  # they get classes when the program is applied
+        return None
     if step := _take_offers(state, bare):
         return step
     if _has_whole(state):
